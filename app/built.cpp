@@ -1,0 +1,91 @@
+#include "app/built.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/modules.h"
+#include "app/process.h"
+#include "core/error.h"
+#include "core/module.h"
+
+namespace enc::app {
+namespace {
+
+// The module's maker of a role, or one clear line.
+template <class Make>
+Make maker(const std::string& driver, const char* role, Make DriverModule::*member) {
+  const ModuleInfo& module = load_module(driver);
+  if (module.driver == nullptr || module.driver->*member == nullptr)
+    throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, role),
+                {}, ErrorKind::device);
+  return module.driver->*member;
+}
+
+// A real machine is shown its commands only when armed; until then it is read and stays where it is.
+class Dry final : public Manipulator {
+ public:
+  explicit Dry(std::unique_ptr<Manipulator> machine) : machine_(std::move(machine)) {}
+  [[nodiscard]] Reach reach() const override { return machine_->reach(); }
+  Stamped<TipSample> read() noexcept override { return machine_->read(); }
+  void command(const Pose<'R', 'H'>&) noexcept override {}
+
+ private:
+  std::unique_ptr<Manipulator> machine_;
+};
+
+}  // namespace
+
+std::vector<Part> parts_of(const models::Setup& setup) {
+  const SceneSpec& scene = setup.scene;
+  const auto driver = [](const std::string& name) {
+    return name == "sim" ? std::string("simulated") : "module '" + name + "'";
+  };
+  std::vector<Part> parts;
+  const auto part = [&](const char* name, bool named, std::string what) {
+    parts.push_back({name, named, named ? std::move(what) : "the scene does not name it"});
+  };
+  part("manipulator", scene.manipulator.has_value(),
+       fmt::format("hexapod, {}", driver(setup.rig.manipulator.driver)));
+  part("force", scene.force.has_value(), driver(setup.rig.force.driver));
+  part("tracker", scene.tracker.has_value(),
+       fmt::format("{:g} Hz, {}", setup.twin.tracker.rate, driver(setup.rig.tracker.driver)));
+  part("display", scene.display.has_value(),
+       fmt::format("{:g} Hz, {}", setup.twin.display.rate, driver(setup.rig.display.driver)));
+  part("user", scene.user.has_value(), "simulated hand");
+  // Roles of the design that this version builds nothing of.
+  for (const char* role : {"arm", "gripper", "camera", "hand tracker", "window"}) part(role, false, "");
+  return parts;
+}
+
+std::string parts_text(const models::Setup& setup) {
+  std::string built;
+  std::string left_out;
+  for (const Part& p : parts_of(setup)) {
+    std::string& line = p.built ? built : left_out;
+    line += (line.empty() ? "" : ", ") + p.name + (p.built ? " (" + p.what + ")" : "");
+  }
+  return fmt::format(
+      "built       {}; {} object{}, {} thread{}\nleft out    {}: the scene does not name them\n", built,
+      setup.scene.objects.size(), setup.scene.objects.size() == 1 ? "" : "s", thread_count(),
+      thread_count() == 1 ? "" : "s", left_out.empty() ? "nothing" : left_out);
+}
+
+void fit_out(Rig& rig, const models::Setup& setup, bool armed) {
+  if (rig.manipulator && setup.rig.manipulator.driver != "sim") {
+    auto machine =
+        maker(setup.rig.manipulator.driver, "manipulator", &DriverModule::manipulator)(reach_of(setup.rig));
+    if (armed)
+      rig.manipulator = std::move(machine);
+    else
+      rig.manipulator = std::make_unique<Dry>(std::move(machine));
+  }
+  if (rig.force && setup.rig.force.driver != "sim")
+    rig.force = maker(setup.rig.force.driver, "force sensor", &DriverModule::force)();
+  if (rig.tracker && setup.rig.tracker.driver != "sim")
+    rig.tracker = maker(setup.rig.tracker.driver, "tracker", &DriverModule::tracker)();
+  if (rig.display && setup.rig.display.driver != "sim")
+    rig.display = maker(setup.rig.display.driver, "display", &DriverModule::display)();
+}
+
+}  // namespace enc::app

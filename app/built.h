@@ -1,0 +1,25 @@
+// What a scene builds and what it leaves out, in words; and the devices that come from modules.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/rig.h"
+#include "models/scene_file.h"
+
+namespace enc::app {
+
+struct Part {
+  std::string name;  // "display"
+  bool built = false;
+  std::string what;  // "60 Hz, sim"  or why it is left out
+};
+[[nodiscard]] std::vector<Part> parts_of(const models::Setup& setup);
+// "built: hexapod, force (sim)…" and "left out: camera (not named)…": two lines.
+[[nodiscard]] std::string parts_text(const models::Setup& setup);
+
+// Puts module devices in the places that the rig names. A rig with real devices is dry unless armed: commands
+// are not sent.
+void fit_out(Rig& rig, const models::Setup& setup, bool armed);
+
+}  // namespace enc::app

@@ -1,0 +1,23 @@
+#include <fmt/format.h>
+
+#include "app/built.h"
+#include "app/options.h"
+#include "benchmarks/trial.h"
+
+namespace enc::app {
+
+int check(const SceneOptions& options) {
+  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  const Scene scene = bench::prepare_setup(setup);
+  fmt::print("{}\n{}\nframes\n{}\nlimits\n", setup.scene.title, parts_text(setup), frame_graph(scene));
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    fmt::print(
+        "  object '{}': deflection up to {:g} mm, at most {:.2f} N; softest stable slope {:.3f} N/mm\n",
+        setup.scene.objects[i].name, scene.objects[i].limit * 1e3,
+        scene.objects[i].response.press(scene.objects[i].limit), scene.lowest_slope * 1e-3);
+  fmt::print("  commands up to {:g} mm/s and {:g} mm/s^2\n\nresolved scene\n{}", scene.reach.speed * 1e3,
+             scene.reach.acceleration * 1e3, models::resolved(setup));
+  return 0;
+}
+
+}  // namespace enc::app

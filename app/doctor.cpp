@@ -1,0 +1,77 @@
+#include <exception>
+#include <thread>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "app/modules.h"
+#include "app/options.h"
+#include "models/scene_file.h"
+#include "sim/mujoco.h"
+
+namespace enc::app {
+namespace {
+
+enum class Need { must, may };
+
+struct Doctor {
+  bool ready = true;
+  void say(bool ok, Need need, const std::string& what, const std::string& advice) {
+    fmt::print("{:8}{}{}\n",
+               ok                   ? "ok"
+               : need == Need::must ? "MISSING"
+                                    : "note",
+               what, ok ? "" : ": " + advice);
+    if (!ok && need == Need::must) ready = false;
+  }
+};
+
+// Opened and closed again: nothing stays mapped.
+bool library_there(const char* name) {
+  void* handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+  if (handle != nullptr) dlclose(handle);
+  return handle != nullptr;
+}
+
+bool may_be_real_time() {
+  rlimit limit{};
+  getrlimit(RLIMIT_RTPRIO, &limit);
+  return limit.rlim_cur > 0 || geteuid() == 0;
+}
+
+std::string models_problem() {
+  try {
+    const std::string folder = models::models_dir("");
+    models::load(folder + "/scenes/tennis_ball.toml", "sim");
+    return {};
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+int doctor() {
+  Doctor doctor;
+  const std::string mujoco = sim::mujoco_version();
+  doctor.say(mujoco.rfind("4.", 0) == 0, Need::must, "MuJoCo " + mujoco,
+             "version 4 is needed; run ./encounter once more, it fetches it");
+  const std::string problem = models_problem();
+  doctor.say(problem.empty(), Need::must, "scenes, rigs and responses", problem);
+  std::string modules;
+  for (const std::string& name : modules_there()) modules += (modules.empty() ? "" : ", ") + name;
+  doctor.say(!modules.empty(), Need::may, "modules: " + modules,
+             "none beside the program; pictures and drivers need them");
+  doctor.say(library_there("libEGL.so.1"), Need::may, "EGL for pictures", "./encounter view installs it");
+  doctor.say(may_be_real_time(), Need::may, "real-time priority for hardware",
+             "add rtprio to /etc/security/limits.conf; simulation does not need it");
+  doctor.say(std::thread::hardware_concurrency() >= 2, Need::may,
+             fmt::format("{} cores", std::thread::hardware_concurrency()), "two are wanted for hardware");
+  fmt::print("{}\n", doctor.ready ? "ready" : "not ready");
+  return doctor.ready ? 0 : 1;
+}
+
+}  // namespace enc::app

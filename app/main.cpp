@@ -1,0 +1,118 @@
+// The command line. Each subcommand is one function in a file of its own (options.h). Exit codes: 0 yes, 1
+// the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <encounter_version.h>
+
+#include "app/options.h"
+#include "core/error.h"
+
+namespace {
+
+using namespace enc::app;
+
+void scene_options(CLI::App* command, SceneOptions& options) {
+  command->add_option("scene", options.scene, "scene file (models/scenes/*.toml)")->required();
+  command->add_option("--rig", options.rig, "rig: sim, a name in models/rigs, or a file")
+      ->capture_default_str();
+  command->add_option("--set", options.set,
+                      "override, e.g. object.ball.radius_mm=30 (names: encounter params SCENE)");
+  command->add_option("--seed", options.seed, "seed of all random streams")->capture_default_str();
+}
+
+int dispatch(CLI::App& app, int argc, char** argv) {
+  int code = 0;
+  RunOptions run_options;
+  CLI::App* run_command = app.add_subcommand("run", "run a scene and say what happened");
+  scene_options(run_command, run_options);
+  run_command
+      ->add_option("--pace", run_options.pace, "free, wall, or seconds of experiment per second of wall time")
+      ->capture_default_str();
+  run_command->add_option("--for-s", run_options.seconds,
+                          "length, s of experiment; default: until the user of the scene is done");
+  run_command->add_option("--record", run_options.record,
+                          "write inputs and outputs of every tick to this file");
+  run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
+  run_command->add_flag("--armed", run_options.armed,
+                        "send commands to real devices; without it they are only computed and recorded");
+  run_command->callback([&] { code = run(run_options); });
+
+  SceneOptions check_options;
+  CLI::App* check_command =
+      app.add_subcommand("check", "read a scene, say what will be built and what is left out and why");
+  scene_options(check_command, check_options);
+  check_command->callback([&] { code = check(check_options); });
+
+  ReplayOptions replay_options;
+  CLI::App* replay_command =
+      app.add_subcommand("replay", "run step() again over a record; exit 1 where outputs differ");
+  replay_command->add_option("record", replay_options.record, "file written by run --record")->required();
+  replay_command->add_flag("--partial", replay_options.partial, "replay what a cut-off record still holds");
+  replay_command->callback([&] { code = replay(replay_options); });
+
+  ViewOptions view_options;
+  CLI::App* view_command = app.add_subcommand("view", "picture of a scene at a moment");
+  scene_options(view_command, view_options);
+  view_command->add_option("--shot", view_options.shot, "PNG file to write");
+  view_command->add_option("--at-s", view_options.at,
+                           "moment, s of experiment; default: the first press at its deepest");
+  view_command->add_flag("--close-up", view_options.close_up, "the contact instead of the whole machine");
+  view_command->callback([&] { code = view(view_options); });
+
+  ParamsOptions params_options;
+  CLI::App* params_command =
+      app.add_subcommand("params", "every name that --set takes: unit, value, source, confidence (CSV)");
+  scene_options(params_command, params_options);
+  params_command->add_flag("--json", params_options.json, "JSON instead of CSV");
+  params_command->callback([&] { code = params(params_options); });
+
+  BenchOptions bench_options;
+  CLI::App* bench_command =
+      app.add_subcommand("bench", "run benchmarks; exit 1 where a figure is out of bounds");
+  bench_command->add_option("names", bench_options.names, "benchmarks; none: all");
+  bench_command->add_option("--out", bench_options.out, "folder for results.json, REPORT.md and tables");
+  bench_command->add_option("--seed", bench_options.seed, "first seed")->capture_default_str();
+  bench_command->add_option("--repeats", bench_options.repeats,
+                            "seeds per row; default: the benchmark's own");
+  bench_command->add_option("--set", bench_options.set, "override, as for run");
+  bench_command->add_flag("--quick", bench_options.quick, "fewer repeats");
+  bench_command->callback([&] { code = bench(bench_options); });
+
+  ResponseOptions response_options;
+  CLI::App* response_command =
+      app.add_subcommand("response", "compute the tennis ball's response file from the plant formula");
+  response_command->add_option("--out", response_options.out, "file; default: standard output");
+  response_command->callback([&] { code = response(response_options); });
+
+  CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
+  doctor_command->callback([&] { code = doctor(); });
+
+  app.parse(argc, argv);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of that file, not the end of the run
+  CLI::App app("Encounter: a digital twin of encounter-type haptic displays");
+  app.set_version_flag("--version", std::string("encounter " ENCOUNTER_VERSION));
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& e) {
+    return "encounter: " + std::string(e.what()) + "; see encounter --help\n";
+  });
+  try {
+    return dispatch(app, argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const enc::Error& e) {
+    std::fprintf(stderr, "encounter: %s\n", e.what());
+    return static_cast<int>(e.kind());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "encounter: %s\n", e.what());
+    return 2;
+  }
+}

@@ -1,0 +1,59 @@
+// What the command line said, one struct for each subcommand. main.cpp fills them; nothing else knows the
+// parser.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc::app {
+
+struct SceneOptions {
+  std::string scene;
+  std::string rig = "sim";
+  std::vector<std::string> set;  // "name=value"
+  std::uint64_t seed = 1;
+};
+
+struct RunOptions : SceneOptions {
+  std::string pace = "free";
+  double seconds = kUnset;
+  std::string record;
+  bool json = false;
+  bool armed = false;
+};
+struct ViewOptions : SceneOptions {
+  std::string shot;
+  double at = kUnset;  // s; unset: in the middle of the first hold
+  bool close_up = false;
+};
+struct ReplayOptions {
+  std::string record;
+  bool partial = false;
+};
+struct ParamsOptions : SceneOptions {
+  bool json = false;
+};
+struct BenchOptions {
+  std::vector<std::string> names, set;
+  std::string out;
+  std::uint64_t seed = 1;
+  std::int64_t repeats = 0;  // 0: the benchmark's own
+  bool quick = false;
+};
+struct ResponseOptions {
+  std::string out;
+};
+
+int run(const RunOptions& options);
+int check(const SceneOptions& options);
+int replay(const ReplayOptions& options);
+int params(const ParamsOptions& options);
+int doctor();
+int bench(const BenchOptions& options);
+int view(const ViewOptions& options);
+int response(const ResponseOptions& options);
+
+}  // namespace enc::app

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/options.h"
+#include "models/scene_file.h"
+
+namespace enc::app {
+namespace {
+
+// RFC 4180: quoted where it must be.
+std::string csv(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+int params(const ParamsOptions& options) {
+  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  const std::vector<models::Parameter> list = models::parameters(setup);
+  if (!options.json) {
+    fmt::print("name,unit,value,source,confidence,meaning\n");
+    for (const auto& p : list)
+      fmt::print("{},{},{},{},{},{}\n", csv(p.name), csv(p.unit), csv(p.value), csv(p.source),
+                 csv(p.confidence), csv(p.meaning));
+    return 0;
+  }
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const auto& p : list)
+    json.push_back({{"name", p.name},
+                    {"unit", p.unit},
+                    {"value", p.value},
+                    {"source", p.source},
+                    {"confidence", p.confidence},
+                    {"meaning", p.meaning}});
+  fmt::print("{}\n", json.dump(2));
+  return 0;
+}
+
+}  // namespace enc::app

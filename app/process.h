@@ -1,0 +1,14 @@
+// What this process has mapped and started, as the kernel tells it: so that "left out" can be checked, not
+// only said.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace enc::app {
+
+[[nodiscard]] int thread_count();
+[[nodiscard]] std::vector<std::string>
+mapped_libraries();  // file names of shared objects, in order, each once
+
+}  // namespace enc::app

@@ -1,0 +1,28 @@
+#include "core/replay.h"
+
+#include <fmt/format.h>
+
+#include "app/options.h"
+#include "benchmarks/trial.h"
+#include "core/error.h"
+
+namespace enc::app {
+
+int replay(const ReplayOptions& options) {
+  RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
+  const auto text = record.texts().find("resolved");
+  if (text == record.texts().end())
+    throw Error(options.record + ": holds no scene; only records of encounter run can be replayed");
+  const models::Setup setup = models::parse_resolved(text->second, options.record + " (scene)");
+  const Scene scene = bench::prepare_setup(setup);
+  const ReplayResult result = enc::replay(scene, record);
+  if (result.first_difference >= 0) {
+    fmt::print("differs from tick {} on: {}\n", result.first_difference, result.what);
+    return 1;
+  }
+  fmt::print("{} ticks run again, equal to the bit; state hash {:016x}{}\n", result.ticks, result.hash,
+             record.sealed() ? "" : " (record not sealed: it was cut off)");
+  return 0;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include <encounter_version.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/built.h"
+#include "app/options.h"
+#include "app/run_report.h"
+#include "benchmarks/press_measure.h"
+#include "benchmarks/trial.h"
+#include "core/error.h"
+
+namespace enc::app {
+namespace {
+
+double pace_of(const std::string& text) {
+  if (text == "free") return 0.0;
+  if (text == "wall") return 1.0;
+  double factor = 0.0;
+  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), factor);
+  if (bad != std::errc() || end != text.data() + text.size() || !(factor > 0.0) || !std::isfinite(factor))
+    throw Error("--pace '" + text + "': expected free, wall, or a positive number such as 0.1 or 10");
+  return factor;
+}
+
+void show_progress(double share) {
+  const int percent = static_cast<int>(std::lround(share * 100.0));
+  fmt::print(stderr, "\r  {:3d} %", percent);
+  std::fflush(stderr);
+}
+
+std::unique_ptr<RecordWriter> record_for(const RunOptions& options, const models::Setup& setup) {
+  if (options.record.empty()) return nullptr;
+  return std::make_unique<RecordWriter>(options.record, RecordTexts{{"resolved", models::resolved(setup)},
+                                                                    {"scene", options.scene},
+                                                                    {"rig", options.rig},
+                                                                    {"seed", std::to_string(options.seed)},
+                                                                    {"version", ENCOUNTER_VERSION}});
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  if (!std::isnan(options.seconds) && !(options.seconds > 0.0 && options.seconds < 1e6))
+    throw Error("--for-s: expected a positive number of seconds below a million");
+  bench::PressMeasure presses(setup);
+  bench::TrialOptions trial_options;
+  trial_options.seed = options.seed;
+  trial_options.seconds = options.seconds;
+  trial_options.pace = pace_of(options.pace);
+  trial_options.fit_out = [&](Rig& rig) { fit_out(rig, setup, options.armed); };
+  trial_options.watch = [&](const bench::Glance& glance) { presses.see(glance); };
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) trial_options.progress = show_progress;
+  bench::Trial probe(
+      setup, trial_options);  // everything that can be refused is refused here, before a record is begun
+  const std::unique_ptr<RecordWriter> record = record_for(options, setup);
+  probe.record_to(record.get());
+  const bench::TrialResult result = probe.run();
+  if (record) record->close();
+  if (terminal) fmt::print(stderr, "\r        \r");
+
+  const RunReport report{setup, probe.scene(), result, presses};
+  fmt::print("{}", options.json ? run_json(report) : run_text(report));
+  if (record && record->full()) throw Error(record->error());
+  if (result.diverged_at >= 0)
+    throw Error(fmt::format("the physics diverged at tick {}: {}; try a smaller truth.world.timestep_us",
+                            result.diverged_at, result.divergence),
+                {}, ErrorKind::device);
+  return result.last_mode == Mode::hold ? 4 : 0;
+}
+
+}  // namespace enc::app

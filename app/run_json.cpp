@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/built.h"
+#include "app/process.h"
+#include "app/run_report.h"
+
+namespace enc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json presses_json(const bench::PressMeasure& measure) {
+  Json list = Json::array();
+  for (const bench::PressFigures& p : measure.presses()) {
+    if (std::isnan(p.miss)) continue;
+    list.push_back({{"approach_mm_s", number(p.approach_speed * 1e3)},
+                    {"miss_mm", number(p.miss * 1e3)},
+                    {"miss_bound_mm", number(p.miss_bound * 1e3)},
+                    {"first_force_delay_ms", number(p.first_force_delay * 1e3)},
+                    {"contacts", p.contacts},
+                    {"peak_force_N", number(p.peak_force)},
+                    {"force_at_limit_N", number(p.force_at_limit)},
+                    {"peak_deflection_mm", number(p.peak_deflection * 1e3)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string run_json(const RunReport& r) {
+  Json json;
+  json["scene"] = r.setup.scene_path;
+  json["title"] = r.setup.scene.title;
+  json["built"] = Json::object();
+  json["left_out"] = Json::object();
+  for (const Part& part : parts_of(r.setup)) json[part.built ? "built" : "left_out"][part.name] = part.what;
+  for (int i = 0; i < kModes; ++i)
+    json["modes_s"][std::string(mode_name(static_cast<Mode>(i)))] =
+        r.result.mode_time[static_cast<std::size_t>(i)];
+  json["contacts"] = r.result.contacts;
+  json["holds"] = Json::array();
+  for (const auto& [t, why] : r.result.holds)
+    json["holds"].push_back({{"time_s", seconds(t.time_since_epoch())}, {"why", why_text(why)}});
+  json["presses"] = presses_json(r.presses);
+  json["rmse_press_N"] = number(r.presses.rmse_press());
+  json["rmse_release_N"] = number(r.presses.rmse_release());
+  json["energy_in_mJ"] = r.presses.energy_in() * 1e3;
+  json["energy_out_mJ"] = r.presses.energy_out() * 1e3;
+  json["tip_outside_um"] = r.presses.greatest_outside() * 1e6;
+  json["tension_N"] = r.presses.greatest_tension();
+  const StepTimes times = step_times(r.result.step_ns);
+  json["step_ns"] = {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
+  json["simulated_s"] = r.result.simulated;
+  json["wall_s"] = r.result.wall;
+  json["times_real_time"] = r.result.simulated / r.result.wall;
+  json["ticks"] = r.result.ticks;
+  json["diverged_at_tick"] = r.result.diverged_at;
+  json["threads"] = thread_count();
+  json["libraries"] = mapped_libraries();
+  json["state_hash"] = fmt::format("{:016x}", r.result.hash);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace enc::app

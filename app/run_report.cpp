@@ -1,0 +1,113 @@
+#include "app/run_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/built.h"
+
+namespace enc::app {
+namespace {
+
+std::string modes_line(const bench::TrialResult& result) {
+  std::string text;
+  for (int i = 0; i < kModes; ++i) {
+    const double time = result.mode_time[static_cast<std::size_t>(i)];
+    if (time > 0.0)
+      text += fmt::format("{}{} {:.2f} s", text.empty() ? "" : ", ", mode_name(static_cast<Mode>(i)), time);
+  }
+  return text;
+}
+
+// One entry for each press: speed, miss and its bound, all in the units people think in.
+template <class F>
+std::string each(const std::vector<bench::PressFigures>& presses, const F& figure) {
+  std::string text;
+  for (const bench::PressFigures& press : presses) {
+    if (std::isnan(press.miss)) continue;
+    text += (text.empty() ? "" : " / ") + figure(press);
+  }
+  return text;
+}
+
+double peak(const std::vector<bench::PressFigures>& presses, double bench::PressFigures::*figure) {
+  double most = 0.0;
+  for (const bench::PressFigures& press : presses) most = std::max(most, press.*figure);
+  return most;
+}
+
+std::string range_text(const std::vector<bench::PressFigures>& presses) {
+  double low = INFINITY;
+  double high = -INFINITY;
+  for (const bench::PressFigures& press : presses) {
+    if (std::isnan(press.force_at_limit)) continue;
+    low = std::min(low, press.force_at_limit);
+    high = std::max(high, press.force_at_limit);
+  }
+  return high < low ? "limit not reached" : fmt::format("{:.2f}..{:.2f} N at the limit", low, high);
+}
+
+std::string press_lines(const RunReport& r) {
+  const auto& presses = r.presses.presses();
+  if (presses.empty()) return "";
+  std::string text;
+  text += fmt::format(
+      "force       peak {:.2f} N, {} (true); deflection peak {:.3f} mm (true), limit {:.1f} mm\n",
+      peak(presses, &bench::PressFigures::peak_force), range_text(presses),
+      peak(presses, &bench::PressFigures::peak_deflection) * 1e3, r.scene.objects.front().limit * 1e3);
+  text += fmt::format(
+      "error       press {:.3f} N RMSE, release {:.3f} N RMSE (true force against the response at true "
+      "deflection)\n",
+      r.presses.rmse_press(), r.presses.rmse_release());
+  text +=
+      fmt::format("approach    {} mm/s\n",
+                  each(presses, [](const auto& p) { return fmt::format("{:.0f}", p.approach_speed * 1e3); }));
+  text += fmt::format("  miss      {} mm (true tool tip to haptic-tip at first touch)\n",
+                      each(presses, [](const auto& p) { return fmt::format("{:.2f}", p.miss * 1e3); }));
+  text += fmt::format(
+      "  bound     {} mm{}\n",
+      each(presses, [](const auto& p) { return fmt::format("{:.2f}", p.miss_bound * 1e3); }),
+      std::all_of(presses.begin(), presses.end(), [](const auto& p) { return !(p.miss > p.miss_bound); })
+          ? ""
+          : "  EXCEEDED");
+  text += fmt::format("  contacts  {}\n",
+                      each(presses, [](const auto& p) { return fmt::format("{}", p.contacts); }));
+  text += fmt::format("energy      {:.2f} mJ in, {:.2f} mJ out\n", r.presses.energy_in() * 1e3,
+                      r.presses.energy_out() * 1e3);
+  text += fmt::format(
+      "tip         {} of the undeformed object by at least {:.1f} um; pull on the tool at most {:.3f} N\n",
+      r.presses.greatest_outside() <= 0.0 ? "inside" : "OUTSIDE",
+      std::abs(r.presses.greatest_outside()) * 1e6, r.presses.greatest_tension());
+  return text;
+}
+
+}  // namespace
+
+StepTimes step_times(std::vector<std::uint32_t> ns) {
+  if (ns.empty()) return {};
+  std::sort(ns.begin(), ns.end());
+  const auto at = [&](double share) {
+    return static_cast<double>(ns[static_cast<std::size_t>(share * static_cast<double>(ns.size() - 1))]);
+  };
+  return {at(0.5), at(0.99), at(0.999), static_cast<double>(ns.back())};
+}
+
+std::string run_text(const RunReport& r) {
+  std::string text = r.setup.scene.title + "\n" + parts_text(r.setup);
+  text += fmt::format("modes       {}; {} contacts\n", modes_line(r.result), r.result.contacts);
+  for (const auto& [t, why] : r.result.holds) {
+    text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
+    if (&why == &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) break;
+  }
+  text += press_lines(r);
+  const StepTimes times = step_times(r.result.step_ns);
+  text += fmt::format("tick        step() p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.1f} us\n",
+                      times.p50 * 1e-3, times.p99 * 1e-3, times.p999 * 1e-3, times.max * 1e-3);
+  text += fmt::format("time        {:.2f} s simulated in {:.3f} s: {:.0f} x real time\n", r.result.simulated,
+                      r.result.wall, r.result.simulated / r.result.wall);
+  text += fmt::format("state hash  {:016x} after {} ticks\n", r.result.hash, r.result.ticks);
+  return text;
+}
+
+}  // namespace enc::app

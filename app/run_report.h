@@ -1,0 +1,26 @@
+// What `run` prints, as text within 25 lines or as one JSON object.
+#pragma once
+
+#include <string>
+
+#include "benchmarks/press_measure.h"
+#include "benchmarks/trial.h"
+
+namespace enc::app {
+
+struct RunReport {
+  const models::Setup& setup;
+  const Scene& scene;
+  const bench::TrialResult& result;
+  const bench::PressMeasure& presses;
+};
+
+// Percentiles of step() in ns: p50, p99, p99.9, max.
+struct StepTimes {
+  double p50 = 0, p99 = 0, p999 = 0, max = 0;
+};
+[[nodiscard]] StepTimes step_times(std::vector<std::uint32_t> ns);
+[[nodiscard]] std::string run_text(const RunReport& report);
+[[nodiscard]] std::string run_json(const RunReport& report);
+
+}  // namespace enc::app

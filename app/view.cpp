@@ -1,0 +1,199 @@
+#include "app/view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/modules.h"
+#include "core/error.h"
+#include "models/scene_file.h"
+#include "sim/view/view.h"
+#include "sim/world.h"
+
+namespace enc::app {
+namespace {
+
+constexpr sim::Colour kForce{0.85F, 0.10F, 0.15F, 1.0F};
+constexpr sim::Colour kNormal{0.10F, 0.55F, 0.35F, 1.0F};
+constexpr sim::Colour kLeg{0.82F, 0.84F, 0.87F, 1.0F};
+constexpr sim::Colour kJacket{0.30F, 0.34F, 0.42F, 1.0F};
+constexpr sim::Colour kMarkerArm{0.35F, 0.38F, 0.45F, 1.0F};
+constexpr sim::Colour kHandle{0.16F, 0.42F, 0.72F, 1.0F};
+constexpr double kForceScale = 0.005;  // m of arrow for each N
+
+// What is known at the moment of the picture.
+struct Moment {
+  const models::Setup& setup;
+  const Scene& scene;
+  sim::World& world;
+  State state;
+  Outputs out;
+  Time t{};
+};
+
+// Runs the loop until `at`, or until the person has held the first press for half of its time.
+void run_until(Moment& m, double at) {
+  Rig rig = m.world.rig();
+  Inputs in;
+  const bool waits_for_hold = std::isnan(at) && !m.world.user_done();
+  const double end = waits_for_hold ? m.world.user_duration() : std::isnan(at) ? 4.0 : at;
+  double held = 0.0;
+  while (true) {
+    const Tick k = rig.clock->next();
+    rig.read(in);
+    step(m.scene, k, in, m.state, m.out);
+    rig.write(m.out);
+    m.t = k.t;
+    if (m.world.diverged_at() >= 0)
+      throw Error(
+          fmt::format("the physics diverged at tick {}: {}", m.world.diverged_at(), m.world.divergence()), {},
+          ErrorKind::device);
+    if (m.world.truth().phase == sim::Phase::hold) held += seconds(k.dt);
+    if (waits_for_hold && held >= 0.5 * m.setup.scene.user->hold_time) return;
+    if (seconds(k.t.time_since_epoch()) >= end - 1e-9) return;
+  }
+}
+
+bool touching(const Moment& m) {
+  return m.world.truth().touching && m.world.truth().contact_force.norm() > 0.01;
+}
+
+// Each leg as a rod in a jacket, from its base joint to its platform joint.
+void add_legs(const Moment& m, sim::ViewRequest& request) {
+  const Hexapod& machine = m.world.machine.machine();
+  const Pose<'W', 'R'>& X_WR = m.world.X_WR();
+  const Pose<'W', 'H'> X_WH = X_WR * m.world.machine.state().pose;
+  for (int leg = 0; leg < 6; ++leg) {
+    const Point<'W'> from = X_WR * Point<'R'>(machine.base_joint(leg));
+    const Point<'W'> to = X_WH * Point<'H'>(machine.platform_joint(leg));
+    request.rods.push_back({from, to, 0.0055, kLeg});
+    request.rods.push_back({from, from + 0.55 * (to - from), 0.0105, kJacket});
+    request.rods.push_back({from, from, 0.0145, kMarkerArm});  // joints, as balls
+    request.rods.push_back({to, to, 0.0125, kMarkerArm});
+  }
+  request.floor = (X_WR * Point<'R'>(0, 0, -0.020)).xyz[2];
+}
+
+// The rods between the tool's shaft and its markers; MuJoCo turned the tool, so it is asked where they are.
+void add_tool_frame(const Moment& m, sim::ViewRequest& request, Point<'W'>& marker) {
+  const mjModel* model = m.world.physics().model();
+  const mjData* data = m.world.physics().data();
+  const int body = mj_name2id(model, mjOBJ_BODY, "tool");
+  if (body < 0) return;
+  std::vector<Point<'W'>> markers;
+  Vec3 middle = Vec3::Zero();
+  for (int g = model->body_geomadr[body]; g < model->body_geomadr[body] + model->body_geomnum[body]; ++g) {
+    if (model->geom_type[g] != mjGEOM_SPHERE || model->geom_contype[g] != 0) continue;
+    markers.emplace_back(data->geom_xpos[3 * g], data->geom_xpos[3 * g + 1], data->geom_xpos[3 * g + 2]);
+    middle += markers.back().e();
+  }
+  if (markers.empty()) return;
+  middle /= static_cast<double>(markers.size());
+  const Point<'W'> top(middle);
+  for (const Point<'W'>& at : markers) request.rods.push_back({top, at, 0.0018, kMarkerArm});
+  const Vec<'W'> shaft = top - m.world.truth().tool_tip;  // with a handle on its upper half
+  request.rods.push_back({top - 0.5 * shaft, top - 0.08 * shaft, 0.0075, kHandle});
+  marker = markers.front();
+}
+
+// Both arrows stand beside what they are about, to the viewer's right and left: tool and tip hide what is on
+// their axis.
+void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
+  const sim::Truth& truth = m.world.truth();
+  const double azimuth = request.camera.azimuth;
+  const Vec<'W'> right(0.020 * scale * std::sin(azimuth), -0.020 * scale * std::cos(azimuth), 0);
+  if (touching(m)) {
+    const Vec<'W'> along = scale * kForceScale * truth.contact_force;
+    const Point<'W'> to = truth.tip + right;
+    request.arrows.push_back({to - along, along, 0.0035 * scale, kForce});
+    request.labels.push_back(
+        {fmt::format("force of the tool: {:.1f} N", truth.contact_force.norm()), to - 0.6 * along, false});
+  }
+  const Contact& contact = m.state.contact;
+  if (m.out.mode != Mode::contact || !contact.X_WN.valid()) return;
+  const Vec<'W'> normal = contact.X_WN * Vec<'N'>(0, 0, scale * 0.06);
+  const Point<'W'> from = contact.X_WN.origin() - right;
+  request.arrows.push_back({from, normal, 0.0030 * scale, kNormal});
+  request.labels.push_back({"normal of the surface (N)", from + 0.6 * normal, true});
+}
+
+// The point of an object that shows best: on its flank, away from tool and arrows.
+Point<'W'> flank(const Moment& m, std::size_t object) {
+  const ObjectSpec& spec = m.setup.scene.objects[object];
+  const Pose<'W', 'O'>& X_WO = m.scene.objects[object].X_WO;
+  return spec.shape == ShapeKind::sphere ? X_WO * Point<'O'>(Vec3(0.8 * spec.radius * Vec3(0.75, -0.6, 0.1)))
+                                         : X_WO * Point<'O'>(0.07, -0.07, 0);
+}
+
+void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
+  const sim::Truth& truth = m.world.truth();
+  const auto in_H = [&](double x, double y, double z) {
+    return m.world.X_WR() * m.world.machine.state().pose * Point<'H'>(x, y, z);
+  };
+  request.labels.push_back({"haptic-tip", truth.tip, false});
+  for (std::size_t i = 0; i < m.setup.scene.objects.size(); ++i)
+    request.labels.push_back(
+        {fmt::format("{} (virtual)", m.setup.scene.objects[i].name), flank(m, i), false});
+  if (truth.tool_tip.finite()) request.labels.push_back({"tool's tip", truth.tool_tip, true});
+  if (request.title.empty()) return;  // a close-up
+  if (marker.finite()) request.labels.push_back({"hand-held tool with markers", marker, true});
+  request.labels.push_back({"gripper", in_H(0.02, -0.022, -0.09), true});
+  request.labels.push_back({"force sensor", in_H(0.03, -0.025, -0.1437), false});
+  request.labels.push_back({"platform", in_H(-0.09, -0.07, -0.186), true});
+  const Hexapod& machine = m.world.machine.machine();
+  const Vec3 base = machine.base_joint(0);
+  const Point<'W'> leg = m.world.X_WR() * Point<'R'>(base);
+  request.labels.push_back({"six legs (hexapod)", leg + 0.4 * (in_H(0, 0, -0.19) - leg), false});
+}
+
+sim::Camera camera_for(const Moment& m, bool close_up) {
+  sim::Camera camera;
+  camera.azimuth = 1.75;  // from the front and a little from the right
+  camera.elevation = close_up ? -0.08 : -0.22;
+  camera.distance = close_up ? 0.26 : 1.18;
+  camera.opening = 0.52;
+  camera.look_at = close_up ? m.world.truth().tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.090);
+  return camera;
+}
+
+}  // namespace
+
+int view(const ViewOptions& options) {
+  return picture(options, options.close_up ? Look::contact : Look::machine);
+}
+
+int picture(const ViewOptions& options, Look look) {
+  const bool close_up = look == Look::contact;
+  if (options.shot.empty())
+    throw Error(
+        "encounter view draws a picture into a file for now; a window comes later: add --shot picture.png");
+  if (!std::isnan(options.at) && !(options.at >= 0.0 && options.at <= 3600.0))
+    throw Error("--at-s is a time from 0 to 3600 s");
+  const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
+  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  const Scene scene = prepare(setup.scene, setup.rig);
+  sim::World world({setup.scene, setup.rig, setup.twin, scene, models::models_dir(options.scene) + "/mjcf",
+                    options.seed, true});
+  Moment moment{setup, scene, world, {}, {}, {}};
+  run_until(moment, options.at);
+
+  sim::ViewRequest request;
+  request.model = world.physics().model();
+  request.data = world.physics().data();
+  request.path = options.shot;
+  request.camera = camera_for(moment, close_up);
+  if (!close_up)
+    request.title = fmt::format("{}, at {:.2f} s", setup.scene.title, seconds(moment.t.time_since_epoch()));
+  Point<'W'> marker;
+  add_legs(moment, request);
+  add_tool_frame(moment, request, marker);
+  add_arrows(moment, request, close_up ? 0.5 : 1.0);
+  add_labels(moment, request, marker);
+  module->shot(request);
+  fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
+             seconds(moment.t.time_since_epoch()));
+  return 0;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,14 @@
+// encounter view: a picture of the simulated world at a moment.
+#pragma once
+
+#include "app/options.h"
+
+namespace enc::app {
+
+enum class Look { machine, contact };  // the whole machine, or a close-up of the contact
+
+// Writes options.shot; `view` is this with Look::machine. options.at unset: when the first press is held,
+// else at 4 s.
+int picture(const ViewOptions& options, Look look);
+
+}  // namespace enc::app

@@ -1,0 +1,62 @@
+// A benchmark = a scene + a measure + a reference. results.json is read by others: keep its form
+// (architecture B8).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc::bench {
+
+// calibrated: the paper's value set a parameter. predicted: it did not. ours: no paper value exists.
+enum class Role : std::uint8_t { calibrated, predicted, ours };
+
+struct Figure {
+  std::string id;         // first token the benchmark, last token the statistic (decisions 21)
+  double paper = kUnset;  // unset: null
+  double twin = kUnset;
+  std::string unit;
+  Role role = Role::ours;
+  double low = kUnset, high = kUnset;  // bounds, both sides; unset: none
+  std::string note;
+  [[nodiscard]] bool ok() const;
+};
+
+struct BenchResult {
+  std::string name, scene;
+  double run_time = 0.0, simulated = 0.0;  // s
+  std::vector<Figure> figures;
+};
+
+struct BenchContext {
+  std::string models;  // folder
+  std::uint64_t seed = 1;
+  std::int64_t repeats = 0;  // 0: the benchmark's own
+  bool quick = false;
+  std::vector<std::string> set;
+  std::function<void(double)> progress;
+};
+
+struct Benchmark {
+  const char* name;
+  const char* scene;
+  const char* what;
+  BenchResult (*run)(const BenchContext&);
+};
+[[nodiscard]] std::span<const Benchmark> benchmarks();
+
+BenchResult run_encounter(const BenchContext& context);  // miss at first touch over approach speed
+BenchResult run_press(const BenchContext& context);      // one contact a press, limit held, tip inside
+BenchResult run_speed(const BenchContext& context);      // step(), times real time, wrapper over raw mj_step
+
+[[nodiscard]] std::string results_json(const std::vector<BenchResult>& results, std::uint64_t seed);
+[[nodiscard]] std::string report_markdown(const std::vector<BenchResult>& results);
+// REPORT.md, results.json and <benchmark>.csv; each complete or absent (written aside, then renamed). Throws
+// Error.
+void write_results(const std::string& folder, const std::vector<BenchResult>& results, std::uint64_t seed);
+
+}  // namespace enc::bench

@@ -1,0 +1,91 @@
+// Does every press stay one press? Many hands, a tracker that is off by 0.3 mm either way, and a push far
+// beyond the limit.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/bench.h"
+#include "benchmarks/press_measure.h"
+
+namespace enc::bench {
+namespace {
+
+struct Tally {
+  std::int64_t presses = 0, single = 0;
+  double outside = -1.0, tension = 0.0, restore = 0.0, simulated = 0.0, over_limit = -1.0;
+};
+
+void press_once(const models::Setup& setup, std::uint64_t seed, Tally& tally) {
+  PressMeasure measure(setup);
+  TrialOptions options;
+  options.seed = seed;
+  options.watch = [&](const Glance& glance) { measure.see(glance); };
+  Trial trial(setup, options);
+  tally.simulated += trial.run().simulated;
+  for (const PressFigures& press : measure.presses()) {
+    if (std::isnan(press.miss)) continue;
+    ++tally.presses;
+    tally.single += press.contacts == 1 ? 1 : 0;
+    if (!std::isnan(press.restore_error)) tally.restore = std::max(tally.restore, press.restore_error);
+    tally.over_limit =
+        std::max(tally.over_limit, press.peak_deflection - trial.scene().objects.front().limit);
+  }
+  tally.outside = std::max(tally.outside, measure.greatest_outside());
+  tally.tension = std::max(tally.tension, measure.greatest_tension());
+}
+
+// Registration errors of 0.3 mm along the normal, both ways, and along both tangents, on top of the tracker's
+// own noise.
+Vec3 bias_of(std::int64_t i) {
+  constexpr double kBias = 0.3e-3;
+  const double sign = i % 2 == 0 ? kBias : -kBias;
+  return sign * Vec3::Unit(static_cast<int>((2 + i / 2) % 3));
+}
+
+}  // namespace
+
+BenchResult run_press(const BenchContext& context) {
+  BenchResult result{"press", "tennis_ball", 0, 0, {}};
+  models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  const std::int64_t repeats = context.repeats > 0 ? context.repeats : (context.quick ? 20 : 200);
+  UserSpec& user = *setup.scene.user;
+  user.press_time = user.release_time = 1.5;
+  user.hold_time = 0.2;
+  user.depth = 0.004;
+  Tally tally;
+  for (std::int64_t i = 0; i < repeats; ++i) {
+    setup.twin.tracker.bias = bias_of(i);
+    user.approach = {std::array{0.010, 0.020, 0.050, 0.100}[static_cast<std::size_t>(i / 6 % 4)]};
+    press_once(setup, context.seed + static_cast<std::uint64_t>(i), tally);
+    if (context.progress) context.progress(0.9 * static_cast<double>(i + 1) / static_cast<double>(repeats));
+  }
+  const auto add = [&](std::string id, double twin, const char* unit, double low, double high,
+                       std::string note) {
+    result.figures.push_back({std::move(id), kUnset, twin, unit, Role::ours, low, high, std::move(note)});
+  };
+  add("press.one_contact.percent",
+      100.0 * static_cast<double>(tally.single) / static_cast<double>(tally.presses), "%", 100, 100,
+      fmt::format("{} presses, tracker off by 0.3 mm along x, y, z, both ways, with noise", tally.presses));
+  add("press.restore.max", tally.restore * 1e6, "um", 0, 6,
+      "true tip to the buffered point; the machine steps by 3 um, servo still settling");
+  add("press.outside.max", tally.outside * 1e6, "um", kUnset, 0,
+      "true tip outside the undeformed object; negative: always inside");
+  add("press.tension.max", tally.tension, "N", 0, 0.05, "pull on the unbound tool");
+  result.simulated = tally.simulated;
+
+  setup = models::load(context.models + "/scenes/push_limit.toml", "sim", context.set);
+  for (const double limit : {0.006, 0.004, 0.002}) {
+    setup.scene.objects.front().limit = limit;
+    Tally pushed;
+    for (std::uint64_t i = 0; i < (context.quick ? 2U : 10U); ++i)
+      press_once(setup, context.seed + i, pushed);
+    add(fmt::format("press.over_limit.{:.0f}.max", limit * 1e3), pushed.over_limit * 1e6, "um", -50, 50,
+        "true deflection above the limit under a push of 30 N");
+    result.simulated += pushed.simulated;
+  }
+  return result;
+}
+
+}  // namespace enc::bench

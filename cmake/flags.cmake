@@ -1,0 +1,37 @@
+# How everything is compiled: the same flags for every target, because inline functions of core's headers are compiled
+# into all of them and the linker keeps any one copy.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+# -g1: lines in backtraces and profiles at little cost.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG -g1")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g -D_GLIBCXX_ASSERTIONS")
+
+# A replay gives the same bits on every machine: no fused multiply-add, never -ffast-math, never -march. The two others
+# change no result; they only say that nobody reads errno or traps.
+add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
+
+# -Wfloat-conversion rather than all of -Wconversion, which with Eigen's indices says too much.
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+                    -Wold-style-cast -Wcast-qual -Wvla -Wundef)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-Wduplicated-cond -Wlogical-op -Wno-restrict)
+  # Only with the compiler we test with: a newer one has new warnings, which must not keep a newcomer from building.
+  if(ENCOUNTER_WERROR AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    add_compile_options(-Werror)
+  endif()
+endif()
+
+if(ENCOUNTER_SANITIZE)
+  add_compile_options(-fsanitize=${ENCOUNTER_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${ENCOUNTER_SANITIZE})
+  add_compile_options(-Wno-maybe-uninitialized) # g++ 12 warns of its own instrumentation
+endif()
+
+# Nothing undefined in a module, so that a missing function shows when linking and not on somebody's machine.
+add_link_options(-Wl,--as-needed)
+set(CMAKE_MODULE_LINKER_FLAGS "-Wl,--no-undefined")

@@ -1,0 +1,125 @@
+# shellcheck shell=bash
+# Makes a machine ready and builds: Debian packages, MuJoCo, a preset. Sourced by `encounter` and `check`, which set
+# $root. Every step looks first and does nothing where nothing is missing, so an interrupted set-up resumes by itself.
+# Words for people go to stderr; what the tools say goes to build/setup.log.
+
+: "${root:?is set by the caller}"
+mujoco_version=4.0.0
+mujoco_sha256=885bd9b9cc0a6b5ba1114923eb954027652a6a0c115fa46b3218b83bae72ac4f
+log=$root/build/setup.log
+doing="starting"
+
+say() { echo "encounter: $*" >&2; }
+stop() { say "$*"; exit 2; }
+
+# Runs a tool with its words in the log and without our standard input, which belongs to the program.
+logged() {
+  { echo; echo "== $(date '+%F %T') $*"; } >>"$log"
+  "$@" </dev/null >>"$log" 2>&1
+}
+
+# One set-up at a time; the kernel lets go of the lock however we end.
+setup_begin() {
+  { mkdir -p "$root/build" && touch "$log"; } 2>/dev/null || stop "cannot write to $root/build; make the folder yours: sudo chown -R \$USER '$root'"
+  exec 9>"$root/build/.lock"
+  flock --nonblock 9 || { say "waiting for another set-up in this folder to finish"; flock 9; }
+  : >"$log"
+  trap 'stop "interrupted while $doing; give the same command again, it carries on from there"' INT TERM HUP
+}
+
+setup_end() { trap - INT TERM HUP; exec 9>&-; }
+
+setup_packages() {  # GROUP...
+  local group words wanted=() missing=() states name as_root=()
+  while IFS=: read -r group words; do
+    # shellcheck disable=SC2206  # the words of a line are the packages
+    [[ " $* " != *" $group "* ]] || wanted+=($words)
+  done <"$root/cmake/packages.txt"
+  if ! command -v dpkg-query >/dev/null; then
+    say "this is no Debian; going on in the hope that these are installed in some form: ${wanted[*]}"
+    return
+  fi
+  # shellcheck disable=SC2016  # dpkg-query's own ${...}
+  states=$'\n'$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${wanted[@]}" 2>/dev/null || true)$'\n'
+  for name in "${wanted[@]}"; do [[ $states == *$'\n'"$name installed"$'\n'* ]] || missing+=("$name"); done
+  [[ ${#missing[@]} -gt 0 ]] || return 0
+
+  local line="apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"
+  if [[ $EUID -ne 0 ]]; then
+    # Asks for a password only where somebody can type one.
+    if command -v sudo >/dev/null && { sudo -n true 2>/dev/null || { [[ -t 0 ]] && sudo -v; }; }; then as_root=(sudo); fi
+    [[ ${#as_root[@]} -gt 0 ]] || stop "some Debian packages are missing; run this as root, then give the same command again: $line"
+  fi
+  doing="installing Debian packages"
+  say "installing ${#missing[@]} Debian packages and what they need (log: build/setup.log)"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=2)
+  # An earlier installation that was cut off is finished first. Old package lists may still do, so update may fail.
+  logged "${as_root[@]}" dpkg --configure -a || true
+  logged "${apt[@]}" update || true
+  logged "${apt[@]}" install -y --fix-broken --no-install-recommends "${missing[@]}" || {
+    tail -n 2 "$log" >&2
+    stop "these Debian packages are missing and could not be installed: ${missing[*]}; see that this machine is online, then give the same command again (log: build/setup.log)"
+  }
+}
+
+# Headers of a MuJoCo 4 that the machine has by itself.
+system_mujoco() {
+  grep -qsE 'define mjVERSION_HEADER +4[0-9]{6}' /usr/local/include/mujoco/mujoco.h /usr/include/mujoco/mujoco.h
+}
+
+# Debian's MuJoCo is too old, so we take library and headers out of the Python wheel, pinned by version and hash.
+setup_mujoco() {
+  local home=$root/.deps/mujoco-$mujoco_version work=$root/.deps/unfinished
+  [[ -z ${ENCOUNTER_MUJOCO:-} && ! -d $home ]] && ! system_mujoco || return 0
+  [[ $(uname -m) == x86_64 ]] || stop "MuJoCo $mujoco_version is fetched for x86_64 only; install MuJoCo 4 and set ENCOUNTER_MUJOCO to its folder"
+  doing="fetching MuJoCo $mujoco_version"
+  say "fetching MuJoCo $mujoco_version (10 MB)"
+  rm -rf "$work" && mkdir -p "$work"
+  echo "mujoco-core==$mujoco_version --hash=sha256:$mujoco_sha256" >"$work/requirements.txt"
+  # Debian's python3 by its path, because it is the one that python3-pip belongs to.
+  logged env PIP_REQUIRE_VIRTUALENV=0 PIP_NO_INPUT=1 PIP_DISABLE_PIP_VERSION_CHECK=1 /usr/bin/python3 -m pip download \
+    --retries 2 --no-deps --only-binary=:all: --python-version 3.11 --platform manylinux_2_28_x86_64 \
+    --require-hashes -r "$work/requirements.txt" -d "$work" || {
+    tail -n 3 "$log" >&2
+    stop "MuJoCo $mujoco_version is missing and could not be fetched; see that this machine is online (or set ENCOUNTER_MUJOCO to the folder of a MuJoCo 4), then give the same command again"
+  }
+  logged /usr/bin/python3 -c '
+import pathlib, sys, zipfile
+work = pathlib.Path(sys.argv[1])
+wheel = zipfile.ZipFile(next(work.glob("*.whl")))
+for name in wheel.namelist():
+    parts = name.split("/")
+    if parts[:2] == ["mujoco", "include"]: to = work / "home" / "/".join(parts[1:])
+    elif parts[1].startswith("libmujoco.so."): to = work / "home" / "lib" / parts[1]
+    elif "licenses" in parts: to = work / "home" / parts[-1]
+    else: continue
+    if name.endswith("/"): continue
+    to.parent.mkdir(parents=True, exist_ok=True)
+    to.write_bytes(wheel.read(name))
+' "$work" || stop "MuJoCo $mujoco_version could not be unpacked (is the disk full?); give the same command again (log: build/setup.log)"
+  mv "$work/home" "$home"  # only a whole one ever gets this name
+  rm -rf "$work"
+}
+
+# Configures and builds. Configuring again takes half a second and sees edited presets and newly installed packages.
+build_preset() {  # PRESET TARGET...
+  local preset=$1 cache=$root/build/$1/CMakeCache.txt files minutes
+  shift
+  # A build folder that was moved or copied here points to where it came from.
+  [[ ! -e $cache ]] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" || rm -rf "${cache%/*}"
+  if [[ -e $root/build/$preset/.ninja_log ]]; then
+    say "building what changed ($preset)"
+  else
+    files=$(find "$root"/{core,sim,models,hw_drivers,benchmarks,app,tests} -name '*.cpp' 2>/dev/null | wc -l)
+    [[ " $* " == *" all "* ]] || files=$(find "$root"/{core,sim,models,hw_drivers,benchmarks,app} -name '*.cpp' 2>/dev/null | wc -l)
+    minutes=$((files * 7 / $(nproc) / 60 + 1))
+    say "building ($preset, $files files), about $minutes minute$([[ $minutes == 1 ]] || echo s)"
+  fi
+  cd "$root" || exit 2  # presets are found from here; callers that care use a subshell
+  if logged cmake --preset "$preset" -DMUJOCO_ROOT="${ENCOUNTER_MUJOCO:-}" && logged cmake --build --preset "$preset" --target "$@"; then
+    return 0
+  fi
+  local errors; errors=$(grep -A 4 -E 'error:|CMake Error|undefined reference' "$log" | head -n 40)
+  if [[ -n $errors ]]; then echo "$errors" >&2; else tail -n 15 "$log" >&2; fi
+  return 1
+}

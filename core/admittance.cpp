@@ -1,0 +1,59 @@
+// Force in, displacement out [VHMR 3.4]; and where the tip should therefore be.
+#include <algorithm>
+
+#include "core/stages.h"
+
+namespace enc::stages {
+namespace {
+
+// Sideways give of the contact point, never more than the deflection limit.
+Vec3 tangential_give(const Object& object, const Vec<'N'>& force) {
+  if (object.tangential == Tangential::stick) return Vec3::Zero();
+  Vec3 give(force.xyz[0] / object.tangential_stiffness, force.xyz[1] / object.tangential_stiffness, 0.0);
+  const double size = give.norm();
+  return size > object.limit ? Vec3(give * (object.limit / size)) : give;
+}
+
+}  // namespace
+
+void model(Walk& walk, State& state) noexcept {
+  Contact& contact = state.contact;
+  if (state.mode != Mode::contact) {
+    contact.response = ResponseState{};
+    contact.displacement = Vec<'N'>::zero();
+    return;
+  }
+  if (!walk.force.finite()) return;  // no zero yet: stay at the surface
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
+  const Vec<'N'> force = contact.X_WN.inverse() * walk.force;
+  const double pressed = std::max(0.0, -force.xyz[2] - walk.scene.force.threshold);
+  double deflection = object.response.deflection(contact.response, pressed);
+  if (deflection >= object.limit) {
+    deflection = object.limit;
+    object.response.force(contact.response, deflection);
+    walk.why |= kAtLimit;
+  }
+  const Vec3 sideways = tangential_give(object, force);
+  contact.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
+}
+
+void target(Walk& walk, State& state) noexcept {
+  const double radius = walk.scene.tip_radius;
+  switch (state.mode) {
+    case Mode::follow:
+      walk.target = walk.surface_point - (radius + walk.scene.follow.inset) * walk.normal;
+      break;
+    case Mode::contact:
+    case Mode::restore: {
+      const Vec3 d = state.contact.displacement.e();
+      walk.target = state.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin);
+      break;
+    }
+    case Mode::away:
+    case Mode::hold:
+      walk.target = walk.scene.X_WR * state.command;
+      break;
+  }
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,17 @@
+// Where the user sees the scene: headset or window. It also says which deformed surface it drew, late
+// [VHMR 3.5].
+#pragma once
+
+#include "core/sample.h"
+#include "core/view.h"
+
+namespace enc {
+
+class Display {
+ public:
+  virtual ~Display() = default;
+  virtual void show(const View& view) noexcept = 0;             // newest only; never blocks
+  virtual bool poll(Stamped<DentSample>& newest) noexcept = 0;  // true when a drawn surface came back
+};
+
+}  // namespace enc

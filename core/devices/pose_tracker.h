@@ -1,0 +1,15 @@
+// Any source of tool or fingertip poses: optical tracker, stereo vision, a script, a recording [VHMR 3.3].
+#pragma once
+
+#include "core/sample.h"
+
+namespace enc {
+
+class PoseTracker {
+ public:
+  virtual ~PoseTracker() = default;
+  virtual bool poll(
+      Stamped<TrackedTool>& newest) noexcept = 0;  // true when there is news; leaves `newest` alone otherwise
+};
+
+}  // namespace enc

@@ -1,0 +1,190 @@
+// The last word before the machine: is the tip where it may be, and can the machine do what it is asked?
+// Otherwise hold.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/dent.h"
+#include "core/stages.h"
+
+namespace enc::stages {
+namespace {
+
+// The point of the haptic-tip that is nearest to the outside of an object.
+Point<'O'> outermost(const Object& object, const Point<'O'>& centre, double radius) {
+  return centre + radius * object.surface.nearest(centre).normal;
+}
+
+void check_undeformed(Walk& walk, const Object& object, const Point<'O'>& outer, State& state) {
+  constexpr double kTolerance =
+      50e-6;  // m: what play and overshoot of a machine may take before it is a fault
+  const double distance = object.surface.nearest(outer).distance;
+  if (distance <= -kSkin) state.entered = true;  // on the way in, the tip is rightly outside
+  if (state.entered && distance > kTolerance) walk.why |= kOutsideObject;
+}
+
+bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
+  const DentSample& dent = sample.value;
+  if (sample.t > walk.tick.t) return false;
+  if (dent.object == -1) return true;
+  return dent.object >= 0 && dent.object < static_cast<int>(walk.scene.objects.size()) && dent.tip.finite() &&
+         dent.tip.e().norm() < 10.0 && dent.tip_radius >= 0.0 && dent.tip_radius < 0.1 && dent.depth >= 0.0 &&
+         dent.depth < 0.1;
+}
+
+// The seen surface is late: the tip may be outside it by what tool and tip can have moved since [VHMR 3.5].
+void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, State& state) {
+  if (walk.in.dent.health == Health::fault ||
+      (walk.in.dent.health == Health::ok && !possible(walk, walk.in.dent))) {
+    walk.why |= kDentWrong;
+    return;
+  }
+  if (walk.in.dent.health == Health::ok &&
+      (state.dent.health == Health::absent || walk.in.dent.t > state.dent.t))
+    state.dent = walk.in.dent;
+  const DisplayRig& rig = walk.scene.display;
+  // Before the first surface the time runs from the start of the experiment.
+  const double old = age(walk.tick.t, state.dent.t);
+  if (old > rig.overdue) {
+    if (state.mode != Mode::away) walk.why |= kDentOverdue;
+    return;
+  }
+  if (state.dent.value.object != state.object) return;
+  if (dented_distance(object.surface, state.dent.value, outer) > rig.margin + rig.margin_speed * old)
+    walk.why |= kOutsideDent;
+}
+
+// Largest speed from which the machine still stops within `distance`, in steps of dt.
+double braking_speed(double distance, double acceleration, double dt) {
+  const double unit = acceleration * dt;
+  return unit * (std::sqrt(0.25 + 2.0 * distance / (unit * dt)) - 0.5);
+}
+
+// The part of the way to the target that the machine can reach.
+Point<'R'> reachable(Walk& walk, const Point<'R'>& from, const Point<'R'>& to) {
+  const Quat q = walk.scene.X_WR.q().conjugate();
+  const auto ok = [&](const Point<'R'>& p) { return walk.scene.reach.contains(Pose<'R', 'H'>(q, p)); };
+  if (ok(to) || !ok(from)) return to;
+  walk.why |= kUnreachable;
+  double lo = 0.0;
+  double hi = 1.0;
+  for (int i = 0; i < 20; ++i) {
+    const double mid = 0.5 * (lo + hi);
+    (ok(from + mid * (to - from)) ? lo : hi) = mid;
+  }
+  return from + lo * (to - from);
+}
+
+// How far the command may still go along a normal: out to the surface, in to the deflection limit.
+struct Walls {
+  Vec3 normal = Vec3::UnitZ();                                                                         // in W
+  double out = std::numeric_limits<double>::infinity(), in = std::numeric_limits<double>::infinity();  // m
+};
+
+Walls walls_around(const Walk& walk, const State& state) {
+  if (state.object < 0 || state.mode == Mode::away) return {};
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  const Point<'W'> command = walk.scene.X_WR * state.command;
+  const NearestInWorld at = nearest(object, command);
+  Walls walls{at.normal.e(), -(at.distance + walk.scene.tip_radius) - kSkin};
+  if (state.mode != Mode::contact) return walls;
+  walls.normal = (state.contact.X_WN * Vec<'N'>(0, 0, 1)).e();
+  const double height = (state.contact.X_WN.inverse() * command).xyz[2];
+  walls.in = object.limit + (height + walk.scene.tip_radius + kSkin);
+  return walls;
+}
+
+// Of the acceleration, the way along the normal has 0.8 and the sideways way 0.6 for sure (together 1), so
+// that neither starves.
+constexpr double kAlongShare = 0.8;
+constexpr double kSideShare = 0.6;
+
+// A velocity with its size reduced by `less`, not below zero.
+Vec3 slowed(const Vec3& velocity, double less) {
+  const double size = velocity.norm();
+  return size > less ? Vec3(velocity * (1.0 - less / size)) : Vec3(Vec3::Zero());
+}
+
+// Speed towards something at a distance, such that the machine can still stop there.
+double approach_speed(double distance, double acceleration, double dt) {
+  return std::min(0.5 * distance / dt, braking_speed(distance, acceleration, dt));
+}
+
+// Speed and acceleration stay within the machine's limits. The way along the normal comes first and is
+// one-dimensional, so that the command can never overshoot the surface or the deflection limit, whatever the
+// target does; the sideways way gets the rest.
+Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& before) {
+  const double dt = walk.scene.dt;
+  const Reach& reach = walk.scene.reach;
+  const double most = reach.acceleration * dt;
+  const auto toward = [&](double distance) {
+    return std::min(approach_speed(distance, kAlongShare * reach.acceleration, dt), reach.speed);
+  };
+  const double along = walls.normal.dot(way);
+  const double v0 = walls.normal.dot(before);
+  const Vec3 side_before = before - v0 * walls.normal;
+  double wanted = std::copysign(toward(std::abs(along)), along);
+  wanted = std::clamp(wanted, -toward(std::max(0.0, walls.in)), toward(std::max(0.0, walls.out)));
+  // Not faster than what the sideways way can make room for in this tick.
+  const double side_least = std::max(0.0, side_before.norm() - kSideShare * most);
+  const double room = std::sqrt(std::max(0.0, reach.speed * reach.speed - side_least * side_least));
+  const double v =
+      std::clamp(v0 + std::clamp(wanted - v0, -kAlongShare * most, kAlongShare * most), -room, room);
+
+  const Vec3 aside = way - along * walls.normal;
+  const double distance = aside.norm();
+  const double fastest = std::sqrt(std::max(0.0, reach.speed * reach.speed - v * v));
+  const double side_speed = std::min(approach_speed(distance, kSideShare * reach.acceleration, dt), fastest);
+  const Vec3 side_wanted = distance > 0.0 ? Vec3(aside * (side_speed / distance)) : Vec3(Vec3::Zero());
+  const double rest = std::sqrt(std::max(0.0, most * most - (v - v0) * (v - v0)));
+  Vec3 change = side_wanted - side_before;
+  if (change.norm() > rest * (1.0 + 1e-9) || std::abs(wanted - v) > 1e-9) walk.why |= kLimited;
+  if (change.norm() > rest) change *= rest / change.norm();
+  Vec3 side = side_before + change;
+  if (side.norm() > fastest) side = slowed(side_before, rest);
+  return side + v * walls.normal;
+}
+
+}  // namespace
+
+void check_tip(Walk& walk, State& state) noexcept {
+  if (!walk.X_WH.valid() || state.object < 0) return;
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  const Point<'O'> outer =
+      outermost(object, object.X_WO.inverse() * walk.X_WH.origin(), walk.scene.tip_radius);
+  check_undeformed(walk, object, outer, state);
+  if (walk.scene.has_display) check_dent(walk, object, outer, state);
+}
+
+void limit_command(Walk& walk, State& state) noexcept {
+  if (!state.started) return;  // nothing is known of the machine: nothing is said to it
+  const double dt = walk.scene.dt;
+  const double acceleration = walk.scene.reach.acceleration;
+  const Quat q = walk.scene.X_WR.q();
+  const Vec3 before = q * state.command_velocity.e();
+  Vec3 after = slowed(before, acceleration * dt);  // what hold does: straight to a standstill
+  if (!holding(walk)) {
+    Point<'R'> target = walk.scene.X_WR.inverse() * walk.target;
+    if (!target.finite()) {
+      walk.why |= kNotFinite;
+      target = state.command;
+    }
+    const Vec3 way = q * (reachable(walk, state.command, target) - state.command).e();
+    const Vec3 wanted = next_velocity(walk, walls_around(walk, state), way, before);
+    // Where the machine would come to rest if it braked from the next tick on: that must be within reach,
+    // too.
+    const Vec3 next = q.conjugate() * wanted;
+    const Point<'R'> rest =
+        state.command + Vec<'R'>(Vec3(dt * next + next * (next.norm() / (2.0 * acceleration))));
+    const Quat q_RH = walk.scene.X_WR.q().conjugate();
+    if (walk.scene.reach.contains(Pose<'R', 'H'>(q_RH, rest)) ||
+        !walk.scene.reach.contains(Pose<'R', 'H'>(q_RH, state.command)))
+      after = wanted;
+    else
+      walk.why |= kUnreachable;
+  }
+  state.command_velocity = Vec<'R'>(Vec3(q.conjugate() * after));
+  state.command = Point<'R'>(Vec3(state.command.e() + dt * state.command_velocity.e()));
+}
+
+}  // namespace enc::stages

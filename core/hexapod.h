@@ -1,0 +1,69 @@
+// A six-strut parallel machine: geometry, inverse and forward kinematics, Jacobian. Geometry is data (H-840
+// as default).
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/frames.h"
+
+namespace enc {
+
+// Base joints at radius base_radius on angles k*120 deg -/+ base_half_angle, platform joints on k*120 + 60
+// +/- platform_half_angle; strut 2k joins base k*120+base_half to platform k*120+60-platform_half. Joint
+// planes are `height` apart at zero; the haptic-tip H is `tip_height` above the platform joint plane. R is
+// the centre of the base joint plane. Source: parameters 2.2 (derived from the catalogue travels and the
+// workspace of [VHMR 2]).
+struct HexapodGeometry {
+  double base_radius = 0.140;
+  double platform_radius = 0.098;
+  double base_half_angle = 22.6 * M_PI / 180.0;
+  double platform_half_angle = 17.2 * M_PI / 180.0;
+  double height = 0.1545;
+  double tip_height = 0.190;  // 30 mm to the catalogue's pivot, 160 mm of sensor, gripper and tip above it
+  double stroke = 0.0236;     // of a strut, +/-
+  double tilt_limit = 15.0 * M_PI / 180.0;
+  double yaw_limit = 30.0 * M_PI / 180.0;
+};
+
+// Tells whether a pose is reachable and, if not, which limit is in the way.
+enum class ReachLimit { none, stroke, tilt, yaw };
+
+class Hexapod {
+ public:
+  explicit Hexapod(const HexapodGeometry& geometry);
+
+  using Lengths = Eigen::Matrix<double, 6, 1>;
+  using Jacobian = Eigen::Matrix<double, 6, 6>;  // d length / d (v_H in R, omega in R): m/s per (m/s, rad/s)
+
+  [[nodiscard]] const HexapodGeometry& geometry() const { return geometry_; }
+  [[nodiscard]] Pose<'R', 'H'> zero() const {
+    return Pose<'R', 'H'>::shift(0, 0, geometry_.height + geometry_.tip_height);
+  }
+  [[nodiscard]] double zero_length() const { return zero_length_; }
+  [[nodiscard]] const Vec3& base_joint(int leg) const {
+    return base_[static_cast<std::size_t>(leg)];
+  }  // in R
+  [[nodiscard]] const Vec3& platform_joint(int leg) const {
+    return platform_[static_cast<std::size_t>(leg)];
+  }  // in H
+
+  [[nodiscard]] Lengths inverse(const Pose<'R', 'H'>& X_RH) const noexcept;
+  [[nodiscard]] Jacobian jacobian(const Pose<'R', 'H'>& X_RH) const noexcept;
+  // Newton from `guess` until the lengths agree to `tolerance`, m. Nothing if it does not converge in 20
+  // steps.
+  struct Solution {
+    Pose<'R', 'H'> X_RH;
+    int steps = 0;
+  };
+  [[nodiscard]] std::optional<Solution> forward(const Lengths& lengths, const Pose<'R', 'H'>& guess,
+                                                double tolerance = 1e-12) const noexcept;
+  [[nodiscard]] ReachLimit limit(const Pose<'R', 'H'>& X_RH) const noexcept;
+
+ private:
+  HexapodGeometry geometry_;
+  std::array<Vec3, 6> base_, platform_;
+  double zero_length_ = 0.0;
+};
+
+}  // namespace enc

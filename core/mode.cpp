@@ -1,0 +1,97 @@
+// Which mode the machine is in [VHMR 3.3, 3.4]. Hysteresis everywhere: one press is one contact, whatever the
+// noise.
+#include "core/rotation.h"
+#include "core/stages.h"
+
+namespace enc::stages {
+namespace {
+
+double pressing_force(const Walk& walk, const Vec<'W'>& normal) {
+  return walk.force.finite() ? -dot(walk.force, normal) : 0.0;
+}
+
+// A tool this far away presses nothing, whatever the force says: the zero has drifted, and only free space
+// can mend that. Wider than what a tool at 200 mm/s moves while its pose is on the way.
+bool too_far(const Walk& walk) {
+  constexpr double kFar = 10e-3;  // m
+  return walk.tool_known && walk.gap > kFar;
+}
+
+// The surface point under the tool; without a tracker, over the tip.
+Pose<'W', 'N'> frame_under_tool(const Walk& walk, const State& state) {
+  if (walk.tool_known) return {rotation_z_to(walk.normal.e()), walk.surface_point};
+  const NearestInWorld at_tip =
+      nearest(walk.scene.objects[static_cast<std::size_t>(state.object)], walk.X_WH.origin());
+  return {rotation_z_to(at_tip.normal.e()), at_tip.point};
+}
+
+void begin_contact(Walk& walk, State& state, bool by_force) {
+  state.mode = Mode::contact;
+  ++state.contacts;
+  state.contact = Contact{};
+  state.contact.object = state.object;
+  state.contact.X_WN = frame_under_tool(walk, state);
+  state.contact.loaded = walk.tick.t;
+  if (by_force) walk.why |= kByForce;
+}
+
+// Until force is felt with the tip under the tool, the anchor goes where the tool goes: a fast or slanted
+// touch meets the tip beside its middle, and a tip that stayed there would be pushed out from under the tool.
+void anchor(Walk& walk, State& state, double force) {
+  constexpr double kUnder = 0.5e-3;  // m
+  state.contact.X_WN = frame_under_tool(walk, state);
+  const Vec3 beside = (state.contact.X_WN.inverse() * walk.X_WH.origin()).e();
+  state.contact.anchored = force >= walk.scene.force.contact && beside.head<2>().norm() <= kUnder;
+}
+
+void in_contact(Walk& walk, State& state) {
+  const Vec<'W'> normal = state.contact.X_WN * Vec<'N'>(0, 0, 1);
+  const double force = pressing_force(walk, normal);
+  if (!state.contact.anchored) anchor(walk, state, force);
+  if (force >= 0.5 * walk.scene.force.contact && !too_far(walk)) state.contact.loaded = walk.tick.t;
+  const bool unloaded = age(walk.tick.t, state.contact.loaded) >= walk.scene.contact.leave_time;
+  // Slid off: beside the tip, where the two can no longer touch.
+  const double beside = walk.tool_known ? (walk.surface_point - state.contact.X_WN.origin()).norm() : 0.0;
+  const bool slid_off = beside > walk.scene.tip_radius + walk.tool_radius;
+  const bool gone = !walk.tool_known || walk.gap > walk.scene.contact.leave_gap || slid_off;
+  if (unloaded && gone) state.mode = Mode::restore;
+}
+
+void in_free_space(Walk& walk, State& state) {
+  const FollowSpec& follow = walk.scene.follow;
+  if (walk.scene.has_tracker && !walk.tool_known) {
+    state.mode = Mode::away;
+    return;
+  }
+  if (state.mode == Mode::away && (!walk.scene.has_tracker || walk.gap < follow.resume))
+    state.mode = Mode::follow;
+  if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
+  if (state.mode != Mode::follow || !walk.scene.has_force) return;
+  if (walk.gap <= 0.0) {
+    begin_contact(walk, state, false);
+  } else if (pressing_force(walk, walk.normal) >= walk.scene.force.contact && !too_far(walk)) {
+    begin_contact(walk, state, true);
+  }
+}
+
+}  // namespace
+
+void mode(Walk& walk, State& state) noexcept {
+  if (state.object < 0) {
+    state.mode = Mode::away;
+  } else if (state.mode == Mode::contact) {
+    in_contact(walk, state);
+  } else if (state.mode == Mode::restore) {
+    const Point<'W'> buffered = state.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin);
+    const Vec<'W'> normal = state.contact.X_WN * Vec<'N'>(0, 0, 1);
+    if (pressing_force(walk, normal) >= walk.scene.force.contact && !too_far(walk)) {
+      begin_contact(walk, state, true);  // pressed again before the tip was back
+    } else if ((walk.X_WH.origin() - buffered).norm() <= walk.scene.contact.restored) {
+      state.mode = Mode::follow;
+    }
+  } else {
+    in_free_space(walk, state);
+  }
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,50 @@
+// What the machine is doing, and why. Reasons are bits, so that a tick can have several.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace enc {
+
+enum class Mode : std::uint8_t {
+  away,     // no tool, or farther than the pause distance: the tip waits where it is [VHMR 3.3]
+  follow,   // the tip tracks the surface point nearest to the tool, from just inside [VHMR 3.3]
+  contact,  // tool and tip are engaged: the tip is where the object's model puts it under the measured force
+            // [VHMR 3.4]
+  restore,  // released: the tip returns to the buffered first-touch point [VHMR 3.4]
+  hold      // something is wrong: the tip stands still; `why` says what
+};
+inline constexpr int kModes = 5;
+
+enum Why : std::uint32_t {
+  // Reasons to hold.
+  kToolInvalid =
+      1U << 0,  // tracker sample not finite, not a rotation, absurdly far, unknown tool, or out of order
+  kToolLost = 1U << 1,        // no tool pose for longer than the rig allows
+  kForceInvalid = 1U << 2,    // force sample not finite or absurd
+  kForceSaturated = 1U << 3,  // the sensor is at its range: its reading is a lower bound only
+  kForceLost = 1U << 4,       // no force sample for longer than the rig allows
+  kTipInvalid = 1U << 5,      // the machine's own pose is not finite or not reachable
+  kTipLost = 1U << 6,         // no pose from the machine
+  kDentWrong = 1U << 7,       // the visual surface names an unknown object or cannot be
+  kDentOverdue = 1U << 8,     // the visual surface is too old
+  kOutsideObject = 1U << 9,   // the tip is outside the undeformed object
+  kOutsideDent = 1U << 10,    // the tip is outside the deformed surface by more than its age excuses
+  kClockLate = 1U << 11,      // cycles were missed
+  kNotFinite = 1U << 12,      // the core's own target is not finite: a defect, caught
+  // Notices: the loop goes on.
+  kToolPredicted = 1U << 16,  // tool pose older than usual
+  kUnreachable = 1U << 17,    // target clamped to what the machine reaches
+  kLimited = 1U << 18,        // target clamped to speed or acceleration
+  kAtLimit = 1U << 19,        // deflection limit reached
+  kByForce = 1U << 20,        // this contact was found by force, not by gap
+  kTaring = 1U << 21,         // force zero not known yet
+};
+inline constexpr std::uint32_t kHoldReasons = 0xFFFFU;
+
+[[nodiscard]] std::string_view mode_name(Mode mode);
+// "tool lost, force saturated"; empty for 0.
+[[nodiscard]] std::string why_text(std::uint32_t why);
+
+}  // namespace enc

@@ -1,0 +1,39 @@
+// What a module exports: a shared object beside the program that is loaded when a scene, rig or command names
+// it. Heavy libraries (OpenGL, OpenCV, vendors' drivers) live in modules, so the plain program maps none of
+// them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/rig.h"
+
+namespace enc {
+
+// Raise it when anything that crosses the border changes. A module of another number or another build is
+// refused, never tried.
+inline constexpr std::uint32_t kModuleInterface = 1;
+
+// Devices that a driver module makes; what it does not offer stays null. Constructors throw Error(kind
+// device) with a way out.
+struct DriverModule {
+  std::unique_ptr<Manipulator> (*manipulator)(const Reach& reach) = nullptr;
+  std::unique_ptr<ForceSensor> (*force)() = nullptr;
+  std::unique_ptr<PoseTracker> (*tracker)() = nullptr;
+  std::unique_ptr<Display> (*display)() = nullptr;
+};
+
+struct ModuleInfo {
+  std::uint32_t interface = kModuleInterface;
+  const char* version = "";  // ENCOUNTER_VERSION of the build
+  const char* name = "";     // "view", "sample"
+  const DriverModule* driver = nullptr;
+  const void* view = nullptr;  // sim::ViewModule, of the view module only
+};
+
+// The one symbol: extern "C" const enc::ModuleInfo* encounter_module();
+inline constexpr const char* kModuleSymbol = "encounter_module";
+using ModuleEntry = const ModuleInfo* (*)();
+
+}  // namespace enc

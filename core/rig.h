@@ -1,0 +1,36 @@
+// The devices of an experiment, one slot for each role that the loop uses. An empty slot is a device that the
+// scene does not need.
+#pragma once
+
+#include <memory>
+
+#include "core/devices/clock.h"
+#include "core/devices/display.h"
+#include "core/devices/force_sensor.h"
+#include "core/devices/manipulator.h"
+#include "core/devices/pose_tracker.h"
+#include "core/step.h"
+
+namespace enc {
+
+struct Rig {
+  std::unique_ptr<Clock> clock;
+  std::unique_ptr<Manipulator> manipulator;
+  std::unique_ptr<ForceSensor> force;
+  std::unique_ptr<PoseTracker> tracker;
+  std::unique_ptr<Display> display;
+
+  void read(Inputs& in) noexcept {
+    in.missed = clock->missed();
+    if (manipulator) in.tip = manipulator->read();
+    if (force) in.wrench = force->read();
+    if (tracker) tracker->poll(in.tool);
+    if (display) display->poll(in.dent);
+  }
+  void write(const Outputs& out) noexcept {
+    if (manipulator && out.tip.valid()) manipulator->command(out.tip);
+    if (display) display->show(out.view);
+  }
+};
+
+}  // namespace enc

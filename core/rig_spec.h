@@ -1,0 +1,98 @@
+// A rig, as the core sees it: which driver fills each role, where the devices stand (the calibration that is
+// *believed*), and the numbers the haptic loop works with. These structs are the file format
+// (models/rigs/*.toml). The simulator's truth is apart (sim/twin_spec.h), so that a wrong calibration can be
+// injected and measured.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/frames.h"
+#include "core/hexapod.h"
+
+namespace enc {
+
+// A pose in a file: position, and rotation about the fixed x, then y, then z axis of the parent, rad.
+struct PoseSpec {
+  Vec3 position{0, 0, 0};
+  Vec3 rotation{0, 0, 0};
+};
+
+struct LoopRig {
+  double rate = 1000.0;          // Hz [VHMR 2]
+  std::int64_t late_cycles = 5;  // missed cycles that mean "hold"
+};
+
+// The constant poses of [VHMR Fig 4]. X_WR follows from "X_WH is the identity at the machine's zero" and has
+// no entry.
+struct FramesRig {
+  PoseSpec W_S{{-0.6, 0.0, 0.3}, {0, 0, 0}};
+  PoseSpec W_C{{0.0, -0.9, 0.6}, {0, 0, 0}};
+  PoseSpec G_L{{0.0, 0.08, 0.0}, {0, 0, 0}};
+  PoseSpec H_F{{0.0, 0.0, -0.127}, {0, 0, 0}};
+};
+
+struct ManipulatorRig {
+  std::string driver = "sim";
+  HexapodGeometry geometry;
+  double speed = 0.050;        // of commands, m/s [VHMR 2]
+  double acceleration = 0.41;  // of commands, m/s^2 (decisions 1)
+  double tip_radius = 0.005;   // of the haptic-tip's sphere, m; H is its centre
+  double servo = 15.0;         // what the rig is believed to answer with: natural frequency, Hz,
+  double servo_damping = 0.8;  // damping ratio
+  double delay = 0.004;        // and dead time, s; they set how soft an object may be (loop_model.h)
+};
+
+enum class Tare : std::uint8_t {
+  start,  // once, before the first touch, as the paper's rig does
+  free    // and slowly again whenever the tool is clear of the object
+};
+
+struct ForceRig {
+  std::string driver = "sim";
+  double filter = 5.0;      // corner of the low-pass, Hz (decisions 1)
+  double threshold = 0.05;  // taken off the pressing force, N (fidelity 1)
+  double contact = 0.10;    // pressing force that is a contact, N
+  double mass = 0.91;       // behind the sensor (gripper, adapters, tip), kg
+  Tare tare = Tare::free;
+  double tare_time = 0.2;         // s, of the first zero
+  double tare_clearance = 0.003;  // m of gap
+  double stale = 0.005;           // s
+};
+
+struct TrackerRig {
+  std::string driver = "sim";
+  double usual_age = 0.045;  // s: what latency, polling and jitter explain; older is predicted and flagged
+  double lost_age = 0.100;   // s: older is lost (decisions 8)
+  double farthest = 3.0;     // m from C: beyond is not a tool
+};
+
+struct DisplayRig {
+  std::string driver = "sim";
+  double overdue = 0.200;       // s: older surfaces mean "hold"
+  double margin = 0.0008;       // m: tracker and drawing error allowed between the seen and the felt surface
+  double margin_speed = 0.050;  // m/s: how fast that margin grows with the surface's age
+};
+
+struct ContactRig {
+  double leave_gap = 0.0010;  // m: the tool is away when the gap is larger and no force has been felt for
+  double leave_time = 0.050;  // s
+  double restored = 4e-6;     // m: back at the buffered point (the machine steps by 3e-6)
+  double hand_stiffness =
+      700.0;  // N/m, hand_damping N s/m: of the person at the loop's limit frequency (parameters 5.1)
+  double hand_damping = 4.0;
+};
+
+struct RigSpec {
+  std::int64_t format = 1;
+  std::string title;
+  LoopRig loop;
+  FramesRig frames;
+  ManipulatorRig manipulator;
+  ForceRig force;
+  TrackerRig tracker;
+  DisplayRig display;
+  ContactRig contact;
+};
+
+}  // namespace enc

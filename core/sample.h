@@ -1,0 +1,53 @@
+// What a device says, with when it was true and how far it can be trusted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/frames.h"
+#include "core/time.h"
+
+namespace enc {
+
+enum class Health : std::uint8_t { absent, ok, stale, saturated, out_of_range, fault };
+
+template <class V>
+struct Stamped {
+  V value{};
+  Time t{};  // when it was true, not when it came
+  Health health = Health::absent;
+};
+
+// Pose of a tracked tool's markers. `tool` is the index of its marker geometry in the scene, -1 where none
+// was recognised.
+struct TrackedTool {
+  std::int32_t tool = -1;
+  Pose<'C', 'T'> X_CT;
+};
+
+// Force and torque on the haptic-tip side of the sensor, in and about F: what the tool does to the machine.
+// N, N m.
+struct Wrench {
+  Vec<'F'> force;
+  Vec<'F'> torque;
+};
+
+// Where the machine's own encoders and set-point generator say that the haptic-tip is.
+struct TipSample {
+  Pose<'R', 'H'> X_RH;
+  Vec<'R'> velocity;      // of the tip, m/s
+  Vec<'R'> acceleration;  // of the tip, m/s^2: from the servo, not differenced; used to take inertia out of
+                          // the force
+};
+
+// The deformed visual surface, as the renderer reports it [VHMR 3.5]: which object is dented, where, by what
+// and how deep. The core evaluates the surface itself (dent.h), so Inputs stays of one size.
+struct DentSample {
+  std::int32_t object = -1;  // index in the scene; -1: nothing is deformed
+  Point<'O'> tip;            // centre of the tool's tip in the object's frame
+  double tip_radius = kUnset;
+  double depth =
+      kUnset;  // of the tip's lowest point below the undeformed surface, m; 0 where it does not touch
+};
+
+}  // namespace enc

@@ -1,0 +1,189 @@
+#include "core/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/loop_model.h"
+
+namespace enc {
+namespace {
+
+Surface surface_of(const ObjectSpec& spec) {
+  if (spec.shape == ShapeKind::plane) return Surface(Plane{});
+  if (!(spec.radius > 0.0)) throw Error("a sphere needs a radius", "object." + spec.name + ".radius");
+  return Surface(Sphere{spec.radius});
+}
+
+Pose<'W', 'O'> place_of(const ObjectSpec& spec) {
+  if (spec.shape == ShapeKind::sphere) return {Quat::Identity(), spec.position};
+  const double size = spec.normal.norm();
+  if (!(std::abs(size - 1.0) <= 1e-3))
+    throw Error("the normal of a plane is a unit vector", "object." + spec.name + ".normal");
+  return {rotation_z_to(spec.normal / size), spec.position};
+}
+
+const BehaviourSpec& behaviour_of(const SceneSpec& scene, const ObjectSpec& object) {
+  const auto found = std::find_if(scene.behaviours.begin(), scene.behaviours.end(),
+                                  [&](const BehaviourSpec& b) { return b.name == object.behaviour; });
+  if (found == scene.behaviours.end())
+    throw Error("no behaviour '" + object.behaviour + "' in the database",
+                "object." + object.name + ".behaviour");
+  return *found;
+}
+
+Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, double lowest_slope) {
+  try {
+    return {behaviour.curves, lowest_slope};
+  } catch (const Error& e) {
+    throw Error("behaviour '" + behaviour.name + "': " + e.what(), "object." + object.name + ".behaviour");
+  }
+}
+
+double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
+  const double curve = behaviour.curves.limit;
+  const double own = std::isnan(behaviour.limit) ? curve : behaviour.limit;
+  const double limit = std::isnan(object.limit) ? own : object.limit;
+  if (!(limit > 0.0) || limit > curve * (1.0 + 1e-12))
+    throw Error("the deflection limit lies between 0 and that of the response",
+                "object." + object.name + ".limit");
+  return limit;
+}
+
+Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest_slope) {
+  const BehaviourSpec& behaviour = behaviour_of(scene, spec);
+  if (behaviour.tangential == Tangential::spring && !(behaviour.tangential_stiffness > 0.0))
+    throw Error("behaviour '" + behaviour.name + "': tangential = \"spring\" needs a tangential stiffness",
+                "object." + spec.name + ".behaviour");
+  return {surface_of(spec),          place_of(spec),       response_of(behaviour, spec, lowest_slope),
+          limit_of(behaviour, spec), behaviour.tangential, behaviour.tangential_stiffness};
+}
+
+// Which object the user presses: the named one, or the first.
+std::size_t pressed_object(const SceneSpec& spec, const UserSpec& user) {
+  if (spec.objects.empty()) throw Error("a user needs an object to press", "user.object");
+  if (user.object.empty()) return 0;
+  const auto named = std::find_if(spec.objects.begin(), spec.objects.end(),
+                                  [&](const ObjectSpec& o) { return o.name == user.object; });
+  if (named == spec.objects.end()) throw Error("no object '" + user.object + "' in the scene", "user.object");
+  return static_cast<std::size_t>(named - spec.objects.begin());
+}
+
+// A user's press must be possible from the first touch to the limit; an object nobody is told to press must
+// be touchable somewhere.
+void check_reach(const SceneSpec& spec, const Scene& scene) {
+  const auto reached = [&](const Point<'W'>& surface, const Vec<'W'>& normal, double depth) {
+    const Point<'W'> tip = surface - (scene.tip_radius + depth) * normal;
+    return scene.reach.contains(Pose<'R', 'H'>(scene.X_WR.q().conjugate(), scene.X_WR.inverse() * tip));
+  };
+  const std::string advice =
+      "; the tip reaches +-50, +-50 and +-25 (x, y, z of W, in millimetres) around the origin, straight axes";
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const Nearest near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0.0));
+    const Point<'O'> top_O =
+        near.distance < 0 ? near.point
+                          : object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0.1)).point;
+    const Nearest top = object.surface.nearest(top_O);
+    if (!reached(object.X_WO * near.point, object.X_WO * near.normal, 0.0) &&
+        !reached(object.X_WO * top.point, object.X_WO * top.normal, 0.0))
+      throw Error("object '" + spec.objects[i].name + "' is outside the machine's reach" + advice,
+                  "object." + spec.objects[i].name + ".position");
+  }
+  if (!spec.user) return;
+  const PressPoint press = press_point(spec, *spec.user);
+  const double depth = scene.objects[pressed_object(spec, *spec.user)].limit;
+  if (!reached(press.point, press.normal, 0.0) || !reached(press.point, press.normal, depth))
+    throw Error("the user presses where the machine does not reach" + advice, "user.polar");
+}
+
+}  // namespace
+
+Reach reach_of(const RigSpec& rig) {
+  return {rig.manipulator.speed, rig.manipulator.acceleration, Hexapod(rig.manipulator.geometry)};
+}
+
+PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
+  const ObjectSpec& object = spec.objects[pressed_object(spec, user)];
+  const Vec3 axis(std::sin(user.polar) * std::cos(user.azimuth),
+                  std::sin(user.polar) * std::sin(user.azimuth), std::cos(user.polar));
+  const Vec3 side = axis.unitOrthogonal();
+  const Surface surface = surface_of(object);
+  const Pose<'W', 'O'> X_WO = place_of(object);
+  const Vec3 from = object.shape == ShapeKind::plane
+                        ? Vec3(object.position + user.offset * side)
+                        : Vec3(object.position + object.radius * axis + user.offset * side);
+  const Nearest at = surface.nearest(X_WO.inverse() * Point<'W'>(from));
+  return {X_WO * at.point, X_WO * at.normal};
+}
+
+Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
+  Scene scene;
+  scene.reach = reach_of(rig);
+  scene.X_WR = Pose<'W', 'H'>::identity() * scene.reach.machine.zero().inverse();
+  scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
+  scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);
+  scene.X_GL = pose_of<'G', 'L'>(rig.frames.G_L);
+  scene.X_HF = pose_of<'H', 'F'>(rig.frames.H_F);
+  scene.follow = spec.follow;
+  scene.force = rig.force;
+  scene.tracker = rig.tracker;
+  scene.display = rig.display;
+  scene.contact = rig.contact;
+  scene.loop = rig.loop;
+  scene.tip_radius = rig.manipulator.tip_radius;
+  scene.dt = 1.0 / rig.loop.rate;
+  scene.filter_gain = 1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter * scene.dt);
+  scene.has_manipulator = spec.manipulator.has_value();
+  scene.has_force = spec.force.has_value();
+  scene.has_tracker = spec.tracker.has_value();
+  scene.has_display = spec.display.has_value();
+  if (!scene.has_manipulator)
+    throw Error("a scene needs [manipulator]: something has to carry the surface", "manipulator");
+  LoopModel loop;
+  loop.hand_stiffness = rig.contact.hand_stiffness;
+  loop.hand_damping = rig.contact.hand_damping;
+  loop.filter_hz = rig.force.filter;
+  loop.servo_hz = rig.manipulator.servo;
+  loop.servo_damping = rig.manipulator.servo_damping;
+  loop.delay = rig.manipulator.delay + scene.dt;
+  scene.lowest_slope = lowest_stable_stiffness(loop);
+  for (const ObjectSpec& object : spec.objects)
+    scene.objects.push_back(make_object(spec, object, scene.lowest_slope));
+  for (const ToolSpec& tool : spec.tools) scene.tools.push_back({Point<'T'>(tool.tip), tool.tip_radius});
+  check_reach(spec, scene);
+  return scene;
+}
+
+std::string frame_graph(const Scene& scene) {
+  const auto edge = [](const char* name, bool constant, const Vec3& p, const char* what) {
+    std::string line = std::string("  X_") + name + (constant ? "  constant  " : "  variable  ");
+    if (p.allFinite()) {
+      line += "[";
+      for (int i = 0; i < 3; ++i) {
+        const long um = std::lround(p(i) * 1e6);
+        const std::string thousandths = std::to_string(std::abs(um) % 1000);
+        line += (i > 0 ? ", " : "") + std::string(um < 0 ? "-" : "") + std::to_string(std::abs(um) / 1000) +
+                "." + std::string(3 - thousandths.size(), '0') + thousandths;
+      }
+      line += "] mm  ";
+    }
+    return line + what + "\n";
+  };
+  const Vec3 moving = Vec3::Constant(kUnset);
+  std::string text;
+  text += edge("WR", true, scene.X_WR.p(), "machine base; H is W at the machine's zero");
+  text += edge("RH", false, moving, "haptic-tip, from the machine's joints");
+  text += edge("HF", true, scene.X_HF.p(), "force sensor");
+  text += edge("WC", true, scene.X_WC.p(), "tracker camera");
+  text += edge("CT", false, moving, "tool markers, from the tracker");
+  text += edge("WS", true, scene.X_WS.p(), "headset server");
+  text += edge("SG", false, moving, "headset");
+  text += edge("GL", true, scene.X_GL.p(), "hand tracker on the headset");
+  for (const Object& object : scene.objects) text += edge("WO", true, object.X_WO.p(), "object");
+  text += edge("WN", false, moving, "nearest surface point, z outward");
+  return text;
+}
+
+}  // namespace enc

@@ -1,0 +1,77 @@
+// A scene made ready: constant while the loop runs. What mjModel is to mjSpec, Scene is to SceneSpec and
+// RigSpec.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+#include "core/reach.h"
+#include "core/response.h"
+#include "core/rig_spec.h"
+#include "core/rotation.h"
+#include "core/scene_spec.h"
+#include "core/surface.h"
+
+namespace enc {
+
+struct Object {
+  Surface surface;
+  Pose<'W', 'O'> X_WO;
+  Response response;
+  double limit = kUnset;  // deflection, m
+  Tangential tangential = Tangential::stick;
+  double tangential_stiffness = kUnset;  // N/m
+};
+
+struct Tool {
+  Point<'T'> tip;  // centre of the tip's sphere
+  double tip_radius = 0.0;
+};
+
+struct Scene {
+  std::vector<Object> objects;
+  std::vector<Tool> tools;
+  bool has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
+
+  Pose<'W', 'R'> X_WR;  // from "H is W at the machine's zero" [VHMR 2]
+  Pose<'W', 'C'> X_WC;
+  Pose<'W', 'S'> X_WS;
+  Pose<'G', 'L'> X_GL;
+  Pose<'H', 'F'> X_HF;
+  Reach reach;
+
+  FollowSpec follow;
+  ForceRig force;
+  TrackerRig tracker;
+  DisplayRig display;
+  ContactRig contact;
+  LoopRig loop;
+  double tip_radius = kUnset;    // of the haptic-tip, m
+  double dt = kUnset;            // s, one tick
+  double filter_gain = kUnset;   // of the force low-pass, per tick
+  double lowest_slope = kUnset;  // N/m: softest object the loop renders stably (loop_model.h)
+};
+
+// Throws Error (key = the file key without its unit) where the scene cannot be rendered by this rig: an
+// object or a press out of reach, a response that is not monotone or too soft, a role that is missing.
+[[nodiscard]] Scene prepare(const SceneSpec& spec, const RigSpec& rig);
+
+// The reach that a rig file promises. A device that can do less is refused before anything moves.
+[[nodiscard]] Reach reach_of(const RigSpec& rig);
+template <char A, char B>
+[[nodiscard]] Pose<A, B> pose_of(const PoseSpec& spec) {
+  return {rotation_xyz(spec.rotation), spec.position};
+}
+
+// The frame graph of [VHMR Fig 4], one line for each edge, with constants and variables told apart.
+[[nodiscard]] std::string frame_graph(const Scene& scene);
+// Where the user of the scene presses: the surface point and its outward normal, in W.
+struct PressPoint {
+  Point<'W'> point;
+  Vec<'W'> normal;
+};
+[[nodiscard]] PressPoint press_point(const SceneSpec& spec, const UserSpec& user);
+
+}  // namespace enc

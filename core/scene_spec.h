@@ -1,0 +1,96 @@
+// A scene: what the experiment is. These structs are the file format (models/scenes/*.toml), with its
+// defaults; SI here, units in the file's keys. What a scene does not name is not built, not ticked and not
+// given a thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+#include "core/response.h"
+
+namespace enc {
+
+enum class ShapeKind : std::uint8_t { plane, sphere };
+enum class Tangential : std::uint8_t {
+  stick,  // the tip stays over its contact point, whatever the sideways force (default)
+  spring  // the contact point gives sideways by force / tangential_stiffness
+};
+
+// An entry of models/behaviours.toml: how a surface answers. Objects name it.
+struct BehaviourSpec {
+  std::string name;
+  std::string response;       // file in models/responses without ".toml"; or empty and then
+  double stiffness = kUnset;  // N/m: a linear spring, press and release alike
+  double limit = kUnset;      // deflection limit, m; unset: that of the response file
+  Tangential tangential = Tangential::stick;
+  double tangential_stiffness = kUnset;  // N/m, with Tangential::spring
+  ResponseSpec curves;                   // filled by the loader from the response file or the stiffness
+};
+
+struct ObjectSpec {
+  std::string name;
+  ShapeKind shape = ShapeKind::sphere;
+  double radius = kUnset;  // sphere
+  Vec3 position{0, 0, 0};  // of O in W
+  Vec3 normal{0, 0, 1};    // plane: outward, unit, in W
+  std::string behaviour;   // by name
+  double limit = kUnset;   // deflection limit, m; unset: the behaviour's
+};
+
+struct ToolSpec {
+  std::string name;
+  std::vector<Vec3> markers;  // in T
+  Vec3 tip{0, 0, 0};          // centre of the tip's sphere in T
+  double tip_radius = 0.002;  // 0: a point
+  double mass = 0.05;         // kg, with its markers
+};
+
+struct FollowSpec {
+  double inset = 0.0005;  // how far inside the surface the tip waits, m
+  double pause = 0.100;   // tool farther than this: do not travel [VHMR 3.3]
+  double resume = 0.090;  // and travel again below this
+};
+
+struct ManipulatorSpec {
+  std::string kind = "hexapod";
+};
+struct ForceSpec {};
+struct TrackerSpec {};
+struct DisplaySpec {};
+
+// Who holds the tool. A simulated rig plays this; a real rig shows it to the person.
+struct UserSpec {
+  std::string kind = "press_release";
+  std::string object;    // pressed; empty: the first
+  std::string tool;      // held; empty: the first
+  double azimuth = 0.0;  // where on the object, from +x towards +y of W, rad
+  double polar = 0.0;    // and from +z of W, rad: 0 presses from above
+  double offset = 0.0;   // sideways of the axis, m (indentation B)
+  double depth = 0.006;  // wanted deflection, m
+  double push = kUnset;  // instead: push with this force, N, whatever the depth
+  double press_time = 6.0, hold_time = 0.5, release_time = 6.0, rest_time = 1.0;  // s
+  std::vector<double> approach{0.02};  // speed of the tool when it touches, m/s; one press for each entry
+  double approach_from = 0.060;        // m, distance of the start from the touched point
+  double approach_tilt = 0.5;          // rad, of the approach from the surface normal
+  std::int64_t repeats = 1;            // of the whole list
+};
+
+struct SceneSpec {
+  std::int64_t format = 1;
+  std::string title;
+  std::vector<ObjectSpec> objects;
+  std::vector<ToolSpec> tools;
+  FollowSpec follow;
+  std::optional<ManipulatorSpec> manipulator;
+  std::optional<ForceSpec> force;
+  std::optional<TrackerSpec> tracker;
+  std::optional<DisplaySpec> display;
+  std::optional<UserSpec> user;
+  std::vector<BehaviourSpec> behaviours;  // the entries of models/behaviours.toml that the objects name
+};
+
+}  // namespace enc

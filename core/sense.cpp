@@ -1,0 +1,64 @@
+// Force on the haptic-tip: zero error, weight and inertia of what is behind the sensor taken out, then
+// low-passed. [VHMR 3.4]
+#include <algorithm>
+
+#include "core/stages.h"
+
+namespace enc::stages {
+namespace {
+
+constexpr double kGravity = 9.80665;   // m/s^2, along -z of W
+constexpr double kAbsurd = 1e4;        // N, N m: no sensor of this kind reads more
+constexpr double kFreeTareTime = 2.0;  // s: how slowly the zero follows while the tool is clear
+
+bool clear_of_object(const Walk& walk, const State& state) {
+  if (state.mode != Mode::away && state.mode != Mode::follow) return false;
+  return !walk.tool_known || walk.gap > walk.scene.force.tare_clearance;
+}
+
+// The running mean of the first tare_time becomes the zero; with Tare::free it then follows slowly.
+void tare(const Walk& walk, const Vec<'F'>& unloaded, State& state) {
+  const ForceRig& rig = walk.scene.force;
+  const bool first = state.tared < rig.tare_time;
+  if (!clear_of_object(walk, state) || (!first && rig.tare == Tare::start)) return;
+  state.tared += walk.scene.dt;
+  const double gain = walk.scene.dt / (first ? state.tared : kFreeTareTime);
+  state.force_zero = state.force_zero + gain * (unloaded - state.force_zero);
+}
+
+}  // namespace
+
+void sense(Walk& walk, State& state) noexcept {
+  if (!walk.scene.has_force) return;
+  const auto& sample = walk.in.wrench;
+  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {
+    walk.why |= kForceLost;
+    return;
+  }
+  const bool absurd = !sample.value.force.finite() || !sample.value.torque.finite() ||
+                      sample.value.force.norm() > kAbsurd || sample.value.torque.norm() > kAbsurd ||
+                      sample.t > walk.tick.t;
+  if (absurd || sample.health == Health::fault) {
+    walk.why |= kForceInvalid;
+    return;
+  }
+  if (sample.health == Health::saturated || sample.health == Health::out_of_range)
+    walk.why |= kForceSaturated;
+  if (holding(walk)) return;  // the tip's pose or acceleration is not to be trusted
+
+  // measured = contact + m g - m a + zero
+  const Pose<'W', 'F'> X_WF = walk.X_WH * walk.scene.X_HF;
+  const Vec<'W'> acceleration = walk.scene.X_WR * walk.in.tip.value.acceleration;
+  const Vec<'W'> dead_load = walk.scene.force.mass * (Vec<'W'>(0, 0, -kGravity) - acceleration);
+  const Vec<'F'> unloaded = sample.value.force - X_WF.inverse() * dead_load;
+  tare(walk, unloaded, state);
+  if (state.tared < walk.scene.force.tare_time) {
+    walk.why |= kTaring;
+    return;
+  }
+  const Vec<'W'> contact = X_WF * (unloaded - state.force_zero);
+  state.force = state.force + walk.scene.filter_gain * (contact - state.force);
+  walk.force = state.force;
+}
+
+}  // namespace enc::stages

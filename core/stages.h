@@ -1,0 +1,55 @@
+// The stages of a tick, in the order in which data walk through them. Internal to the core: step.cpp calls,
+// one file each defines.
+#pragma once
+
+#include "core/step.h"
+
+namespace enc::stages {
+
+// What a tick knows so far. Each stage reads what the ones before it wrote.
+struct Walk {
+  Walk(const Scene& s, const Tick& k, const Inputs& i) : scene(s), tick(k), in(i) {}
+  const Scene& scene;
+  const Tick& tick;
+  const Inputs& in;
+  std::uint32_t why = 0;
+
+  bool tool_known = false;  // track
+  bool tool_fresh = false;
+  Pose<'W', 'T'> X_WT;
+  Point<'W'> tool_tip;
+  double tool_radius = 0.0;
+  Pose<'W', 'H'> X_WH;  // track: where the machine says the tip is
+
+  Point<'W'> surface_point;  // touch: nearest to the tool
+  Vec<'W'> normal;           // outward
+  double gap = kUnset;       // m
+  Vec<'W'> force;            // sense: on the tip, N
+  Point<'W'> target;         // target: wanted tip centre
+};
+
+void track(Walk& walk, State& state) noexcept;
+void touch(Walk& walk, State& state) noexcept;
+void sense(Walk& walk, State& state) noexcept;
+void mode(Walk& walk, State& state) noexcept;
+void model(Walk& walk, State& state) noexcept;
+void target(Walk& walk, State& state) noexcept;
+// Inside the object, inside the seen surface, finite, reachable, slow enough. Writes the set-point into
+// state.command.
+void check_tip(Walk& walk, State& state) noexcept;
+void limit_command(Walk& walk, State& state) noexcept;
+
+// Outward normal and distance of a W point to an object.
+struct NearestInWorld {
+  Point<'W'> point;
+  Vec<'W'> normal;
+  double distance = kUnset;
+};
+[[nodiscard]] NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept;
+
+// The tip stops this far inside the surface at zero deflection: more than the machine's own step, less than
+// anybody feels.
+inline constexpr double kSkin = 5e-6;  // m
+[[nodiscard]] inline bool holding(const Walk& walk) { return (walk.why & kHoldReasons) != 0; }
+
+}  // namespace enc::stages

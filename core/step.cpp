@@ -1,0 +1,49 @@
+#include "core/step.h"
+
+#include <algorithm>
+
+#include "core/rotation.h"
+#include "core/stages.h"
+
+namespace enc {
+namespace {
+
+void report(const stages::Walk& walk, const State& state, Outputs& out) {
+  const bool engaged = state.mode == Mode::contact || state.mode == Mode::restore;
+  const Pose<'N', 'W'> X_NW =
+      engaged ? state.contact.X_WN.inverse()
+              : Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point).inverse();
+  out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate(), state.command);
+  out.mode = stages::holding(walk) ? Mode::hold : state.mode;
+  out.why = walk.why;
+  out.object = state.object;
+  out.contacts = state.contacts;
+  out.gap = walk.gap;
+  out.force = X_NW * state.force;
+  out.deflection = std::max(0.0, -state.contact.displacement.xyz[2]);
+  out.first_touch =
+      engaged ? state.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - stages::kSkin) : Point<'W'>();
+  out.view = {walk.tick.t,   walk.tool_known ? state.tool.value.tool : -1,
+              state.object,  walk.X_WT,
+              walk.tool_tip, out.mode};
+}
+
+}  // namespace
+
+void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) noexcept {
+  stages::Walk walk(scene, tick, in);
+  if (in.missed >= scene.loop.late_cycles) walk.why |= kClockLate;
+  stages::track(walk, state);  // where are the tool and the tip
+  stages::touch(walk, state);  // which surface point is nearest, and how far
+  stages::sense(walk, state);  // what force is on the tip
+  stages::check_tip(walk, state);
+  if (!stages::holding(walk)) {
+    stages::mode(walk, state);    // away, follow, contact, restore
+    stages::model(walk, state);   // force in, displacement out
+    stages::target(walk, state);  // where the tip should be
+  }
+  stages::limit_command(walk, state);  // and what the machine is told
+  report(walk, state, out);
+}
+
+}  // namespace enc

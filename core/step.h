@@ -1,0 +1,69 @@
+// The whole haptic core is one pure function: no I/O, no clock, no heap, no lock [architecture B4].
+//   track -> touch -> sense -> mode -> model -> target -> guard
+#pragma once
+
+#include <type_traits>
+
+#include "core/mode.h"
+#include "core/response.h"
+#include "core/sample.h"
+#include "core/scene.h"
+#include "core/view.h"
+
+namespace enc {
+
+// The newest sample of each device that exists; the others stay absent.
+struct Inputs {
+  Stamped<TrackedTool> tool;
+  Stamped<Wrench> wrench;
+  Stamped<TipSample> tip;
+  Stamped<DentSample> dent;
+  std::int64_t missed = 0;  // cycles the clock lost before this tick
+};
+
+struct Outputs {
+  Pose<'R', 'H'> tip;  // set-point for the coming period
+  Mode mode = Mode::away;
+  std::uint32_t why = 0;      // bits of Why
+  std::int32_t object = -1;   // nearest object, or the one in contact
+  std::int32_t contacts = 0;  // contacts since the start
+  double gap = kUnset;        // of the tracked tool's tip to the surface, m; negative inside
+  Vec<'N'> force;             // on the tip, N, filtered; z along the outward normal
+  double deflection = 0.0;    // wanted, along -z of N, m
+  Point<'W'> first_touch;     // buffered point of the current or last contact, tip centre
+  View view;
+};
+
+// The anchor of a contact [VHMR 3.4]: surface frame and how the object answers from there.
+struct Contact {
+  std::int32_t object = -1;
+  Pose<'W', 'N'> X_WN;    // at the first touch
+  bool anchored = false;  // true once force was felt with the tip under the tool: the anchor no longer moves
+  Time loaded{};          // last tick on which force was felt
+  ResponseState response;
+  Vec<'N'> displacement = Vec<'N'>::zero();
+};
+
+// All the memory that the core has.
+struct State {
+  bool started = false;
+  Mode mode = Mode::away;  // the mode under a hold
+  std::int32_t contacts = 0;
+  std::int32_t object = -1;
+  bool entered = false;  // the tip has been inside that object
+  Stamped<TrackedTool> tool;
+  Stamped<DentSample> dent;
+  Vec<'F'> force_zero = Vec<'F'>::zero();
+  double tared = 0.0;  // s of signal in force_zero
+  Vec<'W'> force = Vec<'W'>::zero();
+  Contact contact;
+  Point<'R'> command;  // last set-point
+  Vec<'R'> command_velocity = Vec<'R'>::zero();
+};
+
+void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) noexcept;
+
+static_assert(std::is_trivially_copyable_v<Inputs> && std::is_trivially_copyable_v<Outputs> &&
+              std::is_trivially_copyable_v<State>);
+
+}  // namespace enc

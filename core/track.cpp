@@ -1,0 +1,74 @@
+// Where the tool and the tip are at this tick: newest pose held, its age judged. [VHMR 3.3]
+#include "core/stages.h"
+
+namespace enc::stages {
+namespace {
+
+bool plausible(const Walk& walk, const Stamped<TrackedTool>& sample) {
+  const auto& tool = sample.value;
+  return tool.X_CT.valid() && tool.X_CT.p().norm() < walk.scene.tracker.farthest && tool.tool >= 0 &&
+         tool.tool < static_cast<int>(walk.scene.tools.size()) && sample.t <= walk.tick.t;
+}
+
+void judge_age(Walk& walk, const State& state) {
+  const double old = age(walk.tick.t, state.tool.t);
+  walk.tool_fresh = old <= walk.scene.tracker.usual_age;
+  if (walk.tool_fresh) return;
+  if (old <= walk.scene.tracker.lost_age) {
+    walk.why |= kToolPredicted;
+  } else if (state.mode == Mode::away) {
+    walk.tool_known = false;  // nobody is near: a tool out of sight is simply away
+  } else {
+    walk.why |= kToolLost;
+  }
+}
+
+void track_tool(Walk& walk, State& state) {
+  const auto& sample = walk.in.tool;
+  if (sample.health == Health::fault) walk.why |= kToolInvalid;
+  if (sample.health == Health::ok) {
+    if (!plausible(walk, sample)) {
+      walk.why |= kToolInvalid;
+    } else if (state.tool.health == Health::absent || sample.t > state.tool.t) {
+      state.tool = sample;  // older or repeated packets change nothing
+    }
+  }
+  if (state.tool.health != Health::ok) return;
+  walk.tool_known = true;
+  const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
+  walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
+  walk.tool_tip = walk.X_WT * tool.tip;
+  walk.tool_radius = tool.tip_radius;
+  judge_age(walk, state);
+}
+
+void track_tip(Walk& walk, State& state) {
+  const auto& sample = walk.in.tip;
+  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {
+    walk.why |= kTipLost;
+    return;
+  }
+  const auto& tip = sample.value;
+  const bool usable = (sample.health == Health::ok || sample.health == Health::out_of_range) &&
+                      tip.X_RH.valid() && tip.X_RH.p().norm() < 10.0 && tip.velocity.finite() &&
+                      tip.acceleration.finite() && tip.acceleration.norm() < 1e3 &&
+                      tip.velocity.norm() < 10.0 && sample.t <= walk.tick.t;
+  if (!usable) {
+    walk.why |= kTipInvalid;
+    return;
+  }
+  walk.X_WH = walk.scene.X_WR * tip.X_RH;
+  if (!state.started) {
+    state.started = true;
+    state.command = tip.X_RH.origin();
+  }
+}
+
+}  // namespace
+
+void track(Walk& walk, State& state) noexcept {
+  if (walk.scene.has_manipulator) track_tip(walk, state);
+  if (walk.scene.has_tracker) track_tool(walk, state);
+}
+
+}  // namespace enc::stages

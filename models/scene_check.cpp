@@ -1,0 +1,199 @@
+// What one key alone does not show. What needs the machine (reach, monotone curves) is checked by core's
+// prepare().
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "models/scene_file.h"
+#include "models/units.h"
+#include "models/wording.h"
+
+namespace enc::models {
+namespace {
+
+// Tools whose marker distances all agree within this are not told apart: the tracker's accuracy is 0.09 mm
+// [VHMR 2], and markers are not mounted to the tenth of a millimetre.
+constexpr double kSameDistance = 1e-3;  // m
+
+[[noreturn]] void fail(const Setup& setup, const std::string& key, const std::string& what) {
+  throw Error(fmt::format("{}: {}", place_of(setup, key), what));
+}
+
+std::string mm(double metres) { return text_of(unit_of("x_mm"), metres); }
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const T& item : items) names.push_back(item.name);
+  return names;
+}
+
+template <class T>
+void check_named(const Setup& setup, const std::vector<T>& items, const std::string& name,
+                 const std::string& list) {
+  const std::vector<std::string> names = names_of(items);
+  if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return;
+  fail(setup, "user." + list,
+       fmt::format("there is no {} {}; expected the name of a [[{}]]; {}", list, quoted(name), list,
+                   advice(name, names)));
+}
+
+void check_object(const Setup& setup, const ObjectSpec& o) {
+  const std::string path = "object." + o.name;
+  if (o.shape == ShapeKind::plane) {
+    const double length = o.normal.norm();
+    if (!(std::abs(length - 1.0) < 1e-6)) {
+      const Vec3 n = length > 0 ? Vec3(o.normal / length) : Vec3(0, 0, 1);
+      fail(setup, path + ".normal",
+           fmt::format("'normal' has length {:.6g}; expected length 1; write it like 'normal = [{}, {}, {}]'",
+                       length, n.x(), n.y(), n.z()));
+    }
+  } else if (o.limit >= o.radius) {
+    fail(setup, path + ".limit_mm",
+         fmt::format("'limit_mm' is {}; expected less than the radius, {} mm; lower it", mm(o.limit),
+                     mm(o.radius)));
+  }
+  const auto b = std::find_if(setup.scene.behaviours.begin(), setup.scene.behaviours.end(),
+                              [&](const BehaviourSpec& item) { return item.name == o.behaviour; });
+  if (b == setup.scene.behaviours.end()) {
+    fail(setup, path + ".behaviour",
+         fmt::format("there is no behaviour {}; expected a [[behaviour]]; {}", quoted(o.behaviour),
+                     advice(o.behaviour, names_of(setup.scene.behaviours))));
+  }
+  const double most = std::isnan(b->limit) ? b->curves.limit : b->limit;
+  if (most > 0.0 && o.limit > most) {
+    fail(setup, path + ".limit_mm",
+         fmt::format("'limit_mm' is {}; expected at most {} mm, where behaviour {} ends; lower it",
+                     mm(o.limit), mm(most), quoted(b->name)));
+  }
+}
+
+// Called before and after the curves are there.
+void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
+  const std::string path = "behaviour." + b.name;
+  const bool linear = !std::isnan(b.stiffness);
+  if (linear && !b.response.empty()) {
+    fail(setup, path + ".stiffness_N_per_mm",
+         fmt::format(
+             "behaviour {} has both 'response' and 'stiffness_N_per_mm'; expected one of them; remove one",
+             quoted(b.name)));
+  }
+  if (!linear && b.response.empty()) {
+    fail(setup, path,
+         fmt::format("behaviour {} says nothing about its force; expected 'response' or "
+                     "'stiffness_N_per_mm'; add 'response = \"tennis_ball\"'",
+                     quoted(b.name)));
+  }
+  if (linear && std::isnan(b.limit)) {
+    fail(setup, path,
+         fmt::format(
+             "behaviour {} has no 'limit_mm'; expected one with 'stiffness_N_per_mm'; add 'limit_mm = 6'",
+             quoted(b.name)));
+  }
+  if (b.curves.limit > 0.0 && b.limit > b.curves.limit) {
+    fail(setup, path + ".limit_mm",
+         fmt::format("'limit_mm' is {}; expected at most {} mm, where response {} ends; lower it",
+                     mm(b.limit), mm(b.curves.limit), quoted(b.response)));
+  }
+}
+
+std::vector<double> distances(const ToolSpec& tool) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < tool.markers.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) all.push_back((tool.markers[i] - tool.markers[j]).norm());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+bool on_a_line(const std::vector<Vec3>& markers) {
+  double largest = 0.0;  // area of a triangle of markers, m^2
+  for (const Vec3& a : markers) {
+    for (const Vec3& b : markers)
+      largest = std::max(largest, 0.5 * (a - markers[0]).cross(b - markers[0]).norm());
+  }
+  return largest < 1e-6;
+}
+
+void check_tool(const Setup& setup, const ToolSpec& tool) {
+  const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
+  if (tool.markers.size() < 3) {
+    fail(
+        setup, key,
+        fmt::format(
+            "tool {} has {} markers; expected at least 3, or its pose is not known; add some to 'markers_mm'",
+            quoted(tool.name), tool.markers.size()));
+  }
+  if (on_a_line(tool.markers)) {
+    fail(setup, key,
+         fmt::format("the markers of tool {} are on a line; expected a triangle of at least 1 mm^2; move one "
+                     "of 'markers_mm'",
+                     quoted(tool.name)));
+  }
+  const std::vector<double> own = distances(tool);
+  for (const ToolSpec& other : setup.scene.tools) {
+    if (&other == &tool) return;
+    const auto near = [](double a, double b) { return std::abs(a - b) < kSameDistance; };
+    const std::vector<double> theirs = distances(other);
+    if (!std::equal(own.begin(), own.end(), theirs.begin(), theirs.end(), near)) continue;
+    fail(setup, key,
+         fmt::format("tools {} and {} have the same marker geometry; expected distances that differ by {} "
+                     "mm; move one of 'markers_mm'",
+                     quoted(other.name), quoted(tool.name), mm(kSameDistance)));
+  }
+}
+
+void check_user(const Setup& setup) {
+  if (!setup.scene.user) return;
+  if (setup.scene.tools.empty()) {
+    fail(setup, "user", "the user has no tool; expected at least one [[tool]]; add one or remove [user]");
+  }
+  check_named(setup, setup.scene.objects, setup.scene.user->object, "object");
+  check_named(setup, setup.scene.tools, setup.scene.user->tool, "tool");
+}
+
+void check_driver(const Setup& setup, bool named, const std::string& table, const std::string& driver) {
+  if (!named || driver != "none") return;
+  fail(setup, table,
+       fmt::format("the scene names [{}] and rig {} has none; expected a [{}] with a driver; add it to the "
+                   "rig, or use '--rig sim'",
+                   table, quoted(setup.rig_path), table));
+}
+
+void check_rig(const Setup& setup) {
+  const SceneSpec& s = setup.scene;
+  const RigSpec& r = setup.rig;
+  check_driver(setup, s.manipulator.has_value(), "manipulator", r.manipulator.driver);
+  check_driver(setup, s.force.has_value(), "force", r.force.driver);
+  check_driver(setup, s.tracker.has_value(), "tracker", r.tracker.driver);
+  check_driver(setup, s.display.has_value(), "display", r.display.driver);
+  if (r.tracker.lost_age < r.tracker.usual_age) {
+    fail(setup, "rig.tracker.lost_age_ms",
+         "'lost_age_ms' is less than 'usual_age_ms'; expected at least that; raise it");
+  }
+}
+
+}  // namespace
+
+void check(const Setup& setup) {
+  const SceneSpec& s = setup.scene;
+  if (s.objects.empty())
+    fail(
+        setup, "",
+        "the scene has no object; expected at least one [[object]]; add one, as in models/scenes/plane.toml");
+  for (const ObjectSpec& object : s.objects) check_object(setup, object);
+  for (const BehaviourSpec& behaviour : s.behaviours) check_behaviour(setup, behaviour);
+  for (const ToolSpec& tool : s.tools) check_tool(setup, tool);
+  if (s.follow.resume > s.follow.pause) {
+    fail(setup, "follow.resume_mm",
+         fmt::format("'resume_mm' is {}; expected at most 'pause_mm', {} mm; lower it", mm(s.follow.resume),
+                     mm(s.follow.pause)));
+  }
+  check_user(setup);
+  check_rig(setup);
+}
+
+}  // namespace enc::models

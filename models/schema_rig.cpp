@@ -1,0 +1,148 @@
+// What a rig says: models/rigs/*.toml without [truth]. The numbers the core works with, and the calibration
+// it believes.
+#include "models/schema.h"
+
+namespace enc::models {
+namespace {
+
+using enum Confidence;
+using enum Presence;
+
+constexpr std::array<std::string_view, 2> kTares{"start", "free"};
+constexpr std::string_view kPlace = "the lab's calibration";
+
+void describe(Visitor& v, std::string_view name, PoseSpec& p) {
+  table(v, name, [&] {
+    v.value({"position_mm", "origin of the second frame in the first", kPlace, assumed}, &p.position);
+    v.value({"rotation_deg", "about the fixed x, then y, then z axis", kPlace, assumed, {-360.0, 360.0}},
+            &p.rotation);
+  });
+}
+
+// A device table that is there must say by what the role is filled.
+void driver(Visitor& v, std::string& value) {
+  v.value({"driver", "sim, a folder of hw_drivers, or none", "rig", chosen, kAny, needed}, &value);
+}
+
+void describe(Visitor& v, ManipulatorRig& m) {
+  driver(v, m.driver);
+  v.value({"speed_mm_s", "limit of commands", "[VHMR 2]", published, kPositive}, &m.speed);
+  v.value({"acceleration_m_s2", "limit of commands", "decisions 1", derived, kPositive}, &m.acceleration);
+  v.value({"tip_radius_mm", "haptic-tip's sphere; H is its centre", "fidelity 5", assumed, kPositive},
+          &m.tip_radius);
+  v.value(
+      {"servo_hz", "believed natural frequency of the position loop", "parameters 2.1", assumed, kPositive},
+      &m.servo);
+  v.value({"servo_damping", "believed ratio of it", "fidelity 1", assumed, kPositive}, &m.servo_damping);
+  v.value({"delay_ms", "believed dead time, from command to servo", "fidelity 1", assumed, kNotNegative},
+          &m.delay);
+  table(v, "geometry", [&] { describe(v, m.geometry); });
+}
+
+void describe(Visitor& v, ForceRig& f) {
+  driver(v, f.driver);
+  v.value({"filter_hz", "corner of the low-pass on the force", "decisions 1", derived, kPositive}, &f.filter);
+  v.value({"threshold_N", "taken off the pressing force", "fidelity 1", assumed, kNotNegative}, &f.threshold);
+  v.value({"contact_N", "a pressing force from here on is a contact", "fidelity 1", assumed, kPositive},
+          &f.contact);
+  v.value({"mass_kg", "behind the sensor: gripper, adapters, tip", "parameters 2.3", assumed, kNotNegative},
+          &f.mass);
+  choice(v, {"tare", "zero once at the start, or also when free", "fidelity 1", chosen}, kTares, f.tare);
+  v.value({"tare_time_s", "of the first zero", "fidelity 1", assumed, kPositive}, &f.tare_time);
+  v.value({"tare_clearance_mm", "gap from which on the tool is clear", "fidelity 1", assumed, kPositive},
+          &f.tare_clearance);
+  v.value({"stale_ms", "an older sample is lost", "architecture B10", assumed, kPositive}, &f.stale);
+}
+
+void describe(Visitor& v, TrackerRig& t) {
+  driver(v, t.driver);
+  v.value({"usual_age_ms", "older poses are predicted and flagged", "parameters 6.3, decisions 8", derived,
+           kPositive},
+          &t.usual_age);
+  v.value({"lost_age_ms", "older poses are lost: hold", "decisions 8", chosen, kPositive}, &t.lost_age);
+  v.value(
+      {"farthest_m", "distance from C beyond which it is not a tool", "parameters 6.1", assumed, kPositive},
+      &t.farthest);
+}
+
+void describe(Visitor& v, DisplayRig& d) {
+  driver(v, d.driver);
+  v.value({"overdue_ms", "an older visual surface means hold", "[VHMR 3.5]", assumed, kPositive}, &d.overdue);
+  v.value({"margin_mm", "tolerated between seen and felt surface", "parameters 6.2", assumed, kNotNegative},
+          &d.margin);
+  v.value({"margin_speed_mm_s", "how fast that margin grows with the surface's age", "[VHMR 2]", assumed,
+           kNotNegative},
+          &d.margin_speed);
+}
+
+void describe(Visitor& v, ContactRig& c) {
+  v.value({"leave_gap_mm", "away: the gap is larger than this", "parameters 6.2", assumed, kPositive},
+          &c.leave_gap);
+  v.value(
+      {"leave_time_ms", "and no force has been felt for this long", "parameters 6.3", assumed, kNotNegative},
+      &c.leave_time);
+  v.value(
+      {"restored_um", "distance from the buffered point that counts as back", "[VHMR 2]", assumed, kPositive},
+      &c.restored);
+  v.value({"hand_stiffness_N_per_mm", "of the person at the loop's limit frequency", "parameters 5.1",
+           assumed, kPositive},
+          &c.hand_stiffness);
+  v.value({"hand_damping_Ns_per_m", "likewise", "parameters 5.1", assumed, kNotNegative}, &c.hand_damping);
+}
+
+}  // namespace
+
+void describe(Visitor& v, HexapodGeometry& g) {
+  const std::string_view source = "parameters 2.2";
+  v.value({"base_radius_mm", "of the base joints", source, derived, kPositive}, &g.base_radius);
+  v.value({"platform_radius_mm", "of the platform joints", source, derived, kPositive}, &g.platform_radius);
+  v.value({"base_half_angle_deg", "between the two joints of a pair, halved", source, derived, {0.0, 60.0}},
+          &g.base_half_angle);
+  v.value({"platform_half_angle_deg", "likewise on the platform", source, derived, {0.0, 60.0}},
+          &g.platform_half_angle);
+  v.value({"height_mm", "between the joint planes at zero", source, derived, kPositive}, &g.height);
+  v.value({"tip_height_mm", "of H above the platform's joint plane", source, assumed, kPositive},
+          &g.tip_height);
+  v.value({"stroke_mm", "of a strut, to either side", source, derived, kPositive}, &g.stroke);
+  v.value({"tilt_limit_deg", "to either side", "decisions 4", published, {0.0, 90.0, true}}, &g.tilt_limit);
+  v.value({"yaw_limit_deg", "to either side", "decisions 4", published, {0.0, 90.0, true}}, &g.yaw_limit);
+}
+
+void describe(Visitor& v, RigSpec& r) {
+  v.value({"format",
+           "version of the rig format; this program reads version 1",
+           "rig",
+           chosen,
+           {1.0, 1.0},
+           needed,
+           {},
+           true},
+          &r.format);
+  v.value({"title", "which rig it is, in a line", "rig", chosen}, &r.title);
+  table(v, "loop", [&] {
+    // Below 200 Hz a cycle is longer than 5 ms, which no time step may be (fidelity 5).
+    v.value({"rate_hz", "of the haptic loop", "[VHMR 2]", published, {200.0, 1e4}}, &r.loop.rate);
+    v.value({"late_cycles", "missed cycles that mean hold", "fidelity 5", assumed, {1.0, 1e6}},
+            &r.loop.late_cycles);
+  });
+  table(v, "frames", [&] {
+    describe(v, "W_S", r.frames.W_S);
+    describe(v, "W_C", r.frames.W_C);
+    describe(v, "G_L", r.frames.G_L);
+    describe(v, "H_F", r.frames.H_F);
+  });
+  table(v, "manipulator", [&] { describe(v, r.manipulator); });
+  table(v, "force", [&] { describe(v, r.force); });
+  table(v, "tracker", [&] { describe(v, r.tracker); });
+  table(v, "display", [&] { describe(v, r.display); });
+  table(v, "contact", [&] { describe(v, r.contact); });
+}
+
+void describe_all(Visitor& v, SceneSpec& scene, RigSpec& rig, sim::TwinSpec& twin) {
+  describe(v, scene);
+  describe_behaviours(v, scene.behaviours, true);
+  table(v, "rig", [&] { describe(v, rig); });
+  table(v, "truth", [&] { describe(v, twin); });
+}
+
+}  // namespace enc::models

@@ -1,0 +1,188 @@
+// What a scene says: models/scenes/*.toml, models/behaviours.toml, models/responses/*.toml.
+#include "models/schema.h"
+
+namespace enc::models {
+namespace {
+
+using enum Confidence;
+using enum Presence;
+
+constexpr std::array<std::string_view, 2> kShapes{"plane", "sphere"};
+constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
+constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
+constexpr std::array<std::string_view, 1> kUsers{"press_release"};
+constexpr std::string_view kAuthor = "scene";  // whoever writes it
+
+Key name_key(std::string_view meaning) { return {"name", meaning, kAuthor, chosen, kAny, needed, {}, true}; }
+
+template <class T, class Walk>
+void list(Visitor& v, std::string_view name, std::vector<T>& items, Walk walk) {
+  items.resize(v.open_list(name, items.size()));
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    v.open_entry(name, i, items[i].name);
+    walk(items[i]);
+    v.close();
+  }
+}
+
+// A part of the machine that is there only if the scene names it.
+template <class T, class Walk>
+void part(Visitor& v, std::string_view name, std::optional<T>& item, Walk walk) {
+  if (!v.open(name, item.has_value())) return item.reset();
+  if (!item) item.emplace();
+  walk(*item);
+  v.close();
+}
+
+void describe(Visitor& v, ObjectSpec& o) {
+  v.value(name_key("what --set, the user and the report call it"), &o.name);
+  choice(v, {"shape", "its undeformed surface", kAuthor, chosen, kAny, needed}, kShapes, o.shape);
+  if (o.shape == ShapeKind::sphere) {
+    v.value({"radius_mm", "radius of the sphere", "[VHMR 4.2], parameters 4.1", chosen, kPositive, needed},
+            &o.radius);
+  }
+  v.value({"position_mm", "where its origin O is in W", kAuthor, chosen, kAny, needed}, &o.position);
+  if (o.shape == ShapeKind::plane) {
+    v.value({"normal", "outward, of length 1, in W", kAuthor, chosen, {-1.0, 1.0}}, &o.normal);
+  }
+  v.value(
+      {"behaviour", "how it pushes back: an entry of models/behaviours.toml", kAuthor, chosen, kAny, needed},
+      &o.behaviour);
+  v.value({"limit_mm", "deflection limit that the device holds; unset: the behaviour's", "[VHMR 4.2]", chosen,
+           kPositive, optional},
+          &o.limit);
+}
+
+void describe(Visitor& v, ToolSpec& t) {
+  v.value(name_key("what --set, the user and the report call it"), &t.name);
+  v.value({"markers_mm", "at least 3 markers in T; the tool is recognised by them", "[VHMR 3.2]", chosen,
+           kAny, needed},
+          &t.markers);
+  v.value({"tip_mm", "centre of the tip's sphere in T", "[VHMR 3.2]", chosen, kAny, needed}, &t.tip);
+  v.value({"tip_radius_mm", "radius of the tip; 0: a point", kAuthor, chosen, kNotNegative}, &t.tip_radius);
+  v.value({"mass_kg", "tool with its markers", "parameters 5.1", assumed, kPositive}, &t.mass);
+}
+
+void describe(Visitor& v, FollowSpec& f) {
+  v.value({"inset_mm", "how far inside the surface the haptic-tip waits", "decisions 11", chosen, kPositive},
+          &f.inset);
+  v.value({"pause_mm", "a tool farther than this is not followed", "[VHMR 3.3]", published, kPositive},
+          &f.pause);
+  v.value({"resume_mm", "and is followed again when nearer than this", "fidelity 5", assumed, kPositive},
+          &f.resume);
+}
+
+void describe_presses(Visitor& v, UserSpec& u) {
+  v.value({"depth_mm", "deflection that the user wants to see", "[VHMR 4.2]", chosen, kPositive}, &u.depth);
+  v.value(
+      {"push_N", "push with this force instead, whatever the depth", kAuthor, chosen, kPositive, optional},
+      &u.push);
+  v.value({"press_s", "from touch to depth", "decisions 1", chosen, kPositive}, &u.press_time);
+  v.value({"hold_s", "at depth", kAuthor, chosen, kNotNegative}, &u.hold_time);
+  v.value({"release_s", "from depth to touch", "decisions 1", chosen, kPositive}, &u.release_time);
+  v.value({"rest_s", "between two presses", kAuthor, chosen, kNotNegative}, &u.rest_time);
+  v.value({"approach_mm_s", "speeds of the tool at the touch; one press for each", "parameters 5.2", chosen,
+           kPositive},
+          &u.approach);
+  v.value({"approach_from_mm", "distance of the start from the touched point", kAuthor, chosen, kPositive},
+          &u.approach_from);
+  v.value({"approach_tilt_deg", "of the approach from the surface normal", kAuthor, chosen, {0.0, 80.0}},
+          &u.approach_tilt);
+  v.value({"repeats", "of the whole list of presses", kAuthor, chosen, {1.0, 1e6}}, &u.repeats);
+}
+
+void describe(Visitor& v, UserSpec& u) {
+  v.value({"kind", "what the user does", kAuthor, chosen, kAny, defaulted, kUsers}, &u.kind);
+  v.value({"object", "pressed object, by name; empty: the first", kAuthor, chosen}, &u.object);
+  v.value({"tool", "held tool, by name; empty: the first", kAuthor, chosen}, &u.tool);
+  v.value({"azimuth_deg", "where on the object, from +x towards +y of W", kAuthor, chosen, {-360.0, 360.0}},
+          &u.azimuth);
+  v.value({"polar_deg", "where on the object, from +z of W; 0: from above", kAuthor, chosen, {0.0, 180.0}},
+          &u.polar);
+  v.value({"offset_mm", "sideways of the axis (indentation B)", "[VHMR 4.2]", chosen}, &u.offset);
+  describe_presses(v, u);
+}
+
+}  // namespace
+
+void describe(Visitor& v, SceneSpec& s) {
+  v.value({"format",
+           "version of the scene format; this program reads version 1",
+           kAuthor,
+           chosen,
+           {1.0, 1.0},
+           needed,
+           {},
+           true},
+          &s.format);
+  v.value({"title", "what the experiment is, in a line", kAuthor, chosen}, &s.title);
+  list(v, "object", s.objects, [&](ObjectSpec& o) { describe(v, o); });
+  list(v, "tool", s.tools, [&](ToolSpec& t) { describe(v, t); });
+  table(v, "follow", [&] { describe(v, s.follow); });
+  part(v, "manipulator", s.manipulator, [&](ManipulatorSpec& m) {
+    v.value({"kind", "which machine carries the haptic-tip", "[VHMR 2]", chosen, kAny, defaulted, kMachines},
+            &m.kind);
+  });
+  part(v, "force", s.force, [](ForceSpec&) {});
+  part(v, "tracker", s.tracker, [](TrackerSpec&) {});
+  part(v, "display", s.display, [](DisplaySpec&) {});
+  part(v, "user", s.user, [&](UserSpec& u) { describe(v, u); });
+}
+
+void describe(Visitor& v, ResponseSpec& r) {
+  const std::string_view source = "response file";
+  v.value({"limit_mm", "the polynomials hold from 0 to here", source, derived, kPositive, needed, {}, true},
+          &r.limit);
+  v.value({"press_N_per_mm_k",
+           "F = sum of a_k d^k, k = 1 to 4, pressing",
+           source,
+           derived,
+           kAny,
+           needed,
+           {},
+           true},
+          &r.press);
+  v.value({"release_N_per_mm_k", "the same, releasing", source, derived, kAny, needed, {}, true}, &r.release);
+}
+
+void describe(Visitor& v, ResponseFile& r) {
+  v.value({"format",
+           "version of the response format; this program reads version 1",
+           "decisions 20",
+           chosen,
+           {1.0, 1.0},
+           needed,
+           {},
+           true},
+          &r.format);
+  v.value({"source", "where the numbers come from", "decisions 20", chosen, kAny, needed, {}, true},
+          &r.source);
+  describe(v, r.response);
+}
+
+void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
+  v.value(name_key("what objects call it"), &b.name);
+  v.value({"response", "file in models/responses without .toml; empty: linear", "decisions 20", chosen},
+          &b.response);
+  v.value({"stiffness_N_per_mm", "of a linear surface, press and release alike", "behaviours.toml", chosen,
+           kPositive, optional},
+          &b.stiffness);
+  v.value({"limit_mm", "deflection limit; unset: that of the response file", "[VHMR 4.2]", chosen, kPositive,
+           optional},
+          &b.limit);
+  choice(v,
+         {"tangential", "what a sideways force does: nothing, or moves the contact point", "[VHMR 3.4]",
+          assumed},
+         kTangential, b.tangential);
+  const Presence sideways = b.tangential == Tangential::spring ? needed : optional;
+  v.value({"tangential_stiffness_N_per_mm", "of the sideways spring", "behaviours.toml", chosen, kPositive,
+           sideways},
+          &b.tangential_stiffness);
+  if (with_curves) table(v, "curves", [&] { describe(v, b.curves); });
+}
+
+void describe_behaviours(Visitor& v, std::vector<BehaviourSpec>& behaviours, bool with_curves) {
+  list(v, "behaviour", behaviours, [&](BehaviourSpec& b) { describe(v, b, with_curves); });
+}
+
+}  // namespace enc::models

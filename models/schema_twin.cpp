@@ -1,0 +1,107 @@
+// What the simulated devices, room and person really are: [truth.*] of models/rigs/sim.toml. The core never
+// sees it.
+#include "models/schema.h"
+
+namespace enc::models {
+namespace {
+
+using enum Confidence;
+using enum Presence;
+
+constexpr std::array<std::string_view, 5> kIntegrators{"Euler", "RK4", "implicit", "implicitfast",
+                                                       "discrete"};  // of MuJoCo
+
+void describe(Visitor& v, sim::WorldTruth& w) {
+  // 5 ms: beyond it a servo and a contact diverge (fidelity 5).
+  v.value({"timestep_us", "of MuJoCo", "decisions 27", chosen, {0.0, 5000.0, true}}, &w.timestep);
+  v.value({"integrator", "of MuJoCo", "decisions 27", chosen, kAny, defaulted, kIntegrators}, &w.integrator);
+  v.value({"tip_friction", "of the tool on the haptic-tip", "parameters 5.1", assumed, kNotNegative},
+          &w.tip_friction);
+  v.value({"contact_time_ms", "of the stop between tool and haptic-tip", "decisions 25", derived, kPositive},
+          &w.contact_time);
+}
+
+void describe(Visitor& v, sim::HexapodTruth& h) {
+  v.value({"servo_hz", "natural frequency of the position loop", "parameters 2.1", assumed, kPositive},
+          &h.servo);
+  v.value({"damping", "ratio, of the position loop", "fidelity 1", assumed, kPositive}, &h.damping);
+  v.value({"delay_cycles", "from command to servo", "fidelity 1", assumed, {0.0, 1000.0}}, &h.delay_cycles);
+  v.value({"speed_mm_s", "of the haptic-tip, at most", "[VHMR 2]", published, kPositive}, &h.speed);
+  v.value({"acceleration_m_s2", "of the haptic-tip, at most", "decisions 1", derived, kPositive},
+          &h.acceleration);
+  v.value({"step_um", "smallest change of a command", "[VHMR 2]", published, kNotNegative}, &h.step);
+  v.value({"tip_radius_mm", "haptic-tip's sphere", "fidelity 5", assumed, kPositive}, &h.tip_radius);
+  v.value({"mass_kg", "behind the sensor: gripper, adapters, tip", "parameters 2.3", assumed, kPositive},
+          &h.mass);
+  v.value({"misplaced_mm", "of the machine against where the rig says it is, in W", "injected", chosen},
+          &h.misplaced);
+  table(v, "geometry", [&] { describe(v, h.geometry); });
+}
+
+void describe(Visitor& v, sim::ForceTruth& f) {
+  v.value({"quantum_N", "step of the reading", "[VHMR 2], decisions 5", published, kNotNegative}, &f.quantum);
+  v.value({"torque_quantum_Nm", "step of the reading", "parameters 3", published, kNotNegative},
+          &f.torque_quantum);
+  v.value({"range_N", "larger forces saturate", "[VHMR 2], decisions 5", published, kPositive}, &f.range);
+  v.value({"torque_range_Nm", "larger torques saturate", "parameters 3", published, kPositive},
+          &f.torque_range);
+  v.value({"noise_N", "rms of a sample", "fidelity 1", assumed, kNotNegative}, &f.noise);
+  v.value({"torque_noise_Nm", "rms of a sample", "parameters 3", assumed, kNotNegative}, &f.torque_noise);
+  v.value({"zero_N", "rms of the zero error at power-up", "parameters 3", assumed, kNotNegative}, &f.zero);
+  v.value({"drift_N_per_sqrt_s", "random walk of the zero", "fidelity 1", assumed, kNotNegative}, &f.drift);
+  v.value(
+      {"turned_deg", "of the sensor against where the rig says it is", "injected", chosen, {-180.0, 180.0}},
+      &f.turned);
+}
+
+void describe(Visitor& v, sim::TrackerTruth& t) {
+  v.value({"rate_hz", "exposures, free-running", "[VHMR 2]", published, kPositive}, &t.rate);
+  v.value({"latency_ms", "from exposure to the server", "parameters 6.3", derived, kNotNegative}, &t.latency);
+  v.value({"server_rate_hz", "how often the server sends", "[VHMR 2]", published, kPositive}, &t.server_rate);
+  v.value({"udp_delay_ms", "mean of the exponential delay of process and network", "parameters 6.3", derived,
+           kNotNegative},
+          &t.udp_delay);
+  v.value({"bias_mm", "of registration, in W", "parameters 6.2", derived}, &t.bias);
+  v.value({"noise_mm", "rms of a frame, along the axes of W", "parameters 6.2", derived, kNotNegative},
+          &t.noise);
+  v.value({"loss", "share of packets lost", "injected", chosen, {0.0, 1.0}}, &t.loss);
+  v.value(
+      {"blackout_at_s", "one drop-out starts here; unset: none", "injected", chosen, kNotNegative, optional},
+      &t.blackout_at);
+  v.value({"blackout_for_s", "and lasts this long", "injected", chosen, kNotNegative}, &t.blackout_for);
+}
+
+void describe(Visitor& v, sim::DisplayTruth& d) {
+  v.value({"rate_hz", "frames", "parameters 6.1", assumed, kPositive}, &d.rate);
+  v.value({"latency_ms", "from a frame to its surface at the core", "parameters 6.1", assumed, kNotNegative},
+          &d.latency);
+}
+
+void describe(Visitor& v, sim::HandTruth& h) {
+  v.value({"mass_kg", "arm endpoint and hand", "parameters 5.1", published, kPositive}, &h.mass);
+  v.value({"damping_Ns_per_m", "of the arm", "parameters 5.1", published, kNotNegative}, &h.damping);
+  v.value({"stiffness_N_per_mm", "of the arm", "parameters 5.1", published, kPositive}, &h.stiffness);
+  v.value({"grip_stiffness_N_per_mm", "between hand and tool", "parameters 5.1", assumed, kPositive},
+          &h.grip_stiffness);
+  v.value({"grip_damping_Ns_per_m", "between hand and tool", "parameters 5.1", assumed, kNotNegative},
+          &h.grip_damping);
+  v.value(
+      {"integral_time_ms", "of the loop that the person closes on depth", "decisions 6", assumed, kPositive},
+      &h.integral_time);
+  v.value({"tremor_mm", "rms", "parameters 5.2", assumed, kNotNegative}, &h.tremor);
+  v.value({"tremor_rate_hz", "of the tremor", "parameters 5.2", published, kPositive}, &h.tremor_rate);
+  v.value({"drift_mm", "rms, below 2 Hz", "parameters 5.2", assumed, kNotNegative}, &h.drift);
+}
+
+}  // namespace
+
+void describe(Visitor& v, sim::TwinSpec& t) {
+  table(v, "world", [&] { describe(v, t.world); });
+  table(v, "hexapod", [&] { describe(v, t.hexapod); });
+  table(v, "force", [&] { describe(v, t.force); });
+  table(v, "tracker", [&] { describe(v, t.tracker); });
+  table(v, "display", [&] { describe(v, t.display); });
+  table(v, "hand", [&] { describe(v, t.hand); });
+}
+
+}  // namespace enc::models

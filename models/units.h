@@ -1,0 +1,27 @@
+// Units in keys: "radius_mm" is a length in mm in the file and in m in memory. The suffix says it all.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace enc::models {
+
+struct Unit {
+  std::string_view suffix;  // of the key, "_mm"; empty: a plain number
+  std::string_view label;   // "mm"
+  int power = 0;            // SI = value * 10^power
+  bool degrees = false;     // SI = value * pi / 180
+  bool per_power = false;   // polynomials: SI = value * 10^(power * k) for the coefficient of d^k
+};
+
+const Unit& unit_of(std::string_view key);
+std::string_view stem_of(std::string_view key);  // "radius_mm" -> "radius"
+
+// Powers of ten move the decimal point of the shortest text, so 0.0779 mm is exactly the number written
+// 0.0779e-3 in C++.
+double to_si(const Unit& unit, double value, int k = 1);
+// The shortest text that to_si() turns into `si` again. (A number that no text in this unit gives is replaced
+// by its neighbour.)
+std::string text_of(const Unit& unit, double si, int k = 1);
+
+}  // namespace enc::models

@@ -1,0 +1,50 @@
+// The physical tennis ball under a spherical probe: what the twin's rig presses and what the response file is
+// computed from until a real ball has been measured. Formula and values: parameters.md 4.4 (fits a
+// finite-strain solver to 1.1 % rms).
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace enc::sim {
+
+// Set "S-nominal": a dead or vented ball, about 12 N at 6 mm. A regulation ball gives 45-52 N there
+// (parameters.md 4.3). Confidence: R = reported in reviews or data sheets, S = fitted to the solver, A =
+// assumed.
+struct BallParameters {
+  double outer_radius = 33.0e-3;    // [S] m; ITF 65.4-68.6 mm diameter, middle less 0.5 mm
+  double probe_radius = 10.0e-3;    // [R] m; VHMR 4.2, the formula holds for this radius only
+  double wall = 3.5e-3;             // [R] m; rubber core, 3.3-3.7
+  double felt = 3.0e-3;             // [R] m; uncompressed, 2.5-3.3
+  double rubber_modulus = 2.60e6;   // [S] Pa; 1.9-3.4, set so that the peak at 4 mm/s is 12 N
+  double pressure = 10e3;           // [S] Pa, gauge; 0-20, not identifiable beside the modulus
+  double felt_modulus = 0.20e6;     // [S] Pa; 0.12-0.40
+  double friction = 0.10;           // [A] -; Coulomb part of the force, 0.06-0.17; bounded by the ITF loop
+  double friction_travel = 0.6e-3;  // [A] m; travel over which it reverses
+  std::array<double, 3> relaxing{0.06, 0.05, 0.05};  // [A] -; share of each rubber branch
+  std::array<double, 3> relaxation{0.05, 0.5, 5.0};  // [A] s; its time constant
+};
+
+struct BallPlantState {
+  double deflection = 0.0;           // m
+  std::array<double, 3> relaxing{};  // N, the rubber branches
+  double friction = 0.0;             // -1 ... 1, of its full value; sign of the last long travel
+};
+
+class BallPlant {
+ public:
+  explicit BallPlant(const BallParameters& parameters = {});
+
+  // Elastic force at rest, N; 0 below zero. Tabulated to 8 mm, straight on beyond (the formula is meant to 6
+  // mm).
+  [[nodiscard]] double elastic(double deflection) const;
+  // Moves the ball from state.deflection to `deflection` (m, negative: no touch) in dt (s) at a steady rate;
+  // gives the force, N.
+  double step(BallPlantState& state, double deflection, double dt) const;
+
+ private:
+  BallParameters parameters_;
+  std::vector<double> table_;  // N, elastic force every kStep
+};
+
+}  // namespace enc::sim

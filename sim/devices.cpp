@@ -1,0 +1,73 @@
+// The roles of a simulated rig: small views on one world.
+#include "sim/world.h"
+
+namespace enc::sim {
+namespace {
+
+class SimClock final : public Clock {
+ public:
+  explicit SimClock(World& world) : world_(world) {}
+  Tick next() override { return world_.advance(); }
+
+ private:
+  World& world_;
+};
+
+class SimManipulator final : public Manipulator {
+ public:
+  SimManipulator(World& world, const HexapodTruth& truth) : world_(world), truth_(truth) {}
+  [[nodiscard]] Reach reach() const override {
+    return {truth_.speed, truth_.acceleration, world_.machine.machine()};
+  }
+  Stamped<TipSample> read() noexcept override {
+    const HexapodPlant::State& s = world_.machine.state();
+    return {{s.pose, s.velocity, s.acceleration}, world_.truth().t, s.health};
+  }
+  void command(const Pose<'R', 'H'>& X_RH) noexcept override { world_.machine.command(X_RH); }
+
+ private:
+  World& world_;
+  HexapodTruth truth_;
+};
+
+class SimForceSensor final : public ForceSensor {
+ public:
+  explicit SimForceSensor(World& world) : world_(world) {}
+  Stamped<Wrench> read() noexcept override { return world_.force->sample(); }
+
+ private:
+  World& world_;
+};
+
+class SimTracker final : public PoseTracker {
+ public:
+  explicit SimTracker(World& world) : world_(world) {}
+  bool poll(Stamped<TrackedTool>& newest) noexcept override { return world_.tracker->poll(newest); }
+
+ private:
+  World& world_;
+};
+
+class SimDisplay final : public Display {
+ public:
+  explicit SimDisplay(World& world) : world_(world) {}
+  void show(const View& view) noexcept override { world_.display->show(view); }
+  bool poll(Stamped<DentSample>& newest) noexcept override { return world_.display->poll(newest); }
+
+ private:
+  World& world_;
+};
+
+}  // namespace
+
+Rig World::rig() {
+  Rig rig;
+  rig.clock = std::make_unique<SimClock>(*this);
+  rig.manipulator = std::make_unique<SimManipulator>(*this, twin_.hexapod);
+  if (force) rig.force = std::make_unique<SimForceSensor>(*this);
+  if (tracker) rig.tracker = std::make_unique<SimTracker>(*this);
+  if (display) rig.display = std::make_unique<SimDisplay>(*this);
+  return rig;
+}
+
+}  // namespace enc::sim

@@ -1,0 +1,40 @@
+#include "sim/force_plant.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rotation.h"
+
+namespace enc::sim {
+namespace {
+
+// One channel set: noise, steps, range. Says whether the range was met.
+Vec3 digitised(const Vec3& value, double quantum, double range, bool& saturated) {
+  const Vec3 stepped = quantum > 0.0 ? Vec3((value / quantum).array().round() * quantum) : value;
+  const Vec3 kept = stepped.cwiseMax(-range).cwiseMin(range);
+  saturated = saturated || kept != stepped;
+  return kept;
+}
+
+}  // namespace
+
+ForcePlant::ForcePlant(const ForceTruth& truth, std::uint64_t seed)
+    : truth_(truth), turned_(rotation_xyz(truth.turned).conjugate()) {
+  state_.noise = Stream(seed, "force");
+  state_.zero = Vec<'F'>(Vec3(truth.zero * state_.noise.normal3()));
+}
+
+void ForcePlant::measure(Time t, double dt, const Wrench& raw, const Vec<'F'>& inertia) {
+  state_.zero = state_.zero + Vec<'F'>(Vec3(truth_.drift * std::sqrt(dt) * state_.noise.normal3()));
+  const Vec3 force =
+      turned_ * (raw.force - inertia).e() + state_.zero.e() + truth_.noise * state_.noise.normal3();
+  const Vec3 torque = turned_ * raw.torque.e() + truth_.torque_noise * state_.noise.normal3();
+  bool saturated = false;
+  state_.sample.value.force = Vec<'F'>(digitised(force, truth_.quantum, truth_.range, saturated));
+  state_.sample.value.torque =
+      Vec<'F'>(digitised(torque, truth_.torque_quantum, truth_.torque_range, saturated));
+  state_.sample.t = t;
+  state_.sample.health = saturated ? Health::saturated : Health::ok;
+}
+
+}  // namespace enc::sim

@@ -1,0 +1,33 @@
+// The force/torque sensor as it reads: what MuJoCo's sensor pair says, the inertia that a placed body does
+// not show, zero error and drift, noise, steps and range. [VHMR 2, parameters 3]
+#pragma once
+
+#include "core/sample.h"
+#include "sim/random.h"
+#include "sim/twin_spec.h"
+
+namespace enc::sim {
+
+class ForcePlant {
+ public:
+  struct State {
+    Stream noise;
+    Vec<'F'> zero = Vec<'F'>::zero();  // N
+    Stamped<Wrench> sample;
+  };
+  ForcePlant(const ForceTruth& truth, std::uint64_t seed);
+
+  [[nodiscard]] const Stamped<Wrench>& sample() const { return state_.sample; }
+  [[nodiscard]] const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+  // raw: force and torque on the sensor in its true axes; inertia: m a of what is behind it, in the same
+  // axes. Once a tick.
+  void measure(Time t, double dt, const Wrench& raw, const Vec<'F'>& inertia);
+
+ private:
+  ForceTruth truth_;
+  Quat turned_;  // believed sensor axes from the true ones
+  State state_;
+};
+
+}  // namespace enc::sim

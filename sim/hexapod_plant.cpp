@@ -1,0 +1,100 @@
+#include "sim/hexapod_plant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace enc::sim {
+namespace {
+
+constexpr double kTurnSpeed = 0.6;  // rad/s (parameters 2.1)
+
+Vec3 clipped(const Vec3& v, double longest) {
+  const double size = v.norm();
+  return size > longest ? Vec3(v * (longest / size)) : v;
+}
+
+Vec3 in_steps(const Vec3& p, double step) { return step > 0.0 ? Vec3((p / step).array().round() * step) : p; }
+
+}  // namespace
+
+HexapodPlant::HexapodPlant(const HexapodTruth& truth) : truth_(truth), machine_(truth.geometry) {
+  if (truth.delay_cycles < 0 || truth.delay_cycles >= static_cast<std::int64_t>(kLongestDelay))
+    throw Error("the machine's delay is 0 to 63 cycles", "truth.hexapod.delay_cycles");
+  state_.pose = state_.wanted = state_.newest = machine_.zero();
+  state_.pending.line.fill(state_.newest);
+}
+
+void HexapodPlant::command(const Pose<'R', 'H'>& X_RH) noexcept {
+  if (!X_RH.valid()) {
+    state_.health = Health::fault;
+    return;
+  }
+  state_.health = Health::ok;
+  if (machine_.limit(X_RH) == ReachLimit::none) {
+    state_.newest = X_RH;
+    return;
+  }
+  state_.health = Health::out_of_range;
+  double lo = 0.0;
+  double hi = 1.0;
+  const Pose<'R', 'H'> from = state_.newest;
+  for (int i = 0; i < 30; ++i) {
+    const double mid = 0.5 * (lo + hi);
+    const Pose<'R', 'H'> between(from.q().slerp(mid, X_RH.q()), Vec3(from.p() + mid * (X_RH.p() - from.p())));
+    if (machine_.limit(between) == ReachLimit::none) {
+      lo = mid;
+      state_.newest = between;
+    } else {
+      hi = mid;
+    }
+  }
+}
+
+void HexapodPlant::begin_cycle() noexcept {
+  Pending& pending = state_.pending;
+  pending.line[static_cast<std::size_t>(pending.head % static_cast<std::int64_t>(kLongestDelay))] =
+      state_.newest;
+  const std::int64_t due = std::max<std::int64_t>(0, pending.head - truth_.delay_cycles);
+  ++pending.head;
+  const Pose<'R', 'H'>& command =
+      pending.line[static_cast<std::size_t>(due % static_cast<std::int64_t>(kLongestDelay))];
+  // Steps are counted from the machine's zero.
+  const Vec3 zero = machine_.zero().p();
+  state_.wanted = Pose<'R', 'H'>(Quat(command.q()), Vec3(zero + in_steps(command.p() - zero, truth_.step)));
+}
+
+void HexapodPlant::move(double timestep) noexcept {
+  follow_position(timestep);
+  follow_rotation(timestep);
+}
+
+// Second order with limits; semi-implicit, so that it stays stable at the physics step.
+void HexapodPlant::follow_position(double timestep) noexcept {
+  const double w = 2.0 * std::numbers::pi * truth_.servo;
+  const Vec3 error = state_.wanted.p() - state_.pose.p();
+  const Vec3 pull =
+      clipped(w * w * error - 2.0 * truth_.damping * w * state_.velocity.e(), truth_.acceleration);
+  const Vec3 velocity = clipped(state_.velocity.e() + timestep * pull, truth_.speed);
+  state_.acceleration = Vec<'R'>(Vec3((velocity - state_.velocity.e()) / timestep));
+  state_.velocity = Vec<'R'>(velocity);
+  const Vec3 p = state_.pose.p() + timestep * velocity;
+  std::copy_n(p.data(), 3, state_.pose.xyz.begin());
+}
+
+void HexapodPlant::follow_rotation(double timestep) noexcept {
+  const Eigen::AngleAxisd error(state_.wanted.q() * state_.pose.q().conjugate());
+  if (error.angle() == 0.0 && state_.turning.norm() == 0.0) return;
+  const double w = 2.0 * std::numbers::pi * truth_.servo;
+  const Vec3 pull = w * w * error.angle() * error.axis() - 2.0 * truth_.damping * w * state_.turning.e();
+  state_.turning = Vec<'R'>(clipped(state_.turning.e() + timestep * pull, kTurnSpeed));
+  const double angle = state_.turning.norm() * timestep;
+  if (angle == 0.0) return;
+  const Quat turned =
+      (Quat(Eigen::AngleAxisd(angle, state_.turning.e().normalized())) * state_.pose.q()).normalized();
+  std::copy_n(turned.coeffs().data(), 4, state_.pose.xyzw.begin());
+}
+
+}  // namespace enc::sim

@@ -1,0 +1,54 @@
+// The hexapod as it moves: command delay, servo lag, speed and acceleration limits, its step, its stroke.
+// Control form: the pose is prescribed to the physics, which is right because the drives are not
+// back-drivable [fidelity 4].
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/reach.h"
+#include "core/sample.h"
+#include "sim/twin_spec.h"
+
+namespace enc::sim {
+
+class HexapodPlant {
+ public:
+  static constexpr std::size_t kLongestDelay = 64;  // cycles
+  struct Pending {
+    std::array<Pose<'R', 'H'>, kLongestDelay> line;  // commands on their way, ring
+    std::int64_t head = 0;
+  };
+  // Everything that moves; trivially copyable, so that a world can be saved.
+  struct State {
+    Pending pending;
+    Pose<'R', 'H'> newest;  // last accepted command
+    Pose<'R', 'H'> wanted;  // servo set-point, in steps
+    Pose<'R', 'H'> pose;
+    Vec<'R'> velocity = Vec<'R'>::zero();
+    Vec<'R'> acceleration = Vec<'R'>::zero();
+    Vec<'R'> turning = Vec<'R'>::zero();  // angular velocity
+    Health health = Health::ok;
+  };
+
+  explicit HexapodPlant(const HexapodTruth& truth);
+
+  [[nodiscard]] const Hexapod& machine() const { return machine_; }
+  [[nodiscard]] const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+  // The set-point for the coming cycle. Not finite: refused (health fault). Out of reach: clamped on the way
+  // (health out_of_range).
+  void command(const Pose<'R', 'H'>& X_RH) noexcept;
+  void begin_cycle() noexcept;          // the command of `delay_cycles` ago becomes the servo's
+  void move(double timestep) noexcept;  // servo over one physics step
+
+ private:
+  void follow_position(double timestep) noexcept;
+  void follow_rotation(double timestep) noexcept;
+
+  HexapodTruth truth_;
+  Hexapod machine_;
+  State state_;
+};
+
+}  // namespace enc::sim

@@ -1,0 +1,59 @@
+// MuJoCo behind RAII. The only file that includes <mujoco/mujoco.h>.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mujoco/mujoco.h>
+
+namespace enc::sim {
+
+struct MjDelete {
+  void operator()(mjSpec* s) const { mj_deleteSpec(s); }
+  void operator()(mjModel* m) const { mj_deleteModel(m); }
+  void operator()(mjData* d) const { mj_deleteData(d); }
+};
+using SpecPtr = std::unique_ptr<mjSpec, MjDelete>;
+using ModelPtr = std::unique_ptr<mjModel, MjDelete>;
+using DataPtr = std::unique_ptr<mjData, MjDelete>;
+
+// A compiled model with its data. Autoreset is off: a divergence stays visible instead of turning into a
+// silent restart.
+class Physics {
+ public:
+  // Throws Error with MuJoCo's own words where the spec does not compile.
+  explicit Physics(SpecPtr spec);
+
+  [[nodiscard]] mjModel* model() const { return model_.get(); }
+  [[nodiscard]] mjData* data() const { return data_.get(); }
+  // One step. False from the first step after which the state is not to be trusted: a warning was counted or
+  // a number is not finite.
+  bool step() noexcept {
+    mj_step(model_.get(), data_.get());
+    return !warned();
+  }
+  [[nodiscard]] bool warned() const noexcept {
+    int count = 0;
+    for (const mjWarningStat& w : data_->warning) count += w.number;
+    return count != 0;
+  }
+  [[nodiscard]] std::string warning_text() const;
+  [[nodiscard]] int id(mjtObj type, const char* name) const;  // throws Error when there is none
+
+  [[nodiscard]] std::vector<double> save() const;
+  void restore(const std::vector<double>& state);
+
+ private:
+  SpecPtr spec_;
+  ModelPtr model_;
+  DataPtr data_;
+};
+
+// Process-wide: mju_error would end the program with code 1, which reads as "the answer is no" (decisions
+// 18).
+void install_mujoco_handlers();
+[[nodiscard]] std::string mujoco_version();
+
+}  // namespace enc::sim

@@ -1,0 +1,51 @@
+// The optical tracker and the way of its data: exposure, host, server tick, process and UDP delay, loss [VHMR
+// 2, 4.1; parameters 6.3].
+#pragma once
+
+#include <array>
+
+#include "core/sample.h"
+#include "core/time.h"
+#include "sim/random.h"
+#include "sim/twin_spec.h"
+
+namespace enc::sim {
+
+class TrackerPlant {
+ public:
+  struct Packet {
+    Stamped<TrackedTool> sample;
+    Time due{};  // when it reaches the core
+    bool waiting = false;
+  };
+  struct State {
+    Stream noise;
+    Every exposure, server;
+    std::array<Packet, 4> exposed;   // poses on their way to the server
+    Stamped<TrackedTool> at_server;  // newest pose that the server has
+    Time sent{};                     // stamp of the newest packet sent
+    std::array<Packet, 16> on_wire;
+    Pose<'W', 'T'> before;  // the tool one tick ago: exposures lie between ticks
+    Time before_t{};
+    Stamped<TrackedTool> arrived;  // newest that reached the core
+    bool news = false;
+    std::int64_t dropped = 0;  // packets lost
+  };
+  TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed);
+
+  [[nodiscard]] const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+  void advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT);  // once a tick, with the true pose
+  bool poll(Stamped<TrackedTool>& newest) noexcept;
+
+ private:
+  void expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT);
+  void send(Time now);
+  void deliver(Time now);
+
+  TrackerTruth truth_;
+  Pose<'C', 'W'> X_CW_;
+  State state_;
+};
+
+}  // namespace enc::sim

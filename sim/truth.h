@@ -1,0 +1,30 @@
+// What really is, in the simulator. Only benchmarks and reports may ask; the core never can.
+#pragma once
+
+#include <cstdint>
+
+#include "core/frames.h"
+#include "core/time.h"
+
+namespace enc::sim {
+
+enum class Phase : std::uint8_t { wait, approach, press, hold, release, retreat };
+
+struct Truth {
+  Time t{};
+  Point<'W'> tool_tip;  // centre of the tool's tip
+  Vec<'W'> tool_velocity = Vec<'W'>::zero();
+  Point<'W'> tip;  // centre of the haptic-tip
+  Vec<'W'> tip_velocity = Vec<'W'>::zero();
+  Vec<'W'> tip_acceleration = Vec<'W'>::zero();
+  Vec<'W'> contact_force = Vec<'W'>::zero();  // of the tool on the haptic-tip, N
+  Vec<'W'> hand_force = Vec<'W'>::zero();     // of the hand on the tool, N
+  bool touching = false;
+  double tool_radius = kUnset, tip_radius = kUnset;
+  // What the person is at: which press, and which part of it.
+  std::int32_t press = -1;
+  Phase phase = Phase::wait;
+  double approach_speed = kUnset;  // of this press, m/s
+};
+
+}  // namespace enc::sim

@@ -1,0 +1,85 @@
+// The simulator's truth: what the devices, the room and the person really are, in [truth.*] of
+// models/rigs/sim.toml. The core never sees it. Defaults are the one device set of all scenes and benchmarks;
+// sources stand beside each name in models/schema.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/rig_spec.h"
+
+namespace enc::sim {
+
+struct WorldTruth {
+  double timestep = 0.001;  // s
+  std::string integrator = "implicitfast";
+  double tip_friction = 0.6;  // tool on haptic-tip
+  double contact_time =
+      0.005;  // s, of the stop between tool and tip: a hard contact, not a rendered stiffness
+};
+
+struct HexapodTruth {
+  HexapodGeometry geometry;
+  double servo = 15.0;  // Hz, natural frequency of the position loop
+  double damping = 0.8;
+  std::int64_t delay_cycles = 4;
+  double speed = 0.050;        // m/s
+  double acceleration = 0.41;  // m/s^2
+  double step = 3e-6;          // m, of commands
+  double tip_radius = 0.005;   // m
+  double mass = 0.91;          // kg, behind the sensor
+  Vec3 misplaced{0, 0, 0};     // of the machine against the believed X_WR, m
+};
+
+struct ForceTruth {
+  double quantum = 0.025;           // N
+  double torque_quantum = 0.00125;  // N m
+  double range = 130.0;             // N
+  double torque_range = 10.0;       // N m
+  double noise = 0.0125;            // N rms
+  double torque_noise = 0.0005;     // N m rms
+  double zero = 0.5;                // N rms: zero error at power-up, constant
+  double drift = 0.002;             // N / sqrt(s): random walk of the zero
+  Vec3 turned{0, 0, 0};             // of the sensor against the believed X_HF, rad
+};
+
+struct TrackerTruth {
+  double rate = 120.0;                          // Hz, exposures, free-running
+  double latency = 0.0035;                      // s, exposure to host
+  double server_rate = 100.0;                   // Hz
+  double udp_delay = 0.0023;                    // s, mean of the exponential part (process and network)
+  Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
+  Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
+  double loss = 0.0;                            // share of packets lost
+  double blackout_at = kUnset;                  // s: one drop-out from here
+  double blackout_for = 0.0;                    // s long
+};
+
+struct DisplayTruth {
+  double rate = 60.0;      // Hz, frames
+  double latency = 0.010;  // s, frame to the surface's return at the core
+};
+
+struct HandTruth {
+  double mass = 1.35;             // kg, arm endpoint and hand
+  double damping = 12.0;          // N s/m
+  double stiffness = 250.0;       // N/m
+  double grip_stiffness = 700.0;  // N/m
+  double grip_damping = 4.0;      // N s/m
+  double integral_time = 0.05;    // s, of the depth loop the person closes while pressing
+  double tremor = 0.06e-3;        // m rms
+  double tremor_rate = 8.1;       // Hz
+  double drift = 0.15e-3;         // m rms, below 2 Hz
+};
+
+struct TwinSpec {
+  WorldTruth world;
+  HexapodTruth hexapod;
+  ForceTruth force;
+  TrackerTruth tracker;
+  DisplayTruth display;
+  HandTruth hand;
+};
+
+}  // namespace enc::sim

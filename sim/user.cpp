@@ -1,0 +1,205 @@
+#include "sim/user.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace enc::sim {
+namespace {
+
+constexpr double kWait = 0.6;      // s before the first approach: the force zero is found meanwhile
+constexpr double kClear = 0.002;   // m above the surface where a release ends
+constexpr double kSettle = 0.020;  // s in which the person takes the approach speed out after the touch
+constexpr double kSpeedUp = 0.3;   // s to reach approach speed
+constexpr double kRetreat = 0.8;   // s to go back to the start
+constexpr double kExpected =
+    1900.0;  // N/m: the stiffness that the person has learned to expect (mean of the ball's press curve)
+
+// Minimum jerk from 0 to 1 in unit time: position, velocity, acceleration.
+struct MinimumJerk {
+  double x, v, a;
+  explicit MinimumJerk(double s) {
+    s = std::clamp(s, 0.0, 1.0);
+    x = s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
+    v = 30.0 * s * s * (1.0 - s) * (1.0 - s);
+    a = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
+  }
+};
+
+}  // namespace
+
+User::User(const SceneSpec& scene, const UserSpec& spec, const HandTruth& hand, double tool_radius,
+           std::uint64_t seed)
+    : spec_(spec), hand_(hand), tool_radius_(tool_radius), press_(enc::press_point(scene, spec)) {
+  if (spec.kind != "press_release")
+    throw Error("unknown user '" + spec.kind + "'; expected \"press_release\"", "user.kind");
+  const Vec3 n = press_.normal.e();
+  const Vec3 side = Vec3::UnitX() - n * n.x();
+  const Vec3 across = side.norm() > 1e-6 ? Vec3(side.normalized()) : n.unitOrthogonal();
+  away_ = std::cos(spec.approach_tilt) * n + std::sin(spec.approach_tilt) * across;
+  touch_ = press_.point + tool_radius * press_.normal;
+  start_ = touch_ + Vec<'W'>(Vec3(spec.approach_from * away_));
+  state_.hand = start_;
+  state_.noise = Stream(seed, "hand");
+  for (double& phase : state_.tremor_phase) phase = 2.0 * std::numbers::pi * state_.noise.uniform();
+}
+
+double User::approach_speed() const {
+  return spec_.approach[static_cast<std::size_t>(state_.press) % spec_.approach.size()];
+}
+
+bool User::done() const {
+  return state_.press >=
+         static_cast<std::int32_t>(spec_.approach.size() * static_cast<std::size_t>(spec_.repeats));
+}
+
+double User::phase_time(Phase phase) const {
+  const double v = approach_speed();
+  switch (phase) {
+    case Phase::wait:
+      return state_.press == 0 ? kWait : spec_.rest_time;
+    case Phase::approach: {
+      const double speed_up = std::min(kSpeedUp, spec_.approach_from / v);
+      return speed_up + (spec_.approach_from - 0.5 * v * speed_up) / v;
+    }
+    case Phase::press:
+      return spec_.press_time;
+    case Phase::hold:
+      return spec_.hold_time;
+    case Phase::release:
+      return spec_.release_time;
+    case Phase::retreat:
+      return kRetreat;
+  }
+  return 0.0;
+}
+
+double User::duration() const {
+  double total = 1.5;
+  User probe(*this);
+  for (probe.state_.press = 0; !probe.done(); ++probe.state_.press)
+    for (const Phase phase :
+         {Phase::wait, Phase::approach, Phase::press, Phase::hold, Phase::release, Phase::retreat})
+      total += probe.phase_time(phase);
+  return total;
+}
+
+// Speeds up smoothly, then keeps the approach speed until the touch.
+User::Plan User::approach(double since) const {
+  const double v = approach_speed();
+  const double speed_up = std::min(kSpeedUp, spec_.approach_from / v);
+  const double s = std::min(1.0, since / speed_up);
+  // Speed follows a half cosine; the way is its integral.
+  const double angle = std::numbers::pi * s;
+  const double way = since < speed_up ? v * speed_up * 0.5 * (s - std::sin(angle) / std::numbers::pi)
+                                      : v * (0.5 * speed_up + since - speed_up);
+  const double speed = since < speed_up ? 0.5 * v * (1.0 - std::cos(angle)) : v;
+  const double gain = since < speed_up ? 0.5 * v * std::numbers::pi / speed_up * std::sin(angle) : 0.0;
+  return {start_.e() - away_ * way, -away_ * speed, -away_ * gain, 0.0};
+}
+
+User::Plan User::plan(double since) const {
+  const Vec3 n = press_.normal.e();
+  const auto along_normal = [&](double from, double to, double time, double at) {
+    const MinimumJerk m(at / time);
+    const double depth = from + (to - from) * m.x;
+    return Plan{touch_.e() - n * depth, -n * ((to - from) * m.v / time),
+                -n * ((to - from) * m.a / (time * time)), depth};
+  };
+  const double depth = std::isnan(spec_.push) ? spec_.depth : 0.0;
+  switch (state_.phase) {
+    case Phase::wait:
+      return {start_.e(), Vec3::Zero(), Vec3::Zero(), 0.0};
+    case Phase::approach:
+      return approach(since);
+    case Phase::press: {
+      Plan p = along_normal(0.0, depth, spec_.press_time, since);
+      const double left = std::exp(-since / kSettle);
+      p.position -= away_ * (approach_speed() * kSettle * (1.0 - left));
+      p.velocity -= away_ * (approach_speed() * left);
+      p.acceleration += away_ * (approach_speed() * left / kSettle);
+      return p;
+    }
+    case Phase::hold:
+      return along_normal(depth, depth, 1.0, since);
+    case Phase::release:
+      return along_normal(depth, -kClear, spec_.release_time, since);
+    case Phase::retreat: {
+      const MinimumJerk m(since / kRetreat);
+      const Vec3 from = touch_.e() + kClear * n;
+      const Vec3 way = start_.e() - from;
+      return {from + way * m.x, way * (m.v / kRetreat), way * (m.a / (kRetreat * kRetreat)), 0.0};
+    }
+  }
+  return {};
+}
+
+void User::next_phase(double t) {
+  if (done() || t - state_.phase_start < phase_time(state_.phase)) return;
+  state_.phase_start += phase_time(state_.phase);
+  if (state_.phase == Phase::retreat) {
+    state_.phase = Phase::wait;
+    ++state_.press;
+  } else {
+    state_.phase = static_cast<Phase>(static_cast<std::uint8_t>(state_.phase) + 1);
+  }
+}
+
+// Tremor: one sine for each axis. Drift: low-passed noise of the wanted rms below 2 Hz.
+Vec3 User::unsteadiness(double h) {
+  Vec3 tremor;
+  for (int i = 0; i < 3; ++i) {
+    state_.tremor_phase[i] += 2.0 * std::numbers::pi * hand_.tremor_rate * h;
+    tremor(i) = hand_.tremor * std::numbers::sqrt2 * std::sin(state_.tremor_phase[i]);
+  }
+  constexpr double kDriftCorner = 2.0 * std::numbers::pi * 1.0;  // rad/s
+  const double keep = std::exp(-kDriftCorner * h);
+  state_.drift = Vec<'W'>(
+      Vec3(keep * state_.drift.e() + hand_.drift * std::sqrt(1.0 - keep * keep) * state_.noise.normal3()));
+  return tremor + state_.drift.e();
+}
+
+Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
+                   bool touching) {
+  next_phase(t);
+  const Plan p = done() ? Plan{start_.e(), Vec3::Zero(), Vec3::Zero(), 0.0} : plan(t - state_.phase_start);
+  const Vec3 n = press_.normal.e();
+  const bool pressing =
+      state_.phase == Phase::press || state_.phase == Phase::hold || state_.phase == Phase::release;
+  const bool pushing = pressing && !std::isnan(spec_.push);
+
+  // Intent: the plan, plus what experience says the ball will take, plus what the depth loop has found to be
+  // missing.
+  const double depth = dot(touch_ - tool_tip, press_.normal);
+  if (touching && pressing && !pushing)
+    state_.integral += h * (p.depth - depth) / hand_.integral_time;
+  else
+    state_.integral *= std::exp(-h / hand_.integral_time);
+  const double series = hand_.stiffness * hand_.grip_stiffness / (hand_.stiffness + hand_.grip_stiffness);
+  const double expected = pressing ? std::max(0.0, p.depth) * kExpected / series : 0.0;
+  const Vec3 intent = p.position + unsteadiness(h) - n * (expected + state_.integral);
+
+  const Vec3 grip = hand_.grip_stiffness * (state_.hand - tool_tip).e() +
+                    hand_.grip_damping * (state_.hand_velocity - tool_velocity).e();
+  Vec3 arm = hand_.stiffness * (intent - state_.hand.e()) +
+             hand_.damping * (p.velocity - state_.hand_velocity.e()) + hand_.mass * p.acceleration;
+  if (pushing) {
+    const double since = t - state_.phase_start;
+    const double share = state_.phase == Phase::press ? MinimumJerk(since / spec_.press_time).x
+                         : state_.phase == Phase::release
+                             ? 1.0 - MinimumJerk(since / (0.5 * spec_.release_time)).x
+                             : 1.0;
+    // Along the normal the arm is no longer a spring to a place but a force, damped.
+    const double free = std::min(1.0, 4.0 * share);
+    arm -= n * (free * (n.dot(arm) + hand_.damping * n.dot(state_.hand_velocity.e())) + spec_.push * share);
+  }
+  const Vec3 velocity = state_.hand_velocity.e() + h * (arm - grip) / hand_.mass;
+  state_.hand_velocity = Vec<'W'>(velocity);
+  state_.hand = state_.hand + Vec<'W'>(Vec3(h * velocity));
+  state_.touching = touching;
+  return Vec<'W'>(grip);
+}
+
+}  // namespace enc::sim

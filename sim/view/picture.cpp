@@ -1,0 +1,67 @@
+#include "sim/view/picture.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include <png.h>
+
+#include "core/error.h"
+
+namespace enc::sim {
+
+void flip(Picture& picture) {
+  const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
+  for (int y = 0; y < picture.height / 2; ++y)
+    std::swap_ranges(picture.at(0, y), picture.at(0, y) + row, picture.at(0, picture.height - 1 - y));
+}
+
+void stroke(Picture& picture, double x0, double y0, double x1, double y1, double width, double dot, Ink ink) {
+  const double dx = x1 - x0;
+  const double dy = y1 - y0;
+  const double length2 = std::max(1e-9, dx * dx + dy * dy);
+  const double margin = std::max(width, dot) + 1.0;
+  const auto whole = [](double v, int most) { return std::clamp(static_cast<int>(v), 0, most - 1); };
+  for (int y = whole(std::min(y0, y1) - margin, picture.height);
+       y <= whole(std::max(y0, y1) + margin, picture.height); ++y)
+    for (int x = whole(std::min(x0, x1) - margin, picture.width);
+         x <= whole(std::max(x0, x1) + margin, picture.width); ++x) {
+      const double share = std::clamp(((x - x0) * dx + (y - y0) * dy) / length2, 0.0, 1.0);
+      const bool on_line = std::hypot(x - x0 - share * dx, y - y0 - share * dy) <= 0.5 * width;
+      if (on_line || std::hypot(x - x1, y - y1) <= dot) std::copy(ink.begin(), ink.end(), picture.at(x, y));
+    }
+}
+
+void ink_through(Picture& picture, const Picture& mask, Ink ink) {
+  for (std::size_t i = 0; i < std::min(picture.rgb.size(), mask.rgb.size()); ++i)
+    picture.rgb[i] =
+        static_cast<std::uint8_t>((picture.rgb[i] * (255 - mask.rgb[i]) + ink[i % 3] * mask.rgb[i]) / 255);
+}
+
+Picture shrunk(const Picture& picture, int factor) {
+  Picture small(picture.width / factor, picture.height / factor);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        int sum = 0;
+        for (int j = 0; j < factor; ++j)
+          for (int i = 0; i < factor; ++i) sum += picture.at(x * factor + i, y * factor + j)[c];
+        small.at(x, y)[c] = static_cast<std::uint8_t>(sum / (factor * factor));
+      }
+  return small;
+}
+
+void write_png(const Picture& picture, const std::string& path) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(picture.width);
+  image.height = static_cast<png_uint_32>(picture.height);
+  image.format = PNG_FORMAT_RGB;
+  errno = 0;
+  if (png_image_write_to_file(&image, path.c_str(), 0, picture.rgb.data(), 0, nullptr) != 0) return;
+  throw Error(path + ": cannot be written (" + (errno != 0 ? std::strerror(errno) : image.message) +
+              "); give --shot a file in a folder that you may write to");
+}
+
+}  // namespace enc::sim

@@ -1,0 +1,62 @@
+// The view module: draws a picture of a simulated world off screen and writes it as PNG. It is a shared
+// object of its own, so that nothing but `encounter view` maps OpenGL.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+
+struct mjModel_;
+struct mjData_;
+
+namespace enc::sim {
+
+using Colour = std::array<float, 4>;  // red, green, blue, opacity; 0 to 1
+
+// What is drawn besides the model's own bodies.
+struct ViewRod {  // a leg, a strut
+  Point<'W'> from, to;
+  double radius = 0.002;  // m
+  Colour colour{0.7F, 0.7F, 0.7F, 1.0F};
+};
+struct ViewArrow {
+  Point<'W'> from;
+  Vec<'W'> along;         // to its point, m
+  double radius = 0.002;  // m
+  Colour colour{0.9F, 0.1F, 0.1F, 1.0F};
+};
+struct ViewLabel {  // written in the margin, with a line to what it names
+  std::string text;
+  Point<'W'> at;
+  bool left = false;  // margin
+};
+
+struct Camera {
+  double azimuth = 2.0;     // rad; direction of sight about z of W, 0 looks along +x
+  double elevation = -0.2;  // rad; negative looks down
+  double distance = 1.0;    // m, from look_at
+  double opening = 0.6;     // rad, vertical
+  Point<'W'> look_at{0, 0, 0};
+};
+
+struct ViewRequest {
+  const mjModel_* model = nullptr;
+  mjData_* data = nullptr;
+  int width = 1000, height = 700;  // pixels
+  Camera camera;
+  double floor = kUnset;  // m, height of the floor in W; unset: none
+  std::vector<ViewRod> rods;
+  std::vector<ViewArrow> arrows;
+  std::vector<ViewLabel> labels;
+  std::string title;  // top left; may be empty
+  std::string path;   // of the PNG
+};
+
+struct ViewModule {
+  // Throws Error: kind device where there is no EGL or Mesa, kind input where the file cannot be written.
+  void (*shot)(const ViewRequest& request) = nullptr;
+};
+
+}  // namespace enc::sim

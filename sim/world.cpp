@@ -1,0 +1,196 @@
+#include "sim/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "sim/model.h"
+
+namespace enc::sim {
+namespace {
+
+constexpr double kGravity = 9.80665;  // m/s^2; MuJoCo's own is set to it
+
+const ToolSpec* held_tool(const SceneSpec& scene) {
+  if (!scene.user || scene.tools.empty()) return nullptr;
+  const auto named = std::find_if(scene.tools.begin(), scene.tools.end(),
+                                  [&](const ToolSpec& t) { return t.name == scene.user->tool; });
+  return named == scene.tools.end() ? &scene.tools.front() : &*named;
+}
+
+// The person points the tool along the surface normal: tip towards the surface, markers away from it.
+Quat tool_orientation(const ToolSpec& tool, const Vec3& normal) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& marker : tool.markers) middle += marker / static_cast<double>(tool.markers.size());
+  const Vec3 shaft = middle - tool.tip;
+  return shaft.norm() > 1e-9 ? Quat::FromTwoVectors(shaft, normal) : Quat::Identity();
+}
+
+std::optional<User> make_user(const WorldSpec& spec, const ToolSpec* tool) {
+  if (tool == nullptr) return std::nullopt;
+  return User(spec.scene, *spec.scene.user, spec.twin.hand, tool->tip_radius, spec.seed);
+}
+
+Pose<'W', 'R'> true_base(const WorldSpec& spec) {
+  return {Quat(spec.prepared.X_WR.q()), Vec3(spec.prepared.X_WR.p() + spec.twin.hexapod.misplaced)};
+}
+
+SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
+  return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, X_WR, spec.mjcf_dir, spec.draw_all});
+}
+
+int whole_steps(double dt, double timestep) {
+  const double steps = dt / timestep;
+  if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6)
+    throw Error("the physics time step must divide the haptic period", "truth.world.timestep");
+  return static_cast<int>(std::lround(steps));
+}
+
+}  // namespace
+
+World::World(const WorldSpec& spec)
+    : machine(spec.twin.hexapod),
+      twin_(spec.twin),
+      dt_(1.0 / spec.rig.loop.rate),
+      steps_per_tick_(whole_steps(dt_, spec.twin.world.timestep)),
+      X_WR_(true_base(spec)),
+      X_HF_(spec.prepared.X_HF),
+      q_WT_(held_tool(spec.scene) == nullptr
+                ? Quat::Identity()
+                : tool_orientation(*held_tool(spec.scene),
+                                   enc::press_point(spec.scene, *spec.scene.user).normal.e())),
+      user_(make_user(spec, held_tool(spec.scene))),
+      physics_(model_of(spec, held_tool(spec.scene), q_WT_, X_WR_)) {
+  if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
+  if (spec.scene.tracker) tracker.emplace(spec.twin.tracker, spec.prepared.X_WC, spec.seed);
+  if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
+  const mjModel* m = physics_.model();
+  const int platform = physics_.id(mjOBJ_JOINT, "platform");
+  platform_qpos_ = m->jnt_qposadr[platform];
+  platform_qvel_ = m->jnt_dofadr[platform];
+  const int platform_body = physics_.id(mjOBJ_BODY, "platform");
+  physics_.data()->xfrc_applied[6 * platform_body + 2] =
+      kGravity * m->body_subtreemass[platform_body];  // it floats
+  tip_geom_ = physics_.id(mjOBJ_GEOM, "haptic_tip");
+  next_.dt = from_seconds(dt_);
+  truth_.tip_radius = spec.twin.hexapod.tip_radius;
+  if (const ToolSpec* tool = held_tool(spec.scene)) {
+    tool_ = static_cast<std::int32_t>(tool - spec.scene.tools.data());
+    tip_T_ = tool->tip;
+    truth_.tool_radius = tool->tip_radius;
+    tool_body_ = physics_.id(mjOBJ_BODY, "tool");
+    tool_qpos_ = m->jnt_qposadr[m->body_jntadr[tool_body_]];
+    tool_qvel_ = m->jnt_dofadr[m->body_jntadr[tool_body_]];
+    std::copy_n(user_->start().xyz.begin(), 3, physics_.data()->qpos + tool_qpos_);
+  }
+  place_machine(machine.state(), machine.state());
+  mj_forward(physics_.model(), physics_.data());
+  observe(next_.t);
+}
+
+// The platform's pose and velocity are prescribed. Not a mocap body: that has no velocity, so a contact with
+// a tip that moves away at 1 mm/s was damped as if the tip stood still, and was lost for single steps.
+void World::place_machine(const HexapodPlant::State& from, const HexapodPlant::State& to) {
+  const Pose<'W', 'H'> X_WH = X_WR_ * from.pose;
+  mjData* d = physics_.data();
+  std::copy_n(X_WH.xyz.begin(), 3, d->qpos + platform_qpos_);
+  double* q = d->qpos + platform_qpos_ + 3;
+  q[0] = X_WH.xyzw[3];
+  std::copy_n(X_WH.xyzw.begin(), 3, q + 1);
+  const Vec3 velocity = X_WR_.q() * to.velocity.e();
+  const Vec3 turning = from.pose.q().conjugate() * to.turning.e();  // MuJoCo wants it in the body's axes
+  std::copy_n(velocity.data(), 3, d->qvel + platform_qvel_);
+  std::copy_n(turning.data(), 3, d->qvel + platform_qvel_ + 3);
+}
+
+void World::physics_step(double t) {
+  const double h = physics_.model()->opt.timestep;
+  mjData* d = physics_.data();
+  if (user_) {
+    const double* q = d->qpos + tool_qpos_;
+    const double* v = d->qvel + tool_qvel_;
+    const Point<'W'> at(q[0], q[1], q[2]);
+    const Vec<'W'> moving(v[0], v[1], v[2]);
+    truth_.hand_force = user_->act(t, h, at, moving, truth_.touching);
+    double* applied = d->xfrc_applied + 6 * tool_body_;
+    for (std::size_t i = 0; i < 3; ++i) applied[i] = truth_.hand_force.xyz[i];
+    applied[2] += kGravity * physics_.model()->body_mass[tool_body_];  // the hand carries the tool
+  }
+  const HexapodPlant::State before = machine.state();
+  machine.move(h);
+  place_machine(before, machine.state());
+  if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
+  truth_.contact_force = contact_force(truth_.touching);
+}
+
+Vec<'W'> World::contact_force(bool& touching) const {
+  const mjModel* m = physics_.model();
+  const mjData* d = physics_.data();
+  Vec3 total = Vec3::Zero();
+  touching = false;
+  for (int i = 0; i < d->ncon; ++i) {
+    const mjContact& contact = d->contact[i];
+    if (contact.efc_address < 0) continue;
+    double local[6];
+    mj_contactForce(m, d, i, local);
+    // Rows of the frame are its axes in the world; the force is on geom[1].
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(contact.frame);
+    const Vec3 pushed = axes.transpose() * Vec3(local[0], local[1], local[2]);
+    total += contact.geom[1] == tip_geom_ ? pushed : Vec3(-pushed);
+    touching = touching || local[0] > 0.0;
+  }
+  return Vec<'W'>(total);
+}
+
+void World::observe(Time t) {
+  const HexapodPlant::State& s = machine.state();
+  truth_.t = t;
+  truth_.tip = X_WR_ * s.pose.origin();
+  truth_.tip_velocity = X_WR_ * s.velocity;
+  truth_.tip_acceleration = X_WR_ * s.acceleration;
+  if (!user_) return;
+  const mjData* d = physics_.data();
+  const double* q = d->qpos + tool_qpos_;
+  const double* v = d->qvel + tool_qvel_;
+  truth_.tool_tip = Point<'W'>(q[0], q[1], q[2]);
+  truth_.tool_velocity = Vec<'W'>(v[0], v[1], v[2]);
+  truth_.press = user_->state().press;
+  truth_.phase = user_->state().phase;
+  truth_.approach_speed = user_->approach_speed();
+}
+
+void World::sense(Time t) {
+  const mjData* d = physics_.data();
+  if (force) {
+    // MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on
+    // the sensor: contact plus weight. Inertia is missing, because the platform is placed and not
+    // accelerated.
+    const Pose<'R', 'F'> X_RF = machine.state().pose * X_HF_;
+    const Vec<'F'> inertia = X_RF.inverse() * (twin_.hexapod.mass * machine.state().acceleration);
+    const Wrench raw{Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
+                     Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
+    force->measure(t, dt_, raw, inertia);
+  }
+  if (tracker && tool_ >= 0) {
+    const Vec3 origin = truth_.tool_tip.e() - q_WT_ * tip_T_;
+    tracker->advance(t, tool_, Pose<'W', 'T'>(q_WT_, origin));
+  }
+  if (display) display->advance(t);
+}
+
+Tick World::advance() {
+  const Tick tick = next_;
+  if (tick.index > 0) {
+    machine.begin_cycle();
+    const double from = seconds((tick.t - tick.dt).time_since_epoch());
+    for (int i = 0; i < steps_per_tick_; ++i) physics_step(from + i * physics_.model()->opt.timestep);
+  }
+  observe(tick.t);
+  sense(tick.t);
+  ++next_.index;
+  next_.t = Time(Duration(next_.index * next_.dt.count()));
+  return tick;
+}
+
+}  // namespace enc::sim

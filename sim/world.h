@@ -1,0 +1,85 @@
+// The twin: one MuJoCo world with the plants of the devices that a scene names. It owns time; the roles are
+// views on it.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/rig.h"
+#include "sim/display_plant.h"
+#include "sim/force_plant.h"
+#include "sim/hexapod_plant.h"
+#include "sim/mujoco.h"
+#include "sim/tracker_plant.h"
+#include "sim/truth.h"
+#include "sim/user.h"
+
+namespace enc::sim {
+
+struct WorldSpec {
+  const SceneSpec& scene;
+  const RigSpec& rig;
+  const TwinSpec& twin;
+  const Scene& prepared;  // must outlive the world: the display draws its surfaces
+  std::string mjcf_dir;
+  std::uint64_t seed = 1;
+  bool draw_all = false;
+};
+
+class World {
+ public:
+  explicit World(const WorldSpec& spec);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  // The devices that the scene names. The rig must not outlive the world.
+  [[nodiscard]] Rig rig();
+  // Advances to the next tick: n physics steps under the last command.
+  Tick advance();
+
+  [[nodiscard]] const Truth& truth() const { return truth_; }
+  [[nodiscard]] bool user_done() const { return !user_ || user_->done(); }
+  [[nodiscard]] double user_duration() const { return user_ ? user_->duration() : 10.0; }
+  // Tick after which the physics is not to be trusted, -1 while it is sound, and MuJoCo's own words.
+  [[nodiscard]] std::int64_t diverged_at() const { return diverged_at_; }
+  [[nodiscard]] std::string divergence() const { return physics_.warning_text(); }
+  [[nodiscard]] Physics& physics() { return physics_; }
+  [[nodiscard]] const Pose<'W', 'R'>& X_WR() const { return X_WR_; }
+
+  // Everything that moves: physics, plants, queues, random streams.
+  [[nodiscard]] std::vector<std::byte> save() const;
+  void restore(const std::vector<std::byte>& saved);
+
+  HexapodPlant machine;
+  std::optional<ForcePlant> force;
+  std::optional<TrackerPlant> tracker;
+  std::optional<DisplayPlant> display;
+
+ private:
+  void physics_step(double t);
+  void place_machine(const HexapodPlant::State& from, const HexapodPlant::State& to);
+  void observe(Time t);
+  void sense(Time t);
+  [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
+
+  TwinSpec twin_;
+  double dt_;
+  int steps_per_tick_;
+  Pose<'W', 'R'> X_WR_;  // true
+  Pose<'H', 'F'> X_HF_;
+  Quat q_WT_ = Quat::Identity();
+  Vec3 tip_T_{0, 0, 0};
+  std::int32_t tool_ = -1;
+  std::optional<User> user_;
+  Physics physics_;
+  int tool_body_ = -1, tip_geom_ = -1;
+  int platform_qpos_ = 0, platform_qvel_ = 0, tool_qpos_ = 0, tool_qvel_ = 0;
+  Tick next_;
+  Truth truth_;
+  std::int64_t diverged_at_ = -1;
+};
+
+}  // namespace enc::sim

@@ -1,0 +1,2 @@
+// The program's loader, compiled into this test program: app/ is not a library.
+#include "app/modules.cpp"

@@ -1,0 +1,213 @@
+// The ball's response under random motion: no free energy, no jump, one deflection for each force.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "benchmarks/response_source.h"
+#include "core/loop_model.h"
+#include "core/response.h"
+#include "models/response_fit.h"
+
+namespace enc {
+namespace {
+
+constexpr double kLimit = 6e-3;  // m
+
+const ResponseSpec& ball_spec() {
+  static const ResponseSpec kSpec =
+      models::fit_response(bench::plant_loop({}, 4e-3, kLimit), kLimit, bench::fit_floor(LoopModel{})).spec;
+  return kSpec;
+}
+Response ball() { return {ball_spec(), bench::fit_floor(LoopModel{})}; }
+
+double uniform(std::mt19937_64& random, double lo, double hi) {
+  return std::uniform_real_distribution<double>(lo, hi)(random);
+}
+
+// Deflections from `from` to `to` (m) in steps no longer than `step`, `from` left out.
+void append(std::vector<double>& path, double from, double to, double step) {
+  const auto count = std::max(1L, std::lround(std::ceil(std::abs(to - from) / step)));
+  for (long i = 1; i <= count; ++i)
+    path.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
+}
+
+// Starts and ends at `base`; 2 to 12 turns anywhere. Some turns come close together, where loops are least
+// complete.
+std::vector<double> closed_path(std::mt19937_64& random, double base, double slowest, double fastest) {
+  std::vector<double> path;
+  double at = base;
+  const auto turns = static_cast<int>(uniform(random, 2.0, 13.0));
+  for (int i = 0; i < turns; ++i) {
+    const bool near = uniform(random, 0.0, 1.0) < 0.3;
+    const double to =
+        near ? std::clamp(at + uniform(random, -0.3e-3, 0.3e-3), 0.0, kLimit) : uniform(random, 0.0, kLimit);
+    append(path, at, to, uniform(random, slowest, fastest));
+    at = to;
+  }
+  append(path, at, base, fastest);
+  return path;
+}
+
+// Work done on the object along the path by the trapezoid rule, J.
+double work(const Response& r, ResponseState& s, const std::vector<double>& path) {
+  double sum = 0.0;
+  double d = s.deflection;
+  double force = r.force(s, d);
+  for (const double to : path) {
+    const double now = r.force(s, to);
+    sum += 0.5 * (force + now) * (to - d);
+    d = to;
+    force = now;
+  }
+  return sum;
+}
+
+// Speeds of a hand, 2 to 20 mm/s at 1 kHz. Every other path starts from rest at zero and counts from its
+// first cycle; the others start anywhere inside and count in their third, when the state has closed too.
+TEST(ResponseProperty, NoClosedPathYieldsEnergy) {
+  const Response r = ball();
+  std::mt19937_64 random(1);
+  double least = 1e9;
+  double most = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    const double base = n % 2 == 0 ? 0.0 : uniform(random, 0.2e-3, kLimit);
+    const std::vector<double> path = closed_path(random, base, 2e-6, 20e-6);
+    ResponseState s;
+    if (base > 0.0) {
+      r.force(s, base);
+      for (int cycle = 0; cycle < 2; ++cycle) work(r, s, path);
+    }
+    const double absorbed = work(r, s, path);
+    ASSERT_GE(absorbed, -1e-6) << "path " << n;  // J: -1e-3 mJ
+    least = std::min(least, absorbed);
+    most = std::max(most, absorbed);
+  }
+  EXPECT_GT(most, 1e-3) << "the paths do not turn far enough to show anything";
+  RecordProperty("least_absorbed_nJ", std::to_string(least * 1e9));
+}
+
+// Storage S = integral of F_release + L alpha^2 / 2. Step by step, work done >= S gained, where the object
+// does not recover.
+TEST(ResponseProperty, StorageBalanceHoldsInEveryStep) {
+  const Response r = ball();
+  const ResponseSpec& spec = ball_spec();
+  const double stop = r.largest_gap() * Response::kBlend;  // L, N m
+  const auto storage = [&](const ResponseState& s) {
+    double sum = 0.0;
+    double power = s.deflection;
+    for (std::size_t k = 0; k < 4; ++k) {
+      power *= s.deflection;
+      sum += spec.release[k] * power / static_cast<double>(k + 2);
+    }
+    return sum + 0.5 * stop * s.alpha * s.alpha;
+  };
+  std::mt19937_64 random(2);
+  double worst = 1e9;
+  for (int n = 0; n < 20; ++n) {
+    // 0.5 um: the trapezoid cuts the kink where alpha saturates by gap^2/L step^2/8 = 1.4e-10 J
+    const std::vector<double> path = closed_path(random, 1e-3, 0.5e-6, 0.5e-6);
+    ResponseState s;
+    r.force(s, 1e-3);
+    for (const double to : path) {
+      const ResponseState before = s;
+      ResponseState same = s;
+      const double from_force = r.force(same, s.deflection);
+      const double done = 0.5 * (from_force + r.force(s, to)) * (to - before.deflection);
+      if (s.deflection > 0.0 && before.deflection > 0.0)
+        worst = std::min(worst, done - (storage(s) - storage(before)));
+    }
+  }
+  EXPECT_GE(worst, -1e-9);
+}
+
+// Press, release to some depth, press again, release, at 4 mm/s and 1 kHz (4 um a tick), every pair of depths
+// on a 0.2 mm grid.
+TEST(ResponseProperty, ReversalsDoNotJump) {
+  const Response r = ball();
+  double largest = 0.0;
+  for (int top = 1; top <= 30; ++top)
+    for (int low = 0; low < top; ++low) {
+      std::vector<double> path;
+      append(path, 0.0, top * 0.2e-3, 4e-6);
+      append(path, top * 0.2e-3, low * 0.2e-3, 4e-6);
+      append(path, low * 0.2e-3, top * 0.2e-3, 4e-6);
+      append(path, top * 0.2e-3, 0.0, 4e-6);
+      ResponseState s;
+      double force = 0.0;
+      for (const double d : path) {
+        const double now = r.force(s, d);
+        largest = std::max(largest, std::abs(now - force));
+        force = now;
+      }
+    }
+  EXPECT_LE(largest, 0.03);
+  EXPECT_GT(largest, 0.01);  // N, one tick of the press curve alone: 2.4 N/mm * 4 um
+  RecordProperty("largest_step_mN", std::to_string(largest * 1e3));
+}
+
+TEST(ResponseProperty, InverseFindsEveryForce) {
+  const Response r = ball();
+  std::mt19937_64 random(3);
+  double worst = 0.0;
+  for (int n = 0; n < 100000; ++n) {
+    const ResponseState from{uniform(random, 0.0, kLimit), uniform(random, 0.0, 1.0)};
+    ResponseState at_limit = from;
+    const double most = r.force(at_limit, kLimit);
+    // A third of the forces are tiny: there the curves are softest.
+    const double wanted =
+        n % 3 == 0 ? std::pow(10.0, uniform(random, -9.0, 0.0)) : uniform(random, 0.0, most);
+    ResponseState s = from;
+    const double d = r.deflection(s, wanted);
+    ASSERT_GT(d, 0.0);
+    ResponseState check = from;
+    worst = std::max(worst, std::abs(r.force(check, d) - wanted));
+    ASSERT_NEAR(check.alpha, s.alpha, 1e-9);
+  }
+  EXPECT_LE(worst, 1e-9);
+}
+
+TEST(ResponseProperty, DeflectionRisesWithForce) {
+  const Response r = ball();
+  std::mt19937_64 random(4);
+  for (int n = 0; n < 20000; ++n) {
+    const ResponseState from{uniform(random, 0.0, kLimit), uniform(random, 0.0, 1.0)};
+    const double softer = uniform(random, 0.0, 11.0);
+    const double harder = softer + std::pow(10.0, uniform(random, -6.0, 0.0));
+    ResponseState a = from;
+    ResponseState b = from;
+    const double d = r.deflection(a, softer);
+    if (d >= kLimit) continue;
+    ASSERT_LT(d, r.deflection(b, harder)) << softer << " N, " << harder << " N";
+  }
+}
+
+// A hand that rests is not still: +-30 um (fidelity C6). Near zero and where a press to the limit ends, the
+// force moves by less than 0.25 N. Not so in the middle (2.4 to 5.3 mm), where the loop is widest: the blend
+// is as steep as slope + gap^2 / L = 6.4 N/mm, and 60 um of it are 0.39 N.
+TEST(ResponseProperty, NoiseAtRestStaysSmall) {
+  const Response r = ball();
+  std::mt19937_64 random(5);
+  const auto peak_to_peak = [&](double depth) {
+    ResponseState s;
+    double lo = 1e9;
+    double hi = -1e9;
+    r.force(s, depth);
+    for (int i = 0; i < 5000; ++i) {
+      const double force = r.force(s, depth + uniform(random, -30e-6, 30e-6));
+      lo = std::min(lo, force);
+      hi = std::max(hi, force);
+    }
+    return hi - lo;
+  };
+  for (const double depth : {0.5e-3, 1e-3, 2e-3, 5.5e-3, 5.9e-3, 5.97e-3})
+    EXPECT_LE(peak_to_peak(depth), 0.25) << depth;
+  for (double depth = 0.1e-3; depth < 5.97e-3; depth += 0.1e-3) EXPECT_LE(peak_to_peak(depth), 0.40) << depth;
+}
+
+}  // namespace
+}  // namespace enc

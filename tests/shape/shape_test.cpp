@@ -1,0 +1,220 @@
+// The shape of the sources: who includes whom, what must not be said where, how large things may be. Each
+// test prints all offenders.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/frames.h"
+
+namespace enc {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kRoot = ENCOUNTER_SOURCE_DIR;
+const std::vector<std::string> kFolders{"core", "sim", "models", "hw_drivers", "benchmarks", "app"};
+
+struct Source {
+  std::string name;    // from the root, "core/step.cpp"
+  std::string folder;  // the first part of it
+  std::vector<std::string> lines;
+  std::vector<std::string> code;  // the same without comments and without what stands in quotes
+};
+
+bool is_source(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
+
+// Comments and quoted text become nothing; an include keeps its name, because the layering is read from
+// `lines`.
+std::vector<std::string> without_words(const std::vector<std::string>& lines) {
+  static const std::regex kQuoted(R"re("(\\.|[^"\\])*"|'(\\.|[^'\\])')re");
+  std::vector<std::string> code;
+  bool block = false;
+  for (const std::string& line : lines) {
+    std::string text = std::regex_replace(line, kQuoted, "\"\"");
+    if (block) {
+      const auto end = text.find("*/");
+      block = end == std::string::npos;
+      text = block ? "" : text.substr(end + 2);
+    }
+    if (const auto start = text.find("/*"); start != std::string::npos) {
+      block = text.find("*/", start) == std::string::npos;
+      text = text.substr(0, start);
+    }
+    code.push_back(text.substr(0, text.find("//")));
+  }
+  return code;
+}
+
+const std::vector<Source>& sources() {
+  static const std::vector<Source> kAll = [] {
+    std::vector<Source> all;
+    for (const std::string& folder : kFolders) {
+      if (!fs::exists(kRoot / folder)) continue;
+      for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+        if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+        Source source{fs::relative(entry.path(), kRoot).generic_string(), folder, {}, {}};
+        std::ifstream in(entry.path());
+        for (std::string line; std::getline(in, line);) source.lines.push_back(line);
+        source.code = without_words(source.lines);
+        all.push_back(std::move(source));
+      }
+    }
+    return all;
+  }();
+  return kAll;
+}
+
+struct Include {
+  std::string name;
+  bool ours = false;  // "..." and not <...>
+};
+std::vector<Include> includes(const Source& source) {
+  static const std::regex kInclude(R"re(^\s*#\s*include\s*([<"])([^>"]+)[>"])re");
+  std::vector<Include> found;
+  std::smatch match;
+  for (const std::string& line : source.lines)
+    if (std::regex_search(line, match, kInclude)) found.push_back({match[2], match[1] == "\""});
+  return found;
+}
+std::string first_part(const std::string& name) { return name.substr(0, name.find('/')); }
+bool starts(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
+
+TEST(Shape, ThereAreSources) { EXPECT_GT(sources().size(), 40U); }
+
+TEST(Shape, NothingIncludesWhatIsAboveIt) {
+  const std::map<std::string, std::set<std::string>> allowed{
+      {"core", {"core"}},
+      {"sim", {"core", "sim"}},
+      {"models", {"core", "models"}},
+      {"hw_drivers", {"core", "hw_drivers"}},
+      {"benchmarks", {"core", "sim", "models", "benchmarks"}},
+      {"app", {"core", "sim", "models", "hw_drivers", "benchmarks", "app"}}};
+  for (const Source& source : sources())
+    for (const Include& include : includes(source)) {
+      if (!include.ours || include.name == "encounter_version.h") continue;
+      const bool spec = source.folder == "models" &&
+                        include.name == "sim/twin_spec.h";  // a file format is data, wherever it stands
+      EXPECT_TRUE(spec || allowed.at(source.folder).contains(first_part(include.name)))
+          << source.name << " includes " << include.name;
+    }
+}
+
+TEST(Shape, LibrariesStayInTheirFiles) {
+  static const std::regex kStandard("[a-z0-9_]+");
+  for (const Source& source : sources())
+    for (const Include& include : includes(source)) {
+      if (include.ours) continue;
+      const std::string& name = include.name;
+      const bool good =
+          (source.folder != "core" || starts(name, "Eigen/") || std::regex_match(name, kStandard)) &&
+          (!starts(name, "mujoco/") || source.name == "sim/mujoco.h") &&
+          (!starts(name, "toml++") || source.name == "models/toml_reader.cpp") &&
+          (!starts(name, "opencv2") || source.name.find("vision/") != std::string::npos) &&
+          ((!starts(name, "GL") && !starts(name, "EGL")) || starts(source.name, "sim/view/"));
+      EXPECT_TRUE(good) << source.name << " includes " << name;
+    }
+}
+
+void expect_no_word(const Source& source, const std::regex& word, const std::string& why) {
+  std::smatch match;
+  for (std::size_t i = 0; i < source.code.size(); ++i)
+    if (std::regex_search(source.code[i], match, word))
+      ADD_FAILURE() << source.name << ":" << i + 1 << ": '" << match.str() << "': " << why;
+}
+
+TEST(Shape, TheCoreNeitherWaitsNorPrintsNorKnowsMillimetres) {
+  static const std::regex kWords(
+      R"(\bnow\s*\(|\b\w*sleep\w*|\b\w*mutex\b|\block_guard\b|\bc(out|err|log)\b|\b[fs]?n?printf\b|\b\w+_mm\b|\bstd::thread\b|\bgetenv\b|\brand\s*\()");
+  for (const Source& source : sources())
+    if (source.folder == "core") expect_no_word(source, kWords, "not in the core");
+}
+
+TEST(Shape, WallTimeIsInItsPlaces) {
+  static const std::regex kWords(
+      R"(\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday|nanosleep|clock_nanosleep)\b)");
+  for (const Source& source : sources()) {
+    const bool place = source.name == "sim/clock.cpp" || source.folder == "hw_drivers" ||
+                       source.folder == "benchmarks" || source.folder == "app";
+    if (!place)
+      expect_no_word(source, kWords, "wall time is for sim/clock.cpp, hw_drivers, benchmarks and app");
+  }
+}
+
+TEST(Shape, FilesAreShort) {
+  for (const Source& source : sources()) {
+    const std::size_t most = source.name.ends_with(".h") ? 120 : 400;
+    // What walks through a tick is named in one place.
+    if (source.name == "core/fields.h") continue;
+    EXPECT_LE(source.lines.size(), most) << source.name;
+  }
+}
+
+TEST(Shape, FoldersAreSmall) {
+  // core/ is one folder of several subsystems [architecture B2]: data and frames, the stages, models, specs
+  // and record.
+  const std::map<std::string, std::size_t> limits{
+      {"core", 60}, {"models", 30}, {"sim", 40}, {"app", 25}, {"benchmarks", 25}};
+  std::map<std::string, std::size_t> files;
+  for (const Source& source : sources()) ++files[fs::path(source.name).parent_path().generic_string()];
+  for (const auto& [folder, count] : files) {
+    const auto own = limits.find(folder);
+    EXPECT_LE(count, own == limits.end() ? 20 : own->second) << folder;
+  }
+}
+
+TEST(Shape, HeadersAreGuardedAndSayWhatTheyAre) {
+  for (const Source& source : sources()) {
+    if (!source.name.ends_with(".h")) continue;
+    EXPECT_TRUE(!source.lines.empty() && starts(source.lines[0], "//"))
+        << source.name << ": the first line says what it is";
+    EXPECT_NE(std::find(source.lines.begin(), source.lines.end(), "#pragma once"), source.lines.end())
+        << source.name;
+  }
+}
+
+TEST(Shape, EveryFrameLetterIsKnown) {
+  static const std::regex kFrame(R"(\b(?:Pose|Point|Vec)<\s*'(.)'(?:\s*,\s*'(.)')?\s*>)");
+  for (const Source& source : sources())
+    for (const std::string& line : source.lines)
+      for (std::sregex_iterator match(line.begin(), line.end(), kFrame), end; match != end; ++match)
+        for (std::size_t group : {1U, 2U}) {
+          const std::string letter = (*match)[group];
+          EXPECT_TRUE(letter.empty() || kFrames.find(letter[0]) != std::string_view::npos)
+              << source.name << ": " << letter;
+        }
+}
+
+TEST(Shape, TheTopLevelIsTheAllowedList) {
+  const std::set<std::string> allowed{"CMakeLists.txt",
+                                      "CMakePresets.json",
+                                      "LICENSE",
+                                      "README.md",
+                                      "app",
+                                      "benchmarks",
+                                      "check",
+                                      "cmake",
+                                      "core",
+                                      "docs",
+                                      "encounter",
+                                      "hw_drivers",
+                                      "models",
+                                      "sim",
+                                      "tests"};
+  const std::set<std::string> made{"build", "out"};  // not in the repository [.gitignore]
+  for (const auto& entry : fs::directory_iterator(kRoot)) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(name[0] == '.' || allowed.contains(name) || made.contains(name))
+        << name << " is not on the list";
+  }
+  for (const std::string& name : allowed) EXPECT_TRUE(fs::exists(kRoot / name)) << name << " is missing";
+}
+
+}  // namespace
+}  // namespace enc

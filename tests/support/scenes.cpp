@@ -1,0 +1,107 @@
+#include "tests/support/scenes.h"
+
+#include <algorithm>
+
+namespace enc::test {
+
+BehaviourSpec spring(double stiffness, double limit) {
+  BehaviourSpec behaviour;
+  behaviour.name = "spring";
+  behaviour.stiffness = stiffness;
+  behaviour.curves = {{stiffness, 0, 0, 0}, {stiffness, 0, 0, 0}, limit};
+  return behaviour;
+}
+
+BehaviourSpec lossy_ball() {
+  BehaviourSpec behaviour;
+  behaviour.name = "lossy";
+  const std::array<double, 4> press{0.4e3, 1.07e6, -0.22e9, 0.0152e12};  // N/m^k
+  behaviour.curves.press = press;
+  for (std::size_t i = 0; i < 4; ++i) behaviour.curves.release[i] = 0.8 * press[i];
+  behaviour.curves.limit = 0.006;
+  return behaviour;
+}
+
+SceneSpec ball_scene(const BehaviourSpec& behaviour) {
+  SceneSpec spec;
+  spec.title = "ball";
+  spec.behaviours = {behaviour};
+  ObjectSpec ball;
+  ball.name = "ball";
+  ball.radius = kBallRadius;
+  ball.position = Vec3(0, 0, kTop - kBallRadius);
+  ball.behaviour = behaviour.name;
+  spec.objects = {ball};
+  ToolSpec stylus;
+  stylus.name = "stylus";
+  stylus.tip = Vec3(0.01, -0.02, -0.120);
+  stylus.tip_radius = kToolRadius;
+  spec.tools = {stylus};
+  spec.manipulator.emplace();
+  spec.force.emplace();
+  spec.tracker.emplace();
+  return spec;
+}
+
+SceneSpec plane_scene(const BehaviourSpec& behaviour) {
+  SceneSpec spec = ball_scene(behaviour);
+  spec.objects[0].name = "plane";
+  spec.objects[0].shape = ShapeKind::plane;
+  spec.objects[0].radius = kUnset;
+  spec.objects[0].position = Vec3(0, 0, kTop);
+  return spec;
+}
+
+Loop::Loop(Scene made) : scene(std::move(made)) {
+  k.index = -1;
+  k.dt = from_seconds(scene.dt);
+  k.t = Time(-k.dt);
+  out.tip = scene.reach.machine.zero();
+  before_ = out.tip.p();
+}
+
+void Loop::sense() {
+  in.missed = 0;
+  in.tip = {{out.tip, Vec<'R'>(velocity_), Vec<'R'>(acceleration_)}, k.t, Health::ok};
+  const Pose<'W', 'F'> X_WF = scene.X_WR * out.tip * scene.X_HF;
+  const Vec<'W'> carried =
+      scene.force.mass * (Vec<'W'>(0, 0, -9.80665) - scene.X_WR * Vec<'R'>(acceleration_));
+  in.wrench = {{X_WF.inverse() * (force + carried) + force_zero, Vec<'F'>::zero()}, k.t, Health::ok};
+  if (!tool_seen || !scene.has_tracker) return;
+  const auto index = static_cast<std::size_t>(tool);
+  const Vec3 markers = tool_tip.e() - tool_turn * scene.tools[index].tip.e();
+  in.tool = {{tool, scene.X_WC.inverse() * Pose<'W', 'T'>(tool_turn, markers)}, k.t, Health::ok};
+}
+
+const Outputs& Loop::tick(int n) {
+  for (int i = 0; i < n; ++i) {
+    ++k.index;
+    k.t += k.dt;
+    sense();
+    if (spoil) spoil(in);
+    step(scene, k, in, state, out);
+    judge();
+  }
+  return out;
+}
+
+void Loop::judge() {
+  if (!state.started) {
+    out.tip = scene.reach.machine.zero();  // nothing was commanded: the machine stays where it is
+    return;
+  }
+  const Vec3 at = out.tip.p();
+  const Vec3 velocity = (at - before_) / scene.dt;
+  acceleration_ = (velocity - velocity_) / scene.dt;
+  velocity_ = velocity;
+  before_ = at;
+  worst_speed = std::max(worst_speed, velocity_.norm() / scene.reach.speed);
+  worst_acceleration = std::max(worst_acceleration, acceleration_.norm() / scene.reach.acceleration);
+  always_reachable = always_reachable && out.tip.valid() && scene.reach.contains(out.tip);
+  if (out.object < 0 || !state.entered) return;
+  const Object& object = scene.objects[static_cast<std::size_t>(out.object)];
+  worst_outside = std::max(worst_outside,
+                           object.surface.nearest(object.X_WO.inverse() * tip()).distance + scene.tip_radius);
+}
+
+}  // namespace enc::test

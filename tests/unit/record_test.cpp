@@ -1,0 +1,304 @@
+// The record: what is written is read, whatever is damaged is named, and a replay gives the same bits.
+#include "core/record.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "core/error.h"
+#include "core/replay.h"
+#include "tests/support/scenes.h"
+
+namespace enc {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RecordTest : public ::testing::Test {
+ protected:
+  RecordTest() {
+    std::string name = (fs::temp_directory_path() / "enc_record_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~RecordTest() override { fs::remove_all(folder_); }
+  [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  // A press on the ball: follow, contact, restore. 600 ticks are several chunks and a rest.
+  void record_press(const std::string& path, int ticks = 600) {
+    test::Loop loop(prepare(test::ball_scene(test::lossy_ball()), RigSpec{}));
+    RecordWriter record(path, {{"resolved", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}});
+    StateHash hash;
+    for (int i = 0; i < ticks; ++i) {
+      loop.tool_tip = Point<'W'>(0, 0, i < 300 ? 0.05 - 1.5e-4 * i : 0.005 + 5e-5 * (i - 300));
+      loop.force = Vec<'W'>(0.2, 0, i > 250 && i < 400 ? -3.0 : 0.0);
+      loop.tick();
+      add_tick(hash, loop.state, loop.out);
+      record.write(loop.k, loop.in, loop.out, hash.value);
+    }
+    record.close();
+    ASSERT_FALSE(record.full()) << record.error();
+  }
+  static std::string bytes_of(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  static void write_bytes(const std::string& path, std::string_view bytes) {
+    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+  // The one line a reader says, or "" where it has nothing to say.
+  static std::string refusal(const std::string& path) {
+    try {
+      RecordReader reader(path);
+      return {};
+    } catch (const Error& e) {
+      return e.what();
+    }
+  }
+
+  fs::path folder_;
+};
+
+template <class T>
+std::vector<std::uint64_t> leaves_of(T value) {
+  std::vector<std::uint64_t> bits;
+  auto list = [&](std::string_view, auto& x) { bits.push_back(leaf_bits(x)); };
+  fields(list, value);
+  return bits;
+}
+
+TEST_F(RecordTest, GivesBackEveryLeaf) {
+  const std::string path = file("all");
+  // Each leaf another value; the first tick has them all unset (NaN), the third has what a double can do.
+  RecordedTick set;
+  std::uint64_t n = 0;
+  auto number = [&](std::string_view, auto& x) {
+    using T = std::decay_t<decltype(x)>;
+    ++n;
+    if constexpr (std::is_floating_point_v<T>)
+      x = 0.1 * static_cast<double>(n);
+    else
+      set_leaf(x, n % 3);
+  };
+  fields(number, set.tick);
+  fields(number, set.in);
+  fields(number, set.out);
+  RecordedTick odd;
+  odd.in.tool.value.X_CT.xyz = {-0.0, INFINITY, 5e-324};
+  odd.in.tool.t = Time(Duration(-5));
+  odd.in.wrench.value.force.xyz[0] = -std::nan("0x123");  // another NaN than the canonical one
+  {
+    RecordWriter record(path, {{"a", ""}, {"b", std::string("x\0y", 3)}});
+    record.write({}, {}, {}, 1);
+    record.write(set.tick, set.in, set.out, 2);
+    record.write(odd.tick, odd.in, odd.out, 0xffffffffffffffffULL);
+    record.close();
+    EXPECT_EQ(record.ticks(), 3);
+  }
+  RecordReader reader(path);
+  EXPECT_TRUE(reader.sealed());
+  EXPECT_EQ(reader.ticks(), 3);
+  EXPECT_EQ(reader.texts(), (RecordTexts{{"a", ""}, {"b", std::string("x\0y", 3)}}));
+  for (int pass = 0; pass < 2; ++pass, reader.rewind()) {
+    RecordedTick got;
+    ASSERT_TRUE(reader.next(got));
+    EXPECT_EQ(leaves_of(got.in), leaves_of(Inputs{}));
+    EXPECT_EQ(got.hash, 1U);
+    ASSERT_TRUE(reader.next(got));
+    EXPECT_EQ(leaves_of(got.tick), leaves_of(set.tick));
+    EXPECT_EQ(leaves_of(got.in), leaves_of(set.in));
+    EXPECT_EQ(leaves_of(got.out), leaves_of(set.out));
+    ASSERT_TRUE(reader.next(got));
+    EXPECT_EQ(leaves_of(got.in), leaves_of(odd.in));
+    EXPECT_TRUE(std::signbit(got.in.tool.value.X_CT.xyz[0]));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(got.in.wrench.value.force.xyz[0]), 0x7ff8000000000000ULL);
+    EXPECT_EQ(got.hash, 0xffffffffffffffffULL);
+    EXPECT_FALSE(reader.next(got));
+    EXPECT_FALSE(reader.next(got));
+  }
+}
+
+TEST_F(RecordTest, AnEmptyRunIsARecord) {
+  RecordWriter(file("empty"), {}).close();
+  RecordReader reader(file("empty"));
+  RecordedTick got;
+  EXPECT_EQ(reader.ticks(), 0);
+  EXPECT_TRUE(reader.sealed());
+  EXPECT_FALSE(reader.next(got));
+}
+
+TEST_F(RecordTest, EveryTruncationIsRefusedAndItsWholeChunksAreReadable) {
+  record_press(file("whole"));
+  const std::string all = bytes_of(file("whole"));
+  std::int64_t most = 0;
+  std::vector<std::size_t> lengths;
+  for (std::size_t n = 0; n < 200 && n < all.size(); ++n) lengths.push_back(n);
+  for (std::size_t n = 200; n < all.size(); n += 4999) lengths.push_back(n);
+  for (std::size_t back = 1; back <= 48; ++back) lengths.push_back(all.size() - back);
+  std::sort(lengths.begin(), lengths.end());
+  for (const std::size_t n : lengths) {
+    write_bytes(file("cut"), std::string_view(all).substr(0, n));
+    const std::string said = refusal(file("cut"));
+    EXPECT_NE(said.find("byte "), std::string::npos) << n << " bytes: " << said;
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    if (n < 200) continue;  // the header may be missing
+    RecordReader part(file("cut"), Partial::yes);
+    EXPECT_FALSE(part.sealed());
+    EXPECT_GE(part.ticks(), most);
+    most = std::max(most, part.ticks());
+    RecordedTick got;
+    std::int64_t read = 0;
+    for (; part.next(got); ++read) ASSERT_EQ(got.tick.index, read);
+    EXPECT_EQ(read, part.ticks());
+  }
+  EXPECT_EQ(most, 600);  // only the seal was missing
+}
+
+TEST_F(RecordTest, EveryFlippedByteIsFound) {
+  record_press(file("whole"), 150);
+  const std::string all = bytes_of(file("whole"));
+  for (std::size_t i = 0; i < all.size(); i += (i < 300 || i + 100 > all.size()) ? 1 : 997) {
+    std::string bad = all;
+    bad[i] = static_cast<char>(bad[i] ^ 0x10);
+    write_bytes(file("bad"), bad);
+    const std::string said = refusal(file("bad"));
+    ASSERT_NE(said.find("byte "), std::string::npos) << "byte " << i << " was changed unnoticed";
+  }
+  // And what the line says: magic, format, a tick, behind the end.
+  const auto with = [&](std::size_t i, char c) {
+    std::string bad = all;
+    bad[i] = c;
+    write_bytes(file("bad"), bad);
+    return refusal(file("bad"));
+  };
+  EXPECT_NE(with(0, 'E').find("not a record"), std::string::npos);
+  EXPECT_NE(with(8, 2).find("record format 2, but this program reads format 1"), std::string::npos);
+  EXPECT_NE(with(all.size() / 2, '!').find("checksum failure"), std::string::npos);
+  write_bytes(file("more"), all + "x");
+  EXPECT_NE(refusal(file("more")).find("after the record's seal"), std::string::npos);
+}
+
+TEST_F(RecordTest, ARecordOfAnotherLayoutSaysWhoWroteItAndWhatToDo) {
+  RecordWriter(file("other"), {{"version", "9.8.7"}}, 0x0123456789abcdefULL).close();
+  const std::string said = refusal(file("other"));
+  EXPECT_NE(said.find("another layout: 0x0123456789abcdef of Encounter 9.8.7"), std::string::npos) << said;
+  EXPECT_NE(said.find("use the version of Encounter that wrote it"), std::string::npos) << said;
+}
+
+TEST_F(RecordTest, OtherFilesAreNoRecords) {
+  write_bytes(file("text"), "format = 1\ntitle = \"a scene\"\n");
+  EXPECT_NE(refusal(file("text")).find("not a record"), std::string::npos);
+  EXPECT_NE(refusal(file("nowhere")).find("cannot read"), std::string::npos);
+  EXPECT_FALSE(refusal(folder_.string()).empty());
+}
+
+TEST_F(RecordTest, AnUnwritableFolderIsOneClearLine) {
+  write_bytes(file("a_file"), "");
+  try {
+    RecordWriter record(file("a_file") + "/run.encrec", {});
+    FAIL() << "a file was taken for a folder";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("a_file/run.encrec': Not a directory"), std::string::npos)
+        << e.what();
+    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+    EXPECT_EQ(e.kind(), ErrorKind::input);
+  }
+}
+
+TEST_F(RecordTest, AFullDiskIsSaidBeforeTheRunStarts) {
+  try {
+    RecordWriter record("/dev/full", {});
+    FAIL() << "the header went nowhere";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("No space left on device"), std::string::npos) << e.what();
+  }
+}
+
+TEST_F(RecordTest, ADiskThatFillsUpLeavesReadableChunks) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 200'000;  // three chunks and a bit
+  setrlimit(RLIMIT_FSIZE, &small);
+  {
+    RecordWriter record(file("full"), {});
+    for (int i = 0; i < 2000; ++i) record.write({i, Time(Duration(i)), Duration(1)}, {}, {}, 0);
+    EXPECT_TRUE(record.full());
+    EXPECT_NE(record.error().find("File too large"), std::string::npos) << record.error();
+    record.close();
+    EXPECT_TRUE(record.full());
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(refusal(file("full")).find("no seal"), std::string::npos);
+  RecordReader part(file("full"), Partial::yes);
+  RecordedTick got;
+  std::int64_t read = 0;
+  for (; part.next(got); ++read) ASSERT_EQ(got.tick.index, read);
+  EXPECT_EQ(read, part.ticks());
+  EXPECT_GE(read, 200);  // 3 chunks of about 100 ticks are 196,000 bytes
+}
+
+TEST_F(RecordTest, AReplayGivesTheSameBits) {
+  record_press(file("run"));
+  RecordReader reader(file("run"));
+  const ReplayResult result = replay(prepare(test::ball_scene(test::lossy_ball()), RigSpec{}), reader);
+  EXPECT_EQ(result.ticks, 600);
+  EXPECT_EQ(result.first_difference, -1) << result.what;
+  RecordedTick last;
+  for (reader.rewind(); reader.next(last);) {
+  }
+  EXPECT_EQ(result.hash, last.hash);
+  EXPECT_GT(last.out.contacts, 0);  // it was a run with something in it
+}
+
+TEST_F(RecordTest, AChangedInputIsFoundAndNamed) {
+  record_press(file("run"));
+  RecordReader reader(file("run"));
+  // Sealed anew after a change of the force by one part in 10^15 at tick 300: a good checksum, another run.
+  RecordWriter changed(file("changed"), reader.texts());
+  RecordedTick frame;
+  while (reader.next(frame)) {
+    double& fz = frame.in.wrench.value.force.xyz[2];
+    if (frame.tick.index == 300) fz *= 1.0 + 1e-15;
+    changed.write(frame.tick, frame.in, frame.out, frame.hash);
+  }
+  changed.close();
+  RecordReader again(file("changed"));
+  const ReplayResult result = replay(prepare(test::ball_scene(test::lossy_ball()), RigSpec{}), again);
+  EXPECT_EQ(result.first_difference, 300);
+  EXPECT_EQ(result.ticks, 600);
+  EXPECT_NE(result.what.find(": recorded "), std::string::npos) << result.what;
+  EXPECT_NE(result.what.find("force_N["), std::string::npos) << result.what;
+}
+
+TEST_F(RecordTest, AnotherSceneIsAnotherRun) {
+  record_press(file("run"));
+  RecordReader reader(file("run"));
+  const ReplayResult result = replay(prepare(test::ball_scene(), RigSpec{}), reader);
+  EXPECT_GE(result.first_difference, 0);
+  EXPECT_FALSE(result.what.empty());
+}
+
+TEST_F(RecordTest, AChangeOfTheHashAloneIsFound) {
+  RecordWriter record(file("hash"), {});
+  test::Loop loop(prepare(test::ball_scene(), RigSpec{}));
+  loop.tick();
+  record.write(loop.k, loop.in, loop.out, 12345);
+  record.close();
+  RecordReader reader(file("hash"));
+  const ReplayResult result = replay(loop.scene, reader);
+  EXPECT_EQ(result.first_difference, 0);
+  EXPECT_EQ(result.what.find("state_hash: recorded 12345"), 0U) << result.what;
+}
+
+TEST(LayoutHash, IsTheSameEveryTime) { EXPECT_EQ(layout_hash(), layout_hash()); }
+
+}  // namespace
+}  // namespace enc

@@ -1,0 +1,158 @@
+// prepare(): what is made ready, and what is refused before anything moves.
+#include "core/scene.h"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/support/scenes.h"
+
+namespace enc {
+namespace {
+
+void expect_refused(const SceneSpec& spec, const std::string& words, const std::string& key,
+                    const RigSpec& rig = {}) {
+  try {
+    (void)prepare(spec, rig);
+    ADD_FAILURE() << "accepted, where '" << words << "' was expected";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+    EXPECT_EQ(e.key(), key) << e.what();
+    EXPECT_EQ(e.kind(), ErrorKind::input);
+    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
+  }
+}
+
+TEST(Prepare, TakesTheScenesOfTheTests) {
+  const Scene scene = prepare(test::ball_scene(), {});
+  EXPECT_EQ(scene.objects.size(), 1U);
+  EXPECT_EQ(scene.objects[0].limit, 0.006);
+  EXPECT_TRUE(scene.has_manipulator && scene.has_force && scene.has_tracker && !scene.has_display);
+  EXPECT_EQ(scene.dt, 0.001);
+  EXPECT_NEAR(scene.filter_gain, 1.0 - std::exp(-2.0 * M_PI * 5.0 * 0.001), 1e-15);
+  EXPECT_NO_THROW((void)prepare(test::plane_scene(), {}));
+  EXPECT_NO_THROW((void)prepare(test::ball_scene(test::lossy_ball()), {}));
+}
+
+TEST(Prepare, HIsWAtTheMachinesZero) {
+  const Scene scene = prepare(test::ball_scene(), {});
+  const Pose<'W', 'H'> X_WH = scene.X_WR * scene.reach.machine.zero();
+  EXPECT_LT(X_WH.p().norm(), 1e-15);
+  EXPECT_LT(X_WH.q().coeffs().head<3>().norm(), 1e-15);
+}
+
+TEST(Prepare, RefusesAnObjectOutOfReach) {
+  SceneSpec spec = test::ball_scene();
+  spec.objects[0].position.x() = 0.5;
+  expect_refused(spec, "object 'ball' is outside the machine's reach", "object.ball.position");
+  spec = test::plane_scene();
+  spec.objects[0].position.z() = 0.2;
+  expect_refused(spec, "object 'plane' is outside the machine's reach", "object.plane.position");
+}
+
+TEST(Prepare, RefusesAPressOutOfReach) {
+  SceneSpec spec = test::ball_scene();
+  spec.user.emplace();
+  EXPECT_NO_THROW((void)prepare(spec, {}));
+  spec.user->polar = M_PI;  // from below: 66 mm deeper
+  expect_refused(spec, "the user presses where the machine does not reach", "user.polar");
+}
+
+TEST(Prepare, RefusesAnUnknownBehaviour) {
+  SceneSpec spec = test::ball_scene();
+  spec.objects[0].behaviour = "jelly";
+  expect_refused(spec, "no behaviour 'jelly'", "object.ball.behaviour");
+}
+
+TEST(Prepare, RefusesALimitAboveTheResponses) {
+  SceneSpec spec = test::ball_scene();
+  for (const double limit : {0.0061, 0.0, -0.001}) {
+    spec.objects[0].limit = limit;
+    expect_refused(spec, "deflection limit", "object.ball.limit");
+  }
+  spec.objects[0].limit = 0.004;
+  EXPECT_EQ(prepare(spec, {}).objects[0].limit, 0.004);
+}
+
+TEST(Prepare, RefusesAResponseSofterThanTheLoopRenders) {
+  const double floor = prepare(test::ball_scene(), {}).lowest_slope;
+  EXPECT_GT(floor, 20.0);
+  EXPECT_LT(floor, 400.0);
+  expect_refused(test::ball_scene(test::spring(0.9 * floor)), "is softer than the loop renders stably",
+                 "object.ball.behaviour");
+  EXPECT_NO_THROW((void)prepare(test::ball_scene(test::spring(1.01 * floor)), {}));
+}
+
+TEST(Prepare, RefusesAFallingCurveAndNamesTheInterval) {
+  BehaviourSpec behaviour = test::spring();
+  // F = 1000 d - 1e5 d^2: slope 0 at 5 mm, falls up to 6 mm.
+  behaviour.curves.press = behaviour.curves.release = {1000, -1e5, 0, 0};
+  expect_refused(test::ball_scene(behaviour), "press curve falls with deflection from 5.0",
+                 "object.ball.behaviour");
+}
+
+TEST(Prepare, RefusesASceneWithoutAManipulator) {
+  SceneSpec spec = test::ball_scene();
+  spec.manipulator.reset();
+  expect_refused(spec, "[manipulator]", "manipulator");
+}
+
+TEST(Prepare, RefusesWhatIsNoShape) {
+  SceneSpec spec = test::ball_scene();
+  spec.objects[0].radius = kUnset;
+  expect_refused(spec, "a sphere needs a radius", "object.ball.radius");
+  spec = test::plane_scene();
+  spec.objects[0].normal = Vec3(0, 0, 2);
+  expect_refused(spec, "unit vector", "object.plane.normal");
+  spec.objects[0].normal = Vec3(kUnset, 0, 1);
+  expect_refused(spec, "unit vector", "object.plane.normal");
+  spec = test::ball_scene();
+  spec.objects[0].radius = std::numeric_limits<double>::infinity();
+  EXPECT_THROW((void)prepare(spec, {}), Error);
+}
+
+TEST(Prepare, RefusesASceneWithAUserButNothingToPress) {
+  SceneSpec spec = test::ball_scene();
+  spec.objects.clear();
+  spec.user.emplace();
+  EXPECT_THROW((void)prepare(spec, {}), Error);
+}
+
+TEST(Prepare, RefusesAUserWhoPressesAnUnknownObject) {
+  SceneSpec spec = test::ball_scene();
+  spec.user.emplace();
+  spec.user->object = "bal";
+  EXPECT_THROW((void)prepare(spec, {}), Error);
+}
+
+TEST(Prepare, RefusesASpringySidewaysWithoutAStiffness) {
+  BehaviourSpec behaviour = test::spring();
+  behaviour.tangential = Tangential::spring;
+  expect_refused(test::ball_scene(behaviour), "needs a tangential stiffness", "object.ball.behaviour");
+}
+
+TEST(PressPointOf, IsOnTheSurfaceUnderTheUser) {
+  const SceneSpec spec = test::ball_scene();
+  UserSpec user;
+  PressPoint press = press_point(spec, user);
+  EXPECT_NEAR(press.point.xyz[2], test::kTop, 1e-15);
+  user.polar = M_PI / 2;
+  user.azimuth = M_PI / 2;
+  press = press_point(spec, user);  // from +y
+  EXPECT_LT((press.point - Point<'W'>(0, 0.033, test::kTop - 0.033)).norm(), 1e-15);
+  EXPECT_LT((press.normal - Vec<'W'>(0, 1, 0)).norm(), 1e-15);
+}
+
+TEST(FrameGraph, ListsEveryEdgeOfFigure4) {
+  const std::string text = frame_graph(prepare(test::ball_scene(), {}));
+  // Fixed: W R, W S, W O, W C; moving: R H, C T, S G, W N; on one body: G L, H F.
+  for (const char* edge :
+       {"X_WR  constant", "X_WS  constant", "X_WO  constant", "X_WC  constant", "X_GL  constant",
+        "X_HF  constant", "X_RH  variable", "X_CT  variable", "X_SG  variable", "X_WN  variable"})
+    EXPECT_NE(text.find(edge), std::string::npos) << edge << " is missing in\n" << text;
+  EXPECT_NE(text.find("X_WR  constant  [0.000, 0.000, -344.500] mm"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace enc

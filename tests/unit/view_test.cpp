@@ -1,0 +1,83 @@
+// `encounter view`, as a person runs it; and that `encounter run` maps no graphics.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tests/support/run_program.h"
+
+namespace enc::test {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const char* const kScene = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
+
+bool view_is_built() { return fs::exists(ENCOUNTER_MODULE_DIR "/encounter_view.so"); }
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream all;
+  all << in.rdbuf();
+  return all.str();
+}
+unsigned big_endian(const std::string& bytes, std::size_t at) {
+  unsigned value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8U | static_cast<unsigned char>(bytes.at(at + i));
+  return value;
+}
+
+TEST(View, ShotIsAPngOfTheRightSizeWithAPictureInIt) {
+  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  const fs::path shot = fs::path(testing::TempDir()) / ("shot_" + std::to_string(getpid()) + ".png");
+  const tests::Result result = tests::run_program({"view", kScene, "--shot", shot.string(), "--at-s", "0.5"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("0.500 s"));
+  const std::string png = bytes_of(shot);
+  fs::remove(shot);
+  ASSERT_GT(png.size(), 24U);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(big_endian(png, 16), 1000U);
+  EXPECT_EQ(big_endian(png, 20), 700U);
+  // A picture of one colour, or of the backdrop alone, packs into less than 10 kB.
+  EXPECT_GT(png.size(), 30'000U);
+  EXPECT_LT(png.size(), 300'000U);
+}
+
+TEST(View, WithoutShotSaysSo) {
+  const tests::Result result = tests::run_program({"view", kScene});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--shot"));
+}
+
+TEST(View, AFolderThatIsNotThereIsSaid) {
+  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  const tests::Result result =
+      tests::run_program({"view", kScene, "--shot", "/nowhere/a.png", "--at-s", "0.1"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("/nowhere/a.png"));
+  EXPECT_THAT(result.err, HasSubstr("No such file or directory"));
+}
+
+TEST(View, WithoutTheModuleItIsADeviceThatIsMissing) {
+  const tests::Result result =
+      tests::run_program({"view", kScene, "--shot", "a.png"}, {{"ENCOUNTER_MODULES", "/nowhere"}});
+  EXPECT_EQ(result.code, 3);
+  EXPECT_THAT(result.err, HasSubstr("/nowhere/encounter_view.so"));
+}
+
+// The loader's own account: what `run` maps, at start and later.
+TEST(View, RunLoadsNoGraphics) {
+  const tests::Result result = tests::run_program({"run", kScene, "--for-s", "0.2"}, {{"LD_DEBUG", "files"}});
+  ASSERT_THAT(result.err, HasSubstr("libmujoco"));  // the account is there
+  for (const char* heavy : {"opencv", "libGL", "libEGL", "glfw", "libX11", "wayland", "encounter_"})
+    EXPECT_THAT(result.err, testing::Not(HasSubstr(heavy)));
+}
+
+}  // namespace
+}  // namespace enc::test
