@@ -1,5 +1,6 @@
 // The command line. Each subcommand is one function in a file of its own (options.h). Exit codes: 0 yes, 1
 // the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -9,6 +10,7 @@
 
 #include "app/options.h"
 #include "core/error.h"
+#include "models/wording.h"
 
 namespace {
 
@@ -90,6 +92,12 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
   doctor_command->callback([&] { code = doctor(); });
 
+  // CLI11 would only say that a subcommand is missing.
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
+    throw enc::Error("unknown subcommand '" + std::string(argv[1]) + "'; " +
+                     enc::models::advice(argv[1], names));
   app.parse(argc, argv);
   return code;
 }

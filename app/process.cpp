@@ -1,8 +1,11 @@
 #include "app/process.h"
 
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <set>
+
+#include <sys/resource.h>
 
 namespace enc::app {
 
@@ -10,6 +13,18 @@ int thread_count() {
   int count = 0;
   for ([[maybe_unused]] const auto& task : std::filesystem::directory_iterator("/proc/self/task")) ++count;
   return count;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 std::vector<std::string> mapped_libraries() {

@@ -8,6 +8,8 @@
 namespace enc::app {
 
 [[nodiscard]] int thread_count();
+[[nodiscard]] double peak_memory_mb();
+[[nodiscard]] double cpu_seconds();  // of this process since it was started, loading included
 [[nodiscard]] std::vector<std::string>
 mapped_libraries();  // file names of shared objects, in order, each once
 

@@ -9,6 +9,7 @@
 
 #include "app/built.h"
 #include "app/options.h"
+#include "app/process.h"
 #include "app/run_report.h"
 #include "benchmarks/press_measure.h"
 #include "benchmarks/trial.h"
@@ -61,11 +62,12 @@ int run(const RunOptions& options) {
       setup, trial_options);  // everything that can be refused is refused here, before a record is begun
   const std::unique_ptr<RecordWriter> record = record_for(options, setup);
   probe.record_to(record.get());
+  const double started = cpu_seconds();
   const bench::TrialResult result = probe.run();
   if (record) record->close();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const RunReport report{setup, probe.scene(), result, presses};
+  const RunReport report{setup, probe.scene(), result, presses, started};
   fmt::print("{}", options.json ? run_json(report) : run_text(report));
   if (record && record->full()) throw Error(record->error());
   if (result.diverged_at >= 0)

@@ -58,6 +58,8 @@ std::string run_json(const RunReport& r) {
   json["times_real_time"] = r.result.simulated / r.result.wall;
   json["ticks"] = r.result.ticks;
   json["diverged_at_tick"] = r.result.diverged_at;
+  json["started_cpu_ms"] = r.started * 1e3;
+  json["peak_memory_MiB"] = peak_memory_mb();
   json["threads"] = thread_count();
   json["libraries"] = mapped_libraries();
   json["state_hash"] = fmt::format("{:016x}", r.result.hash);

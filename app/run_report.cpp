@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
+#include "app/process.h"
 
 namespace enc::app {
 namespace {
@@ -104,8 +105,10 @@ std::string run_text(const RunReport& r) {
   const StepTimes times = step_times(r.result.step_ns);
   text += fmt::format("tick        step() p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.1f} us\n",
                       times.p50 * 1e-3, times.p99 * 1e-3, times.p999 * 1e-3, times.max * 1e-3);
-  text += fmt::format("time        {:.2f} s simulated in {:.3f} s: {:.0f} x real time\n", r.result.simulated,
-                      r.result.wall, r.result.simulated / r.result.wall);
+  text += fmt::format(
+      "time        {:.2f} s simulated in {:.3f} s: {:.0f} x real time; started in {:.0f} ms, {:.0f} MiB\n",
+      r.result.simulated, r.result.wall, r.result.simulated / r.result.wall, r.started * 1e3,
+      peak_memory_mb());
   text += fmt::format("state hash  {:016x} after {} ticks\n", r.result.hash, r.result.ticks);
   return text;
 }

@@ -13,6 +13,7 @@ struct RunReport {
   const Scene& scene;
   const bench::TrialResult& result;
   const bench::PressMeasure& presses;
+  double started = 0.0;  // CPU s from the start of the process to the first tick
 };
 
 // Percentiles of step() in ns: p50, p99, p99.9, max.

@@ -1,5 +1,4 @@
-// The one error type. Thrown before the loop starts, caught once in main; in the loop there are no
-// exceptions.
+// The one error type. Thrown before the loop starts, caught once in main; the loop has no exceptions.
 #pragma once
 
 #include <stdexcept>
@@ -14,8 +13,8 @@ enum class ErrorKind { input = 2, device = 3 };  // the program's exit codes
 // ("object.ball.radius_mm"), if any, from which the reader of the file finds line and column.
 class Error : public std::runtime_error {
  public:
-  explicit Error(std::string what, std::string key = {}, ErrorKind kind = ErrorKind::input)
-      : std::runtime_error(std::move(what)), key_(std::move(key)), kind_(kind) {}
+  explicit Error(const std::string& what, std::string key = {}, ErrorKind kind = ErrorKind::input)
+      : std::runtime_error(what), key_(std::move(key)), kind_(kind) {}
   [[nodiscard]] const std::string& key() const { return key_; }
   [[nodiscard]] ErrorKind kind() const { return kind_; }
 

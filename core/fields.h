@@ -1,10 +1,11 @@
 // The fields of what walks through a tick, named once: the record, its layout hash and the state hash all go
-// through here, field by field and never over padding (decisions 17). A visitor is called with (name, leaf)
-// for each number.
+// through here, field by field and never over padding (decisions 17).
+// A visitor is called with (name, leaf) for each number.
 #pragma once
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <type_traits>
@@ -118,12 +119,12 @@ void fields(F& f, State& s) {
   fields(f, "command_velocity_R", s.command_velocity);
 }
 
-// A leaf as eight bytes. Every NaN is the same NaN; -0 and 0 stay apart, because a bit-exact replay can tell
-// them.
+// A leaf as eight bytes. Every NaN is the same NaN; -0 and 0 stay apart,
+// because a bit-exact replay can tell them.
 template <class T>
 [[nodiscard]] std::uint64_t leaf_bits(const T& x) {
   if constexpr (std::is_same_v<T, double>)
-    return x == x ? std::bit_cast<std::uint64_t>(x) : 0x7ff8000000000000ULL;
+    return std::isnan(x) ? 0x7ff8000000000000ULL : std::bit_cast<std::uint64_t>(x);
   else if constexpr (std::is_same_v<T, Time>)
     return static_cast<std::uint64_t>(x.time_since_epoch().count());
   else if constexpr (std::is_same_v<T, Duration>)
@@ -143,8 +144,8 @@ void set_leaf(T& x, std::uint64_t bits) {
     x = static_cast<T>(bits);
 }
 
-// 64-bit mixing hash over leaves, chained from tick to tick. Not cryptographic: it finds differences, not
-// forgers.
+// 64-bit mixing hash over leaves, chained from tick to tick.
+// Not cryptographic: it finds differences, not forgers.
 struct StateHash {
   std::uint64_t value = 0x9e3779b97f4a7c15ULL;
   void add(std::uint64_t bits) {

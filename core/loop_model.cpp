@@ -21,8 +21,9 @@ double lowest_stable_stiffness(const LoopModel& loop) {
   double lowest = 0.0;
   // Fine steps in frequency, each sign change of the imaginary part narrowed by halving.
   constexpr double kStep = 1.002;
-  Complex before = open_loop(0.1);
-  for (double f = 0.1; f < 500.0; f *= kStep) {
+  double f = 0.1;
+  Complex before = open_loop(f);
+  while (f < 500.0) {
     const Complex after = open_loop(f * kStep);
     if (before.imag() * after.imag() < 0.0) {
       double lo = f;
@@ -34,6 +35,7 @@ double lowest_stable_stiffness(const LoopModel& loop) {
       lowest = std::max(lowest, -open_loop(lo).real());
     }
     before = after;
+    f *= kStep;
   }
   return lowest;
 }

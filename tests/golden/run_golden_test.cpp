@@ -1,0 +1,106 @@
+// What a scene resolves to, and what step() makes of a recorded press, kept as files: a change that nobody meant
+// shows here.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/trial.h"
+#include "core/error.h"
+#include "core/replay.h"
+#include "models/scene_file.h"
+
+namespace enc {
+namespace {
+
+constexpr const char* kResolved = ENCOUNTER_SOURCE_DIR "/tests/golden/tennis_ball.resolved.toml";
+constexpr const char* kRecord = ENCOUNTER_SOURCE_DIR "/tests/data/press.encrec";
+constexpr const char* kResolveAgain =
+    "If the change is meant, write it anew, look at the difference, and commit it (from the root):\n"
+    "  build/release/encounter check models/scenes/tennis_ball.toml | sed '1,/^resolved scene$/d' > "
+    "tests/golden/tennis_ball.resolved.toml\n";
+// A press of 2 mm, met 0.7 s after the start. At 500 Hz, so that touch, press and release fit into 400 kB.
+constexpr const char* kRecordAgain =
+    "If the change is meant (of the layout, or of what step() computes), record anew and commit it (from the "
+    "root):\n"
+    "  build/release/encounter run models/scenes/tennis_ball.toml --for-s 1.2 --record tests/data/press.encrec "
+    "--set rig.loop.rate_hz=500 --set user.approach_mm_s=[50] --set user.approach_from_mm=6 "
+    "--set user.approach_tilt_deg=0 --set user.press_s=0.25 --set user.hold_s=0.02 --set user.release_s=0.15 "
+    "--set user.depth_mm=2\n";
+
+TEST(ResolvedGolden, TennisBall) {
+  std::ifstream file(kResolved, std::ios::binary);
+  const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml", "sim");
+  EXPECT_EQ(models::resolved(setup), committed) << kResolveAgain;
+  EXPECT_THAT(committed, testing::StartsWith("format = 1\n")) << kResolveAgain;
+}
+
+// The committed text needs no other file and means the same as those it was made from.
+TEST(ResolvedGolden, TheCommittedTextStandsAlone) {
+  std::ifstream file(kResolved, std::ios::binary);
+  const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const models::Setup setup = models::parse_resolved(committed, kResolved);
+  EXPECT_EQ(models::resolved(setup), committed) << kResolveAgain;
+  ASSERT_EQ(setup.scene.objects.size(), 1U);
+  EXPECT_EQ(setup.scene.objects[0].radius, 0.033);
+  EXPECT_EQ(setup.rig.loop.rate, 1000.0);
+}
+
+class StepGolden : public ::testing::Test {
+ protected:
+  // Null where the layout is another one, with the words for it.
+  std::unique_ptr<RecordReader> open() {
+    try {
+      return std::make_unique<RecordReader>(kRecord);
+    } catch (const Error& e) {
+      ADD_FAILURE() << e.what() << "\n" << kRecordAgain;
+      return nullptr;
+    }
+  }
+};
+
+TEST_F(StepGolden, TheRecordedPressGivesTheSameBits) {
+  const auto record = open();
+  ASSERT_TRUE(record);
+  const models::Setup setup = models::parse_resolved(record->texts().at("resolved"), kRecord);
+  const ReplayResult result = replay(bench::prepare_setup(setup), *record);
+  EXPECT_EQ(result.first_difference, -1) << result.what << "\n" << kRecordAgain;
+  EXPECT_EQ(result.ticks, 601);  // tick 0 and 1.2 s of 500 Hz
+  RecordedTick frame;
+  record->rewind();
+  while (record->next(frame)) {
+  }
+  EXPECT_EQ(result.hash, frame.hash) << kRecordAgain;
+}
+
+// It is worth replaying: the tool comes, presses beyond 1 mm and 1 N, and the record is small.
+TEST_F(StepGolden, TheRecordHoldsAPress) {
+  const auto record = open();
+  ASSERT_TRUE(record);
+  EXPECT_LT(std::filesystem::file_size(kRecord), 400'000U);
+  std::map<Mode, int> ticks;
+  double deepest = 0.0;
+  double strongest = 0.0;
+  RecordedTick frame;
+  while (record->next(frame)) {
+    ++ticks[frame.out.mode];
+    deepest = std::max(deepest, frame.out.deflection);
+    strongest = std::max(strongest, -frame.out.force.xyz[2]);
+  }
+  EXPECT_GT(ticks[Mode::follow], 100);
+  EXPECT_GT(ticks[Mode::contact], 100);
+  EXPECT_EQ(ticks[Mode::hold], 0);
+  EXPECT_EQ(frame.out.contacts, 1);
+  EXPECT_GT(deepest, 1e-3);
+  EXPECT_GT(strongest, 1.0);
+}
+
+}  // namespace
+}  // namespace enc
