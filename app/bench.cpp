@@ -42,6 +42,8 @@ int bench(const BenchOptions& options) {
   bench::BenchContext context{models::models_dir(""), options.seed, options.repeats,
                               options.quick,          options.set,  {}};
   std::vector<bench::BenchResult> results;
+  if (!options.out.empty())
+    bench::write_results(options.out, results, options.seed);  // refused before hours of work
   bool all_ok = true;
   for (const bench::Benchmark* benchmark : list) {
     if (isatty(STDERR_FILENO) != 0)

@@ -9,7 +9,8 @@ namespace enc::app {
 int check(const SceneOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
   const Scene scene = bench::prepare_setup(setup);
-  fmt::print("{}\n{}\nframes\n{}\nlimits\n", setup.scene.title, parts_text(setup), frame_graph(scene));
+  fmt::print("{}\n{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n", setup.scene.title,
+             parts_text(setup), frame_graph(scene), chain_residual(scene));
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     fmt::print(
         "  object '{}': deflection up to {:g} mm, at most {:.2f} N; softest stable slope {:.3f} N/mm\n",

@@ -1,6 +1,7 @@
 // The command line. Each subcommand is one function in a file of its own (options.h). Exit codes: 0 yes, 1
 // the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold.
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -16,13 +17,23 @@ namespace {
 
 using namespace enc::app;
 
+// CLI11 reads "-1" and numbers of 30 digits as some other number.
+std::string bad_seed(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (bad == std::errc() && end == text.data() + text.size()) return {};
+  return "--seed: expected a whole number from 0 to 18446744073709551615";
+}
+
 void scene_options(CLI::App* command, SceneOptions& options) {
   command->add_option("scene", options.scene, "scene file (models/scenes/*.toml)")->required();
   command->add_option("--rig", options.rig, "rig: sim, a name in models/rigs, or a file")
       ->capture_default_str();
   command->add_option("--set", options.set,
                       "override, e.g. object.ball.radius_mm=30 (names: encounter params SCENE)");
-  command->add_option("--seed", options.seed, "seed of all random streams")->capture_default_str();
+  command->add_option("--seed", options.seed, "seed of all random streams")
+      ->capture_default_str()
+      ->check(bad_seed);
 }
 
 int dispatch(CLI::App& app, int argc, char** argv) {
@@ -76,7 +87,9 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       app.add_subcommand("bench", "run benchmarks; exit 1 where a figure is out of bounds");
   bench_command->add_option("names", bench_options.names, "benchmarks; none: all");
   bench_command->add_option("--out", bench_options.out, "folder for results.json, REPORT.md and tables");
-  bench_command->add_option("--seed", bench_options.seed, "first seed")->capture_default_str();
+  bench_command->add_option("--seed", bench_options.seed, "first seed")
+      ->capture_default_str()
+      ->check(bad_seed);
   bench_command->add_option("--repeats", bench_options.repeats,
                             "seeds per row; default: the benchmark's own");
   bench_command->add_option("--set", bench_options.set, "override, as for run");

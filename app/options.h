@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,14 @@ struct SceneOptions {
 
 struct RunOptions : SceneOptions {
   std::string pace = "free";
-  double seconds = kUnset;
+  std::optional<double> seconds;  // length; none: until the user is done
   std::string record;
   bool json = false;
   bool armed = false;
 };
 struct ViewOptions : SceneOptions {
   std::string shot;
-  double at = kUnset;  // s; unset: in the middle of the first hold
+  std::optional<double> at;  // s; none: in the middle of the first hold
   bool close_up = false;
 };
 struct ReplayOptions {

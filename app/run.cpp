@@ -28,6 +28,11 @@ double pace_of(const std::string& text) {
   return factor;
 }
 
+bool all_simulated(const RigSpec& rig) {
+  return rig.manipulator.driver == "sim" && rig.force.driver == "sim" && rig.tracker.driver == "sim" &&
+         rig.display.driver == "sim";
+}
+
 void show_progress(double share) {
   const int percent = static_cast<int>(std::lround(share * 100.0));
   fmt::print(stderr, "\r  {:3d} %", percent);
@@ -47,13 +52,18 @@ std::unique_ptr<RecordWriter> record_for(const RunOptions& options, const models
 
 int run(const RunOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
-  if (!std::isnan(options.seconds) && !(options.seconds > 0.0 && options.seconds < 1e6))
+  if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
   bench::PressMeasure presses(setup);
   bench::TrialOptions trial_options;
   trial_options.seed = options.seed;
-  trial_options.seconds = options.seconds;
+  trial_options.seconds = options.seconds.value_or(kUnset);
   trial_options.pace = pace_of(options.pace);
+  // Real devices live in wall time (decisions 9), and the simulated ones then follow.
+  if (!all_simulated(setup.rig) && trial_options.pace != 1.0) {
+    if (options.pace != "free") throw Error("--pace: a rig with real devices runs at wall pace only");
+    trial_options.pace = 1.0;
+  }
   trial_options.fit_out = [&](Rig& rig) { fit_out(rig, setup, options.armed); };
   trial_options.watch = [&](const bench::Glance& glance) { presses.see(glance); };
   const bool terminal = isatty(STDERR_FILENO) != 0;

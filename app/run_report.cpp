@@ -51,16 +51,19 @@ std::string range_text(const std::vector<bench::PressFigures>& presses) {
 
 std::string press_lines(const RunReport& r) {
   const auto& presses = r.presses.presses();
-  if (presses.empty()) return "";
+  const auto met = [](const bench::PressFigures& p) { return !std::isnan(p.miss); };
+  if (std::none_of(presses.begin(), presses.end(), met)) return "";
   std::string text;
   text += fmt::format(
       "force       peak {:.2f} N, {} (true); deflection peak {:.3f} mm (true), limit {:.1f} mm\n",
       peak(presses, &bench::PressFigures::peak_force), range_text(presses),
       peak(presses, &bench::PressFigures::peak_deflection) * 1e3, r.scene.objects.front().limit * 1e3);
+  const auto newtons = [](double x) {
+    return std::isnan(x) ? std::string("none") : fmt::format("{:.3f} N", x);
+  };
   text += fmt::format(
-      "error       press {:.3f} N RMSE, release {:.3f} N RMSE (true force against the response at true "
-      "deflection)\n",
-      r.presses.rmse_press(), r.presses.rmse_release());
+      "error       press {} RMSE, release {} RMSE (true force against the response at true deflection)\n",
+      newtons(r.presses.rmse_press()), newtons(r.presses.rmse_release()));
   text +=
       fmt::format("approach    {} mm/s\n",
                   each(presses, [](const auto& p) { return fmt::format("{:.0f}", p.approach_speed * 1e3); }));
@@ -76,10 +79,10 @@ std::string press_lines(const RunReport& r) {
                       each(presses, [](const auto& p) { return fmt::format("{}", p.contacts); }));
   text += fmt::format("energy      {:.2f} mJ in, {:.2f} mJ out\n", r.presses.energy_in() * 1e3,
                       r.presses.energy_out() * 1e3);
-  text += fmt::format(
-      "tip         {} of the undeformed object by at least {:.1f} um; pull on the tool at most {:.3f} N\n",
-      r.presses.greatest_outside() <= 0.0 ? "inside" : "OUTSIDE",
-      std::abs(r.presses.greatest_outside()) * 1e6, r.presses.greatest_tension());
+  text += fmt::format("tip         {} {:.1f} um; pull on the tool at most {:.3f} N\n",
+                      r.presses.greatest_outside() <= 0.0 ? "inside of the undeformed object by at least"
+                                                          : "OUTSIDE of the undeformed object by up to",
+                      std::abs(r.presses.greatest_outside()) * 1e6, r.presses.greatest_tension());
   return text;
 }
 
@@ -102,6 +105,9 @@ std::string run_text(const RunReport& r) {
     if (&why == &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) break;
   }
   text += press_lines(r);
+  if (r.result.contacts == 0 && r.setup.scene.user)
+    text += fmt::format("note        the user never touched anything; last notice of the core: {}\n",
+                        r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
   const StepTimes times = step_times(r.result.step_ns);
   text += fmt::format("tick        step() p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.1f} us\n",
                       times.p50 * 1e-3, times.p99 * 1e-3, times.p999 * 1e-3, times.max * 1e-3);

@@ -168,7 +168,7 @@ int picture(const ViewOptions& options, Look look) {
   if (options.shot.empty())
     throw Error(
         "encounter view draws a picture into a file for now; a window comes later: add --shot picture.png");
-  if (!std::isnan(options.at) && !(options.at >= 0.0 && options.at <= 3600.0))
+  if (options.at && !(*options.at >= 0.0 && *options.at <= 3600.0))
     throw Error("--at-s is a time from 0 to 3600 s");
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
@@ -176,7 +176,7 @@ int picture(const ViewOptions& options, Look look) {
   sim::World world({setup.scene, setup.rig, setup.twin, scene, models::models_dir(options.scene) + "/mjcf",
                     options.seed, true});
   Moment moment{setup, scene, world, {}, {}, {}};
-  run_until(moment, options.at);
+  run_until(moment, options.at.value_or(kUnset));
 
   sim::ViewRequest request;
   request.model = world.physics().model();

@@ -25,8 +25,7 @@ void press_once(const models::Setup& setup, std::uint64_t seed, Tally& tally) {
   Trial trial(setup, options);
   tally.simulated += trial.run().simulated;
   for (const PressFigures& press : measure.presses()) {
-    if (std::isnan(press.miss)) continue;
-    ++tally.presses;
+    ++tally.presses;  // also one that never met the surface: it then has no contact
     tally.single += press.contacts == 1 ? 1 : 0;
     if (!std::isnan(press.restore_error)) tally.restore = std::max(tally.restore, press.restore_error);
     tally.over_limit =

@@ -29,9 +29,7 @@ double miss_bound(const models::Setup& setup, double approach_speed) {
   const double tilt = setup.scene.user ? setup.scene.user->approach_tilt : 0.0;
   const double sideways = approach_speed * std::sin(tilt);
   const double followed = std::min(sideways, rig.manipulator.speed);
-  const double braking = followed * followed /
-                         (2.0 * 0.6 * rig.manipulator.acceleration);  // 0.6: the sideways share (guard.cpp)
-  // What the machine cannot follow adds up over the way on which the tool comes in.
+  const double braking = followed * followed / (2.0 * stages::kSideShare * rig.manipulator.acceleration);
   const double from = setup.scene.user ? setup.scene.user->approach_from : 0.0;
   const double outrun = (sideways - followed) / std::max(approach_speed, 1e-9) * from;
   return still + sideways * age + braking + outrun;
@@ -52,13 +50,13 @@ void PressMeasure::meet(const Glance& glance, PressFigures& press, const Vec3& n
 
 void PressMeasure::compare(const Glance& glance, PressFigures& press, const Object& object, double deflection,
                            double force) {
-  if (glance.out.mode != Mode::contact) return;
+  if (glance.out.mode != Mode::contact || !glance.truth.touching) return;
   press.peak_force = std::max(press.peak_force, force);
   press.peak_deflection = std::max(press.peak_deflection, deflection);
   const bool near_limit = deflection >= object.limit - kNearLimit;
   if (near_limit && std::isnan(press.force_at_limit)) press.force_at_limit = force;
   reached_ = reached_ || near_limit;
-  if (!glance.truth.touching || deflection <= 0.0 || near_limit) return;
+  if (deflection <= 0.0 || near_limit) return;
   if (glance.truth.phase == sim::Phase::press && !reached_)
     press_error_.add(force - object.response.press(deflection));
   if (glance.truth.phase == sim::Phase::release)
@@ -82,7 +80,10 @@ void PressMeasure::see(const Glance& glance) {
   const double deflection = -(at_tip.distance + truth.tip_radius);
   const double force = -dot(truth.contact_force, at_tip.normal);
   greatest_outside_ = std::max(greatest_outside_, -deflection);
-  greatest_tension_ = std::max(greatest_tension_, -force);
+  // Pull is along the line between the two tips, whichever way that points.
+  if (truth.touching)
+    greatest_tension_ = std::max(greatest_tension_,
+                                 truth.contact_force.e().dot((truth.tool_tip - truth.tip).e().normalized()));
   const double power = dot(truth.contact_force, truth.tip_velocity);
   (power > 0.0 ? energy_in_ : energy_out_) += std::abs(power) * glance.scene.dt;
   press.contacts += glance.out.contacts - contacts_before_;

@@ -66,6 +66,7 @@ void Trial::count(const Tick& tick) {
       result_.holds.emplace_back(tick.t, out_.why & kHoldReasons);
   }
   result_.last_mode = mode;
+  result_.last_why = out_.why;
   result_.contacts = out_.contacts;
   add_tick(hash_, state_, out_);
   result_.hash = hash_.value;

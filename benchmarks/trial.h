@@ -43,6 +43,7 @@ struct TrialResult {
   std::int64_t mode_changes = 0;
   std::vector<std::pair<Time, std::uint32_t>> holds;  // when each began, and why; the first 16
   Mode last_mode = Mode::away;
+  std::uint32_t last_why = 0;
   std::uint64_t hash = 0;
   std::vector<std::uint32_t> step_ns;  // of each step(), as the wall clock saw it
   std::int64_t diverged_at = -1;
@@ -66,6 +67,7 @@ class Trial {
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
   [[nodiscard]] State& state() { return state_; }
   [[nodiscard]] const Outputs& outputs() const { return out_; }
+  [[nodiscard]] Inputs& inputs() { return in_; }
 
  private:
   void count(const Tick& tick);

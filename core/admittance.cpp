@@ -27,12 +27,8 @@ void model(Walk& walk, State& state) noexcept {
   const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
   const Vec<'N'> force = contact.X_WN.inverse() * walk.force;
   const double pressed = std::max(0.0, -force.xyz[2] - walk.scene.force.threshold);
-  double deflection = object.response.deflection(contact.response, pressed);
-  if (deflection >= object.limit) {
-    deflection = object.limit;
-    object.response.force(contact.response, deflection);
-    walk.why |= kAtLimit;
-  }
+  const double deflection = object.response.deflection(contact.response, pressed, object.limit);
+  if (deflection >= object.limit) walk.why |= kAtLimit;
   const Vec3 sideways = tangential_give(object, force);
   contact.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
 }
@@ -47,6 +43,11 @@ void target(Walk& walk, State& state) noexcept {
     case Mode::restore: {
       const Vec3 d = state.contact.displacement.e();
       walk.target = state.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin);
+      // Sideways along the tangent plane would lead out of a round object.
+      const NearestInWorld at =
+          nearest(walk.scene.objects[static_cast<std::size_t>(state.contact.object)], walk.target);
+      const double outside = at.distance + radius + kSkin;
+      if (outside > 0.0) walk.target = walk.target - outside * at.normal;
       break;
     }
     case Mode::away:

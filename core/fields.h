@@ -109,6 +109,7 @@ void fields(F& f, State& s) {
   f("state_contacts", s.contacts);
   f("state_object", s.object);
   f("entered", s.entered);
+  f("outside_dent", s.outside_dent);
   fields(f, s.tool);
   fields(f, s.dent);
   fields(f, "force_zero_F", s.force_zero);

@@ -25,7 +25,7 @@ void check_undeformed(Walk& walk, const Object& object, const Point<'O'>& outer,
 
 bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
   const DentSample& dent = sample.value;
-  if (sample.t > walk.tick.t) return false;
+  if (sample.t > walk.tick.t + walk.tick.dt) return false;
   if (dent.object == -1) return true;
   return dent.object >= 0 && dent.object < static_cast<int>(walk.scene.objects.size()) && dent.tip.finite() &&
          dent.tip.e().norm() < 10.0 && dent.tip_radius >= 0.0 && dent.tip_radius < 0.1 && dent.depth >= 0.0 &&
@@ -49,9 +49,14 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, State
     if (state.mode != Mode::away) walk.why |= kDentOverdue;
     return;
   }
-  if (state.dent.value.object != state.object) return;
-  if (dented_distance(object.surface, state.dent.value, outer) > rig.margin + rig.margin_speed * old)
-    walk.why |= kOutsideDent;
+  if (state.dent.value.object != state.object) {
+    state.outside_dent = false;
+    return;
+  }
+  // The margin shrinks with each new frame: what was outside counts as inside again only well within it.
+  const double margin = (rig.margin + rig.margin_speed * old) * (state.outside_dent ? 0.7 : 1.0);
+  state.outside_dent = dented_distance(object.surface, state.dent.value, outer) > margin;
+  if (state.outside_dent) walk.why |= kOutsideDent;
 }
 
 // Largest speed from which the machine still stops within `distance`, in steps of dt.
@@ -82,22 +87,14 @@ struct Walls {
 };
 
 Walls walls_around(const Walk& walk, const State& state) {
-  if (state.object < 0 || state.mode == Mode::away) return {};
+  if (state.object < 0 || !state.entered) return {};
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
-  const Point<'W'> command = walk.scene.X_WR * state.command;
-  const NearestInWorld at = nearest(object, command);
-  Walls walls{at.normal.e(), -(at.distance + walk.scene.tip_radius) - kSkin};
-  if (state.mode != Mode::contact) return walls;
-  walls.normal = (state.contact.X_WN * Vec<'N'>(0, 0, 1)).e();
-  const double height = (state.contact.X_WN.inverse() * command).xyz[2];
-  walls.in = object.limit + (height + walk.scene.tip_radius + kSkin);
+  const NearestInWorld at = nearest(object, walk.scene.X_WR * state.command);
+  const double depth = -(at.distance + walk.scene.tip_radius);
+  Walls walls{at.normal.e(), depth - kSkin};
+  if (state.mode == Mode::contact) walls.in = object.limit + kSkin - depth;
   return walls;
 }
-
-// Of the acceleration, the way along the normal has 0.8 and the sideways way 0.6 for sure (together 1), so
-// that neither starves.
-constexpr double kAlongShare = 0.8;
-constexpr double kSideShare = 0.6;
 
 // A velocity with its size reduced by `less`, not below zero.
 Vec3 slowed(const Vec3& velocity, double less) {
@@ -124,7 +121,9 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
   const double v0 = walls.normal.dot(before);
   const Vec3 side_before = before - v0 * walls.normal;
   double wanted = std::copysign(toward(std::abs(along)), along);
-  wanted = std::clamp(wanted, -toward(std::max(0.0, walls.in)), toward(std::max(0.0, walls.out)));
+  // Beyond the surface the way leads back in.
+  const double outward = walls.out >= 0.0 ? toward(walls.out) : -toward(-walls.out);
+  wanted = std::clamp(wanted, std::min(outward, -toward(std::max(0.0, walls.in))), outward);
   // Not faster than what the sideways way can make room for in this tick.
   const double side_least = std::max(0.0, side_before.norm() - kSideShare * most);
   const double room = std::sqrt(std::max(0.0, reach.speed * reach.speed - side_least * side_least));
@@ -156,35 +155,49 @@ void check_tip(Walk& walk, State& state) noexcept {
   if (walk.scene.has_display) check_dent(walk, object, outer, state);
 }
 
+namespace {
+
+// Velocity of the next set-point, in W.
+Vec3 commanded(Walk& walk, const State& state, const Vec3& before) {
+  const double dt = walk.scene.dt;
+  const double acceleration = walk.scene.reach.acceleration;
+  const Walls walls = walls_around(walk, state);
+  const Vec3 straight = slowed(before, acceleration * dt);
+  if (holding(walk)) {
+    // Straight to a standstill, unless that would carry the tip out of the object; a tip that is outside is
+    // brought back in.
+    const bool safe = walls.out >= 0.0 &&
+                      walls.normal.dot(straight) <= approach_speed(walls.out, kAlongShare * acceleration, dt);
+    return safe ? straight : next_velocity(walk, walls, Vec3::Zero(), before);
+  }
+  Point<'R'> target = walk.scene.X_WR.inverse() * walk.target;
+  if (!target.finite()) {
+    walk.why |= kNotFinite;
+    return straight;
+  }
+  target = reachable(walk, state.command, target);
+  return next_velocity(walk, walls, walk.scene.X_WR.q() * (target - state.command).e(), before);
+}
+
+}  // namespace
+
 void limit_command(Walk& walk, State& state) noexcept {
   if (!state.started) return;  // nothing is known of the machine: nothing is said to it
   const double dt = walk.scene.dt;
   const double acceleration = walk.scene.reach.acceleration;
-  const Quat q = walk.scene.X_WR.q();
-  const Vec3 before = q * state.command_velocity.e();
-  Vec3 after = slowed(before, acceleration * dt);  // what hold does: straight to a standstill
-  if (!holding(walk)) {
-    Point<'R'> target = walk.scene.X_WR.inverse() * walk.target;
-    if (!target.finite()) {
-      walk.why |= kNotFinite;
-      target = state.command;
-    }
-    const Vec3 way = q * (reachable(walk, state.command, target) - state.command).e();
-    const Vec3 wanted = next_velocity(walk, walls_around(walk, state), way, before);
-    // Where the machine would come to rest if it braked from the next tick on: that must be within reach,
-    // too.
-    const Vec3 next = q.conjugate() * wanted;
-    const Point<'R'> rest =
-        state.command + Vec<'R'>(Vec3(dt * next + next * (next.norm() / (2.0 * acceleration))));
-    const Quat q_RH = walk.scene.X_WR.q().conjugate();
-    if (walk.scene.reach.contains(Pose<'R', 'H'>(q_RH, rest)) ||
-        !walk.scene.reach.contains(Pose<'R', 'H'>(q_RH, state.command)))
-      after = wanted;
-    else
-      walk.why |= kUnreachable;
+  const Quat q_WR = walk.scene.X_WR.q();
+  const Quat q_RH = q_WR.conjugate();
+  const Vec3 before = state.command_velocity.e();
+  Vec3 after = q_RH * commanded(walk, state, q_WR * before);
+  // Where the machine would come to rest if it braked from the next tick on: that must be within reach, too.
+  const Vec3 way = dt * after + after * (after.norm() / (2.0 * acceleration));
+  const auto within = [&](const Point<'R'>& p) { return walk.scene.reach.contains(Pose<'R', 'H'>(q_RH, p)); };
+  if (!within(state.command + Vec<'R'>(way)) && within(state.command)) {
+    walk.why |= kUnreachable;
+    after = slowed(before, acceleration * dt);
   }
-  state.command_velocity = Vec<'R'>(Vec3(q.conjugate() * after));
-  state.command = Point<'R'>(Vec3(state.command.e() + dt * state.command_velocity.e()));
+  state.command_velocity = Vec<'R'>(after);
+  state.command = Point<'R'>(Vec3(state.command.e() + dt * after));
 }
 
 }  // namespace enc::stages

@@ -17,6 +17,12 @@ bool too_far(const Walk& walk) {
   return walk.tool_known && walk.gap > kFar;
 }
 
+// As near to the buffered point as the machine gets.
+bool at_rest(const Walk& walk, const State& state) {
+  constexpr double kStill = 1e-5;  // m/s
+  return state.command_velocity.norm() < kStill && walk.in.tip.value.velocity.norm() < kStill;
+}
+
 // The surface point under the tool; without a tracker, over the tip.
 Pose<'W', 'N'> frame_under_tool(const Walk& walk, const State& state) {
   if (walk.tool_known) return {rotation_z_to(walk.normal.e()), walk.surface_point};
@@ -66,7 +72,8 @@ void in_free_space(Walk& walk, State& state) {
   if (state.mode == Mode::away && (!walk.scene.has_tracker || walk.gap < follow.resume))
     state.mode = Mode::follow;
   if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
-  if (state.mode != Mode::follow || !walk.scene.has_force) return;
+  // Without the force's zero the tip could not give way: the tool has to be taken away first.
+  if (state.mode != Mode::follow || !walk.scene.has_force || (walk.why & kTaring) != 0) return;
   if (walk.gap <= 0.0) {
     begin_contact(walk, state, false);
   } else if (pressing_force(walk, walk.normal) >= walk.scene.force.contact && !too_far(walk)) {
@@ -86,7 +93,8 @@ void mode(Walk& walk, State& state) noexcept {
     const Vec<'W'> normal = state.contact.X_WN * Vec<'N'>(0, 0, 1);
     if (pressing_force(walk, normal) >= walk.scene.force.contact && !too_far(walk)) {
       begin_contact(walk, state, true);  // pressed again before the tip was back
-    } else if ((walk.X_WH.origin() - buffered).norm() <= walk.scene.contact.restored) {
+    } else if ((walk.X_WH.origin() - buffered).norm() <= walk.scene.contact.restored ||
+               at_rest(walk, state)) {
       state.mode = Mode::follow;
     }
   } else {

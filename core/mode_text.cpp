@@ -12,7 +12,7 @@ std::string_view mode_name(Mode mode) {
 }
 
 std::string why_text(std::uint32_t why) {
-  static constexpr std::array<std::pair<Why, std::string_view>, 19> kTexts{
+  static constexpr std::array<std::pair<Why, std::string_view>, 20> kTexts{
       {{kToolInvalid, "tool pose invalid"},
        {kToolLost, "tool lost"},
        {kForceInvalid, "force invalid"},
@@ -31,7 +31,8 @@ std::string why_text(std::uint32_t why) {
        {kLimited, "speed or acceleration limited"},
        {kAtLimit, "deflection limit"},
        {kByForce, "contact by force"},
-       {kTaring, "force zero not known yet"}}};
+       {kTaring, "force zero not known yet"},
+       {kToolUnseen, "no tool in view"}}};
   std::string text;
   for (const auto& [bit, words] : kTexts) {
     if ((why & bit) == 0) continue;

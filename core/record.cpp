@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <system_error>
 
 #include "core/error.h"
@@ -55,6 +56,11 @@ const LayoutHash& layout() {
     LayoutHash hash;
     RecordedTick frame;
     all_fields(hash, frame);
+    // A frame holds the hash of the state, so a state of another make is another layout, too.
+    const std::size_t leaves = hash.leaves;
+    State state;
+    fields(hash, state);
+    hash.leaves = leaves;
     return hash;
   }();
   return kHash;
@@ -147,6 +153,8 @@ RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, st
   put(header.data(), header.size() * kWord);
   if (full()) {
     std::fclose(file_);
+    std::error_code none;
+    if (std::filesystem::is_regular_file(path, none)) std::filesystem::remove(path, none);
     throw Error(error() + "; give a file where there is room");
   }
 }

@@ -103,24 +103,25 @@ double Response::force(ResponseState& state, double deflection) const noexcept {
   return value(release_, u) + state.alpha * (value(press_, u) - value(release_, u));
 }
 
-double Response::deflection(ResponseState& state, double force) const noexcept {
+double Response::deflection(ResponseState& state, double force, double most) const noexcept {
   const auto at = [&](double u) {
     const double released = value(release_, u);
     return released + alpha_at(state, u) * (value(press_, u) - released);
   };
   double lo = 0.0;
-  double hi = 1.0;
+  double hi = std::min(1.0, most / limit_);
+  const double end = hi;
   double u = 0.0;
   if (!(force > 0.0)) {
     u = 0.0;
-  } else if (force >= at(1.0)) {
-    u = 1.0;
+  } else if (force >= at(end)) {
+    u = end;
   } else {
     // at() rises strictly, with a kink where alpha saturates: secant steps (Illinois) inside a shrinking
     // bracket. Exact to 1e-13.
     double f_lo = -force;
-    double f_hi = at(1.0) - force;
-    u = std::clamp(state.deflection / limit_, 0.0, 1.0);  // the last answer is the best guess
+    double f_hi = at(end) - force;
+    u = std::clamp(state.deflection / limit_, 0.0, end);  // the last answer is the best guess
     for (int i = 0; i < 60; ++i) {
       const double f = at(u) - force;
       if (f > 0.0) {

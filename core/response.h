@@ -39,8 +39,11 @@ class Response {
   // Moves the state to a deflection in [0, limit] and gives the force there, N.
   double force(ResponseState& state, double deflection) const noexcept;
   // Moves the state to the deflection at which the object pushes back with `force`, and gives it. Clamped to
-  // [0, limit].
-  double deflection(ResponseState& state, double force) const noexcept;
+  // [0, most], most <= limit.
+  double deflection(ResponseState& state, double force, double most) const noexcept;
+  double deflection(ResponseState& state, double force) const noexcept {
+    return deflection(state, force, limit_);
+  }
 
  private:
   [[nodiscard]] double gap_integral(double u) const noexcept;  // Y, N m

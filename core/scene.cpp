@@ -37,7 +37,8 @@ Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, d
   try {
     return {behaviour.curves, lowest_slope};
   } catch (const Error& e) {
-    throw Error("behaviour '" + behaviour.name + "': " + e.what(), "object." + object.name + ".behaviour");
+    throw Error("behaviour '" + behaviour.name + "' of object '" + object.name + "': " + e.what(),
+                "behaviour." + behaviour.name + ".curves." + e.key());
   }
 }
 
@@ -56,6 +57,13 @@ Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest
   if (behaviour.tangential == Tangential::spring && !(behaviour.tangential_stiffness > 0.0))
     throw Error("behaviour '" + behaviour.name + "': tangential = \"spring\" needs a tangential stiffness",
                 "object." + spec.name + ".behaviour");
+  if (behaviour.tangential == Tangential::spring && behaviour.tangential_stiffness < lowest_slope)
+    throw Error("behaviour '" + behaviour.name + "' gives sideways more than the loop renders stably",
+                "object." + spec.name + ".behaviour");
+  if (limit_of(behaviour, spec) < scene.follow.inset)
+    throw Error("the tip waits deeper than the deflection limit of object '" + spec.name +
+                    "'; make the inset smaller",
+                "follow.inset");
   return {surface_of(spec),          place_of(spec),       response_of(behaviour, spec, lowest_slope),
           limit_of(behaviour, spec), behaviour.tangential, behaviour.tangential_stiffness};
 }
@@ -154,6 +162,23 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back({Point<'T'>(tool.tip), tool.tip_radius});
   check_reach(spec, scene);
   return scene;
+}
+
+double chain_residual(const Scene& scene) {
+  const Pose<'W', 'H'> X_WH = scene.X_WR * scene.reach.machine.zero();
+  // As seen from W; the letter does not matter for the sum.
+  const auto from_W = [](const auto& X) { return Pose<'W', 'N'>(Quat(X.q()), Vec3(X.p())); };
+  std::vector<Pose<'W', 'N'>> seen{from_W(scene.X_WR), from_W(X_WH), from_W(X_WH * scene.X_HF),
+                                   from_W(scene.X_WC), from_W(scene.X_WS)};
+  for (const Object& object : scene.objects) seen.push_back(from_W(object.X_WO));
+  double worst = X_WH.p().norm() + X_WH.q().angularDistance(Quat::Identity());  // H is W at zero
+  for (const auto& X_WA : seen)
+    for (const auto& X_WB : seen) {
+      const Vec3 there = X_WA.inverse().q() * (X_WB.p() - X_WA.p());
+      const Vec3 back = X_WB.inverse().q() * (X_WA.p() - X_WB.p());
+      worst = std::max(worst, (X_WA.q() * there + X_WB.q() * back).norm());
+    }
+  return worst;
 }
 
 std::string frame_graph(const Scene& scene) {

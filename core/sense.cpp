@@ -37,14 +37,14 @@ void sense(Walk& walk, State& state) noexcept {
   }
   const bool absurd = !sample.value.force.finite() || !sample.value.torque.finite() ||
                       sample.value.force.norm() > kAbsurd || sample.value.torque.norm() > kAbsurd ||
-                      sample.t > walk.tick.t;
+                      sample.t > walk.tick.t + walk.tick.dt;
   if (absurd || sample.health == Health::fault) {
     walk.why |= kForceInvalid;
     return;
   }
   if (sample.health == Health::saturated || sample.health == Health::out_of_range)
     walk.why |= kForceSaturated;
-  if (holding(walk)) return;  // the tip's pose or acceleration is not to be trusted
+  if ((walk.why & (kTipInvalid | kTipLost | kForceSaturated)) != 0) return;
 
   // measured = contact + m g - m a + zero
   const Pose<'W', 'F'> X_WF = walk.X_WH * walk.scene.X_HF;

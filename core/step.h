@@ -50,7 +50,8 @@ struct State {
   Mode mode = Mode::away;  // the mode under a hold
   std::int32_t contacts = 0;
   std::int32_t object = -1;
-  bool entered = false;  // the tip has been inside that object
+  bool entered = false;       // the tip has been inside that object
+  bool outside_dent = false;  // and is outside its deformed surface
   Stamped<TrackedTool> tool;
   Stamped<DentSample> dent;
   Vec<'F'> force_zero = Vec<'F'>::zero();

@@ -7,7 +7,7 @@ namespace {
 bool plausible(const Walk& walk, const Stamped<TrackedTool>& sample) {
   const auto& tool = sample.value;
   return tool.X_CT.valid() && tool.X_CT.p().norm() < walk.scene.tracker.farthest && tool.tool >= 0 &&
-         tool.tool < static_cast<int>(walk.scene.tools.size()) && sample.t <= walk.tick.t;
+         tool.tool < static_cast<int>(walk.scene.tools.size()) && sample.t <= walk.tick.t + walk.tick.dt;
 }
 
 void judge_age(Walk& walk, const State& state) {
@@ -18,6 +18,7 @@ void judge_age(Walk& walk, const State& state) {
     walk.why |= kToolPredicted;
   } else if (state.mode == Mode::away) {
     walk.tool_known = false;  // nobody is near: a tool out of sight is simply away
+    walk.why |= kToolUnseen;
   } else {
     walk.why |= kToolLost;
   }
@@ -26,14 +27,17 @@ void judge_age(Walk& walk, const State& state) {
 void track_tool(Walk& walk, State& state) {
   const auto& sample = walk.in.tool;
   if (sample.health == Health::fault) walk.why |= kToolInvalid;
-  if (sample.health == Health::ok) {
+  if (sample.health == Health::ok && sample.value.tool != -1) {  // -1: no tool recognised, which is no fault
     if (!plausible(walk, sample)) {
       walk.why |= kToolInvalid;
     } else if (state.tool.health == Health::absent || sample.t > state.tool.t) {
       state.tool = sample;  // older or repeated packets change nothing
     }
   }
-  if (state.tool.health != Health::ok) return;
+  if (state.tool.health != Health::ok) {
+    walk.why |= kToolUnseen;
+    return;
+  }
   walk.tool_known = true;
   const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
   walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
@@ -52,13 +56,19 @@ void track_tip(Walk& walk, State& state) {
   const bool usable = (sample.health == Health::ok || sample.health == Health::out_of_range) &&
                       tip.X_RH.valid() && tip.X_RH.p().norm() < 10.0 && tip.velocity.finite() &&
                       tip.acceleration.finite() && tip.acceleration.norm() < 1e3 &&
-                      tip.velocity.norm() < 10.0 && sample.t <= walk.tick.t;
+                      tip.velocity.norm() < 10.0 && sample.t <= walk.tick.t + walk.tick.dt;
   if (!usable) {
     walk.why |= kTipInvalid;
     return;
   }
   walk.X_WH = walk.scene.X_WR * tip.X_RH;
   if (!state.started) {
+    // Commands keep W's axes: a machine that stands turned must be turned back by its own means first.
+    constexpr double kTurned = 2e-3;  // rad
+    if (walk.X_WH.q().angularDistance(Quat::Identity()) > kTurned) {
+      walk.why |= kTipInvalid;
+      return;
+    }
     state.started = true;
     state.command = tip.X_RH.origin();
   }

@@ -194,6 +194,14 @@ void check(const Setup& setup) {
   }
   check_user(setup);
   check_rig(setup);
+  const double steps = 1.0 / (setup.rig.loop.rate * setup.twin.world.timestep);
+  if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6) {
+    fail(setup, "truth.world.timestep_us",
+         fmt::format(
+             "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "
+             "as 'timestep_us = {:g}'",
+             1e6 / setup.rig.loop.rate, 1e6 / setup.rig.loop.rate));
+  }
 }
 
 }  // namespace enc::models

@@ -143,12 +143,21 @@ std::string models_dir(const std::string& scene_path) {
   return "models";
 }
 
-ResponseSpec load_response(const std::string& path) {
+namespace {
+
+ResponseFile read_response(const std::string& path, Places& places) {
   const std::string folder = fs::path(path).parent_path().string();
   ResponseFile file;
-  read_toml(text_of_file(path, "response", files_in(folder, "")), path,
-            [&](Visitor& visitor) { describe(visitor, file); });
-  return file.response;
+  places = read_toml(text_of_file(path, "response", files_in(folder, "")), path,
+                     [&](Visitor& visitor) { describe(visitor, file); });
+  return file;
+}
+
+}  // namespace
+
+ResponseSpec load_response(const std::string& path) {
+  Places places;
+  return read_response(path, places).response;
 }
 
 void fill_curves(Setup& setup, const std::string& models_dir) {
@@ -165,7 +174,11 @@ void fill_curves(Setup& setup, const std::string& models_dir) {
                               quoted(path.string()), path.parent_path().string(),
                               advice(b.response, files_in(models_dir, "responses"))));
     }
-    b.curves = load_response(path.string());
+    Places places;
+    b.curves = read_response(path.string(), places).response;
+    // What is wrong with a curve is wrong in the response file.
+    for (const auto& [key, place] : places)
+      setup.places[fmt::format("behaviour.{}.curves.{}", b.name, key)] = place;
   }
 }
 

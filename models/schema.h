@@ -78,6 +78,7 @@ void describe(Visitor&, ResponseSpec&);
 void describe(Visitor&, ResponseFile&);
 void describe(Visitor&, RigSpec&);
 void describe(Visitor&, HexapodGeometry&);
+void describe(Visitor&, std::string_view table, PoseSpec&);
 void describe(Visitor&, sim::TwinSpec&);
 // Everything, under the names that --set takes: the scene at the root, then behaviour, rig and truth.
 void describe_all(Visitor&, SceneSpec&, RigSpec&, sim::TwinSpec&);

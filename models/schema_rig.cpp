@@ -9,15 +9,6 @@ using enum Confidence;
 using enum Presence;
 
 constexpr std::array<std::string_view, 2> kTares{"start", "free"};
-constexpr std::string_view kPlace = "the lab's calibration";
-
-void describe(Visitor& v, std::string_view name, PoseSpec& p) {
-  table(v, name, [&] {
-    v.value({"position_mm", "origin of the second frame in the first", kPlace, assumed}, &p.position);
-    v.value({"rotation_deg", "about the fixed x, then y, then z axis", kPlace, assumed, {-360.0, 360.0}},
-            &p.rotation);
-  });
-}
 
 // A device table that is there must say by what the role is filled.
 void driver(Visitor& v, std::string& value) {
@@ -91,6 +82,19 @@ void describe(Visitor& v, ContactRig& c) {
 }
 
 }  // namespace
+
+void describe(Visitor& v, std::string_view name, PoseSpec& p) {
+  table(v, name, [&] {
+    v.value({"position_mm", "origin of the second frame in the first", "the lab's calibration", assumed},
+            &p.position);
+    v.value({"rotation_deg",
+             "about the fixed x, then y, then z axis",
+             "the lab's calibration",
+             assumed,
+             {-360.0, 360.0}},
+            &p.rotation);
+  });
+}
 
 void describe(Visitor& v, HexapodGeometry& g) {
   const std::string_view source = "parameters 2.2";

@@ -35,6 +35,12 @@ void describe(Visitor& v, sim::HexapodTruth& h) {
           &h.mass);
   v.value({"misplaced_mm", "of the machine against where the rig says it is, in W", "injected", chosen},
           &h.misplaced);
+  v.value({"turned_deg",
+           "of the machine about W's axes, against what the rig says",
+           "injected",
+           chosen,
+           {-5.0, 5.0}},
+          &h.turned);
   table(v, "geometry", [&] { describe(v, h.geometry); });
 }
 
@@ -97,6 +103,10 @@ void describe(Visitor& v, sim::HandTruth& h) {
 
 void describe(Visitor& v, sim::TwinSpec& t) {
   table(v, "world", [&] { describe(v, t.world); });
+  table(v, "frames", [&] {
+    describe(v, "W_C", t.frames.W_C);
+    describe(v, "H_F", t.frames.H_F);
+  });
   table(v, "hexapod", [&] { describe(v, t.hexapod); });
   table(v, "force", [&] { describe(v, t.force); });
   table(v, "tracker", [&] { describe(v, t.tracker); });

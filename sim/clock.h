@@ -14,6 +14,7 @@ class Paced : public Clock {
   // factor: seconds of experiment for each second of wall time; must be positive.
   Paced(std::unique_ptr<Clock> clock, double factor) : clock_(std::move(clock)), factor_(factor) {}
   Tick next() override;
+  [[nodiscard]] std::int64_t missed() const noexcept override { return clock_->missed(); }
 
  private:
   std::unique_ptr<Clock> clock_;

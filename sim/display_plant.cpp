@@ -1,11 +1,14 @@
 #include "sim/display_plant.h"
 
 #include "core/dent.h"
+#include "core/error.h"
 
 namespace enc::sim {
 
 DisplayPlant::DisplayPlant(const DisplayTruth& truth, const Scene& scene, std::uint64_t seed)
     : truth_(truth), scene_(scene) {
+  if (truth.latency * truth.rate > 60.0)
+    throw Error("at most 60 frames can be on their way at once", "truth.display.latency");
   Stream phase(seed, "display");
   state_.frame = {truth.rate, 0, from_seconds(phase.uniform() / truth.rate)};
 }

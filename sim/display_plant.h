@@ -22,7 +22,7 @@ class DisplayPlant {
   struct State {
     Every frame;
     View view;  // newest shown
-    std::array<Packet, 8> on_wire;
+    std::array<Packet, 64> on_wire;
     std::size_t head = 0;
     Stamped<DentSample> arrived;
     bool news = false;

@@ -34,8 +34,8 @@ mjsGeom* drawn(mjsBody* body, mjtGeom type, const Vec3& position, const Vec3& si
   return geom;
 }
 
-// A hard stop between tool and haptic-tip. No haptic stiffness is rendered by it: that is the core's
-// business.
+// A hard stop between tool and haptic-tip.
+// No haptic stiffness is rendered by it: that is the core's business.
 void hard_contact(mjsGeom* geom, const WorldTruth& world) {
   geom->contype = geom->conaffinity = 1;
   geom->condim = 3;
@@ -55,12 +55,15 @@ void add_machine(mjSpec* spec, const ModelParts& parts) {
   for (const char* body : {"base", "platform"})
     if (mjs_attach(frame->element, mjs_findBody(machine.get(), body)->element, "", "") == nullptr)
       throw Error(file + ": body '" + body + "' cannot be attached: " + mjs_getError(spec));
-  set3(mjs_findBody(spec, "base")->pos, parts.X_WR.p());
+  mjsBody* base = mjs_findBody(spec, "base");
+  set3(base->pos, parts.X_WR.p());
+  set4(base->quat, Quat(parts.X_WR.q()));
   mjsBody* behind = mjs_findBody(spec, "behind_sensor");
   behind->mass = parts.twin.hexapod.mass;
   mjsSite* sensor = mjs_asSite(mjs_findElement(spec, mjOBJ_SITE, "force_sensor"));
-  set3(sensor->pos, parts.prepared.X_HF.p());
-  set4(sensor->quat, Quat(parts.prepared.X_HF.q()));
+  const Pose<'H', 'F'> X_HF = pose_of<'H', 'F'>(parts.twin.frames.H_F);
+  set3(sensor->pos, X_HF.p());
+  set4(sensor->quat, Quat(X_HF.q()));
   mjsGeom* tip = mjs_addGeom(behind, nullptr);
   name(tip->element, "haptic_tip");
   tip->type = mjGEOM_SPHERE;
@@ -83,7 +86,7 @@ void add_tool(mjSpec* spec, const ModelParts& parts) {
   mjsBody* body = mjs_addBody(mjs_findBody(spec, "world"), nullptr);
   name(body->element, "tool");
   body->mass = parts.tool->mass;
-  body->explicitinertial = 1;
+  body->explicitinertial = true;
   std::fill_n(body->inertia, 3, 1e-5);
   for (int axis = 0; axis < 3; ++axis) {
     mjsJoint* slide = mjs_addJoint(body, nullptr);

@@ -53,6 +53,7 @@ std::vector<double> Physics::save() const {
 
 void Physics::restore(const std::vector<double>& state) {
   mj_setState(model_.get(), data_.get(), state.data(), mjSTATE_INTEGRATION);
+  for (mjWarningStat& warning : data_->warning) warning = {};  // what was wrong before is not wrong now
 }
 
 }  // namespace enc::sim

@@ -30,7 +30,7 @@ class Physics {
   [[nodiscard]] mjData* data() const { return data_.get(); }
   // One step. False from the first step after which the state is not to be trusted: a warning was counted or
   // a number is not finite.
-  bool step() noexcept {
+  bool step() {
     mj_step(model_.get(), data_.get());
     return !warned();
   }

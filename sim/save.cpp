@@ -45,6 +45,10 @@ class Restorer {
     at_ += length;
   }
 
+  void end() const {
+    if (at_ != bytes_.size()) throw Error("this saved world is of another scene or another build");
+  }
+
  private:
   const std::vector<std::byte>& bytes_;
   std::size_t at_ = 0;
@@ -79,6 +83,8 @@ void World::restore(const std::vector<std::byte>& saved) {
   next_ = from.take<Tick>();
   truth_ = from.take<Truth>();
   diverged_at_ = from.take<std::int64_t>();
+  from.end();
+  fatal_.clear();
   physics_.restore(physics);
 }
 

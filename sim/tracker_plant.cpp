@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace enc::sim {
 namespace {
 
@@ -23,6 +25,8 @@ void put(std::array<TrackerPlant::Packet, N>& line, const Stamped<TrackedTool>& 
 
 TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed)
     : truth_(truth), X_CW_(X_WC.inverse()) {
+  if (truth.latency * truth.rate > 60.0)
+    throw Error("at most 60 frames can be on their way at once", "truth.tracker.latency");
   state_.noise = Stream(seed, "tracker");
   state_.exposure = {truth.rate, 0, from_seconds(state_.noise.uniform() / truth.rate)};
   state_.server = {truth.server_rate, 0, from_seconds(state_.noise.uniform() / truth.server_rate)};

@@ -21,10 +21,10 @@ class TrackerPlant {
   struct State {
     Stream noise;
     Every exposure, server;
-    std::array<Packet, 4> exposed;   // poses on their way to the server
+    std::array<Packet, 64> exposed;  // poses on their way to the server
     Stamped<TrackedTool> at_server;  // newest pose that the server has
     Time sent{};                     // stamp of the newest packet sent
-    std::array<Packet, 16> on_wire;
+    std::array<Packet, 64> on_wire;
     Pose<'W', 'T'> before;  // the tool one tick ago: exposures lie between ticks
     Time before_t{};
     Stamped<TrackedTool> arrived;  // newest that reached the core

@@ -19,6 +19,12 @@ struct WorldTruth {
       0.005;  // s, of the stop between tool and tip: a hard contact, not a rendered stiffness
 };
 
+// Where camera and sensor really are. The rig file has what is believed.
+struct FramesTruth {
+  PoseSpec W_C{{0.0, -0.9, 0.6}, {0, 0, 0}};
+  PoseSpec H_F{{0.0, 0.0, -0.127}, {0, 0, 0}};
+};
+
 struct HexapodTruth {
   HexapodGeometry geometry;
   double servo = 15.0;  // Hz, natural frequency of the position loop
@@ -30,6 +36,7 @@ struct HexapodTruth {
   double tip_radius = 0.005;   // m
   double mass = 0.91;          // kg, behind the sensor
   Vec3 misplaced{0, 0, 0};     // of the machine against the believed X_WR, m
+  Vec3 turned{0, 0, 0};        // and its rotation against it, rad
 };
 
 struct ForceTruth {
@@ -75,6 +82,7 @@ struct HandTruth {
 
 struct TwinSpec {
   WorldTruth world;
+  FramesTruth frames;
   HexapodTruth hexapod;
   ForceTruth force;
   TrackerTruth tracker;

@@ -32,8 +32,12 @@ std::optional<User> make_user(const WorldSpec& spec, const ToolSpec* tool) {
   return User(spec.scene, *spec.scene.user, spec.twin.hand, tool->tip_radius, spec.seed);
 }
 
+// Built so that H would be W at the machine's zero, then put wrong: about W, so that a turn alone moves
+// nothing there.
 Pose<'W', 'R'> true_base(const WorldSpec& spec) {
-  return {Quat(spec.prepared.X_WR.q()), Vec3(spec.prepared.X_WR.p() + spec.twin.hexapod.misplaced)};
+  const Hexapod machine(spec.twin.hexapod.geometry);
+  const Quat turned = rotation_xyz(spec.twin.hexapod.turned);
+  return {turned, Vec3(spec.twin.hexapod.misplaced - turned * machine.zero().p())};
 }
 
 SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
@@ -55,7 +59,7 @@ World::World(const WorldSpec& spec)
       dt_(1.0 / spec.rig.loop.rate),
       steps_per_tick_(whole_steps(dt_, spec.twin.world.timestep)),
       X_WR_(true_base(spec)),
-      X_HF_(spec.prepared.X_HF),
+      X_HF_(pose_of<'H', 'F'>(spec.twin.frames.H_F)),
       q_WT_(held_tool(spec.scene) == nullptr
                 ? Quat::Identity()
                 : tool_orientation(*held_tool(spec.scene),
@@ -63,7 +67,8 @@ World::World(const WorldSpec& spec)
       user_(make_user(spec, held_tool(spec.scene))),
       physics_(model_of(spec, held_tool(spec.scene), q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
-  if (spec.scene.tracker) tracker.emplace(spec.twin.tracker, spec.prepared.X_WC, spec.seed);
+  if (spec.scene.tracker)
+    tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);
   if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
   const mjModel* m = physics_.model();
   const int platform = physics_.id(mjOBJ_JOINT, "platform");
@@ -84,22 +89,23 @@ World::World(const WorldSpec& spec)
     tool_qvel_ = m->jnt_dofadr[m->body_jntadr[tool_body_]];
     std::copy_n(user_->start().xyz.begin(), 3, physics_.data()->qpos + tool_qpos_);
   }
-  place_machine(machine.state(), machine.state());
+  place_machine(machine.state().pose);
   mj_forward(physics_.model(), physics_.data());
   observe(next_.t);
 }
 
 // The platform's pose and velocity are prescribed. Not a mocap body: that has no velocity, so a contact with
 // a tip that moves away at 1 mm/s was damped as if the tip stood still, and was lost for single steps.
-void World::place_machine(const HexapodPlant::State& from, const HexapodPlant::State& to) {
-  const Pose<'W', 'H'> X_WH = X_WR_ * from.pose;
+void World::place_machine(const Pose<'R', 'H'>& from) {
+  const HexapodPlant::State& to = machine.state();
+  const Pose<'W', 'H'> X_WH = X_WR_ * from;
   mjData* d = physics_.data();
   std::copy_n(X_WH.xyz.begin(), 3, d->qpos + platform_qpos_);
   double* q = d->qpos + platform_qpos_ + 3;
   q[0] = X_WH.xyzw[3];
   std::copy_n(X_WH.xyzw.begin(), 3, q + 1);
   const Vec3 velocity = X_WR_.q() * to.velocity.e();
-  const Vec3 turning = from.pose.q().conjugate() * to.turning.e();  // MuJoCo wants it in the body's axes
+  const Vec3 turning = from.q().conjugate() * to.turning.e();  // MuJoCo wants it in the body's axes
   std::copy_n(velocity.data(), 3, d->qvel + platform_qvel_);
   std::copy_n(turning.data(), 3, d->qvel + platform_qvel_ + 3);
 }
@@ -117,10 +123,15 @@ void World::physics_step(double t) {
     for (std::size_t i = 0; i < 3; ++i) applied[i] = truth_.hand_force.xyz[i];
     applied[2] += kGravity * physics_.model()->body_mass[tool_body_];  // the hand carries the tool
   }
-  const HexapodPlant::State before = machine.state();
+  const Pose<'R', 'H'> from = machine.state().pose;
   machine.move(h);
-  place_machine(before, machine.state());
-  if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
+  place_machine(from);
+  try {
+    if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
+  } catch (const Error& e) {  // MuJoCo gave up on this step
+    diverged_at_ = next_.index;
+    fatal_ = e.what();
+  }
   truth_.contact_force = contact_force(truth_.touching);
 }
 

@@ -45,7 +45,7 @@ class World {
   [[nodiscard]] double user_duration() const { return user_ ? user_->duration() : 10.0; }
   // Tick after which the physics is not to be trusted, -1 while it is sound, and MuJoCo's own words.
   [[nodiscard]] std::int64_t diverged_at() const { return diverged_at_; }
-  [[nodiscard]] std::string divergence() const { return physics_.warning_text(); }
+  [[nodiscard]] std::string divergence() const { return fatal_.empty() ? physics_.warning_text() : fatal_; }
   [[nodiscard]] Physics& physics() { return physics_; }
   [[nodiscard]] const Pose<'W', 'R'>& X_WR() const { return X_WR_; }
 
@@ -60,7 +60,7 @@ class World {
 
  private:
   void physics_step(double t);
-  void place_machine(const HexapodPlant::State& from, const HexapodPlant::State& to);
+  void place_machine(const Pose<'R', 'H'>& from);  // where it was; its state says how it moves
   void observe(Time t);
   void sense(Time t);
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
@@ -80,6 +80,7 @@ class World {
   Tick next_;
   Truth truth_;
   std::int64_t diverged_at_ = -1;
+  std::string fatal_;
 };
 
 }  // namespace enc::sim

@@ -80,7 +80,7 @@ TEST(Prepare, RefusesAResponseSofterThanTheLoopRenders) {
   EXPECT_GT(floor, 20.0);
   EXPECT_LT(floor, 400.0);
   expect_refused(test::ball_scene(test::spring(0.9 * floor)), "is softer than the loop renders stably",
-                 "object.ball.behaviour");
+                 "behaviour.spring.curves.press");
   EXPECT_NO_THROW((void)prepare(test::ball_scene(test::spring(1.01 * floor)), {}));
 }
 
@@ -89,7 +89,7 @@ TEST(Prepare, RefusesAFallingCurveAndNamesTheInterval) {
   // F = 1000 d - 1e5 d^2: slope 0 at 5 mm, falls up to 6 mm.
   behaviour.curves.press = behaviour.curves.release = {1000, -1e5, 0, 0};
   expect_refused(test::ball_scene(behaviour), "press curve falls with deflection from 5.0",
-                 "object.ball.behaviour");
+                 "behaviour.spring.curves.press");
 }
 
 TEST(Prepare, RefusesASceneWithoutAManipulator) {

@@ -451,7 +451,7 @@ TEST(Hold, ForIndicesAndStampsThatCannotBe) {
   loop.spoil = [&](Inputs& in) { draw(in, loop); };
   to_contact(loop);
   const Time future = Time(Duration(1'000'000'000'000));
-  for (const std::int32_t bad : {-1, 1, 1 << 30, -(1 << 30)})
+  for (const std::int32_t bad : {-2, 1, 1 << 30, -(1 << 30)})  // -1: none recognised, no fault
     expect_hold_and_recovery(
         loop, [&](Inputs& in) { in.tool.value.tool = bad; }, kToolInvalid, "tool " + std::to_string(bad));
   for (const std::int32_t bad : {-2, 1, 1 << 30})
@@ -471,6 +471,36 @@ TEST(Hold, ForIndicesAndStampsThatCannotBe) {
       loop, [&](Inputs& in) { in.wrench.t = oldest; }, kForceLost, "oldest force");
   expect_hold_and_recovery(
       loop, [&](Inputs& in) { in.tip.t = oldest; }, kTipLost, "oldest tip");
+}
+
+// A tip that brakes straight on would leave a round object: 45 mm/s over 2 * 0.6 * 0.41 m/s^2 is 4 mm along
+// the tangent of a sphere of 28 mm, which is 0.3 mm outwards.
+TEST(Hold, BrakingOnARoundObjectStaysInsideAndEnds) {
+  for (const double inset : {5e-4, 1e-5}) {
+    SceneSpec spec = test::ball_scene();
+    spec.follow.inset = inset;
+    Loop loop = make(spec);
+    wait_under(loop, 0.001);
+    const auto slide = [&](double arc) {
+      const double a = arc / kBallRadius;
+      const double r = kBallRadius + kToolRadius + 0.001;
+      loop.tool_tip = Point<'W'>(r * std::sin(a), 0, kTop - kBallRadius + r * std::cos(a));
+    };
+    double arc = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      slide(arc += 45e-6);
+      loop.tick();
+    }
+    ASSERT_EQ(loop.out.mode, Mode::follow);
+    loop.spoil = [](Inputs& in) { in.wrench.health = Health::saturated; };
+    for (int i = 0; i < 300; ++i) loop.tick();
+    EXPECT_EQ(loop.out.mode, Mode::hold);
+    loop.spoil = nullptr;
+    loop.tick();
+    EXPECT_EQ(loop.out.mode, Mode::follow) << why_text(loop.out.why);
+    EXPECT_LE(loop.worst_outside, 0.0) << "inset " << inset;
+    expect_within_limits(loop);
+  }
 }
 
 TEST(Hold, ForHealthThatIsNotGood) {
