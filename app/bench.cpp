@@ -34,6 +34,13 @@ std::vector<const bench::Benchmark*> chosen(const std::vector<std::string>& name
   return list;
 }
 
+std::string bounds(const bench::Figure& f) {
+  if (std::isfinite(f.low) && std::isfinite(f.high))
+    return fmt::format(" within {:.4g}..{:.4g}", f.low, f.high);
+  if (std::isfinite(f.high)) return fmt::format(" at most {:.4g}", f.high);
+  return std::isfinite(f.low) ? fmt::format(" at least {:.4g}", f.low) : "";
+}
+
 }  // namespace
 
 int bench(const BenchOptions& options) {
@@ -59,8 +66,7 @@ int bench(const BenchOptions& options) {
                results.back().simulated, results.back().run_time);
     for (const bench::Figure& f : results.back().figures) {
       all_ok = all_ok && f.ok();
-      fmt::print("  {:34} {:10.4g} {:5}{}{}\n", f.id, f.twin, f.unit,
-                 std::isfinite(f.high) ? fmt::format(" within {:.4g}..{:.4g}", f.low, f.high) : "",
+      fmt::print("  {:34} {:10.4g} {:5}{}{}\n", f.id, f.twin, f.unit, bounds(f),
                  f.ok() ? "" : "  OUT OF BOUNDS");
     }
     if (!options.out.empty()) bench::write_results(options.out, results, options.seed);

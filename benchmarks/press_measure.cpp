@@ -63,22 +63,24 @@ void PressMeasure::compare(const Glance& glance, PressFigures& press, const Obje
     release_error_.add(force - object.response.release(deflection));
 }
 
-void PressMeasure::see(const Glance& glance) {
-  const sim::Truth& truth = glance.truth;
-  if (truth.press < 0 || glance.scene.objects.empty()) return;
-  if (presses_.size() <= static_cast<std::size_t>(truth.press)) {
+// The press that a tick belongs to. It begins with the approach; waiting belongs to the press before.
+PressFigures* PressMeasure::press_of(const sim::Truth& truth) {
+  if (truth.phase != sim::Phase::wait && presses_.size() <= static_cast<std::size_t>(truth.press)) {
     presses_.resize(static_cast<std::size_t>(truth.press) + 1);
     presses_.back().approach_speed = truth.approach_speed;
     met_at_ = kUnset;
-    reached_ = turned_ = false;
+    reached_ = false;
   }
-  PressFigures& press = presses_[static_cast<std::size_t>(truth.press)];
+  return presses_.empty() ? nullptr : &presses_.back();
+}
+
+void PressMeasure::see(const Glance& glance) {
+  const sim::Truth& truth = glance.truth;
+  if (truth.press < 0 || glance.scene.objects.empty()) return;
   const std::size_t index = glance.out.object >= 0 ? static_cast<std::size_t>(glance.out.object) : 0;
   const Object& object = glance.scene.objects[index];
   const stages::NearestInWorld at_tip = stages::nearest(object, truth.tip);
-  const stages::NearestInWorld at_tool = stages::nearest(object, truth.tool_tip);
   const double deflection = -(at_tip.distance + truth.tip_radius);
-  const double force = -dot(truth.contact_force, at_tip.normal);
   greatest_outside_ = std::max(greatest_outside_, -deflection);
   // Pull is along the line between the two tips, whichever way that points.
   if (truth.touching)
@@ -86,14 +88,18 @@ void PressMeasure::see(const Glance& glance) {
                                  truth.contact_force.e().dot((truth.tool_tip - truth.tip).e().normalized()));
   const double power = dot(truth.contact_force, truth.tip_velocity);
   (power > 0.0 ? energy_in_ : energy_out_) += std::abs(power) * glance.scene.dt;
-  press.contacts += glance.out.contacts - contacts_before_;
+
+  if (PressFigures* press = press_of(truth)) {
+    press->contacts += glance.out.contacts - contacts_before_;
+    if (mode_before_ == Mode::restore && glance.out.mode == Mode::follow)
+      press->restore_error = (truth.tip - buffered_).norm();
+    const stages::NearestInWorld at_tool = stages::nearest(object, truth.tool_tip);
+    meet(glance, *press, at_tool.normal.e(), at_tool.distance - truth.tool_radius);
+    compare(glance, *press, object, deflection, -dot(truth.contact_force, at_tip.normal));
+  }
   contacts_before_ = glance.out.contacts;
-  if (mode_before_ == Mode::restore && glance.out.mode == Mode::follow)
-    press.restore_error = (truth.tip - buffered_).norm();
   mode_before_ = glance.out.mode;
   buffered_ = glance.out.first_touch;
-  meet(glance, press, at_tool.normal.e(), at_tool.distance - truth.tool_radius);
-  compare(glance, press, object, deflection, force);
 }
 
 }  // namespace enc::bench

@@ -53,6 +53,7 @@ class PressMeasure {
   [[nodiscard]] double greatest_tension() const { return greatest_tension_; }  // N, pull on the tool
 
  private:
+  PressFigures* press_of(const sim::Truth& truth);
   void meet(const Glance& glance, PressFigures& press, const Vec3& normal, double tool_gap);
   void compare(const Glance& glance, PressFigures& press, const Object& object, double deflection,
                double force);
@@ -65,7 +66,7 @@ class PressMeasure {
   Mode mode_before_ = Mode::away;
   Point<'W'> buffered_;
   double met_at_ = kUnset;  // s
-  bool reached_ = false, turned_ = false;
+  bool reached_ = false;
 };
 
 // How far the tip may be from the tool when it is met at an approach speed, from the numbers of rig and twin
