@@ -7,6 +7,7 @@
 
 #include "app/built.h"
 #include "app/process.h"
+#include "benchmarks/statistics.h"
 
 namespace enc::app {
 namespace {
@@ -88,13 +89,10 @@ std::string press_lines(const RunReport& r) {
 
 }  // namespace
 
-StepTimes step_times(std::vector<std::uint32_t> ns) {
+StepTimes step_times(const std::vector<std::uint32_t>& ns) {
   if (ns.empty()) return {};
-  std::sort(ns.begin(), ns.end());
-  const auto at = [&](double share) {
-    return static_cast<double>(ns[static_cast<std::size_t>(share * static_cast<double>(ns.size() - 1))]);
-  };
-  return {at(0.5), at(0.99), at(0.999), static_cast<double>(ns.back())};
+  return {bench::percentile(ns, 0.5), bench::percentile(ns, 0.99), bench::percentile(ns, 0.999),
+          bench::percentile(ns, 1.0)};
 }
 
 std::string run_text(const RunReport& r) {

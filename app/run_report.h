@@ -20,7 +20,7 @@ struct RunReport {
 struct StepTimes {
   double p50 = 0, p99 = 0, p999 = 0, max = 0;
 };
-[[nodiscard]] StepTimes step_times(std::vector<std::uint32_t> ns);
+[[nodiscard]] StepTimes step_times(const std::vector<std::uint32_t>& ns);
 [[nodiscard]] std::string run_text(const RunReport& report);
 [[nodiscard]] std::string run_json(const RunReport& report);
 

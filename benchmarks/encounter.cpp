@@ -8,27 +8,12 @@
 
 #include "benchmarks/bench.h"
 #include "benchmarks/press_measure.h"
+#include "benchmarks/statistics.h"
 
 namespace enc::bench {
 namespace {
 
 constexpr std::array<double, 5> kSpeeds{0.010, 0.020, 0.050, 0.100, 0.200};  // m/s
-
-double median(std::vector<double> x) {
-  std::sort(x.begin(), x.end());
-  return x.empty() ? kUnset : x[x.size() / 2];
-}
-
-// A short press is enough: the figure is the meeting, not what follows.
-PressFigures meet(const models::Setup& setup, std::uint64_t seed, double& simulated) {
-  PressMeasure measure(setup);
-  TrialOptions options;
-  options.seed = seed;
-  options.watch = [&](const Glance& glance) { measure.see(glance); };
-  Trial trial(setup, options);
-  simulated += trial.run().simulated;
-  return measure.presses().front();
-}
 
 void add_figures(BenchResult& result, double speed, const std::vector<double>& miss,
                  const std::vector<double>& delay, double bound) {
@@ -49,6 +34,7 @@ void add_figures(BenchResult& result, double speed, const std::vector<double>& m
 BenchResult run_encounter(const BenchContext& context) {
   BenchResult result{"encounter", "tennis_ball", 0, 0, {}};
   models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  // A short press is enough: the figure is the meeting, not what follows.
   setup.scene.user->press_time = setup.scene.user->release_time = 0.8;
   setup.scene.user->hold_time = 0.1;
   setup.scene.user->depth = 0.002;
@@ -59,7 +45,9 @@ BenchResult run_encounter(const BenchContext& context) {
     std::vector<double> miss;
     std::vector<double> delay;
     for (std::int64_t i = 0; i < repeats; ++i) {
-      const PressFigures press = meet(setup, context.seed + static_cast<std::uint64_t>(i), result.simulated);
+      const PressMeasure measure =
+          measured_run(setup, context.seed + static_cast<std::uint64_t>(i), result.simulated);
+      const PressFigures& press = measure.presses().front();
       if (!std::isnan(press.miss)) miss.push_back(press.miss);
       if (!std::isnan(press.first_force_delay)) delay.push_back(press.first_force_delay);
       done += 1.0 / (static_cast<double>(repeats) * kSpeeds.size());

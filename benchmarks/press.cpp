@@ -14,22 +14,16 @@ namespace {
 
 struct Tally {
   std::int64_t presses = 0, single = 0;
-  double outside = -1.0, tension = 0.0, restore = 0.0, simulated = 0.0, over_limit = -1.0;
+  double outside = -1.0, tension = 0.0, restore = 0.0, simulated = 0.0, over_limit = -kInfinite;
 };
 
 void press_once(const models::Setup& setup, std::uint64_t seed, Tally& tally) {
-  PressMeasure measure(setup);
-  TrialOptions options;
-  options.seed = seed;
-  options.watch = [&](const Glance& glance) { measure.see(glance); };
-  Trial trial(setup, options);
-  tally.simulated += trial.run().simulated;
+  const PressMeasure measure = measured_run(setup, seed, tally.simulated);
   for (const PressFigures& press : measure.presses()) {
     ++tally.presses;  // also one that never met the surface: it then has no contact
     tally.single += press.contacts == 1 ? 1 : 0;
     if (!std::isnan(press.restore_error)) tally.restore = std::max(tally.restore, press.restore_error);
-    tally.over_limit =
-        std::max(tally.over_limit, press.peak_deflection - trial.scene().objects.front().limit);
+    tally.over_limit = std::max(tally.over_limit, press.over_limit);
   }
   tally.outside = std::max(tally.outside, measure.greatest_outside());
   tally.tension = std::max(tally.tension, measure.greatest_tension());

@@ -53,6 +53,7 @@ void PressMeasure::compare(const Glance& glance, PressFigures& press, const Obje
   if (glance.out.mode != Mode::contact || !glance.truth.touching) return;
   press.peak_force = std::max(press.peak_force, force);
   press.peak_deflection = std::max(press.peak_deflection, deflection);
+  press.over_limit = std::max(press.over_limit, deflection - object.limit);
   const bool near_limit = deflection >= object.limit - kNearLimit;
   if (near_limit && std::isnan(press.force_at_limit)) press.force_at_limit = force;
   reached_ = reached_ || near_limit;
@@ -100,6 +101,15 @@ void PressMeasure::see(const Glance& glance) {
   contacts_before_ = glance.out.contacts;
   mode_before_ = glance.out.mode;
   buffered_ = glance.out.first_touch;
+}
+
+PressMeasure measured_run(const models::Setup& setup, std::uint64_t seed, double& simulated) {
+  PressMeasure measure(setup);
+  TrialOptions options;
+  options.seed = seed;
+  options.watch = [&](const Glance& glance) { measure.see(glance); };
+  simulated += Trial(setup, options).run().simulated;
+  return measure;
 }
 
 }  // namespace enc::bench

@@ -2,12 +2,15 @@
 // deflection, the energy.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "benchmarks/trial.h"
 
 namespace enc::bench {
+
+inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // One press of the user.
 struct PressFigures {
@@ -19,6 +22,7 @@ struct PressFigures {
   double first_force_delay = kUnset;  // s from meeting the surface to the first true contact force
   double peak_force = 0.0;            // N, along the normal
   double peak_deflection = 0.0;       // m, true, of the haptic-tip's outermost point
+  double over_limit = -kInfinite;     // m: the largest of true deflection less the object's limit
   double force_at_limit =
       kUnset;  // N, when the true deflection first reaches the limit - 0.05 mm (decisions 6)
   double restore_error =
@@ -72,5 +76,8 @@ class PressMeasure {
 // How far the tip may be from the tool when it is met at an approach speed, from the numbers of rig and twin
 // alone: docs/encounter.md.
 [[nodiscard]] double miss_bound(const models::Setup& setup, double approach_speed);
+
+// One run of the set-up, looked on by a measure.
+[[nodiscard]] PressMeasure measured_run(const models::Setup& setup, std::uint64_t seed, double& simulated);
 
 }  // namespace enc::bench

@@ -1,40 +1,22 @@
 // How fast is the twin? The core's tick, the whole loop against real time, and our stepping wrapper against
 // raw mj_step of the same model, paired and interleaved in one run.
-#include <algorithm>
-#include <ctime>
 #include <vector>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/statistics.h"
 #include "benchmarks/trial.h"
 #include "sim/mujoco.h"
 
 namespace enc::bench {
 namespace {
 
-// Of this thread: what other programs do on the machine does not count.
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> x) {
-  std::sort(x.begin(), x.end());
-  return x[x.size() / 2];
-}
-
-double percentile(std::vector<std::uint32_t> ns, double share) {
-  std::sort(ns.begin(), ns.end());
-  return static_cast<double>(ns[static_cast<std::size_t>(share * static_cast<double>(ns.size() - 1))]);
-}
-
 // CPU seconds of `steps` physics steps from a saved state, so that every chunk does the same work.
 template <class Step>
 double chunk(sim::Physics& physics, const std::vector<double>& from, int steps, const Step& step) {
   physics.restore(from);
-  const double start = cpu_seconds();
+  const double start = thread_seconds();
   for (int i = 0; i < steps; ++i) step(physics);
-  return cpu_seconds() - start;
+  return thread_seconds() - start;
 }
 
 struct Ratios {
@@ -69,9 +51,9 @@ BenchResult run_speed(const BenchContext& context) {
   options.seed = context.seed;
   if (context.quick) options.seconds = 20.0;
   Trial trial(setup, options);
-  const double start = cpu_seconds();
+  const double start = thread_seconds();
   const TrialResult run = trial.run();
-  const double cpu = cpu_seconds() - start;
+  const double cpu = thread_seconds() - start;
   result.simulated = run.simulated;
 
   options.seconds = 10.0;  // stops in the middle of a press, tool on tip

@@ -40,7 +40,7 @@ enum Why : std::uint32_t {
   kAtLimit = 1U << 19,        // deflection limit reached
   kByForce = 1U << 20,        // this contact was found by force, not by gap
   kTaring = 1U << 21,         // force zero not known yet
-  kToolUnseen = 1U << 22,     // no tool in the tracker\'s view
+  kToolUnseen = 1U << 22,     // no tool in the tracker's view
 };
 inline constexpr std::uint32_t kHoldReasons = 0xFFFFU;
 
