@@ -9,12 +9,12 @@
 namespace enc::test {
 namespace {
 
-struct Run {
+struct Pushed {
   bench::TrialResult result;
   std::vector<bench::PushFigures> pushes;
   double spread = 0.0, force_error = 0.0;
 };
-Run run(const std::string& scene, const std::vector<std::string>& set = {}, std::uint64_t seed = 1) {
+Pushed run(const std::string& scene, const std::vector<std::string>& set = {}, std::uint64_t seed = 1) {
   bench::ProbeMeasure measure;
   bench::TrialOptions options;
   options.seed = seed;
@@ -76,7 +76,7 @@ TEST(Rig, AStaticPushIsReadAsItIs) {
 
 TEST(Rig, FivePushesOfEachSet) {
   for (const char* name : {"nominal", "low_loss", "high_loss", "vented", "kpa_20"}) {
-    const Run made = run("rig_A", {std::string("truth.ball.set=") + name});
+    const Pushed made = run("rig_A", {std::string("truth.ball.set=") + name});
     ASSERT_EQ(made.pushes.size(), 5U) << name;
     for (const bench::PushFigures& push : made.pushes) {
       EXPECT_NEAR(push.peak_force, 12.0, 0.2) << name;
@@ -87,7 +87,7 @@ TEST(Rig, FivePushesOfEachSet) {
     EXPECT_NE(made.result.last_mode, Mode::hold) << name;
     EXPECT_TRUE(made.result.holds.empty()) << name;
   }
-  const Run regulation = run("rig_A", {"truth.ball.set=regulation"});
+  const Pushed regulation = run("rig_A", {"truth.ball.set=regulation"});
   ASSERT_EQ(regulation.pushes.size(), 5U);
   for (const bench::PushFigures& push : regulation.pushes) {
     EXPECT_GT(push.peak_force, 45.0);
