@@ -1,6 +1,7 @@
 #include "app/built.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -53,6 +54,11 @@ std::vector<Part> parts_of(const models::Setup& setup) {
   part("display", scene.display.has_value(),
        fmt::format("{:g} Hz, {}", setup.twin.display.rate, driver(setup.rig.display.driver)));
   part("user", scene.user.has_value(), "simulated hand");
+  const auto millimetres = [](double metres) { return std::round(metres * 1e6) * 1e-3; };
+  part("probe", scene.probe.has_value(),
+       !scene.probe ? ""
+                    : fmt::format("{:g} mm radius, {} pushes of {:g} mm", millimetres(scene.probe->radius),
+                                  scene.probe->repeats, millimetres(scene.probe->depth)));
   // Roles of the design that this version builds nothing of.
   for (const char* role : {"arm", "gripper", "camera", "hand tracker", "window"}) part(role, false, "");
   return parts;

@@ -45,7 +45,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       ->add_option("--pace", run_options.pace, "free, wall, or seconds of experiment per second of wall time")
       ->capture_default_str();
   run_command->add_option("--for-s", run_options.seconds,
-                          "length, s of experiment; default: until the user of the scene is done");
+                          "length, s of experiment; default: until the user or the probe is done");
   run_command->add_option("--record", run_options.record,
                           "write inputs and outputs of every tick to this file");
   run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
@@ -65,6 +65,15 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   replay_command->add_option("record", replay_options.record, "file written by run --record")->required();
   replay_command->add_flag("--partial", replay_options.partial, "replay what a cut-off record still holds");
   replay_command->callback([&] { code = replay(replay_options); });
+
+  ExportOptions export_options;
+  CLI::App* export_command =
+      app.add_subcommand("export", "a record as a table: tip, force, deflection of every tick (CSV)");
+  export_command->add_option("record", export_options.record, "file written by run --record")->required();
+  export_command->add_option("--csv", export_options.csv, "file to write; -: standard output")
+      ->capture_default_str();
+  export_command->add_flag("--partial", export_options.partial, "export what a cut-off record still holds");
+  export_command->callback([&] { code = export_record(export_options); });
 
   ViewOptions view_options;
   CLI::App* view_command = app.add_subcommand("view", "picture of a scene at a moment");

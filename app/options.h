@@ -20,7 +20,7 @@ struct SceneOptions {
 
 struct RunOptions : SceneOptions {
   std::string pace = "free";
-  std::optional<double> seconds;  // length; none: until the user is done
+  std::optional<double> seconds;  // length; none: until the user or the probe is done
   std::string record;
   bool json = false;
   bool armed = false;
@@ -32,6 +32,11 @@ struct ViewOptions : SceneOptions {
 };
 struct ReplayOptions {
   std::string record;
+  bool partial = false;
+};
+struct ExportOptions {
+  std::string record;
+  std::string csv = "-";  // file; "-": standard output
   bool partial = false;
 };
 struct ParamsOptions : SceneOptions {
@@ -51,6 +56,7 @@ struct ResponseOptions {
 int run(const RunOptions& options);
 int check(const SceneOptions& options);
 int replay(const ReplayOptions& options);
+int export_record(const ExportOptions& options);
 int params(const ParamsOptions& options);
 int doctor();
 int bench(const BenchOptions& options);

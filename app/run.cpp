@@ -12,6 +12,7 @@
 #include "app/process.h"
 #include "app/run_report.h"
 #include "benchmarks/press_measure.h"
+#include "benchmarks/probe_measure.h"
 #include "benchmarks/trial.h"
 #include "core/error.h"
 
@@ -55,6 +56,7 @@ int run(const RunOptions& options) {
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
   bench::PressMeasure presses(setup);
+  bench::ProbeMeasure pushes;
   bench::TrialOptions trial_options;
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
@@ -65,19 +67,22 @@ int run(const RunOptions& options) {
     trial_options.pace = 1.0;
   }
   trial_options.fit_out = [&](Rig& rig) { fit_out(rig, setup, options.armed); };
-  trial_options.watch = [&](const bench::Glance& glance) { presses.see(glance); };
+  trial_options.watch = [&](const bench::Glance& glance) {
+    presses.see(glance);
+    pushes.see(glance);
+  };
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) trial_options.progress = show_progress;
-  bench::Trial probe(
+  bench::Trial trial(
       setup, trial_options);  // everything that can be refused is refused here, before a record is begun
   const std::unique_ptr<RecordWriter> record = record_for(options, setup);
-  probe.record_to(record.get());
+  trial.record_to(record.get());
   const double started = cpu_seconds();
-  const bench::TrialResult result = probe.run();
+  const bench::TrialResult result = trial.run();
   if (record) record->close();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const RunReport report{setup, probe.scene(), result, presses, started};
+  const RunReport report{setup, trial.scene(), result, presses, pushes, started};
   fmt::print("{}", options.json ? run_json(report) : run_text(report));
   if (record && record->full()) throw Error(record->error());
   if (result.diverged_at >= 0)

@@ -28,6 +28,17 @@ Json presses_json(const bench::PressMeasure& measure) {
   return list;
 }
 
+Json pushes_json(const bench::ProbeMeasure& measure) {
+  Json list = Json::array();
+  for (const bench::PushFigures& p : measure.pushes())
+    list.push_back({{"peak_force_N", number(p.peak_force)},
+                    {"peak_deflection_mm", number(p.peak_deflection * 1e3)},
+                    {"work_in_mJ", number(p.work_in * 1e3)},
+                    {"work_out_mJ", number(p.work_out * 1e3)},
+                    {"loss_percent", number(p.loss() * 100.0)}});
+  return list;
+}
+
 }  // namespace
 
 std::string run_json(const RunReport& r) {
@@ -45,6 +56,11 @@ std::string run_json(const RunReport& r) {
   for (const auto& [t, why] : r.result.holds)
     json["holds"].push_back({{"time_s", seconds(t.time_since_epoch())}, {"why", why_text(why)}});
   json["presses"] = presses_json(r.presses);
+  if (r.scene.probe) {
+    json["pushes"] = pushes_json(r.pushes);
+    json["repeats_within_N"] = number(r.pushes.spread());
+    json["force_error_N"] = number(r.pushes.force_error());
+  }
   json["rmse_press_N"] = number(r.presses.rmse_press());
   json["rmse_release_N"] = number(r.presses.rmse_release());
   json["energy_in_mJ"] = r.presses.energy_in() * 1e3;

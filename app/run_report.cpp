@@ -87,6 +87,36 @@ std::string press_lines(const RunReport& r) {
   return text;
 }
 
+// One entry for each push of the test rig.
+template <class F>
+std::string each_push(const std::vector<bench::PushFigures>& pushes, const F& figure) {
+  std::string text;
+  for (const bench::PushFigures& push : pushes) text += (text.empty() ? "" : " / ") + figure(push);
+  return text;
+}
+
+std::string push_lines(const RunReport& r) {
+  if (!r.scene.probe) return "";
+  const auto& pushes = r.pushes.pushes();
+  std::string text =
+      fmt::format("pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(), r.scene.probe->repeats,
+                  r.scene.probe->depth * 1e3, r.scene.probe->speed * 1e3);
+  if (pushes.empty()) return text;
+  text += fmt::format("  peak      {} N (measured)\n",
+                      each_push(pushes, [](const auto& p) { return fmt::format("{:.2f}", p.peak_force); }));
+  text += fmt::format("  reached   {} mm\n", each_push(pushes, [](const auto& p) {
+                        return fmt::format("{:.3f}", p.peak_deflection * 1e3);
+                      }));
+  text +=
+      fmt::format("  loss      {} % of the work\n",
+                  each_push(pushes, [](const auto& p) { return fmt::format("{:.1f}", p.loss() * 100.0); }));
+  if (pushes.size() > 1)
+    text += fmt::format("repeats     within {:.3f} N at equal deflection\n", r.pushes.spread());
+  text += fmt::format("error       at most {:.3f} N (measured force against the true one)\n",
+                      r.pushes.force_error());
+  return text;
+}
+
 }  // namespace
 
 StepTimes step_times(const std::vector<std::uint32_t>& ns) {
@@ -102,7 +132,7 @@ std::string run_text(const RunReport& r) {
     text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
     if (&why == &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) break;
   }
-  text += press_lines(r);
+  text += press_lines(r) + push_lines(r);
   if (r.result.contacts == 0 && r.setup.scene.user)
     text += fmt::format("note        the user never touched anything; last notice of the core: {}\n",
                         r.result.last_why == 0 ? "none" : why_text(r.result.last_why));

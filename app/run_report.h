@@ -4,6 +4,7 @@
 #include <string>
 
 #include "benchmarks/press_measure.h"
+#include "benchmarks/probe_measure.h"
 #include "benchmarks/trial.h"
 
 namespace enc::app {
@@ -13,6 +14,7 @@ struct RunReport {
   const Scene& scene;
   const bench::TrialResult& result;
   const bench::PressMeasure& presses;
+  const bench::ProbeMeasure& pushes;
   double started = 0.0;  // CPU s from the start of the process to the first tick
 };
 

@@ -37,7 +37,7 @@ void run_until(Moment& m, double at) {
   Rig rig = m.world.rig();
   Inputs in;
   const bool waits_for_hold = std::isnan(at) && !m.world.user_done();
-  const double end = waits_for_hold ? m.world.user_duration() : std::isnan(at) ? 4.0 : at;
+  const double end = waits_for_hold ? m.world.programme_time() : std::isnan(at) ? 4.0 : at;
   double held = 0.0;
   while (true) {
     const Tick k = rig.clock->next();

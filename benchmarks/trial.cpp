@@ -17,6 +17,13 @@ std::uint32_t nanoseconds(WallClock::duration d) {
 
 }  // namespace
 
+models::Setup recorded_setup(const RecordReader& record, const std::string& path) {
+  const auto text = record.texts().find("resolved");
+  if (text == record.texts().end())
+    throw Error(path + ": holds no scene; expected a record of encounter run; record again");
+  return models::parse_resolved(text->second, path + " (scene)");
+}
+
 Scene prepare_setup(const models::Setup& setup) {
   try {
     return prepare(setup.scene, setup.rig);
@@ -51,7 +58,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (options_.fit_out) options_.fit_out(rig_);
   check_devices(rig_, setup_.rig);
   if (options_.pace > 0.0) rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), options_.pace);
-  const double length = std::isnan(options_.seconds) ? world_->user_duration() : options_.seconds;
+  const double length = std::isnan(options_.seconds) ? world_->programme_time() : options_.seconds;
   last_tick_ = std::llround(length / scene_.dt);
   result_.step_ns.reserve(static_cast<std::size_t>(last_tick_) + 1);
   result_.holds.reserve(16);

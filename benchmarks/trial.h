@@ -27,7 +27,7 @@ struct Glance {
 
 struct TrialOptions {
   std::uint64_t seed = 1;
-  double seconds = kUnset;            // unset: until the user of the scene is done
+  double seconds = kUnset;            // unset: until the user or the probe of the scene is done
   double pace = 0.0;                  // experiment seconds for each wall second; 0: as fast as it goes
   bool draw_all = false;              // build what is only looked at, too
   std::function<void(Rig&)> fit_out;  // puts other devices in place of simulated ones
@@ -86,6 +86,8 @@ class Trial {
   RecordWriter* record_ = nullptr;
 };
 
+// What a record was made of. Throws Error where it does not say.
+[[nodiscard]] models::Setup recorded_setup(const RecordReader& record, const std::string& path);
 // prepare(), with the place in the file put before what is wrong.
 [[nodiscard]] Scene prepare_setup(const models::Setup& setup);
 // A device that can do less than the rig file promises is refused before anything moves.

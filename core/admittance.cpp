@@ -52,6 +52,7 @@ void target(Walk& walk, State& state) noexcept {
     }
     case Mode::away:
     case Mode::hold:
+    case Mode::probe:
       walk.target = walk.scene.X_WR * state.command;
       break;
   }

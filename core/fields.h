@@ -88,6 +88,7 @@ void fields(F& f, Outputs& out) {
   f("contacts", out.contacts);
   f("gap", out.gap);
   fields(f, "force_N", out.force);
+  fields(f, "felt_W", out.felt);
   f("deflection", out.deflection);
   fields(f, "first_touch_W", out.first_touch);
   fields(f, out.view);
@@ -103,6 +104,12 @@ void fields(F& f, Contact& c) {
   fields(f, "displacement_N", c.displacement);
 }
 template <class F>
+void fields(F& f, Probing& p) {
+  f("probe_phase", p.phase);
+  f("probe_elapsed", p.elapsed);
+  f("probe_deflection", p.deflection);
+}
+template <class F>
 void fields(F& f, State& s) {
   f("started", s.started);
   f("state_mode", s.mode);
@@ -116,6 +123,7 @@ void fields(F& f, State& s) {
   f("tared", s.tared);
   fields(f, "force_W", s.force);
   fields(f, s.contact);
+  fields(f, s.probing);
   fields(f, "command_R", s.command);
   fields(f, "command_velocity_R", s.command_velocity);
 }

@@ -87,6 +87,12 @@ struct Walls {
 };
 
 Walls walls_around(const Walk& walk, const State& state) {
+  if (walk.scene.probe) {  // nothing but the end of the push: the object is real
+    const Probe& probe = *walk.scene.probe;
+    Walls walls{probe.X_WN.q() * Vec3::UnitZ()};
+    walls.in = probe.depth - probe.deflection(walk.scene.X_WR * state.command);
+    return walls;
+  }
   if (state.object < 0 || !state.entered) return {};
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
   const NearestInWorld at = nearest(object, walk.scene.X_WR * state.command);
@@ -147,6 +153,7 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
 }  // namespace
 
 void check_tip(Walk& walk, State& state) noexcept {
+  if (walk.scene.probe) return;  // a real surface is not ours to keep inside of
   if (!walk.X_WH.valid() || state.object < 0) return;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
   const Point<'O'> outer =

@@ -13,9 +13,10 @@ enum class Mode : std::uint8_t {
   contact,  // tool and tip are engaged: the tip is where the object's model puts it under the measured force
             // [VHMR 3.4]
   restore,  // released: the tip returns to the buffered first-touch point [VHMR 3.4]
-  hold      // something is wrong: the tip stands still; `why` says what
+  hold,     // something is wrong: the tip stands still; `why` says what
+  probe     // the machine itself presses a real object and measures it: nothing is rendered [VHMR 4.2]
 };
-inline constexpr int kModes = 5;
+inline constexpr int kModes = 6;
 
 enum Why : std::uint32_t {
   // Reasons to hold.

@@ -28,6 +28,7 @@ class Response {
  public:
   static constexpr double kBlend = 0.4e-3;  // m; fidelity 3: reversal without a jump at hand speeds
 
+  Response() = default;  // none: of a real object, which is not rendered
   // Throws Error naming the interval where a curve is not monotone, falls below `lowest_slope` (N/m, what the
   // admittance loop renders stably), or where release exceeds press.
   Response(const ResponseSpec& spec, double lowest_slope);

@@ -53,6 +53,8 @@ double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
 }
 
 Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest_slope) {
+  if (spec.behaviour.empty() && scene.probe && &spec == &probed_object(scene))
+    return {surface_of(spec), place_of(spec), {}, kUnset, Tangential::stick, kUnset};
   const BehaviourSpec& behaviour = behaviour_of(scene, spec);
   if (behaviour.tangential == Tangential::spring && !(behaviour.tangential_stiffness > 0.0))
     throw Error("behaviour '" + behaviour.name + "': tangential = \"spring\" needs a tangential stiffness",
@@ -88,6 +90,7 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
   const std::string advice =
       "; the tip reaches +-50, +-50 and +-25 (x, y, z of W, in millimetres) around the origin, straight axes";
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.probe && scene.probe->object == static_cast<std::int32_t>(i)) continue;  // make_probe() looks
     const Object& object = scene.objects[i];
     const Nearest near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0.0));
     const Point<'O'> top_O =
@@ -140,7 +143,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   scene.display = rig.display;
   scene.contact = rig.contact;
   scene.loop = rig.loop;
-  scene.tip_radius = rig.manipulator.tip_radius;
+  scene.tip_radius = spec.probe ? spec.probe->radius : rig.manipulator.tip_radius;
   scene.dt = 1.0 / rig.loop.rate;
   scene.filter_gain = 1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter * scene.dt);
   scene.has_manipulator = spec.manipulator.has_value();
@@ -160,6 +163,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   for (const ObjectSpec& object : spec.objects)
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope));
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back({Point<'T'>(tool.tip), tool.tip_radius});
+  if (spec.probe) scene.probe = make_probe(spec, scene);
   check_reach(spec, scene);
   return scene;
 }

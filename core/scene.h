@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "core/probe.h"
 #include "core/reach.h"
 #include "core/response.h"
 #include "core/rig_spec.h"
@@ -19,7 +20,7 @@ namespace enc {
 struct Object {
   Surface surface;
   Pose<'W', 'O'> X_WO;
-  Response response;
+  Response response;      // none where the object is real: then only a probe touches it
   double limit = kUnset;  // deflection, m
   Tangential tangential = Tangential::stick;
   double tangential_stiffness = kUnset;  // N/m
@@ -48,7 +49,8 @@ struct Scene {
   DisplayRig display;
   ContactRig contact;
   LoopRig loop;
-  double tip_radius = kUnset;    // of the haptic-tip, m
+  std::optional<Probe> probe;    // then the machine presses, and nothing is rendered
+  double tip_radius = kUnset;    // of the haptic-tip or the probe, m
   double dt = kUnset;            // s, one tick
   double filter_gain = kUnset;   // of the force low-pass, per tick
   double lowest_slope = kUnset;  // N/m: softest object the loop renders stably (loop_model.h)

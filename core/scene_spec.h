@@ -37,7 +37,7 @@ struct ObjectSpec {
   double radius = kUnset;  // sphere
   Vec3 position{0, 0, 0};  // of O in W
   Vec3 normal{0, 0, 1};    // plane: outward, unit, in W
-  std::string behaviour;   // by name
+  std::string behaviour;   // by name; empty: a real thing, for [probe] alone
   double limit = kUnset;   // deflection limit, m; unset: the behaviour's
 };
 
@@ -79,6 +79,22 @@ struct UserSpec {
   std::int64_t repeats = 1;            // of the whole list
 };
 
+// The test rig of [VHMR 4.2, Fig 7]: the machine itself pushes a sphere into a real object and measures it.
+// Nobody holds a tool, and nothing is rendered.
+struct ProbeSpec {
+  std::string object;     // pressed; empty: the first
+  double azimuth = 0.0;   // of the axis out of the object, from +x towards +y of W, rad
+  double polar = M_PI;    // and from +z of W, rad: pi is pushed from below, straight up
+  double offset = 0.0;    // sideways of the axis through the object's origin, towards growing polar, m
+  double radius = 0.010;  // of the sphere that the machine carries instead of its haptic-tip, m
+  double depth = 0.006;   // of a push, from the first touch of the undeformed object along the axis, m
+  double speed = 0.004;   // of pushing and going back, m/s
+  double clear = 0.004;   // above the first touch, where a push begins and ends, m
+  double dwell = 0.0;     // at depth, s
+  double rest = 2.0;      // clear of the object before each push, s
+  std::int64_t repeats = 5;
+};
+
 struct SceneSpec {
   std::int64_t format = 1;
   std::string title;
@@ -90,6 +106,7 @@ struct SceneSpec {
   std::optional<TrackerSpec> tracker;
   std::optional<DisplaySpec> display;
   std::optional<UserSpec> user;
+  std::optional<ProbeSpec> probe;
   std::vector<BehaviourSpec> behaviours;  // the entries of models/behaviours.toml that the objects name
 };
 

@@ -11,7 +11,13 @@ constexpr double kGravity = 9.80665;   // m/s^2, along -z of W
 constexpr double kAbsurd = 1e4;        // N, N m: no sensor of this kind reads more
 constexpr double kFreeTareTime = 2.0;  // s: how slowly the zero follows while the tool is clear
 
+bool at_rest(const Probing& probing) {
+  return probing.phase == ProbePhase::wait || probing.phase == ProbePhase::rest ||
+         probing.phase == ProbePhase::done;
+}
+
 bool clear_of_object(const Walk& walk, const State& state) {
+  if (walk.scene.probe) return at_rest(state.probing) && walk.gap > walk.scene.force.tare_clearance;
   if (state.mode != Mode::away && state.mode != Mode::follow) return false;
   return !walk.tool_known || walk.gap > walk.scene.force.tare_clearance;
 }
@@ -56,8 +62,8 @@ void sense(Walk& walk, State& state) noexcept {
     walk.why |= kTaring;
     return;
   }
-  const Vec<'W'> contact = X_WF * (unloaded - state.force_zero);
-  state.force = state.force + walk.scene.filter_gain * (contact - state.force);
+  walk.felt = X_WF * (unloaded - state.force_zero);
+  state.force = state.force + walk.scene.filter_gain * (walk.felt - state.force);
   walk.force = state.force;
 }
 

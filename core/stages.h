@@ -25,6 +25,7 @@ struct Walk {
   Vec<'W'> normal;           // outward
   double gap = kUnset;       // m
   Vec<'W'> force;            // sense: on the tip, N
+  Vec<'W'> felt;             // the same before the low-pass
   Point<'W'> target;         // target: wanted tip centre
 };
 
@@ -34,6 +35,8 @@ void sense(Walk& walk, State& state) noexcept;
 void mode(Walk& walk, State& state) noexcept;
 void model(Walk& walk, State& state) noexcept;
 void target(Walk& walk, State& state) noexcept;
+// In place of the three above, where the machine presses a real object.
+void probe(Walk& walk, State& state) noexcept;
 // Inside the object, inside the seen surface, finite, reachable, slow enough. Writes the set-point into
 // state.command.
 void check_tip(Walk& walk, State& state) noexcept;

@@ -11,8 +11,9 @@ namespace {
 void report(const stages::Walk& walk, const State& state, Outputs& out) {
   const bool engaged = state.mode == Mode::contact || state.mode == Mode::restore;
   const Pose<'N', 'W'> X_NW =
-      engaged ? state.contact.X_WN.inverse()
-              : Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point).inverse();
+      walk.scene.probe ? walk.scene.probe->X_WN.inverse()
+      : engaged        ? state.contact.X_WN.inverse()
+                       : Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point).inverse();
   out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate(), state.command);
   out.mode = stages::holding(walk) ? Mode::hold : state.mode;
   out.why = walk.why;
@@ -20,7 +21,9 @@ void report(const stages::Walk& walk, const State& state, Outputs& out) {
   out.contacts = state.contacts;
   out.gap = walk.gap;
   out.force = X_NW * state.force;
-  out.deflection = std::max(0.0, -state.contact.displacement.xyz[2]);
+  out.felt = walk.felt;
+  out.deflection = walk.scene.probe ? -(X_NW * walk.X_WH.origin()).xyz[2]
+                                    : std::max(0.0, -state.contact.displacement.xyz[2]);
   out.first_touch =
       engaged ? state.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - stages::kSkin) : Point<'W'>();
   out.view = {walk.tick.t,   walk.tool_known ? state.tool.value.tool : -1,
@@ -38,9 +41,13 @@ void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, 
   stages::sense(walk, state);  // what force is on the tip
   stages::check_tip(walk, state);
   if (!stages::holding(walk)) {
-    stages::mode(walk, state);    // away, follow, contact, restore
-    stages::model(walk, state);   // force in, displacement out
-    stages::target(walk, state);  // where the tip should be
+    if (scene.probe) {
+      stages::probe(walk, state);  // the object is real: pressed and measured, not rendered
+    } else {
+      stages::mode(walk, state);    // away, follow, contact, restore
+      stages::model(walk, state);   // force in, displacement out
+      stages::target(walk, state);  // where the tip should be
+    }
   }
   stages::limit_command(walk, state);  // and what the machine is told
   report(walk, state, out);

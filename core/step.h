@@ -29,7 +29,8 @@ struct Outputs {
   std::int32_t contacts = 0;  // contacts since the start
   double gap = kUnset;        // of the tracked tool's tip to the surface, m; negative inside
   Vec<'N'> force;             // on the tip, N, filtered; z along the outward normal
-  double deflection = 0.0;    // wanted, along -z of N, m
+  Vec<'W'> felt;              // the same force before the low-pass, N
+  double deflection = 0.0;    // along -z of N, m: wanted; of a probe: measured, negative before it touches
   Point<'W'> first_touch;     // buffered point of the current or last contact, tip centre
   View view;
 };
@@ -42,6 +43,15 @@ struct Contact {
   Time loaded{};          // last tick on which force was felt
   ResponseState response;
   Vec<'N'> displacement = Vec<'N'>::zero();
+};
+
+// Where the machine is in its programme of pushes (probe.h). Time stands still in a hold, and the programme
+// with it.
+enum class ProbePhase : std::uint8_t { wait, approach, rest, push, dwell, back, done };
+struct Probing {
+  ProbePhase phase = ProbePhase::wait;
+  double elapsed = 0.0;     // s of this phase
+  double deflection = 0.0;  // wanted, m; negative: above the surface
 };
 
 // All the memory that the core has.
@@ -58,6 +68,7 @@ struct State {
   double tared = 0.0;  // s of signal in force_zero
   Vec<'W'> force = Vec<'W'>::zero();
   Contact contact;
+  Probing probing;
   Point<'R'> command;  // last set-point
   Vec<'R'> command_velocity = Vec<'R'>::zero();
 };

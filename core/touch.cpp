@@ -8,7 +8,23 @@ NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept {
   return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
 }
 
+namespace {
+
+// The machine's own probe takes the place of the tool.
+void touch_probed(Walk& walk, State& state) noexcept {
+  state.object = walk.scene.probe->object;
+  if (!walk.X_WH.valid()) return;
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  const NearestInWorld found = nearest(object, walk.X_WH.origin());
+  walk.surface_point = found.point;
+  walk.normal = found.normal;
+  walk.gap = found.distance - walk.scene.tip_radius;
+}
+
+}  // namespace
+
 void touch(Walk& walk, State& state) noexcept {
+  if (walk.scene.probe) return touch_probed(walk, state);
   // Without a tracker the tip itself asks: it then waits at its own nearest surface point, and force alone
   // makes a contact.
   const bool by_tool = walk.scene.has_tracker;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/probe.h"
 #include "models/scene_file.h"
 #include "models/units.h"
 #include "models/wording.h"
@@ -31,14 +32,35 @@ std::vector<std::string> names_of(const std::vector<T>& items) {
   return names;
 }
 
+// `table`: who names it, "user".
 template <class T>
 void check_named(const Setup& setup, const std::vector<T>& items, const std::string& name,
-                 const std::string& list) {
+                 const std::string& table, const std::string& list) {
   const std::vector<std::string> names = names_of(items);
   if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return;
-  fail(setup, "user." + list,
+  fail(setup, table + "." + list,
        fmt::format("there is no {} {}; expected the name of a [[{}]]; {}", list, quoted(name), list,
                    advice(name, names)));
+}
+
+// Only what the probe presses may be there instead of being rendered.
+void check_real(const Setup& setup, const ObjectSpec& o) {
+  const std::string path = "object." + o.name;
+  const bool probed = setup.scene.probe && &o == &probed_object(setup.scene);
+  if (!probed) {
+    fail(
+        setup, path,
+        fmt::format("object {} has no 'behaviour'; expected one, because [probe] does not press it; write it "
+                    "like 'behaviour = \"tennis_ball\"'",
+                    quoted(o.name)));
+  }
+  if (!std::isnan(o.limit)) {
+    fail(
+        setup, path + ".limit_mm",
+        fmt::format("object {} is real and has a 'limit_mm'; expected none, or a 'behaviour' that it limits; "
+                    "remove it",
+                    quoted(o.name)));
+  }
 }
 
 void check_object(const Setup& setup, const ObjectSpec& o) {
@@ -56,6 +78,7 @@ void check_object(const Setup& setup, const ObjectSpec& o) {
          fmt::format("'limit_mm' is {}; expected less than the radius, {} mm; lower it", mm(o.limit),
                      mm(o.radius)));
   }
+  if (o.behaviour.empty()) return check_real(setup, o);
   const auto b = std::find_if(setup.scene.behaviours.begin(), setup.scene.behaviours.end(),
                               [&](const BehaviourSpec& item) { return item.name == o.behaviour; });
   if (b == setup.scene.behaviours.end()) {
@@ -151,8 +174,33 @@ void check_user(const Setup& setup) {
   if (setup.scene.tools.empty()) {
     fail(setup, "user", "the user has no tool; expected at least one [[tool]]; add one or remove [user]");
   }
-  check_named(setup, setup.scene.objects, setup.scene.user->object, "object");
-  check_named(setup, setup.scene.tools, setup.scene.user->tool, "tool");
+  check_named(setup, setup.scene.objects, setup.scene.user->object, "user", "object");
+  check_named(setup, setup.scene.tools, setup.scene.user->tool, "user", "tool");
+}
+
+// What the simulated ball is good for (sim/ball_plant.h). A real machine may press other things.
+void check_probe(const Setup& setup) {
+  const SceneSpec& s = setup.scene;
+  if (!s.probe || setup.rig.force.driver != "sim") return;
+  constexpr double kRadius = 10e-3, kDeepest = 8e-3;  // m
+  const ObjectSpec& object = probed_object(s);
+  if (object.shape != ShapeKind::sphere) {
+    fail(setup, fmt::format("object.{}.shape", object.name),
+         "the simulated rig has a ball to press and nothing else; expected a sphere; write it like 'shape = "
+         "\"sphere\"'");
+  }
+  if (std::abs(s.probe->radius - kRadius) > 1e-9) {
+    fail(setup, "probe.radius_mm",
+         fmt::format("'radius_mm' is {}; expected 10, because the law of the simulated ball holds for that "
+                     "probe only; write it like 'radius_mm = 10'",
+                     mm(s.probe->radius)));
+  }
+  if (s.probe->depth > kDeepest) {
+    fail(setup, "probe.depth_mm",
+         fmt::format(
+             "'depth_mm' is {}; expected at most {}, where the law of the simulated ball ends; lower it",
+             mm(s.probe->depth), mm(kDeepest)));
+  }
 }
 
 void check_driver(const Setup& setup, bool named, const std::string& table, const std::string& driver) {
@@ -184,6 +232,7 @@ void check(const Setup& setup) {
     fail(
         setup, "",
         "the scene has no object; expected at least one [[object]]; add one, as in models/scenes/plane.toml");
+  if (s.probe) check_named(setup, s.objects, s.probe->object, "probe", "object");
   for (const ObjectSpec& object : s.objects) check_object(setup, object);
   for (const BehaviourSpec& behaviour : s.behaviours) check_behaviour(setup, behaviour);
   for (const ToolSpec& tool : s.tools) check_tool(setup, tool);
@@ -193,6 +242,7 @@ void check(const Setup& setup) {
                      mm(s.follow.pause)));
   }
   check_user(setup);
+  check_probe(setup);
   check_rig(setup);
   const double steps = 1.0 / (setup.rig.loop.rate * setup.twin.world.timestep);
   if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6) {

@@ -106,6 +106,7 @@ void read_behaviours(Setup& setup) {
   names.reserve(all.size());
   for (const BehaviourSpec& b : all) names.push_back(b.name);
   for (const ObjectSpec& object : setup.scene.objects) {
+    if (object.behaviour.empty()) continue;  // check() says where that is wrong
     const auto named = [&](const BehaviourSpec& b) { return b.name == object.behaviour; };
     const auto found = std::find_if(all.begin(), all.end(), named);
     if (found == all.end()) {

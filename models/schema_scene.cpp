@@ -45,9 +45,10 @@ void describe(Visitor& v, ObjectSpec& o) {
   if (o.shape == ShapeKind::plane) {
     v.value({"normal", "outward, of length 1, in W", kAuthor, chosen, {-1.0, 1.0}}, &o.normal);
   }
-  v.value(
-      {"behaviour", "how it pushes back: an entry of models/behaviours.toml", kAuthor, chosen, kAny, needed},
-      &o.behaviour);
+  v.value({"behaviour",
+           "how it pushes back: an entry of models/behaviours.toml; empty: a real thing, for [probe] alone",
+           kAuthor, chosen},
+          &o.behaviour);
   v.value({"limit_mm", "deflection limit that the device holds; unset: the behaviour's", "[VHMR 4.2]", chosen,
            kPositive, optional},
           &o.limit);
@@ -103,6 +104,36 @@ void describe(Visitor& v, UserSpec& u) {
   describe_presses(v, u);
 }
 
+void describe(Visitor& v, ProbeSpec& p) {
+  v.value({"object", "pressed object, by name; empty: the first", kAuthor, chosen}, &p.object);
+  v.value({"azimuth_deg",
+           "of the axis out of the object, from +x towards +y of W",
+           kAuthor,
+           chosen,
+           {-360.0, 360.0}},
+          &p.azimuth);
+  v.value({"polar_deg",
+           "and from +z of W; 180: pushed from below, straight up",
+           "[VHMR 4.2]",
+           chosen,
+           {90.0, 180.0}},
+          &p.polar);
+  v.value({"offset_mm", "sideways of that axis, towards growing polar angle (indentation B)", "[VHMR 4.2]",
+           chosen},
+          &p.offset);
+  v.value(
+      {"radius_mm", "of the sphere that the machine carries as its tip", "[VHMR 4.2]", published, kPositive},
+      &p.radius);
+  v.value({"depth_mm", "of a push, from the first touch", "[VHMR 4.2]", published, kPositive}, &p.depth);
+  v.value({"speed_mm_s", "of pushing and of going back", "parameters 4.4", assumed, kPositive}, &p.speed);
+  v.value(
+      {"clear_mm", "distance to the first touch at which a push begins and ends", kAuthor, chosen, kPositive},
+      &p.clear);
+  v.value({"dwell_s", "at depth", kAuthor, chosen, kNotNegative}, &p.dwell);
+  v.value({"rest_s", "clear of the object before each push", kAuthor, chosen, kNotNegative}, &p.rest);
+  v.value({"repeats", "pushes", "[VHMR 4.2]", published, {1.0, 1e6}}, &p.repeats);
+}
+
 }  // namespace
 
 void describe(Visitor& v, SceneSpec& s) {
@@ -127,6 +158,7 @@ void describe(Visitor& v, SceneSpec& s) {
   part(v, "tracker", s.tracker, [](TrackerSpec&) {});
   part(v, "display", s.display, [](DisplaySpec&) {});
   part(v, "user", s.user, [&](UserSpec& u) { describe(v, u); });
+  part(v, "probe", s.probe, [&](ProbeSpec& p) { describe(v, p); });
 }
 
 void describe(Visitor& v, ResponseSpec& r) {

@@ -11,6 +11,9 @@ using enum Presence;
 constexpr std::array<std::string_view, 5> kIntegrators{"Euler", "RK4", "implicit", "implicitfast",
                                                        "discrete"};  // of MuJoCo
 
+constexpr std::array<std::string_view, 6> kBallSets{"nominal", "low_loss", "high_loss",
+                                                    "vented",  "kpa_20",   "regulation"};
+
 void describe(Visitor& v, sim::WorldTruth& w) {
   // 5 ms: beyond it a servo and a contact diverge (fidelity 5).
   v.value({"timestep_us", "of MuJoCo", "decisions 27", chosen, {0.0, 5000.0, true}}, &w.timestep);
@@ -99,6 +102,49 @@ void describe(Visitor& v, sim::HandTruth& h) {
   v.value({"drift_mm", "rms, below 2 Hz", "parameters 5.2", assumed, kNotNegative}, &h.drift);
 }
 
+// What is unset comes from the set.
+void describe_make(Visitor& v, sim::BallTruth& b) {
+  const std::string_view from = "parameters 4.4";
+  v.value({"radius_mm", "outer; unset: as the scene says", "parameters 4.1", published, kPositive, optional},
+          &b.radius);
+  v.value({"wall_mm", "of the rubber core", "parameters 4.1", published, kPositive, optional}, &b.wall);
+  v.value({"felt_mm", "thickness, uncompressed", "parameters 4.1", published, kPositive, optional}, &b.felt);
+  v.value({"rubber_modulus_MPa", "at rest", from, derived, kPositive, optional}, &b.rubber_modulus);
+  v.value({"pressure_kPa", "gauge", from, derived, kNotNegative, optional}, &b.pressure);
+  v.value({"felt_modulus_MPa", "of the felt", from, derived, kPositive, optional}, &b.felt_modulus);
+  v.value({"friction", "Coulomb share of the force, inside of the ball", from, assumed, {0.0, 1.0}, optional},
+          &b.friction);
+  v.value({"friction_travel_mm", "over which it reverses", from, assumed, kPositive, optional},
+          &b.friction_travel);
+  constexpr std::array<std::string_view, 3> kShare{"relaxing_fast", "relaxing_middle", "relaxing_slow"};
+  constexpr std::array<std::string_view, 3> kTime{"relaxation_fast_s", "relaxation_middle_s",
+                                                  "relaxation_slow_s"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    v.value({kShare[i], "share of the force in a rubber branch that relaxes", from, assumed, kNotNegative,
+             optional},
+            &b.relaxing[i]);
+    v.value({kTime[i], "time constant of that branch", from, assumed, kPositive, optional}, &b.relaxation[i]);
+  }
+}
+
+void describe(Visitor& v, sim::BallTruth& b) {
+  choice(v, {"set", "which ball is in the test rig", "parameters 4.4", derived}, kBallSets, b.set);
+  describe_make(v, b);
+  v.value({"uneven",
+           "stiffer by this share away from the poles of its z axis",
+           "parameters 4.1, 4.4",
+           assumed,
+           {-0.05, 0.05}},
+          &b.uneven);
+  v.value({"surface_friction", "felt on the probe", "parameters 4.4", assumed, kNotNegative},
+          &b.surface_friction);
+  v.value({"surface_travel_mm", "of the probe along the surface before it slides",
+           "parameters 4.4 (indentation B)", assumed, kPositive},
+          &b.surface_travel);
+  v.value({"misplaced_mm", "of the ball against where the scene says it is, in W", "injected", chosen},
+          &b.misplaced);
+}
+
 }  // namespace
 
 void describe(Visitor& v, sim::TwinSpec& t) {
@@ -112,6 +158,7 @@ void describe(Visitor& v, sim::TwinSpec& t) {
   table(v, "tracker", [&] { describe(v, t.tracker); });
   table(v, "display", [&] { describe(v, t.display); });
   table(v, "hand", [&] { describe(v, t.hand); });
+  table(v, "ball", [&] { describe(v, t.ball); });
 }
 
 }  // namespace enc::models

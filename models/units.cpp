@@ -11,7 +11,7 @@ namespace enc::models {
 namespace {
 
 // Longest suffix first, because "_mm_s" also ends in "_s".
-constexpr std::array<Unit, 22> kUnits{{{"_N_per_sqrt_s", "N/sqrt(s)"},
+constexpr std::array<Unit, 24> kUnits{{{"_N_per_sqrt_s", "N/sqrt(s)"},
                                        {"_N_per_mm_k", "N/mm^k", 3, false, true},
                                        {"_Ns_per_m", "N s/m"},
                                        {"_N_per_mm", "N/mm", 3},
@@ -22,6 +22,8 @@ constexpr std::array<Unit, 22> kUnits{{{"_N_per_sqrt_s", "N/sqrt(s)"},
                                        {"_m_s", "m/s"},
                                        {"_cycles", "cycles"},
                                        {"_deg", "deg", 0, true},
+                                       {"_MPa", "MPa", 6},
+                                       {"_kPa", "kPa", 3},
                                        {"_mm", "mm", -3},
                                        {"_um", "um", -6},
                                        {"_ms", "ms", -3},

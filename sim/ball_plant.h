@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "sim/twin_spec.h"
+
 namespace enc::sim {
 
 // Set "S-nominal": a dead or vented ball, about 12 N at 6 mm. A regulation ball gives 45-52 N there
@@ -24,6 +26,9 @@ struct BallParameters {
   std::array<double, 3> relaxing{0.06, 0.05, 0.05};  // [A] -; share of each rubber branch
   std::array<double, 3> relaxation{0.05, 0.5, 5.0};  // [A] s; its time constant
 };
+
+// The parameters of a set.
+[[nodiscard]] BallParameters ball_set(BallSet set);
 
 struct BallPlantState {
   double deflection = 0.0;           // m

@@ -67,7 +67,7 @@ void add_machine(mjSpec* spec, const ModelParts& parts) {
   mjsGeom* tip = mjs_addGeom(behind, nullptr);
   name(tip->element, "haptic_tip");
   tip->type = mjGEOM_SPHERE;
-  tip->size[0] = parts.twin.hexapod.tip_radius;
+  tip->size[0] = parts.scene.probe ? parts.scene.probe->radius : parts.twin.hexapod.tip_radius;
   tip->mass = 0;
   colour(tip, {0.90F, 0.35F, 0.10F, 1});
   hard_contact(tip, parts.twin.world);

@@ -17,9 +17,10 @@ struct Truth {
   Point<'W'> tip;  // centre of the haptic-tip
   Vec<'W'> tip_velocity = Vec<'W'>::zero();
   Vec<'W'> tip_acceleration = Vec<'W'>::zero();
-  Vec<'W'> contact_force = Vec<'W'>::zero();  // of the tool on the haptic-tip, N
+  Vec<'W'> contact_force = Vec<'W'>::zero();  // of the tool or the real ball on the haptic-tip, N
   Vec<'W'> hand_force = Vec<'W'>::zero();     // of the hand on the tool, N
   bool touching = false;
+  double penetration = kUnset;  // of the probe into the real ball, along their normal, m; negative: the gap
   double tool_radius = kUnset, tip_radius = kUnset;
   // What the person is at: which press, and which part of it.
   std::int32_t press = -1;

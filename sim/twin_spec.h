@@ -80,6 +80,25 @@ struct HandTruth {
   double drift = 0.15e-3;         // m rms, below 2 Hz
 };
 
+// Sets of ball_plant.h [parameters 4.4]: four others that also give 12 N at 6 mm, and a ball as played with.
+enum class BallSet : std::uint8_t { nominal, low_loss, high_loss, vented, kpa_20, regulation };
+
+// The real ball that a probe presses. Numbers that are unset come from the set.
+struct BallTruth {
+  BallSet set = BallSet::nominal;
+  double radius = kUnset;                                    // m; unset: as the scene says
+  double wall = kUnset, felt = kUnset;                       // m
+  double rubber_modulus = kUnset, pressure = kUnset;         // Pa
+  double felt_modulus = kUnset;                              // Pa
+  double friction = kUnset, friction_travel = kUnset;        // -, m: loss inside of the ball
+  std::array<double, 3> relaxing{kUnset, kUnset, kUnset};    // -, share of each rubber branch
+  std::array<double, 3> relaxation{kUnset, kUnset, kUnset};  // s
+  double uneven = 0.03;            // -, stiffer than at the poles of its z axis elsewhere
+  double surface_friction = 0.6;   // felt on the probe
+  double surface_travel = 2.5e-3;  // m, of the probe along the surface before it slides
+  Vec3 misplaced{0, 0, 0};         // of the ball against where the scene says it is, m
+};
+
 struct TwinSpec {
   WorldTruth world;
   FramesTruth frames;
@@ -88,6 +107,7 @@ struct TwinSpec {
   TrackerTruth tracker;
   DisplayTruth display;
   HandTruth hand;
+  BallTruth ball;
 };
 
 }  // namespace enc::sim

@@ -44,6 +44,17 @@ SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, 
   return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, X_WR, spec.mjcf_dir, spec.draw_all});
 }
 
+BallContact probed_ball(const WorldSpec& spec) {
+  const ObjectSpec& object = probed_object(spec.scene);
+  if (object.shape != ShapeKind::sphere)
+    throw Error("the simulated rig has a real ball and nothing else to press; expected shape = \"sphere\"",
+                "object." + object.name + ".shape");
+  constexpr double kDeepest = 8e-3;  // m: the end of the plant's table
+  if (spec.prepared.probe->depth > kDeepest)
+    throw Error("the law of the simulated ball ends at 8 mm; lower depth_mm", "probe.depth");
+  return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
+}
+
 int whole_steps(double dt, double timestep) {
   const double steps = dt / timestep;
   if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6)
@@ -70,6 +81,9 @@ World::World(const WorldSpec& spec)
   if (spec.scene.tracker)
     tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);
   if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
+  if (spec.prepared.probe) ball.emplace(probed_ball(spec));
+  if (user_) programme_time_ = user_->duration();
+  if (ball) programme_time_ = enc::programme_time(spec.prepared);
   const mjModel* m = physics_.model();
   const int platform = physics_.id(mjOBJ_JOINT, "platform");
   platform_qpos_ = m->jnt_qposadr[platform];
@@ -78,8 +92,9 @@ World::World(const WorldSpec& spec)
   physics_.data()->xfrc_applied[6 * platform_body + 2] =
       kGravity * m->body_subtreemass[platform_body];  // it floats
   tip_geom_ = physics_.id(mjOBJ_GEOM, "haptic_tip");
+  tip_body_ = m->geom_bodyid[tip_geom_];
   next_.dt = from_seconds(dt_);
-  truth_.tip_radius = spec.twin.hexapod.tip_radius;
+  truth_.tip_radius = m->geom_size[3 * tip_geom_];
   if (const ToolSpec* tool = held_tool(spec.scene)) {
     tool_ = static_cast<std::int32_t>(tool - spec.scene.tools.data());
     tip_T_ = tool->tip;
@@ -126,13 +141,33 @@ void World::physics_step(double t) {
   const Pose<'R', 'H'> from = machine.state().pose;
   machine.move(h);
   place_machine(from);
+  if (ball) press_ball(from, h);
   try {
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
     diverged_at_ = next_.index;
     fatal_ = e.what();
   }
-  truth_.contact_force = contact_force(truth_.touching);
+  if (!ball) truth_.contact_force = contact_force(truth_.touching);
+}
+
+// The ball pushes where the probe gets to in this step, so that force and pose of a tick belong together.
+void World::press_ball(const Pose<'R', 'H'>& from, double h) {
+  ball->move(X_WR_ * machine.state().pose.origin(), h);
+  const BallContact::State& pressed = ball->state();
+  const mjModel* m = physics_.model();
+  // MuJoCo wants force and torque at the body's centre of mass, which in this step is still where it was.
+  const double* middle = m->body_ipos + 3 * tip_body_;
+  const Pose<'W', 'H'> X_WH = X_WR_ * from;
+  const Point<'W'> centre = X_WH * Point<'H'>(middle[0], middle[1], middle[2]);
+  const Vec3 shift = (X_WR_ * machine.state().pose.origin() - X_WH.origin()).e();
+  const Vec3 torque = ((pressed.touched - centre).e() - shift).cross(pressed.force.e());
+  double* applied = physics_.data()->xfrc_applied + 6 * tip_body_;
+  std::copy_n(pressed.force.xyz.begin(), 3, applied);
+  std::copy_n(torque.data(), 3, applied + 3);
+  truth_.contact_force = pressed.force;
+  truth_.touching = pressed.force.norm() > 0.0;
+  truth_.penetration = pressed.penetration;
 }
 
 Vec<'W'> World::contact_force(bool& touching) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/rig.h"
+#include "sim/ball_contact.h"
 #include "sim/display_plant.h"
 #include "sim/force_plant.h"
 #include "sim/hexapod_plant.h"
@@ -42,7 +43,8 @@ class World {
 
   [[nodiscard]] const Truth& truth() const { return truth_; }
   [[nodiscard]] bool user_done() const { return !user_ || user_->done(); }
-  [[nodiscard]] double user_duration() const { return user_ ? user_->duration() : 10.0; }
+  // s, of what the user or the probe does; 10 where nobody does anything.
+  [[nodiscard]] double programme_time() const { return programme_time_; }
   // Tick after which the physics is not to be trusted, -1 while it is sound, and MuJoCo's own words.
   [[nodiscard]] std::int64_t diverged_at() const { return diverged_at_; }
   [[nodiscard]] std::string divergence() const { return fatal_.empty() ? physics_.warning_text() : fatal_; }
@@ -57,12 +59,14 @@ class World {
   std::optional<ForcePlant> force;
   std::optional<TrackerPlant> tracker;
   std::optional<DisplayPlant> display;
+  std::optional<BallContact> ball;  // there if the scene presses one with a probe
 
  private:
   void physics_step(double t);
   void place_machine(const Pose<'R', 'H'>& from);  // where it was; its state says how it moves
   void observe(Time t);
   void sense(Time t);
+  void press_ball(const Pose<'R', 'H'>& from, double h);
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
 
   TwinSpec twin_;
@@ -75,8 +79,9 @@ class World {
   std::int32_t tool_ = -1;
   std::optional<User> user_;
   Physics physics_;
-  int tool_body_ = -1, tip_geom_ = -1;
+  int tool_body_ = -1, tip_geom_ = -1, tip_body_ = -1;
   int platform_qpos_ = 0, platform_qvel_ = 0, tool_qpos_ = 0, tool_qvel_ = 0;
+  double programme_time_ = 10.0;  // s
   Tick next_;
   Truth truth_;
   std::int64_t diverged_at_ = -1;

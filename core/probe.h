@@ -1,0 +1,39 @@
+// The test rig of [VHMR 4.2, Fig 7], made ready: where the machine pushes its probe into a real object, and
+// how often. Force against deflection is what it is for; the reference curves of an object are fitted to
+// that.
+#pragma once
+
+#include <cstdint>
+
+#include "core/frames.h"
+
+namespace enc {
+
+struct ObjectSpec;
+struct Scene;
+struct SceneSpec;
+
+struct Probe {
+  std::int32_t object = 0;  // index in the scene
+  // Origin: the probe's centre where it first touches the undeformed object. z: out of the object, against
+  // the push. x: where an offset goes.
+  Pose<'W', 'N'> X_WN;
+  double depth = kUnset, clear = kUnset;  // m, below and above the first touch
+  double speed = kUnset;                  // m/s
+  double dwell = kUnset, rest = kUnset;   // s
+  std::int32_t repeats = 0;
+
+  // Of a probe whose centre is at `p`: how far it is along the push, m; negative before the first touch.
+  [[nodiscard]] double deflection(const Point<'W'>& p) const { return -(X_WN.inverse() * p).xyz[2]; }
+  [[nodiscard]] Point<'W'> at(double deflection) const { return X_WN * Point<'N'>(0, 0, -deflection); }
+};
+
+// The object that [probe] names, or the first. Throws Error where there is none.
+[[nodiscard]] const ObjectSpec& probed_object(const SceneSpec& spec);
+// `scene` has everything else by now. Throws Error where this machine cannot do the programme: out of reach,
+// something in its way, no force sensor, too deep.
+[[nodiscard]] Probe make_probe(const SceneSpec& spec, const Scene& scene);
+// s, from the start to the rest after the last push; a little more than it takes.
+[[nodiscard]] double programme_time(const Scene& scene);
+
+}  // namespace enc

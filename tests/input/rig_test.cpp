@@ -1,0 +1,218 @@
+// The test rig as a person uses it: run, replay, export; and every mistake in one line.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/record.h"
+#include "tests/support/run_program.h"
+
+namespace enc::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+using Words = std::vector<std::string>;
+
+std::string scene(const std::string& name) {
+  return std::string(ENCOUNTER_SOURCE_DIR).append("/models/scenes/").append(name).append(".toml");
+}
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class RigProgram : public testing::Test {
+ protected:
+  RigProgram() {
+    std::string name = (fs::temp_directory_path() / "enc_rig_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~RigProgram() override { fs::remove_all(folder_); }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  // What must be refused, by `run` and by `check` in the same words; gives its line.
+  [[nodiscard]] static std::string refused(Words set) {
+    Words args{scene("rig_A")};
+    for (std::string& text : set) {
+      args.emplace_back("--set");
+      args.push_back(std::move(text));
+    }
+    std::string said;
+    for (const char* command : {"run", "check"}) {
+      Words words{command};
+      words.insert(words.end(), args.begin(), args.end());
+      const Result r = run_program(words);
+      EXPECT_EQ(r.code, 2) << r.err;
+      EXPECT_EQ(r.out, "");
+      EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+      EXPECT_TRUE(said.empty() || said == r.err) << said << r.err;
+      said = r.err;
+    }
+    return said;
+  }
+  [[nodiscard]] static std::string line(const Words& args) {
+    const Result r = run_program(args);
+    EXPECT_EQ(r.code, 2) << r.err;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    return r.err;
+  }
+  // A rig's scene of another make.
+  [[nodiscard]] std::string edited(const std::string& from, const std::string& to) const {
+    std::string text = bytes_of(scene("rig_A"));
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    fs::create_directories(folder_ / "scenes");
+    std::ofstream(folder_ / "scenes" / "rig.toml") << text.replace(at, from.size(), to);
+    return path("scenes/rig.toml");
+  }
+  fs::path folder_;
+};
+
+const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
+
+struct Row {
+  std::string mode;
+  std::vector<double> numbers;  // of all other columns; NaN where the cell is empty
+};
+std::vector<Row> rows_of(const std::string& csv) {
+  std::istringstream in(csv);
+  std::vector<Row> rows;
+  std::string text;
+  std::getline(in, text);
+  EXPECT_EQ(
+      text,
+      "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat");
+  while (std::getline(in, text)) {
+    Row row;
+    std::istringstream cells(text);
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      if (row.numbers.size() == 1 && row.mode.empty())
+        row.mode = cell;
+      else
+        row.numbers.push_back(cell.empty() ? kUnset : std::strtod(cell.c_str(), nullptr));
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST_F(RigProgram, RunsReplaysAndExports) {
+  const Result ran =
+      run_program({"run", scene("rig_A"), "--set", "probe.repeats=2", "--record", path("a.encrec")});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("probe (10 mm radius, 2 pushes of 6 mm)"), HasSubstr("\npushes      2 of 2"),
+                    HasSubstr("\nrepeats     within "), testing::Not(HasSubstr("miss "))));
+  EXPECT_THAT(run_program({"replay", path("a.encrec")}).out, HasSubstr("equal to the bit"));
+  ASSERT_EQ(run_program({"export", path("a.encrec"), "--csv", path("a.csv")}).code, 0);
+  const std::string csv = bytes_of(path("a.csv"));
+  EXPECT_EQ(run_program({"export", path("a.encrec")}).out, csv);  // standard output is the default
+
+  RecordReader record(path("a.encrec"));
+  const std::vector<Row> rows = rows_of(csv);
+  ASSERT_EQ(static_cast<std::int64_t>(rows.size()), record.ticks());
+  double peak = 0.0;
+  int pushed[3] = {0, 0, 0};
+  for (const Row& row : rows) {
+    RecordedTick tick;
+    ASSERT_TRUE(record.next(tick));
+    ASSERT_EQ(row.numbers.size(), 10U);
+    ASSERT_EQ(row.mode, "probe");
+    ASSERT_EQ(row.numbers[0], seconds(tick.tick.t.time_since_epoch()));
+    ASSERT_EQ(row.numbers[7], 1e3 * tick.out.deflection);  // to the bit
+    for (std::size_t i = 0; i < 3; ++i) {
+      ASSERT_TRUE(row.numbers[4 + i] == tick.out.felt.xyz[i] ||
+                  (std::isnan(row.numbers[4 + i]) && std::isnan(tick.out.felt.xyz[i])));
+    }
+    const int repeat = static_cast<int>(row.numbers[9]);
+    ASSERT_EQ(repeat, tick.out.deflection > 0.0 ? tick.out.contacts : 0);
+    ++pushed[repeat];
+    if (repeat > 0) {
+      ASSERT_NEAR(row.numbers[8], -row.numbers[6], 1e-12);  // the axis is straight down
+      peak = std::max(peak, row.numbers[8]);
+    }
+  }
+  EXPECT_NEAR(peak, 12.0, 0.2);
+  EXPECT_NEAR(pushed[1], 3000, 60);  // twice 6 mm at 4 mm/s
+  EXPECT_NEAR(pushed[2], 3000, 60);
+}
+
+// In an ordinary scene the columns are what the object was made to answer: contact after contact.
+TEST_F(RigProgram, ExportsAnOrdinaryPress) {
+  ASSERT_EQ(run_program({"run", scene("plane"), "--record", path("p.encrec")}).code, 0);
+  RecordReader record(path("p.encrec"));
+  double deepest = 0.0;
+  for (const Row& row : rows_of(run_program({"export", path("p.encrec")}).out)) {
+    RecordedTick tick;
+    ASSERT_TRUE(record.next(tick));
+    ASSERT_EQ(static_cast<int>(row.numbers[9]), tick.out.mode == Mode::contact ? tick.out.contacts : 0);
+    if (row.numbers[9] > 0) {
+      ASSERT_EQ(row.numbers[8], -tick.out.force.xyz[2]);
+      deepest = std::max(deepest, row.numbers[7]);
+    }
+  }
+  EXPECT_NEAR(deepest, 3.0, 0.3);
+}
+
+TEST_F(RigProgram, ExportSaysWhatIsWrong) {
+  ASSERT_EQ(run_program({"run", scene("rig_A"), "--for-s", "0.5", "--record", path("a.encrec")}).code, 0);
+  const std::string before = bytes_of(path("a.encrec"));
+  EXPECT_THAT(line({"export", path("a.encrec"), "--csv", path("a.encrec")}),
+              HasSubstr("is the record itself"));
+  EXPECT_EQ(bytes_of(path("a.encrec")), before);
+  EXPECT_THAT(line({"export", path("a.encrec"), "--csv", path("none/a.csv")}),
+              HasSubstr("cannot be written"));
+  EXPECT_THAT(line({"export", path("a.encrec"), "--csv", "/dev/full"}),
+              HasSubstr("cannot be written: No space"));
+  EXPECT_THAT(line({"export", path("no.encrec")}), HasSubstr("cannot read the record"));
+  std::ofstream(path("cut.encrec")) << before.substr(0, before.size() - 100);
+  EXPECT_THAT(line({"export", path("cut.encrec")}), HasSubstr("cut off"));
+  EXPECT_EQ(run_program({"export", path("cut.encrec"), "--partial"}).code, 0);
+}
+
+TEST_F(RigProgram, MistakesInAProbe) {
+  EXPECT_THAT(
+      refused({"probe.radius_mm=9"}),
+      AllOf(HasSubstr("--set probe.radius_mm=9: 'radius_mm' is 9; expected 10"), HasSubstr("write it like")));
+  EXPECT_THAT(refused({"probe.depth_mm=8.1"}),
+              HasSubstr("expected at most 8, where the law of the simulated ball ends"));
+  EXPECT_THAT(refused({"probe.depth_mm=0"}), HasSubstr("expected a positive number"));
+  EXPECT_THAT(refused({"probe.polar_deg=0"}), HasSubstr("expected a number from 90 to 180"));
+  EXPECT_THAT(refused({"probe.offset_mm=44"}), HasSubstr("the probe goes past the object"));
+  EXPECT_THAT(refused({"probe.speed_mm_s=51"}), HasSubstr("cannot push that fast"));
+  EXPECT_THAT(refused({"probe.object=bal"}), HasSubstr("did you mean 'ball'?"));
+  EXPECT_THAT(refused({"object.ball.position_mm=[0,0,70]"}), HasSubstr("outside the machine's reach"));
+  EXPECT_THAT(refused({"object.ball.position_mm=[0,0,44]"}), HasSubstr("in the way of the probe"));
+  EXPECT_THAT(refused({"object.ball.limit_mm=6"}), HasSubstr("is real and has a 'limit_mm'"));
+  EXPECT_THAT(refused({"truth.ball.set=dead"}), HasSubstr("'set' is 'dead'; expected"));
+  EXPECT_THAT(refused({"truth.ball.uneven=0.06"}), HasSubstr("expected a number from -0.05 to 0.05"));
+}
+
+TEST_F(RigProgram, ScenesThatAreNoRig) {
+  const auto said = [&](const std::string& from, const std::string& to) {
+    const Result r = run_program({"run", edited(from, to)}, kModels);
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err, StartsWith("encounter: " + path("scenes/rig.toml") + ":"));
+    return r.err;
+  };
+  EXPECT_THAT(said("[force]\n", ""), HasSubstr("has no [force]; add it"));
+  EXPECT_THAT(said("[force]\n", "[force]\n[tracker]\n"), HasSubstr("remove [tracker]"));
+  EXPECT_THAT(said("[force]\n", "[force]\n[display]\n"), HasSubstr("remove [display]"));
+  EXPECT_THAT(said("shape = \"sphere\"\nradius_mm = 33 ", "shape = \"plane\" "),
+              HasSubstr("expected a sphere"));
+  // A real thing without a probe, or beside the one that is pressed.
+  const std::string second =
+      "[[object]]\nname = \"cup\"\nshape = \"sphere\"\nradius_mm = 20\n"
+      "position_mm = [0, 60, 20]\n\n[manipulator]\n";
+  EXPECT_THAT(said("[manipulator]\n", second), HasSubstr("object 'cup' has no 'behaviour'; expected one"));
+}
+
+}  // namespace
+}  // namespace enc::tests
