@@ -52,9 +52,11 @@ std::vector<Part> parts_of(const models::Setup& setup) {
        fmt::format("{:g} Hz, {}", setup.twin.tracker.rate, driver(setup.rig.tracker.driver)));
   part("display", scene.display.has_value(),
        fmt::format("{:g} Hz, {}", setup.twin.display.rate, driver(setup.rig.display.driver)));
+  part("gripper", scene.gripper.has_value(),
+       fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));
   part("user", scene.user.has_value(), "simulated hand");
   // Roles of the design that this version builds nothing of.
-  for (const char* role : {"arm", "gripper", "camera", "hand tracker", "window"}) part(role, false, "");
+  for (const char* role : {"arm", "camera", "hand tracker", "window"}) part(role, false, "");
   return parts;
 }
 
@@ -86,6 +88,8 @@ void fit_out(Rig& rig, const models::Setup& setup, bool armed) {
     rig.tracker = maker(setup.rig.tracker.driver, "tracker", &DriverModule::tracker)();
   if (rig.display && setup.rig.display.driver != "sim")
     rig.display = maker(setup.rig.display.driver, "display", &DriverModule::display)();
+  if (rig.gripper && setup.rig.gripper.driver != "sim")
+    rig.gripper = maker(setup.rig.gripper.driver, "gripper", &DriverModule::gripper)();
 }
 
 }  // namespace enc::app

@@ -38,7 +38,8 @@ void track_tool(Walk& walk, State& state) {
     walk.why |= kToolUnseen;
     return;
   }
-  walk.tool_known = true;
+  // A clamped tool is seen, recorded and drawn, but it presses nothing: it goes where the tip goes.
+  walk.tool_known = state.tool.value.tool != walk.scene.clamped_tool;
   const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
   walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
   walk.tool_tip = walk.X_WT * tool.tip;
@@ -75,6 +76,14 @@ void track_tip(Walk& walk, State& state) {
 }
 
 }  // namespace
+
+void grip(Walk& walk) noexcept {
+  if (walk.scene.clamped_tool < 0) return;
+  const Stamped<GripSample>& sample = walk.in.grip;
+  const bool known = sample.health == Health::ok || sample.health == Health::out_of_range;
+  const bool empty = sample.value.phase == GripPhase::closed && !sample.value.holding;
+  if (!known || empty || age(walk.tick.t, sample.t) > walk.scene.force.stale) walk.why |= kToolNotHeld;
+}
 
 void track(Walk& walk, State& state) noexcept {
   if (walk.scene.has_manipulator) track_tip(walk, state);

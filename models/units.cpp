@@ -11,9 +11,10 @@ namespace enc::models {
 namespace {
 
 // Longest suffix first, because "_mm_s" also ends in "_s".
-constexpr std::array<Unit, 22> kUnits{{{"_N_per_sqrt_s", "N/sqrt(s)"},
+constexpr std::array<Unit, 23> kUnits{{{"_N_per_sqrt_s", "N/sqrt(s)"},
                                        {"_N_per_mm_k", "N/mm^k", 3, false, true},
                                        {"_Ns_per_m", "N s/m"},
+                                       {"_N_per_um", "N/um", 6},
                                        {"_N_per_mm", "N/mm", 3},
                                        {"_N_per_m", "N/m"},
                                        {"_mm_s2", "mm/s^2", -3},

@@ -64,6 +64,7 @@ std::vector<std::byte> World::save() const {
   if (force) saver.put(force->state());
   if (tracker) saver.put(tracker->state());
   if (display) saver.put(display->state());
+  if (gripper) saver.put(gripper->state());
   if (user_) saver.put(user_->state());
   saver.put(next_);
   saver.put(truth_);
@@ -79,6 +80,7 @@ void World::restore(const std::vector<std::byte>& saved) {
   if (force) force->restore(from.take<ForcePlant::State>());
   if (tracker) tracker->restore(from.take<TrackerPlant::State>());
   if (display) display->restore(from.take<DisplayPlant::State>());
+  if (gripper) gripper->restore(from.take<GripperPlant::State>());
   if (user_) user_->restore(from.take<User::State>());
   next_ = from.take<Tick>();
   truth_ = from.take<Truth>();

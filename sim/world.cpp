@@ -40,44 +40,61 @@ Pose<'W', 'R'> true_base(const WorldSpec& spec) {
   return {turned, Vec3(spec.twin.hexapod.misplaced - turned * machine.zero().p())};
 }
 
-SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
-  return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, X_WR, spec.mjcf_dir, spec.draw_all});
+// A clamped tool stands on the haptic-tip: its tip at H, its shaft along z.
+Pose<'H', 'T'> clamped_pose(const ToolSpec* tool) {
+  if (tool == nullptr) return Pose<'H', 'T'>::identity();
+  const Quat q = tool_orientation(*tool, Vec3::UnitZ());
+  return {q, Vec3(-(q * tool->tip))};
 }
 
-int whole_steps(double dt, double timestep) {
-  const double steps = dt / timestep;
+SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
+  const ToolSpec* clamped = clamped_tool(spec.scene);
+  return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, clamped, clamped_pose(clamped), X_WR,
+                      spec.mjcf_dir, spec.draw_all});
+}
+
+int whole_steps(double dt, const TwinSpec& twin) {
+  const double steps = dt / twin.timestep();
   if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6)
-    throw Error("the physics time step must divide the haptic period", "truth.world.timestep");
+    throw Error("the physics time step must divide the haptic period",
+                twin.structural() ? "truth.structure.timestep" : "truth.world.timestep");
   return static_cast<int>(std::lround(steps));
 }
 
 }  // namespace
 
 World::World(const WorldSpec& spec)
-    : machine(spec.twin.hexapod),
+    : machine(spec.twin.hexapod, spec.seed),
       twin_(spec.twin),
       dt_(1.0 / spec.rig.loop.rate),
-      steps_per_tick_(whole_steps(dt_, spec.twin.world.timestep)),
+      steps_per_tick_(whole_steps(dt_, spec.twin)),
       X_WR_(true_base(spec)),
       X_HF_(pose_of<'H', 'F'>(spec.twin.frames.H_F)),
       q_WT_(held_tool(spec.scene) == nullptr
                 ? Quat::Identity()
                 : tool_orientation(*held_tool(spec.scene),
                                    enc::press_point(spec.scene, *spec.scene.user).normal.e())),
+      clamped_(spec.prepared.clamped_tool),
+      X_HT_(clamped_pose(clamped_tool(spec.scene))),
       user_(make_user(spec, held_tool(spec.scene))),
       physics_(model_of(spec, held_tool(spec.scene), q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
   if (spec.scene.tracker)
     tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);
   if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
+  if (spec.scene.gripper) gripper.emplace(spec.twin.gripper, spec.seed);
   const mjModel* m = physics_.model();
   const int platform = physics_.id(mjOBJ_JOINT, "platform");
   platform_qpos_ = m->jnt_qposadr[platform];
   platform_qvel_ = m->jnt_dofadr[platform];
   const int platform_body = physics_.id(mjOBJ_BODY, "platform");
-  physics_.data()->xfrc_applied[6 * platform_body + 2] =
-      kGravity * m->body_subtreemass[platform_body];  // it floats
+  if (spec.twin.structural())
+    legs.emplace(spec.twin.structure, machine.machine(), physics_, X_WR_);
+  else
+    physics_.data()->xfrc_applied[6 * platform_body + 2] =
+        kGravity * m->body_subtreemass[platform_body];  // it floats
   tip_geom_ = physics_.id(mjOBJ_GEOM, "haptic_tip");
+  mass_behind_ = m->body_subtreemass[physics_.id(mjOBJ_BODY, "behind_sensor")];
   next_.dt = from_seconds(dt_);
   truth_.tip_radius = spec.twin.hexapod.tip_radius;
   if (const ToolSpec* tool = held_tool(spec.scene)) {
@@ -89,7 +106,8 @@ World::World(const WorldSpec& spec)
     tool_qvel_ = m->jnt_dofadr[m->body_jntadr[tool_body_]];
     std::copy_n(user_->start().xyz.begin(), 3, physics_.data()->qpos + tool_qpos_);
   }
-  place_machine(machine.state().pose);
+  place_machine(machine.true_pose());
+  if (legs) legs->drive(physics_.data(), leg_motion(), leg_motion(), dt_);
   mj_forward(physics_.model(), physics_.data());
   observe(next_.t);
 }
@@ -110,6 +128,10 @@ void World::place_machine(const Pose<'R', 'H'>& from) {
   std::copy_n(turning.data(), 3, d->qvel + platform_qvel_ + 3);
 }
 
+LegMotion World::leg_motion() const {
+  return legs->at(machine.true_pose(), machine.state().velocity, machine.state().turning);
+}
+
 void World::physics_step(double t) {
   const double h = physics_.model()->opt.timestep;
   mjData* d = physics_.data();
@@ -123,9 +145,15 @@ void World::physics_step(double t) {
     for (std::size_t i = 0; i < 3; ++i) applied[i] = truth_.hand_force.xyz[i];
     applied[2] += kGravity * physics_.model()->body_mass[tool_body_];  // the hand carries the tool
   }
-  const Pose<'R', 'H'> from = machine.state().pose;
-  machine.move(h);
-  place_machine(from);
+  if (legs) {
+    const LegMotion from = leg_motion();
+    machine.move(h);
+    legs->drive(d, from, leg_motion(), h);
+  } else {
+    const Pose<'R', 'H'> from = machine.true_pose();
+    machine.move(h);
+    place_machine(from);
+  }
   try {
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
@@ -154,12 +182,34 @@ Vec<'W'> World::contact_force(bool& touching) const {
   return Vec<'W'>(total);
 }
 
+// Control form: where the servo put it. Structural form: where the physics has it; what a step leaves behind
+// belongs to its last stage, so all is evaluated once more at this very time.
+void World::observe_machine() {
+  if (!legs) {
+    truth_.tip = X_WR_ * machine.true_pose().origin();
+    truth_.tip_velocity = X_WR_ * machine.state().velocity;
+    truth_.tip_acceleration = X_WR_ * machine.state().acceleration;
+    return;
+  }
+  mjData* d = physics_.data();
+  mj_forward(physics_.model(), d);
+  truth_.contact_force = contact_force(truth_.touching);
+  truth_.tip = Point<'W'>(Vec3(Eigen::Map<const Vec3>(d->qpos + platform_qpos_)));
+  truth_.tip_velocity = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qvel + platform_qvel_)));
+  truth_.tip_acceleration = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qacc + platform_qvel_)));
+  const Hexapod::Lengths forces = legs->forces(d);
+  std::copy_n(forces.data(), 6, truth_.leg_force.begin());
+}
+
+Pose<'W', 'H'> World::true_tip() const {
+  if (!legs) return X_WR_ * machine.true_pose();
+  const double* q = physics_.data()->qpos + platform_qpos_;
+  return {Quat(q[3], q[4], q[5], q[6]), Vec3(q[0], q[1], q[2])};
+}
+
 void World::observe(Time t) {
-  const HexapodPlant::State& s = machine.state();
   truth_.t = t;
-  truth_.tip = X_WR_ * s.pose.origin();
-  truth_.tip_velocity = X_WR_ * s.velocity;
-  truth_.tip_acceleration = X_WR_ * s.acceleration;
+  observe_machine();
   if (!user_) return;
   const mjData* d = physics_.data();
   const double* q = d->qpos + tool_qpos_;
@@ -175,10 +225,11 @@ void World::sense(Time t) {
   const mjData* d = physics_.data();
   if (force) {
     // MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on
-    // the sensor: contact plus weight. Inertia is missing, because the platform is placed and not
-    // accelerated.
-    const Pose<'R', 'F'> X_RF = machine.state().pose * X_HF_;
-    const Vec<'F'> inertia = X_RF.inverse() * (twin_.hexapod.mass * machine.state().acceleration);
+    // the sensor: contact plus weight. In the control form inertia is missing, because the platform is placed
+    // and not accelerated.
+    const Pose<'R', 'F'> X_RF = machine.true_pose() * X_HF_;
+    const Vec<'F'> inertia =
+        legs ? Vec<'F'>::zero() : X_RF.inverse() * (mass_behind_ * machine.state().acceleration);
     const Wrench raw{Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
                      Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
     force->measure(t, dt_, raw, inertia);
@@ -186,7 +237,10 @@ void World::sense(Time t) {
   if (tracker && tool_ >= 0) {
     const Vec3 origin = truth_.tool_tip.e() - q_WT_ * tip_T_;
     tracker->advance(t, tool_, Pose<'W', 'T'>(q_WT_, origin));
+  } else if (tracker && clamped_ >= 0) {
+    tracker->advance(t, clamped_, true_tip() * X_HT_);
   }
+  if (gripper) gripper->advance(t, dt_);
   if (display) display->advance(t);
 }
 
