@@ -52,11 +52,12 @@ std::vector<Part> parts_of(const models::Setup& setup) {
        fmt::format("{:g} Hz, {}", setup.twin.tracker.rate, driver(setup.rig.tracker.driver)));
   part("display", scene.display.has_value(),
        fmt::format("{:g} Hz, {}", setup.twin.display.rate, driver(setup.rig.display.driver)));
+  part("user", scene.user.has_value(), "simulated hand");
+  part("arm", false, "");
   part("gripper", scene.gripper.has_value(),
        fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));
-  part("user", scene.user.has_value(), "simulated hand");
   // Roles of the design that this version builds nothing of.
-  for (const char* role : {"arm", "camera", "hand tracker", "window"}) part(role, false, "");
+  for (const char* role : {"camera", "hand tracker", "window"}) part(role, false, "");
   return parts;
 }
 

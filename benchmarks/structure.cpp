@@ -51,7 +51,7 @@ Path swung(LegForm form, const char* integrator, double timestep) {
   for (int i = 0; i < steps; ++i) {
     model.step(swing(model.machine(), i * timestep), swing(model.machine(), (i + 1) * timestep));
     path.gap = std::max(path.gap, model.gap());
-    if ((i + 1) % each == 0) path.tip.push_back(Eigen::Map<const Vec3>(model.physics().data()->qpos));
+    if ((i + 1) % each == 0) path.tip.push_back(model.tip());
   }
   path.us_per_step = (cpu_seconds() - start) / steps * 1e6;
   return path;
@@ -89,11 +89,17 @@ void converge(const Report& report, LegForm form, const char* integrator, const 
 void work_and_precision(const Report& report, bool quick) {
   const double finest = quick ? 0.0625e-3 : 0.015625e-3;
   const Path truth = swung(LegForm::tendon, "rk4", finest);
-  converge(report, LegForm::tendon, "rk4", truth, {1e-3}, 0, 0);  // beyond the asymptotic range
-  converge(report, LegForm::tendon, "rk4", truth, {0.5e-3, 0.25e-3, 0.125e-3}, 4.0, 0.5);
-  for (const char* first_order : {"euler", "implicitfast"})
-    converge(report, LegForm::tendon, first_order, truth, {0.25e-3, 0.125e-3, 0.0625e-3, 0.03125e-3}, 1.0,
-             0.35);
+  const auto tendon = [&](const char* integrator, const std::vector<double>& steps, double order,
+                          double tolerance) {
+    converge(report, LegForm::tendon, integrator, truth, steps, order, tolerance);
+  };
+  // The first rows of each are for the table alone: there a step is no small part of the fastest vibration.
+  tendon("rk4", {1e-3}, 0.0, 0.0);
+  tendon("rk4", {0.5e-3, 0.25e-3, 0.125e-3}, 4.0, 0.4);
+  for (const char* first_order : {"euler", "implicitfast"}) {
+    tendon(first_order, {0.25e-3, 0.125e-3, 0.0625e-3}, 0.0, 0.0);
+    tendon(first_order, {0.03125e-3, 0.015625e-3, 0.0078125e-3}, 1.0, 0.2);
+  }
   const Path closed = swung(LegForm::connect, "rk4", finest);
   converge(report, LegForm::connect, "rk4", closed, {0.5e-3, 0.25e-3}, 0, 0);
   report.add("structure.connect.from_tendon.rms", rms(closed, truth) * 1e6, "um", kUnset, kUnset,
@@ -105,7 +111,7 @@ void static_sag(const Report& report) {
   const LegCommand still{model.machine().zero(), Vec<'R'>::zero(), Vec<'R'>::zero()};
   const auto settled = [&](const Vec3& force) {
     model.push(force);
-    for (int i = 0; i < 2000; ++i) model.step(still, still);
+    for (int i = 0; i < 10000; ++i) model.step(still, still);  // 5 s: the softest mode fades with 4.4 /s
     mj_forward(model.physics().model(), model.physics().data());
     return model.tip();
   };
@@ -155,6 +161,7 @@ struct Machine {
     world->machine.command(Pose<'R', 'H'>(Quat::Identity(), there));
     for (int i = 0; i < ticks; ++i) {
       world->advance();
+      simulated += scene.dt;
       for (const double f : world->truth().leg_force) strongest = std::max(strongest, std::abs(f));
     }
     return world->truth();
@@ -163,6 +170,7 @@ struct Machine {
   Scene scene;
   std::unique_ptr<sim::World> world;
   double strongest = 0.0;  // leg force, N
+  double simulated = 0.0;  // s
 };
 
 void payload(const Report& report, const BenchContext& context) {
@@ -178,10 +186,13 @@ void payload(const Report& report, const BenchContext& context) {
     m.go(corner, 1500);
   physics.data()->xfrc_applied[6 * platform + 2] = -100.0;
   const double pushed = -m.go(Vec3::Zero(), 2000).tip.xyz[2];
-  report.add("structure.payload.pushed.sag", pushed * 1e6, "um", 0, 3.0 * expected * 1e6, "and 100 N more");
+  const double both = expected + 100.0 / kz;
+  report.add("structure.payload.pushed.sag", pushed * 1e6, "um", 0.99 * both * 1e6, 1.01 * both * 1e6,
+             "and 100 N more, likewise");
   report.add(
       "structure.payload.leg_force.max", m.strongest, "N", 0, 171,
       "10 kg, the platform and 100 N, on the way through the workspace; parameters 2.3 has 74 N for 100 N");
+  report.result.simulated += m.simulated;
   report.add("structure.payload.diverged", static_cast<double>(m.world->diverged_at()), "tick", -1, -1,
              "-1: never");
 }
@@ -193,12 +204,13 @@ void repeatability(const Report& report, const BenchContext& context) {
   const int count = context.repeats > 0 ? static_cast<int>(context.repeats) : 100;
   Vec3 mean = Vec3::Zero();
   for (int i = 0; i < count; ++i) {
-    m.go(0.003 * random.normal3().normalized(), 250);
-    arrivals.push_back(m.go(Vec3::Zero(), 400).tip.e());
+    m.go(0.003 * random.normal3().normalized(), 500);
+    arrivals.push_back(m.go(Vec3::Zero(), 1500).tip.e());
     mean += arrivals.back() / count;
   }
   double sum = 0.0;
   for (const Vec3& at : arrivals) sum += (at - mean).squaredNorm();
+  report.result.simulated += m.simulated;
   // 300 numbers: their rms is known to 4 %; four sigma.
   report.add("structure.repeatability.rms", std::sqrt(sum / (3.0 * (count - 1))) * 1e6, "um", 0.42, 0.58,
              fmt::format("true H, along each axis, {} arrivals from random directions", count));
@@ -219,6 +231,7 @@ void speed(const Report& report, const BenchContext& context) {
       options);
   const double start = cpu_seconds();
   const TrialResult run = trial.run();
+  report.result.simulated += run.simulated;
   report.add("structure.times_real_time.scene", run.simulated / (cpu_seconds() - start), "x", 20, kUnset,
              "tennis_ball with core, hand, tracker, display, the same way");
 }

@@ -56,7 +56,7 @@ void close_loop(mjSpec* spec, const Hexapod& machine, int leg) {
   mjs_setString(tie->name1, "platform");
   mjs_setString(tie->name2, (name + "_upper").c_str());
   set3(tie->data, machine.platform_joint(leg));
-  tie->solref[0] = 0.002;
+  tie->solref[0] = 0.001;  // s: as hard as a step of 0.5 ms allows
   tie->solimp[0] = tie->solimp[1] = 0.9999;
   // The same spring and damper as the tendon's, on the slide, whose zero is the leg's length at zero.
   auto* drive = mjs_asActuator(mjs_findElement(spec, mjOBJ_ACTUATOR, name.c_str()));
@@ -102,8 +102,9 @@ LegModel::LegModel(LegForm form, const sim::StructureTruth& truth)
     : machine_(HexapodGeometry{}),
       physics_(spec_of(form, truth, machine_)),
       legs_(truth, machine_, physics_, Pose<'W', 'R'>::identity()) {
-  platform_ = physics_.id(mjOBJ_BODY, "platform");
-  dof_ = physics_.model()->jnt_dofadr[physics_.id(mjOBJ_JOINT, "platform")];
+  const int joint = physics_.id(mjOBJ_JOINT, "platform");
+  dof_ = physics_.model()->jnt_dofadr[joint];
+  qpos_ = physics_.model()->jnt_qposadr[joint];
 }
 
 void LegModel::step(const LegCommand& from, const LegCommand& to) {
@@ -118,7 +119,7 @@ void LegModel::push(const Vec3& force) {
   set3(d->qfrc_applied + dof_, force);  // the free joint's speeds are those of H
 }
 
-Vec3 LegModel::tip() const { return Eigen::Map<const Vec3>(physics_.data()->xpos + 3 * platform_); }
+Vec3 LegModel::tip() const { return Eigen::Map<const Vec3>(physics_.data()->qpos + qpos_); }
 
 double LegModel::gap() const {
   const mjModel* m = physics_.model();

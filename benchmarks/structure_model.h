@@ -33,8 +33,7 @@ class LegModel {
   Hexapod machine_;
   sim::Physics physics_;
   sim::Legs legs_;
-  int platform_ = -1;  // body
-  int dof_ = 0;
+  int qpos_ = 0, dof_ = 0;  // of the platform
 };
 
 }  // namespace enc::bench

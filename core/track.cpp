@@ -1,4 +1,6 @@
 // Where the tool and the tip are at this tick: newest pose held, its age judged. [VHMR 3.3]
+#include <cmath>
+
 #include "core/stages.h"
 
 namespace enc::stages {
@@ -80,9 +82,13 @@ void track_tip(Walk& walk, State& state) {
 void grip(Walk& walk) noexcept {
   if (walk.scene.clamped_tool < 0) return;
   const Stamped<GripSample>& sample = walk.in.grip;
-  const bool known = sample.health == Health::ok || sample.health == Health::out_of_range;
-  const bool empty = sample.value.phase == GripPhase::closed && !sample.value.holding;
-  if (!known || empty || age(walk.tick.t, sample.t) > walk.scene.force.stale) walk.why |= kToolNotHeld;
+  const GripSample& jaws = sample.value;
+  const bool possible = std::abs(jaws.opening) < 1.0 && std::abs(jaws.force) < 1e4 &&  // false for NaN
+                        sample.t <= walk.tick.t + walk.tick.dt;
+  const bool usable = sample.health == Health::ok || sample.health == Health::out_of_range;
+  const bool empty = jaws.phase == GripPhase::closed && !jaws.holding;
+  if (!possible || !usable || empty || age(walk.tick.t, sample.t) > walk.scene.force.stale)
+    walk.why |= kToolNotHeld;
 }
 
 void track(Walk& walk, State& state) noexcept {
