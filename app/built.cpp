@@ -59,8 +59,11 @@ std::vector<Part> parts_of(const models::Setup& setup) {
        !scene.probe ? ""
                     : fmt::format("{:g} mm radius, {} pushes of {:g} mm", millimetres(scene.probe->radius),
                                   scene.probe->repeats, millimetres(scene.probe->depth)));
+  part("arm", false, "");
+  part("gripper", scene.gripper.has_value(),
+       fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));
   // Roles of the design that this version builds nothing of.
-  for (const char* role : {"arm", "gripper", "camera", "hand tracker", "window"}) part(role, false, "");
+  for (const char* role : {"camera", "hand tracker", "window"}) part(role, false, "");
   return parts;
 }
 
@@ -92,6 +95,8 @@ void fit_out(Rig& rig, const models::Setup& setup, bool armed) {
     rig.tracker = maker(setup.rig.tracker.driver, "tracker", &DriverModule::tracker)();
   if (rig.display && setup.rig.display.driver != "sim")
     rig.display = maker(setup.rig.display.driver, "display", &DriverModule::display)();
+  if (rig.gripper && setup.rig.gripper.driver != "sim")
+    rig.gripper = maker(setup.rig.gripper.driver, "gripper", &DriverModule::gripper)();
 }
 
 }  // namespace enc::app

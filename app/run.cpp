@@ -31,7 +31,7 @@ double pace_of(const std::string& text) {
 
 bool all_simulated(const RigSpec& rig) {
   return rig.manipulator.driver == "sim" && rig.force.driver == "sim" && rig.tracker.driver == "sim" &&
-         rig.display.driver == "sim";
+         rig.display.driver == "sim" && (rig.gripper.driver == "sim" || rig.gripper.driver == "none");
 }
 
 void show_progress(double share) {

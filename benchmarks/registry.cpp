@@ -5,12 +5,14 @@
 namespace enc::bench {
 
 std::span<const Benchmark> benchmarks() {
-  static constexpr std::array<Benchmark, 3> kAll{{
+  static constexpr std::array<Benchmark, 4> kAll{{
       {"encounter", "tennis_ball",
        "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
        run_encounter},
       {"press", "tennis_ball", "one contact for each press, limit held, tip inside, no pull", run_press},
       {"speed", "tennis_ball", "step(), times real time, wrapper over raw mj_step", run_speed},
+      {"structure", "tennis_ball", "hexapod on elastic legs: sag, modes, order of the integrator, cost",
+       run_structure},
   }};
   return kAll;
 }

@@ -56,6 +56,18 @@ void fields(F& f, DentSample& s) {
   f("dent_tip_radius", s.tip_radius);
   f("dent_depth", s.depth);
 }
+template <class F>
+void fields(F& f, GripSample& s) {
+  f("grip_phase", s.phase);
+  f("grip_opening", s.opening);
+  f("grip_force", s.force);
+  f("grip_holding", s.holding);
+}
+template <class F>
+void fields(F& f, Grip& g) {
+  f("grip_closed", g.closed);
+  f("grip_wanted_force", g.force);
+}
 template <class F, class V>
 void fields(F& f, Stamped<V>& s) {
   fields(f, s.value);
@@ -68,6 +80,7 @@ void fields(F& f, Inputs& in) {
   fields(f, in.wrench);
   fields(f, in.tip);
   fields(f, in.dent);
+  fields(f, in.grip);
   f("missed", in.missed);
 }
 template <class F>
@@ -92,6 +105,7 @@ void fields(F& f, Outputs& out) {
   f("deflection", out.deflection);
   fields(f, "first_touch_W", out.first_touch);
   fields(f, out.view);
+  fields(f, out.grip);
 }
 template <class F>
 void fields(F& f, Contact& c) {

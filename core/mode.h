@@ -34,6 +34,7 @@ enum Why : std::uint32_t {
   kOutsideDent = 1U << 10,    // the tip is outside the deformed surface by more than its age excuses
   kClockLate = 1U << 11,      // cycles were missed
   kNotFinite = 1U << 12,      // the core's own target is not finite: a defect, caught
+  kToolNotHeld = 1U << 13,    // the gripper has lost its tool, or says nothing
   // Notices: the loop goes on.
   kToolPredicted = 1U << 16,  // tool pose older than usual
   kUnreachable = 1U << 17,    // target clamped to what the machine reaches

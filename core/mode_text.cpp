@@ -12,7 +12,7 @@ std::string_view mode_name(Mode mode) {
 }
 
 std::string why_text(std::uint32_t why) {
-  static constexpr std::array<std::pair<Why, std::string_view>, 20> kTexts{
+  static constexpr std::array<std::pair<Why, std::string_view>, 21> kTexts{
       {{kToolInvalid, "tool pose invalid"},
        {kToolLost, "tool lost"},
        {kForceInvalid, "force invalid"},
@@ -26,6 +26,7 @@ std::string why_text(std::uint32_t why) {
        {kOutsideDent, "tip outside the visual surface"},
        {kClockLate, "clock late"},
        {kNotFinite, "target not finite"},
+       {kToolNotHeld, "gripper holds no tool"},
        {kToolPredicted, "tool pose old"},
        {kUnreachable, "target out of reach"},
        {kLimited, "speed or acceleration limited"},

@@ -13,7 +13,7 @@ namespace enc {
 
 // Raise it when anything that crosses the border changes. A module of another number or another build is
 // refused, never tried.
-inline constexpr std::uint32_t kModuleInterface = 1;
+inline constexpr std::uint32_t kModuleInterface = 2;
 
 // Devices that a driver module makes; what it does not offer stays null. Constructors throw Error(kind
 // device) with a way out.
@@ -22,6 +22,7 @@ struct DriverModule {
   std::unique_ptr<ForceSensor> (*force)() = nullptr;
   std::unique_ptr<PoseTracker> (*tracker)() = nullptr;
   std::unique_ptr<Display> (*display)() = nullptr;
+  std::unique_ptr<Gripper> (*gripper)() = nullptr;
 };
 
 struct ModuleInfo {

@@ -7,6 +7,7 @@
 #include "core/devices/clock.h"
 #include "core/devices/display.h"
 #include "core/devices/force_sensor.h"
+#include "core/devices/gripper.h"
 #include "core/devices/manipulator.h"
 #include "core/devices/pose_tracker.h"
 #include "core/step.h"
@@ -19,6 +20,7 @@ struct Rig {
   std::unique_ptr<ForceSensor> force;
   std::unique_ptr<PoseTracker> tracker;
   std::unique_ptr<Display> display;
+  std::unique_ptr<Gripper> gripper;
 
   void read(Inputs& in) noexcept {
     in.missed = clock->missed();
@@ -26,10 +28,12 @@ struct Rig {
     if (force) in.wrench = force->read();
     if (tracker) tracker->poll(in.tool);
     if (display) display->poll(in.dent);
+    if (gripper) in.grip = gripper->read();
   }
   void write(const Outputs& out) noexcept {
     if (manipulator && out.tip.valid()) manipulator->command(out.tip);
     if (display) display->show(out.view);
+    if (gripper) gripper->command(out.grip);
   }
 };
 

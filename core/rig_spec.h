@@ -74,6 +74,11 @@ struct DisplayRig {
   double margin_speed = 0.050;  // m/s: how fast that margin grows with the surface's age
 };
 
+struct GripperRig {
+  std::string driver = "sim";
+  double force = 100.0;  // N, to clamp with
+};
+
 struct ContactRig {
   double leave_gap = 0.0010;  // m: the tool is away when the gap is larger and no force has been felt for
   double leave_time = 0.050;  // s
@@ -92,6 +97,7 @@ struct RigSpec {
   ForceRig force;
   TrackerRig tracker;
   DisplayRig display;
+  GripperRig gripper;
   ContactRig contact;
 };
 

@@ -40,6 +40,20 @@ struct TipSample {
                           // the force
 };
 
+// What a gripper is told. Closed: with which force, N, on what it clamps.
+struct Grip {
+  bool closed = false;
+  double force = kUnset;
+};
+enum class GripPhase : std::uint8_t { open, closing, closed, opening };
+
+struct GripSample {
+  GripPhase phase = GripPhase::open;
+  double opening = kUnset;  // between the jaws, m
+  double force = 0.0;       // on what is clamped, N
+  bool holding = false;     // closed, with something between the jaws
+};
+
 // The deformed visual surface, as the renderer reports it [VHMR 3.5]: which object is dented, where, by what
 // and how deep. The core evaluates the surface itself (dent.h), so Inputs stays of one size.
 struct DentSample {

@@ -115,6 +115,17 @@ Reach reach_of(const RigSpec& rig) {
   return {rig.manipulator.speed, rig.manipulator.acceleration, Hexapod(rig.manipulator.geometry)};
 }
 
+const ToolSpec* clamped_tool(const SceneSpec& spec) {
+  if (!spec.gripper) return nullptr;
+  if (spec.tools.empty()) throw Error("a gripper needs a tool to clamp", "gripper.tool");
+  if (spec.gripper->tool.empty()) return &spec.tools.front();
+  const auto named = std::find_if(spec.tools.begin(), spec.tools.end(),
+                                  [&](const ToolSpec& t) { return t.name == spec.gripper->tool; });
+  if (named == spec.tools.end())
+    throw Error("no tool '" + spec.gripper->tool + "' in the scene", "gripper.tool");
+  return &*named;
+}
+
 PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
   const ObjectSpec& object = spec.objects[pressed_object(spec, user)];
   const Vec3 axis(std::sin(user.polar) * std::cos(user.azimuth),
@@ -150,6 +161,11 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   scene.has_force = spec.force.has_value();
   scene.has_tracker = spec.tracker.has_value();
   scene.has_display = spec.display.has_value();
+  if (const ToolSpec* tool = clamped_tool(spec)) {
+    scene.clamped_tool = static_cast<std::int32_t>(tool - spec.tools.data());
+    scene.grip_force = rig.gripper.force;
+    scene.force.mass += tool->mass;  // it is behind the sensor, too
+  }
   if (!scene.has_manipulator)
     throw Error("a scene needs [manipulator]: something has to carry the surface", "manipulator");
   LoopModel loop;

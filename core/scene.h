@@ -36,6 +36,9 @@ struct Scene {
   std::vector<Tool> tools;
   bool has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
 
+  std::int32_t clamped_tool = -1;  // held by the gripper; -1: there is none
+  double grip_force = kUnset;      // N
+
   Pose<'W', 'R'> X_WR;  // from "H is W at the machine's zero" [VHMR 2]
   Pose<'W', 'C'> X_WC;
   Pose<'W', 'S'> X_WS;
@@ -66,6 +69,9 @@ template <char A, char B>
 [[nodiscard]] Pose<A, B> pose_of(const PoseSpec& spec) {
   return {rotation_xyz(spec.rotation), spec.position};
 }
+
+// Which tool the gripper of the scene clamps; nothing without a gripper.
+[[nodiscard]] const ToolSpec* clamped_tool(const SceneSpec& spec);
 
 // The frame graph of [VHMR Fig 4], one line for each edge, with constants and variables told apart.
 [[nodiscard]] std::string frame_graph(const Scene& scene);

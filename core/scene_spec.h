@@ -61,6 +61,9 @@ struct ManipulatorSpec {
 struct ForceSpec {};
 struct TrackerSpec {};
 struct DisplaySpec {};
+struct GripperSpec {
+  std::string tool;  // clamped, its tip at H and its shaft upwards; empty: the first
+};
 
 // Who holds the tool. A simulated rig plays this; a real rig shows it to the person.
 struct UserSpec {
@@ -105,6 +108,7 @@ struct SceneSpec {
   std::optional<ForceSpec> force;
   std::optional<TrackerSpec> tracker;
   std::optional<DisplaySpec> display;
+  std::optional<GripperSpec> gripper;
   std::optional<UserSpec> user;
   std::optional<ProbeSpec> probe;
   std::vector<BehaviourSpec> behaviours;  // the entries of models/behaviours.toml that the objects name

@@ -30,6 +30,7 @@ struct Walk {
 };
 
 void track(Walk& walk, State& state) noexcept;
+void grip(Walk& walk) noexcept;
 void touch(Walk& walk, State& state) noexcept;
 void sense(Walk& walk, State& state) noexcept;
 void mode(Walk& walk, State& state) noexcept;

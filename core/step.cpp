@@ -14,6 +14,8 @@ void report(const stages::Walk& walk, const State& state, Outputs& out) {
       walk.scene.probe ? walk.scene.probe->X_WN.inverse()
       : engaged        ? state.contact.X_WN.inverse()
                        : Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point).inverse();
+  // Also in hold: to let go would drop the tool.
+  if (walk.scene.clamped_tool >= 0) out.grip = {true, walk.scene.grip_force};
   out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate(), state.command);
   out.mode = stages::holding(walk) ? Mode::hold : state.mode;
   out.why = walk.why;
@@ -38,6 +40,7 @@ void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, 
   if (in.missed >= scene.loop.late_cycles) walk.why |= kClockLate;
   stages::track(walk, state);  // where are the tool and the tip
   stages::touch(walk, state);  // which surface point is nearest, and how far
+  stages::grip(walk);          // does the gripper hold its tool
   stages::sense(walk, state);  // what force is on the tip
   stages::check_tip(walk, state);
   if (!stages::holding(walk)) {

@@ -18,6 +18,7 @@ struct Inputs {
   Stamped<Wrench> wrench;
   Stamped<TipSample> tip;
   Stamped<DentSample> dent;
+  Stamped<GripSample> grip;
   std::int64_t missed = 0;  // cycles the clock lost before this tick
 };
 
@@ -33,6 +34,7 @@ struct Outputs {
   double deflection = 0.0;    // along -z of N, m: wanted; of a probe: measured, negative before it touches
   Point<'W'> first_touch;     // buffered point of the current or last contact, tip centre
   View view;
+  Grip grip;
 };
 
 // The anchor of a contact [VHMR 3.4]: surface frame and how the object answers from there.

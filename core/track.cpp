@@ -1,4 +1,6 @@
 // Where the tool and the tip are at this tick: newest pose held, its age judged. [VHMR 3.3]
+#include <cmath>
+
 #include "core/stages.h"
 
 namespace enc::stages {
@@ -38,7 +40,8 @@ void track_tool(Walk& walk, State& state) {
     walk.why |= kToolUnseen;
     return;
   }
-  walk.tool_known = true;
+  // A clamped tool is seen, recorded and drawn, but it presses nothing: it goes where the tip goes.
+  walk.tool_known = state.tool.value.tool != walk.scene.clamped_tool;
   const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
   walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
   walk.tool_tip = walk.X_WT * tool.tip;
@@ -75,6 +78,18 @@ void track_tip(Walk& walk, State& state) {
 }
 
 }  // namespace
+
+void grip(Walk& walk) noexcept {
+  if (walk.scene.clamped_tool < 0) return;
+  const Stamped<GripSample>& sample = walk.in.grip;
+  const GripSample& jaws = sample.value;
+  const bool possible = std::abs(jaws.opening) < 1.0 && std::abs(jaws.force) < 1e4 &&  // false for NaN
+                        sample.t <= walk.tick.t + walk.tick.dt;
+  const bool usable = sample.health == Health::ok || sample.health == Health::out_of_range;
+  const bool empty = jaws.phase == GripPhase::closed && !jaws.holding;
+  if (!possible || !usable || empty || age(walk.tick.t, sample.t) > walk.scene.force.stale)
+    walk.why |= kToolNotHeld;
+}
 
 void track(Walk& walk, State& state) noexcept {
   if (walk.scene.has_manipulator) track_tip(walk, state);

@@ -32,10 +32,10 @@ std::vector<std::string> names_of(const std::vector<T>& items) {
   return names;
 }
 
-// `table`: who names it, "user".
+// `table` names an entry of [[list]].
 template <class T>
 void check_named(const Setup& setup, const std::vector<T>& items, const std::string& name,
-                 const std::string& table, const std::string& list) {
+                 const std::string& list, const std::string& table = "user") {
   const std::vector<std::string> names = names_of(items);
   if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return;
   fail(setup, table + "." + list,
@@ -174,8 +174,8 @@ void check_user(const Setup& setup) {
   if (setup.scene.tools.empty()) {
     fail(setup, "user", "the user has no tool; expected at least one [[tool]]; add one or remove [user]");
   }
-  check_named(setup, setup.scene.objects, setup.scene.user->object, "user", "object");
-  check_named(setup, setup.scene.tools, setup.scene.user->tool, "user", "tool");
+  check_named(setup, setup.scene.objects, setup.scene.user->object, "object");
+  check_named(setup, setup.scene.tools, setup.scene.user->tool, "tool");
 }
 
 // What the simulated ball is good for (sim/ball_plant.h). A real machine may press other things.
@@ -203,6 +203,30 @@ void check_probe(const Setup& setup) {
   }
 }
 
+// The tool that the gripper clamps is nobody's hand-held one.
+void check_gripper(const Setup& setup) {
+  const SceneSpec& s = setup.scene;
+  if (!s.gripper) return;
+  if (s.tools.empty())
+    fail(setup, "gripper",
+         "the gripper has no tool; expected at least one [[tool]]; add one or remove [gripper]");
+  check_named(setup, s.tools, s.gripper->tool, "tool", "gripper");
+  const auto first = [&](const std::string& name) { return name.empty() ? s.tools.front().name : name; };
+  if (s.user && first(s.user->tool) == first(s.gripper->tool))
+    fail(setup, "gripper.tool",
+         fmt::format("tool {} is both clamped and held by the user; expected another one; name it in "
+                     "'gripper.tool' or remove [user]",
+                     quoted(first(s.gripper->tool))));
+  const sim::GripperTruth& g = setup.twin.gripper;
+  if (g.force_max < g.force_min)
+    fail(setup, "truth.gripper.force_max_N",
+         "'force_max_N' is less than 'force_min_N'; expected at least that; raise it");
+  if (g.width > 2.0 * g.stroke)
+    fail(setup, "truth.gripper.width_mm",
+         fmt::format("'width_mm' is {}; expected at most {} mm, which the jaws open; lower it", mm(g.width),
+                     mm(2.0 * g.stroke)));
+}
+
 void check_driver(const Setup& setup, bool named, const std::string& table, const std::string& driver) {
   if (!named || driver != "none") return;
   fail(setup, table,
@@ -218,6 +242,7 @@ void check_rig(const Setup& setup) {
   check_driver(setup, s.force.has_value(), "force", r.force.driver);
   check_driver(setup, s.tracker.has_value(), "tracker", r.tracker.driver);
   check_driver(setup, s.display.has_value(), "display", r.display.driver);
+  check_driver(setup, s.gripper.has_value(), "gripper", r.gripper.driver);
   if (r.tracker.lost_age < r.tracker.usual_age) {
     fail(setup, "rig.tracker.lost_age_ms",
          "'lost_age_ms' is less than 'usual_age_ms'; expected at least that; raise it");
@@ -232,7 +257,7 @@ void check(const Setup& setup) {
     fail(
         setup, "",
         "the scene has no object; expected at least one [[object]]; add one, as in models/scenes/plane.toml");
-  if (s.probe) check_named(setup, s.objects, s.probe->object, "probe", "object");
+  if (s.probe) check_named(setup, s.objects, s.probe->object, "object", "probe");
   for (const ObjectSpec& object : s.objects) check_object(setup, object);
   for (const BehaviourSpec& behaviour : s.behaviours) check_behaviour(setup, behaviour);
   for (const ToolSpec& tool : s.tools) check_tool(setup, tool);
@@ -243,10 +268,11 @@ void check(const Setup& setup) {
   }
   check_user(setup);
   check_probe(setup);
+  check_gripper(setup);
   check_rig(setup);
-  const double steps = 1.0 / (setup.rig.loop.rate * setup.twin.world.timestep);
+  const double steps = 1.0 / (setup.rig.loop.rate * setup.twin.timestep());
   if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6) {
-    fail(setup, "truth.world.timestep_us",
+    fail(setup, setup.twin.structural() ? "truth.structure.timestep_us" : "truth.world.timestep_us",
          fmt::format(
              "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "
              "as 'timestep_us = {:g}'",

@@ -79,6 +79,7 @@ void clear_absent_drivers(Setup& setup) {
   clear("rig.force", setup.rig.force.driver);
   clear("rig.tracker", setup.rig.tracker.driver);
   clear("rig.display", setup.rig.display.driver);
+  clear("rig.gripper", setup.rig.gripper.driver);
 }
 
 void read_rig(Setup& setup, const std::string& rig) {

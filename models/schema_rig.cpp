@@ -66,6 +66,11 @@ void describe(Visitor& v, DisplayRig& d) {
           &d.margin_speed);
 }
 
+void describe(Visitor& v, GripperRig& g) {
+  driver(v, g.driver);
+  v.value({"force_N", "clamps with this", "parameters 3", chosen, kPositive}, &g.force);
+}
+
 void describe(Visitor& v, ContactRig& c) {
   v.value({"leave_gap_mm", "away: the gap is larger than this", "parameters 6.2", assumed, kPositive},
           &c.leave_gap);
@@ -139,6 +144,7 @@ void describe(Visitor& v, RigSpec& r) {
   table(v, "force", [&] { describe(v, r.force); });
   table(v, "tracker", [&] { describe(v, r.tracker); });
   table(v, "display", [&] { describe(v, r.display); });
+  table(v, "gripper", [&] { describe(v, r.gripper); });
   table(v, "contact", [&] { describe(v, r.contact); });
 }
 

@@ -157,6 +157,9 @@ void describe(Visitor& v, SceneSpec& s) {
   part(v, "force", s.force, [](ForceSpec&) {});
   part(v, "tracker", s.tracker, [](TrackerSpec&) {});
   part(v, "display", s.display, [](DisplaySpec&) {});
+  part(v, "gripper", s.gripper, [&](GripperSpec& g) {
+    v.value({"tool", "clamped tool, by name; empty: the first", "[VHMR 4.1]", chosen}, &g.tool);
+  });
   part(v, "user", s.user, [&](UserSpec& u) { describe(v, u); });
   part(v, "probe", s.probe, [&](ProbeSpec& p) { describe(v, p); });
 }

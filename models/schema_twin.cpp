@@ -8,16 +8,18 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::array<std::string_view, 5> kIntegrators{"Euler", "RK4", "implicit", "implicitfast",
+constexpr std::array<std::string_view, 5> kIntegrators{"euler", "rk4", "implicit", "implicitfast",
                                                        "discrete"};  // of MuJoCo
+constexpr std::array<std::string_view, 2> kForms{"control", "structural"};
+constexpr Range kTimestep{0.0, 5000.0, true};  // 5 ms: beyond it a servo and a contact diverge (fidelity 5)
 
 constexpr std::array<std::string_view, 6> kBallSets{"nominal", "low_loss", "high_loss",
                                                     "vented",  "kpa_20",   "regulation"};
 
 void describe(Visitor& v, sim::WorldTruth& w) {
-  // 5 ms: beyond it a servo and a contact diverge (fidelity 5).
-  v.value({"timestep_us", "of MuJoCo", "decisions 27", chosen, {0.0, 5000.0, true}}, &w.timestep);
-  v.value({"integrator", "of MuJoCo", "decisions 27", chosen, kAny, defaulted, kIntegrators}, &w.integrator);
+  v.value({"timestep_us", "of MuJoCo, control form", "decisions 27", chosen, kTimestep}, &w.timestep);
+  v.value({"integrator", "of MuJoCo, control form", "decisions 27", chosen, kAny, defaulted, kIntegrators},
+          &w.integrator);
   v.value({"tip_friction", "of the tool on the haptic-tip", "parameters 5.1", assumed, kNotNegative},
           &w.tip_friction);
   v.value({"contact_time_ms", "of the stop between tool and haptic-tip", "decisions 25", derived, kPositive},
@@ -25,6 +27,10 @@ void describe(Visitor& v, sim::WorldTruth& w) {
 }
 
 void describe(Visitor& v, sim::HexapodTruth& h) {
+  choice(v,
+         {"form", "control: the pose is prescribed; structural: legs with stiffness carry it", "fidelity 4",
+          chosen},
+         kForms, h.form);
   v.value({"servo_hz", "natural frequency of the position loop", "parameters 2.1", assumed, kPositive},
           &h.servo);
   v.value({"damping", "ratio, of the position loop", "fidelity 1", assumed, kPositive}, &h.damping);
@@ -33,6 +39,9 @@ void describe(Visitor& v, sim::HexapodTruth& h) {
   v.value({"acceleration_m_s2", "of the haptic-tip, at most", "decisions 1", derived, kPositive},
           &h.acceleration);
   v.value({"step_um", "smallest change of a command", "[VHMR 2]", published, kNotNegative}, &h.step);
+  v.value({"repeatability_um", "rms along each axis, of where the same command ends", "[VHMR 2]", published,
+           kNotNegative},
+          &h.repeatability);
   v.value({"tip_radius_mm", "haptic-tip's sphere", "fidelity 5", assumed, kPositive}, &h.tip_radius);
   v.value({"mass_kg", "behind the sensor: gripper, adapters, tip", "parameters 2.3", assumed, kPositive},
           &h.mass);
@@ -45,6 +54,36 @@ void describe(Visitor& v, sim::HexapodTruth& h) {
            {-5.0, 5.0}},
           &h.turned);
   table(v, "geometry", [&] { describe(v, h.geometry); });
+}
+
+void describe(Visitor& v, sim::StructureTruth& s) {
+  v.value({"timestep_us", "of MuJoCo, structural form", "decisions 4", derived, kTimestep}, &s.timestep);
+  v.value({"integrator", "of MuJoCo, structural form", "decisions 4", derived, kAny, defaulted, kIntegrators},
+          &s.integrator);
+  v.value({"leg_stiffness_N_per_um", "of a leg along its axis", "decisions 4", assumed, kPositive},
+          &s.leg_stiffness);
+  v.value(
+      {"leg_damping", "ratio, of a leg with a sixth of the moved mass", "decisions 4", assumed, kNotNegative},
+      &s.leg_damping);
+  v.value(
+      {"platform_mass_kg", "moved, without what is behind the sensor", "parameters 2.3", assumed, kPositive},
+      &s.platform_mass);
+  v.value(
+      {"payload_kg", "put on the platform after its zero was calibrated", "injected", chosen, kNotNegative},
+      &s.payload);
+}
+
+void describe(Visitor& v, sim::GripperTruth& g) {
+  const std::string_view source = "parameters 3";
+  v.value({"stroke_mm", "of each jaw", source, published, kPositive}, &g.stroke);
+  v.value({"closing_time_s", "over the whole stroke; opening takes as long", source, published, kPositive},
+          &g.closing_time);
+  v.value({"force_min_N", "lowest grip force that can be set", source, published, kPositive}, &g.force_min);
+  v.value({"force_max_N", "highest grip force", source, published, kPositive}, &g.force_max);
+  v.value({"repeatability_mm", "rms, of where the jaws come to stand", source, published, kNotNegative},
+          &g.repeatability);
+  v.value({"width_mm", "of what is between the jaws; 0: nothing", "injected", chosen, kNotNegative},
+          &g.width);
 }
 
 void describe(Visitor& v, sim::ForceTruth& f) {
@@ -154,6 +193,8 @@ void describe(Visitor& v, sim::TwinSpec& t) {
     describe(v, "H_F", t.frames.H_F);
   });
   table(v, "hexapod", [&] { describe(v, t.hexapod); });
+  table(v, "structure", [&] { describe(v, t.structure); });
+  table(v, "gripper", [&] { describe(v, t.gripper); });
   table(v, "force", [&] { describe(v, t.force); });
   table(v, "tracker", [&] { describe(v, t.tracker); });
   table(v, "display", [&] { describe(v, t.display); });

@@ -58,6 +58,16 @@ class SimDisplay final : public Display {
   World& world_;
 };
 
+class SimGripper final : public Gripper {
+ public:
+  explicit SimGripper(World& world) : world_(world) {}
+  Stamped<GripSample> read() noexcept override { return world_.gripper->sample(); }
+  void command(const Grip& grip) noexcept override { world_.gripper->command(grip); }
+
+ private:
+  World& world_;
+};
+
 }  // namespace
 
 Rig World::rig() {
@@ -67,6 +77,7 @@ Rig World::rig() {
   if (force) rig.force = std::make_unique<SimForceSensor>(*this);
   if (tracker) rig.tracker = std::make_unique<SimTracker>(*this);
   if (display) rig.display = std::make_unique<SimDisplay>(*this);
+  if (gripper) rig.gripper = std::make_unique<SimGripper>(*this);
   return rig;
 }
 

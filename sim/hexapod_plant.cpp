@@ -20,10 +20,12 @@ Vec3 in_steps(const Vec3& p, double step) { return step > 0.0 ? Vec3((p / step).
 
 }  // namespace
 
-HexapodPlant::HexapodPlant(const HexapodTruth& truth) : truth_(truth), machine_(truth.geometry) {
+HexapodPlant::HexapodPlant(const HexapodTruth& truth, std::uint64_t seed)
+    : truth_(truth), machine_(truth.geometry) {
   if (truth.delay_cycles < 0 || truth.delay_cycles >= static_cast<std::int64_t>(kLongestDelay))
     throw Error("the machine's delay is 0 to 63 cycles", "truth.hexapod.delay_cycles");
   state_.pose = state_.wanted = state_.newest = machine_.zero();
+  state_.noise = Stream(seed, "hexapod");
   state_.pending.line.fill(state_.newest);
 }
 
@@ -63,12 +65,21 @@ void HexapodPlant::begin_cycle() noexcept {
       pending.line[static_cast<std::size_t>(due % static_cast<std::int64_t>(kLongestDelay))];
   // Steps are counted from the machine's zero.
   const Vec3 zero = machine_.zero().p();
+  const Pose<'R', 'H'> before = state_.wanted;
   state_.wanted = Pose<'R', 'H'>(Quat(command.q()), Vec3(zero + in_steps(command.p() - zero, truth_.step)));
+  if (truth_.repeatability > 0.0 && (state_.wanted.xyz != before.xyz || state_.wanted.xyzw != before.xyzw))
+    state_.play_due = Vec<'R'>(Vec3(truth_.repeatability * state_.noise.normal3()));
+}
+
+Pose<'R', 'H'> HexapodPlant::true_pose() const noexcept {
+  return {Quat(state_.pose.q()), Vec3(state_.pose.p() + state_.play.e())};
 }
 
 void HexapodPlant::move(double timestep) noexcept {
   follow_position(timestep);
   follow_rotation(timestep);
+  const double gain = 1.0 - std::exp(-2.0 * std::numbers::pi * truth_.servo * timestep);
+  state_.play = state_.play + gain * (state_.play_due - state_.play);
 }
 
 // Second order with limits; semi-implicit, so that it stays stable at the physics step.

@@ -1,6 +1,6 @@
-// The hexapod as it moves: command delay, servo lag, speed and acceleration limits, its step, its stroke.
+// The hexapod's servo as it moves: command delay, lag, speed and acceleration limits, its step, its stroke.
 // Control form: the pose is prescribed to the physics, which is right because the drives are not
-// back-drivable [fidelity 4].
+// back-drivable [fidelity 4]. Structural form: it sets the legs' free lengths (legs.h).
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "core/reach.h"
 #include "core/sample.h"
+#include "sim/random.h"
 #include "sim/twin_spec.h"
 
 namespace enc::sim {
@@ -28,13 +29,18 @@ class HexapodPlant {
     Vec<'R'> velocity = Vec<'R'>::zero();
     Vec<'R'> acceleration = Vec<'R'>::zero();
     Vec<'R'> turning = Vec<'R'>::zero();  // angular velocity
+    // What the encoders do not see: by how much the platform misses the servo's pose. Drawn anew with each
+    // new set-point, so that every move ends a little elsewhere; it comes as slowly as the servo.
+    Vec<'R'> play = Vec<'R'>::zero(), play_due = Vec<'R'>::zero();
+    Stream noise;
     Health health = Health::ok;
   };
 
-  explicit HexapodPlant(const HexapodTruth& truth);
+  HexapodPlant(const HexapodTruth& truth, std::uint64_t seed);
 
   [[nodiscard]] const Hexapod& machine() const { return machine_; }
   [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] Pose<'R', 'H'> true_pose() const noexcept;  // the servo's, with play
   void restore(const State& state) { state_ = state; }
   // The set-point for the coming cycle. Not finite: refused (health fault). Out of reach: clamped on the way
   // (health out_of_range).

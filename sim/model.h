@@ -13,11 +13,13 @@ struct ModelParts {
   const SceneSpec& scene;
   const Scene& prepared;
   const TwinSpec& twin;
-  const ToolSpec* tool = nullptr;  // held by the user; none: no tool body
-  Quat q_WT = Quat::Identity();    // its orientation
-  Pose<'W', 'R'> X_WR;             // where the machine really stands
-  std::string mjcf_dir;            // models/mjcf
-  bool draw_all = false;           // also legs, objects and lights, for a picture
+  const ToolSpec* tool = nullptr;     // held by the user; none: no tool body
+  Quat q_WT = Quat::Identity();       // its orientation
+  const ToolSpec* clamped = nullptr;  // by the gripper
+  Pose<'H', 'T'> X_HT;                // and how it sits there
+  Pose<'W', 'R'> X_WR;                // where the machine really stands
+  std::string mjcf_dir;               // models/mjcf
+  bool draw_all = false;              // also legs, objects and lights, for a picture
 };
 
 [[nodiscard]] SpecPtr build_model(const ModelParts& parts);

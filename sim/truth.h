@@ -1,6 +1,7 @@
 // What really is, in the simulator. Only benchmarks and reports may ask; the core never can.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/frames.h"
@@ -19,6 +20,9 @@ struct Truth {
   Vec<'W'> tip_acceleration = Vec<'W'>::zero();
   Vec<'W'> contact_force = Vec<'W'>::zero();  // of the tool or the real ball on the haptic-tip, N
   Vec<'W'> hand_force = Vec<'W'>::zero();     // of the hand on the tool, N
+  std::array<double, 6> leg_force{
+      kUnset, kUnset, kUnset, kUnset, kUnset, kUnset};  // N, structural form:
+                                                        // with which each leg pushes the platform
   bool touching = false;
   double penetration = kUnset;  // of the probe into the real ball, along their normal, m; negative: the gap
   double tool_radius = kUnset, tip_radius = kUnset;

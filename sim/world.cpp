@@ -40,8 +40,11 @@ Pose<'W', 'R'> true_base(const WorldSpec& spec) {
   return {turned, Vec3(spec.twin.hexapod.misplaced - turned * machine.zero().p())};
 }
 
-SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
-  return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, X_WR, spec.mjcf_dir, spec.draw_all});
+// A clamped tool stands on the haptic-tip: its tip at H, its shaft along z.
+Pose<'H', 'T'> clamped_pose(const ToolSpec* tool) {
+  if (tool == nullptr) return Pose<'H', 'T'>::identity();
+  const Quat q = tool_orientation(*tool, Vec3::UnitZ());
+  return {q, Vec3(-(q * tool->tip))};
 }
 
 BallContact probed_ball(const WorldSpec& spec) {
@@ -55,26 +58,35 @@ BallContact probed_ball(const WorldSpec& spec) {
   return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
 }
 
-int whole_steps(double dt, double timestep) {
-  const double steps = dt / timestep;
+SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
+  const ToolSpec* clamped = clamped_tool(spec.scene);
+  return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, clamped, clamped_pose(clamped), X_WR,
+                      spec.mjcf_dir, spec.draw_all});
+}
+
+int whole_steps(double dt, const TwinSpec& twin) {
+  const double steps = dt / twin.timestep();
   if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6)
-    throw Error("the physics time step must divide the haptic period", "truth.world.timestep");
+    throw Error("the physics time step must divide the haptic period",
+                twin.structural() ? "truth.structure.timestep" : "truth.world.timestep");
   return static_cast<int>(std::lround(steps));
 }
 
 }  // namespace
 
 World::World(const WorldSpec& spec)
-    : machine(spec.twin.hexapod),
+    : machine(spec.twin.hexapod, spec.seed),
       twin_(spec.twin),
       dt_(1.0 / spec.rig.loop.rate),
-      steps_per_tick_(whole_steps(dt_, spec.twin.world.timestep)),
+      steps_per_tick_(whole_steps(dt_, spec.twin)),
       X_WR_(true_base(spec)),
       X_HF_(pose_of<'H', 'F'>(spec.twin.frames.H_F)),
       q_WT_(held_tool(spec.scene) == nullptr
                 ? Quat::Identity()
                 : tool_orientation(*held_tool(spec.scene),
                                    enc::press_point(spec.scene, *spec.scene.user).normal.e())),
+      clamped_(spec.prepared.clamped_tool),
+      X_HT_(clamped_pose(clamped_tool(spec.scene))),
       user_(make_user(spec, held_tool(spec.scene))),
       physics_(model_of(spec, held_tool(spec.scene), q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
@@ -84,15 +96,20 @@ World::World(const WorldSpec& spec)
   if (spec.prepared.probe) ball.emplace(probed_ball(spec));
   if (user_) programme_time_ = user_->duration();
   if (ball) programme_time_ = enc::programme_time(spec.prepared);
+  if (spec.scene.gripper) gripper.emplace(spec.twin.gripper, spec.seed);
   const mjModel* m = physics_.model();
   const int platform = physics_.id(mjOBJ_JOINT, "platform");
   platform_qpos_ = m->jnt_qposadr[platform];
   platform_qvel_ = m->jnt_dofadr[platform];
   const int platform_body = physics_.id(mjOBJ_BODY, "platform");
-  physics_.data()->xfrc_applied[6 * platform_body + 2] =
-      kGravity * m->body_subtreemass[platform_body];  // it floats
+  if (spec.twin.structural())
+    legs.emplace(spec.twin.structure, machine.machine(), physics_, X_WR_);
+  else
+    physics_.data()->xfrc_applied[6 * platform_body + 2] =
+        kGravity * m->body_subtreemass[platform_body];  // it floats
   tip_geom_ = physics_.id(mjOBJ_GEOM, "haptic_tip");
   tip_body_ = m->geom_bodyid[tip_geom_];
+  mass_behind_ = m->body_subtreemass[physics_.id(mjOBJ_BODY, "behind_sensor")];
   next_.dt = from_seconds(dt_);
   truth_.tip_radius = m->geom_size[3 * tip_geom_];
   if (const ToolSpec* tool = held_tool(spec.scene)) {
@@ -104,7 +121,8 @@ World::World(const WorldSpec& spec)
     tool_qvel_ = m->jnt_dofadr[m->body_jntadr[tool_body_]];
     std::copy_n(user_->start().xyz.begin(), 3, physics_.data()->qpos + tool_qpos_);
   }
-  place_machine(machine.state().pose);
+  place_machine(machine.true_pose());
+  if (legs) legs->drive(physics_.data(), leg_motion(), leg_motion(), dt_);
   mj_forward(physics_.model(), physics_.data());
   observe(next_.t);
 }
@@ -125,6 +143,10 @@ void World::place_machine(const Pose<'R', 'H'>& from) {
   std::copy_n(turning.data(), 3, d->qvel + platform_qvel_ + 3);
 }
 
+LegMotion World::leg_motion() const {
+  return legs->at(machine.true_pose(), machine.state().velocity, machine.state().turning);
+}
+
 void World::physics_step(double t) {
   const double h = physics_.model()->opt.timestep;
   mjData* d = physics_.data();
@@ -138,10 +160,18 @@ void World::physics_step(double t) {
     for (std::size_t i = 0; i < 3; ++i) applied[i] = truth_.hand_force.xyz[i];
     applied[2] += kGravity * physics_.model()->body_mass[tool_body_];  // the hand carries the tool
   }
-  const Pose<'R', 'H'> from = machine.state().pose;
-  machine.move(h);
-  place_machine(from);
-  if (ball) press_ball(from, h);
+  const Pose<'W', 'H'> from = true_tip();
+  if (legs) {
+    const LegMotion wanted = leg_motion();
+    machine.move(h);
+    legs->drive(d, wanted, leg_motion(), h);
+  } else {
+    const Pose<'R', 'H'> placed = machine.true_pose();
+    machine.move(h);
+    place_machine(placed);
+  }
+  // Placed, the probe gets to the machine's new pose in this step; carried by legs it is where physics has it.
+  if (ball) press_ball(from, legs ? from.origin() : X_WR_ * machine.true_pose().origin(), h);
   try {
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
@@ -152,15 +182,14 @@ void World::physics_step(double t) {
 }
 
 // The ball pushes where the probe gets to in this step, so that force and pose of a tick belong together.
-void World::press_ball(const Pose<'R', 'H'>& from, double h) {
-  ball->move(X_WR_ * machine.state().pose.origin(), h);
+void World::press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h) {
+  ball->move(to, h);
   const BallContact::State& pressed = ball->state();
   const mjModel* m = physics_.model();
   // MuJoCo wants force and torque at the body's centre of mass, which in this step is still where it was.
   const double* middle = m->body_ipos + 3 * tip_body_;
-  const Pose<'W', 'H'> X_WH = X_WR_ * from;
   const Point<'W'> centre = X_WH * Point<'H'>(middle[0], middle[1], middle[2]);
-  const Vec3 shift = (X_WR_ * machine.state().pose.origin() - X_WH.origin()).e();
+  const Vec3 shift = (to - X_WH.origin()).e();
   const Vec3 torque = ((pressed.touched - centre).e() - shift).cross(pressed.force.e());
   double* applied = physics_.data()->xfrc_applied + 6 * tip_body_;
   std::copy_n(pressed.force.xyz.begin(), 3, applied);
@@ -189,12 +218,34 @@ Vec<'W'> World::contact_force(bool& touching) const {
   return Vec<'W'>(total);
 }
 
+// Control form: where the servo put it. Structural form: where the physics has it; what a step leaves behind
+// belongs to its last stage, so all is evaluated once more at this very time.
+void World::observe_machine() {
+  if (!legs) {
+    truth_.tip = X_WR_ * machine.true_pose().origin();
+    truth_.tip_velocity = X_WR_ * machine.state().velocity;
+    truth_.tip_acceleration = X_WR_ * machine.state().acceleration;
+    return;
+  }
+  mjData* d = physics_.data();
+  mj_forward(physics_.model(), d);
+  if (!ball) truth_.contact_force = contact_force(truth_.touching);
+  truth_.tip = Point<'W'>(Vec3(Eigen::Map<const Vec3>(d->qpos + platform_qpos_)));
+  truth_.tip_velocity = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qvel + platform_qvel_)));
+  truth_.tip_acceleration = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qacc + platform_qvel_)));
+  const Hexapod::Lengths forces = legs->forces(d);
+  std::copy_n(forces.data(), 6, truth_.leg_force.begin());
+}
+
+Pose<'W', 'H'> World::true_tip() const {
+  if (!legs) return X_WR_ * machine.true_pose();
+  const double* q = physics_.data()->qpos + platform_qpos_;
+  return {Quat(q[3], q[4], q[5], q[6]), Vec3(q[0], q[1], q[2])};
+}
+
 void World::observe(Time t) {
-  const HexapodPlant::State& s = machine.state();
   truth_.t = t;
-  truth_.tip = X_WR_ * s.pose.origin();
-  truth_.tip_velocity = X_WR_ * s.velocity;
-  truth_.tip_acceleration = X_WR_ * s.acceleration;
+  observe_machine();
   if (!user_) return;
   const mjData* d = physics_.data();
   const double* q = d->qpos + tool_qpos_;
@@ -210,10 +261,11 @@ void World::sense(Time t) {
   const mjData* d = physics_.data();
   if (force) {
     // MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on
-    // the sensor: contact plus weight. Inertia is missing, because the platform is placed and not
-    // accelerated.
-    const Pose<'R', 'F'> X_RF = machine.state().pose * X_HF_;
-    const Vec<'F'> inertia = X_RF.inverse() * (twin_.hexapod.mass * machine.state().acceleration);
+    // the sensor: contact plus weight. In the control form inertia is missing, because the platform is placed
+    // and not accelerated.
+    const Pose<'R', 'F'> X_RF = machine.true_pose() * X_HF_;
+    const Vec<'F'> inertia =
+        legs ? Vec<'F'>::zero() : X_RF.inverse() * (mass_behind_ * machine.state().acceleration);
     const Wrench raw{Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
                      Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
     force->measure(t, dt_, raw, inertia);
@@ -221,7 +273,10 @@ void World::sense(Time t) {
   if (tracker && tool_ >= 0) {
     const Vec3 origin = truth_.tool_tip.e() - q_WT_ * tip_T_;
     tracker->advance(t, tool_, Pose<'W', 'T'>(q_WT_, origin));
+  } else if (tracker && clamped_ >= 0) {
+    tracker->advance(t, clamped_, true_tip() * X_HT_);
   }
+  if (gripper) gripper->advance(t, dt_);
   if (display) display->advance(t);
 }
 

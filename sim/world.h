@@ -12,7 +12,9 @@
 #include "sim/ball_contact.h"
 #include "sim/display_plant.h"
 #include "sim/force_plant.h"
+#include "sim/gripper_plant.h"
 #include "sim/hexapod_plant.h"
+#include "sim/legs.h"
 #include "sim/mujoco.h"
 #include "sim/tracker_plant.h"
 #include "sim/truth.h"
@@ -60,13 +62,18 @@ class World {
   std::optional<TrackerPlant> tracker;
   std::optional<DisplayPlant> display;
   std::optional<BallContact> ball;  // there if the scene presses one with a probe
+  std::optional<GripperPlant> gripper;
+  std::optional<Legs> legs;  // in the structural form
 
  private:
   void physics_step(double t);
   void place_machine(const Pose<'R', 'H'>& from);  // where it was; its state says how it moves
+  [[nodiscard]] LegMotion leg_motion() const;      // that the servo wants
+  void observe_machine();
+  [[nodiscard]] Pose<'W', 'H'> true_tip() const;
   void observe(Time t);
   void sense(Time t);
-  void press_ball(const Pose<'R', 'H'>& from, double h);
+  void press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h);
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
 
   TwinSpec twin_;
@@ -76,12 +83,15 @@ class World {
   Pose<'H', 'F'> X_HF_;
   Quat q_WT_ = Quat::Identity();
   Vec3 tip_T_{0, 0, 0};
-  std::int32_t tool_ = -1;
+  std::int32_t tool_ = -1;     // held by the user
+  std::int32_t clamped_ = -1;  // by the gripper
+  Pose<'H', 'T'> X_HT_;        // how
   std::optional<User> user_;
   Physics physics_;
   int tool_body_ = -1, tip_geom_ = -1, tip_body_ = -1;
   int platform_qpos_ = 0, platform_qvel_ = 0, tool_qpos_ = 0, tool_qvel_ = 0;
   double programme_time_ = 10.0;  // s
+  double mass_behind_ = 0.0;  // the sensor, kg
   Tick next_;
   Truth truth_;
   std::int64_t diverged_at_ = -1;

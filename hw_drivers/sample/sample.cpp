@@ -81,7 +81,7 @@ std::unique_ptr<Manipulator> manipulator(const Reach& reach) {
 }
 std::unique_ptr<ForceSensor> force() { return std::make_unique<SampleForceSensor>(); }
 
-constexpr DriverModule kDriver{manipulator, force, nullptr, nullptr};
+constexpr DriverModule kDriver{manipulator, force, nullptr, nullptr, nullptr};
 constexpr ModuleInfo kInfo{kModuleInterface, ENCOUNTER_VERSION, "sample", &kDriver, nullptr};
 
 }  // namespace

@@ -18,6 +18,7 @@ struct Machine {
 };
 
 struct SimMachine final : Machine {
+  explicit SimMachine(const std::vector<std::string>& set = {}) : twin(set) {}
   Twin twin;
   Manipulator& device() override { return *twin.rig.manipulator; }
   void next() override { twin.rig.clock->next(); }
@@ -123,6 +124,11 @@ TEST_P(ManipulatorTest, ReadNeitherWaitsNorMovesAnything) {
 INSTANTIATE_TEST_SUITE_P(
     All, ManipulatorTest,
     testing::Values(Entry{"sim", []() -> std::unique_ptr<Machine> { return std::make_unique<SimMachine>(); }},
+                    Entry{"sim_structural",
+                          []() -> std::unique_ptr<Machine> {
+                            return std::make_unique<SimMachine>(
+                                std::vector<std::string>{"truth.hexapod.form=structural"});
+                          }},
                     Entry{"sample",
                           []() -> std::unique_ptr<Machine> { return std::make_unique<SampleMachine>(); }}),
     [](const auto& entry) { return std::string(entry.param.name); });

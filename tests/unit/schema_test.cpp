@@ -113,10 +113,13 @@ TEST(Schema, describes_every_member) {
   EXPECT_EQ(n["rig.force"], members<ForceRig>());
   EXPECT_EQ(n["rig.tracker"], members<TrackerRig>());
   EXPECT_EQ(n["rig.display"], members<DisplayRig>());
+  EXPECT_EQ(n["rig.gripper"], members<GripperRig>());
   EXPECT_EQ(n["rig.contact"], members<ContactRig>());
   EXPECT_EQ(n["truth"], members<sim::TwinSpec>());
   EXPECT_EQ(n["truth.world"], members<sim::WorldTruth>());
   EXPECT_EQ(n["truth.hexapod"], members<sim::HexapodTruth>());
+  EXPECT_EQ(n["truth.structure"], members<sim::StructureTruth>());
+  EXPECT_EQ(n["truth.gripper"], members<sim::GripperTruth>());
   EXPECT_EQ(n["truth.force"], members<sim::ForceTruth>());
   EXPECT_EQ(n["truth.tracker"], members<sim::TrackerTruth>());
   EXPECT_EQ(n["truth.display"], members<sim::DisplayTruth>());

@@ -365,6 +365,19 @@ SceneSpec with_display() {
   spec.display.emplace();
   return spec;
 }
+// And a second tool in the gripper.
+SceneSpec with_gripper() {
+  SceneSpec spec = with_display();
+  ToolSpec clamped = spec.tools.front();
+  clamped.name = "clamped";
+  for (Vec3& marker : clamped.markers) marker *= 1.2;
+  spec.tools.push_back(clamped);
+  spec.gripper.emplace().tool = "clamped";
+  return spec;
+}
+void hold_tool(Inputs& in, const Loop& loop) {
+  in.grip = {{GripPhase::closed, 0.006, 100.0, true}, loop.now(), Health::ok};
+}
 // A drawn surface, 20 ms old.
 void draw(Inputs& in, const Loop& loop) {
   const Object& ball = loop.scene.objects[0];
@@ -416,8 +429,11 @@ struct SetLeaf {
 };
 
 TEST(Hold, WithTheRightReasonForNanInfAndAbsurdInEveryNumber) {
-  Loop loop = make(with_display());
-  loop.spoil = [&](Inputs& in) { draw(in, loop); };
+  Loop loop = make(with_gripper());
+  loop.spoil = [&](Inputs& in) {
+    draw(in, loop);
+    hold_tool(in, loop);
+  };
   to_contact(loop);
   int leaves = 0;
   constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -432,6 +448,7 @@ TEST(Hold, WithTheRightReasonForNanInfAndAbsurdInEveryNumber) {
       const std::uint32_t why = starts("X_CT")                        ? kToolInvalid
                                 : starts("force") || starts("torque") ? kForceInvalid
                                 : starts("dent")                      ? kDentWrong
+                                : starts("grip")                      ? kToolNotHeld
                                                                       : kTipInvalid;
       expect_hold_and_recovery(
           loop,
@@ -444,6 +461,25 @@ TEST(Hold, WithTheRightReasonForNanInfAndAbsurdInEveryNumber) {
   }
   EXPECT_GT(leaves, 5 * 30);
   expect_within_limits(loop);
+}
+
+TEST(Hold, WhenTheGripperLosesItsToolOrSaysNothing) {
+  Loop loop = make(with_gripper());
+  loop.spoil = [&](Inputs& in) {
+    draw(in, loop);
+    hold_tool(in, loop);
+  };
+  to_contact(loop);
+  const auto expect = [&](const std::function<void(Stamped<GripSample>&)>& spoil, const char* name) {
+    expect_hold_and_recovery(
+        loop, [&](Inputs& in) { spoil(in.grip); }, kToolNotHeld, name);
+    EXPECT_TRUE(loop.out.grip.closed) << name;  // in hold, too: to let go would drop the tool
+  };
+  expect([](auto& s) { s.value.holding = false; }, "empty");
+  expect([](auto& s) { s.health = Health::fault; }, "fault");
+  expect([](auto& s) { s.health = Health::absent; }, "absent");
+  expect([](auto& s) { s.t = Time(Duration(1'000'000'000'000)); }, "from the future");
+  expect([](auto& s) { s.t = Time::min(); }, "old");
 }
 
 TEST(Hold, ForIndicesAndStampsThatCannotBe) {

@@ -1,0 +1,253 @@
+// The structural hexapod: does it sag, vibrate and converge as theory says, what does it cost, and what would
+// a closed loop of bodies and constraints cost instead?
+#include <cmath>
+#include <ctime>
+#include <vector>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "benchmarks/bench.h"
+#include "benchmarks/structure_model.h"
+#include "benchmarks/trial.h"
+
+namespace enc::bench {
+namespace {
+
+using sim::StructureTruth;
+
+double cpu_seconds() {  // of this thread
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+struct Report {
+  BenchResult& result;
+  void add(std::string id, double twin, const char* unit, double low, double high, std::string note) const {
+    result.figures.push_back({std::move(id), kUnset, twin, unit, Role::ours, low, high, std::move(note)});
+  }
+};
+
+StructureTruth truth_of(const char* integrator, double timestep) {
+  StructureTruth truth;
+  truth.integrator = integrator;
+  truth.timestep = timestep;
+  return truth;
+}
+
+// One second of the swing, H every millisecond.
+struct Path {
+  std::vector<Vec3> tip;
+  double us_per_step = 0.0;  // CPU
+  double gap = 0.0;          // m
+};
+Path swung(LegForm form, const char* integrator, double timestep) {
+  LegModel model(form, truth_of(integrator, timestep));
+  const int steps = static_cast<int>(std::lround(1.0 / timestep));
+  const int each = static_cast<int>(std::lround(1e-3 / timestep));
+  Path path;
+  const double start = cpu_seconds();
+  for (int i = 0; i < steps; ++i) {
+    model.step(swing(model.machine(), i * timestep), swing(model.machine(), (i + 1) * timestep));
+    path.gap = std::max(path.gap, model.gap());
+    if ((i + 1) % each == 0) path.tip.push_back(model.tip());
+  }
+  path.us_per_step = (cpu_seconds() - start) / steps * 1e6;
+  return path;
+}
+
+double rms(const Path& a, const Path& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.tip.size(); ++i) sum += (a.tip[i] - b.tip[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.tip.size()));
+}
+
+// Error against the own converged path, halving the step; each halving's order; cost.
+void converge(const Report& report, LegForm form, const char* integrator, const Path& truth,
+              const std::vector<double>& steps, double order, double tolerance) {
+  const char* name = form == LegForm::tendon ? "tendon" : "connect";
+  double before = kUnset;
+  for (const double h : steps) {
+    const Path path = swung(form, integrator, h);
+    const double error = rms(path, truth);
+    const std::string id = fmt::format("structure.{}.{}.{:g}", name, integrator, h * 1e6);
+    report.add(id + ".error.rms", error * 1e6, "um", kUnset, kUnset,
+               fmt::format("{:.1f} us a step, {:.0f} x real time; closure gap {:.2g} um", path.us_per_step,
+                           h * 1e6 / path.us_per_step, path.gap * 1e6));
+    report.add(id + ".cost.mean", path.us_per_step, "us", kUnset, kUnset, "CPU time a step");
+    if (!std::isnan(before)) {
+      const bool bounded = order > 0.0;
+      report.add(id + ".order", std::log2(before / error), "", bounded ? order - tolerance : kUnset,
+                 bounded ? order + tolerance : kUnset,
+                 "log2 of the error at twice this step over the error here");
+    }
+    before = error;
+  }
+}
+
+void work_and_precision(const Report& report, bool quick) {
+  const double finest = quick ? 0.0625e-3 : 0.015625e-3;
+  const Path truth = swung(LegForm::tendon, "rk4", finest);
+  const auto tendon = [&](const char* integrator, const std::vector<double>& steps, double order,
+                          double tolerance) {
+    converge(report, LegForm::tendon, integrator, truth, steps, order, tolerance);
+  };
+  // The first rows of each are for the table alone: there a step is no small part of the fastest vibration.
+  tendon("rk4", {1e-3}, 0.0, 0.0);
+  tendon("rk4", {0.5e-3, 0.25e-3, 0.125e-3}, 4.0, 0.4);
+  for (const char* first_order : {"euler", "implicitfast"}) {
+    tendon(first_order, {0.25e-3, 0.125e-3, 0.0625e-3}, 0.0, 0.0);
+    tendon(first_order, {0.03125e-3, 0.015625e-3, 0.0078125e-3}, 1.0, 0.2);
+  }
+  const Path closed = swung(LegForm::connect, "rk4", finest);
+  converge(report, LegForm::connect, "rk4", closed, {0.5e-3, 0.25e-3}, 0, 0);
+  report.add("structure.connect.from_tendon.rms", rms(closed, truth) * 1e6, "um", kUnset, kUnset,
+             "between the two converged paths: 12 rods of 1 g more, soft closure");
+}
+
+void static_sag(const Report& report) {
+  LegModel model(LegForm::tendon, StructureTruth{});
+  const LegCommand still{model.machine().zero(), Vec<'R'>::zero(), Vec<'R'>::zero()};
+  const auto settled = [&](const Vec3& force) {
+    model.push(force);
+    for (int i = 0; i < 10000; ++i) model.step(still, still);  // 5 s: the softest mode fades with 4.4 /s
+    mj_forward(model.physics().model(), model.physics().data());
+    return model.tip();
+  };
+  const Vec3 free = settled(Vec3::Zero());
+  const Hexapod::Jacobian K = model.legs().stiffness();
+  report.add("structure.zero.error", (free - still.pose.p()).norm() * 1e6, "um", 0, 1e-3,
+             "H from its zero at rest: the weight is calibrated out");
+  const Hexapod::Jacobian C = K.inverse();
+  for (int axis = 2; axis >= 0; --axis) {
+    const Vec3 force = -50.0 * Vec3::Unit(axis);
+    const double sag = -(settled(force) - free)(axis);
+    const double expected = axis == 2 ? 50.0 / K(2, 2) : 50.0 * C(axis, axis);
+    const char* name = std::array{"x", "y", "z"}[static_cast<std::size_t>(axis)];
+    report.add(fmt::format("structure.sag.{}.50", name), sag * 1e6, "um", 0.995 * expected * 1e6,
+               1.005 * expected * 1e6,
+               axis == 2 ? "against 50 N / (J'KJ)zz, 0.5 %"
+                         : "against 50 N (J'KJ)^-1, 0.5 %: H is 190 mm above the joints and tilts");
+  }
+}
+
+void modes(const Report& report) {
+  LegModel model(LegForm::tendon, StructureTruth{});
+  const Hexapod::Lengths expected = model.legs().modes();
+  const Hexapod::Lengths found = model.measured_modes();
+  for (int i = 0; i < 6; ++i)
+    report.add(fmt::format("structure.mode.{}.frequency", i + 1), found(i), "Hz", 0.995 * expected(i),
+               1.005 * expected(i),
+               fmt::format("by differences of the physics; M^-1 J'KJ says {:.1f} Hz", expected(i)));
+}
+
+// A world of the scene in structural form without a person, its machine told where to go.
+struct Machine {
+  explicit Machine(const BenchContext& context, const std::vector<std::string>& more)
+      : setup(models::load(context.models + "/scenes/tennis_ball.toml", "sim", with(context.set, more))) {
+    setup.scene.user.reset();
+    scene = prepare_setup(setup);
+    world = std::make_unique<sim::World>(sim::WorldSpec{setup.scene, setup.rig, setup.twin, scene,
+                                                        context.models + "/mjcf", context.seed, false});
+  }
+  static std::vector<std::string> with(std::vector<std::string> set, const std::vector<std::string>& more) {
+    set.emplace_back("truth.hexapod.form=structural");
+    set.insert(set.end(), more.begin(), more.end());
+    return set;
+  }
+  const sim::Truth& go(const Vec3& from_zero, int ticks) {
+    const Vec3 there = world->machine.machine().zero().p() + from_zero;
+    world->machine.command(Pose<'R', 'H'>(Quat::Identity(), there));
+    for (int i = 0; i < ticks; ++i) {
+      world->advance();
+      simulated += scene.dt;
+      for (const double f : world->truth().leg_force) strongest = std::max(strongest, std::abs(f));
+    }
+    return world->truth();
+  }
+  models::Setup setup;
+  Scene scene;
+  std::unique_ptr<sim::World> world;
+  double strongest = 0.0;  // leg force, N
+  double simulated = 0.0;  // s
+};
+
+void payload(const Report& report, const BenchContext& context) {
+  Machine m(context, {"truth.structure.payload_kg=10", "truth.hexapod.repeatability_um=0"});
+  const double sag = -m.go(Vec3::Zero(), 1000).tip.xyz[2];
+  const double kz = m.world->legs->stiffness()(2, 2);
+  const double expected = 10.0 * 9.80665 / kz;
+  report.add("structure.payload.sag", sag * 1e6, "um", 0.99 * expected * 1e6, 1.01 * expected * 1e6,
+             "10 kg put on after calibration, at zero, against m g / (J'KJ)zz");
+  sim::Physics& physics = m.world->physics();
+  const int platform = physics.id(mjOBJ_BODY, "platform");
+  for (const Vec3& corner : {Vec3(0.03, 0, 0.01), Vec3(-0.03, 0.03, -0.01), Vec3(0, -0.03, 0.015)})
+    m.go(corner, 1500);
+  physics.data()->xfrc_applied[6 * platform + 2] = -100.0;
+  const double pushed = -m.go(Vec3::Zero(), 2000).tip.xyz[2];
+  const double both = expected + 100.0 / kz;
+  report.add("structure.payload.pushed.sag", pushed * 1e6, "um", 0.99 * both * 1e6, 1.01 * both * 1e6,
+             "and 100 N more, likewise");
+  report.add(
+      "structure.payload.leg_force.max", m.strongest, "N", 0, 171,
+      "10 kg, the platform and 100 N, on the way through the workspace; parameters 2.3 has 74 N for 100 N");
+  report.result.simulated += m.simulated;
+  report.add("structure.payload.diverged", static_cast<double>(m.world->diverged_at()), "tick", -1, -1,
+             "-1: never");
+}
+
+void repeatability(const Report& report, const BenchContext& context) {
+  Machine m(context, {});
+  sim::Stream random(context.seed, "arrivals");
+  std::vector<Vec3> arrivals;
+  const int count = context.repeats > 0 ? static_cast<int>(context.repeats) : 100;
+  Vec3 mean = Vec3::Zero();
+  for (int i = 0; i < count; ++i) {
+    m.go(0.003 * random.normal3().normalized(), 500);
+    arrivals.push_back(m.go(Vec3::Zero(), 1500).tip.e());
+    mean += arrivals.back() / count;
+  }
+  double sum = 0.0;
+  for (const Vec3& at : arrivals) sum += (at - mean).squaredNorm();
+  report.result.simulated += m.simulated;
+  // 300 numbers: their rms is known to 4 %; four sigma.
+  report.add("structure.repeatability.rms", std::sqrt(sum / (3.0 * (count - 1))) * 1e6, "um", 0.42, 0.58,
+             fmt::format("true H, along each axis, {} arrivals from random directions", count));
+}
+
+void speed(const Report& report, const BenchContext& context) {
+  std::vector<double> times;
+  for (int i = 0; i < (context.quick ? 3 : 7); ++i)
+    times.push_back(500.0 / swung(LegForm::tendon, "rk4", 0.5e-3).us_per_step);
+  std::sort(times.begin(), times.end());
+  report.add("structure.times_real_time.swing", times[times.size() / 2], "x", 20, kUnset,
+             "legs and platform, 10 mm and 3 deg at 1 Hz, one core, CPU time of its thread");
+  TrialOptions options;
+  options.seed = context.seed;
+  options.seconds = context.quick ? 10.0 : 30.0;
+  Trial trial(
+      models::load(context.models + "/scenes/tennis_ball.toml", "sim", Machine::with(context.set, {})),
+      options);
+  const double start = cpu_seconds();
+  const TrialResult run = trial.run();
+  report.result.simulated += run.simulated;
+  report.add("structure.times_real_time.scene", run.simulated / (cpu_seconds() - start), "x", 20, kUnset,
+             "tennis_ball with core, hand, tracker, display, the same way");
+}
+
+}  // namespace
+
+BenchResult run_structure(const BenchContext& context) {
+  BenchResult result{"structure", "tennis_ball", 0, 0, {}};
+  const Report report{result};
+  speed(report, context);
+  static_sag(report);
+  modes(report);
+  work_and_precision(report, context.quick);
+  payload(report, context);
+  repeatability(report, context);
+  return result;
+}
+
+}  // namespace enc::bench

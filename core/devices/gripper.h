@@ -1,0 +1,16 @@
+// A gripper between force sensor and tip that clamps a tool [VHMR 4.1].
+#pragma once
+
+#include "core/sample.h"
+
+namespace enc {
+
+class Gripper {
+ public:
+  virtual ~Gripper() = default;
+  virtual Stamped<GripSample> read() noexcept = 0;  // newest; never blocks
+  virtual void command(
+      const Grip& grip) noexcept = 0;  // stays until the next one; force clamped to its range
+};
+
+}  // namespace enc

@@ -1,0 +1,37 @@
+// The gripper as it moves: jaws that close at a steady speed until they meet something or each other, then
+// press with the force that was set. [VHMR 4.1, parameters 3] The clamped tool is part of the tip's body from
+// the start: until the jaws are closed, somebody holds it there.
+#pragma once
+
+#include "core/sample.h"
+#include "sim/random.h"
+#include "sim/twin_spec.h"
+
+namespace enc::sim {
+
+class GripperPlant {
+ public:
+  struct State {
+    Stream noise;
+    Grip wanted;
+    double play = 0.0;  // m: by how much this closing misses
+    Stamped<GripSample> sample;
+  };
+  GripperPlant(const GripperTruth& truth, std::uint64_t seed);
+
+  [[nodiscard]] const Stamped<GripSample>& sample() const { return state_.sample; }
+  [[nodiscard]] const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+  // A force that is no number is refused (health fault); one beyond the range is clamped (out_of_range).
+  void command(const Grip& grip) noexcept;
+  void advance(Time t, double dt) noexcept;  // once a tick
+
+ private:
+  [[nodiscard]] double stop() const noexcept;  // opening at which the jaws come to stand, m
+  void begin(bool closing) noexcept;
+
+  GripperTruth truth_;
+  State state_;
+};
+
+}  // namespace enc::sim
