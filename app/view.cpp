@@ -8,6 +8,7 @@
 #include "app/modules.h"
 #include "core/error.h"
 #include "models/scene_file.h"
+#include "sim/seen_surface.h"
 #include "sim/view/view.h"
 #include "sim/world.h"
 
@@ -118,6 +119,16 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
   request.labels.push_back({"normal of the surface (N)", from + 0.6 * normal, true});
 }
 
+// The surface as the eye should see it: dented by the true tool.
+void dent_object(Moment& m) {
+  if (m.out.object < 0 || m.out.view.tool < 0 || !m.world.truth().tool_tip.finite()) return;
+  const Tip<'T'>& tip = m.scene.tools[static_cast<std::size_t>(m.out.view.tool)].tip;
+  const Pose<'W', 'T'> turned(m.world.q_WT(), Vec3(0, 0, 0));
+  const Pose<'W', 'T'> X_WT(m.world.q_WT(),
+                            m.world.truth().tool_tip - turned * Vec<'T'>(Vec3(tip.centre.e())));
+  sim::dent_seen(m.world.physics(), m.scene, static_cast<std::size_t>(m.out.object), X_WT * tip);
+}
+
 // The point of an object that shows best: on its flank, away from tool and arrows.
 Point<'W'> flank(const Moment& m, std::size_t object) {
   const ObjectSpec& spec = m.setup.scene.objects[object];
@@ -177,6 +188,8 @@ int picture(const ViewOptions& options, Look look) {
                     options.seed, true});
   Moment moment{setup, scene, world, {}, {}, {}};
   run_until(moment, options.at.value_or(kUnset));
+
+  dent_object(moment);
 
   sim::ViewRequest request;
   request.model = world.physics().model();

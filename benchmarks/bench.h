@@ -49,6 +49,7 @@ struct Benchmark {
 };
 [[nodiscard]] std::span<const Benchmark> benchmarks();
 
+BenchResult run_dent(const BenchContext& context);       // the seen surface: speed, contact vertex, volume
 BenchResult run_encounter(const BenchContext& context);  // miss at first touch over approach speed
 BenchResult run_press(const BenchContext& context);      // one contact a press, limit held, tip inside
 BenchResult run_structure(const BenchContext& context);  // the hexapod's legs: sag, modes, order, cost

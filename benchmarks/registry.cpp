@@ -5,7 +5,9 @@
 namespace enc::bench {
 
 std::span<const Benchmark> benchmarks() {
-  static constexpr std::array<Benchmark, 4> kAll{{
+  static constexpr std::array<Benchmark, 5> kAll{{
+      {"dent", "tennis_ball",
+       "the seen surface: contact vertex, volume, time of an update of 10,242 vertices", run_dent},
       {"encounter", "tennis_ball",
        "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
        run_encounter},

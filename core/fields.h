@@ -52,8 +52,12 @@ void fields(F& f, TipSample& s) {
 template <class F>
 void fields(F& f, DentSample& s) {
   f("dent_object", s.object);
-  fields(f, "dent_tip_O", s.tip);
-  f("dent_tip_radius", s.tip_radius);
+  fields(f, "dent_tip_O", s.tip.centre);
+  f("dent_tip_radius", s.tip.radius);
+  f("dent_tip_shape", s.tip.shape);
+  fields(f, "dent_tip_axis_O", s.tip.axis);
+  f("dent_tip_half_angle", s.tip.half_angle);
+  f("dent_tip_length", s.tip.length);
   f("dent_depth", s.depth);
 }
 template <class F>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/dent.h"
 #include "core/stages.h"
@@ -23,13 +24,18 @@ void check_undeformed(Walk& walk, const Object& object, const Point<'O'>& outer,
   if (state.entered && distance > kTolerance) walk.why |= kOutsideObject;
 }
 
+bool possible(const Tip<'O'>& tip) {
+  return tip.centre.finite() && tip.centre.e().norm() < 10.0 && tip.radius >= 0.0 && tip.radius < 0.1 &&
+         tip.shape <= TipShape::edge && std::abs(tip.axis.norm() - 1.0) < 1e-3 && tip.half_angle >= 0.0 &&
+         tip.half_angle < 0.5 * std::numbers::pi && tip.length >= 0.0 && tip.length < 1.0;
+}
+
 bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
   const DentSample& dent = sample.value;
   if (sample.t > walk.tick.t + walk.tick.dt) return false;
   if (dent.object == -1) return true;
-  return dent.object >= 0 && dent.object < static_cast<int>(walk.scene.objects.size()) && dent.tip.finite() &&
-         dent.tip.e().norm() < 10.0 && dent.tip_radius >= 0.0 && dent.tip_radius < 0.1 && dent.depth >= 0.0 &&
-         dent.depth < 0.1;
+  return dent.object >= 0 && dent.object < static_cast<int>(walk.scene.objects.size()) &&
+         possible(dent.tip) && dent.depth >= 0.0 && dent.depth < 0.1;
 }
 
 // The seen surface is late: the tip may be outside it by what tool and tip can have moved since [VHMR 3.5].

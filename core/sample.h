@@ -6,6 +6,7 @@
 
 #include "core/frames.h"
 #include "core/time.h"
+#include "core/tip.h"
 
 namespace enc {
 
@@ -54,12 +55,11 @@ struct GripSample {
   bool holding = false;     // closed, with something between the jaws
 };
 
-// The deformed visual surface, as the renderer reports it [VHMR 3.5]: which object is dented, where, by what
-// and how deep. The core evaluates the surface itself (dent.h), so Inputs stays of one size.
+// The deformed visual surface, as the renderer reports it [VHMR 3.5]: which object is dented, by what tip in
+// which pose and how deep. The core evaluates the surface itself (dent.h), so Inputs stays of one size.
 struct DentSample {
   std::int32_t object = -1;  // index in the scene; -1: nothing is deformed
-  Point<'O'> tip;            // centre of the tool's tip in the object's frame
-  double tip_radius = kUnset;
+  Tip<'O'> tip;              // of the tool, in the object's frame
   double depth =
       kUnset;  // of the tip's lowest point below the undeformed surface, m; 0 where it does not touch
 };

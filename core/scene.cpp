@@ -70,6 +70,18 @@ Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest
           limit_of(behaviour, spec), behaviour.tangential, behaviour.tangential_stiffness};
 }
 
+Tip<'T'> tip_of(const ToolSpec& tool) {
+  const double size = tool.tip_axis.norm();
+  if (tool.tip_shape != TipShape::sphere && !(std::abs(size - 1.0) <= 1e-3))
+    throw Error("the axis of a tip is a unit vector", "tool." + tool.name + ".tip_axis");
+  Tip<'T'> tip{Point<'T'>(tool.tip), tool.tip_radius, tool.tip_shape};
+  if (tool.tip_shape == TipShape::sphere) return tip;
+  tip.axis = Vec<'T'>(tool.tip_axis / size);
+  if (tool.tip_shape == TipShape::cone) tip.half_angle = tool.tip_half_angle;
+  if (tool.tip_shape == TipShape::edge) tip.length = tool.tip_edge;
+  return tip;
+}
+
 // Which object the user presses: the named one, or the first.
 std::size_t pressed_object(const SceneSpec& spec, const UserSpec& user) {
   if (spec.objects.empty()) throw Error("a user needs an object to press", "user.object");
@@ -178,7 +190,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   scene.lowest_slope = lowest_stable_stiffness(loop);
   for (const ObjectSpec& object : spec.objects)
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope));
-  for (const ToolSpec& tool : spec.tools) scene.tools.push_back({Point<'T'>(tool.tip), tool.tip_radius});
+  for (const ToolSpec& tool : spec.tools) scene.tools.push_back({tip_of(tool)});
   if (spec.probe) scene.probe = make_probe(spec, scene);
   check_reach(spec, scene);
   return scene;

@@ -14,6 +14,7 @@
 #include "core/rotation.h"
 #include "core/scene_spec.h"
 #include "core/surface.h"
+#include "core/tip.h"
 
 namespace enc {
 
@@ -27,8 +28,7 @@ struct Object {
 };
 
 struct Tool {
-  Point<'T'> tip;  // centre of the tip's sphere
-  double tip_radius = 0.0;
+  Tip<'T'> tip;
 };
 
 struct Scene {

@@ -11,6 +11,7 @@
 
 #include "core/frames.h"
 #include "core/response.h"
+#include "core/tip.h"
 
 namespace enc {
 
@@ -46,7 +47,11 @@ struct ToolSpec {
   std::vector<Vec3> markers;  // in T
   Vec3 tip{0, 0, 0};          // centre of the tip's sphere in T
   double tip_radius = 0.002;  // 0: a point
-  double mass = 0.05;         // kg, with its markers
+  TipShape tip_shape = TipShape::sphere;
+  Vec3 tip_axis{kUnset, kUnset, kUnset};  // in T, unit; cone: from the apex into the tool, edge: along it
+  double tip_half_angle = kUnset;         // cone, rad
+  double tip_edge = kUnset;               // edge: its length, m
+  double mass = 0.05;                     // kg, with its markers
 };
 
 struct FollowSpec {

@@ -44,8 +44,8 @@ void track_tool(Walk& walk, State& state) {
   walk.tool_known = state.tool.value.tool != walk.scene.clamped_tool;
   const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
   walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
-  walk.tool_tip = walk.X_WT * tool.tip;
-  walk.tool_radius = tool.tip_radius;
+  walk.tool_tip = walk.X_WT * tool.tip.centre;
+  walk.tool_radius = tool.tip.radius;
   judge_age(walk, state);
 }
 

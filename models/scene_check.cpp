@@ -141,7 +141,18 @@ bool on_a_line(const std::vector<Vec3>& markers) {
   return largest < 1e-6;
 }
 
+void check_tip(const Setup& setup, const ToolSpec& tool) {
+  if (tool.tip_shape == TipShape::sphere) return;
+  const double length = tool.tip_axis.norm();
+  if (std::abs(length - 1.0) < 1e-6) return;
+  const Vec3 a = length > 0 ? Vec3(tool.tip_axis / length) : Vec3(0, 0, 1);
+  fail(setup, fmt::format("tool.{}.tip_axis", tool.name),
+       fmt::format("'tip_axis' has length {:.6g}; expected length 1; write it like 'tip_axis = [{}, {}, {}]'",
+                   length, a.x(), a.y(), a.z()));
+}
+
 void check_tool(const Setup& setup, const ToolSpec& tool) {
+  check_tip(setup, tool);
   const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
   if (tool.markers.size() < 3) {
     fail(

@@ -8,6 +8,7 @@ using enum Confidence;
 using enum Presence;
 
 constexpr std::array<std::string_view, 2> kShapes{"plane", "sphere"};
+constexpr std::array<std::string_view, 3> kTips{"sphere", "cone", "edge"};
 constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
 constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
 constexpr std::array<std::string_view, 1> kUsers{"press_release"};
@@ -61,6 +62,25 @@ void describe(Visitor& v, ToolSpec& t) {
           &t.markers);
   v.value({"tip_mm", "centre of the tip's sphere in T", "[VHMR 3.2]", chosen, kAny, needed}, &t.tip);
   v.value({"tip_radius_mm", "radius of the tip; 0: a point", kAuthor, chosen, kNotNegative}, &t.tip_radius);
+  choice(v, {"tip_shape", "what dents the seen surface", "[VHMR 3.5]", chosen}, kTips, t.tip_shape);
+  if (t.tip_shape != TipShape::sphere)
+    v.value({"tip_axis",
+             "of length 1, in T; cone: from the apex into the tool, edge: along it",
+             kAuthor,
+             chosen,
+             {-1.0, 1.0},
+             needed},
+            &t.tip_axis);
+  if (t.tip_shape == TipShape::cone)
+    v.value({"tip_half_angle_deg", "of the cone", kAuthor, chosen, {1.0, 80.0}, needed}, &t.tip_half_angle);
+  if (t.tip_shape == TipShape::edge)
+    v.value({"tip_edge_mm",
+             "length of the edge, without its round ends",
+             kAuthor,
+             chosen,
+             {0.0, 500.0, true},
+             needed},
+            &t.tip_edge);
   v.value({"mass_kg", "tool with its markers", "parameters 5.1", assumed, kPositive}, &t.mass);
 }
 

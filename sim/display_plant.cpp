@@ -15,10 +15,10 @@ DisplayPlant::DisplayPlant(const DisplayTruth& truth, const Scene& scene, std::u
 
 DentSample DisplayPlant::draw() const {
   const View& view = state_.view;
-  if (view.object < 0 || view.tool < 0 || !view.tip.finite()) return {};
+  if (view.object < 0 || view.tool < 0 || !view.X_WT.valid()) return {};
   const Object& object = scene_.objects[static_cast<std::size_t>(view.object)];
-  return dent_of(object.surface, view.object, object.X_WO.inverse() * view.tip,
-                 scene_.tools[static_cast<std::size_t>(view.tool)].tip_radius);
+  return dent_of(object.surface, view.object,
+                 object.X_WO.inverse() * (view.X_WT * scene_.tools[static_cast<std::size_t>(view.tool)].tip));
 }
 
 void DisplayPlant::advance(Time t) {

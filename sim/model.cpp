@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "sim/legs.h"
+#include "sim/seen_surface.h"
 
 namespace enc::sim {
 namespace {
@@ -133,16 +134,22 @@ void add_tool(mjSpec* spec, const ModelParts& parts) {
   draw_tool(body, *parts.tool, parts.q_WT, Vec3::Zero());
 }
 
+mjsGeom* seen_ball(mjSpec* spec, std::size_t object, double radius, const Pose<'W', 'O'>& X_WO) {
+  mjsGeom* geom = add_seen_ball(spec, object, radius);
+  set3(geom->pos, X_WO.p());
+  colour(geom, {0.78F, 0.90F, 0.20F, 0.35F});
+  return geom;
+}
+
 void add_pictures(mjSpec* spec, const ModelParts& parts) {
   mjsBody* world = mjs_findBody(spec, "world");
   for (std::size_t i = 0; i < parts.scene.objects.size(); ++i) {
     const ObjectSpec& object = parts.scene.objects[i];
     const Pose<'W', 'O'>& X_WO = parts.prepared.objects[i].X_WO;
-    mjsGeom* geom =
-        object.shape == ShapeKind::sphere
-            ? drawn(world, mjGEOM_SPHERE, X_WO.p(), {object.radius, 0, 0}, {0.78F, 0.90F, 0.20F, 0.35F})
-            : drawn(world, mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.001), {0.08, 0.08, 0.001},
-                    {0.4F, 0.6F, 0.9F, 0.4F});
+    mjsGeom* geom = object.shape == ShapeKind::sphere
+                        ? seen_ball(spec, i, object.radius, X_WO)
+                        : drawn(world, mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.001),
+                                {0.08, 0.08, 0.001}, {0.4F, 0.6F, 0.9F, 0.4F});
     set4(geom->quat, Quat(X_WO.q()));
   }
   for (const double side : {-1.0, 1.0}) {

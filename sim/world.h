@@ -52,6 +52,7 @@ class World {
   [[nodiscard]] std::string divergence() const { return fatal_.empty() ? physics_.warning_text() : fatal_; }
   [[nodiscard]] Physics& physics() { return physics_; }
   [[nodiscard]] const Pose<'W', 'R'>& X_WR() const { return X_WR_; }
+  [[nodiscard]] const Quat& q_WT() const { return q_WT_; }  // of the held tool, true
 
   // Everything that moves: physics, plants, queues, random streams.
   [[nodiscard]] std::vector<std::byte> save() const;

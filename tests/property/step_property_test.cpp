@@ -88,7 +88,7 @@ void run_wild(std::uint64_t seed, unsigned spoil_every, int ticks) {
     const Object& object = loop.scene.objects[index];
     if (loop.k.index > 20 && wander.random() % 16 == 0)
       in.dent = {dent_of(object.surface, static_cast<std::int32_t>(index),
-                         object.X_WO.inverse() * loop.tool_tip, test::kToolRadius),
+                         {object.X_WO.inverse() * loop.tool_tip, test::kToolRadius}),
                  loop.now() - Duration(15'000'000), Health::ok};
     if (spoil_every == 0 || wander.random() % spoil_every != 0) return;
     SpoilOne one{wander.random, static_cast<int>(wander.random() % static_cast<unsigned>(count.seen))};

@@ -69,7 +69,7 @@ void Loop::sense() {
   in.wrench = {{X_WF.inverse() * (force + carried) + force_zero, Vec<'F'>::zero()}, k.t, Health::ok};
   if (!tool_seen || !scene.has_tracker) return;
   const auto index = static_cast<std::size_t>(tool);
-  const Vec3 markers = tool_tip.e() - tool_turn * scene.tools[index].tip.e();
+  const Vec3 markers = tool_tip.e() - tool_turn * scene.tools[index].tip.centre.e();
   in.tool = {{tool, scene.X_WC.inverse() * Pose<'W', 'T'>(tool_turn, markers)}, k.t, Health::ok};
 }
 

@@ -381,7 +381,7 @@ void hold_tool(Inputs& in, const Loop& loop) {
 // A drawn surface, 20 ms old.
 void draw(Inputs& in, const Loop& loop) {
   const Object& ball = loop.scene.objects[0];
-  in.dent = {dent_of(ball.surface, 0, ball.X_WO.inverse() * loop.tool_tip, kToolRadius),
+  in.dent = {dent_of(ball.surface, 0, {ball.X_WO.inverse() * loop.tool_tip, kToolRadius}),
              loop.now() - Duration(20'000'000), Health::ok};
   if (in.dent.t < Time{}) in.dent.health = Health::absent;
 }
@@ -619,8 +619,9 @@ TEST(Hold, TipOutsideTheSeenSurface) {
   expect_hold_and_recovery(
       loop,
       [&](Inputs& in) {
-        in.dent.value = dent_of(
-            ball.surface, 0, ball.X_WO.inverse() * Point<'W'>(0, 0, kTop + kToolRadius - 0.005), kToolRadius);
+        in.dent.value =
+            dent_of(ball.surface, 0,
+                    {ball.X_WO.inverse() * Point<'W'>(0, 0, kTop + kToolRadius - 0.005), kToolRadius});
       },
       kOutsideDent, "dent of 5 mm");
 }
