@@ -80,6 +80,20 @@ std::string parts_text(const models::Setup& setup) {
       thread_count() == 1 ? "" : "s", left_out.empty() ? "nothing" : left_out);
 }
 
+std::string weak_text(const models::Setup& setup, const Scene& scene) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (!(object.limit < object.wanted)) continue;
+    text += fmt::format(
+        "limited     object '{}': the machine carries at most {:.1f} N, so its deflection is limited to "
+        "{:.2f} mm "
+        "instead of {:g} mm\n",
+        setup.scene.objects[i].name, scene.strength, object.limit * 1e3, object.wanted * 1e3);
+  }
+  return text;
+}
+
 void fit_out(Rig& rig, const models::Setup& setup, bool armed) {
   if (rig.manipulator && setup.rig.manipulator.driver != "sim") {
     auto machine =

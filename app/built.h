@@ -18,6 +18,10 @@ struct Part {
 // "built: hexapod, force (sim)…" and "left out: camera (not named)…": two lines.
 [[nodiscard]] std::string parts_text(const models::Setup& setup);
 
+// A line for each object that is rendered less deep than it asks, because the machine cannot carry its force;
+// or nothing.
+[[nodiscard]] std::string weak_text(const models::Setup& setup, const Scene& scene);
+
 // Puts module devices in the places that the rig names. A rig with real devices is dry unless armed: commands
 // are not sent.
 void fit_out(Rig& rig, const models::Setup& setup, bool armed);

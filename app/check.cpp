@@ -24,6 +24,7 @@ int check(const SceneOptions& options) {
         setup.scene.objects[i].name, scene.objects[i].limit * 1e3,
         scene.objects[i].response.press(scene.objects[i].limit), scene.lowest_slope * 1e-3);
   }
+  fmt::print("{}", weak_text(setup, scene));
   fmt::print("  commands up to {:g} mm/s and {:g} mm/s^2\n\nresolved scene\n{}", scene.reach.speed * 1e3,
              scene.reach.acceleration * 1e3, models::resolved(setup));
   return 0;

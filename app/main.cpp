@@ -105,11 +105,19 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   bench_command->add_flag("--quick", bench_options.quick, "fewer repeats");
   bench_command->callback([&] { code = bench(bench_options); });
 
-  ResponseOptions response_options;
-  CLI::App* response_command =
-      app.add_subcommand("response", "compute the tennis ball's response file from the plant formula");
-  response_command->add_option("--out", response_options.out, "file; default: standard output");
-  response_command->callback([&] { code = response(response_options); });
+  FitOptions fit_options;
+  CLI::App* fit_command = app.add_subcommand("fit", "turn a measured loop (CSV) into a response file");
+  fit_command->add_option("loop", fit_options.loop, "CSV with time_s, deflection_mm, force_N, repeat")
+      ->required();
+  fit_command->add_option("--out", fit_options.out, "response file to write, models/responses/NAME.toml");
+  fit_command->add_option("--limit-mm", fit_options.limit_mm, "deflection up to which the response holds")
+      ->capture_default_str();
+  fit_command->add_option("--rig", fit_options.rig, "rig that will render it: sets how soft it may be")
+      ->capture_default_str();
+  fit_command->add_option(
+      "--ceiling-N-per-mm", fit_options.ceiling,
+      "stiffest that the stops may be; lower: quieter at rest, less exact where motion turns");
+  fit_command->callback([&] { code = fit(fit_options); });
 
   CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
   doctor_command->callback([&] { code = doctor(); });

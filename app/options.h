@@ -49,8 +49,11 @@ struct BenchOptions {
   std::int64_t repeats = 0;  // 0: the benchmark's own
   bool quick = false;
 };
-struct ResponseOptions {
-  std::string out;
+struct FitOptions {
+  std::string loop, out;
+  std::string rig = "sim";
+  double limit_mm = 6.0;
+  std::optional<double> ceiling;  // N/mm
 };
 
 int run(const RunOptions& options);
@@ -61,6 +64,6 @@ int params(const ParamsOptions& options);
 int doctor();
 int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
-int response(const ResponseOptions& options);
+int fit(const FitOptions& options);
 
 }  // namespace enc::app

@@ -132,6 +132,7 @@ std::string run_text(const RunReport& r) {
     text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
     if (&why == &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) break;
   }
+  text += weak_text(r.setup, r.scene);
   text += press_lines(r) + push_lines(r);
   if (r.result.contacts == 0 && r.setup.scene.user)
     text += fmt::format("note        the user never touched anything; last notice of the core: {}\n",

@@ -5,13 +5,15 @@
 namespace enc::bench {
 
 std::span<const Benchmark> benchmarks() {
-  static constexpr std::array<Benchmark, 5> kAll{{
+  static constexpr std::array<Benchmark, 6> kAll{{
       {"dent", "tennis_ball",
        "the seen surface: contact vertex, volume, time of an update of 10,242 vertices", run_dent},
       {"encounter", "tennis_ball",
        "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
        run_encounter},
       {"press", "tennis_ball", "one contact for each press, limit held, tip inside, no pull", run_press},
+      {"response", "tennis_ball", "both response models: minor loops, jumps, tremor at rest, energy",
+       run_response},
       {"speed", "tennis_ball", "step(), times real time, wrapper over raw mj_step", run_speed},
       {"structure", "tennis_ball", "hexapod on elastic legs: sag, modes, order of the integrator, cost",
        run_structure},

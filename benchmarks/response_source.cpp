@@ -9,29 +9,17 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/response.h"
-#include "models/response_file.h"
+#include "sim/random.h"
 
 namespace enc::bench {
-namespace {
-
-// Rounds to 1e-8 N/mm^k, 1e-5 N at 6 mm: so the file is the same whatever the compiler did to the last bits
-// of the fit. By way of text, because the file's numbers are decimals in N/mm^k: value = n * 10^(3 k - 8)
-// N/m^k.
-ResponseSpec rounded(ResponseSpec spec) {
-  const auto decimal = [](double si, int k) {
-    const auto n = std::llround(si * std::pow(10.0, 8 - 3 * k));
-    return std::stod(fmt::format("{}e{}", n, 3 * k - 8));
-  };
-  for (int k = 1; k <= 4; ++k) {
-    const auto i = static_cast<std::size_t>(k - 1);
-    spec.press[i] = decimal(spec.press[i], k);
-    spec.release[i] = decimal(spec.release[i], k);
-  }
-  return spec;
+sim::BallParameters regulation_ball() {
+  sim::BallParameters ball;
+  ball.rubber_modulus = 9e6;
+  ball.pressure = 90e3;
+  ball.felt_modulus = 0.8e6;
+  ball.felt = 2.5e-3;
+  return ball;
 }
-
-}  // namespace
 
 std::vector<models::LoopPoint> plant_loop(const sim::BallParameters& ball, double speed, double limit) {
   if (!(speed > 0.0) || !(limit > 0.0) || !(limit / speed < 3600.0))
@@ -50,30 +38,25 @@ std::vector<models::LoopPoint> plant_loop(const sim::BallParameters& ball, doubl
   return loop;
 }
 
-double fit_floor(const LoopModel& loop) {
-  // Two figures for the softest object that the loop renders stably: the linear theory, and 0.17 of the
-  // hand's stiffness (decisions 2: what simulated presses gave for a softer hand). The larger, and 5 % so
-  // that a file is not refused for its last digit.
-  constexpr double kShare = 0.17;
-  constexpr double kMargin = 1.05;
-  return kMargin * std::max(lowest_stable_stiffness(loop), kShare * loop.hand_stiffness);
-}
-
-std::string plant_response_text(const sim::BallParameters& ball, double speed, double limit,
-                                const LoopModel& loop) {
-  const double floor = fit_floor(loop);
-  const models::ResponseFit fit = models::fit_response(plant_loop(ball, speed, limit), limit, floor);
-  const std::string source = fmt::format(
-      "SYNTHETIC, not measured: computed from the plant formula of a soft tennis ball (sim/ball_plant: E "
-      "{:.2f} MPa, p {:.0f} "
-      "kPa) by `encounter response --out models/responses/tennis_ball.toml`; one press from rest to {:.1f} "
-      "mm and back at {:.1f} "
-      "mm/s, read at 1 kHz, no noise, no quantisation; slope at least {:.3f} N/mm; RMSE press {:.3f}, "
-      "release {:.3f} N "
-      "(without constraints {:.3f}, {:.3f} N)",
-      ball.rubber_modulus * 1e-6, ball.pressure * 1e-3, limit * 1e3, speed * 1e3, floor * 1e-3,
-      fit.rmse_press, fit.rmse_release, fit.rmse_press_free, fit.rmse_release_free);
-  return models::response_text(rounded(fit.spec), source);
+std::string plant_loop_csv(const sim::BallParameters& ball, double speed, double limit) {
+  constexpr double kNoise = 0.0125;  // N rms
+  constexpr double kStep = 0.025;    // N, of the force sensor
+  constexpr int kRepeats = 5;
+  const std::vector<models::LoopPoint> loop = plant_loop(ball, speed, limit);
+  sim::Stream random(1, "plant_loop");
+  std::string text = fmt::format(
+      "# SYNTHETIC, not measured: plant formula of a ball, sim/ball_plant, E {:.2f} MPa, p {:.0f} kPa, "
+      "{:.1f} mm/s\n"
+      "time_s,deflection_mm,force_N,repeat\n",
+      ball.rubber_modulus * 1e-6, ball.pressure * 1e-3, speed * 1e3);
+  long row = 0;
+  for (int repeat = 1; repeat <= kRepeats; ++repeat)
+    for (const models::LoopPoint& p : loop) {
+      const double force = kStep * std::round((p.force + kNoise * random.normal()) / kStep);
+      text += fmt::format("{:.3f},{:.6f},{:.3f},{}\n", static_cast<double>(++row) * 1e-3, p.deflection * 1e3,
+                          force, repeat);
+    }
+  return text;
 }
 
 }  // namespace enc::bench

@@ -1,25 +1,24 @@
-// The response file of the tennis ball until the rig has measured one: the plant formula, pressed and
-// released as the rig does [VHMR Fig 7], fitted, and said to be synthetic.
+// Loops of the plant formula alone, without a rig around it: what a press would read on an ideal machine. For
+// tests and benchmarks, and for balls that no rig has pressed yet.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "core/loop_model.h"
 #include "models/response_fit.h"
 #include "sim/ball_plant.h"
 
 namespace enc::bench {
 
+// Parameters of a regulation ball (parameters.md 4.3, 4.4): about 50 N at 6 mm.
+[[nodiscard]] sim::BallParameters regulation_ball();
+
 // One press from rest to `limit` (m) and back at `speed` (m/s), read at 1 kHz, without noise or quantisation.
 [[nodiscard]] std::vector<models::LoopPoint> plant_loop(const sim::BallParameters& ball, double speed,
                                                         double limit);
 
-// The slope below which no fitted curve may fall, N/m. See the .cpp for the rule.
-[[nodiscard]] double fit_floor(const LoopModel& loop);
-
-// Text of models/responses/tennis_ball.toml; `encounter response` writes it.
-[[nodiscard]] std::string plant_response_text(const sim::BallParameters& ball, double speed, double limit,
-                                              const LoopModel& loop);
+// The same five times over, with the force sensor's noise (0.0125 N rms) and steps (0.025 N), as a file for
+// `encounter fit`. Says in its first line that it is synthetic.
+[[nodiscard]] std::string plant_loop_csv(const sim::BallParameters& ball, double speed, double limit);
 
 }  // namespace enc::bench

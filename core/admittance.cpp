@@ -29,6 +29,8 @@ void model(Walk& walk, State& state) noexcept {
   const double pressed = std::max(0.0, -force.xyz[2] - walk.scene.force.threshold);
   const double deflection = object.response.deflection(contact.response, pressed, object.limit);
   if (deflection >= object.limit) walk.why |= kAtLimit;
+  // The limit is such that the object never asks for this much (scene.cpp): the target stays where it is.
+  if (pressed > walk.scene.strength) walk.why |= kOverload;
   const Vec3 sideways = tangential_give(object, force);
   contact.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
 }

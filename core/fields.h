@@ -119,6 +119,7 @@ void fields(F& f, Contact& c) {
   f("loaded", c.loaded);
   f("response_deflection", c.response.deflection);
   f("response_alpha", c.response.alpha);
+  fields(f, "response_stop", c.response.stop);
   fields(f, "displacement_N", c.displacement);
 }
 template <class F>

@@ -43,6 +43,7 @@ enum Why : std::uint32_t {
   kByForce = 1U << 20,        // this contact was found by force, not by gap
   kTaring = 1U << 21,         // force zero not known yet
   kToolUnseen = 1U << 22,     // no tool in the tracker's view
+  kOverload = 1U << 24,       // pressed harder than the machine carries: it stands at the deflection limit
 };
 inline constexpr std::uint32_t kHoldReasons = 0xFFFFU;
 

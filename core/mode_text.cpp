@@ -33,7 +33,8 @@ std::string why_text(std::uint32_t why) {
        {kAtLimit, "deflection limit"},
        {kByForce, "contact by force"},
        {kTaring, "force zero not known yet"},
-       {kToolUnseen, "no tool in view"}}};
+       {kToolUnseen, "no tool in view"},
+       {kOverload, "pressed harder than the machine carries"}}};
   std::string text;
   for (const auto& [bit, words] : kTexts) {
     if ((why & bit) == 0) continue;

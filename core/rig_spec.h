@@ -37,6 +37,7 @@ struct ManipulatorRig {
   HexapodGeometry geometry;
   double speed = 0.050;        // of commands, m/s [VHMR 2]
   double acceleration = 0.41;  // of commands, m/s^2 (decisions 1)
+  double payload = 98.1;       // N: 10 kg, what it carries and is pressed with, together [VHMR 2]
   double tip_radius = 0.005;   // of the haptic-tip's sphere, m; H is its centre
   double servo = 15.0;         // what the rig is believed to answer with: natural frequency, Hz,
   double servo_damping = 0.8;  // damping ratio

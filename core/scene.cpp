@@ -5,10 +5,11 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/loop_model.h"
 
 namespace enc {
 namespace {
+
+constexpr double kGravity = 9.80665;  // m/s^2
 
 Surface surface_of(const ObjectSpec& spec) {
   if (spec.shape == ShapeKind::plane) return Surface(Plane{});
@@ -35,10 +36,10 @@ const BehaviourSpec& behaviour_of(const SceneSpec& scene, const ObjectSpec& obje
 
 Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, double lowest_slope) {
   try {
-    return {behaviour.curves, lowest_slope};
+    return {behaviour.curves, lowest_slope, behaviour.reversal};
   } catch (const Error& e) {
     throw Error("behaviour '" + behaviour.name + "' of object '" + object.name + "': " + e.what(),
-                "behaviour." + behaviour.name + ".curves." + e.key());
+                "behaviour." + behaviour.name + (e.key() == "reversal" ? "." : ".curves.") + e.key());
   }
 }
 
@@ -52,9 +53,17 @@ double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
   return limit;
 }
 
-Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest_slope) {
+// The deflection, at most `wanted`, up to which the object pushes back with no more than `strength`: the
+// machine is not asked to hold more than it can.
+double carried(const Response& response, double wanted, double strength) {
+  if (response.press(wanted) <= strength) return wanted;
+  ResponseState state;
+  return response.deflection(state, strength, wanted);
+}
+
+Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest_slope, double strength) {
   if (spec.behaviour.empty() && scene.probe && &spec == &probed_object(scene))
-    return {surface_of(spec), place_of(spec), {}, kUnset, Tangential::stick, kUnset};
+    return {surface_of(spec), place_of(spec), {}, kUnset, kUnset, Tangential::stick, kUnset};
   const BehaviourSpec& behaviour = behaviour_of(scene, spec);
   if (behaviour.tangential == Tangential::spring && !(behaviour.tangential_stiffness > 0.0))
     throw Error("behaviour '" + behaviour.name + "': tangential = \"spring\" needs a tangential stiffness",
@@ -66,8 +75,19 @@ Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest
     throw Error("the tip waits deeper than the deflection limit of object '" + spec.name +
                     "'; make the inset smaller",
                 "follow.inset");
-  return {surface_of(spec),          place_of(spec),       response_of(behaviour, spec, lowest_slope),
-          limit_of(behaviour, spec), behaviour.tangential, behaviour.tangential_stiffness};
+  const Response response = response_of(behaviour, spec, lowest_slope);
+  const double wanted = limit_of(behaviour, spec);
+  const double limit = carried(response, wanted, strength);
+  if (limit < scene.follow.inset)
+    throw Error("object '" + spec.name + "' is too hard: the machine could not carry the force at its inset",
+                "object." + spec.name + ".behaviour");
+  return {surface_of(spec),
+          place_of(spec),
+          response,
+          limit,
+          wanted,
+          behaviour.tangential,
+          behaviour.tangential_stiffness};
 }
 
 Tip<'T'> tip_of(const ToolSpec& tool) {
@@ -138,6 +158,17 @@ const ToolSpec* clamped_tool(const SceneSpec& spec) {
   return &*named;
 }
 
+LoopModel loop_of(const RigSpec& rig) {
+  LoopModel loop;
+  loop.hand_stiffness = rig.contact.hand_stiffness;
+  loop.hand_damping = rig.contact.hand_damping;
+  loop.filter_hz = rig.force.filter;
+  loop.servo_hz = rig.manipulator.servo;
+  loop.servo_damping = rig.manipulator.servo_damping;
+  loop.delay = rig.manipulator.delay + 1.0 / rig.loop.rate;
+  return loop;
+}
+
 PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
   const ObjectSpec& object = spec.objects[pressed_object(spec, user)];
   const Vec3 axis(std::sin(user.polar) * std::cos(user.azimuth),
@@ -180,16 +211,13 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   }
   if (!scene.has_manipulator)
     throw Error("a scene needs [manipulator]: something has to carry the surface", "manipulator");
-  LoopModel loop;
-  loop.hand_stiffness = rig.contact.hand_stiffness;
-  loop.hand_damping = rig.contact.hand_damping;
-  loop.filter_hz = rig.force.filter;
-  loop.servo_hz = rig.manipulator.servo;
-  loop.servo_damping = rig.manipulator.servo_damping;
-  loop.delay = rig.manipulator.delay + scene.dt;
-  scene.lowest_slope = lowest_stable_stiffness(loop);
+  scene.lowest_slope = lowest_stable_stiffness(loop_of(rig));
+  scene.strength = rig.manipulator.payload - scene.force.mass * kGravity;
+  if (!(scene.strength > 0.0))
+    throw Error("the machine does not even carry what is mounted on it (force.mass)",
+                "rig.manipulator.payload");
   for (const ObjectSpec& object : spec.objects)
-    scene.objects.push_back(make_object(spec, object, scene.lowest_slope));
+    scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back({tip_of(tool)});
   if (spec.probe) scene.probe = make_probe(spec, scene);
   check_reach(spec, scene);

@@ -8,6 +8,7 @@
 
 #include "core/frames.h"
 #include "core/probe.h"
+#include "core/loop_model.h"
 #include "core/reach.h"
 #include "core/response.h"
 #include "core/rig_spec.h"
@@ -22,7 +23,9 @@ struct Object {
   Surface surface;
   Pose<'W', 'O'> X_WO;
   Response response;      // none where the object is real: then only a probe touches it
-  double limit = kUnset;  // deflection, m
+  double limit = kUnset;  // deflection, m: what is rendered
+  double wanted =
+      kUnset;  // what object, behaviour and response ask for; more only where the machine is too weak
   Tangential tangential = Tangential::stick;
   double tangential_stiffness = kUnset;  // N/m
 };
@@ -57,11 +60,15 @@ struct Scene {
   double dt = kUnset;            // s, one tick
   double filter_gain = kUnset;   // of the force low-pass, per tick
   double lowest_slope = kUnset;  // N/m: softest object the loop renders stably (loop_model.h)
+  double strength = kUnset;      // N: pressing force that the machine carries beside its own load
 };
 
 // Throws Error (key = the file key without its unit) where the scene cannot be rendered by this rig: an
 // object or a press out of reach, a response that is not monotone or too soft, a role that is missing.
 [[nodiscard]] Scene prepare(const SceneSpec& spec, const RigSpec& rig);
+
+// The loop of hand, filter, machine and dead time that a rig file promises (loop_model.h).
+[[nodiscard]] LoopModel loop_of(const RigSpec& rig);
 
 // The reach that a rig file promises. A device that can do less is refused before anything moves.
 [[nodiscard]] Reach reach_of(const RigSpec& rig);

@@ -184,6 +184,12 @@ void fill_curves(Setup& setup, const std::string& models_dir) {
   }
 }
 
+RigSpec load_rig(const std::string& rig) {
+  Setup setup;
+  read_rig(setup, rig);
+  return setup.rig;
+}
+
 std::string place_of(const Setup& setup, std::string_view key) {
   for (std::string_view at = key; !at.empty();) {
     if (const auto exact = setup.places.find(at); exact != setup.places.end()) return exact->second;

@@ -46,6 +46,8 @@ std::string place_of(const Setup& setup, std::string_view key);
 // $ENCOUNTER_MODELS, else the folder above the scene's, else `models` beside or above the program.
 std::string models_dir(const std::string& scene_path);
 ResponseSpec load_response(const std::string& path);
+// The rig alone: a name in models/rigs beside the program, or a path.
+RigSpec load_rig(const std::string& rig);
 // The files of a folder ("scenes", "rigs", "responses") of models_dir, without ".toml", in order.
 std::vector<std::string> files_in(const std::string& models_dir, const std::string& folder);
 

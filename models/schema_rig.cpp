@@ -27,6 +27,9 @@ void describe(Visitor& v, ManipulatorRig& m) {
   v.value({"servo_damping", "believed ratio of it", "fidelity 1", assumed, kPositive}, &m.servo_damping);
   v.value({"delay_ms", "believed dead time, from command to servo", "fidelity 1", assumed, kNotNegative},
           &m.delay);
+  v.value(
+      {"payload_N", "what it carries and is pressed with, together: 10 kg", "[VHMR 2]", published, kPositive},
+      &m.payload);
   table(v, "geometry", [&] { describe(v, m.geometry); });
 }
 

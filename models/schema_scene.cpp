@@ -10,6 +10,7 @@ using enum Presence;
 constexpr std::array<std::string_view, 2> kShapes{"plane", "sphere"};
 constexpr std::array<std::string_view, 3> kTips{"sphere", "cone", "edge"};
 constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
+constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ishlinskii"};
 constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
 constexpr std::array<std::string_view, 1> kUsers{"press_release"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
@@ -184,6 +185,19 @@ void describe(Visitor& v, SceneSpec& s) {
   part(v, "probe", s.probe, [&](ProbeSpec& p) { describe(v, p); });
 }
 
+namespace {
+
+void describe(Visitor& v, StopsSpec& s) {
+  const auto key = [](std::string_view name, std::string_view meaning, Range range) {
+    return Key{name, meaning, "response file", derived, range, needed, {}, true};
+  };
+  v.value(key("curve_N", "elastic part: sum of c_k (d / limit)^k, k = 1 to at most 8", kAny), &s.curve);
+  v.value(key("radii_mm", "travel at which each stop begins to slide", kPositive), &s.radii);
+  v.value(key("weights_N_per_mm", "stiffness of each stop at the limit", kNotNegative), &s.weights);
+}
+
+}  // namespace
+
 void describe(Visitor& v, ResponseSpec& r) {
   const std::string_view source = "response file";
   v.value({"limit_mm", "the polynomials hold from 0 to here", source, derived, kPositive, needed, {}, true},
@@ -198,6 +212,7 @@ void describe(Visitor& v, ResponseSpec& r) {
            true},
           &r.press);
   v.value({"release_N_per_mm_k", "the same, releasing", source, derived, kAny, needed, {}, true}, &r.release);
+  part(v, "stops", r.stops, [&](StopsSpec& s) { describe(v, s); });
 }
 
 void describe(Visitor& v, ResponseFile& r) {
@@ -225,6 +240,11 @@ void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
   v.value({"limit_mm", "deflection limit; unset: that of the response file", "[VHMR 4.2]", chosen, kPositive,
            optional},
           &b.limit);
+  choice(v,
+         {"reversal",
+          "what is felt where pressing turns to releasing; the second needs [stops] in the response file",
+          "fidelity 3", chosen},
+         kReversals, b.reversal);
   choice(v,
          {"tangential", "what a sideways force does: nothing, or moves the contact point", "[VHMR 3.4]",
           assumed},

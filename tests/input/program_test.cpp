@@ -505,7 +505,7 @@ TEST_F(Program, ReplayIsEqualAndNamesTheHashOfTheRun) {
 // ----------------------------------------------------------------------------------------------
 
 TEST_F(Program, EverySubcommandHasHelp) {
-  for (const char* command : {"run", "check", "replay", "view", "params", "bench", "response", "doctor"}) {
+  for (const char* command : {"run", "check", "replay", "view", "params", "bench", "fit", "doctor"}) {
     const Result r = run_program({command, "--help"});
     EXPECT_EQ(r.code, 0) << command;
     EXPECT_EQ(r.err, "") << command;
@@ -658,6 +658,97 @@ TEST_F(Program, EveryParameterCanBeSetToWhatItIs) {
   EXPECT_EQ(r.out, before);
 }
 
+// ---- fit
+// ----------------------------------------------------------------------------------------------------
+
+// One press to 6 mm at 4 mm/s: 2 N/mm in, 1.5 N/mm out.
+std::string loop_text() {
+  std::string text = "time_s,deflection_mm,force_N,repeat\n";
+  for (int i = 1; i <= 3000; ++i) {
+    const int steps = i <= 1500 ? i : 3000 - i;  // of 4 um
+    const auto fixed = [](int micro) {
+      const std::string digits = std::to_string(micro);
+      return "0." + std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
+    };
+    const auto decimal = [&](int micro) {
+      return std::to_string(micro / 1000000) + fixed(micro % 1000000).substr(1);
+    };
+    text += decimal(i * 1000) + "," + decimal(steps * 4000) + "," +
+            decimal(steps * (i <= 1500 ? 8000 : 6000)) + ",1\n";
+  }
+  return text;
+}
+
+TEST_F(Program, FitWritesAResponseThatAScenePlays) {
+  write("loop.csv", loop_text());
+  const Result fit = run_program({"fit", path("loop.csv"), "--out", path("models/responses/mine.toml")});
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.out, AllOf(HasSubstr("1 presses"), HasSubstr("without constraints"), HasSubstr("95 %"),
+                             HasSubstr("condition"), HasSubstr("no weight")));
+  EXPECT_THAT(bytes_of(path("models/responses/mine.toml")),
+              AllOf(HasSubstr("loop.csv"), Not(HasSubstr(path("")))));
+  edit("models/behaviours.toml", "response = \"tennis_ball\"", "response = \"mine\"");
+  for (const char* reversal : {"energy_stop", "prandtl_ishlinskii"}) {
+    const Result check =
+        run_program({"check", ball(), "--set", std::string("behaviour.tennis_ball.reversal=") + reversal});
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_THAT(check.out, HasSubstr(reversal));
+  }
+}
+
+TEST_F(Program, FitRefusesBadLoopsInOneLine) {
+  const std::string good = loop_text();
+  write("loop.csv", good);
+  write("text.csv", replaced(good, "0.024000", "much"));
+  write("column.csv", replaced(good, "force_N", "force"));
+  write("short.csv", good.substr(0, good.size() / 4).substr(0, good.rfind('\n', good.size() / 4) + 1));
+  write("empty.csv", "");
+  const std::vector<std::pair<Words, std::string>> cases{
+      {{"fit", path("text.csv")}, path("text.csv") + ":4:"},
+      {{"fit", path("column.csv")}, path("column.csv") + ":1:1: there is no column 'force_N'"},
+      {{"fit", path("short.csv")}, "the deepest deflection is"},
+      {{"fit", path("empty.csv")}, path("empty.csv") + ":1:1:"},
+      {{"fit", path("none.csv")}, "cannot read this loop"},
+      {{"fit", path("models")}, "cannot read this loop"},
+      {{"fit", path("loop.csv"), "--limit-mm", "7"}, "--limit-mm 6"},
+      {{"fit", path("loop.csv"), "--limit-mm", "-1"}, "--limit-mm"},
+      {{"fit", path("loop.csv"), "--ceiling-N-per-mm", "0.1"}, "--ceiling-N-per-mm"},
+      {{"fit", path("loop.csv"), "--ceiling-N-per-mm", "1.0"}, "no curve meets"},
+      {{"fit", path("loop.csv"), "--rig", "simm"}, "did you mean 'sim'"},
+      {{"fit", path("loop.csv"), "--out", path("none/f.toml")}, "cannot be written"}};
+  for (const auto& [args, says] : cases) {
+    const Result r = run_program(args);
+    EXPECT_EQ(r.code, 2) << args[1];
+    EXPECT_THAT(r.err, HasSubstr(says));
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+  }
+}
+
+TEST_F(Program, StopsThatAFileDoesNotHaveAreMissed) {
+  const std::string file = bytes_of(path("models/responses/tennis_ball.toml"));
+  write("models/responses/tennis_ball.toml", file.substr(0, file.find("\n[")) + "\n");
+  const Result r =
+      run_program({"check", ball(), "--set", "behaviour.tennis_ball.reversal=prandtl_ishlinskii"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("no [stops]"), HasSubstr("encounter fit"), HasSubstr("tennis_ball")));
+  EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+}
+
+// A weak machine carries 13 N, of which 8.92 N stand behind the sensor.
+TEST_F(Program, AnObjectIsNotPressedHarderThanTheMachineCarries) {
+  const Words weak{"--set", "rig.manipulator.payload_N=13"};
+  for (Words args : {Words{"check", ball()}, Words{"run", ball(), "--set", "user.approach_mm_s=[20]"}}) {
+    args.insert(args.end(), weak.begin(), weak.end());
+    const Result r = run_program(args);
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.out, AllOf(HasSubstr("limited     object 'ball': the machine carries at most 4.1 N"),
+                             HasSubstr("instead of 6 mm")));
+  }
+  const Result none = run_program({"check", ball(), "--set", "rig.manipulator.payload_N=5"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("does not even carry"));
+}
+
 // Without what a wall clock measured.
 std::string timeless(const std::string& text) {
   std::istringstream lines(text);
@@ -679,10 +770,11 @@ TEST_F(Program, ACommaForThePointChangesNothing) {
     EXPECT_EQ(run({"bash", "-c", "printf '%.1f' 1,5"}, german).out, "1,5");  // it is what it should be
   }
   const Words set{"--set", "object.wall.position_mm=[0,0,10.5]"};
+  write("loop.csv", loop_text());
   for (Words args :
        {Words{"check", plane()}, Words{"params", plane()}, Words{"run", plane(), "--for-s", "0.5"},
-        Words{"run", plane(), "--for-s", "0.5", "--json"}, Words{"response"}}) {
-    if (args[0] != "response") args.insert(args.end(), set.begin(), set.end());
+        Words{"run", plane(), "--for-s", "0.5", "--json"}, Words{"fit", path("loop.csv")}}) {
+    if (args[0] != "fit") args.insert(args.end(), set.begin(), set.end());
     const Result there = run_program(args, german);
     const Result here = run_program(args, plain);
     EXPECT_EQ(there.code, 0) << there.err;

@@ -25,7 +25,7 @@ std::array<double, 4> per_mm(std::array<double, 4> a) {
 }
 
 // Straight lines: 2 N/mm pressing, 1 N/mm releasing, to 6 mm. gap(d) = 1000 d, largest 6 N; Y(d) = 500 d^2;
-// L = 6 N * 0.4 mm = 2.4e-3 N m.
+// L = 6 N * 1.5 mm = 9e-3 N m.
 Response lines() {
   return {{.press = {2000.0, 0, 0, 0}, .release = {1000.0, 0, 0, 0}, .limit = 6e-3}, kFloor};
 }
@@ -49,25 +49,26 @@ TEST(Response, FirstPressIsThePressCurve) {
   EXPECT_EQ(s.alpha, 1.0);
 }
 
-// From 6 to 5.9 mm: alpha = 1 - 500 (36 - 34.81) e-6 / 2.4e-3 = 1 - 0.2479167, F = 5.9 (1 + 0.7520833)
-// = 10.3372917 N. To 5 mm: 500 * 11e-6 = 5.5e-3 > L, so alpha = 0 and F = 5 N.
+// From 6 to 5.9 mm: alpha = 1 - 500 (36 - 34.81) e-6 / 9e-3 = 0.9338889, F = 5.9 (1 + 0.9338889) N. To 5 mm:
+// alpha = 1 - 500 * 11e-6 / 9e-3 = 0.3888889, F = 6.9444444 N. To 4 mm: 500 * 20e-6 > L, so alpha = 0 and F =
+// 4 N.
 TEST(Response, TurnsFromPressToReleaseAsByHand) {
   const Response r = lines();
   ResponseState s;
   r.force(s, 6e-3);
-  EXPECT_NEAR(r.force(s, 5.9e-3), 10.3372917, 1e-7);
-  EXPECT_NEAR(s.alpha, 0.7520833, 1e-7);
-  EXPECT_NEAR(r.force(s, 5e-3), 5.0, 1e-12);
+  EXPECT_NEAR(r.force(s, 5.9e-3), 11.4099444, 1e-7);
+  EXPECT_NEAR(s.alpha, 0.9338889, 1e-7);
+  EXPECT_NEAR(r.force(s, 5e-3), 6.9444444, 1e-7);
+  EXPECT_NEAR(r.force(s, 4e-3), 4.0, 1e-12);
   EXPECT_EQ(s.alpha, 0.0);
 }
 
-// Released to 0.5 mm, pressed again to 1 mm: alpha = 500 (1 - 0.25) e-6 / 2.4e-3 = 0.15625, F = 1 + 0.15625
-// N.
+// Released to 0.5 mm, pressed again to 1 mm: alpha = 500 (1 - 0.25) e-6 / 9e-3 = 0.0416667.
 TEST(Response, TurnsFromReleaseToPressAsByHand) {
   const Response r = lines();
   ResponseState s;
   for (const double d : {6e-3, 0.5e-3}) r.force(s, d);
-  EXPECT_NEAR(r.force(s, 1e-3), 1.15625, 1e-9);
+  EXPECT_NEAR(r.force(s, 1e-3), 1.0416667, 1e-7);
 }
 
 TEST(Response, RecoversAtZero) {

@@ -35,6 +35,7 @@ models::Setup full() {
   s.scene.user->approach = {0.01, 0.02, 0.05};
   s.scene.behaviours[0].curves = {
       {1.0 / 3.0 * 1e3, -2.0 / 7.0 * 1e6, 1e9 / 9.0, 0.0}, {600, 0, 0, 1e12}, 0.006};
+  s.scene.behaviours[0].curves.stops = StopsSpec{{6.0, 1.0 / 3.0, -2.5}, {0.2e-3, 1e-3 / 3.0}, {900.0, 0.0}};
   s.twin.tracker.blackout_at = 10.0;
   round_to_text(s);
   return s;
@@ -104,6 +105,7 @@ TEST(Schema, describes_every_member) {
   EXPECT_EQ(n["user"], members<UserSpec>());
   EXPECT_EQ(n["behaviour.wall"], members<BehaviourSpec>());
   EXPECT_EQ(n["behaviour.wall.curves"], members<ResponseSpec>());
+  EXPECT_EQ(n["behaviour.wall.curves.stops"], members<StopsSpec>());
   EXPECT_EQ(n["rig"], members<RigSpec>());
   EXPECT_EQ(n["rig.loop"], members<LoopRig>());
   EXPECT_EQ(n["rig.frames"], members<FramesRig>());
@@ -191,6 +193,10 @@ TEST(Resolved, reads_back_to_the_same_bits) {
   EXPECT_EQ(a.scene.objects[1].radius, b.scene.objects[1].radius);
   EXPECT_EQ(a.scene.behaviours[0].curves.press, b.scene.behaviours[0].curves.press);
   EXPECT_EQ(a.scene.behaviours[0].curves.release, b.scene.behaviours[0].curves.release);
+  ASSERT_TRUE(b.scene.behaviours[0].curves.stops);
+  EXPECT_EQ(a.scene.behaviours[0].curves.stops->curve, b.scene.behaviours[0].curves.stops->curve);
+  EXPECT_EQ(a.scene.behaviours[0].curves.stops->radii, b.scene.behaviours[0].curves.stops->radii);
+  EXPECT_EQ(a.scene.behaviours[0].curves.stops->weights, b.scene.behaviours[0].curves.stops->weights);
   EXPECT_EQ(a.scene.user->approach_tilt, b.scene.user->approach_tilt);
   EXPECT_EQ(a.rig.frames.W_C.position, b.rig.frames.W_C.position);
   EXPECT_EQ(a.twin.hexapod.geometry.base_half_angle, b.twin.hexapod.geometry.base_half_angle);
