@@ -44,6 +44,13 @@ struct BenchOptions {
   std::int64_t repeats = 0;  // 0: the benchmark's own
   bool quick = false;
 };
+struct NearestOptions {
+  std::string what;  // a mesh file, or SCENE#object
+  std::string points;
+};
+struct MeshOptions {
+  std::string name, out;
+};
 struct ResponseOptions {
   std::string out;
 };
@@ -56,5 +63,7 @@ int doctor();
 int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
 int response(const ResponseOptions& options);
+int nearest(const NearestOptions& options);
+int mesh(const MeshOptions& options);
 
 }  // namespace enc::app

@@ -4,16 +4,12 @@
 
 #include "app/options.h"
 #include "benchmarks/trial.h"
-#include "core/error.h"
 
 namespace enc::app {
 
 int replay(const ReplayOptions& options) {
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
-  const auto text = record.texts().find("resolved");
-  if (text == record.texts().end())
-    throw Error(options.record + ": holds no scene; only records of encounter run can be replayed");
-  const models::Setup setup = models::parse_resolved(text->second, options.record + " (scene)");
+  const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = bench::prepare_setup(setup);
   const ReplayResult result = enc::replay(scene, record);
   if (result.first_difference >= 0) {

@@ -5,16 +5,18 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/frames.h"
+#include "core/mesh.h"
 #include "core/response.h"
 
 namespace enc {
 
-enum class ShapeKind : std::uint8_t { plane, sphere };
+enum class ShapeKind : std::uint8_t { plane, sphere, mesh };
 enum class Tangential : std::uint8_t {
   stick,  // the tip stays over its contact point, whatever the sideways force (default)
   spring  // the contact point gives sideways by force / tangential_stiffness
@@ -39,6 +41,13 @@ struct ObjectSpec {
   Vec3 normal{0, 0, 1};    // plane: outward, unit, in W
   std::string behaviour;   // by name
   double limit = kUnset;   // deflection limit, m; unset: the behaviour's
+
+  // mesh
+  std::string mesh;                     // file
+  std::string mesh_hash;                // of its content, 16 hex digits; empty: not known
+  double scale = 1.0;                   // of the file's metres
+  Vec3 rotation{0, 0, 0};               // of O in W, about the fixed x, then y, then z axis, rad
+  std::shared_ptr<const Mesh> surface;  // filled by the loader; unscaled, closed, outward
 };
 
 struct ToolSpec {

@@ -176,12 +176,12 @@ class Checker {
       for (std::size_t i = 0; i < walk.size(); ++i)
         for (const Neighbour& n : neighbours_[walk[i]]) {
           const auto face = static_cast<std::size_t>(n.face);
-          const bool turns = turn[walk[i]] == n.same;
+          const bool turns = turn[walk[i]] == n.same;  // what the first face and this way ask for
           if (part_[face] < 0) {
             part_[face] = parts_ - 1;
-            turn[face] = !turns;
+            turn[face] = turns;
             walk.push_back(face);
-          } else if (turn[face] == turns) {
+          } else if (turn[face] != turns) {
             twisted.push_back(face);
           }
         }

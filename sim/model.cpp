@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "core/error.h"
 
@@ -111,17 +112,39 @@ void add_tool(mjSpec* spec, const ModelParts& parts) {
   set3(shaft->fromto + 3, middle);
 }
 
+// A surface of triangles as it is seen. Only for pictures: a mesh that collides costs a convex hull at each
+// start.
+mjsGeom* draw_mesh(mjSpec* spec, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
+  mjsMesh* mesh = mjs_addMesh(spec, nullptr);
+  name(mesh->element, "surface of " + object.name);
+  mesh->inertia = mjMESH_INERTIA_SHELL;
+  std::vector<float> vertices;
+  for (const auto& v : object.surface->vertices)
+    for (const double x : v) vertices.push_back(static_cast<float>(x * object.scale));
+  std::vector<int> faces;
+  for (const auto& t : object.surface->triangles) faces.insert(faces.end(), t.begin(), t.end());
+  mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
+  mjs_setInt(mesh->userface, faces.data(), static_cast<int>(faces.size()));
+  mjsGeom* geom =
+      drawn(mjs_findBody(spec, "world"), mjGEOM_MESH, X_WO.p(), Vec3::Zero(), {0.72F, 0.55F, 0.38F, 0.55F});
+  mjs_setString(geom->meshname, ("surface of " + object.name).c_str());
+  return geom;
+}
+
+mjsGeom* draw_object(mjSpec* spec, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
+  mjsBody* world = mjs_findBody(spec, "world");
+  if (object.shape == ShapeKind::mesh) return draw_mesh(spec, object, X_WO);
+  if (object.shape == ShapeKind::sphere)
+    return drawn(world, mjGEOM_SPHERE, X_WO.p(), {object.radius, 0, 0}, {0.78F, 0.90F, 0.20F, 0.35F});
+  return drawn(world, mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.001), {0.08, 0.08, 0.001},
+               {0.4F, 0.6F, 0.9F, 0.4F});
+}
+
 void add_pictures(mjSpec* spec, const ModelParts& parts) {
   mjsBody* world = mjs_findBody(spec, "world");
   for (std::size_t i = 0; i < parts.scene.objects.size(); ++i) {
-    const ObjectSpec& object = parts.scene.objects[i];
     const Pose<'W', 'O'>& X_WO = parts.prepared.objects[i].X_WO;
-    mjsGeom* geom =
-        object.shape == ShapeKind::sphere
-            ? drawn(world, mjGEOM_SPHERE, X_WO.p(), {object.radius, 0, 0}, {0.78F, 0.90F, 0.20F, 0.35F})
-            : drawn(world, mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.001), {0.08, 0.08, 0.001},
-                    {0.4F, 0.6F, 0.9F, 0.4F});
-    set4(geom->quat, Quat(X_WO.q()));
+    set4(draw_object(spec, parts.scene.objects[i], X_WO)->quat, Quat(X_WO.q()));
   }
   for (const double side : {-1.0, 1.0}) {
     mjsLight* light = mjs_addLight(world, nullptr);
