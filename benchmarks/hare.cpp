@@ -66,9 +66,9 @@ double hare(const Vec3& at) {
 // ---- its surface: one vertex in each cell that the surface crosses, one quad around each crossed edge
 // [Gibson 1998, "Constrained elastic surface nets"] ------------------------------------------------
 
-constexpr double kCell = 1.17;  // mm
-constexpr std::array<int, 3> kCells{62, 34, 60};
-const Vec3 kLow(-36.0, -0.5 * 34 * 1.17, -2.0);
+constexpr double kCell = 0.99;  // mm
+constexpr std::array<int, 3> kCells{73, 34, 65};
+const Vec3 kLow(-36.0, -0.5 * 34 * kCell, -2.0);
 
 Vec3 place(const Vec3& cells) { return kLow + kCell * cells; }
 
