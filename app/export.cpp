@@ -88,7 +88,7 @@ int export_record(const ExportOptions& options) {
   if (std::filesystem::equivalent(options.record, options.csv, none))
     throw Error(options.csv + ": is the record itself; choose another file for the table");
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
-  const models::Setup setup = bench::recorded_setup(record, options.record);
+  const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = bench::prepare_setup(setup);
   Output output(options.csv);
   output.write(kColumns);

@@ -119,6 +119,24 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       "stiffest that the stops may be; lower: quieter at rest, less exact where motion turns");
   fit_command->callback([&] { code = fit(fit_options); });
 
+  NearestOptions nearest_options;
+  CLI::App* nearest_command = app.add_subcommand(
+      "nearest",
+      "signed distance, nearest surface point and normal for each point of a CSV file (x_m,y_m,z_m)");
+  nearest_command
+      ->add_option("surface", nearest_options.what,
+                   "mesh file, points in its axes; or SCENE#object, points in W")
+      ->required();
+  nearest_command->add_option("points", nearest_options.points, "CSV file with the header x_m,y_m,z_m")
+      ->required();
+  nearest_command->callback([&] { code = nearest(nearest_options); });
+
+  MeshOptions mesh_options;
+  CLI::App* mesh_command = app.add_subcommand("mesh", "write a mesh of our own (.glb, .obj or .stl)");
+  mesh_command->add_option("name", mesh_options.name, "hare")->required();
+  mesh_command->add_option("--out", mesh_options.out, "file")->required();
+  mesh_command->callback([&] { code = mesh(mesh_options); });
+
   CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
   doctor_command->callback([&] { code = doctor(); });
 

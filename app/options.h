@@ -55,6 +55,13 @@ struct FitOptions {
   double limit_mm = 6.0;
   std::optional<double> ceiling;  // N/mm
 };
+struct NearestOptions {
+  std::string what;  // a mesh file, or SCENE#object
+  std::string points;
+};
+struct MeshOptions {
+  std::string name, out;
+};
 
 int run(const RunOptions& options);
 int check(const SceneOptions& options);
@@ -65,5 +72,7 @@ int doctor();
 int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
 int fit(const FitOptions& options);
+int nearest(const NearestOptions& options);
+int mesh(const MeshOptions& options);
 
 }  // namespace enc::app

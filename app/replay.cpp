@@ -4,13 +4,12 @@
 
 #include "app/options.h"
 #include "benchmarks/trial.h"
-#include "core/error.h"
 
 namespace enc::app {
 
 int replay(const ReplayOptions& options) {
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
-  const models::Setup setup = bench::recorded_setup(record, options.record);
+  const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = bench::prepare_setup(setup);
   const ReplayResult result = enc::replay(scene, record);
   if (result.first_difference >= 0) {

@@ -42,17 +42,19 @@ void show_progress(double share) {
 
 std::unique_ptr<RecordWriter> record_for(const RunOptions& options, const models::Setup& setup) {
   if (options.record.empty()) return nullptr;
-  return std::make_unique<RecordWriter>(options.record, RecordTexts{{"resolved", models::resolved(setup)},
-                                                                    {"scene", options.scene},
-                                                                    {"rig", options.rig},
-                                                                    {"seed", std::to_string(options.seed)},
-                                                                    {"version", ENCOUNTER_VERSION}});
+  RecordTexts texts = models::record_texts(setup);
+  texts["scene"] = options.scene;
+  texts["rig"] = options.rig;
+  texts["seed"] = std::to_string(options.seed);
+  texts["version"] = ENCOUNTER_VERSION;
+  return std::make_unique<RecordWriter>(options.record, texts);
 }
 
 }  // namespace
 
 int run(const RunOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  for (const std::string& note : setup.notes) fmt::print(stderr, "{}\n", note);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
   bench::PressMeasure presses(setup);

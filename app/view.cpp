@@ -133,6 +133,11 @@ void dent_object(Moment& m) {
 Point<'W'> flank(const Moment& m, std::size_t object) {
   const ObjectSpec& spec = m.setup.scene.objects[object];
   const Pose<'W', 'O'>& X_WO = m.scene.objects[object].X_WO;
+  if (spec.shape == ShapeKind::mesh) {
+    const Ball around = m.scene.objects[object].surface.bound();
+    const Point<'O'> aside = around.centre + Vec<'O'>(Vec3(0.4 * around.radius * Vec3(0.75, -0.6, 0.1)));
+    return X_WO * m.scene.objects[object].surface.nearest(aside).point;
+  }
   return spec.shape == ShapeKind::sphere ? X_WO * Point<'O'>(Vec3(0.8 * spec.radius * Vec3(0.75, -0.6, 0.1)))
                                          : X_WO * Point<'O'>(0.07, -0.07, 0);
 }

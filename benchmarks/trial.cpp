@@ -17,13 +17,6 @@ std::uint32_t nanoseconds(WallClock::duration d) {
 
 }  // namespace
 
-models::Setup recorded_setup(const RecordReader& record, const std::string& path) {
-  const auto text = record.texts().find("resolved");
-  if (text == record.texts().end())
-    throw Error(path + ": holds no scene; expected a record of encounter run; record again");
-  return models::parse_resolved(text->second, path + " (scene)");
-}
-
 Scene prepare_setup(const models::Setup& setup) {
   try {
     return prepare(setup.scene, setup.rig);

@@ -86,9 +86,6 @@ class Trial {
   RecordWriter* record_ = nullptr;
 };
 
-// What a record was made of. Throws Error where it does not say.
-[[nodiscard]] models::Setup recorded_setup(const RecordReader& record, const std::string& path);
-// prepare(), with the place in the file put before what is wrong.
 [[nodiscard]] Scene prepare_setup(const models::Setup& setup);
 // A device that can do less than the rig file promises is refused before anything moves.
 void check_devices(const Rig& rig, const RigSpec& spec);

@@ -138,6 +138,9 @@ std::uint64_t layout_hash() { return layout().value; }
 RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout)
     : path_(path), chunk_(kChunkBytes / kWord) {
   const std::vector<std::uint64_t> packed = pack(texts);
+  if (packed.size() * kWord > kHeaderBytes)
+    throw Error("the record '" + path +
+                "' cannot hold meshes of more than 64 MiB; make them coarser, or run without a record");
   std::vector<std::uint64_t> header{kMagic, head(kRecordFormat, packed.size() * kWord), layout,
                                     frame_words()};
   header.insert(header.end(), packed.begin(), packed.end());

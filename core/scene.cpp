@@ -2,23 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 
 #include "core/error.h"
+#include "core/mesh_tree.h"
 
 namespace enc {
 namespace {
 
 constexpr double kGravity = 9.80665;  // m/s^2
 
+Mesh scaled_mesh(const ObjectSpec& spec) {
+  if (!spec.surface || spec.surface->triangles.empty())
+    throw Error("no mesh was loaded for this object", "object." + spec.name + ".mesh");
+  if (!(spec.scale > 0.0)) throw Error("a mesh needs a positive scale", "object." + spec.name + ".scale");
+  Mesh mesh = *spec.surface;
+  for (auto& vertex : mesh.vertices)
+    for (double& x : vertex) x *= spec.scale;
+  return mesh;
+}
+
 Surface surface_of(const ObjectSpec& spec) {
   if (spec.shape == ShapeKind::plane) return Surface(Plane{});
+  if (spec.shape == ShapeKind::mesh)
+    return Surface(MeshSurface{std::make_shared<const MeshTree>(scaled_mesh(spec))});
   if (!(spec.radius > 0.0)) throw Error("a sphere needs a radius", "object." + spec.name + ".radius");
   return Surface(Sphere{spec.radius});
 }
 
 Pose<'W', 'O'> place_of(const ObjectSpec& spec) {
   if (spec.shape == ShapeKind::sphere) return {Quat::Identity(), spec.position};
+  if (spec.shape == ShapeKind::mesh) return {rotation_xyz(spec.rotation), spec.position};
   const double size = spec.normal.norm();
   if (!(std::abs(size - 1.0) <= 1e-3))
     throw Error("the normal of a plane is a unit vector", "object." + spec.name + ".normal");
@@ -169,17 +185,63 @@ LoopModel loop_of(const RigSpec& rig) {
   return loop;
 }
 
+namespace {
+
+// How far along a ray a triangle is met; infinite if it is not [Moeller and Trumbore 1997]. A ray through an
+// edge must not slip through between two triangles, so they reach a little beyond it.
+double way_to(const Vec3& from, const Vec3& along, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  constexpr double kBeyond = 1e-9;
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 p = along.cross(ac);
+  const double size = ab.dot(p);
+  if (size == 0.0) return kNever;
+  const double u = (from - a).dot(p) / size;
+  const Vec3 q = (from - a).cross(ab);
+  const double v = along.dot(q) / size;
+  const double way = ac.dot(q) / size;
+  return u >= -kBeyond && v >= -kBeyond && u + v <= 1.0 + kBeyond && way >= 0.0 ? way : kNever;
+}
+
+// Where a line that comes from outside along -axis and passes through `through` first meets the mesh, in O;
+// and the normal of the face there.
+std::pair<Point<'O'>, Vec<'O'>> first_met(const Mesh& mesh, const Vec3& through, const Vec3& axis) {
+  const auto corner = [&](std::int32_t i) { return Vec3(mesh.vertices[static_cast<std::size_t>(i)].data()); };
+  double far = 0.0;
+  for (const auto& vertex : mesh.vertices) far = std::max(far, (Vec3(vertex.data()) - through).norm());
+  const Vec3 from = through + 1.1 * far * axis;
+  double nearest = std::numeric_limits<double>::infinity();
+  Vec3 normal = axis;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
+    const double way = way_to(from, -axis, a, b, c);
+    if (way >= nearest) continue;
+    nearest = way;
+    normal = (b - a).cross(c - a).normalized();
+  }
+  if (!std::isfinite(nearest))
+    throw Error("the line along which the user presses passes the mesh by; change polar, azimuth or offset",
+                "user.polar");
+  return {Point<'O'>(Vec3(from - nearest * axis)), Vec<'O'>(normal)};
+}
+
+}  // namespace
+
 PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
   const ObjectSpec& object = spec.objects[pressed_object(spec, user)];
   const Vec3 axis(std::sin(user.polar) * std::cos(user.azimuth),
                   std::sin(user.polar) * std::sin(user.azimuth), std::cos(user.polar));
   const Vec3 side = axis.unitOrthogonal();
-  const Surface surface = surface_of(object);
   const Pose<'W', 'O'> X_WO = place_of(object);
-  const Vec3 from = object.shape == ShapeKind::plane
-                        ? Vec3(object.position + user.offset * side)
-                        : Vec3(object.position + object.radius * axis + user.offset * side);
-  const Nearest at = surface.nearest(X_WO.inverse() * Point<'W'>(from));
+  const Point<'W'> through(Vec3(object.position + user.offset * side));
+  if (object.shape == ShapeKind::mesh) {
+    const auto [point, normal] =
+        first_met(scaled_mesh(object), (X_WO.inverse() * through).e(), (X_WO.inverse() * Vec<'W'>(axis)).e());
+    return {X_WO * point, X_WO * normal};
+  }
+  const double out = object.shape == ShapeKind::sphere ? object.radius : 0.0;
+  const Nearest at = surface_of(object).nearest(X_WO.inverse() * (through + Vec<'W'>(Vec3(out * axis))));
   return {X_WO * at.point, X_WO * at.normal};
 }
 

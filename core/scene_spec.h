@@ -5,17 +5,19 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/frames.h"
+#include "core/mesh.h"
 #include "core/response.h"
 #include "core/tip.h"
 
 namespace enc {
 
-enum class ShapeKind : std::uint8_t { plane, sphere };
+enum class ShapeKind : std::uint8_t { plane, sphere, mesh };
 enum class Tangential : std::uint8_t {
   stick,  // the tip stays over its contact point, whatever the sideways force (default)
   spring  // the contact point gives sideways by force / tangential_stiffness
@@ -41,6 +43,13 @@ struct ObjectSpec {
   Vec3 normal{0, 0, 1};    // plane: outward, unit, in W
   std::string behaviour;   // by name; empty: a real thing, for [probe] alone
   double limit = kUnset;   // deflection limit, m; unset: the behaviour's
+
+  // mesh
+  std::string mesh;                     // file
+  std::string mesh_hash;                // of its content, 16 hex digits; empty: not known
+  double scale = 1.0;                   // of the file's metres
+  Vec3 rotation{0, 0, 0};               // of O in W, about the fixed x, then y, then z axis, rad
+  std::shared_ptr<const Mesh> surface;  // filled by the loader; unscaled, closed, outward
 };
 
 struct ToolSpec {

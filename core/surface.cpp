@@ -1,5 +1,9 @@
 #include "core/surface.h"
 
+#include <limits>
+
+#include "core/mesh_tree.h"
+
 namespace enc {
 namespace {
 
@@ -15,9 +19,16 @@ Nearest nearest_on(const Sphere& sphere, const Point<'O'>& p) {
 
 }  // namespace
 
-Nearest Surface::nearest(const Point<'O'>& p, std::int32_t /*hint*/) const noexcept {
+Nearest Surface::nearest(const Point<'O'>& p, std::int32_t hint) const noexcept {
   if (const auto* sphere = std::get_if<Sphere>(&shape_)) return nearest_on(*sphere, p);
+  if (const auto* mesh = std::get_if<MeshSurface>(&shape_)) return mesh->tree->nearest(p, hint);
   return nearest_on(Plane{}, p);
+}
+
+Ball Surface::bound() const noexcept {
+  if (const auto* sphere = std::get_if<Sphere>(&shape_)) return {Point<'O'>(0, 0, 0), sphere->radius};
+  if (const auto* mesh = std::get_if<MeshSurface>(&shape_)) return mesh->tree->bound();
+  return {Point<'O'>(0, 0, 0), std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace enc

@@ -1,7 +1,9 @@
-// Surfaces of objects: nearest point, outward normal, signed distance [VHMR 3.3]. The seam that meshes join.
+// Surfaces of objects: nearest point, outward normal, signed distance [VHMR 3.3].
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <variant>
 
 #include "core/frames.h"
@@ -15,6 +17,18 @@ struct Sphere {
   double radius = kUnset;
 };
 
+class MeshTree;
+// Closed triangle mesh; the tree (core/mesh_tree.h) is shared and constant.
+struct MeshSurface {
+  std::shared_ptr<const MeshTree> tree;
+};
+
+// A ball that holds the whole object. Signed distance to the object >= |p - centre| - radius, inside as well.
+struct Ball {
+  Point<'O'> centre;
+  double radius = kUnset;  // m; infinite for a half space
+};
+
 struct Nearest {
   Point<'O'> point;          // on the surface
   Vec<'O'> normal;           // outward, unit
@@ -25,12 +39,14 @@ struct Nearest {
 
 class Surface {
  public:
-  using Shape = std::variant<Plane, Sphere>;
-  explicit Surface(Shape shape) : shape_(shape) {}
+  using Shape = std::variant<Plane, Sphere, MeshSurface>;
+  explicit Surface(Shape shape) : shape_(std::move(shape)) {}
 
   [[nodiscard]] const Shape& shape() const { return shape_; }
-  // Nearest surface point to p. Where several are equally near (the centre of a sphere) the choice is fixed:
-  // +z.
+  [[nodiscard]] Ball bound() const noexcept;
+  // Nearest surface point to p. Where several are equally near the choice is fixed: +z at the centre of a
+  // sphere, the triangle of lowest index on a mesh. `hint`: the feature of a nearby query; it makes the search
+  // faster and changes nothing else.
   [[nodiscard]] Nearest nearest(const Point<'O'>& p, std::int32_t hint = -1) const noexcept;
 
  private:

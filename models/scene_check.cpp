@@ -73,7 +73,7 @@ void check_object(const Setup& setup, const ObjectSpec& o) {
            fmt::format("'normal' has length {:.6g}; expected length 1; write it like 'normal = [{}, {}, {}]'",
                        length, n.x(), n.y(), n.z()));
     }
-  } else if (o.limit >= o.radius) {
+  } else if (o.shape == ShapeKind::sphere && o.limit >= o.radius) {
     fail(setup, path + ".limit_mm",
          fmt::format("'limit_mm' is {}; expected less than the radius, {} mm; lower it", mm(o.limit),
                      mm(o.radius)));

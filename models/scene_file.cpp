@@ -219,6 +219,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   }
   check(setup);
   fill_curves(setup, models_dir(scene_path));
+  fill_meshes(setup, models_dir(scene_path));
   check(setup);
   round_to_text(setup);
   return setup;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/record.h"
 #include "core/rig_spec.h"
 #include "core/scene_spec.h"
 #include "models/response_file.h"
@@ -20,7 +21,8 @@ struct Setup {
   RigSpec rig;
   sim::TwinSpec twin;
   std::string scene_path, rig_path;
-  Places places;  // of each key that a file or --set gives, under the name that --set takes
+  Places places;                   // of each key that a file or --set gives, under the name that --set takes
+  std::vector<std::string> notes;  // what was repaired in a mesh, one line each
 };
 
 // rig: "sim", or another file in models/rigs without ".toml", or a path. overrides:
@@ -32,6 +34,10 @@ Setup load(const std::string& scene_path, const std::string& rig,
 // ...)) == text.
 std::string resolved(const Setup& setup);
 Setup parse_resolved(const std::string& text, const std::string& name);
+
+// A record holds the scene as "resolved" and each mesh as "mesh:FILE", so that it needs no other file.
+RecordTexts record_texts(const Setup& setup);
+Setup setup_of(const RecordTexts& texts, const std::string& record_path);
 
 // Every name that --set takes.
 struct Parameter {
@@ -55,6 +61,9 @@ std::vector<std::string> files_in(const std::string& models_dir, const std::stri
 // -------------------------------------------------------------------------------------------------------
 void set(Setup& setup, const std::string& override_text);  // one "name=value"
 void fill_curves(Setup& setup, const std::string& models_dir);
+// Finds, loads and checks the meshes of the objects: beside the scene or in models_dir/meshes, never
+// elsewhere.
+void fill_meshes(Setup& setup, const std::string& models_dir);
 void check(const Setup& setup);  // what one key alone does not show; throws
 void round_to_text(
     Setup& setup);  // to the numbers that resolved() shows, so that a record repeats a run to the bit

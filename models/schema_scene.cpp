@@ -7,8 +7,8 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::array<std::string_view, 2> kShapes{"plane", "sphere"};
 constexpr std::array<std::string_view, 3> kTips{"sphere", "cone", "edge"};
+constexpr std::array<std::string_view, 3> kShapes{"plane", "sphere", "mesh"};
 constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
 constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ishlinskii"};
 constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
@@ -36,6 +36,24 @@ void part(Visitor& v, std::string_view name, std::optional<T>& item, Walk walk) 
   v.close();
 }
 
+void describe_mesh(Visitor& v, ObjectSpec& o) {
+  v.value({"mesh", "file (.obj, .stl, .gltf, .glb; m) beside the scene or in models/meshes", kAuthor, chosen,
+           kAny, needed},
+          &o.mesh);
+  v.value({"mesh_hash",
+           "of the mesh's content: a mesh that has changed is refused; empty: any",
+           kAuthor,
+           chosen,
+           kAny,
+           defaulted,
+           {},
+           true},
+          &o.mesh_hash);
+  v.value({"scale", "of the mesh", kAuthor, chosen, kPositive}, &o.scale);
+  v.value({"rotation_deg", "of the mesh about the fixed x, then y, then z axis of W", kAuthor, chosen},
+          &o.rotation);
+}
+
 void describe(Visitor& v, ObjectSpec& o) {
   v.value(name_key("what --set, the user and the report call it"), &o.name);
   choice(v, {"shape", "its undeformed surface", kAuthor, chosen, kAny, needed}, kShapes, o.shape);
@@ -43,6 +61,7 @@ void describe(Visitor& v, ObjectSpec& o) {
     v.value({"radius_mm", "radius of the sphere", "[VHMR 4.2], parameters 4.1", chosen, kPositive, needed},
             &o.radius);
   }
+  if (o.shape == ShapeKind::mesh) describe_mesh(v, o);
   v.value({"position_mm", "where its origin O is in W", kAuthor, chosen, kAny, needed}, &o.position);
   if (o.shape == ShapeKind::plane) {
     v.value({"normal", "outward, of length 1, in W", kAuthor, chosen, {-1.0, 1.0}}, &o.normal);

@@ -134,23 +134,23 @@ void add_tool(mjSpec* spec, const ModelParts& parts) {
   draw_tool(body, *parts.tool, parts.q_WT, Vec3::Zero());
 }
 
-mjsGeom* seen_ball(mjSpec* spec, std::size_t object, double radius, const Pose<'W', 'O'>& X_WO) {
-  mjsGeom* geom = add_seen_ball(spec, object, radius);
+mjsGeom* draw_object(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
+  if (object.shape == ShapeKind::plane)
+    return drawn(mjs_findBody(spec, "world"), mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.001),
+                 {0.08, 0.08, 0.001}, {0.4F, 0.6F, 0.9F, 0.4F});
+  const bool ball = object.shape == ShapeKind::sphere;
+  mjsGeom* geom = ball ? add_seen_ball(spec, index, object.radius)
+                       : add_seen_mesh(spec, index, *object.surface, object.scale);
   set3(geom->pos, X_WO.p());
-  colour(geom, {0.78F, 0.90F, 0.20F, 0.35F});
+  colour(geom, ball ? std::array{0.78F, 0.90F, 0.20F, 0.35F} : std::array{0.72F, 0.55F, 0.38F, 0.55F});
   return geom;
 }
 
 void add_pictures(mjSpec* spec, const ModelParts& parts) {
   mjsBody* world = mjs_findBody(spec, "world");
   for (std::size_t i = 0; i < parts.scene.objects.size(); ++i) {
-    const ObjectSpec& object = parts.scene.objects[i];
     const Pose<'W', 'O'>& X_WO = parts.prepared.objects[i].X_WO;
-    mjsGeom* geom = object.shape == ShapeKind::sphere
-                        ? seen_ball(spec, i, object.radius, X_WO)
-                        : drawn(world, mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.001),
-                                {0.08, 0.08, 0.001}, {0.4F, 0.6F, 0.9F, 0.4F});
-    set4(geom->quat, Quat(X_WO.q()));
+    set4(draw_object(spec, i, parts.scene.objects[i], X_WO)->quat, Quat(X_WO.q()));
   }
   for (const double side : {-1.0, 1.0}) {
     mjsLight* light = mjs_addLight(world, nullptr);

@@ -41,26 +41,39 @@ std::vector<int> ball_triangles() {
   return all;
 }
 
-}  // namespace
-
-std::string seen_name(std::size_t object) { return "seen_" + std::to_string(object); }
-
-mjsGeom* add_seen_ball(mjSpec* spec, std::size_t object, double radius) {
+mjsGeom* add_seen(mjSpec* spec, std::size_t object, const std::vector<float>& vertices,
+                  const std::vector<int>& triangles) {
   const std::string name = seen_name(object);
   mjsMesh* mesh = mjs_addMesh(spec, nullptr);
   mjsGeom* geom = mjs_addGeom(mjs_findBody(spec, "world"), nullptr);
   if (mjs_setName(mesh->element, name.c_str()) != 0 || mjs_setName(geom->element, name.c_str()) != 0)
     throw Error("two parts of the simulated world are called '" + name + "'");
-  const std::vector<float> vertices = ball_vertices(radius);
-  const std::vector<int> triangles = ball_triangles();
   mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
   mjs_setInt(mesh->userface, triangles.data(), static_cast<int>(triangles.size()));
   mesh->smoothnormal = 1;
+  mesh->inertia = mjMESH_INERTIA_SHELL;  // it has none, and needs no convex hull for it
   geom->type = mjGEOM_MESH;
   mjs_setString(geom->meshname, name.c_str());
   geom->contype = geom->conaffinity = 0;
   geom->mass = 0;
   return geom;
+}
+
+}  // namespace
+
+std::string seen_name(std::size_t object) { return "seen_" + std::to_string(object); }
+
+mjsGeom* add_seen_ball(mjSpec* spec, std::size_t object, double radius) {
+  return add_seen(spec, object, ball_vertices(radius), ball_triangles());
+}
+
+mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, double scale) {
+  std::vector<float> vertices;
+  for (const auto& v : mesh.vertices)
+    for (const double x : v) vertices.push_back(static_cast<float>(x * scale));
+  std::vector<int> triangles;
+  for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  return add_seen(spec, object, vertices, triangles);
 }
 
 void dent_seen(Physics& physics, const Scene& scene, std::size_t object, const Tip<'W'>& tip) {

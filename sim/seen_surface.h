@@ -1,4 +1,4 @@
-// The seen surface in a picture: a ball as a fine mesh that the tool's tip dents [VHMR 3.5]. Pictures only;
+// The seen surface in a picture: a mesh, or a ball as a fine one, that the tool's tip dents [VHMR 3.5]. Pictures only;
 // it touches nothing and weighs nothing.
 #pragma once
 
@@ -11,6 +11,7 @@ namespace enc::sim {
 
 // Adds a mesh geom called seen_name(object), around the origin of O.
 mjsGeom* add_seen_ball(mjSpec* spec, std::size_t object, double radius);
+mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, double scale);
 [[nodiscard]] std::string seen_name(std::size_t object);
 
 // Displaces vertices and normals of that mesh by a tip. Does nothing where the object has no such mesh. To be

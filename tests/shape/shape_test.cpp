@@ -116,6 +116,7 @@ TEST(Shape, LibrariesStayInTheirFiles) {
           (source.folder != "core" || starts(name, "Eigen/") || std::regex_match(name, kStandard)) &&
           (!starts(name, "mujoco/") || source.name == "sim/mujoco.h") &&
           (!starts(name, "toml++") || source.name == "models/toml_reader.cpp") &&
+          (!starts(name, "tiny_gltf") || source.name == "models/mesh_gltf.cpp") &&
           (!starts(name, "opencv2") || source.name.find("vision/") != std::string::npos) &&
           ((!starts(name, "GL") && !starts(name, "EGL")) || starts(source.name, "sim/view/"));
       EXPECT_TRUE(good) << source.name << " includes " << name;
@@ -160,7 +161,7 @@ TEST(Shape, FoldersAreSmall) {
   // core/ is one folder of several subsystems [architecture B2]: data and frames, the stages, models, specs
   // and record.
   const std::map<std::string, std::size_t> limits{
-      {"core", 60}, {"models", 30}, {"sim", 40}, {"app", 25}, {"benchmarks", 25}};
+      {"core", 60}, {"models", 40}, {"sim", 40}, {"app", 25}, {"benchmarks", 25}};
   std::map<std::string, std::size_t> files;
   for (const Source& source : sources()) ++files[fs::path(source.name).parent_path().generic_string()];
   for (const auto& [folder, count] : files) {

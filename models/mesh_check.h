@@ -1,0 +1,38 @@
+// Is a mesh the surface of a solid? What is not is named with its first bad faces, and repaired where that is
+// safe. A signed distance, and so a haptic surface, exists only for a closed, outward, simple surface.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/mesh.h"
+
+namespace enc::models {
+
+struct CheckedMesh {
+  Mesh mesh;                       // closed, manifold, outward, without faces of zero area
+  std::vector<std::string> notes;  // what was repaired or not checked, one line each
+};
+
+// Above this many triangles self-intersection is not looked for, and a note says so: it would take seconds.
+inline constexpr std::size_t kMostTouchTested = 300'000;
+
+// `name` begins every message. Faces are numbered from 0 in the order of the file. Throws Error where the
+// mesh is open, non-manifold, has faces of no area, is not orientable, or passes through itself.
+[[nodiscard]] CheckedMesh check_mesh(Mesh mesh, const std::string& name);
+// load_mesh() and check_mesh().
+[[nodiscard]] CheckedMesh load_solid(const std::string& path);
+
+// Parts of check_mesh().
+// ---------------------------------------------------------------------------------------------------------
+struct Touching {
+  std::vector<std::size_t> faces;  // that pass through another one, each once, in order
+  bool finished = true;            // false: given up after 100 million pairs
+};
+// Faces that pass through each other or lie folded on their neighbour; touching without crossing is not
+// found. Boxes in a tree: about n log n for a mesh of even triangles.
+[[nodiscard]] Touching touching_faces(const Mesh& mesh);
+// "face 12", "faces 12, 15 and 3 more"
+[[nodiscard]] std::string face_list(const std::vector<std::size_t>& faces);
+
+}  // namespace enc::models

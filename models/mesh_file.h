@@ -1,0 +1,47 @@
+// Triangle meshes as files: OBJ, STL (text and binary) and glTF 2.0 (.gltf, .glb). What is read and what is
+// refused: docs/mesh.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/mesh.h"
+
+namespace enc::models {
+
+// More is refused before anything of that size is allocated.
+inline constexpr std::size_t kMostTriangles = 20'000'000;
+
+// The triangles of a file, in its order and its axes, m; vertices at the same place are one. Nothing else is
+// repaired: that is check_mesh(). Throws Error of one line: file:line:column of a text, file: byte N of
+// bytes.
+[[nodiscard]] Mesh load_mesh(const std::string& path);
+
+// Parts of load_mesh(): each gives the vertices as they stand in the file.
+// ---------------------------------------------------------------------------------------------------------
+struct MeshBytes {
+  const std::string& path;
+  const std::string& bytes;
+
+  [[noreturn]] void fail_at_byte(std::size_t byte, const std::string& what) const;
+  [[noreturn]] void fail_at_text(std::size_t byte, const std::string& what) const;  // as line and column
+};
+[[nodiscard]] Mesh read_obj(const MeshBytes& file);
+[[nodiscard]] Mesh read_stl(const MeshBytes& file);
+[[nodiscard]] Mesh read_gltf(const MeshBytes& file, bool binary);
+// The JSON of a .glb whose header and chunks fit the file. Checked here to the byte, because tinygltf 2.7
+// reads up to 8 bytes beyond a chunk that claims to be longer than the file.
+[[nodiscard]] std::string_view json_of_glb(const MeshBytes& file);
+// tinygltf walks nested values by recursion, so a file must not nest as deep as it likes.
+void check_depth(const MeshBytes& file, std::string_view json, bool binary);
+
+// A finite number from the whole word, whatever the locale; false if it is none.
+[[nodiscard]] bool read_number(std::string_view word, double& number);
+// Vertices at bit-equal places become one.
+void weld(Mesh& mesh);
+// Of vertices and triangles: tells whether a mesh is still the one that was used.
+[[nodiscard]] std::uint64_t content_hash(const Mesh& mesh);
+
+}  // namespace enc::models

@@ -1,0 +1,165 @@
+// Faces that pass through each other: a tree of boxes, walked against itself.
+#include <algorithm>
+#include <limits>
+
+#include "core/frames.h"
+#include "models/mesh_check.h"
+
+namespace enc::models {
+namespace {
+
+constexpr std::size_t kLeaf = 4;
+constexpr std::size_t kMostPairs = 100'000'000;  // of faces whose boxes meet: some seconds
+
+struct Box {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  void add(const Vec3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  void add(const Box& b) {
+    add(b.low);
+    add(b.high);
+  }
+  [[nodiscard]] bool meets(const Box& b) const {
+    return (low.array() <= b.high.array()).all() && (b.low.array() <= high.array()).all();
+  }
+};
+
+class Toucher {
+ public:
+  explicit Toucher(const Mesh& mesh)
+      : mesh_(mesh), order_(mesh.triangles.size()), boxes_(order_.size()), bad_(order_.size()) {
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      order_[i] = static_cast<std::uint32_t>(i);
+      for (std::size_t k = 0; k < 3; ++k) boxes_[i].add(corner(i, k));
+    }
+    nodes_.reserve(order_.size());
+    build(0, order_.size());
+  }
+
+  Touching find() {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{{0, 0}};
+    while (!pairs.empty() && result_.finished) {
+      const auto [i, j] = pairs.back();
+      pairs.pop_back();
+      const Node &a = nodes_[i], &b = nodes_[j];
+      if (!a.box.meets(b.box)) continue;
+      if (a.child == 0 && b.child == 0) {
+        test_leaves(a, b, i == j);
+      } else if (i == j) {
+        pairs.insert(pairs.end(), {{a.child, a.child}, {i + 1, a.child}, {i + 1, i + 1}});
+      } else if (b.child == 0 || (a.child != 0 && a.size >= b.size)) {
+        pairs.insert(pairs.end(), {{i + 1, j}, {a.child, j}});
+      } else {
+        pairs.insert(pairs.end(), {{i, j + 1}, {i, b.child}});
+      }
+    }
+    for (std::size_t i = 0; i < bad_.size(); ++i)
+      if (bad_[i]) result_.faces.push_back(i);
+    return std::move(result_);
+  }
+
+ private:
+  struct Node {
+    Box box;
+    std::size_t first, size;
+    std::uint32_t child = 0;  // the second one; the first follows its parent. 0: a leaf
+  };
+
+  [[nodiscard]] Vec3 corner(std::size_t face, std::size_t i) const {
+    return Vec3(mesh_.vertices[static_cast<std::size_t>(mesh_.triangles[face][i])].data());
+  }
+
+  // Halves at the median along the longest side, so the depth is log2 of the size.
+  std::uint32_t build(std::size_t first, std::size_t size) {
+    const auto at = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back({{}, first, size});
+    for (std::size_t i = first; i < first + size; ++i) nodes_[at].box.add(boxes_[order_[i]]);
+    if (size <= kLeaf) return at;
+    Eigen::Index axis = 0;
+    (nodes_[at].box.high - nodes_[at].box.low).maxCoeff(&axis);
+    const auto from = order_.begin() + static_cast<std::ptrdiff_t>(first);
+    std::nth_element(from, from + static_cast<std::ptrdiff_t>(size / 2),
+                     from + static_cast<std::ptrdiff_t>(size), [&](std::uint32_t a, std::uint32_t b) {
+                       return boxes_[a].low[axis] + boxes_[a].high[axis] <
+                              boxes_[b].low[axis] + boxes_[b].high[axis];
+                     });
+    build(first, size / 2);
+    const std::uint32_t second = build(first + size / 2, size - size / 2);
+    nodes_[at].child = second;
+    return at;
+  }
+
+  void test_leaves(const Node& a, const Node& b, bool same) {
+    for (std::size_t i = a.first; i < a.first + a.size; ++i)
+      for (std::size_t j = same ? i + 1 : b.first; j < b.first + b.size; ++j) {
+        const std::size_t f = order_[i], g = order_[j];
+        if (!boxes_[f].meets(boxes_[g])) continue;
+        if (++tested_ > kMostPairs) result_.finished = false;
+        if (cross(f, g)) bad_[f] = bad_[g] = true;
+      }
+  }
+
+  // Six times the volume of a tetrahedron; 0 where rounding decides its sign.
+  static double side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+    const Vec3 u = a - p, v = b - p, w = c - p;
+    const double volume = u.dot(v.cross(w));
+    const auto size = [](const Vec3& x) { return x.lpNorm<Eigen::Infinity>(); };
+    const double bound =
+        1e-14 * size(u) * size(v) * size(w);  // of 7.8e-16 times the permanent [Shewchuk 1997]
+    return std::abs(volume) > bound ? volume : 0.0;
+  }
+
+  // The side p-q of one face goes strictly through the inside of the other.
+  [[nodiscard]] bool pierces(const Vec3& p, const Vec3& q, std::size_t face) const {
+    const Vec3 a = corner(face, 0), b = corner(face, 1), c = corner(face, 2);
+    if (side(a, b, c, p) * side(a, b, c, q) >= 0.0) return false;
+    const double ab = side(p, q, a, b), bc = side(p, q, b, c), ca = side(p, q, c, a);
+    return (ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0);
+  }
+
+  // Two faces with a common edge that lie on each other.
+  [[nodiscard]] bool folded(std::size_t f, std::size_t g, std::size_t apex_f, std::size_t apex_g) const {
+    const Vec3 a = corner(f, (apex_f + 1) % 3), b = corner(f, (apex_f + 2) % 3), p = corner(f, apex_f),
+               q = corner(g, apex_g);
+    const Vec3 edge = (b - a).normalized();
+    const Vec3 up = (p - a) - edge * edge.dot(p - a), uq = (q - a) - edge * edge.dot(q - a);
+    return up.dot(uq) > 0.0 && up.cross(uq).norm() <= 1e-12 * up.norm() * uq.norm();
+  }
+
+  [[nodiscard]] bool cross(std::size_t f, std::size_t g) const {
+    const auto &s = mesh_.triangles[f], &t = mesh_.triangles[g];
+    const auto shared = [](const auto& of, std::int32_t v) {
+      return std::find(of.begin(), of.end(), v) != of.end();
+    };
+    std::size_t common = 0, apex_f = 0, apex_g = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      common += shared(t, s[k]) ? 1 : 0;
+      if (!shared(t, s[k])) apex_f = k;
+      if (!shared(s, t[k])) apex_g = k;
+    }
+    if (common >= 2) return folded(f, g, apex_f, apex_g);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3;
+      // A side that begins at a common vertex cannot go through the inside.
+      if (!shared(t, s[k]) && !shared(t, s[l]) && pierces(corner(f, k), corner(f, l), g)) return true;
+      if (!shared(s, t[k]) && !shared(s, t[l]) && pierces(corner(g, k), corner(g, l), f)) return true;
+    }
+    return false;
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Box> boxes_;
+  std::vector<bool> bad_;
+  std::vector<Node> nodes_;
+  std::size_t tested_ = 0;
+  Touching result_;
+};
+
+}  // namespace
+
+Touching touching_faces(const Mesh& mesh) { return Toucher(mesh).find(); }
+
+}  // namespace enc::models
