@@ -13,7 +13,7 @@ namespace enc {
 
 // Raise it when anything that crosses the border changes. A module of another number or another build is
 // refused, never tried.
-inline constexpr std::uint32_t kModuleInterface = 1;
+inline constexpr std::uint32_t kModuleInterface = 2;
 
 // Devices that a driver module makes; what it does not offer stays null. Constructors throw Error(kind
 // device) with a way out.
@@ -29,7 +29,8 @@ struct ModuleInfo {
   const char* version = "";  // ENCOUNTER_VERSION of the build
   const char* name = "";     // "view", "sample"
   const DriverModule* driver = nullptr;
-  const void* view = nullptr;  // sim::ViewModule, of the view module only
+  const void* view = nullptr;   // sim::ViewModule, of the view module only
+  const void* peers = nullptr;  // bench::PeersModule, of the peers module only
 };
 
 // The one symbol: extern "C" const enc::ModuleInfo* encounter_module();
