@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/modules.h"
 #include "app/options.h"
 #include "core/error.h"
 #include "models/scene_file.h"
@@ -34,6 +35,11 @@ std::vector<const bench::Benchmark*> chosen(const std::vector<std::string>& name
   return list;
 }
 
+const ModuleInfo* module_if_there(const std::string& name) {
+  const std::vector<std::string> there = modules_there();
+  return std::find(there.begin(), there.end(), name) == there.end() ? nullptr : &load_module(name);
+}
+
 std::string bounds(const bench::Figure& f) {
   if (std::isfinite(f.low) && std::isfinite(f.high))
     return fmt::format(" within {:.4g}..{:.4g}", f.low, f.high);
@@ -46,8 +52,8 @@ std::string bounds(const bench::Figure& f) {
 int bench(const BenchOptions& options) {
   const std::vector<const bench::Benchmark*> list = chosen(options.names);
   if (options.repeats < 0) throw Error("--repeats: expected a positive number");
-  bench::BenchContext context{models::models_dir(""), options.seed, options.repeats,
-                              options.quick,          options.set,  {}};
+  bench::BenchContext context{
+      models::models_dir(""), options.seed, options.repeats, options.quick, options.set, {}, module_if_there};
   std::vector<bench::BenchResult> results;
   if (!options.out.empty())
     bench::write_results(options.out, results, options.seed);  // refused before hours of work
@@ -69,6 +75,7 @@ int bench(const BenchOptions& options) {
       fmt::print("  {:34} {:10.4g} {:5}{}{}\n", f.id, f.twin, f.unit, bounds(f),
                  f.ok() ? "" : "  OUT OF BOUNDS");
     }
+    if (!results.back().note.empty()) fmt::print("  {}\n", results.back().note);
     if (!options.out.empty()) bench::write_results(options.out, results, options.seed);
   }
   return all_ok ? 0 : 1;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "core/module.h"
 
 namespace enc::bench {
 
@@ -30,6 +31,7 @@ struct BenchResult {
   std::string name, scene;
   double run_time = 0.0, simulated = 0.0;  // s
   std::vector<Figure> figures;
+  std::string note{};  // for the reader, such as what was left out; may be empty
 };
 
 struct BenchContext {
@@ -39,6 +41,8 @@ struct BenchContext {
   bool quick = false;
   std::vector<std::string> set;
   std::function<void(double)> progress;
+  // Loads a module of the program by name; null where it was not built.
+  std::function<const ModuleInfo*(const std::string&)> module{};
 };
 
 struct Benchmark {
@@ -54,7 +58,8 @@ BenchResult run_encounter(const BenchContext& context);  // miss at first touch 
 BenchResult run_press(const BenchContext& context);      // one contact a press, limit held, tip inside
 BenchResult run_structure(const BenchContext& context);  // the hexapod's legs: sag, modes, order, cost
 BenchResult run_response(const BenchContext& context);  // minor loops, tremor, energy of both response models
-BenchResult run_speed(const BenchContext& context);     // step(), times real time, wrapper over raw mj_step
+BenchResult run_nearest(const BenchContext& context);    // nearest point on a mesh against Embree
+BenchResult run_speed(const BenchContext& context);      // step(), times real time, wrapper over raw mj_step
 
 [[nodiscard]] std::string results_json(const std::vector<BenchResult>& results, std::uint64_t seed);
 [[nodiscard]] std::string report_markdown(const std::vector<BenchResult>& results);

@@ -5,7 +5,7 @@
 namespace enc::bench {
 
 std::span<const Benchmark> benchmarks() {
-  static constexpr std::array<Benchmark, 6> kAll{{
+  static constexpr std::array<Benchmark, 7> kAll{{
       {"dent", "tennis_ball",
        "the seen surface: contact vertex, volume, time of an update of 10,242 vertices", run_dent},
       {"encounter", "tennis_ball",
@@ -14,6 +14,8 @@ std::span<const Benchmark> benchmarks() {
       {"press", "tennis_ball", "one contact for each press, limit held, tip inside, no pull", run_press},
       {"response", "tennis_ball", "both response models: minor loops, jumps, tremor at rest, energy",
        run_response},
+      {"nearest", "geodesic ball", "nearest point on a mesh: time, growth, jumps, race against Embree",
+       run_nearest},
       {"speed", "tennis_ball", "step(), times real time, wrapper over raw mj_step", run_speed},
       {"structure", "tennis_ball", "hexapod on elastic legs: sag, modes, order of the integrator, cost",
        run_structure},

@@ -23,8 +23,8 @@ void close_torus(Mesh& mesh, int rows, int columns) {
   const auto at = [&](int i, int j) { return (i % rows) * columns + j % columns; };
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j) {
-      mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
     }
 }
 
@@ -52,8 +52,8 @@ Mesh geodesic_ball(int n, double radius) {
                                     Vec3(0, -1, g), Vec3(0, 1, g), Vec3(0, -1, -g), Vec3(0, 1, -g),
                                     Vec3(g, 0, -1), Vec3(g, 0, 1), Vec3(-g, 0, -1), Vec3(-g, 0, 1)};
   constexpr std::array<std::array<int, 3>, 20> kFaces{
-      {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+      {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
        {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
   Mesh mesh;
   Lattice edges(mesh);  // corners and edges only: the insides of faces are nobody else's
@@ -74,12 +74,18 @@ Mesh geodesic_ball(int n, double radius) {
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n - j; ++i) {
         const Vec3 p = point(i, j);
-        if (j == 0) ids.push_back(on_edge(a, b, i, p));
-        else if (i == 0) ids.push_back(on_edge(a, c, j, p));
-        else if (i + j == n) ids.push_back(on_edge(b, c, j, p));
-        else ids.push_back(add(mesh, p));
+        if (j == 0)
+          ids.push_back(on_edge(a, b, i, p));
+        else if (i == 0)
+          ids.push_back(on_edge(a, c, j, p));
+        else if (i + j == n)
+          ids.push_back(on_edge(b, c, j, p));
+        else
+          ids.push_back(add(mesh, p));
       }
-    const auto id = [&](int i, int j) { return ids[static_cast<std::size_t>(j * (n + 1) - j * (j - 1) / 2 + i)]; };
+    const auto id = [&](int i, int j) {
+      return ids[static_cast<std::size_t>(j * (n + 1) - j * (j - 1) / 2 + i)];
+    };
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n - j; ++i) {
         mesh.triangles.push_back({id(i, j), id(i + 1, j), id(i, j + 1)});

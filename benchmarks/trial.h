@@ -86,6 +86,7 @@ class Trial {
   RecordWriter* record_ = nullptr;
 };
 
+// prepare(), with the place in the file put before what is wrong.
 [[nodiscard]] Scene prepare_setup(const models::Setup& setup);
 // A device that can do less than the rig file promises is refused before anything moves.
 void check_devices(const Rig& rig, const RigSpec& spec);

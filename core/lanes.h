@@ -18,19 +18,13 @@ struct Lanes {
     std::memcpy(&x, p, sizeof x);
     return x;
   }
-  void store(float* p) const {
-    std::memcpy(p, this, sizeof *this);
-  }
+  void store(float* p) const { std::memcpy(p, this, sizeof *this); }
   friend Lanes operator+(Lanes a, Lanes b) { return {a.lo + b.lo, a.hi + b.hi}; }
   friend Lanes operator-(Lanes a, Lanes b) { return {a.lo - b.lo, a.hi - b.hi}; }
   friend Lanes operator*(Lanes a, Lanes b) { return {a.lo * b.lo, a.hi * b.hi}; }
   friend Lanes operator/(Lanes a, Lanes b) { return {a.lo / b.lo, a.hi / b.hi}; }
-  friend Lanes min(Lanes a, Lanes b) {
-    return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? a.hi : b.hi};
-  }
-  friend Lanes max(Lanes a, Lanes b) {
-    return {a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi};
-  }
+  friend Lanes min(Lanes a, Lanes b) { return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? a.hi : b.hi}; }
+  friend Lanes max(Lanes a, Lanes b) { return {a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi}; }
 
   // Per lane: yes or no.
   struct Mask {

@@ -1,6 +1,6 @@
 // Builds the tree of a mesh. The triangles are sorted such that every run of 8, 64, 512... of them lies close
-// together: node by node, in the node's own principal axes, halved across the longest extent. What is computed
-// here decides the speed of a search, not its answer.
+// together: node by node, in the node's own principal axes, halved across the longest extent. What is
+// computed here decides the speed of a search, not its answer.
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +45,9 @@ class MeshTree::Builder {
   using Items = std::vector<Item>::iterator;
 
   // Triangles under one child of a node of a level, where it is full.
-  static std::size_t triangles_under(int level) { return std::size_t{kWay} << (3U * static_cast<unsigned>(level)); }
+  static std::size_t triangles_under(int level) {
+    return std::size_t{kWay} << (3U * static_cast<unsigned>(level));
+  }
   [[nodiscard]] const Vec3f& vertex(std::int32_t i) const { return vertices_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const std::array<std::int32_t, 3>& corners(const Item& item) const {
     return tree_.mesh_.triangles[static_cast<std::size_t>(item.triangle)];

@@ -14,7 +14,8 @@ std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 std::vector<std::array<std::int32_t, 3>> neighbours_of(const Mesh& mesh) {
-  // All directed edges in buckets by their lower end; the same edge the other way round is in the same bucket.
+  // All directed edges in buckets by their lower end; the same edge the other way round is in the same
+  // bucket.
   struct Edge {
     std::int32_t to, slot;  // the higher end; 3 * triangle + i, ~ of it where it runs from high to low
   };

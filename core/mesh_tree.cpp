@@ -30,10 +30,10 @@ using Point3f = std::array<float, 3>;
 
 struct MeshTree::Search {
   const MeshTree& tree;
-  Vec3 p;                // in O
-  Point3f q;             // the same from the centre of the mesh
-  double pad;            // m: most that float arithmetic can be wrong by, here
-  double least;          // m^2: below it, all distances are 0
+  Vec3 p;        // in O
+  Point3f q;     // the same from the centre of the mesh
+  double pad;    // m: most that float arithmetic can be wrong by, here
+  double least;  // m^2: below it, all distances are 0
   double best = std::numeric_limits<double>::infinity();  // coarse square of the distance
   std::int32_t triangle = -1;
   OnTriangle at;

@@ -30,7 +30,8 @@ struct ModuleInfo {
   const char* version = "";  // ENCOUNTER_VERSION of the build
   const char* name = "";     // "view", "sample"
   const DriverModule* driver = nullptr;
-  const void* view = nullptr;  // sim::ViewModule, of the view module only
+  const void* view = nullptr;   // sim::ViewModule, of the view module only
+  const void* peers = nullptr;  // bench::PeersModule, of the peers module only
 };
 
 // The one symbol: extern "C" const enc::ModuleInfo* encounter_module();

@@ -45,8 +45,8 @@ class Surface {
   [[nodiscard]] const Shape& shape() const { return shape_; }
   [[nodiscard]] Ball bound() const noexcept;
   // Nearest surface point to p. Where several are equally near the choice is fixed: +z at the centre of a
-  // sphere, the triangle of lowest index on a mesh. `hint`: the feature of a nearby query; it makes the search
-  // faster and changes nothing else.
+  // sphere, the triangle of lowest index on a mesh. `hint`: the feature of a nearby query; it makes the
+  // search faster and changes nothing else.
   [[nodiscard]] Nearest nearest(const Point<'O'>& p, std::int32_t hint = -1) const noexcept;
 
  private:

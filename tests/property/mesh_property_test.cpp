@@ -1,0 +1,194 @@
+// The nearest point on a mesh against CGAL, and its sign against the winding number: on faces, edges and
+// corners, far away, and where several points are equally near.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/shapes.h"
+#include "core/mesh_tree.h"
+
+namespace enc {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kPoints = 2000;  // sanitizers are slow, and look for other things
+constexpr double kWindings = 1e6;
+#else
+constexpr int kPoints = 100000;
+constexpr double kWindings =
+    2e7;  // solid angles for each mesh: signs for all points of the small ones, 198 on the largest
+#endif
+constexpr double kClose = 1e-9;  // m
+
+Vec3 corner(const Mesh& mesh, std::size_t triangle, std::size_t i) {
+  return Eigen::Map<const Vec3>(mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle][i])].data());
+}
+
+// CGAL's tree over the same triangles.
+class Cgal {
+ public:
+  explicit Cgal(const Mesh& mesh) {
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+      triangles_.emplace_back(point(corner(mesh, k, 0)), point(corner(mesh, k, 1)),
+                              point(corner(mesh, k, 2)));
+    tree_.insert(triangles_.begin(), triangles_.end());
+    tree_.build();
+    tree_.accelerate_distance_queries();
+  }
+  [[nodiscard]] double distance(const Vec3& p) const {
+    const Kernel::Point_3 at = tree_.closest_point(point(p));
+    return (p - Vec3(at.x(), at.y(), at.z())).norm();
+  }
+
+ private:
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Triangles = std::vector<Kernel::Triangle_3>;
+  using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::iterator>;
+  static Kernel::Point_3 point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+  Triangles triangles_;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
+};
+
+// How often the surface goes round p: 1 inside, 0 outside [van Oosterom and Strackee 1983].
+double winding_number(const Mesh& mesh, const Vec3& p) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const Vec3 a = corner(mesh, k, 0) - p;
+    const Vec3 b = corner(mesh, k, 1) - p;
+    const Vec3 c = corner(mesh, k, 2) - p;
+    const double la = a.norm();
+    const double lb = b.norm();
+    const double lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (2.0 * std::numbers::pi);
+}
+
+// Points of all kinds, `count` in all.
+class Points {
+ public:
+  Points(const Mesh& mesh, const MeshTree& tree) : mesh_(mesh), tree_(tree) {}
+
+  Vec3 next() {
+    const Vec3 on = on_surface();
+    switch (kind_++ % 6) {
+      case 0:
+        return on;  // inside a face, on an edge, on a corner
+      case 1:
+        return on + std::pow(10.0, uniform(-9.0, -2.0)) * any();  // near the surface
+      case 2:
+        return medial(on);  // near the medial axis
+      case 3:
+        return std::round(uniform(0.0, 1.0)) * 1e-3 * any();  // the centre, and near it
+      case 4:
+        return 0.05 * any();
+      default:
+        return std::pow(10.0, uniform(-1.0, 2.0)) * any();  // far away
+    }
+  }
+
+ private:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  Vec3 any() { return {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)}; }
+
+  Vec3 on_surface() {
+    triangle_ = std::uniform_int_distribution<std::size_t>(0, mesh_.triangles.size() - 1)(random_);
+    const Vec3 a = corner(mesh_, triangle_, 0);
+    const Vec3 b = corner(mesh_, triangle_, 1);
+    const Vec3 c = corner(mesh_, triangle_, 2);
+    const double s = uniform(0.0, 1.0);
+    const double t = uniform(0.0, 1.0 - s);
+    switch (std::uniform_int_distribution<int>(0, 2)(random_)) {
+      case 0:
+        return a + s * (b - a) + t * (c - a);
+      case 1:
+        return a + s * (b - a);
+      default:
+        return a;
+    }
+  }
+
+  // Inwards from the surface until another part of it is as near.
+  Vec3 medial(const Vec3& from) {
+    const Vec3 in = -tree_.face_normal(static_cast<std::int32_t>(triangle_));
+    double low = 0.0;
+    double high = 0.1;
+    for (int i = 0; i < 50; ++i) {
+      const double way = 0.5 * (low + high);
+      const double distance = std::abs(tree_.nearest(Point<'O'>(Vec3(from + way * in))).distance);
+      (distance < way * (1.0 - 1e-9) ? high : low) = way;
+    }
+    return from + low * in;
+  }
+
+  const Mesh& mesh_;
+  const MeshTree& tree_;
+  std::mt19937_64 random_{4};
+  std::size_t triangle_ = 0;
+  int kind_ = 0;
+};
+
+void compare(const std::string& name, const Mesh& mesh) {
+  const MeshTree tree(mesh);
+  const Cgal cgal(mesh);
+  Points points(mesh, tree);
+  const int windings =
+      std::min(kPoints, static_cast<int>(kWindings / static_cast<double>(mesh.triangles.size())));
+  const int every = kPoints / windings;
+  std::int32_t hint = -1;
+  double worst = 0.0;
+  int apart = 0;
+  int wrong = 0;
+  int signs = 0;
+  int hinted = 0;
+  int off = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const Vec3 p = points.next();
+    const Nearest at = tree.nearest(Point<'O'>(p), hint);
+    const Nearest again = tree.nearest(Point<'O'>(p));
+    hinted += at.feature == again.feature && at.distance == again.distance &&
+                      at.point.xyz == again.point.xyz && at.normal.xyz == again.normal.xyz
+                  ? 0
+                  : 1;
+    hint = at.feature;
+    const double difference = std::abs(std::abs(at.distance) - cgal.distance(p));
+    worst = std::max(worst, difference);
+    apart += difference <= kClose ? 0 : 1;
+    off += std::abs((p - at.point.e()).norm() - std::abs(at.distance)) <= 1e-14 * (1.0 + p.norm()) &&
+                   std::abs(at.normal.norm() - 1.0) < 1e-12
+               ? 0
+               : 1;
+    // On the surface itself there is no sign, and the winding number is a half.
+    if (i % every != 0 || std::abs(at.distance) < 1e-10) continue;
+    ++signs;
+    wrong += (winding_number(mesh, p) > 0.5) == (at.distance < 0.0) ? 0 : 1;
+  }
+  std::printf("%s: %zu triangles, %d points, at most %.2g m from CGAL; %d signs, %d wrong\n", name.c_str(),
+              mesh.triangles.size(), kPoints, worst, signs, wrong);
+  EXPECT_EQ(apart, 0);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(signs, windings / 2);
+  EXPECT_EQ(hinted, 0);  // a hint changes nothing
+  EXPECT_EQ(off, 0);     // distance and point belong together, normals are unit
+}
+
+TEST(MeshProperty, Sphere) { compare("sphere", bench::geodesic_ball(3)); }
+TEST(MeshProperty, Cube) { compare("cube", bench::cube(2)); }
+TEST(MeshProperty, PartWithSlivers) { compare("turned part", bench::turned_part()); }
+TEST(MeshProperty, TorusKnot) { compare("knot", bench::knot(400, 24)); }
+TEST(MeshProperty, BallOf100000) { compare("ball", bench::geodesic_ball(71)); }
+
+}  // namespace
+}  // namespace enc
