@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/frames.h"
-#include "core/probe.h"
 #include "core/loop_model.h"
+#include "core/probe.h"
 #include "core/reach.h"
 #include "core/response.h"
 #include "core/rig_spec.h"

@@ -1,5 +1,5 @@
-// The seen surface in a picture: a mesh, or a ball as a fine one, that the tool's tip dents [VHMR 3.5]. Pictures only;
-// it touches nothing and weighs nothing.
+// The seen surface in a picture: a mesh, or a ball as a fine one, that the tool's tip dents [VHMR 3.5].
+// Pictures only; it touches nothing and weighs nothing.
 #pragma once
 
 #include <string>

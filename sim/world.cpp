@@ -170,7 +170,8 @@ void World::physics_step(double t) {
     machine.move(h);
     place_machine(placed);
   }
-  // Placed, the probe gets to the machine's new pose in this step; carried by legs it is where physics has it.
+  // Placed, the probe gets to the machine's new pose in this step; carried by legs it is where physics has
+  // it.
   if (ball) press_ball(from, legs ? from.origin() : X_WR_ * machine.true_pose().origin(), h);
   try {
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;

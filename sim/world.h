@@ -92,7 +92,7 @@ class World {
   int tool_body_ = -1, tip_geom_ = -1, tip_body_ = -1;
   int platform_qpos_ = 0, platform_qvel_ = 0, tool_qpos_ = 0, tool_qvel_ = 0;
   double programme_time_ = 10.0;  // s
-  double mass_behind_ = 0.0;  // the sensor, kg
+  double mass_behind_ = 0.0;      // the sensor, kg
   Tick next_;
   Truth truth_;
   std::int64_t diverged_at_ = -1;
