@@ -35,6 +35,17 @@ class Dry final : public Manipulator {
   std::unique_ptr<Manipulator> machine_;
 };
 
+// Likewise a real gripper.
+class DryGripper final : public Gripper {
+ public:
+  explicit DryGripper(std::unique_ptr<Gripper> gripper) : gripper_(std::move(gripper)) {}
+  Stamped<GripSample> read() noexcept override { return gripper_->read(); }
+  void command(const Grip&) noexcept override {}
+
+ private:
+  std::unique_ptr<Gripper> gripper_;
+};
+
 }  // namespace
 
 std::vector<Part> parts_of(const models::Setup& setup) {
@@ -109,8 +120,13 @@ void fit_out(Rig& rig, const models::Setup& setup, bool armed) {
     rig.tracker = maker(setup.rig.tracker.driver, "tracker", &DriverModule::tracker)();
   if (rig.display && setup.rig.display.driver != "sim")
     rig.display = maker(setup.rig.display.driver, "display", &DriverModule::display)();
-  if (rig.gripper && setup.rig.gripper.driver != "sim")
-    rig.gripper = maker(setup.rig.gripper.driver, "gripper", &DriverModule::gripper)();
+  if (rig.gripper && setup.rig.gripper.driver != "sim") {
+    auto gripper = maker(setup.rig.gripper.driver, "gripper", &DriverModule::gripper)();
+    if (armed)
+      rig.gripper = std::move(gripper);
+    else
+      rig.gripper = std::make_unique<DryGripper>(std::move(gripper));
+  }
 }
 
 }  // namespace enc::app

@@ -11,7 +11,7 @@ namespace enc::bench {
 namespace {
 
 constexpr double kBehind = 0.91;  // kg behind the sensor
-constexpr double kRod = 1e-3;     // kg, of half a leg in the closed loop: next to nothing
+constexpr double kRod = 1e-4;     // kg, of half a leg in the closed loop: next to nothing
 
 void set3(double* to, const Vec3& v) { std::copy_n(v.data(), 3, to); }
 void set4(double* to, const Quat& q) {
@@ -43,12 +43,12 @@ void close_loop(mjSpec* spec, const Hexapod& machine, int leg) {
   const Vec3 foot = machine.base_joint(leg);
   const Vec3 along = machine.zero().p() + machine.platform_joint(leg) - foot;
   mjsBody* lower =
-      body_of(mjs_findBody(spec, "base"), name + "_lower", kRod, Vec3(0, 0, 0.03), Vec3::Constant(1e-6));
+      body_of(mjs_findBody(spec, "base"), name + "_lower", kRod, Vec3(0, 0, 0.03), Vec3::Constant(1e-7));
   set3(lower->pos, foot);
   set4(lower->quat, Quat::FromTwoVectors(Vec3::UnitZ(), along));
   joint_of(lower, mjJNT_HINGE, Vec3::UnitX(), name + "_x");
   joint_of(lower, mjJNT_HINGE, Vec3::UnitY(), name + "_y");
-  mjsBody* upper = body_of(lower, name + "_upper", kRod, Vec3(0, 0, 0.12), Vec3::Constant(1e-6));
+  mjsBody* upper = body_of(lower, name + "_upper", kRod, Vec3(0, 0, 0.12), Vec3::Constant(1e-7));
   joint_of(upper, mjJNT_SLIDE, Vec3::UnitZ(), name);
   mjsEquality* tie = mjs_addEquality(spec, nullptr);
   tie->type = mjEQ_CONNECT;

@@ -76,7 +76,7 @@ class Set final : public Named {
     if (found_) return;
     std::string advised;
     for (const std::string& name : names_) {
-      if (name.ends_with("." + name_)) advised = fmt::format("did you mean '{}'?", name);
+      if (advised.empty() && name.ends_with("." + name_)) advised = fmt::format("did you mean '{}'?", name);
     }
     if (advised.empty() && !nearest_name(name_, names_).empty()) advised = advice(name_, names_);
     if (advised.empty()) advised = "'encounter params' lists them";

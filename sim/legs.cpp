@@ -127,7 +127,7 @@ void Legs::build(mjSpec* spec, const Hexapod& machine, const StructureTruth& tru
 
 Legs::Legs(const StructureTruth& truth, const Hexapod& machine, Physics& physics, const Pose<'W', 'R'>& X_WR)
     : machine_(machine), stiffness_(truth.leg_stiffness) {
-  mjcb_control = lead;
+  [[maybe_unused]] static const bool kInstalled = (mjcb_control = lead) != nullptr;  // once in a process
   const mjModel* m = physics.model();
   mjData* d = physics.data();
   damping_ = -m->actuator_biasprm[2];

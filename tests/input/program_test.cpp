@@ -575,6 +575,29 @@ TEST_F(Program, ARunThatEndsInHoldSaysSo) {
   EXPECT_EQ(holds[0].at("why"), "tool lost");
 }
 
+TEST_F(Program, AClampedToolIsHeldAndSeen) {
+  const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml";
+  const Result r = run_program({"run", scene, "--for-s", "1", "--json"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(Json::parse(r.out).at("built").contains("gripper"));
+  EXPECT_EQ(run_program({"run", scene, "--for-s", "1", "--set", "truth.gripper.width_mm=0"}).code, 4);
+}
+
+TEST_F(Program, OneKeySwitchesTheHexapodsForm) {
+  const auto run = [&](const Words& more) {
+    Words args{"run", ball(), "--for-s", "0.3", "--set", "truth.hexapod.form=structural"};
+    args.insert(args.end(), more.begin(), more.end());
+    return run_program(args);
+  };
+  EXPECT_EQ(run({}).code, 0);
+  const Result long_step = run({"--set", "truth.structure.timestep_us=300"});
+  EXPECT_EQ(long_step.code, 2);
+  EXPECT_THAT(long_step.err, HasSubstr("does not divide the haptic period"));
+  const Result stiff = run({"--set", "truth.structure.leg_stiffness_N_per_um=100"});
+  EXPECT_EQ(stiff.code, 2);
+  EXPECT_THAT(stiff.err, HasSubstr("expected a time step of at most"));
+}
+
 TEST_F(Program, TheHashIsOfSceneAndSeedAlone) {
   const auto hash = [&](const Words& more) {
     Words args{"run", plane(), "--for-s", "0.3", "--json"};

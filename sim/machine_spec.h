@@ -1,0 +1,53 @@
+// What the machine and its gripper really are: [truth.hexapod], [truth.structure], [truth.gripper]. A part of
+// twin_spec.h.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/hexapod.h"
+
+namespace enc::sim {
+
+enum class HexapodForm : std::uint8_t {
+  control,    // the platform's pose is prescribed: exact where the servo puts it, no sag, no modes
+  structural  // the platform is a free body on six legs with stiffness and damping (sim/legs.h)
+};
+
+struct HexapodTruth {
+  HexapodForm form = HexapodForm::control;
+  HexapodGeometry geometry;
+  double servo = 15.0;  // Hz, natural frequency of the position loop
+  double damping = 0.8;
+  std::int64_t delay_cycles = 4;
+  double speed = 0.050;           // m/s
+  double acceleration = 0.41;     // m/s^2
+  double step = 3e-6;             // m, of commands
+  double repeatability = 0.5e-6;  // m rms along each axis: where the same command ends, from move to move
+  double tip_radius = 0.005;      // m
+  double mass = 0.91;             // kg, behind the sensor
+  Vec3 misplaced{0, 0, 0};        // of the machine against the believed X_WR, m
+  Vec3 turned{0, 0, 0};           // and its rotation against it, rad
+};
+
+// The legs and what they carry, in the structural form. It has its own time step, so that one key switches.
+struct StructureTruth {
+  double timestep = 0.0005;  // s
+  std::string integrator = "rk4";
+  double leg_stiffness = 2e6;  // N/m
+  double leg_damping = 0.05;   // ratio, of a leg that carries a sixth of the moved mass (legs.h)
+  double platform_mass = 2.5;  // kg, with the sensor's machine side; what is behind the sensor comes on top
+  double payload = 0.0;        // kg, put on after the zero was calibrated
+};
+
+// A gripper with two jaws that clamps a tool.
+struct GripperTruth {
+  double stroke = 0.008;           // m, of each jaw
+  double closing_time = 0.21;      // s, over the whole stroke
+  double force_min = 54.0;         // N
+  double force_max = 215.0;        // N
+  double repeatability = 0.02e-3;  // m rms, of where the jaws stand
+  double width = 0.006;            // m, of what is between the jaws; 0: nothing
+};
+
+}  // namespace enc::sim
