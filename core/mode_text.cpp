@@ -12,7 +12,7 @@ std::string_view mode_name(Mode mode) {
 }
 
 std::string why_text(std::uint32_t why) {
-  static constexpr std::array<std::pair<Why, std::string_view>, 21> kTexts{
+  static constexpr std::array<std::pair<Why, std::string_view>, 22> kTexts{
       {{kToolInvalid, "tool pose invalid"},
        {kToolLost, "tool lost"},
        {kForceInvalid, "force invalid"},
