@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "core/scene.h"
 #include "models/scene_file.h"
 
 namespace enc::bench {
@@ -195,10 +196,8 @@ BenchResult run_dent(const BenchContext& context) {
   for (const double depth : {0.002, 0.004, 0.006}) {
     // The tool points at a vertex, so that there is one exactly under it.
     const Vec3 n = Vec3(ball.vertices[0][0], ball.vertices[0][1], ball.vertices[0][2]).normalized();
-    Tip<'O'> tip = scene.tools.front().tip.shape == TipShape::sphere
-                       ? Tip<'O'>{Point<'O'>(), scene.tools.front().tip.radius}
-                       : Tip<'O'>{Point<'O'>(), 0.002};
-    tip.centre = Point<'O'>(Vec3((radius - depth + tip.radius) * n));
+    const double tip_radius = scene.tools.front().tip.radius;
+    const Tip<'O'> tip{Point<'O'>(Vec3((radius - depth + tip_radius) * n)), tip_radius};
     last = dent_of(surface, 0, tip);
     const DentField<double> field = dent_field(surface, last);
     cloud.update(field);

@@ -51,21 +51,25 @@ void displace(const DentField<float>& field, const float* __restrict x, const fl
 }  // namespace
 
 void apply(const DentField<float>& field, const DentIn& in, const DentOut& out, std::size_t count) noexcept {
-  for (std::size_t i = 0; i < count; i += kBlock) {
+  const auto block = field.edge ? displace<true> : displace<false>;
+  std::size_t still = 0;  // from here on nothing moves; copied in one go
+  const auto copy_up_to = [&](std::size_t end) {
+    std::copy(in.x + still, in.x + end, out.x + still);
+    std::copy(in.y + still, in.y + end, out.y + still);
+    std::copy(in.z + still, in.z + end, out.z + still);
+    std::copy(in.nx + still, in.nx + end, out.nx + still);
+    std::copy(in.ny + still, in.ny + end, out.ny + still);
+    std::copy(in.nz + still, in.nz + end, out.nz + still);
+  };
+  for (std::size_t i = 0; field.active && i < count; i += kBlock) {
     const std::size_t n = std::min(kBlock, count - i);
-    if (!field.active || !any_in_reach(field, in.x + i, in.y + i, in.z + i, n)) {
-      std::copy_n(in.x + i, n, out.x + i);
-      std::copy_n(in.y + i, n, out.y + i);
-      std::copy_n(in.z + i, n, out.z + i);
-      std::copy_n(in.nx + i, n, out.nx + i);
-      std::copy_n(in.ny + i, n, out.ny + i);
-      std::copy_n(in.nz + i, n, out.nz + i);
-    } else {
-      const auto block = field.edge ? displace<true> : displace<false>;
-      block(field, in.x + i, in.y + i, in.z + i, in.nx + i, in.ny + i, in.nz + i, out.x + i, out.y + i,
-            out.z + i, out.nx + i, out.ny + i, out.nz + i, n);
-    }
+    if (!any_in_reach(field, in.x + i, in.y + i, in.z + i, n)) continue;
+    copy_up_to(i);
+    still = i + n;
+    block(field, in.x + i, in.y + i, in.z + i, in.nx + i, in.ny + i, in.nz + i, out.x + i, out.y + i,
+          out.z + i, out.nx + i, out.ny + i, out.nz + i, n);
   }
+  copy_up_to(count);
 }
 
 DentField<float> to_float(const DentField<double>& from) noexcept {

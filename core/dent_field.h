@@ -50,7 +50,8 @@ inline Shift<T> shift(const DentField<T>& f, T x, T y, T z) noexcept {
   const T steep = (round ? T(1) : f.slope) / root;
   const T v = h - boundary;
   // u = b t^4 up to v = b, then v itself; t = (v + 3b) / 4b.
-  const T wide = (v + T(3) * f.blend) / (T(4) * f.blend);
+  const T per_width = T(1) / (T(4) * f.blend);  // the same for all points
+  const T wide = (v + T(3) * f.blend) * per_width;
   const T positive = wide > T(0) ? wide : T(0);
   const T t = positive < T(1) ? positive : T(1);
   const T beyond = v > f.blend ? v - f.blend : T(0);

@@ -317,6 +317,24 @@ TEST_F(SceneFile, behaviour_that_says_too_little_or_too_much) {
               HasSubstr("[[behaviour]] 'tennis_ball' has no 'tangential_stiffness_N_per_mm'; expected"));
 }
 
+TEST_F(SceneFile, tips_that_are_none) {
+  const auto tip = [&](const std::string& keys) { return scene_said("tip_mm", keys + "\ntip_mm"); };
+  EXPECT_THAT(tip("tip_shape = \"spheer\""), HasSubstr("sphere, cone, edge"));
+  EXPECT_THAT(tip("tip_shape = \"cone\"\ntip_axis = [0, 0, 1]"),
+              HasSubstr("has no 'tip_half_angle_deg'; expected"));
+  EXPECT_THAT(tip("tip_shape = \"cone\"\ntip_half_angle_deg = 20"), HasSubstr("has no 'tip_axis'; expected"));
+  EXPECT_THAT(tip("tip_shape = \"cone\"\ntip_axis = [0, 0, 1]\ntip_half_angle_deg = 90"),
+              StartsWith("scenes/ball.toml:14:22: 'tip_half_angle_deg' is 90; expected"));
+  EXPECT_THAT(tip("tip_shape = \"edge\"\ntip_axis = [1, 0, 0]"), HasSubstr("has no 'tip_edge_mm'; expected"));
+  EXPECT_THAT(tip("tip_shape = \"edge\"\ntip_axis = [1, 0, 0]\ntip_edge_mm = 0"),
+              StartsWith("scenes/ball.toml:14:15: 'tip_edge_mm' is 0; expected"));
+  EXPECT_THAT(
+      tip("tip_shape = \"edge\"\ntip_axis = [0.6, 0, 0.6]\ntip_edge_mm = 20"),
+      StartsWith("scenes/ball.toml:13:1: 'tip_axis' has length 0.848528; expected length 1; write it like "
+                 "'tip_axis = [0.7"));
+  EXPECT_THAT(tip("tip_edge_mm = 20"), HasSubstr("'tip_edge_mm'"));  // a sphere has none
+}
+
 TEST_F(SceneFile, things_that_do_not_fit_together) {
   EXPECT_EQ(scene_said("[user]", "[follow]\nresume_mm = 110\n[user]"),
             "scenes/ball.toml:17:1: 'resume_mm' is 110; expected at most 'pause_mm', 100 mm; lower it");
