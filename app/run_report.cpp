@@ -101,7 +101,9 @@ std::string push_lines(const RunReport& r) {
   std::string text =
       fmt::format("pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(), r.scene.probe->repeats,
                   r.scene.probe->depth * 1e3, r.scene.probe->speed * 1e3);
-  if (pushes.empty()) return text;
+  if (pushes.empty())
+    return text + fmt::format("note        the machine never pushed; last notice of the core: {}\n",
+                              r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
   text += fmt::format("  peak      {} N (measured)\n",
                       each_push(pushes, [](const auto& p) { return fmt::format("{:.2f}", p.peak_force); }));
   text += fmt::format("  reached   {} mm\n", each_push(pushes, [](const auto& p) {

@@ -108,8 +108,9 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
     const Vec<'W'> along = scale * kForceScale * truth.contact_force;
     const Point<'W'> to = truth.tip + right;
     request.arrows.push_back({to - along, along, 0.0035 * scale, kForce});
-    request.labels.push_back(
-        {fmt::format("force of the tool: {:.1f} N", truth.contact_force.norm()), to - 0.6 * along, false});
+    request.labels.push_back({fmt::format("force of the {}: {:.1f} N", m.scene.probe ? "ball" : "tool",
+                                          truth.contact_force.norm()),
+                              to - 0.6 * along, false});
   }
   const Contact& contact = m.state.contact;
   if (m.out.mode != Mode::contact || !contact.X_WN.valid()) return;
@@ -147,10 +148,12 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
   const auto in_H = [&](double x, double y, double z) {
     return m.world.X_WR() * m.world.machine.state().pose * Point<'H'>(x, y, z);
   };
-  request.labels.push_back({"haptic-tip", truth.tip, false});
+  request.labels.push_back({m.scene.probe ? "probe" : "haptic-tip", truth.tip, false});
   for (std::size_t i = 0; i < m.setup.scene.objects.size(); ++i)
     request.labels.push_back(
-        {fmt::format("{} (virtual)", m.setup.scene.objects[i].name), flank(m, i), false});
+        {fmt::format("{} ({})", m.setup.scene.objects[i].name,
+                     m.scene.probe && m.scene.probe->object == static_cast<int>(i) ? "real" : "virtual"),
+         flank(m, i), false});
   if (truth.tool_tip.finite()) request.labels.push_back({"tool's tip", truth.tool_tip, true});
   if (request.title.empty()) return;  // a close-up
   if (marker.finite()) request.labels.push_back({"hand-held tool with markers", marker, true});

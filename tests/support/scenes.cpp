@@ -52,6 +52,17 @@ SceneSpec plane_scene(const BehaviourSpec& behaviour) {
   return spec;
 }
 
+SceneSpec rig_scene() {
+  SceneSpec spec = ball_scene();
+  spec.behaviours.clear();
+  spec.objects[0].behaviour.clear();
+  spec.objects[0].position = Vec3(0, 0, 0.052);
+  spec.tools.clear();
+  spec.tracker.reset();
+  spec.probe.emplace();
+  return spec;
+}
+
 Loop::Loop(Scene made) : scene(std::move(made)) {
   k.index = -1;
   k.dt = from_seconds(scene.dt);

@@ -24,6 +24,10 @@ namespace enc::test {
 // Half space below z = 8 mm of W.
 [[nodiscard]] SceneSpec plane_scene(const BehaviourSpec& behaviour = spring());
 
+// The test rig: a real ball of 33 mm with its centre 52 mm above W's origin, pressed from below by a probe of
+// 10 mm radius, which first touches it at 52 - 33 - 10 = 9 mm.
+[[nodiscard]] SceneSpec rig_scene();
+
 inline constexpr double kTop = 0.008;         // m, of ball and plane above W's origin
 inline constexpr double kBallRadius = 0.033;  // m
 inline constexpr double kToolRadius = 0.002;  // m

@@ -12,20 +12,10 @@ namespace enc {
 namespace {
 
 using test::Loop;
+using test::rig_scene;
 
 constexpr double kProbeRadius = 0.010;  // m
 constexpr double kCentre = 0.052;       // m, of the ball above W: first touch at 52 - 33 - 10 = 9 mm
-
-SceneSpec rig_scene() {
-  SceneSpec spec = test::ball_scene();
-  spec.behaviours.clear();
-  spec.objects[0].behaviour.clear();
-  spec.objects[0].position = Vec3(0, 0, kCentre);
-  spec.tools.clear();
-  spec.tracker.reset();
-  spec.probe.emplace();
-  return spec;
-}
 
 Scene made(const SceneSpec& spec) { return prepare(spec, RigSpec{}); }
 
