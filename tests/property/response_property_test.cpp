@@ -33,8 +33,8 @@ class ResponseProperty : public testing::TestWithParam<Reversal> {
 };
 INSTANTIATE_TEST_SUITE_P(Models, ResponseProperty,
                          testing::Values(Reversal::energy_stop, Reversal::prandtl_ishlinskii),
-                         [](const auto& info) {
-                           return info.param == Reversal::energy_stop ? "EnergyStop" : "PrandtlIshlinskii";
+                         [](const auto& model) {
+                           return model.param == Reversal::energy_stop ? "EnergyStop" : "PrandtlIshlinskii";
                          });
 
 double uniform(std::mt19937_64& random, double lo, double hi) {
@@ -142,7 +142,7 @@ TEST_P(ResponseProperty, StorageBalanceHoldsInEveryStep) {
   const Response r = ball();
   std::mt19937_64 random(2);
   double worst = 1e9;
-  for (int n = 0; n < 5; ++n) {
+  for (int n = 0; n < 2; ++n) {
     // 0.5 um: the trapezoid cuts the kink where alpha saturates by gap^2/L step^2/8 = 1.4e-10 J
     const std::vector<double> path = closed_path(random, 1e-3, 0.5e-6, 0.5e-6);
     ResponseState s;
