@@ -145,8 +145,12 @@ std::vector<Bad> bad_gltf() {
        "bufferViews[0]"},
       {"HugeBuffer", "a.gltf", gltf("[{\"byteLength\":36", "[{\"byteLength\":99999999999999"),
        "cannot be read"},
+      {"NoSuchFile", "a.gltf", gltf(kUri, "data.bin"), "File not found : data.bin"},
+      {"ImageUpwards", "a.gltf",
+       gltf("\"scene\":0,", "\"scene\":0,\"images\":[{\"uri\":\"../../etc/passwd\"}],"),
+       "outside of its folder"},
       {"PathUpwards", "a.gltf", gltf(kUri, "../../../../../../etc/passwd"), "outside of its folder"},
-      {"PathAbsolute", "a.gltf", gltf(kUri, "/etc/passwd"), "encounter"},
+      {"PathAbsolute", "a.gltf", gltf(kUri, "/etc/passwd"), "'/etc/passwd', which is outside"},
       {"Sparse", "a.gltf",
        gltf("\"count\":3,",
             "\"count\":3,\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5123},"
@@ -186,7 +190,7 @@ std::vector<Bad> bad_others() {
       {"ThroughItself", "a.obj",
        obj("v 0.1 0.1 0.1\nv 1.1 0.1 0.1\nv 0.1 1.1 0.1\nv 0.1 0.1 1.1\n" + kClosed +
            "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n"),
-       "face"},
+       "passing through other faces"},
       {"StlWrongCount", "a.stl", put(stl, 80, 5), "byte 80: the file says 5 triangles"},
       {"StlHugeCount", "a.stl", put(stl, 80, 0xffffffffU), "the file says 4294967295 triangles"},
       {"StlCut", "a.stl", stl.substr(0, stl.size() - 7), "byte 80"},

@@ -31,7 +31,7 @@ class MeshFiles : public ::testing::Test {
     folder_ = mkdtemp(name.data());
   }
   ~MeshFiles() override { fs::remove_all(folder_); }
-  [[nodiscard]] std::string file(const std::string& name, const std::string& content) const {
+  std::string file(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
     return (folder_ / name).string();
   }
@@ -93,7 +93,7 @@ TEST_F(MeshFiles, StlAsText) {
 }
 
 // A glTF of one mesh in two nodes: the tetrahedron's four vertices and its indices with `size` bytes each.
-std::string gltf_bytes(int component, std::size_t size, bool indexed = true) {
+std::string gltf_bytes(std::size_t size, bool indexed = true) {
   std::string data;
   const Mesh mesh = tetrahedron();
   const auto point = [&](std::int32_t i) {
@@ -110,7 +110,6 @@ std::string gltf_bytes(int component, std::size_t size, bool indexed = true) {
       else
         point(corner);
     }
-  static_cast<void>(component);
   return data;
 }
 std::string gltf_json(std::size_t bytes, int component, bool indexed, const std::string& nodes,
@@ -132,14 +131,14 @@ std::string gltf_json(std::size_t bytes, int component, bool indexed, const std:
 TEST_F(MeshFiles, GltfIndicesOfEveryTypeAndNone) {
   for (const auto& [component, size] :
        {std::pair{5121, std::size_t{1}}, {5123, std::size_t{2}}, {5125, std::size_t{4}}}) {
-    const std::string data = gltf_bytes(component, size);
+    const std::string data = gltf_bytes(size);
     file("data.bin", data);
     const Mesh mesh =
         load_mesh(file("a.gltf", gltf_json(data.size(), component, true, "[{\"mesh\":0}]", "data.bin")));
     EXPECT_EQ(mesh.vertices, tetrahedron().vertices) << component;
     EXPECT_EQ(mesh.triangles, tetrahedron().triangles) << component;
   }
-  const std::string data = gltf_bytes(0, 0, false);
+  const std::string data = gltf_bytes(0, false);
   file("data.bin", data);
   const Mesh mesh = load_mesh(file("a.gltf", gltf_json(data.size(), 0, false, "[{\"mesh\":0}]", "data.bin")));
   EXPECT_EQ(mesh.vertices.size(), 4U) << "seams are welded";
@@ -147,7 +146,7 @@ TEST_F(MeshFiles, GltfIndicesOfEveryTypeAndNone) {
 }
 
 TEST_F(MeshFiles, GltfTransformsGoThroughTheTree) {
-  const std::string data = gltf_bytes(5121, 1);
+  const std::string data = gltf_bytes(1);
   file("data.bin", data);
   const auto placed = [&](const std::string& nodes) {
     return load_mesh(file("a.gltf", gltf_json(data.size(), 5121, true, nodes, "data.bin")));
