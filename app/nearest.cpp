@@ -61,8 +61,9 @@ class PointsReader {
 
   // False at the end of the file.
   bool next(Vec3& point) {
-    if (at_ >= text_.size() || line().empty()) {
-      if (text_.find_first_not_of(" \t\r\n", std::min(start_, text_.size())) != std::string::npos)
+    if (at_ >= text_.size()) return false;
+    if (line().empty()) {
+      if (text_.find_first_not_of("\r\n", start_) != std::string::npos)
         fail(1, "an empty line; expected three numbers; remove it");
       return false;
     }

@@ -60,7 +60,7 @@ double hare(const Vec3& at) {
   d = joined(d, ellipsoid(p, {33.6, 0, 30.4}, {1.5, 1.7, 1.2}), 1.0);    // nose
   d = joined(d, ellipsoid(p, {25.2, 6.0, 33.6}, {1.9, 1.5, 1.9}), 0.6);  // eye
   d = joined(d, ellipsoid(p, {-29, 0, 16}, {5, 4.6, 5}), 1.5);           // tail
-  return joined(d, ear(p, {19.5, 2.4, 35}, {7, 8.5, 61}, {1, 0.45, 0.2}, 4.6, 2.3), 2.0);
+  return joined(d, ear(p, {19.5, 2.4, 35}, {12.5, 7.5, 61}, {1, 0.45, 0.2}, 4.6, 2.3), 2.0);
 }
 
 // ---- its surface: one vertex in each cell that the surface crosses, one quad around each crossed edge
@@ -83,8 +83,10 @@ class Net {
       for (int j = 0; j <= kCells[1]; ++j)
         for (int i = 0; i <= kCells[0]; ++i)
           for (std::size_t axis = 0; axis < 3; ++axis) add_quad({i, j, k}, axis);
-    for (auto& vertex : mesh_.vertices)
+    for (auto& vertex : mesh_.vertices) {
+      vertex[0] += 12.0;  // so that the origin is under the highest place of the back
       for (double& x : vertex) x *= 1e-3;
+    }
     return std::move(mesh_);
   }
 

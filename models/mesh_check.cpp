@@ -36,9 +36,9 @@ class Checker {
     find_neighbours();
     orient();
     check_vertices();
+    check_touching();
     check_sides();
     drop_unused_vertices();
-    check_touching();
     return std::move(result_);
   }
 

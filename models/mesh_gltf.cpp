@@ -29,10 +29,12 @@ struct Folder {
     return std::find(kEndings.begin(), kEndings.end(), path.extension().string()) != kEndings.end();
   }
   bool may_read(const std::string& asked) {
+    if (asked.starts_with("./")) return false;  // tinygltf then looks in the working directory, too
     std::error_code failed;
     const fs::path path = fs::weakly_canonical(asked, failed);
     const fs::path inside = failed ? fs::path("..") : path.lexically_relative(root);
-    if (inside.empty() || *inside.begin() == "..") {
+    const bool absolute = asked.starts_with(root.string() + "//");
+    if (absolute || inside.empty() || *inside.begin() == "..") {
       if (refused.empty()) refused = asked;
       return false;
     }
@@ -133,11 +135,11 @@ class GltfReader {
       error += e.what();
     }
     if (!folder.refused.empty()) {
-      const fs::path asked = fs::path(folder.refused).lexically_relative(folder.root);
+      const std::string asked = folder.refused.substr(folder.root.string().size() + 1);
       fail(fmt::format(
           "the file wants to read {}, which is outside of its folder; expected files beside it; put a "
           "copy there",
-          quoted(asked.empty() ? folder.refused : asked.string())));
+          models::quoted(asked)));
     }
     if (!good) fail_parse(file_, json, binary_, error);
     if (model_.asset.version != "2.0" && !model_.asset.version.starts_with("2."))

@@ -1,0 +1,30 @@
+// The committed hare is what its generator makes, byte for byte, and a sound solid.
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "benchmarks/hare.h"
+#include "models/mesh_check.h"
+#include "models/mesh_write.h"
+
+namespace enc {
+namespace {
+
+TEST(HareGolden, IsReproducedAndSound) {
+  const std::string path = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
+  std::ifstream file(path, std::ios::binary);
+  const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  ASSERT_FALSE(committed.empty());
+  EXPECT_LT(committed.size(), 600'000U);
+  EXPECT_TRUE(models::mesh_bytes(bench::hare_mesh(), ".glb") == committed);
+  const models::CheckedMesh solid = models::load_solid(path);
+  EXPECT_TRUE(solid.notes.empty()) << solid.notes.front();
+  EXPECT_EQ(solid.mesh.triangles.size(), 19824U);
+  // Euler: a closed surface without handles.
+  EXPECT_EQ(solid.mesh.vertices.size(), solid.mesh.triangles.size() / 2 + 2);
+}
+
+}  // namespace
+}  // namespace enc
