@@ -41,6 +41,7 @@ enum Why : std::uint32_t {
   kByForce = 1U << 20,        // this contact was found by force, not by gap
   kTaring = 1U << 21,         // force zero not known yet
   kToolUnseen = 1U << 22,     // no tool in the tracker\'s view
+  kSurfaceJump = 1U << 23,    // the surface point under the tool jumped: it is as near to another part
 };
 inline constexpr std::uint32_t kHoldReasons = 0xFFFFU;
 

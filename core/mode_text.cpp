@@ -12,7 +12,7 @@ std::string_view mode_name(Mode mode) {
 }
 
 std::string why_text(std::uint32_t why) {
-  static constexpr std::array<std::pair<Why, std::string_view>, 20> kTexts{
+  static constexpr std::array<std::pair<Why, std::string_view>, 21> kTexts{
       {{kToolInvalid, "tool pose invalid"},
        {kToolLost, "tool lost"},
        {kForceInvalid, "force invalid"},
@@ -32,7 +32,8 @@ std::string why_text(std::uint32_t why) {
        {kAtLimit, "deflection limit"},
        {kByForce, "contact by force"},
        {kTaring, "force zero not known yet"},
-       {kToolUnseen, "no tool in view"}}};
+       {kToolUnseen, "no tool in view"},
+       {kSurfaceJump, "nearest point jumped"}}};
   std::string text;
   for (const auto& [bit, words] : kTexts) {
     if ((why & bit) == 0) continue;
