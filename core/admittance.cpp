@@ -46,8 +46,7 @@ void target(Walk& walk, State& state) noexcept {
       const Vec3 d = state.contact.displacement.e();
       walk.target = state.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin);
       // Sideways along the tangent plane would lead out of a round object.
-      const NearestInWorld at =
-          nearest(walk.scene.objects[static_cast<std::size_t>(state.contact.object)], walk.target);
+      const NearestInWorld at = nearest(walk.scene, state.contact.object, walk.target, state.hints.command);
       const double outside = at.distance + radius + kSkin;
       if (outside > 0.0) walk.target = walk.target - outside * at.normal;
       break;

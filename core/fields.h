@@ -129,6 +129,11 @@ void fields(F& f, Probing& p) {
   f("probe_deflection", p.deflection);
 }
 template <class F>
+void fields(F& f, std::string_view name, ObjectHint& h) {
+  f(name, h.object);
+  f(name, h.feature);
+}
+template <class F>
 void fields(F& f, State& s) {
   f("started", s.started);
   f("state_mode", s.mode);
@@ -145,6 +150,12 @@ void fields(F& f, State& s) {
   fields(f, s.probing);
   fields(f, "command_R", s.command);
   fields(f, "command_velocity_R", s.command_velocity);
+  fields(f, "last_query_W", s.last_query);
+  fields(f, "last_point_W", s.last_point);
+  fields(f, "nearest_hint", s.hints.tool[0]);
+  fields(f, "runner_up_hint", s.hints.tool[1]);
+  fields(f, "tip_hint", s.hints.tip);
+  fields(f, "command_hint", s.hints.command);
 }
 
 // A leaf as eight bytes. Every NaN is the same NaN; -0 and 0 stay apart,

@@ -11,15 +11,10 @@
 namespace enc::stages {
 namespace {
 
-// The point of the haptic-tip that is nearest to the outside of an object.
-Point<'O'> outermost(const Object& object, const Point<'O'>& centre, double radius) {
-  return centre + radius * object.surface.nearest(centre).normal;
-}
-
 void check_undeformed(Walk& walk, const Object& object, const Point<'O'>& outer, State& state) {
   constexpr double kTolerance =
       50e-6;  // m: what play and overshoot of a machine may take before it is a fault
-  const double distance = object.surface.nearest(outer).distance;
+  const double distance = object.surface.nearest(outer, walk.at_tip.feature).distance;
   if (distance <= -kSkin) state.entered = true;  // on the way in, the tip is rightly outside
   if (state.entered && distance > kTolerance) walk.why |= kOutsideObject;
 }
@@ -92,7 +87,7 @@ struct Walls {
   double out = std::numeric_limits<double>::infinity(), in = std::numeric_limits<double>::infinity();  // m
 };
 
-Walls walls_around(const Walk& walk, const State& state) {
+Walls walls_around(const Walk& walk, State& state) {
   if (walk.scene.probe) {  // nothing but the end of the push: the object is real
     const Probe& probe = *walk.scene.probe;
     Walls walls{probe.X_WN.q() * Vec3::UnitZ()};
@@ -101,7 +96,8 @@ Walls walls_around(const Walk& walk, const State& state) {
   }
   if (state.object < 0 || !state.entered) return {};
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
-  const NearestInWorld at = nearest(object, walk.scene.X_WR * state.command);
+  const NearestInWorld at =
+      nearest(walk.scene, state.object, walk.scene.X_WR * state.command, state.hints.command);
   const double depth = -(at.distance + walk.scene.tip_radius);
   Walls walls{at.normal.e(), depth - kSkin};
   if (state.mode == Mode::contact) walls.in = object.limit + kSkin - depth;
@@ -162,8 +158,12 @@ void check_tip(Walk& walk, State& state) noexcept {
   if (walk.scene.probe) return;  // a real surface is not ours to keep inside of
   if (!walk.X_WH.valid() || state.object < 0) return;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
-  const Point<'O'> outer =
-      outermost(object, object.X_WO.inverse() * walk.X_WH.origin(), walk.scene.tip_radius);
+  const Point<'O'> centre = object.X_WO.inverse() * walk.X_WH.origin();
+  ObjectHint& hint = state.hints.tip;
+  walk.at_tip = object.surface.nearest(centre, hint.object == state.object ? hint.feature : -1);
+  hint = {state.object, walk.at_tip.feature};
+  // The point of the tip that is nearest to the outside of the object.
+  const Point<'O'> outer = centre + walk.scene.tip_radius * walk.at_tip.normal;
   check_undeformed(walk, object, outer, state);
   if (walk.scene.has_display) check_dent(walk, object, outer, state);
 }
@@ -171,7 +171,7 @@ void check_tip(Walk& walk, State& state) noexcept {
 namespace {
 
 // Velocity of the next set-point, in W.
-Vec3 commanded(Walk& walk, const State& state, const Vec3& before) {
+Vec3 commanded(Walk& walk, State& state, const Vec3& before) {
   const double dt = walk.scene.dt;
   const double acceleration = walk.scene.reach.acceleration;
   const Walls walls = walls_around(walk, state);

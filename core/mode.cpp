@@ -26,9 +26,8 @@ bool at_rest(const Walk& walk, const State& state) {
 // The surface point under the tool; without a tracker, over the tip.
 Pose<'W', 'N'> frame_under_tool(const Walk& walk, const State& state) {
   if (walk.tool_known) return {rotation_z_to(walk.normal.e()), walk.surface_point};
-  const NearestInWorld at_tip =
-      nearest(walk.scene.objects[static_cast<std::size_t>(state.object)], walk.X_WH.origin());
-  return {rotation_z_to(at_tip.normal.e()), at_tip.point};
+  const Pose<'W', 'O'>& X_WO = walk.scene.objects[static_cast<std::size_t>(state.object)].X_WO;
+  return {rotation_z_to((X_WO * walk.at_tip.normal).e()), X_WO * walk.at_tip.point};
 }
 
 void begin_contact(Walk& walk, State& state, bool by_force) {

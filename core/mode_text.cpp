@@ -12,7 +12,7 @@ std::string_view mode_name(Mode mode) {
 }
 
 std::string why_text(std::uint32_t why) {
-  static constexpr std::array<std::pair<Why, std::string_view>, 22> kTexts{
+  static constexpr std::array<std::pair<Why, std::string_view>, 23> kTexts{
       {{kToolInvalid, "tool pose invalid"},
        {kToolLost, "tool lost"},
        {kForceInvalid, "force invalid"},
@@ -34,7 +34,8 @@ std::string why_text(std::uint32_t why) {
        {kByForce, "contact by force"},
        {kTaring, "force zero not known yet"},
        {kToolUnseen, "no tool in view"},
-       {kOverload, "pressed harder than the machine carries"}}};
+       {kOverload, "pressed harder than the machine carries"},
+       {kSurfaceJump, "nearest point jumped"}}};
   std::string text;
   for (const auto& [bit, words] : kTexts) {
     if ((why & bit) == 0) continue;

@@ -27,7 +27,12 @@ struct Object {
   double wanted =
       kUnset;  // what object, behaviour and response ask for; more only where the machine is too weak
   Tangential tangential = Tangential::stick;
-  double tangential_stiffness = kUnset;  // N/m
+  double tangential_stiffness = kUnset;               // N/m
+  Point<'W'> centre = X_WO * surface.bound().centre;  // of a ball that holds the object
+  double radius = surface.bound().radius;             // m; infinite for a half space
+
+  // No surface point of the object is nearer to p than this, m; negative where p may be inside.
+  [[nodiscard]] double least_distance(const Point<'W'>& p) const { return (p - centre).norm() - radius; }
 };
 
 struct Tool {

@@ -21,9 +21,10 @@ struct Walk {
   double tool_radius = 0.0;
   Pose<'W', 'H'> X_WH;  // track: where the machine says the tip is
 
-  Point<'W'> surface_point;  // touch: nearest to the tool
+  Point<'W'> surface_point;  // touch: nearest to the tool; without a tracker, to the tip
   Vec<'W'> normal;           // outward
   double gap = kUnset;       // m
+  Nearest at_tip;            // check_tip: nearest to the tip's centre, in the frame of state.object
   Vec<'W'> force;            // sense: on the tip, N
   Vec<'W'> felt;             // the same before the low-pass
   Point<'W'> target;         // target: wanted tip centre
@@ -50,6 +51,9 @@ struct NearestInWorld {
   double distance = kUnset;
 };
 [[nodiscard]] NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept;
+// The same of the scene's object `index`, from where the last such query ended.
+[[nodiscard]] NearestInWorld nearest(const Scene& scene, std::int32_t index, const Point<'W'>& p,
+                                     ObjectHint& hint) noexcept;
 
 // Of the machine's acceleration, the way along the normal has 0.8 and the sideways way 0.6 for sure (together
 // 1), so that neither starves.

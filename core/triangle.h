@@ -29,11 +29,12 @@ inline OnTriangle nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& 
   const std::array<Vec3, 3> side{corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2]};
   const std::array<Vec3, 3> way{p - corner[0], p - corner[1], p - corner[2]};
   const Vec3 normal = side[0].cross(side[1]);
-  const double size = normal.squaredNorm();
-  const bool inside = size > 0.0 && normal.dot(side[0].cross(way[0])) >= 0.0 &&
-                      normal.dot(side[1].cross(way[1])) >= 0.0 && normal.dot(side[2].cross(way[2])) >= 0.0;
+  // Exactly on an edge is on the edge: it has a normal of its own.
+  const bool inside = normal.dot(side[0].cross(way[0])) > 0.0 && normal.dot(side[1].cross(way[1])) > 0.0 &&
+                      normal.dot(side[2].cross(way[2])) > 0.0;
   if (inside) {
     const double along = normal.dot(way[0]);
+    const double size = normal.squaredNorm();
     return {p - (along / size) * normal, along * along / size, {Part::face, 0}};
   }
   OnTriangle best;

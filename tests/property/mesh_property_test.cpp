@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -125,7 +126,7 @@ class Points {
     const Vec3 in = -tree_.face_normal(static_cast<std::int32_t>(triangle_));
     double low = 0.0;
     double high = 0.1;
-    for (int i = 0; i < 50; ++i) {
+    for (int i = 0; i < 40; ++i) {
       const double way = 0.5 * (low + high);
       const double distance = std::abs(tree_.nearest(Point<'O'>(Vec3(from + way * in))).distance);
       (distance < way * (1.0 - 1e-9) ? high : low) = way;
@@ -146,7 +147,8 @@ void compare(const std::string& name, const Mesh& mesh) {
   Points points(mesh, tree);
   const int windings =
       std::min(kPoints, static_cast<int>(kWindings / static_cast<double>(mesh.triangles.size())));
-  const int every = kPoints / windings;
+  int every = kPoints / windings;
+  while (std::gcd(every, 6) != 1) ++every;  // so that all kinds of points get their turn
   std::int32_t hint = -1;
   double worst = 0.0;
   int apart = 0;
@@ -179,7 +181,7 @@ void compare(const std::string& name, const Mesh& mesh) {
               mesh.triangles.size(), kPoints, worst, signs, wrong);
   EXPECT_EQ(apart, 0);
   EXPECT_EQ(wrong, 0);
-  EXPECT_GT(signs, windings / 2);
+  EXPECT_GT(signs, windings / 4);
   EXPECT_EQ(hinted, 0);  // a hint changes nothing
   EXPECT_EQ(off, 0);     // distance and point belong together, normals are unit
 }
