@@ -169,8 +169,8 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
 sim::Camera camera_for(const Moment& m, bool close_up) {
   sim::Camera camera;
   camera.azimuth = 1.75;  // from the front and a little from the right
-  camera.elevation = close_up ? -0.08 : -0.22;
-  camera.distance = close_up ? 0.26 : 1.18;
+  camera.elevation = close_up ? -0.38 : -0.22;  // down into the dent
+  camera.distance = close_up ? 0.22 : 1.18;
   camera.opening = 0.52;
   camera.look_at = close_up ? m.world.truth().tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.090);
   return camera;

@@ -319,7 +319,7 @@ TEST_F(SceneFile, behaviour_that_says_too_little_or_too_much) {
 
 TEST_F(SceneFile, tips_that_are_none) {
   const auto tip = [&](const std::string& keys) { return scene_said("tip_mm", keys + "\ntip_mm"); };
-  EXPECT_THAT(tip("tip_shape = \"spheer\""), HasSubstr("sphere, cone, edge"));
+  EXPECT_THAT(tip("tip_shape = \"spheer\""), HasSubstr("expected 'sphere' or 'cone' or 'edge'"));
   EXPECT_THAT(tip("tip_shape = \"cone\"\ntip_axis = [0, 0, 1]"),
               HasSubstr("has no 'tip_half_angle_deg'; expected"));
   EXPECT_THAT(tip("tip_shape = \"cone\"\ntip_half_angle_deg = 20"), HasSubstr("has no 'tip_axis'; expected"));
