@@ -114,8 +114,6 @@ class Reader {
            fmt::format("the time {} s does not come after {} s; expected increasing times; sort the rows",
                        cells[at_[kTime]].text, time_));
     time_ = time;
-    const LoopPoint point{number(cells[at_[kDeflection]], kDeflection) * 1e-3,
-                          number(cells[at_[kForce]], kForce)};
     const Cell& repeat = cells[at_[kRepeat]];
     const double which = repeat.text.empty() ? 0.0 : number(repeat, kRepeat);
     if (!(which >= 0.0 && which <= 1e6) || which != std::floor(which))
@@ -123,6 +121,12 @@ class Reader {
            fmt::format("'repeat' is {}; expected a whole number, 0 or nothing outside of a press; "
                        "correct it",
                        quoted(std::string(repeat.text))));
+    // A rig that has not found its zero yet has no force to tell; outside of a press nothing is lost by that.
+    const auto reading = [&](std::size_t column) {
+      const Cell& cell = cells[at_[column]];
+      return which == 0.0 && cell.text.empty() ? 0.0 : number(cell, column);
+    };
+    const LoopPoint point{reading(kDeflection) * 1e-3, reading(kForce)};
     if (which > 0.0 && point.deflection > 0.0) repeats[static_cast<std::int64_t>(which)].push_back(point);
   }
 
