@@ -45,11 +45,11 @@ struct ObjectSpec {
   double limit = kUnset;   // deflection limit, m; unset: the behaviour's
 
   // mesh
-  std::string mesh;                     // file
-  std::string mesh_hash;                // of its content, 16 hex digits; empty: not known
-  double scale = 1.0;                   // of the file's metres
-  Vec3 rotation{0, 0, 0};               // of O in W, about the fixed x, then y, then z axis, rad
-  std::shared_ptr<const Mesh> surface;  // filled by the loader; unscaled, closed, outward
+  std::string mesh{};                     // file
+  std::string mesh_hash{};                // of its content, 16 hex digits; empty: not known
+  double scale = 1.0;                     // of the file's metres
+  Vec3 rotation{0, 0, 0};                 // of O in W, about the fixed x, then y, then z axis, rad
+  std::shared_ptr<const Mesh> surface{};  // filled by the loader; unscaled, closed, outward
 };
 
 struct ToolSpec {
