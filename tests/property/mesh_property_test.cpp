@@ -78,20 +78,20 @@ double winding_number(const Mesh& mesh, const Vec3& p) {
 // Points of all kinds, `count` in all.
 class Points {
  public:
-  Points(const Mesh& mesh, const MeshTree& tree) : mesh_(mesh), tree_(tree) {}
+  // One in `medial_every` is on the medial axis or near the centre.
+  Points(const Mesh& mesh, const MeshTree& tree, int medial_every)
+      : mesh_(mesh), tree_(tree), medial_every_(medial_every) {}
 
   Vec3 next() {
     const Vec3 on = on_surface();
-    switch (kind_++ % 6) {
+    if (++count_ % medial_every_ == 0) return count_ / medial_every_ % 2 == 0 ? medial(on) : 1e-3 * any();
+    if (count_ == 1) return Vec3::Zero();  // the centre
+    switch (count_ % 4) {
       case 0:
         return on;  // inside a face, on an edge, on a corner
       case 1:
         return on + std::pow(10.0, uniform(-9.0, -2.0)) * any();  // near the surface
       case 2:
-        return medial(on);  // near the medial axis
-      case 3:
-        return std::round(uniform(0.0, 1.0)) * 1e-3 * any();  // the centre, and near it
-      case 4:
         return 0.05 * any();
       default:
         return std::pow(10.0, uniform(-1.0, 2.0)) * any();  // far away
@@ -138,17 +138,18 @@ class Points {
   const MeshTree& tree_;
   std::mt19937_64 random_{4};
   std::size_t triangle_ = 0;
-  int kind_ = 0;
+  int medial_every_;
+  int count_ = 0;
 };
 
-void compare(const std::string& name, const Mesh& mesh) {
+void compare(const std::string& name, const Mesh& mesh, int medial_every = 5) {
   const MeshTree tree(mesh);
   const Cgal cgal(mesh);
-  Points points(mesh, tree);
+  Points points(mesh, tree, medial_every);
   const int windings =
       std::min(kPoints, static_cast<int>(kWindings / static_cast<double>(mesh.triangles.size())));
   int every = kPoints / windings;
-  while (std::gcd(every, 6) != 1) ++every;  // so that all kinds of points get their turn
+  while (std::gcd(every, 2) != 1) ++every;  // so that all kinds of points get their turn
   std::int32_t hint = -1;
   double worst = 0.0;
   int apart = 0;
@@ -190,7 +191,8 @@ TEST(MeshProperty, Sphere) { compare("sphere", bench::geodesic_ball(3)); }
 TEST(MeshProperty, Cube) { compare("cube", bench::cube(2)); }
 TEST(MeshProperty, PartWithSlivers) { compare("turned part", bench::turned_part()); }
 TEST(MeshProperty, TorusKnot) { compare("knot", bench::knot(400, 24)); }
-TEST(MeshProperty, BallOf100000) { compare("ball", bench::geodesic_ball(71)); }
+// Near the centre of a ball all triangles are as near, and CGAL tries each: 200 such points are enough.
+TEST(MeshProperty, BallOf100000) { compare("ball", bench::geodesic_ball(71), 500); }
 
 }  // namespace
 }  // namespace enc
