@@ -168,7 +168,7 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
 
 sim::Camera camera_for(const Moment& m, bool close_up) {
   sim::Camera camera;
-  camera.azimuth = 1.75;  // from the front and a little from the right
+  camera.azimuth = 1.75;                        // from the front and a little from the right
   camera.elevation = close_up ? -0.38 : -0.22;  // down into the dent
   camera.distance = close_up ? 0.22 : 1.18;
   camera.opening = 0.52;

@@ -5,7 +5,7 @@
 namespace enc::bench {
 
 std::span<const Benchmark> benchmarks() {
-  static constexpr std::array<Benchmark, 7> kAll{{
+  static constexpr auto kAll = std::to_array<Benchmark>({
       {"dent", "tennis_ball",
        "the seen surface: contact vertex, volume, time of an update of 10,242 vertices", run_dent},
       {"encounter", "tennis_ball",
@@ -19,7 +19,7 @@ std::span<const Benchmark> benchmarks() {
       {"speed", "tennis_ball", "step(), times real time, wrapper over raw mj_step", run_speed},
       {"structure", "tennis_ball", "hexapod on elastic legs: sag, modes, order of the integrator, cost",
        run_structure},
-  }};
+  });
   return kAll;
 }
 

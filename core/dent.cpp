@@ -10,12 +10,6 @@
 namespace enc {
 namespace {
 
-// How large the object is, m: the radius of the ball that holds it. Infinite for a half space.
-double size_of(const Surface& surface) {
-  const auto* sphere = std::get_if<Sphere>(&surface.shape());
-  return sphere != nullptr ? sphere->radius : std::numeric_limits<double>::infinity();
-}
-
 // The slope at which the surface leaves the tip. A thin ball dimples over sqrt(R d) [parameters 4.2,
 // Pogorelov]: with twice that dimple's own slope at its rim, sqrt(d/R), the displacement of a ball under a
 // point ends exactly there. A half space dents over a few depths: 10/3 d.
@@ -121,7 +115,7 @@ DentField<double> dent_field(const Surface& surface, const DentSample& dent) noe
   field.depth = dent.depth;
   field.blend = 0.5 * dent.depth;
   field.radius = std::max(dent.tip.radius, kPoint);
-  field.slope = leaving_slope(size_of(surface), dent.depth, dent, n);
+  field.slope = leaving_slope(surface.bound().radius, dent.depth, dent, n);
   const double cosine = 1.0 / std::sqrt(1.0 + field.slope * field.slope);
   const double cap = field.radius * field.slope * cosine;
   field.cap2 = cap * cap;
