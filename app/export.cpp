@@ -1,7 +1,6 @@
 // A record as a table, for programs that know nothing of Encounter (docs/rig.md). Row by row: a long record
 // is never in memory as a whole.
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -11,14 +10,12 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "benchmarks/record_table.h"
 #include "benchmarks/trial.h"
 #include "core/error.h"
 
 namespace enc::app {
 namespace {
-
-constexpr const char* kColumns =
-    "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat\n";
 
 // The file, or standard output for "-".
 class Output {
@@ -50,37 +47,6 @@ class Output {
   std::FILE* file_;
 };
 
-// The shortest text that reads back to the same number; nothing where the number is not known.
-void add(std::string& row, double x) {
-  row += ',';
-  if (std::isfinite(x)) row += fmt::format("{}", x);
-}
-
-// How hard the object is pressed, N. By a probe: as measured in this tick, not filtered. In a contact: what
-// the object was made to answer to, which is filtered.
-double pressing(const Scene& scene, const Outputs& out) {
-  if (scene.probe) return dot(out.felt, scene.probe->X_WN * Vec<'N'>(0, 0, 1));
-  return -out.force.xyz[2];
-}
-
-// Number of the push or contact that a row belongs to; 0: none.
-std::int32_t repeat(const Outputs& out) {
-  const bool pressed = out.mode == Mode::contact || (out.mode == Mode::probe && out.deflection > 0.0);
-  return pressed ? out.contacts : 0;
-}
-
-std::string row_of(const Scene& scene, const RecordedTick& frame) {
-  constexpr double kMillimetres = 1e3;
-  const Outputs& out = frame.out;
-  std::string row = fmt::format("{},{}", seconds(frame.tick.t.time_since_epoch()), mode_name(out.mode));
-  const Point<'W'> tip = scene.X_WR * frame.in.tip.value.X_RH.origin();
-  for (const double x : tip.xyz) add(row, kMillimetres * x);
-  for (const double x : out.felt.xyz) add(row, x);
-  add(row, kMillimetres * out.deflection);
-  add(row, pressing(scene, out));
-  return row + fmt::format(",{}\n", repeat(out));
-}
-
 }  // namespace
 
 int export_record(const ExportOptions& options) {
@@ -91,8 +57,9 @@ int export_record(const ExportOptions& options) {
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = bench::prepare_setup(setup);
   Output output(options.csv);
-  output.write(kColumns);
-  for (RecordedTick frame; record.next(frame);) output.write(row_of(scene, frame));
+  const bench::RecordTable table(setup, scene);
+  output.write(bench::RecordTable::header());
+  for (RecordedTick frame; record.next(frame);) output.write(table.row(frame.tick, frame.in, frame.out));
   output.close();
   return 0;
 }

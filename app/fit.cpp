@@ -97,7 +97,7 @@ int fit(const FitOptions& options) {
   const models::LoopData loop = models::parse_loop(text_of(options.loop), options.loop, how.limit);
   LoopFit fit;
   try {
-    fit = models::fit_loop(loop, std::filesystem::path(options.loop).filename().string(), how);
+    fit = models::fit_loop(loop, how);
   } catch (const Error& e) {
     throw Error(
         fmt::format("{}:1:1: {}; record the loop again, or give another --limit-mm", options.loop, e.what()));

@@ -13,10 +13,11 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
-#include "benchmarks/response_source.h"
+#include "benchmarks/record_table.h"
 #include "core/scene.h"
 #include "models/loop_fit.h"
 #include "models/scene_file.h"
+#include "sim/ball_plant.h"
 
 namespace enc::bench {
 namespace {
@@ -159,12 +160,10 @@ double least_absorbed(const Response& response, std::uint64_t seed) {
 }
 
 ResponseSpec fitted(const std::string& csv, double floor, double ceiling = kUnset) {
-  return models::fit_loop(models::parse_loop(csv, "plant_loop.csv", kLimit), "plant_loop.csv",
-                          {kLimit, floor, ceiling})
-      .response;
+  return models::fit_loop(models::parse_loop(csv, "loop", kLimit), {kLimit, floor, ceiling}).response;
 }
 
-// A full loop of the second plant, as plant_loop() is of the first.
+// A full loop of the second plant.
 std::string second_loop_csv() {
   std::string text = "time_s,deflection_mm,force_N,repeat\n";
   BoucWen plant;
@@ -184,8 +183,7 @@ BenchResult run_response(const BenchContext& context) {
         {"response." + std::move(id), kUnset, twin, unit, Role::ours, low, high, std::move(note)});
   };
   const double floor = models::fit_floor(loop_of(models::load_rig(context.models + "/rigs/sim.toml")));
-  const std::string csv = plant_loop_csv({}, kSpeed, kLimit);
-  const ResponseSpec ball = fitted(csv, floor);
+  const ResponseSpec ball = models::load_response(context.models + "/responses/tennis_ball.toml");
   const ResponseSpec second = fitted(second_loop_csv(), floor);
   struct Model {
     const char* name;
@@ -200,7 +198,8 @@ BenchResult run_response(const BenchContext& context) {
       const std::vector<double> path = path_of(loop.turns);
       result.simulated += static_cast<double>(path.size()) * kPeriod;
       add(fmt::format("{}.minor_{}.rmse", m.name, loop.name), error_on(response, path, Ball{}), "N", kUnset,
-          m.most_error, "against the plant at 4 mm/s; fitted to 0-6-0 alone");
+          m.most_error,
+          "against the plant at 4 mm/s; the shipped response knows the rig's pushes 0-6-0 alone");
       add(fmt::format("{}.second_plant_{}.rmse", m.name, loop.name), error_on(of_second, path, BoucWen{}),
           "N", kUnset, kUnset, "Bouc-Wen with relaxation, fitted to its own 0-6-0: for information");
     }
@@ -215,7 +214,9 @@ BenchResult run_response(const BenchContext& context) {
   // The price of quiet stops: a passive force turns fastest at once, so what is quiet for a tremor turns
   // late.
   constexpr double kQuiet = 0.2 / 60e-6;  // N/m: 0.2 N for 60 um
-  const Response quiet(fitted(csv, floor, kQuiet), floor, Reversal::prandtl_ishlinskii);
+  const Response quiet(
+      fitted(table_of_run(models::load(context.models + "/scenes/rig_A.toml", "sim"), 1), floor, kQuiet),
+      floor, Reversal::prandtl_ishlinskii);
   double worst = 0.0;
   for (const MinorLoop& loop : minor_loops())
     worst = std::max(worst, error_on(quiet, path_of(loop.turns), Ball{}));

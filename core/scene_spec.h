@@ -13,6 +13,7 @@
 #include "core/frames.h"
 #include "core/mesh.h"
 #include "core/response.h"
+#include "core/task_spec.h"
 #include "core/tip.h"
 
 namespace enc {
@@ -78,39 +79,6 @@ struct TrackerSpec {};
 struct DisplaySpec {};
 struct GripperSpec {
   std::string tool;  // clamped, its tip at H and its shaft upwards; empty: the first
-};
-
-// Who holds the tool. A simulated rig plays this; a real rig shows it to the person.
-struct UserSpec {
-  std::string kind = "press_release";
-  std::string object;    // pressed; empty: the first
-  std::string tool;      // held; empty: the first
-  double azimuth = 0.0;  // where on the object, from +x towards +y of W, rad
-  double polar = 0.0;    // and from +z of W, rad: 0 presses from above
-  double offset = 0.0;   // sideways of the axis, m (indentation B)
-  double depth = 0.006;  // wanted deflection, m
-  double push = kUnset;  // instead: push with this force, N, whatever the depth
-  double press_time = 6.0, hold_time = 0.5, release_time = 6.0, rest_time = 1.0;  // s
-  std::vector<double> approach{0.02};  // speed of the tool when it touches, m/s; one press for each entry
-  double approach_from = 0.060;        // m, distance of the start from the touched point
-  double approach_tilt = 0.5;          // rad, of the approach from the surface normal
-  std::int64_t repeats = 1;            // of the whole list
-};
-
-// The test rig of [VHMR 4.2, Fig 7]: the machine itself pushes a sphere into a real object and measures it.
-// Nobody holds a tool, and nothing is rendered.
-struct ProbeSpec {
-  std::string object;     // pressed; empty: the first
-  double azimuth = 0.0;   // of the axis out of the object, from +x towards +y of W, rad
-  double polar = M_PI;    // and from +z of W, rad: pi is pushed from below, straight up
-  double offset = 0.0;    // sideways of the axis through the object's origin, towards growing polar, m
-  double radius = 0.010;  // of the sphere that the machine carries instead of its haptic-tip, m
-  double depth = 0.006;   // of a push, from the first touch of the undeformed object along the axis, m
-  double speed = 0.004;   // of pushing and going back, m/s
-  double clear = 0.004;   // above the first touch, where a push begins and ends, m
-  double dwell = 0.0;     // at depth, s
-  double rest = 2.0;      // clear of the object before each push, s
-  std::int64_t repeats = 5;
 };
 
 struct SceneSpec {

@@ -52,6 +52,7 @@ class Reader {
     std::map<std::int64_t, std::vector<LoopPoint>> repeats;
     while (next(line))
       if (!line.empty()) row(cells_of(line), repeats);
+    if (!origin_.empty()) remark = origin_;
     return repeats;
   }
   [[noreturn]] void fail(std::size_t column, const std::string& what) const {
@@ -90,6 +91,7 @@ class Reader {
       at_[i] = static_cast<std::size_t>(found - names.begin());
     }
     columns_ = cells.size();
+    source_ = static_cast<std::size_t>(std::find(names.begin(), names.end(), "source") - names.begin());
   }
 
   double number(const Cell& cell, std::size_t which) const {
@@ -127,12 +129,15 @@ class Reader {
       return which == 0.0 && cell.text.empty() ? 0.0 : number(cell, column);
     };
     const LoopPoint point{reading(kDeflection) * 1e-3, reading(kForce)};
-    if (which > 0.0 && point.deflection > 0.0) repeats[static_cast<std::int64_t>(which)].push_back(point);
+    if (which == 0.0 || !(point.deflection > 0.0)) return;
+    if (repeats.empty() && source_ < cells.size()) origin_ = cells[source_].text;
+    repeats[static_cast<std::int64_t>(which)].push_back(point);
   }
 
   std::string_view text_;
   std::string name_;
-  std::size_t line_ = 0, columns_ = 0;
+  std::size_t line_ = 0, columns_ = 0, source_ = 0;
+  std::string origin_;
   std::array<std::size_t, kColumns.size()> at_{};
   double time_ = -std::numeric_limits<double>::infinity();
 };

@@ -14,7 +14,9 @@ struct LoopData {
   std::vector<std::vector<LoopPoint>> presses;
   // The same without those at standstill, where it is neither pressed nor released.
   std::vector<std::vector<LoopPoint>> moving;
-  std::string remark;  // text of the comment lines (#) before the header, if any
+  // Who measured what: the text of the column `source` in a press, else of the comment lines (#) before the
+  // header; empty where the file does not say.
+  std::string remark;
 };
 
 // Rows without a repeat, or with repeat 0, or with a deflection of 0 or less, belong to no press. name: of

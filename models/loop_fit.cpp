@@ -127,13 +127,12 @@ void find_repeatability(const LoopData& loop, const Response& response, LoopFit&
     }
 }
 
-std::string source_of(const LoopFit& fit, const std::string& file, const std::string& remark) {
+std::string source_of(const LoopFit& fit, const std::string& remark) {
   return fmt::format(
-      "`encounter fit {}`{}: {} presses, {} readings, to {:g} mm; slope {:.3f} to {:.2f} N/mm; RMSE press "
-      "{:.3f}, "
-      "release {:.3f} N (without constraints {:.3f}, {:.3f} N); stops {:.3f} N (without constraints {:.3f} "
-      "N)",
-      file, remark.empty() ? "" : fmt::format(" ({})", remark), fit.presses, fit.readings,
+      "{} `encounter fit`: {} presses, {} readings, to {:g} mm; slope {:.3f} to {:.2f} N/mm; RMSE press "
+      "{:.3f}, release {:.3f} N (without constraints {:.3f}, {:.3f} N); stops {:.3f} N (without constraints "
+      "{:.3f} N)",
+      remark.empty() ? "Of unknown origin." : remark + ".", fit.presses, fit.readings,
       fit.response.limit * 1e3, fit.floor * 1e-3, fit.ceiling * 1e-3, fit.curves.rmse_press,
       fit.curves.rmse_release, fit.curves.rmse_press_free, fit.curves.rmse_release_free, fit.stops.rmse,
       fit.stops.rmse_free);
@@ -141,7 +140,7 @@ std::string source_of(const LoopFit& fit, const std::string& file, const std::st
 
 }  // namespace
 
-LoopFit fit_loop(const LoopData& loop, const std::string& file, const LoopFitOptions& options) {
+LoopFit fit_loop(const LoopData& loop, const LoopFitOptions& options) {
   LoopFit fit;
   fit.presses = loop.presses.size();
   fit.floor = options.floor;
@@ -166,7 +165,7 @@ LoopFit fit_loop(const LoopData& loop, const std::string& file, const LoopFitOpt
   fit.press = known(q, drawn, fit.response.press, options.limit, true);
   fit.release = known(q, drawn, fit.response.release, options.limit, false);
   find_repeatability(loop, response, fit);
-  fit.source = source_of(fit, file, loop.remark);
+  fit.source = source_of(fit, loop.remark);
   return fit;
 }
 

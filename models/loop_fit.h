@@ -41,7 +41,6 @@ struct LoopFitOptions {
   double ceiling = kUnset;  // N/m; unset: of fit_ceiling()
 };
 
-// file: name without folders, for the source line.
-[[nodiscard]] LoopFit fit_loop(const LoopData& loop, const std::string& file, const LoopFitOptions& options);
+[[nodiscard]] LoopFit fit_loop(const LoopData& loop, const LoopFitOptions& options);
 
 }  // namespace enc::models

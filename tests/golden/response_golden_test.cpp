@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/response_source.h"
+#include "benchmarks/record_table.h"
 #include "core/response.h"
 #include "core/scene.h"
 #include "models/loop_fit.h"
@@ -23,23 +23,24 @@ double floor_of_rig() {
   return models::fit_floor(loop_of(models::load_rig(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml")));
 }
 
-void expect_fitted(const std::string& csv, const std::string& loop_name, const std::string& response) {
+// What run, export and fit do, in one process.
+void expect_fitted(const std::string& ball, const std::string& response) {
   std::ifstream file(kResponses + response, std::ios::binary);
   const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   ASSERT_FALSE(committed.empty());
-  const models::LoopFit fit = models::fit_loop(models::parse_loop(csv, loop_name, kLimit), loop_name,
-                                               {kLimit, floor_of_rig(), kUnset});
-  EXPECT_EQ(models::response_text(fit.response, fit.source), committed);
+  const models::Setup setup =
+      models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/rig_A.toml", "sim", {"truth.ball.set=" + ball});
+  const models::LoopData loop = models::parse_loop(bench::table_of_run(setup, 1), "rig_A.csv", kLimit);
+  const models::LoopFit fit = models::fit_loop(loop, {kLimit, floor_of_rig(), kUnset});
+  EXPECT_EQ(models::response_text(fit.response, fit.source), committed)
+      << "if that is as it should be:\n  build/release/encounter run models/scenes/rig_A.toml --set "
+         "truth.ball.set="
+      << ball << " --record out/a.encrec && build/release/encounter export out/a.encrec --csv out/a.csv && "
+      << "build/release/encounter fit out/a.csv --out models/responses/" << response;
 }
 
-// The ball without a rig around it. With the rig: the CSV text of a run of rig_A takes this loop's place.
-TEST(ResponseGolden, TennisBallIsReproduced) {
-  expect_fitted(bench::plant_loop_csv({}, 4e-3, kLimit), "tennis_ball_loop.csv", "tennis_ball.toml");
-}
-TEST(ResponseGolden, RegulationBallIsReproduced) {
-  expect_fitted(bench::plant_loop_csv(bench::regulation_ball(), 4e-3, kLimit), "regulation_ball_loop.csv",
-                "regulation_ball.toml");
-}
+TEST(ResponseGolden, TennisBallIsReproduced) { expect_fitted("nominal", "tennis_ball.toml"); }
+TEST(ResponseGolden, RegulationBallIsReproduced) { expect_fitted("regulation", "regulation_ball.toml"); }
 
 // What the file says after reading, whichever model is felt: 12 +- 1 N where the true deflection first comes
 // within 0.05 mm of the limit (decisions 6), and accepted with the fit's own floor although its coefficients
@@ -50,8 +51,8 @@ TEST(ResponseGolden, TennisBallFileIsAcceptedAndTwelveNewton) {
     const Response ball(spec, floor_of_rig(), reversal);
     EXPECT_EQ(ball.limit(), kLimit);
     EXPECT_NEAR(ball.press(5.95e-3), 12.0, 1.0);
-    EXPECT_NEAR(ball.press(6e-3), 12.08, 0.15);
-    EXPECT_NEAR(ball.largest_gap(), 1.74, 0.05);
+    EXPECT_GT(ball.largest_gap(), 1.0);  // a loop of about 19 % (parameters 4.4)
+    EXPECT_LT(ball.largest_gap(), 2.5);
   }
 }
 
@@ -59,7 +60,7 @@ TEST(ResponseGolden, TennisBallFileIsAcceptedAndTwelveNewton) {
 TEST(ResponseGolden, RegulationBallFileIsAcceptedAndFiftyNewton) {
   const ResponseSpec spec = models::load_response(kResponses + "regulation_ball.toml");
   for (const Reversal reversal : {Reversal::energy_stop, Reversal::prandtl_ishlinskii})
-    EXPECT_NEAR(Response(spec, floor_of_rig(), reversal).press(6e-3), 50.0, 6.0);
+    EXPECT_NEAR(Response(spec, floor_of_rig(), reversal).press(5.95e-3), 50.0, 6.0);
 }
 
 }  // namespace

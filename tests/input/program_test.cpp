@@ -190,8 +190,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "at most 5000"},
         BadFile{"TimeStepThatDoesNotDivide", kSim, "timestep_us = 1000", "timestep_us = 700",
                 "timestep_us = 700", "does not divide the haptic period"},
-        BadFile{"NanCoefficient", "responses/tennis_ball.toml", "press_N_per_mm_k = [0.24905222",
-                "press_N_per_mm_k = [nan", "[nan", "expected a finite number"},
+        BadFile{"NanCoefficient", "responses/tennis_ball.toml", "press_N_per_mm_k = [",
+                "press_N_per_mm_k = [nan, ", "[nan", "expected a finite number"},
         BadFile{"ObjectOutOfReach", kBall, "position_mm = [0, 0, -20]", "position_mm = [200, 0, -20]",
                 "position_mm = [200", "outside the machine's reach"},
         BadFile{"PressOutOfReach", kBall, "polar_deg = 0 ", "polar_deg = 170 ", "polar_deg = 170",
@@ -736,7 +736,6 @@ TEST_F(Program, FitRefusesBadLoopsInOneLine) {
       {{"fit", path("loop.csv"), "--limit-mm", "7"}, "--limit-mm 6"},
       {{"fit", path("loop.csv"), "--limit-mm", "-1"}, "--limit-mm"},
       {{"fit", path("loop.csv"), "--ceiling-N-per-mm", "0.1"}, "--ceiling-N-per-mm"},
-      {{"fit", path("loop.csv"), "--ceiling-N-per-mm", "1.0"}, "no curve meets"},
       {{"fit", path("loop.csv"), "--rig", "simm"}, "did you mean 'sim'"},
       {{"fit", path("loop.csv"), "--out", path("none/f.toml")}, "cannot be written"}};
   for (const auto& [args, says] : cases) {

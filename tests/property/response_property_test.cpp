@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/response_source.h"
 #include "core/loop_model.h"
 #include "core/response.h"
 #include "models/loop_fit.h"
+#include "tests/support/plant_loop.h"
 
 namespace enc {
 namespace {
@@ -20,8 +20,8 @@ constexpr double kLimit = 6e-3;  // m
 
 const ResponseSpec& ball_spec() {
   static const ResponseSpec kSpec = [] {
-    const models::LoopData loop = models::parse_loop(bench::plant_loop_csv({}, 4e-3, kLimit), "ball", kLimit);
-    return models::fit_loop(loop, "ball", {kLimit, models::fit_floor(LoopModel{}), kUnset}).response;
+    const models::LoopData loop = models::parse_loop(test::plant_loop_csv({}, 4e-3, kLimit), "ball", kLimit);
+    return models::fit_loop(loop, {kLimit, models::fit_floor(LoopModel{}), kUnset}).response;
   }();
   return kSpec;
 }

@@ -12,8 +12,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/response_source.h"
 #include "core/error.h"
+#include "tests/support/plant_loop.h"
 
 namespace enc::models {
 namespace {
@@ -110,7 +110,7 @@ TEST(ResponseFit, OrderOfTheCurvesAsByHand) {
 // The ball's loop. What the constraints cost: the release curve cannot be flat below 0.5 mm, where the plant
 // has lifted off.
 TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
-  const auto loop = bench::plant_loop({}, 4e-3, kLimit);
+  const auto loop = test::plant_loop({}, 4e-3, kLimit);
   for (const double floor : {0.0, 119.0, 124.95, 300.0}) {
     const ResponseFit fit = fit_response(loop, kLimit, floor);
     const Least l = least(fit.spec);
@@ -129,7 +129,7 @@ TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
 // are drawn at random and pulled towards a curve well inside the constraints until they are feasible.
 TEST(ResponseFit, NoFeasibleNeighbourIsBetter) {
   constexpr double kFloor = 124.95;
-  const auto loop = bench::plant_loop({}, 4e-3, kLimit);
+  const auto loop = test::plant_loop({}, 4e-3, kLimit);
   const ResponseFit fit = fit_response(loop, kLimit, kFloor);
   const double best = squares(loop, fit.spec);
   std::mt19937_64 random(20);

@@ -8,10 +8,7 @@
 #include "models/response_fit.h"
 #include "sim/ball_plant.h"
 
-namespace enc::bench {
-
-// Parameters of a regulation ball (parameters.md 4.3, 4.4): about 50 N at 6 mm.
-[[nodiscard]] sim::BallParameters regulation_ball();
+namespace enc::test {
 
 // One press from rest to `limit` (m) and back at `speed` (m/s), read at 1 kHz, without noise or quantisation.
 [[nodiscard]] std::vector<models::LoopPoint> plant_loop(const sim::BallParameters& ball, double speed,
@@ -21,4 +18,4 @@ namespace enc::bench {
 // `encounter fit`. Says in its first line that it is synthetic.
 [[nodiscard]] std::string plant_loop_csv(const sim::BallParameters& ball, double speed, double limit);
 
-}  // namespace enc::bench
+}  // namespace enc::test

@@ -1,4 +1,4 @@
-#include "benchmarks/response_source.h"
+#include "tests/support/plant_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,7 @@
 #include "core/error.h"
 #include "sim/random.h"
 
-namespace enc::bench {
-sim::BallParameters regulation_ball() {
-  sim::BallParameters ball;
-  ball.rubber_modulus = 9e6;
-  ball.pressure = 90e3;
-  ball.felt_modulus = 0.8e6;
-  ball.felt = 2.5e-3;
-  return ball;
-}
+namespace enc::test {
 
 std::vector<models::LoopPoint> plant_loop(const sim::BallParameters& ball, double speed, double limit) {
   if (!(speed > 0.0) || !(limit > 0.0) || !(limit / speed < 3600.0))
@@ -59,4 +51,4 @@ std::string plant_loop_csv(const sim::BallParameters& ball, double speed, double
   return text;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::test

@@ -1,0 +1,30 @@
+// A run as a table with named columns, for `encounter fit` and for programs that know nothing of Encounter
+// (docs/rig.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/record.h"
+#include "models/scene_file.h"
+
+namespace enc::bench {
+
+class RecordTable {
+ public:
+  RecordTable(const models::Setup& setup, const Scene& scene);
+
+  // Comma-separated, each with its newline. A number is the shortest text that reads back to it; nothing
+  // where it is not known.
+  [[nodiscard]] static std::string_view header();
+  [[nodiscard]] std::string row(const Tick& tick, const Inputs& in, const Outputs& out) const;
+
+ private:
+  const Scene& scene_;
+  std::string source_;  // of a push: what was pressed
+};
+
+// The whole run of a set-up, as `run --record` and `export` give it.
+[[nodiscard]] std::string table_of_run(const models::Setup& setup, std::uint64_t seed);
+
+}  // namespace enc::bench
