@@ -133,8 +133,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
 
   MeshOptions mesh_options;
   CLI::App* mesh_command = app.add_subcommand("mesh", "write a mesh of our own (.glb, .obj or .stl)");
-  mesh_command->add_option("name", mesh_options.name, "hare")->required();
+  mesh_command->add_option("name", mesh_options.name, "ball, cube, hare, knot or turned_part")->required();
   mesh_command->add_option("--out", mesh_options.out, "file")->required();
+  mesh_command->add_option("--fine", mesh_options.fine,
+                           "3 to 400: how finely it is cut; a ball has 20 n^2 triangles");
   mesh_command->callback([&] { code = mesh(mesh_options); });
 
   CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");

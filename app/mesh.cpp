@@ -1,3 +1,4 @@
+// `encounter mesh NAME`: closed meshes made by rule, to try things with.
 #include <array>
 #include <string_view>
 
@@ -5,6 +6,7 @@
 
 #include "app/options.h"
 #include "benchmarks/hare.h"
+#include "benchmarks/shapes.h"
 #include "core/error.h"
 #include "models/mesh_write.h"
 #include "models/wording.h"
@@ -13,10 +15,18 @@ namespace enc::app {
 namespace {
 
 struct Maker {
-  const char* name;
-  Mesh (*make)();
+  std::string_view name;
+  Mesh (*make)(int fine);
+  int fine;  // where --fine is not given
 };
-constexpr std::array<Maker, 1> kMakers{{{"hare", bench::hare_mesh}}};
+constexpr auto kMakers = std::to_array<Maker>({
+    {"ball", [](int n) { return bench::geodesic_ball(n); }, 71},
+    {"cube", [](int n) { return bench::cube(n); }, 16},
+    {"hare", [](int) { return bench::hare_mesh(); }, 1},
+    {"knot", [](int n) { return bench::knot(10 * n, n); }, 48},
+    {"turned_part", [](int n) { return bench::turned_part(n); }, 120},
+});
+constexpr int kFinest = 400;  // the ball has 20 n^2 triangles
 
 }  // namespace
 
@@ -25,7 +35,10 @@ int mesh(const MeshOptions& options) {
   for (const Maker& maker : kMakers) {
     names.emplace_back(maker.name);
     if (options.name != maker.name) continue;
-    const Mesh made = maker.make();
+    const int fine = options.fine.value_or(maker.fine);
+    if (options.fine && (fine < 3 || fine > kFinest))
+      throw Error("--fine: expected a whole number from 3 to 400");
+    const Mesh made = maker.make(fine);
     models::write_mesh(made, options.out);
     fmt::print("{}: {} vertices, {} triangles\n", options.out, made.vertices.size(), made.triangles.size());
     return 0;

@@ -61,6 +61,7 @@ struct NearestOptions {
 };
 struct MeshOptions {
   std::string name, out;
+  std::optional<int> fine;
 };
 
 int run(const RunOptions& options);

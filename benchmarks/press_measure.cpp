@@ -75,6 +75,15 @@ PressFigures* PressMeasure::press_of(const sim::Truth& truth) {
   return presses_.empty() ? nullptr : &presses_.back();
 }
 
+// On its way into another object the tip is rightly outside of it.
+void PressMeasure::watch_outside(std::int32_t object, double deflection) {
+  if (object != object_before_) entered_ = false;
+  object_before_ = object;
+  if (object < 0) return;
+  entered_ = entered_ || deflection >= 0.0;
+  if (entered_) greatest_outside_ = std::max(greatest_outside_, -deflection);
+}
+
 void PressMeasure::see(const Glance& glance) {
   const sim::Truth& truth = glance.truth;
   if (truth.press < 0 || glance.scene.objects.empty()) return;
@@ -82,7 +91,7 @@ void PressMeasure::see(const Glance& glance) {
   const Object& object = glance.scene.objects[index];
   const stages::NearestInWorld at_tip = stages::nearest(object, truth.tip);
   const double deflection = -(at_tip.distance + truth.tip_radius);
-  greatest_outside_ = std::max(greatest_outside_, -deflection);
+  watch_outside(glance.out.object, deflection);
   // Pull is along the line between the two tips, whichever way that points.
   if (truth.touching)
     greatest_tension_ = std::max(greatest_tension_,

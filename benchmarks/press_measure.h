@@ -58,6 +58,7 @@ class PressMeasure {
 
  private:
   PressFigures* press_of(const sim::Truth& truth);
+  void watch_outside(std::int32_t object, double deflection);
   void meet(const Glance& glance, PressFigures& press, const Vec3& normal, double tool_gap);
   void compare(const Glance& glance, PressFigures& press, const Object& object, double deflection,
                double force);
@@ -71,6 +72,8 @@ class PressMeasure {
   Point<'W'> buffered_;
   double met_at_ = kUnset;  // s
   bool reached_ = false;
+  std::int32_t object_before_ = -1;
+  bool entered_ = false;  // the tip has been inside that object
 };
 
 // How far the tip may be from the tool when it is met at an approach speed, from the numbers of rig and twin

@@ -14,6 +14,7 @@ std::span<const Benchmark> benchmarks() {
       {"press", "tennis_ball", "one contact for each press, limit held, tip inside, no pull", run_press},
       {"response", "tennis_ball", "both response models: minor loops, jumps, tremor at rest, energy",
        run_response},
+      {"mesh", "tennis_ball", "a ball of a million triangles: from file to tree, and step() on it", run_mesh},
       {"nearest", "geodesic ball", "nearest point on a mesh: time, growth, jumps, race against Embree",
        run_nearest},
       {"speed", "tennis_ball", "step(), times real time, wrapper over raw mj_step", run_speed},

@@ -281,8 +281,7 @@ void check(const Setup& setup) {
   check_probe(setup);
   check_gripper(setup);
   check_rig(setup);
-  const double steps = 1.0 / (setup.rig.loop.rate * setup.twin.timestep());
-  if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6) {
+  if (setup.twin.steps_per_tick(setup.rig.loop.rate) == 0) {
     fail(setup, setup.twin.structural() ? "truth.structure.timestep_us" : "truth.world.timestep_us",
          fmt::format(
              "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -100,6 +101,12 @@ struct TwinSpec {
 
   [[nodiscard]] bool structural() const { return hexapod.form == HexapodForm::structural; }
   [[nodiscard]] double timestep() const { return structural() ? structure.timestep : world.timestep; }  // s
+  // Physics steps in a haptic period (rate in Hz); 0 where the time step does not divide it.
+  [[nodiscard]] int steps_per_tick(double rate) const {
+    const double steps = 1.0 / (rate * timestep());
+    const double whole = std::round(steps);
+    return whole >= 1.0 && std::abs(steps - whole) <= 1e-6 ? static_cast<int>(whole) : 0;
+  }
 };
 
 }  // namespace enc::sim

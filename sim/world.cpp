@@ -64,12 +64,12 @@ SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, 
                       spec.mjcf_dir, spec.draw_all});
 }
 
-int whole_steps(double dt, const TwinSpec& twin) {
-  const double steps = dt / twin.timestep();
-  if (steps < 1.0 - 1e-9 || std::abs(steps - std::round(steps)) > 1e-6)
+int whole_steps(const WorldSpec& spec) {
+  const int steps = spec.twin.steps_per_tick(spec.rig.loop.rate);
+  if (steps == 0)
     throw Error("the physics time step must divide the haptic period",
-                twin.structural() ? "truth.structure.timestep" : "truth.world.timestep");
-  return static_cast<int>(std::lround(steps));
+                spec.twin.structural() ? "truth.structure.timestep" : "truth.world.timestep");
+  return steps;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ World::World(const WorldSpec& spec)
     : machine(spec.twin.hexapod, spec.seed),
       twin_(spec.twin),
       dt_(1.0 / spec.rig.loop.rate),
-      steps_per_tick_(whole_steps(dt_, spec.twin)),
+      steps_per_tick_(whole_steps(spec)),
       X_WR_(true_base(spec)),
       X_HF_(pose_of<'H', 'F'>(spec.twin.frames.H_F)),
       q_WT_(held_tool(spec.scene) == nullptr

@@ -85,7 +85,7 @@ TEST_F(StepGolden, TheRecordedPressGivesTheSameBits) {
 TEST_F(StepGolden, TheRecordHoldsAPress) {
   const auto record = open();
   ASSERT_TRUE(record);
-  EXPECT_LT(std::filesystem::file_size(kRecord), 400'000U);
+  EXPECT_LT(std::filesystem::file_size(kRecord), 500'000U);
   std::map<Mode, int> ticks;
   double deepest = 0.0;
   double strongest = 0.0;

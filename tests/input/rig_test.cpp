@@ -79,7 +79,8 @@ const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
 
 struct Row {
   std::string mode;
-  std::vector<double> numbers;  // of all other columns; NaN where the cell is empty
+  std::vector<double> numbers;  // of all other columns but the last; NaN where the cell is empty
+  std::string source;
 };
 std::vector<Row> rows_of(const std::string& csv) {
   std::istringstream in(csv);
@@ -88,13 +89,16 @@ std::vector<Row> rows_of(const std::string& csv) {
   std::getline(in, text);
   EXPECT_EQ(
       text,
-      "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat");
+      "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
+      "source");
   while (std::getline(in, text)) {
     Row row;
     std::istringstream cells(text);
     for (std::string cell; std::getline(cells, cell, ',');) {
       if (row.numbers.size() == 1 && row.mode.empty())
         row.mode = cell;
+      else if (row.numbers.size() == 10)
+        row.source = cell;
       else
         row.numbers.push_back(cell.empty() ? kUnset : std::strtod(cell.c_str(), nullptr));
     }
@@ -125,6 +129,8 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
     ASSERT_TRUE(record.next(tick));
     ASSERT_EQ(row.numbers.size(), 10U);
     ASSERT_EQ(row.mode, "probe");
+    ASSERT_EQ(row.source,
+              row.numbers[9] > 0 ? "SIMULATED and not measured: ball 'nominal' pressed 6 mm at 4 mm/s" : "");
     ASSERT_EQ(row.numbers[0], seconds(tick.tick.t.time_since_epoch()));
     ASSERT_EQ(row.numbers[7], 1e3 * tick.out.deflection);  // to the bit
     for (std::size_t i = 0; i < 3; ++i) {

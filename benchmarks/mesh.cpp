@@ -1,0 +1,85 @@
+// What a fine mesh costs: from its file to the first tick, and in each tick after that.
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "benchmarks/bench.h"
+#include "benchmarks/shapes.h"
+#include "benchmarks/statistics.h"
+#include "benchmarks/trial.h"
+#include "core/mesh_tree.h"
+#include "models/mesh_check.h"
+#include "models/mesh_write.h"
+
+namespace enc::bench {
+namespace {
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// A file that is gone when this is.
+struct TemporaryFile {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("encounter_bench_{}.glb", getpid());
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
+// The tennis ball's scene with its sphere in triangles.
+models::Setup with_mesh(const BenchContext& context, Mesh mesh) {
+  models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  ObjectSpec& ball = setup.scene.objects.front();
+  ball.shape = ShapeKind::mesh;
+  ball.radius = kUnset;
+  ball.surface = std::make_shared<const Mesh>(std::move(mesh));
+  return setup;
+}
+
+}  // namespace
+
+BenchResult run_mesh(const BenchContext& context) {
+  BenchResult result{"mesh", "tennis_ball", 0, 0, {}};
+  const TemporaryFile file;
+  const Mesh made = geodesic_ball(224);
+  models::write_mesh(made, file.path.string());
+  const double cpu_start = thread_seconds();
+  const double start = wall_seconds();
+  models::CheckedMesh solid = models::load_solid(file.path.string());
+  const double checked = wall_seconds();
+  const MeshTree tree(solid.mesh);
+  const double ready = wall_seconds();
+  const double cpu = thread_seconds() - cpu_start;
+  const auto triangles = solid.mesh.triangles.size();
+
+  TrialOptions options;
+  options.seed = context.seed;
+  options.seconds = context.quick ? 10.0 : 40.0;
+  Trial trial(with_mesh(context, std::move(solid.mesh)), options);
+  const TrialResult run = trial.run();
+  result.simulated = run.simulated;
+  const auto add = [&](const char* id, double twin, const char* unit, double low, double high,
+                       std::string note) {
+    result.figures.push_back({id, kUnset, twin, unit, Role::ours, low, high, std::move(note)});
+  };
+  const std::string of = fmt::format("{} triangles, .glb", triangles);
+  add("mesh.load.wall", ready - start, "s", 0.0, 3.0, of + "; file, check and search tree");
+  add("mesh.load.cpu", cpu, "s", 0.0, 3.0, "the same, CPU time of its thread");
+  add("mesh.load.file_and_check", checked - start, "s", kUnset, kUnset, "of it");
+  add("mesh.tree.bytes_per_triangle",
+      static_cast<double>(tree.memory_bytes()) / static_cast<double>(triangles), "B", kUnset, kUnset,
+      "mesh, normals and tree");
+  add("mesh.step.p50", percentile(run.step_ns, 0.5) * 1e-3, "us", kUnset, kUnset,
+      "step() of the tennis ball's scene with this mesh as its ball");
+  add("mesh.step.p99_9", percentile(run.step_ns, 0.999) * 1e-3, "us", 0.0, 20.0, "the same");
+  add("mesh.contacts", run.contacts, "", 1.0, kUnset, "it was pressed");
+  add("mesh.hold.time", run.mode_time[static_cast<std::size_t>(Mode::hold)], "s", 0.0, 0.0, "and never held");
+  return result;
+}
+
+}  // namespace enc::bench
