@@ -109,20 +109,24 @@ double tremor(const Response& response) {
   constexpr double kTremor = 30e-6;
   std::mt19937_64 random(3);
   double most = 0.0;
-  for (double rest = 0.1e-3; rest <= response.limit() - kTremor; rest += 0.05e-3)
+  constexpr double kStep = 0.05e-3;  // m
+  const auto places = static_cast<int>((response.limit() - kTremor) / kStep);
+  for (int i = 2; i <= places; ++i) {
+    const double rest = i * kStep;
     for (const double from : {rest, response.limit()}) {
       ResponseState state;
       response.force(state, from);
       response.force(state, rest);
       double low = INFINITY;
       double high = -INFINITY;
-      for (int i = 0; i < 2000; ++i) {
+      for (int n = 0; n < 2000; ++n) {
         const double force = response.force(state, rest + uniform(random, -kTremor, kTremor));
         low = std::min(low, force);
         high = std::max(high, force);
       }
       most = std::max(most, high - low);
     }
+  }
   return most;
 }
 

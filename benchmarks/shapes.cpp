@@ -59,7 +59,9 @@ Mesh geodesic_ball(int n, double radius) {
   Lattice edges(mesh);  // corners and edges only: the insides of faces are nobody else's
   std::vector<std::int32_t> ids;
   for (std::size_t f = 0; f < kFaces.size(); ++f) {
-    const auto& [a, b, c] = kFaces[f];
+    const int a = kFaces[f][0];
+    const int b = kFaces[f][1];
+    const int c = kFaces[f][2];
     const auto corner_at = [&](int k) { return corner[static_cast<std::size_t>(k)]; };
     const auto point = [&](int i, int j) {  // i towards b, j towards c
       const Vec3 p = (n - i - j) * corner_at(a) + i * corner_at(b) + j * corner_at(c);

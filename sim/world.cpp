@@ -79,13 +79,13 @@ World::World(const WorldSpec& spec)
       twin_(spec.twin),
       dt_(1.0 / spec.rig.loop.rate),
       steps_per_tick_(whole_steps(spec)),
+      clamped_(spec.prepared.clamped_tool),
       X_WR_(true_base(spec)),
       X_HF_(pose_of<'H', 'F'>(spec.twin.frames.H_F)),
       q_WT_(held_tool(spec.scene) == nullptr
                 ? Quat::Identity()
                 : tool_orientation(*held_tool(spec.scene),
                                    enc::press_point(spec.scene, *spec.scene.user).normal.e())),
-      clamped_(spec.prepared.clamped_tool),
       X_HT_(clamped_pose(clamped_tool(spec.scene))),
       user_(make_user(spec, held_tool(spec.scene))),
       physics_(model_of(spec, held_tool(spec.scene), q_WT_, X_WR_)) {

@@ -80,15 +80,15 @@ class World {
   TwinSpec twin_;
   double dt_;
   int steps_per_tick_;
-  Pose<'W', 'R'> X_WR_;  // true
+  std::int32_t clamped_ = -1;  // tool in the gripper
+  Pose<'W', 'R'> X_WR_;        // true
   Pose<'H', 'F'> X_HF_;
   Quat q_WT_ = Quat::Identity();
   Vec3 tip_T_{0, 0, 0};
-  std::int32_t tool_ = -1;     // held by the user
-  std::int32_t clamped_ = -1;  // by the gripper
-  Pose<'H', 'T'> X_HT_;        // how
+  Pose<'H', 'T'> X_HT_;  // how the clamped tool stands
   std::optional<User> user_;
   Physics physics_;
+  std::int32_t tool_ = -1;  // held by the user
   int tool_body_ = -1, tip_geom_ = -1, tip_body_ = -1;
   int platform_qpos_ = 0, platform_qvel_ = 0, tool_qpos_ = 0, tool_qvel_ = 0;
   double programme_time_ = 10.0;  // s

@@ -48,7 +48,7 @@ class Embree final : public NearestPeer {
   explicit Embree(const Mesh& mesh)
       : device_(rtcNewDevice("threads=1")), scene_(device_ != nullptr ? rtcNewScene(device_) : nullptr) {
     if (scene_ == nullptr) throw Error("Embree cannot be started", {}, ErrorKind::device);
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     vertices_ = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
     triangles_ = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
