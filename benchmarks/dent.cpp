@@ -4,80 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/shapes.h"
+#include "benchmarks/statistics.h"
 #include "core/scene.h"
 #include "models/scene_file.h"
 
 namespace enc::bench {
 namespace {
-
-// Of this thread: what other programs do on the machine does not count.
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> x) {
-  std::sort(x.begin(), x.end());
-  return x[x.size() / 2];
-}
-
-// An icosahedron whose triangles are split in four `times` times; 10 * 4^times + 2 vertices on the ball.
-Mesh icosphere(double radius, int times) {
-  const double g = 0.5 * (1.0 + std::sqrt(5.0));
-  Mesh mesh{{{-1, g, 0},
-             {1, g, 0},
-             {-1, -g, 0},
-             {1, -g, 0},
-             {0, -1, g},
-             {0, 1, g},
-             {0, -1, -g},
-             {0, 1, -g},
-             {g, 0, -1},
-             {g, 0, 1},
-             {-g, 0, -1},
-             {-g, 0, 1}},
-            {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-             {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-             {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
-  const auto place = [&](std::array<double, 3>& v) {
-    const double size = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (double& x : v) x *= radius / size;
-  };
-  for (auto& v : mesh.vertices) place(v);
-  for (int i = 0; i < times; ++i) {
-    std::map<std::pair<int, int>, std::int32_t> middles;
-    const auto middle = [&](std::int32_t a, std::int32_t b) {
-      const auto [found, fresh] =
-          middles.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(mesh.vertices.size()));
-      if (fresh) {
-        const auto& p = mesh.vertices[static_cast<std::size_t>(a)];
-        const auto& q = mesh.vertices[static_cast<std::size_t>(b)];
-        std::array<double, 3> v{p[0] + q[0], p[1] + q[1], p[2] + q[2]};
-        place(v);
-        mesh.vertices.push_back(v);
-      }
-      return found->second;
-    };
-    std::vector<std::array<std::int32_t, 3>> finer;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const std::int32_t ab = middle(a, b);
-      const std::int32_t bc = middle(b, c);
-      const std::int32_t ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    mesh.triangles = std::move(finer);
-  }
-  return mesh;
-}
 
 // Positions and normals as a renderer keeps them, before and after.
 struct Cloud {
@@ -135,9 +74,9 @@ struct Times {
 template <class Update>
 double time_of(Update update) {
   constexpr int kUpdates = 20;
-  const double start = cpu_seconds();
+  const double start = thread_seconds();
   for (int i = 0; i < kUpdates; ++i) update();
-  return (cpu_seconds() - start) / kUpdates;
+  return (thread_seconds() - start) / kUpdates;
 }
 
 // `all`: a dent so wide that every vertex is computed and none is skipped.
@@ -189,7 +128,7 @@ BenchResult run_dent(const BenchContext& context) {
   const Scene scene = prepare(setup.scene, setup.rig);
   const Surface& surface = scene.objects.front().surface;
   const double radius = setup.scene.objects.front().radius;
-  const Mesh ball = icosphere(radius, 5);
+  const Mesh ball = geodesic_ball(32, radius);
   const double volume = 4.0 / 3.0 * M_PI * radius * radius * radius;
   Cloud cloud(ball);
   DentSample last;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <ctime>
 #include <optional>
 #include <random>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "benchmarks/bench.h"
 #include "benchmarks/peers/peers.h"
 #include "benchmarks/shapes.h"
+#include "benchmarks/statistics.h"
 #include "core/mesh_tree.h"
 #include "core/module.h"
 
@@ -22,17 +22,6 @@ namespace {
 constexpr double kStep = 0.05e-3;        // m: 50 mm/s at 1 kHz
 constexpr std::size_t kQueries = 20000;  // 20 s
 constexpr std::size_t kChunk = 500;
-
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double percentile(std::vector<double> x, double share) {
-  std::sort(x.begin(), x.end());
-  return x[static_cast<std::size_t>(share * static_cast<double>(x.size() - 1))];
-}
 
 // Around the ball at kStep a query: from 60 mm down, a hover up to 60 mm and back, touch, slide, press to
 // 3 mm, slide, off again.
@@ -76,9 +65,9 @@ struct Runner {
 
   template <class Ask>
   void chunk(const std::vector<Point<'O'>>& path, std::size_t first, Ask& ask) {
-    const double start = cpu_seconds();
+    const double start = thread_seconds();
     for (std::size_t i = first; i < first + kChunk; ++i) distances[i] = ask.answer(path[i]);
-    seconds.push_back(cpu_seconds() - start);
+    seconds.push_back(thread_seconds() - start);
   }
   [[nodiscard]] double nanoseconds(double share) const { return percentile(seconds, share) / kChunk * 1e9; }
 };
@@ -212,9 +201,9 @@ BenchResult run_nearest(const BenchContext& context) {
   const Race small = race(MeshTree(geodesic_ball(7)), nullptr, laps, context);
   const Mesh large = geodesic_ball(224);
   if (context.progress) context.progress(0.6);
-  const double start = cpu_seconds();
+  const double start = thread_seconds();
   const MeshTree large_tree(large);
-  const double built = cpu_seconds() - start;
+  const double built = thread_seconds() - start;
   if (context.progress) context.progress(0.8);
   const Race big = race(large_tree, nullptr, laps, context);
   add("ball_1k.p50", small.ours.nanoseconds(0.5), "ns", "980 triangles");

@@ -40,7 +40,7 @@ void joint_of(mjsBody* body, mjtJoint type, const Vec3& axis, const std::string&
 // A leg as two bodies: a cardan joint at the base, a slide along the leg, tied to the platform's joint.
 void close_loop(mjSpec* spec, const Hexapod& machine, int leg) {
   const std::string name = "leg" + std::to_string(leg);
-  const Vec3 foot = machine.base_joint(leg);
+  const Vec3& foot = machine.base_joint(leg);
   const Vec3 along = machine.zero().p() + machine.platform_joint(leg) - foot;
   mjsBody* lower =
       body_of(mjs_findBody(spec, "base"), name + "_lower", kRod, Vec3(0, 0, 0.03), Vec3::Constant(1e-7));

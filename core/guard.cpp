@@ -11,10 +11,10 @@
 namespace enc::stages {
 namespace {
 
-void check_undeformed(Walk& walk, const Object& object, const Point<'O'>& outer, State& state) {
+// `distance`: of the tip's outermost point to the undeformed surface, m.
+void check_undeformed(Walk& walk, double distance, State& state) {
   constexpr double kTolerance =
       50e-6;  // m: what play and overshoot of a machine may take before it is a fault
-  const double distance = object.surface.nearest(outer, walk.at_tip.feature).distance;
   if (distance <= -kSkin) state.entered = true;  // on the way in, the tip is rightly outside
   if (state.entered && distance > kTolerance) walk.why |= kOutsideObject;
 }
@@ -34,7 +34,7 @@ bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
 }
 
 // The seen surface is late: the tip may be outside it by what tool and tip can have moved since [VHMR 3.5].
-void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, State& state) {
+void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, double distance, State& state) {
   if (walk.in.dent.health == Health::fault ||
       (walk.in.dent.health == Health::ok && !possible(walk, walk.in.dent))) {
     walk.why |= kDentWrong;
@@ -56,7 +56,9 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, State
   }
   // The margin shrinks with each new frame: what was outside counts as inside again only well within it.
   const double margin = (rig.margin + rig.margin_speed * old) * (state.outside_dent ? 0.7 : 1.0);
-  state.outside_dent = dented_distance(object.surface, state.dent.value, outer) > margin;
+  // A dent moves the surface by its depth at most; mostly that is answer enough.
+  const bool maybe = distance + state.dent.value.depth > margin;
+  state.outside_dent = maybe && dented_distance(object.surface, state.dent.value, outer) > margin;
   if (state.outside_dent) walk.why |= kOutsideDent;
 }
 
@@ -164,8 +166,9 @@ void check_tip(Walk& walk, State& state) noexcept {
   hint = {state.object, walk.at_tip.feature};
   // The point of the tip that is nearest to the outside of the object.
   const Point<'O'> outer = centre + walk.scene.tip_radius * walk.at_tip.normal;
-  check_undeformed(walk, object, outer, state);
-  if (walk.scene.has_display) check_dent(walk, object, outer, state);
+  const double distance = object.surface.nearest(outer, walk.at_tip.feature).distance;
+  check_undeformed(walk, distance, state);
+  if (walk.scene.has_display) check_dent(walk, object, outer, distance, state);
 }
 
 namespace {

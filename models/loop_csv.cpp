@@ -74,6 +74,7 @@ class Reader {
   void header(std::string_view line) {
     const std::vector<Cell> cells = cells_of(line);
     std::vector<std::string> names;
+    names.reserve(cells.size());
     for (const Cell& cell : cells) names.emplace_back(cell.text);
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
       const auto found = std::find(names.begin(), names.end(), kColumns[i]);
@@ -154,6 +155,7 @@ std::vector<LoopPoint> branches(std::vector<LoopPoint>& press) {
     travel.push_back(press[to].deflection - press[from].deflection);
   }
   std::vector<double> sizes;
+  sizes.reserve(travel.size());
   for (const double t : travel) sizes.push_back(std::abs(t));
   std::sort(sizes.begin(), sizes.end());
   const double usual = sizes.empty() ? 0.0 : sizes[sizes.size() * 3 / 4];

@@ -75,7 +75,8 @@ BranchKnown known(const Quadratic& q, const Eigen::MatrixXd& drawn, const std::a
   for (std::size_t i = 0; i < 4; ++i)
     k.coefficients[i] = {curve[i], half_width(x.row(static_cast<Eigen::Index>(i))) /
                                        std::pow(limit, static_cast<double>(i + 1))};
-  for (double d = 1e-3; d <= limit * (1.0 + 1e-9); d += 1e-3) {
+  for (int i = 1; i * 1e-3 <= limit * (1.0 + 1e-9); ++i) {
+    const double d = i * 1e-3;
     const double u = d / limit;
     const Eigen::RowVector4d powers(u, u * u, u * u * u, u * u * u * u);
     const double force = d * (curve[0] + d * (curve[1] + d * (curve[2] + d * curve[3])));
@@ -111,8 +112,10 @@ double force_near(const std::vector<LoopPoint>& press, double d, bool pressing, 
 }
 
 void find_repeatability(const LoopData& loop, const Response& response, LoopFit& fit) {
-  for (double d = 0.25e-3; d < response.limit(); d += 0.25e-3)
+  constexpr double kStep = 0.25e-3;  // m
+  for (int i = 1; i * kStep < response.limit(); ++i)
     for (const bool pressing : {true, false}) {
+      const double d = i * kStep;
       double low = INFINITY;
       double high = -INFINITY;
       for (const auto& press : loop.moving) {

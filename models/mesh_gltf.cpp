@@ -181,6 +181,7 @@ class GltfReader {
       Eigen::Matrix4d above;
     };
     std::vector<Step> steps;
+    steps.reserve(roots.size());
     for (const int root : roots) steps.push_back({root, Eigen::Matrix4d::Identity()});
     std::vector<bool> met(count, false);
     while (!steps.empty()) {
