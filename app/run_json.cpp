@@ -65,7 +65,7 @@ std::string run_json(const RunReport& r) {
   json["rmse_release_N"] = number(r.presses.rmse_release());
   json["energy_in_mJ"] = r.presses.energy_in() * 1e3;
   json["energy_out_mJ"] = r.presses.energy_out() * 1e3;
-  json["tip_outside_um"] = r.presses.greatest_outside() * 1e6;
+  json["tip_outside_um"] = number(r.presses.greatest_outside() * 1e6);
   json["tension_N"] = r.presses.greatest_tension();
   const StepTimes times = step_times(r.result.step_ns);
   json["step_ns"] = {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};

@@ -80,10 +80,13 @@ std::string press_lines(const RunReport& r) {
                       each(presses, [](const auto& p) { return fmt::format("{}", p.contacts); }));
   text += fmt::format("energy      {:.2f} mJ in, {:.2f} mJ out\n", r.presses.energy_in() * 1e3,
                       r.presses.energy_out() * 1e3);
-  text += fmt::format("tip         {} {:.1f} um; pull on the tool at most {:.3f} N\n",
-                      r.presses.greatest_outside() <= 0.0 ? "inside of the undeformed object by at least"
-                                                          : "OUTSIDE of the undeformed object by up to",
-                      std::abs(r.presses.greatest_outside()) * 1e6, r.presses.greatest_tension());
+  const double outside = r.presses.greatest_outside();
+  text += std::isnan(outside) ? std::string("tip         was never inside of an object")
+                              : fmt::format("tip         {} {:.1f} um",
+                                            outside <= 0.0 ? "inside of the undeformed object by at least"
+                                                           : "OUTSIDE of the undeformed object by up to",
+                                            std::abs(outside) * 1e6);
+  text += fmt::format("; pull on the tool at most {:.3f} N\n", r.presses.greatest_tension());
   return text;
 }
 

@@ -81,7 +81,7 @@ void PressMeasure::watch_outside(std::int32_t object, double deflection) {
   object_before_ = object;
   if (object < 0) return;
   entered_ = entered_ || deflection >= 0.0;
-  if (entered_) greatest_outside_ = std::max(greatest_outside_, -deflection);
+  if (entered_) greatest_outside_ = std::fmax(greatest_outside_, -deflection);
 }
 
 void PressMeasure::see(const Glance& glance) {

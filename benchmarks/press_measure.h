@@ -53,7 +53,7 @@ class PressMeasure {
   [[nodiscard]] double energy_out() const { return energy_out_; }              // J, tip to tool
   [[nodiscard]] double greatest_outside() const {
     return greatest_outside_;
-  }  // m, of the tip outside the undeformed object
+  }  // m, of the tip outside the undeformed object, once it has been inside; NaN: it never was
   [[nodiscard]] double greatest_tension() const { return greatest_tension_; }  // N, pull on the tool
 
  private:
@@ -66,7 +66,7 @@ class PressMeasure {
   const models::Setup& setup_;
   std::vector<PressFigures> presses_;
   SquareMean press_error_, release_error_;
-  double energy_in_ = 0.0, energy_out_ = 0.0, greatest_outside_ = -1.0, greatest_tension_ = 0.0;
+  double energy_in_ = 0.0, energy_out_ = 0.0, greatest_outside_ = kUnset, greatest_tension_ = 0.0;
   std::int32_t contacts_before_ = 0;
   Mode mode_before_ = Mode::away;
   Point<'W'> buffered_;

@@ -56,8 +56,9 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
   }
   // The margin shrinks with each new frame: what was outside counts as inside again only well within it.
   const double margin = (rig.margin + rig.margin_speed * old) * (state.outside_dent ? 0.7 : 1.0);
-  // A dent moves the surface by its depth at most; mostly that is answer enough.
-  const bool maybe = distance + state.dent.value.depth > margin;
+  // On the way in, the tip is rightly outside. A dent moves the surface by its depth at most: mostly that is
+  // answer enough.
+  const bool maybe = state.entered && distance + state.dent.value.depth > margin;
   state.outside_dent = maybe && dented_distance(object.surface, state.dent.value, outer) > margin;
   if (state.outside_dent) walk.why |= kOutsideDent;
 }

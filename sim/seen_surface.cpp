@@ -50,7 +50,7 @@ mjsGeom* add_seen(mjSpec* spec, std::size_t object, const std::vector<float>& ve
     throw Error("two parts of the simulated world are called '" + name + "'");
   mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
   mjs_setInt(mesh->userface, triangles.data(), static_cast<int>(triangles.size()));
-  mesh->smoothnormal = 1;
+  mesh->smoothnormal = true;
   mesh->inertia = mjMESH_INERTIA_SHELL;  // it has none, and needs no convex hull for it
   geom->type = mjGEOM_MESH;
   mjs_setString(geom->meshname, name.c_str());

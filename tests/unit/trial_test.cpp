@@ -446,6 +446,15 @@ TEST(TrialPress, TwelveNewtonAtTheLimitFromEveryPolarAngle) {
   }
 }
 
+// The machine begins where it stands: its tip may be outside of the object until it has got there.
+TEST(TrialPress, AnObjectThatStandsAsideIsEnteredWithoutAHold) {
+  for (const char* set : {"object.ball.position_mm=[20,0,-20]", "object.ball.position_mm=[-15,15,-20]"}) {
+    const TrialResult result = run(scene("tennis_ball", quick({set})));
+    EXPECT_TRUE(result.holds.empty()) << set;
+    EXPECT_EQ(result.contacts, 1) << set;
+  }
+}
+
 TEST(TrialPress, TheLimitIsHeldUnderThirtyNewton) {
   for (const int limit : {6, 4, 2}) {
     std::int32_t contacts = 0;
