@@ -60,7 +60,7 @@ bool surface_over(const Surface& surface, const Vec3& n, const Point<'O'>& p, Ne
     const double slope = at.normal.e().dot(n);
     if (slope < kFlat) return false;
     up -= at.distance / slope;
-    at = surface.nearest(p + up * Vec<'O'>(n));
+    at = surface.nearest(p + up * Vec<'O'>(n), at.feature);
     if (std::abs(at.distance) < 1e-10) return at.normal.e().dot(n) >= kFlat;
   }
   return false;
@@ -68,14 +68,14 @@ bool surface_over(const Surface& surface, const Vec3& n, const Point<'O'>& p, Ne
 
 }  // namespace
 
-Deepest deepest(const Surface& surface, const Tip<'O'>& tip) noexcept {
-  Deepest found{tip.centre, surface.nearest(tip.centre)};
+Deepest deepest(const Surface& surface, const Tip<'O'>& tip, std::int32_t hint) noexcept {
+  Deepest found{tip.centre, surface.nearest(tip.centre, hint)};
   if (tip.shape != TipShape::edge) return found;
   // The distance along the edge is least where the normal stands across it: secant steps kept in the bracket.
   const auto slope = [&] { return found.at.normal.e().dot(tip.axis.e()); };
   const auto go = [&](double s) {
     found.centre = tip.centre + s * tip.axis;
-    found.at = surface.nearest(found.centre);
+    found.at = surface.nearest(found.centre, found.at.feature);
     return slope();
   };
   constexpr double kLevel = 1e-7;
@@ -102,12 +102,12 @@ DentSample dent_of(const Surface& surface, std::int32_t object, const Tip<'O'>& 
   return {object, tip, std::max(0.0, tip.radius - deepest(surface, tip).at.distance)};
 }
 
-DentField<double> dent_field(const Surface& surface, const DentSample& dent) noexcept {
+DentField<double> dent_field(const Surface& surface, const DentSample& dent, std::int32_t hint) noexcept {
   constexpr double kPoint =
       0.2e-3;  // m: a sharper tip is drawn as round as this, its lowest point in its place
   DentField<double> field;
   if (!(dent.depth > 0.0)) return field;
-  const Deepest at = deepest(surface, dent.tip);
+  const Deepest at = deepest(surface, dent.tip, hint);
   const Vec3 n = at.at.normal.e();
   field.active = true;
   Vec3::Map(field.n.data()) = n;
@@ -135,9 +135,10 @@ Displaced displaced(const DentField<double>& field, const Point<'O'>& p, const V
   return {p - shift.by * Vec<'O'>(n), Vec<'O'>(turned.normalized()), shift.by};
 }
 
-double dented_distance(const Surface& surface, const DentSample& dent, const Point<'O'>& p) noexcept {
-  const Nearest at = surface.nearest(p);
-  const DentField<double> field = dent_field(surface, dent);
+double dented_distance(const Surface& surface, const DentSample& dent, const Point<'O'>& p,
+                       std::int32_t hint) noexcept {
+  const Nearest at = surface.nearest(p, hint);
+  const DentField<double> field = dent_field(surface, dent, at.feature);
   if (!field.active) return at.distance;
   const Vec3 n = vec(field.n);
   const Vec3 from_tip = p.e() - vec(field.origin);
@@ -146,7 +147,7 @@ double dented_distance(const Surface& surface, const DentSample& dent, const Poi
   double up = 0.0;
   if (!surface_over(surface, n, p, at, up)) return at.distance;
   const Point<'O'> top = p + up * Vec<'O'>(n);
-  const Displaced seen = displaced(field, top, surface.nearest(top).normal);
+  const Displaced seen = displaced(field, top, surface.nearest(top, at.feature).normal);
   return seen.by > 0.0 ? (seen.by - up) * seen.normal.e().dot(n) : at.distance;
 }
 

@@ -22,7 +22,8 @@ struct Deepest {
   Point<'O'> centre;
   Nearest at;  // of the centre
 };
-[[nodiscard]] Deepest deepest(const Surface& surface, const Tip<'O'>& tip) noexcept;
+// `hint`, here and below: where the search begins (surface.h); it changes no result.
+[[nodiscard]] Deepest deepest(const Surface& surface, const Tip<'O'>& tip, std::int32_t hint = -1) noexcept;
 
 // The dent that a tip makes where it is below the undeformed surface.
 [[nodiscard]] DentSample dent_of(const Surface& surface, std::int32_t object, const Tip<'O'>& tip) noexcept;
@@ -42,7 +43,8 @@ struct DentField {
   T from{}, to{};
   T rise{}, lean{}, lean_cone{};  // its tangent and sine above the tangent plane; rise/sqrt(slope^2 - rise^2)
 };
-[[nodiscard]] DentField<double> dent_field(const Surface& surface, const DentSample& dent) noexcept;
+[[nodiscard]] DentField<double> dent_field(const Surface& surface, const DentSample& dent,
+                                           std::int32_t hint = -1) noexcept;
 [[nodiscard]] DentField<float> to_float(const DentField<double>& field) noexcept;
 
 // A displaced surface point and the normal of the dented surface there. `normal`: undeformed, outward, unit.
@@ -66,8 +68,8 @@ void apply(const DentField<float>& field, const DentIn& in, const DentOut& out, 
 
 // Signed distance of p to the dented surface, m, negative inside. The sign is that of the dented surface; the
 // size is the height over it along n times the cosine of its slope, which is the distance near the surface.
-[[nodiscard]] double dented_distance(const Surface& surface, const DentSample& dent,
-                                     const Point<'O'>& p) noexcept;
+[[nodiscard]] double dented_distance(const Surface& surface, const DentSample& dent, const Point<'O'>& p,
+                                     std::int32_t hint = -1) noexcept;
 
 // Volume of the dented less that of the undeformed mesh, m^3: negative.
 [[nodiscard]] double volume_change(const Mesh& mesh, const DentField<double>& field);

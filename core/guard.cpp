@@ -59,7 +59,8 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
   // On the way in, the tip is rightly outside. A dent moves the surface by its depth at most: mostly that is
   // answer enough.
   const bool maybe = state.entered && distance + state.dent.value.depth > margin;
-  state.outside_dent = maybe && dented_distance(object.surface, state.dent.value, outer) > margin;
+  state.outside_dent =
+      maybe && dented_distance(object.surface, state.dent.value, outer, walk.at_tip.feature) > margin;
   if (state.outside_dent) walk.why |= kOutsideDent;
 }
 
