@@ -91,6 +91,10 @@ std::string parts_text(const models::Setup& setup) {
       thread_count() == 1 ? "" : "s", left_out.empty() ? "nothing" : left_out);
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
+}
+
 std::string weak_text(const models::Setup& setup, const Scene& scene) {
   std::string text;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

@@ -18,6 +18,9 @@ struct Part {
 // "built: hexapod, force (sim)…" and "left out: camera (not named)…": two lines.
 [[nodiscard]] std::string parts_text(const models::Setup& setup);
 
+// What was repaired in meshes, a line each on standard error.
+void print_notes(const std::vector<std::string>& notes);
+
 // A line for each object that is rendered less deep than it asks, because the machine cannot carry its force;
 // or nothing.
 [[nodiscard]] std::string weak_text(const models::Setup& setup, const Scene& scene);

@@ -10,7 +10,7 @@ namespace enc::app {
 
 int check(const SceneOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
-  for (const std::string& note : setup.notes) fmt::print(stderr, "{}\n", note);
+  print_notes(setup.notes);
   const Scene scene = bench::prepare_setup(setup);
   fmt::print("{}\n{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n", setup.scene.title,
              parts_text(setup), frame_graph(scene), chain_residual(scene));

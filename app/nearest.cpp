@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/built.h"
 #include "app/options.h"
 #include "benchmarks/trial.h"
 #include "core/error.h"
@@ -21,10 +22,6 @@ struct Placed {
   Surface surface;
   Pose<'W', 'O'> X_WO = Pose<'W', 'O'>::identity();
 };
-
-void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
-}
 
 Placed object_of(const std::string& scene_path, const std::string& name) {
   const models::Setup setup = models::load(scene_path, "sim");

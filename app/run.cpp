@@ -54,7 +54,7 @@ std::unique_ptr<RecordWriter> record_for(const RunOptions& options, const models
 
 int run(const RunOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
-  for (const std::string& note : setup.notes) fmt::print(stderr, "{}\n", note);
+  print_notes(setup.notes);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
   bench::PressMeasure presses(setup);

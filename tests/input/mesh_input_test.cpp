@@ -15,6 +15,7 @@
 
 #include "models/mesh_write.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {
@@ -72,12 +73,7 @@ void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.name; }
 
 class BadMesh : public ::testing::TestWithParam<Bad> {
  protected:
-  BadMesh() {
-    std::string name = (fs::temp_directory_path() / "enc_mesh_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    std::ofstream(folder_ / "points.csv") << "x_m,y_m,z_m\n0,0,0\n";
-  }
-  ~BadMesh() override { fs::remove_all(folder_); }
+  BadMesh() { std::ofstream(folder_ / "points.csv") << "x_m,y_m,z_m\n0,0,0\n"; }
   void expect_refused(const std::string& path, const std::string& words) const {
     const Result r = run_program({"nearest", path, (folder_ / "points.csv").string()});
     EXPECT_EQ(r.code, 2) << r.err;
@@ -86,7 +82,8 @@ class BadMesh : public ::testing::TestWithParam<Bad> {
     EXPECT_THAT(r.err, StartsWith("encounter: " + path + ":"));
     EXPECT_THAT(r.err, HasSubstr(words));
   }
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_P(BadMesh, IsRefusedInOneLine) {

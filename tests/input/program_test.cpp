@@ -17,6 +17,7 @@
 
 #include "core/record.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {
@@ -59,8 +60,6 @@ std::string line_and_column(const std::string& text, const std::string& what) {
 class Program : public ::testing::Test {
  protected:
   Program() {
-    std::string name = (fs::temp_directory_path() / "enc_program_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
     fs::create_directory(folder_ / "models");
     const fs::path models = fs::path(ENCOUNTER_SOURCE_DIR) / "models";
     for (const char* part : {"scenes", "rigs", "mjcf", "responses"})
@@ -69,7 +68,6 @@ class Program : public ::testing::Test {
     unsetenv("ENCOUNTER_MODELS");
     unsetenv("ENCOUNTER_MODULES");
   }
-  ~Program() override { fs::remove_all(folder_); }
 
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
   [[nodiscard]] std::string ball() const { return path("models/scenes/tennis_ball.toml"); }
@@ -117,7 +115,8 @@ class Program : public ::testing::Test {
     return path("run.encrec");
   }
 
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 // ---- files that are wrong

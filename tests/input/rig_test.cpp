@@ -10,6 +10,7 @@
 
 #include "core/record.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {
@@ -30,11 +31,6 @@ std::string bytes_of(const fs::path& path) {
 
 class RigProgram : public testing::Test {
  protected:
-  RigProgram() {
-    std::string name = (fs::temp_directory_path() / "enc_rig_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~RigProgram() override { fs::remove_all(folder_); }
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   // What must be refused, by `run` and by `check` in the same words; gives its line.
@@ -72,7 +68,8 @@ class RigProgram : public testing::Test {
     std::ofstream(folder_ / "scenes" / "rig.toml") << text.replace(at, from.size(), to);
     return path("scenes/rig.toml");
   }
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};

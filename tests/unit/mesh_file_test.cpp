@@ -15,6 +15,7 @@
 #include "core/frames.h"
 #include "models/mesh_check.h"
 #include "models/mesh_write.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc::models {
 namespace {
@@ -26,16 +27,12 @@ using Point3 = std::array<double, 3>;
 
 class MeshFiles : public ::testing::Test {
  protected:
-  MeshFiles() {
-    std::string name = (fs::temp_directory_path() / "enc_mesh_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~MeshFiles() override { fs::remove_all(folder_); }
   std::string file(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
     return (folder_ / name).string();
   }
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 // Corners with coordinates that float and double share.

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/replay.h"
 #include "tests/support/scenes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc {
 namespace {
@@ -22,11 +23,6 @@ namespace fs = std::filesystem;
 
 class RecordTest : public ::testing::Test {
  protected:
-  RecordTest() {
-    std::string name = (fs::temp_directory_path() / "enc_record_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~RecordTest() override { fs::remove_all(folder_); }
   [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
   // A press on the ball: follow, contact, restore. 600 ticks are several chunks and a rest.
@@ -61,7 +57,8 @@ class RecordTest : public ::testing::Test {
     }
   }
 
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 template <class T>
