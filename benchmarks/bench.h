@@ -24,7 +24,32 @@ struct Figure {
   Role role = Role::ours;
   double low = kUnset, high = kUnset;  // bounds, both sides; unset: none
   std::string note;
+  double least = kUnset, most = kUnset;  // over seeds or repeats, where there are several
   [[nodiscard]] bool ok() const;
+};
+
+// What the report draws. `low` and `high` are error bars or the edges of a band; empty: none.
+enum class Mark : std::uint8_t { line, points, both, bars, band };
+struct Series {
+  std::string name;
+  std::vector<double> x, y;
+  std::vector<double> low{}, high{};
+  Mark mark = Mark::line;
+  bool paper = false;  // the paper's own values: drawn alike in every plot
+};
+struct Plot {
+  std::string id;                       // file name without ".svg"; begins with the benchmark's name
+  std::string title, x_label, y_label;  // labels with their unit
+  bool log_x = false, log_y = false;
+  std::vector<Series> series;
+  std::string caption{};  // what to see in it
+};
+struct Table {
+  std::string id;  // file name without ".csv"; begins with the benchmark's name
+  std::string title;
+  std::vector<std::string> columns;  // with their unit
+  std::vector<std::vector<std::string>> rows;
+  std::string note{};
 };
 
 struct BenchResult {
@@ -32,6 +57,8 @@ struct BenchResult {
   double run_time = 0.0, simulated = 0.0;  // s
   std::vector<Figure> figures;
   std::string note{};  // for the reader, such as what was left out; may be empty
+  std::vector<Plot> plots{};
+  std::vector<Table> tables{};
 };
 
 struct BenchContext {
@@ -39,6 +66,7 @@ struct BenchContext {
   std::uint64_t seed = 1;
   std::int64_t repeats = 0;  // 0: the benchmark's own
   bool quick = false;
+  bool full = false;  // also what takes minutes: switch-off tables, work-precision
   std::vector<std::string> set;
   std::function<void(double)> progress;
   // Loads a module of the program by name; null where it was not built.

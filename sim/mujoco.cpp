@@ -14,8 +14,12 @@ void on_warning(const char*) {
 }  // namespace
 
 void install_mujoco_handlers() {
-  mju_user_error = on_error;
-  mju_user_warning = on_warning;
+  // Once, whichever thread comes first: worlds run side by side.
+  [[maybe_unused]] static const bool installed = [] {
+    mju_user_error = on_error;
+    mju_user_warning = on_warning;
+    return true;
+  }();
 }
 
 std::string mujoco_version() { return mj_versionString(); }
