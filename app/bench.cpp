@@ -52,8 +52,13 @@ std::string bounds(const bench::Figure& f) {
 int bench(const BenchOptions& options) {
   const std::vector<const bench::Benchmark*> list = chosen(options.names);
   if (options.repeats < 0) throw Error("--repeats: expected a positive number");
-  bench::BenchContext context{
-      models::models_dir(""), options.seed, options.repeats, options.quick, options.set, {}, module_if_there};
+  bench::BenchContext context;
+  context.models = models::models_dir("");
+  context.seed = options.seed;
+  context.repeats = options.repeats;
+  context.quick = options.quick;
+  context.set = options.set;
+  context.module = module_if_there;
   std::vector<bench::BenchResult> results;
   if (!options.out.empty())
     bench::write_results(options.out, results, options.seed);  // refused before hours of work
