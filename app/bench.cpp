@@ -1,38 +1,30 @@
 #include "benchmarks/bench.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
+#include <csignal>
+#include <cstdio>
+#include <future>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "app/modules.h"
 #include "app/options.h"
+#include "benchmarks/choice.h"
+#include "benchmarks/report.h"
 #include "core/error.h"
 #include "models/scene_file.h"
-#include "models/wording.h"
 
 namespace enc::app {
 namespace {
 
-std::vector<const bench::Benchmark*> chosen(const std::vector<std::string>& names) {
-  std::vector<const bench::Benchmark*> list;
-  for (const bench::Benchmark& b : bench::benchmarks())
-    if (names.empty()) list.push_back(&b);
-  for (const std::string& name : names) {
-    const auto all = bench::benchmarks();
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const bench::Benchmark& b) { return name == b.name; });
-    if (found == all.end()) {
-      std::string known;
-      for (const bench::Benchmark& b : all) known += (known.empty() ? "" : ", ") + std::string(b.name);
-      throw Error("unknown benchmark '" + name + "'; there are: " + known);
-    }
-    list.push_back(&*found);
-  }
-  return list;
+using WallClock = std::chrono::steady_clock;
+
+double since(WallClock::time_point start) {
+  return std::chrono::duration<double>(WallClock::now() - start).count();
 }
 
 const ModuleInfo* module_if_there(const std::string& name) {
@@ -47,43 +39,176 @@ std::string bounds(const bench::Figure& f) {
   return std::isfinite(f.low) ? fmt::format(" at least {:.4g}", f.low) : "";
 }
 
+// The words that were given, for the report: whoever repeats them gets its figures.
+std::string command_of(const BenchOptions& options) {
+  std::string text = "./encounter bench";
+  for (const std::string& name : options.names) text += " " + name;
+  if (options.quick) text += " --quick";
+  if (options.full) text += " --full";
+  if (options.seed != 1) text += fmt::format(" --seed {}", options.seed);
+  if (options.repeats != 0) text += fmt::format(" --repeats {}", options.repeats);
+  for (const std::string& set : options.set) text += " --set '" + set + "'";
+  return text;
+}
+
+// Ctrl-C and SIGTERM wait until somebody asks; threads and what they start inherit that.
+class Signals {
+ public:
+  Signals() {
+    sigemptyset(&set_);
+    sigaddset(&set_, SIGINT);
+    sigaddset(&set_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &set_, &before_);
+  }
+  ~Signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+  [[nodiscard]] bool came() const {
+    const timespec none{};
+    return sigtimedwait(&set_, nullptr, &none) > 0;
+  }
+
+ private:
+  sigset_t set_{}, before_{};
+};
+
+// How far a benchmark is: a line that renews itself in a terminal, one line in a file.
+class Teller {
+ public:
+  Teller(const char* name, std::size_t number, std::size_t of)
+      : text_(fmt::format("{} of {}: {}", number, of, name)) {}
+  void tell(double share) {
+    if (terminal_)
+      fmt::print(stderr, "\r  {} {:3.0f} %  {:.0f} s ", text_, std::floor(100.0 * share), since(start_));
+    else if (since(start_) > 0.5)
+      say();
+    std::fflush(stderr);
+  }
+  void end() {
+    if (terminal_)
+      fmt::print(stderr, "\r{:60}\r", "");
+    else
+      say();
+    std::fflush(stderr);
+  }
+
+ private:
+  void say() {
+    if (!said_) fmt::print(stderr, "encounter: {}\n", text_);
+    said_ = true;
+  }
+  const bool terminal_ = isatty(STDERR_FILENO) != 0;
+  const std::string text_;
+  const WallClock::time_point start_ = WallClock::now();
+  bool said_ = false;
+};
+
+// The work is done in a thread of its own, so that this one can tell, and can stop whatever the other does.
+class Session {
+ public:
+  explicit Session(const BenchOptions& options) : options_(options), choices_(bench::chosen(options.names)) {
+    report_.command = command_of(options);
+    report_.seed = options.seed;
+    report_.set = options.set;
+    for (const bench::Choice& choice : choices_) report_.missing.emplace_back(choice.benchmark->name);
+    context_.models = models::models_dir("");
+    context_.seed = options.seed;
+    context_.repeats = options.repeats;
+    context_.quick = options.quick;
+    context_.full = options.full;
+    context_.set = options.set;
+    context_.module = module_if_there;
+    context_.progress = [this](double share) { share_ = share; };
+  }
+
+  int run() {
+    write();  // an unwritable folder is refused before hours of work
+    for (std::size_t i = 0; i < choices_.size(); ++i) {
+      const bench::Choice& choice = choices_[i];
+      bench::BenchResult result = measured(*choice.benchmark, i + 1);
+      print(choice, result);
+      bench::add_result(report_, std::move(result));
+      write();
+      bench::check_ids(choice, report_.results.back());
+    }
+    if (!options_.out.empty() && !report_.not_drawn.empty())
+      fmt::print(stderr, "encounter: not drawn: {}; tables and figures are complete\n", report_.not_drawn);
+    return all_ok_ ? 0 : 1;
+  }
+
+ private:
+  bench::BenchResult measured(const bench::Benchmark& benchmark, std::size_t number) {
+    if (signals_.came()) stop();
+    share_ = 0.0;
+    Teller teller(benchmark.name, number, choices_.size());
+    const WallClock::time_point start = WallClock::now();
+    std::future<bench::BenchResult> work =
+        std::async(std::launch::async, [&] { return benchmark.run(context_); });
+    while (work.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+      if (signals_.came()) stop();
+      teller.tell(share_);
+    }
+    bench::BenchResult result = work.get();
+    result.run_time = since(start);
+    teller.end();
+    return result;
+  }
+
+  void print(const bench::Choice& choice, const bench::BenchResult& result) {
+    fmt::print("{} ({}): {:.1f} s simulated in {:.2f} s\n", result.name, choice.benchmark->what,
+               result.simulated, result.run_time);
+    for (const bench::Figure& f : result.figures) {
+      if (!bench::wanted(choice, f)) continue;
+      all_ok_ = all_ok_ && f.ok();
+      fmt::print(
+          "  {:34} {:10.4g} {:5}{}{}{}\n", f.id, f.twin, f.unit,
+          std::isfinite(f.paper) ? fmt::format(" (paper {:.4g}, {})", f.paper, bench::role_name(f.role)) : "",
+          bounds(f), f.ok() ? "" : "  OUT OF BOUNDS");
+    }
+    if (!result.note.empty()) fmt::print("  {}\n", result.note);
+    std::fflush(stdout);
+  }
+
+  void write() const {
+    if (!options_.out.empty()) bench::write_report(options_.out, report_);
+  }
+
+  // The files already say what is missing. The other thread may be anywhere, so nothing is torn down.
+  [[noreturn]] void stop() const {
+    std::string missing;
+    for (const std::string& name : report_.missing) missing += " " + name;
+    fmt::print(stderr, "\nencounter: interrupted; {} of {} benchmarks complete, missing:{}\n",
+               report_.results.size(), choices_.size(), missing);
+    std::fflush(nullptr);
+    _exit(1);
+  }
+
+  const BenchOptions& options_;
+  const std::vector<bench::Choice> choices_;
+  const Signals signals_;
+  bench::Report report_;
+  bench::BenchContext context_;
+  std::atomic<double> share_{0.0};
+  bool all_ok_ = true;
+};
+
+int list_benchmarks() {
+  for (const bench::Benchmark& b : bench::benchmarks()) fmt::print("{:12} {}\n", b.name, b.what);
+  for (const bench::Group& g : bench::groups()) {
+    std::string members;
+    for (const std::string& member : g.members) members += " " + member;
+    fmt::print("{:12} {}:{}\n", g.name, g.what, members);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int bench(const BenchOptions& options) {
-  const std::vector<const bench::Benchmark*> list = chosen(options.names);
+  if (options.list) return list_benchmarks();
   if (options.repeats < 0) throw Error("--repeats: expected a positive number");
-  bench::BenchContext context;
-  context.models = models::models_dir("");
-  context.seed = options.seed;
-  context.repeats = options.repeats;
-  context.quick = options.quick;
-  context.set = options.set;
-  context.module = module_if_there;
-  std::vector<bench::BenchResult> results;
-  if (!options.out.empty())
-    bench::write_results(options.out, results, options.seed);  // refused before hours of work
-  bool all_ok = true;
-  for (const bench::Benchmark* benchmark : list) {
-    if (isatty(STDERR_FILENO) != 0)
-      context.progress = [&](double share) {
-        fmt::print(stderr, "\r  {} {:3d} %", benchmark->name, static_cast<int>(std::lround(share * 100.0)));
-        std::fflush(stderr);
-      };
-    const auto start = std::chrono::steady_clock::now();
-    results.push_back(benchmark->run(context));
-    results.back().run_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r{:40}\r", "");
-    fmt::print("{} ({}): {:.1f} s simulated in {:.2f} s\n", benchmark->name, benchmark->what,
-               results.back().simulated, results.back().run_time);
-    for (const bench::Figure& f : results.back().figures) {
-      all_ok = all_ok && f.ok();
-      fmt::print("  {:34} {:10.4g} {:5}{}{}\n", f.id, f.twin, f.unit, bounds(f),
-                 f.ok() ? "" : "  OUT OF BOUNDS");
-    }
-    if (!results.back().note.empty()) fmt::print("  {}\n", results.back().note);
-    if (!options.out.empty()) bench::write_results(options.out, results, options.seed);
-  }
-  return all_ok ? 0 : 1;
+  if (options.quick && options.full) throw Error("--quick and --full exclude each other; give one of them");
+  return Session(options).run();
 }
 
 }  // namespace enc::app

@@ -94,15 +94,20 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   BenchOptions bench_options;
   CLI::App* bench_command =
       app.add_subcommand("bench", "run benchmarks; exit 1 where a figure is out of bounds");
-  bench_command->add_option("names", bench_options.names, "benchmarks; none: all");
-  bench_command->add_option("--out", bench_options.out, "folder for results.json, REPORT.md and tables");
+  bench_command->add_option("names", bench_options.names,
+                            "benchmarks, groups, or figures such as press.restore; none: all benchmarks");
+  bench_command->add_option("--out", bench_options.out,
+                            "folder for report.html, REPORT.md, results.json, pictures and tables");
   bench_command->add_option("--seed", bench_options.seed, "first seed")
       ->capture_default_str()
       ->check(bad_seed);
   bench_command->add_option("--repeats", bench_options.repeats,
                             "seeds per row; default: the benchmark's own");
   bench_command->add_option("--set", bench_options.set, "override, as for run");
-  bench_command->add_flag("--quick", bench_options.quick, "fewer repeats");
+  bench_command->add_flag("--quick", bench_options.quick, "fewer repeats; all of them in 15 s");
+  bench_command->add_flag("--full", bench_options.full,
+                          "also what takes minutes: what each part does, error against run time");
+  bench_command->add_flag("--list", bench_options.list, "only print the benchmarks and what they show");
   bench_command->callback([&] { code = bench(bench_options); });
 
   FitOptions fit_options;

@@ -47,7 +47,7 @@ struct BenchOptions {
   std::string out;
   std::uint64_t seed = 1;
   std::int64_t repeats = 0;  // 0: the benchmark's own
-  bool quick = false;
+  bool quick = false, full = false, list = false;
 };
 struct FitOptions {
   std::string loop, out;

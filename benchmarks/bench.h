@@ -93,10 +93,4 @@ BenchResult run_mesh(const BenchContext& context);      // a million triangles: 
 BenchResult run_nearest(const BenchContext& context);   // nearest point on a mesh against Embree
 BenchResult run_speed(const BenchContext& context);     // step(), times real time, wrapper over raw mj_step
 
-[[nodiscard]] std::string results_json(const std::vector<BenchResult>& results, std::uint64_t seed);
-[[nodiscard]] std::string report_markdown(const std::vector<BenchResult>& results);
-// REPORT.md, results.json and <benchmark>.csv; each complete or absent (written aside, then renamed). Throws
-// Error.
-void write_results(const std::string& folder, const std::vector<BenchResult>& results, std::uint64_t seed);
-
 }  // namespace enc::bench

@@ -1,0 +1,29 @@
+// What the words after `bench` name: benchmarks, groups of them, figures or the beginnings of their ids.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "benchmarks/bench.h"
+
+namespace enc::bench {
+
+struct Group {
+  const char* name;
+  const char* what;
+  std::vector<std::string> members;  // those that are not there are passed over
+};
+[[nodiscard]] std::span<const Group> groups();
+
+struct Choice {
+  const Benchmark* benchmark;
+  std::vector<std::string> ids;  // whole ids or their first tokens; empty: all figures
+};
+// In the order named, each benchmark once; no words: all. Throws Error for a word that names nothing here.
+[[nodiscard]] std::vector<Choice> chosen(const std::vector<std::string>& words);
+[[nodiscard]] bool wanted(const Choice& choice, const Figure& figure);
+// Only a run knows the ids. Throws Error, with the nearest one, where an id was named that there is not.
+void check_ids(const Choice& choice, const BenchResult& result);
+
+}  // namespace enc::bench

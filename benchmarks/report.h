@@ -1,0 +1,46 @@
+// The report of a bench run: results.json (architecture B8), report.html, REPORT.md, and a CSV of every table
+// and plot. Complete after each benchmark, and says what is missing.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "benchmarks/bench.h"
+
+namespace enc::bench {
+
+struct Report {
+  std::string command;  // that made it
+  std::uint64_t seed = 1;
+  std::vector<std::string> set;      // the user's overrides
+  std::vector<std::string> missing;  // benchmarks that were asked for and have not ended
+  std::vector<BenchResult> results{};
+  std::map<std::string, std::string> drawings{};  // SVG by plot id
+  std::string not_drawn{};                        // why a drawing is missing; empty: none is
+};
+
+[[nodiscard]] const char* role_name(Role role);
+// One line each: what it is, its value.
+struct Fact {
+  std::string name, value;
+};
+[[nodiscard]] std::vector<Fact> facts(const Report& report);
+// What the two forms of the report have in common. Columns with nothing in them are left out.
+[[nodiscard]] Table overview_table(const Report& report);
+[[nodiscard]] Table figure_table(const BenchResult& result);
+[[nodiscard]] Table role_table(const Report& report);
+[[nodiscard]] Table contradiction_table();
+
+[[nodiscard]] std::string results_json(const Report& report);
+[[nodiscard]] std::string report_markdown(const Report& report);
+[[nodiscard]] std::string report_html(const Report& report);
+
+// Draws the plots of a result and moves it from what is missing to the results.
+void add_result(Report& report, BenchResult result);
+// Every file whole or not at all (written aside, then renamed), so that a run that was killed leaves what was
+// complete. Throws Error where the folder cannot be written.
+void write_report(const std::string& folder, const Report& report);
+
+}  // namespace enc::bench
