@@ -126,10 +126,10 @@ class Session {
     for (std::size_t i = 0; i < choices_.size(); ++i) {
       const bench::Choice& choice = choices_[i];
       bench::BenchResult result = measured(*choice.benchmark, i + 1);
+      bench::check_ids(choice, result);
       print(choice, result);
       bench::add_result(report_, std::move(result));
       write();
-      bench::check_ids(choice, report_.results.back());
     }
     if (!options_.out.empty() && !report_.not_drawn.empty())
       fmt::print(stderr, "encounter: not drawn: {}; tables and figures are complete\n", report_.not_drawn);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/parallel.h"
 #include "benchmarks/press_measure.h"
 
 namespace enc::bench {
@@ -29,6 +31,25 @@ void press_once(const models::Setup& setup, std::uint64_t seed, Tally& tally) {
   tally.tension = std::max(tally.tension, measure.greatest_tension());
 }
 
+// The tallies of `count` runs on all cores, in their order.
+Tally press_all(std::size_t count, const std::function<void(std::size_t, Tally&)>& press,
+                const std::function<void(double)>& progress = {}) {
+  std::vector<Tally> each(count);
+  in_parallel(
+      count, [&](std::size_t i) { press(i, each[i]); }, progress);
+  Tally all;
+  for (const Tally& one : each) {
+    all.presses += one.presses;
+    all.single += one.single;
+    all.simulated += one.simulated;
+    all.outside = std::max(all.outside, one.outside);
+    all.tension = std::max(all.tension, one.tension);
+    all.restore = std::max(all.restore, one.restore);
+    all.over_limit = std::max(all.over_limit, one.over_limit);
+  }
+  return all;
+}
+
 // Registration errors of 0.3 mm along the normal, both ways, and along both tangents, on top of the tracker's
 // own noise.
 Vec3 bias_of(std::int64_t i) {
@@ -47,13 +68,15 @@ BenchResult run_press(const BenchContext& context) {
   user.press_time = user.release_time = 1.5;
   user.hold_time = 0.2;
   user.depth = 0.004;
-  Tally tally;
-  for (std::int64_t i = 0; i < repeats; ++i) {
-    setup.twin.tracker.bias = bias_of(i);
-    user.approach = {std::array{0.010, 0.020, 0.050, 0.100}[static_cast<std::size_t>(i / 6 % 4)]};
-    press_once(setup, context.seed + static_cast<std::uint64_t>(i), tally);
-    if (context.progress) context.progress(0.9 * static_cast<double>(i + 1) / static_cast<double>(repeats));
-  }
+  const Tally tally = press_all(
+      static_cast<std::size_t>(repeats),
+      [&](std::size_t i, Tally& one) {
+        models::Setup own = setup;
+        own.twin.tracker.bias = bias_of(static_cast<std::int64_t>(i));
+        own.scene.user->approach = {std::array{0.010, 0.020, 0.050, 0.100}[i / 6 % 4]};
+        press_once(own, context.seed + i, one);
+      },
+      context.progress);
   const auto add = [&](std::string id, double twin, const char* unit, double low, double high,
                        std::string note) {
     result.figures.push_back({std::move(id), kUnset, twin, unit, Role::ours, low, high, std::move(note)});
@@ -71,9 +94,9 @@ BenchResult run_press(const BenchContext& context) {
   setup = models::load(context.models + "/scenes/push_limit.toml", "sim", context.set);
   for (const double limit : {0.006, 0.004, 0.002}) {
     setup.scene.objects.front().limit = limit;
-    Tally pushed;
-    for (std::uint64_t i = 0; i < (context.quick ? 2U : 10U); ++i)
-      press_once(setup, context.seed + i, pushed);
+    const Tally pushed = press_all(context.quick ? 2U : 10U, [&](std::size_t i, Tally& one) {
+      press_once(setup, context.seed + i, one);
+    });
     add(fmt::format("press.over_limit.{:.0f}.max", limit * 1e3), pushed.over_limit * 1e6, "um", -50, 50,
         "true deflection above the limit under a push of 30 N");
     result.simulated += pushed.simulated;

@@ -19,7 +19,7 @@ std::string plain(const std::string& text) {
       out += "&lt;";
       continue;
     }
-    if (c == '|' || c == '*' || c == '`' || c == '\\' || c == '_' || c == '[' || c == ']') out += '\\';
+    if (c == '|' || c == '*' || c == '`' || c == '\\' || c == '[' || c == ']') out += '\\';
     out += c;
   }
   return out;

@@ -167,6 +167,21 @@ ResponseSpec fitted(const std::string& csv, double floor, double ceiling = kUnse
   return models::fit_loop(models::parse_loop(csv, "loop", kLimit), {kLimit, floor, ceiling}).response;
 }
 
+// Force over deflection on a minor loop, each 40 um.
+template <class Force>
+Series loop_series(const char* name, const MinorLoop& loop, Force force) {
+  constexpr std::size_t kEach = 10;
+  Series series{name, {}, {}};
+  const std::vector<double> path = path_of(loop.turns);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double now = force(path[i]);
+    if (i % kEach != 0 && i + 1 != path.size()) continue;
+    series.x.push_back(path[i] * 1e3);
+    series.y.push_back(now);
+  }
+  return series;
+}
+
 // A full loop of the second plant.
 std::string second_loop_csv() {
   std::string text = "time_s,deflection_mm,force_N,repeat\n";
@@ -189,6 +204,17 @@ BenchResult run_response(const BenchContext& context) {
   const double floor = models::fit_floor(loop_of(models::load_rig(context.models + "/rigs/sim.toml")));
   const ResponseSpec ball = models::load_response(context.models + "/responses/tennis_ball.toml");
   const ResponseSpec second = fitted(second_loop_csv(), floor);
+  const MinorLoop& drawn = minor_loops()[1];
+  Ball plant;
+  result.plots.push_back(
+      {"response.minor_loop",
+       "Force where the direction changes: 0-5-3-6-1-4-0 mm",
+       "deflection (mm)",
+       "force (N)",
+       false,
+       false,
+       {loop_series("plant of the ball", drawn, [&](double d) { return plant.force(d); })},
+       "Both models know only the full loop 0-6-0; what they do inside of it is predicted."});
   struct Model {
     const char* name;
     Reversal reversal;
@@ -198,6 +224,9 @@ BenchResult run_response(const BenchContext& context) {
                          Model{"prandtl_ishlinskii", Reversal::prandtl_ishlinskii, 0.08, kUnset}}) {
     const Response response(ball, floor, m.reversal);
     const Response of_second(second, floor, m.reversal);
+    ResponseState state;
+    result.plots.back().series.push_back(
+        loop_series(m.name, drawn, [&](double d) { return response.force(state, d); }));
     for (const MinorLoop& loop : minor_loops()) {
       const std::vector<double> path = path_of(loop.turns);
       result.simulated += static_cast<double>(path.size()) * kPeriod;

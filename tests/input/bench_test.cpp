@@ -1,0 +1,109 @@
+// `bench` as a person calls it: what it refuses, and what is left of a run that was stopped.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Bench, ListSaysWhatThereIs) {
+  const Result r = run_program({"bench", "--list"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.out, AllOf(HasSubstr("\nencounter "), HasSubstr("\npaper-2020 "), HasSubstr("\nspeed ")));
+}
+
+TEST(Bench, AnUnknownNameIsAnsweredWithTheNearest) {
+  const Result r = run_program({"bench", "dent", "strcture"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_EQ(r.out, "");
+  EXPECT_THAT(r.err, HasSubstr("unknown benchmark 'strcture'; did you mean 'structure'?"));
+}
+
+TEST(Bench, AnUnknownFigureIsAnsweredWithTheNearest) {
+  const Result r = run_program({"bench", "dent.volume_chang.2mm", "--quick"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_EQ(r.out, "");
+  EXPECT_THAT(r.err, AllOf(HasSubstr("unknown figure 'dent.volume_chang.2mm'"),
+                           HasSubstr("'dent.volume_change.2mm.value'")));
+}
+
+TEST(Bench, AFigureIsPrintedAlone) {
+  const Result r = run_program({"bench", "dent.volume_change", "--quick"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("dent.volume_change.6mm.value"), Not(HasSubstr("contact_error"))));
+}
+
+TEST(Bench, QuickAndFullExcludeEachOther) {
+  EXPECT_EQ(run_program({"bench", "dent", "--quick", "--full"}).code, 2);
+}
+
+TEST(Bench, AFolderThatCannotBeWrittenIsRefusedBeforeTheRun) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.file("file")) << "x";
+  const Result r = run_program({"bench", "dent", "--quick", "--out", folder.file("file/out")});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_EQ(r.out, "");
+  EXPECT_THAT(r.err, HasSubstr("file/out: cannot be made"));
+}
+
+TEST(Bench, WithoutGnuplotItSaysSoInOneLine) {
+  const test::TemporaryFolder folder;
+  const Result r =
+      run_program({"bench", "encounter", "--repeats=1", "--out", folder.file("out")}, {{"PATH", "/nowhere"}});
+  EXPECT_THAT(r.err, HasSubstr("encounter: not drawn: gnuplot is missing"));
+  EXPECT_THAT(bytes_of(folder.path() / "out/encounter.csv"), HasSubstr("encounter.miss.10.median"));
+}
+
+// Stopped when the first benchmark is complete, in the middle of the second, which would take minutes.
+class StoppedBench : public ::testing::TestWithParam<int> {};
+
+TEST_P(StoppedBench, LeavesWhatIsCompleteAndSaysWhatIsMissing) {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  // Job control, or the shell would have its child ignore SIGINT.
+  const Result r = run({"bash", "-c",
+                        "set -m; \"$1\" bench dent press --repeats 1000000 --out \"$2\" & "
+                        "until grep -q dent.contact \"$2/results.json\" 2>/dev/null; do sleep 0.05; done; "
+                        "kill -$3 $!; wait $!",
+                        "bash", ENCOUNTER_BINARY, out.string(), std::to_string(GetParam())});
+  const bool asked = GetParam() != SIGKILL;
+  EXPECT_EQ(r.code, asked ? 1 : 128 + SIGKILL) << r.err;
+  if (asked) {
+    EXPECT_THAT(r.err, HasSubstr("interrupted; 1 of 2 benchmarks complete, missing: press\n"));
+  }
+  const Json json = Json::parse(bytes_of(out / "results.json"));
+  ASSERT_EQ(json["benchmarks"].size(), 1U);
+  EXPECT_EQ(json["benchmarks"][0]["name"], "dent");
+  EXPECT_THAT(json["benchmarks"][0]["figures"], Not(IsEmpty()));
+  EXPECT_EQ(json["missing"], Json({"press"}));
+  EXPECT_THAT(bytes_of(out / "report.html"), AllOf(HasSubstr("Missing: press"), EndsWith("</html>\n")));
+  EXPECT_THAT(bytes_of(out / "REPORT.md"), HasSubstr("- **Missing**: press\n"));
+  EXPECT_TRUE(fs::exists(out / "dent.csv"));
+  EXPECT_FALSE(fs::exists(out / "press.csv"));
+}
+
+INSTANTIATE_TEST_SUITE_P(By, StoppedBench, ::testing::Values(SIGINT, SIGTERM, SIGKILL));
+
+}  // namespace
+}  // namespace enc::tests

@@ -1,0 +1,289 @@
+// The report: what it says of a figure, that text cannot break it, and that it is drawn right.
+#include "benchmarks/report.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/contradictions.h"
+#include "benchmarks/plot.h"
+#include "core/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::size_t count_of(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t i = text.find(what); i != std::string::npos; i = text.find(what, i + 1)) ++n;
+  return n;
+}
+
+Plot small_plot() {
+  return {"press.demo",
+          "It's <b> & more",
+          "x (mm)",
+          "y (N)",
+          false,
+          false,
+          {{"twin", {1, 2, 3, 4}, {1, kUnset, 3, 5}, {0.5, kUnset, 2, 4}, {2, kUnset, 4, 6}, Mark::both},
+           {"paper", {1, 4}, {1.5, 4.5}, {}, {}, Mark::points, true}},
+          "What <i>to see</i>."};
+}
+
+// One calibrated figure that holds, one predicted that does not, one of ours.
+Report small_report() {
+  Report report{"./encounter bench press --set 'a=<1>'", 7, {"a=<1>"}, {"press", "speed"}};
+  BenchResult result{"press", "tennis_ball", 2.5, 10.0, {}};
+  result.figures = {{"press.a.mean", 0.2, 0.25, "mm", Role::calibrated, 0.1, 0.3, "a | b <c>", 0.24, 0.26},
+                    {"press.b.max", 0.5, 0.4, "mm", Role::predicted, 0.45, kUnset, ""},
+                    {"press.c.max", kUnset, 3.0, "N", Role::ours, kUnset, kUnset, ""}};
+  result.tables = {{"press.rows", "Rows", {"name", "value (mm)"}, {{"x, \"y\"", "1"}, {"z", "2"}}}};
+  result.plots = {small_plot()};
+  add_result(report, std::move(result));
+  return report;
+}
+
+// A folder in which no gnuplot is found.
+class NoGnuplot {
+ public:
+  NoGnuplot() : before_(std::getenv("PATH")) { setenv("PATH", "/nowhere", 1); }
+  ~NoGnuplot() { setenv("PATH", before_.c_str(), 1); }
+  NoGnuplot(const NoGnuplot&) = delete;
+  NoGnuplot& operator=(const NoGnuplot&) = delete;
+
+ private:
+  const std::string before_;
+};
+
+TEST(ReportTable, GivesDifferenceIntervalAndVerdictOfAFigure) {
+  const Table table = figure_table(small_report().results.front());
+  EXPECT_THAT(table.columns, ElementsAre("figure", "paper", "twin", "difference", "difference (%)",
+                                         "least .. most", "unit", "role", "bounds", "holds", "note"));
+  EXPECT_THAT(table.rows[0], ElementsAre("press.a.mean", "0.2", "0.25", "+0.05", "+25.0", "0.24 .. 0.26",
+                                         "mm", "calibrated", "0.1 .. 0.3", "yes", "a | b <c>"));
+  EXPECT_THAT(table.rows[1], ElementsAre("press.b.max", "0.5", "0.4", "-0.1", "-20.0", "", "mm", "predicted",
+                                         "at least 0.45", "NO", ""));
+  EXPECT_THAT(table.rows[2], ElementsAre("press.c.max", "", "3", "", "", "", "N", "ours", "", "yes", ""));
+}
+
+TEST(ReportTable, LeavesOutColumnsInWhichNothingStands) {
+  BenchResult result{"press", "tennis_ball", 1, 1, {{"press.c.max", kUnset, 3.0, "N"}}};
+  EXPECT_THAT(figure_table(result).columns, ElementsAre("figure", "twin", "unit", "role", "holds"));
+}
+
+TEST(ReportTable, AFigureWithoutAValueDoesNotHold) {
+  BenchResult result{"press", "tennis_ball", 1, 1, {{"press.c.max", 1.0, kUnset, "N"}}};
+  const Table table = figure_table(result);
+  EXPECT_THAT(table.rows[0], AllOf(Contains("none"), Contains("NO")));
+}
+
+TEST(ReportTable, CountsWhatIsCalibratedAndWhatPredicted) {
+  const Table table = role_table(small_report());
+  EXPECT_THAT(table.rows, ElementsAre(ElementsAre("calibrated", "1", "1", "press.a.mean"),
+                                      ElementsAre("predicted", "1", "0", "press.b.max"),
+                                      ElementsAre("ours", "1", "1", "all others")));
+}
+
+TEST(ReportHtml, IsOnePageWithItsPicturesAndWithoutScriptsOrLinksOut) {
+  const std::string page = report_html(small_report());
+  EXPECT_THAT(page, StartsWith("<!DOCTYPE html>"));
+  EXPECT_EQ(count_of(page, "<svg"), 1U);
+  EXPECT_EQ(count_of(page, "<?xml"), 0U);
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("src=")));
+  EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
+  EXPECT_THAT(page, HasSubstr("Missing: speed"));
+  EXPECT_LT(page.find("<svg"), page.find("<table"));
+}
+
+TEST(ReportHtml, TextIsText) {
+  const std::string page = report_html(small_report());
+  EXPECT_THAT(page, HasSubstr("a | b &lt;c&gt;"));
+  EXPECT_THAT(page, HasSubstr("--set &#39;a=&lt;1&gt;&#39;"));
+  EXPECT_THAT(page, HasSubstr("What &lt;i&gt;to see&lt;/i&gt;."));
+  EXPECT_THAT(page, Not(HasSubstr("<b>")));
+  EXPECT_THAT(page, Not(HasSubstr("<i>")));
+}
+
+TEST(ReportMarkdown, TextDoesNotBreakTheTable) {
+  const std::string text = report_markdown(small_report());
+  EXPECT_THAT(text,
+              HasSubstr("| press.a.mean | 0.2 | 0.25 | +0.05 | +25.0 | 0.24 .. 0.26 | mm | calibrated | "
+                        "0.1 .. 0.3 | yes | a \\| b &lt;c> |"));
+  EXPECT_THAT(text, HasSubstr("(press.demo.svg)"));
+  EXPECT_THAT(text, HasSubstr("- **Missing**: speed\n"));
+  EXPECT_THAT(text, HasSubstr("Table 2, indentation A, release"));
+}
+
+// The form that others read [architecture B8], and what was added to it.
+TEST(ReportJson, KeepsItsForm) {
+  const auto json = nlohmann::json::parse(results_json(small_report()));
+  EXPECT_EQ(json["seed"], 7);
+  EXPECT_EQ(json["missing"], nlohmann::json({"speed"}));
+  EXPECT_EQ(json["contradictions"].size(), contradictions().size());
+  ASSERT_EQ(json["benchmarks"].size(), 1U);
+  EXPECT_EQ(json["benchmarks"][0]["run_time_s"], 2.5);
+  const auto& first = json["benchmarks"][0]["figures"][0];
+  EXPECT_EQ(first["id"], "press.a.mean");
+  EXPECT_EQ(first["paper"], 0.2);
+  EXPECT_EQ(first["twin"], 0.25);
+  EXPECT_EQ(first["role"], "calibrated");
+  EXPECT_EQ(first["low"], 0.1);
+  EXPECT_EQ(first["high"], 0.3);
+  EXPECT_EQ(first["ok"], true);
+  EXPECT_EQ(first["least"], 0.24);
+  const auto& second = json["benchmarks"][0]["figures"][1];
+  EXPECT_TRUE(second["high"].is_null());
+  EXPECT_EQ(second["ok"], false);
+  EXPECT_TRUE(json["benchmarks"][0]["figures"][2]["paper"].is_null());
+}
+
+TEST(ReportFiles, AreAllThereAndNothingElse) {
+  const test::TemporaryFolder folder;
+  write_report(folder.file("out"), small_report());
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "out"))
+    names.push_back(entry.path().filename());
+  EXPECT_THAT(names,
+              ::testing::UnorderedElementsAre("REPORT.md", "report.html", "results.json", "press.csv",
+                                              "press.rows.csv", "press.demo.plot.csv", "press.demo.svg"));
+  EXPECT_EQ(bytes_of(folder.path() / "out/press.rows.csv"), "name,value (mm)\n\"x, \"\"y\"\"\",1\nz,2\n");
+  EXPECT_EQ(bytes_of(folder.path() / "out/press.demo.plot.csv"),
+            "series,paper,x,y,low,high\ntwin,0,1,1,0.5,2\ntwin,0,2,,,\ntwin,0,3,3,2,4\ntwin,0,4,5,4,6\n"
+            "paper,1,1,1.5,,\npaper,1,4,4.5,,\n");
+}
+
+TEST(ReportFiles, WithoutGnuplotTheTablesStillCome) {
+  const NoGnuplot none;
+  const test::TemporaryFolder folder;
+  const Report report = small_report();
+  EXPECT_THAT(report.not_drawn, HasSubstr("gnuplot-nox"));
+  write_report(folder.file("out"), report);
+  EXPECT_FALSE(fs::exists(folder.path() / "out/press.demo.svg"));
+  EXPECT_TRUE(fs::exists(folder.path() / "out/press.demo.plot.csv"));
+  const std::string page = bytes_of(folder.path() / "out/report.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("gnuplot-nox"), HasSubstr("press.a.mean"), Not(HasSubstr("<svg"))));
+  EXPECT_THAT(bytes_of(folder.path() / "out/REPORT.md"), Not(HasSubstr("(press.demo.svg)")));
+}
+
+TEST(ReportFiles, AFolderThatCannotBeMadeIsRefused) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.file("file")) << "x";
+  EXPECT_THROW(write_report(folder.file("file/out"), small_report()), Error);
+}
+
+TEST(Plot, GivesTheDataWithItsGapsAndTheBarsOfWhatVaries) {
+  const std::string script = plot_script(small_plot());
+  EXPECT_THAT(script, HasSubstr("$d0 << EOD\n1 1 0.5 2\n2 NaN NaN NaN\n3 3 2 4\n4 5 4 6\nEOD\n"));
+  EXPECT_THAT(script, HasSubstr("$d0 using 1:3:(0):($4-$3) with vectors heads"));
+  EXPECT_THAT(script, Not(HasSubstr("$d1 using 1:3")));  // the paper's have none
+  EXPECT_THAT(script, HasSubstr("$d1 using 1:2 with points lc rgb '#000000' pt 6"));
+}
+
+TEST(Plot, TextIsNeverACommand) {
+  Plot plot = small_plot();
+  plot.title = "'; system('touch gone')\nquit `id`";
+  EXPECT_THAT(plot_script(plot), HasSubstr("set title '''; system(''touch gone'') quit `id`'\n"));
+}
+
+TEST(Plot, WhatALogarithmicAxisCannotShowIsAGapAndABarEndsAtTheEdge) {
+  Plot plot = small_plot();
+  plot.log_y = true;
+  plot.series[0].y = {-1, 0, 3, 5};
+  plot.series[0].low = {-2, -1, -1, 4};
+  EXPECT_THAT(plot_script(plot), HasSubstr("1 NaN 1.5 2\n2 NaN 1.5 NaN\n3 3 1.5 4\n4 5 4 6\n"));
+}
+
+TEST(Plot, WhatFailedStandsAtTheUpperEdgeInTheColourOfItsSeries) {
+  Plot plot = small_plot();
+  plot.series.insert(plot.series.begin() + 1, {"unstable", {5, 6}, {kUnset, kUnset}, {}, {}, Mark::crosses});
+  EXPECT_THAT(plot_script(plot),
+              HasSubstr("$d1 using 1:(0.975) axes x1y2 with points lc rgb '#0072B2' pt 2"));
+}
+
+TEST(Plot, BarsOfOnePlaceStandSideBySide) {
+  Plot plot{
+      "press.bars",
+      "",
+      "",
+      "",
+      false,
+      false,
+      {{"paper", {0, 1}, {1, 2}, {}, {}, Mark::bars, true}, {"twin", {0, 1}, {1, 2}, {}, {}, Mark::bars}},
+      "",
+      {"x", "norm"}};
+  const std::string script = plot_script(plot);
+  EXPECT_THAT(script, HasSubstr("set xtics ('x' 0, 'norm' 1)"));
+  EXPECT_THAT(script, HasSubstr("set boxwidth 0.4\n"));
+  EXPECT_THAT(script, HasSubstr("-0.2 1 NaN NaN\n0.8 2 NaN NaN\n"));
+  EXPECT_THAT(script, HasSubstr("0.2 1 NaN NaN\n1.2 2 NaN NaN\n"));
+}
+
+// Every kind of mark, gaps, all failed, nothing at all: gnuplot takes it.
+TEST(Plot, IsDrawn) {
+  std::vector<Plot> plots{small_plot(), {"press.none", "", "", "", true, true, {}}};
+  for (const Mark mark : {Mark::line, Mark::points, Mark::both, Mark::bars, Mark::band, Mark::crosses})
+    for (const bool paper : {false, true}) {
+      Plot plot = small_plot();
+      plot.series[0].mark = mark;
+      plot.series[0].paper = paper;
+      plots.push_back(plot);
+      plot.log_x = plot.log_y = true;
+      plot.equal = true;
+      plots.push_back(plot);
+      plot.series.pop_back();
+      plot.series[0].y = {kUnset, kUnset, kUnset, kUnset};
+      plots.push_back(plot);
+    }
+  for (const Plot& plot : plots) {
+    const Drawing drawing = draw(plot);
+    EXPECT_EQ(drawing.why_not, "") << plot_script(plot);
+    EXPECT_THAT(drawing.svg, HasSubstr("</svg>"));
+  }
+}
+
+TEST(Plot, InAPageNoTwoDrawingsShareAName) {
+  const std::string svg = draw(small_plot()).svg;
+  const std::string page = svg_for_page(svg, "press.demo");
+  EXPECT_THAT(page, StartsWith("<svg"));
+  EXPECT_THAT(page, Not(HasSubstr("'gpPt")));
+  EXPECT_THAT(page, Not(HasSubstr("#gpPt")));
+  EXPECT_THAT(page, HasSubstr("id='press_demo_gpPt6'"));
+  EXPECT_THAT(page, HasSubstr("#press_demo_gpPt6"));
+}
+
+TEST(Contradictions, AreFoundInThePrintedNumbers) {
+  const std::vector<Contradiction> all = contradictions();
+  std::vector<std::string> ids;
+  for (const Contradiction& c : all) ids.push_back(c.id);
+  // Table 1 has six norms and Table 2 six cells: only these are wrong.
+  ASSERT_THAT(ids, ElementsAre("table1.MAE.norm.0", "table2.A.release", "table2.B.release", "fig14.item10"));
+  EXPECT_EQ(all[0].found, "their norm is 0.1569 mm");
+  EXPECT_THAT(all[0].printed, HasSubstr("0.1579"));
+  EXPECT_THAT(all[1].found, AllOf(HasSubstr("impossible"), HasSubstr("2.42 times")));
+  // 2 (0.0056 / 0.1370)^2 = 0.334 %; 0.1370^2 / (2 0.0056) = 1.68 N
+  EXPECT_THAT(all[2].found, AllOf(HasSubstr("0.33 %"), HasSubstr("1.7 N"), HasSubstr("|mean error|")));
+  EXPECT_EQ(all[3].found, "these answers have the mean 6.0");
+}
+
+}  // namespace
+}  // namespace enc::bench
