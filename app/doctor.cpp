@@ -1,4 +1,7 @@
+#include <cstdlib>
 #include <exception>
+#include <sstream>
+#include <string>
 #include <thread>
 
 #include <dlfcn.h>
@@ -36,6 +39,14 @@ bool library_there(const char* name) {
   return handle != nullptr;
 }
 
+bool program_there(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
 bool may_be_real_time() {
   rlimit limit{};
   getrlimit(RLIMIT_RTPRIO, &limit);
@@ -66,6 +77,8 @@ int doctor() {
   doctor.say(!modules.empty(), Need::may, "modules: " + modules,
              "none beside the program; pictures and drivers need them");
   doctor.say(library_there("libEGL.so.1"), Need::may, "EGL for pictures", "./encounter view installs it");
+  doctor.say(program_there("gnuplot"), Need::may, "gnuplot for the plots of a report",
+             "./encounter bench installs it");
   doctor.say(may_be_real_time(), Need::may, "real-time priority for hardware",
              "add rtprio to /etc/security/limits.conf; simulation does not need it");
   doctor.say(std::thread::hardware_concurrency() >= 2, Need::may,

@@ -160,10 +160,30 @@ class Parts {
   std::size_t next_ = 0;
 };
 
-// Round numbers as they are where they are few digits long, else as powers of ten.
-std::string tics(const char* axis, const Limits& limits) {
-  const bool plain = limits.least_positive >= 1e-4 && limits.most <= 1e5;
-  return fmt::format("set logscale {0}\nset format {0} {1}\n", axis, plain ? "'%g'" : "'1e%T'");
+// Round numbers where an axis has few powers of ten: there 1, 2, 5, 10, ...
+std::string log_tics(const char* axis, double low, double high) {
+  const bool plain = low >= 1e-5 && high <= 1e6;
+  std::string text = fmt::format("set logscale {0}\nset format {0} {1}\n", axis, plain ? "'%g'" : "'1e%T'");
+  if (std::log10(high / low) > 2.0) return text;
+  std::string tics;
+  for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10.0)
+    for (const double tic : {power, 2.0 * power, 5.0 * power})
+      if (tic >= low && tic <= high) tics += fmt::format("{}{:.9g}", tics.empty() ? "" : ", ", tic);
+  return text + fmt::format("set format {} '%g'\nset {}tics ({})\n", axis, axis, tics);
+}
+
+// A little wider than the data; `above` is a share of the axis that is kept free at the upper end.
+std::string axis_range(const char* axis, const Limits& limits, bool log, double above) {
+  if (!limits.any(log)) return fmt::format("set {}range [{}]\n", axis, log ? "0.1:1" : "0:1");
+  double low = log ? std::log(limits.least_positive) : limits.least;
+  double high = log ? std::log(limits.most) : limits.most;
+  const double span = high > low ? high - low : log ? 1.0 : std::max(std::abs(high), 1e-9);
+  const bool from_zero = !log && low >= 0.0 && low < 0.1 * span;
+  low = from_zero ? 0.0 : low - 0.04 * span;
+  high += (0.04 + above) * span;
+  if (!log) return fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, low, high);
+  return fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, std::exp(low), std::exp(high)) +
+         log_tics(axis, std::exp(low), std::exp(high));
 }
 
 // Bands first: they cover what is behind them.
@@ -175,18 +195,19 @@ std::vector<std::size_t> drawing_order(const Plot& plot) {
   return order;
 }
 
-std::string axes(const Plot& plot) {
-  std::string text;
-  const Limits x = limits_of(plot, false);
-  const Limits y = limits_of(plot, true);
-  if (plot.log_x) text += tics("x", x);
-  if (plot.log_y) text += tics("y", y);
-  const bool bars = std::any_of(plot.series.begin(), plot.series.end(),
-                                [](const Series& s) { return s.mark == Mark::bars; });
-  if (bars && !plot.log_y) text += "set yrange [*<0:0<*]\n";  // the length of a bar is its value
-  // Where there is nothing but failures, a frame to stand in.
-  if (!y.any(plot.log_y)) text += "set yrange [0.1:1]\n";
-  if (!x.any(plot.log_x)) text += "set xrange [0.1:1]\n";
+std::string axes(const Plot& plot, const Bars& bars) {
+  Limits x = limits_of(plot, false);
+  Limits y = limits_of(plot, true);
+  const bool failures = std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) {
+    return s.mark == Mark::crosses && !any_finite(s.y);
+  });
+  if (bars.count > 0) {
+    x.see(x.least - 0.6 * bars.width * bars.count);
+    x.see(x.most + 0.6 * bars.width * bars.count);
+    y.see(0.0);  // the length of a bar is its value
+  }
+  std::string text =
+      axis_range("x", x, plot.log_x, 0.0) + axis_range("y", y, plot.log_y, failures ? 0.08 : 0.0);
   if (!plot.x_names.empty()) {
     text += fmt::format("set xrange [-0.6:{}]\nset xtics (", static_cast<double>(plot.x_names.size()) - 0.4);
     for (std::size_t i = 0; i < plot.x_names.size(); ++i)
@@ -210,14 +231,14 @@ std::string plot_script(const Plot& plot) {
       (plot.equal ? 520 : 360) + 22 * rows);
   text +=
       "set border 3 lc rgb '#555555'\nset tics nomirror out textcolor rgb '#333333'\n"
-      "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n"
-      "set offsets graph 0.02, graph 0.02, graph 0.06, graph 0.02\n";
+      "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";
   text += fmt::format("set key bmargin center horizontal Left reverse samplen 2.5 height 0.5 maxcols {}\n",
                       columns);
   text += "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
-          quoted(plot.y_label) + "\n" + axes(plot);
+          quoted(plot.y_label) + "\n";
   const Limits y = limits_of(plot, true);
   const Bars bars(plot);
+  text += axes(plot, bars);
   text += fmt::format("set boxwidth {}\n", bars.width);
   Parts parts;
   int bar = 0;
@@ -233,9 +254,13 @@ std::string svg_for_page(const std::string& svg, const std::string& plot_id) {
   std::string text = svg.substr(std::min(svg.find("<svg"), svg.size()));
   std::string prefix = plot_id;
   std::replace(prefix.begin(), prefix.end(), '.', '_');
+  const std::string title = "<title>Gnuplot</title>";  // a page shows it under the pointer
+  if (const std::size_t i = text.find(title); i != std::string::npos) text.erase(i, title.size());
   // Where gnuplot defines a name of its own, and where it uses one.
-  for (const std::string found : {"='gp", "=\"gp", "=\"gnuplot", "='#gp", "=\"#gp", "(#gp"}) {
-    const std::string renamed = std::string(found).insert(found.find('g'), prefix + "_");
+  for (const std::string found :
+       {"='gp", "=\"gp", "=\"gnuplot", "='#gp", "=\"#gp", "(#gp", "='textbox", "='greybox"}) {
+    const std::size_t name = found.find_last_of("'\"#") + 1;
+    const std::string renamed = std::string(found).insert(name, prefix + "_");
     for (std::size_t i = text.find(found); i != std::string::npos; i = text.find(found, i + renamed.size()))
       text.replace(i, found.size(), renamed);
   }

@@ -86,12 +86,14 @@ TEST(ReportTable, GivesDifferenceIntervalAndVerdictOfAFigure) {
 }
 
 TEST(ReportTable, LeavesOutColumnsInWhichNothingStands) {
-  BenchResult result{"press", "tennis_ball", 1, 1, {{"press.c.max", kUnset, 3.0, "N"}}};
+  BenchResult result{
+      "press", "tennis_ball", 1, 1, {{"press.c.max", kUnset, 3.0, "N", Role::ours, kUnset, kUnset, ""}}};
   EXPECT_THAT(figure_table(result).columns, ElementsAre("figure", "twin", "unit", "role", "holds"));
 }
 
 TEST(ReportTable, AFigureWithoutAValueDoesNotHold) {
-  BenchResult result{"press", "tennis_ball", 1, 1, {{"press.c.max", 1.0, kUnset, "N"}}};
+  BenchResult result{
+      "press", "tennis_ball", 1, 1, {{"press.c.max", 1.0, kUnset, "N", Role::ours, kUnset, kUnset, ""}}};
   const Table table = figure_table(result);
   EXPECT_THAT(table.rows[0], AllOf(Contains("none"), Contains("NO")));
 }
@@ -265,7 +267,7 @@ TEST(Plot, InAPageNoTwoDrawingsShareAName) {
   const std::string svg = draw(small_plot()).svg;
   const std::string page = svg_for_page(svg, "press.demo");
   EXPECT_THAT(page, StartsWith("<svg"));
-  EXPECT_THAT(page, Not(HasSubstr("'gpPt")));
+  EXPECT_THAT(page, Not(HasSubstr("='gpPt")));
   EXPECT_THAT(page, Not(HasSubstr("#gpPt")));
   EXPECT_THAT(page, HasSubstr("id='press_demo_gpPt6'"));
   EXPECT_THAT(page, HasSubstr("#press_demo_gpPt6"));
