@@ -80,7 +80,7 @@ class Teller {
   void tell(double share) {
     if (terminal_)
       fmt::print(stderr, "\r  {} {:3.0f} %  {:.0f} s ", text_, std::floor(100.0 * share), since(start_));
-    else if (since(start_) > 0.5)
+    else if (since(start_) > 2.0)  // what is refused at once has one line: why
       say();
     std::fflush(stderr);
   }
