@@ -112,6 +112,16 @@ void fields(F& f, Outputs& out) {
   fields(f, out.grip);
 }
 template <class F>
+void fields(F& f, Swing& s) {
+  f("swing_depth", s.depth);
+  f("swing_slow_force", s.slow_force);
+  f("swing_slow_depth", s.slow_depth);
+  f("swing_exchanged", s.exchanged);
+  f("swing_moved", s.moved);
+  f("swing_stiffness", s.stiffness);
+  f("carried", s.carried);
+}
+template <class F>
 void fields(F& f, Contact& c) {
   f("contact_object", c.object);
   fields(f, "contact_X_WN", c.X_WN);
@@ -120,6 +130,7 @@ void fields(F& f, Contact& c) {
   f("response_deflection", c.response.deflection);
   f("response_alpha", c.response.alpha);
   fields(f, "response_stop", c.response.stop);
+  fields(f, c.swing);
   fields(f, "displacement_N", c.displacement);
 }
 template <class F>

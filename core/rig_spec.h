@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/damping.h"
 #include "core/frames.h"
 #include "core/hexapod.h"
 
@@ -100,6 +101,7 @@ struct RigSpec {
   DisplayRig display;
   GripperRig gripper;
   ContactRig contact;
+  AdmittanceRig admittance;
 };
 
 }  // namespace enc

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/mesh_tree.h"
+#include "core/stages.h"
 
 namespace enc {
 namespace {
@@ -262,6 +263,9 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   scene.tip_radius = spec.probe ? spec.probe->radius : rig.manipulator.tip_radius;
   scene.dt = 1.0 / rig.loop.rate;
   scene.filter_gain = 1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter * scene.dt);
+  if (rig.admittance.damping == Damping::observed)
+    scene.damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
+                          stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
   scene.has_manipulator = spec.manipulator.has_value();
   scene.has_force = spec.force.has_value();
   scene.has_tracker = spec.tracker.has_value();

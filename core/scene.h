@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/damping.h"
 #include "core/frames.h"
 #include "core/loop_model.h"
 #include "core/probe.h"
@@ -60,6 +61,7 @@ struct Scene {
   DisplayRig display;
   ContactRig contact;
   LoopRig loop;
+  std::optional<DampingLaw> damping;  // where the rig wants the object damped
   std::optional<Probe> probe;    // then the machine presses, and nothing is rendered
   double tip_radius = kUnset;    // of the haptic-tip or the probe, m
   double dt = kUnset;            // s, one tick

@@ -44,6 +44,7 @@ struct Contact {
   bool anchored = false;  // true once force was felt with the tip under the tool: the anchor no longer moves
   Time loaded{};          // last tick on which force was felt
   ResponseState response;
+  Swing swing;
   Vec<'N'> displacement = Vec<'N'>::zero();
 };
 

@@ -9,6 +9,7 @@ using enum Confidence;
 using enum Presence;
 
 constexpr std::array<std::string_view, 2> kTares{"start", "free"};
+constexpr std::array<std::string_view, 2> kDampings{"none", "observed"};
 
 // A device table that is there must say by what the role is filled.
 void driver(Visitor& v, std::string& value) {
@@ -89,6 +90,20 @@ void describe(Visitor& v, ContactRig& c) {
   v.value({"hand_damping_Ns_per_m", "likewise", "parameters 5.1", assumed, kNotNegative}, &c.hand_damping);
 }
 
+void describe(Visitor& v, AdmittanceRig& a) {
+  const std::string_view source = "docs/model.md (damping)";
+  choice(v, {"damping", "none, or as much as the energy that is seen to swing asks for", source, chosen},
+         kDampings, a.damping);
+  v.value({"margin", "of the damping over what suffices", "fidelity 1", derived, kPositive}, &a.margin);
+  v.value({"calm_time_s", "in which damping falls to 1/e when nothing swings", source, chosen, kPositive},
+          &a.calm_time);
+  v.value({"slowest_hz", "slower changes are the user's own", source, chosen, kPositive}, &a.slowest);
+  v.value({"average_time_s", "over which energies are averaged", source, chosen, kPositive}, &a.average_time);
+  v.value({"least_swing_um", "rms; less does not count as a swing", source, chosen, kPositive},
+          &a.least_swing);
+  v.value({"most_damping_Ns_per_m", "never more than this", source, chosen, kPositive}, &a.most_damping);
+}
+
 }  // namespace
 
 void describe(Visitor& v, std::string_view name, PoseSpec& p) {
@@ -149,6 +164,7 @@ void describe(Visitor& v, RigSpec& r) {
   table(v, "display", [&] { describe(v, r.display); });
   table(v, "gripper", [&] { describe(v, r.gripper); });
   table(v, "contact", [&] { describe(v, r.contact); });
+  table(v, "admittance", [&] { describe(v, r.admittance); });
 }
 
 void describe_all(Visitor& v, SceneSpec& scene, RigSpec& rig, sim::TwinSpec& twin) {

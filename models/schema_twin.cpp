@@ -94,6 +94,12 @@ void describe(Visitor& v, sim::ForceTruth& f) {
   v.value({"torque_range_Nm", "larger torques saturate", "parameters 3", published, kPositive},
           &f.torque_range);
   v.value({"noise_N", "rms of a sample", "fidelity 1", assumed, kNotNegative}, &f.noise);
+  v.value({"oversampling",
+           "readings, each with noise and steps, averaged into a sample",
+           "docs/model.md",
+           chosen,
+           {1.0, 64.0}},
+          &f.oversampling);
   v.value({"torque_noise_Nm", "rms of a sample", "parameters 3", assumed, kNotNegative}, &f.torque_noise);
   v.value({"zero_N", "rms of the zero error at power-up", "parameters 3", assumed, kNotNegative}, &f.zero);
   v.value({"drift_N_per_sqrt_s", "random walk of the zero", "fidelity 1", assumed, kNotNegative}, &f.drift);

@@ -31,6 +31,7 @@ struct ForceTruth {
   double quantum = 0.025;           // N
   double torque_quantum = 0.00125;  // N m
   double range = 130.0;             // N
+  std::int64_t oversampling = 1;    // readings averaged into a sample
   double torque_range = 10.0;       // N m
   double noise = 0.0125;            // N rms
   double torque_noise = 0.0005;     // N m rms
