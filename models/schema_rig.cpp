@@ -42,7 +42,9 @@ void describe(Visitor& v, ForceRig& f) {
   v.value({"mass_kg", "behind the sensor: gripper, adapters, tip", "parameters 2.3", assumed, kNotNegative},
           &f.mass);
   choice(v, {"tare", "zero once at the start, or also when free", "fidelity 1", chosen}, kTares, f.tare);
-  v.value({"tare_time_s", "of the first zero", "fidelity 1", assumed, kPositive}, &f.tare_time);
+  v.value({"tare_time_s", "of the first zero; 0: the sensor's own zero is believed", "fidelity 1", assumed,
+           kNotNegative},
+          &f.tare_time);
   v.value({"tare_clearance_mm", "gap from which on the tool is clear", "fidelity 1", assumed, kPositive},
           &f.tare_clearance);
   v.value({"stale_ms", "an older sample is lost", "architecture B10", assumed, kPositive}, &f.stale);
@@ -87,6 +89,10 @@ void describe(Visitor& v, ContactRig& c) {
            assumed, kPositive},
           &c.hand_stiffness);
   v.value({"hand_damping_Ns_per_m", "likewise", "parameters 5.1", assumed, kNotNegative}, &c.hand_damping);
+  v.value({"softest_N_per_mm",
+           "softer objects are refused; unset: what that hand makes unstable; 0: none is refused",
+           "fidelity 1", chosen, kNotNegative, optional},
+          &c.softest);
 }
 
 }  // namespace

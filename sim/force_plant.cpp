@@ -24,10 +24,13 @@ ForcePlant::ForcePlant(const ForceTruth& truth, std::uint64_t seed)
   state_.zero = Vec<'F'>(Vec3(truth.zero * state_.noise.normal3()));
 }
 
+void ForcePlant::begin_push() noexcept {
+  state_.shifted = Vec<'F'>(Vec3(truth_.push_drift * state_.noise.normal3()));
+}
+
 void ForcePlant::measure(Time t, double dt, const Wrench& raw, const Vec<'F'>& inertia) {
   state_.zero = state_.zero + Vec<'F'>(Vec3(truth_.drift * std::sqrt(dt) * state_.noise.normal3()));
-  const Vec3 force =
-      turned_ * (raw.force - inertia).e() + state_.zero.e() + truth_.noise * state_.noise.normal3();
+  const Vec3 force = turned_ * (raw.force - inertia).e() + zero().e() + truth_.noise * state_.noise.normal3();
   const Vec3 torque = turned_ * raw.torque.e() + truth_.torque_noise * state_.noise.normal3();
   bool saturated = false;
   state_.sample.value.force = Vec<'F'>(digitised(force, truth_.quantum, truth_.range, saturated));

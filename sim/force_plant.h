@@ -12,7 +12,8 @@ class ForcePlant {
  public:
   struct State {
     Stream noise;
-    Vec<'F'> zero = Vec<'F'>::zero();  // N
+    Vec<'F'> zero = Vec<'F'>::zero();     // N
+    Vec<'F'> shifted = Vec<'F'>::zero();  // N, of this push
     Stamped<Wrench> sample;
   };
   ForcePlant(const ForceTruth& truth, std::uint64_t seed);
@@ -20,6 +21,8 @@ class ForcePlant {
   [[nodiscard]] const Stamped<Wrench>& sample() const { return state_.sample; }
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
+  void begin_push() noexcept;  // the zero is somewhere else than in the last push
+  [[nodiscard]] Vec<'F'> zero() const { return state_.zero + state_.shifted; }
   // raw: force and torque on the sensor in its true axes; inertia: m a of what is behind it, in the same
   // axes. Once a tick.
   void measure(Time t, double dt, const Wrench& raw, const Vec<'F'>& inertia);
