@@ -156,6 +156,9 @@ void fields(F& f, State& s) {
   fields(f, s.dent);
   fields(f, "force_zero_F", s.force_zero);
   f("tared", s.tared);
+  fields(f, "tare_mean_F", s.tare_mean);
+  fields(f, "tare_last_F", s.tare_last);
+  f("tare_window", s.tare_window);
   fields(f, "force_W", s.force);
   fields(f, s.contact);
   fields(f, s.probing);

@@ -66,7 +66,7 @@ struct Scene {
   double tip_radius = kUnset;    // of the haptic-tip or the probe, m
   double dt = kUnset;            // s, one tick
   double filter_gain = kUnset;   // of the force low-pass, per tick
-  double lowest_slope = kUnset;  // N/m: softest object the loop renders stably (loop_model.h)
+  double lowest_slope = kUnset;  // N/m: softest object that is accepted (loop_model.h)
   double strength = kUnset;      // N: pressing force that the machine carries beside its own load
 };
 
@@ -98,5 +98,12 @@ struct PressPoint {
   Vec<'W'> normal;
 };
 [[nodiscard]] PressPoint press_point(const SceneSpec& spec, const UserSpec& user);
+// Where the pusher of the scene pushes, and where that shall end: at its depth or its force, whichever comes
+// first.
+struct PushedPoint {
+  PressPoint at;
+  double depth = kUnset, force = kUnset;  // m, N: on the object's curve
+};
+[[nodiscard]] PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene);
 
 }  // namespace enc
