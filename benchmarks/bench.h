@@ -28,8 +28,9 @@ struct Figure {
   [[nodiscard]] bool ok() const;
 };
 
-// What the report draws. `low` and `high` are error bars or the edges of a band; empty: none.
-enum class Mark : std::uint8_t { line, points, both, bars, band };
+// What the report draws. `low` and `high` are error bars or the edges of a band; empty: none. A NaN is a gap;
+// of `crosses` (what failed, such as an unstable run) it is drawn at the upper edge.
+enum class Mark : std::uint8_t { line, points, both, bars, band, crosses };
 struct Series {
   std::string name;
   std::vector<double> x, y;
@@ -42,7 +43,9 @@ struct Plot {
   std::string title, x_label, y_label;  // labels with their unit
   bool log_x = false, log_y = false;
   std::vector<Series> series;
-  std::string caption{};  // what to see in it
+  std::string caption{};               // what to see in it
+  std::vector<std::string> x_names{};  // under x = 0, 1, 2, ... in place of numbers
+  bool equal = false;                  // one unit of x is as long as one of y (maps)
 };
 struct Table {
   std::string id;  // file name without ".csv"; begins with the benchmark's name
@@ -68,7 +71,7 @@ struct BenchContext {
   bool quick = false;
   bool full = false;  // also what takes minutes: switch-off tables, work-precision
   std::vector<std::string> set;
-  std::function<void(double)> progress;
+  std::function<void(double)> progress;  // share done; any thread may call it
   // Loads a module of the program by name; null where it was not built.
   std::function<const ModuleInfo*(const std::string&)> module{};
 };

@@ -13,13 +13,17 @@
 namespace enc::bench {
 
 // work(index) for 0 to count - 1, in no order. Rethrows what the lowest index that failed has thrown.
-inline void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+// `progress` is told the share done, by any of the threads (BenchContext::progress may be called so).
+inline void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work,
+                        const std::function<void(double)>& progress = {}) {
   std::atomic<std::size_t> next{0};
+  std::atomic<std::size_t> done{0};
   std::vector<std::exception_ptr> failed(count);
   const auto run = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
         work(i);
+        if (progress) progress(static_cast<double>(++done) / static_cast<double>(count));
       } catch (...) {
         failed[i] = std::current_exception();
       }

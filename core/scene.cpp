@@ -135,13 +135,13 @@ PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
   const PusherSpec& pusher = *spec.pusher;
   const std::size_t index = pressed_object(spec, pusher.object, "pusher");
   const Object& object = scene.objects[index];
-  if (pusher.depth > object.limit * (1.0 + 1e-9))
+  if (pusher.depth > object.wanted * (1.0 + 1e-9))
     throw Error("the push is deeper than the deflection limit of object '" + spec.objects[index].name +
                     "'; lower it, or raise that limit",
                 "pusher.depth");
   const Nearest near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0));
   ResponseState rest;
-  const double depth = object.response.deflection(rest, pusher.force, pusher.depth);
+  const double depth = object.response.deflection(rest, pusher.force, std::min(pusher.depth, object.limit));
   return {{object.X_WO * near.point, object.X_WO * near.normal}, depth, object.response.press(depth)};
 }
 
