@@ -58,12 +58,15 @@ double DampingLaw::observe(Swing& swing, double force, double depth) const noexc
 
 double DampingLaw::carry(const Response& response, const ResponseState& at, double carried, double pressed,
                          double damping, double most) const noexcept {
+  if (!(damping > 0.0)) return pressed;
+  ResponseState end = at;
+  const double reached = std::min(pressed, response.force(end, most));  // beyond the limit nothing moves
   ResponseState undamped = at;
-  const double way = response.deflection(undamped, pressed, most) - at.deflection;
-  const double rise = pressed - carried;
-  if (!(damping > 0.0) || !(way * rise > 0.0)) return pressed;  // it does not move: nothing to damp
+  const double way = response.deflection(undamped, reached, most) - at.deflection;
+  const double slope = (reached - carried) / way;
+  if (!(slope > 0.0) || !std::isfinite(slope)) return pressed;  // it does not move: nothing to damp
   // Implicit, with the chord of the object's curve: exact for a spring, never beyond the undamped answer.
-  return carried + rise * dt_ / (dt_ + damping * way / rise);
+  return carried + (pressed - carried) * slope * dt_ / (damping + slope * dt_);
 }
 
 }  // namespace enc
