@@ -68,13 +68,12 @@ void add_error_figures(const std::vector<Level>& levels, const Paper& paper, Ben
       const bool bound = way.felt == &Push::measured && level.stiffness >= paper.within_from * kPerMm * 0.999;
       const auto add = [&](const char* what, double value, double high) {
         Figure f{fmt::format("stiffness.{}.{}.{}", way.name, name_of(level.stiffness), what),
-                 std::isfinite(high) ? paper.within : kUnset,
-                 value,
-                 "%",
-                 bound ? Role::predicted : Role::ours,
-                 kUnset,
-                 high,
-                 way.note};
+                 std::isfinite(high) ? paper.within : kUnset, value, "%",
+                 // The threshold was assumed such that the knee lies where the paper has it.
+                 !bound                                                 ? Role::ours
+                 : level.stiffness < paper.within_from * kPerMm * 1.001 ? Role::calibrated
+                                                                        : Role::predicted,
+                 kUnset, high, way.note};
         f.least = s.least;
         f.most = s.most;
         result.figures.push_back(std::move(f));
@@ -100,30 +99,45 @@ void add_slope(const std::vector<Level>& levels, const Paper& paper, BenchResult
   add("stiffness.load_error.slope", &Push::load, kUnset, "likewise, without the error of the force's zero");
 }
 
-// Force error gone, the error is gone: also near the boundary, where long averages are needed.
+// Force error gone, the error is gone. Near the boundary the tip never quite rests, so that takes a long hold
+// and the mean of the repetitions.
 void add_no_threshold(const BenchContext& context, const Extent& extent, BenchResult& result) {
   std::vector<std::string> variant = no_threshold_no_drift();
-  if (!context.quick) variant.emplace_back("pusher.hold_s=24");
+  if (!context.quick) variant.emplace_back("pusher.hold_s=30");
   const models::Setup setup = push_setup(context.models, extent.set, variant);
-  std::vector<double> stiffnesses{30, 50, 100, 300, 1000, 2000};
-  if (context.quick) stiffnesses = {300, 1000};
-  double worst[2] = {0.0, 0.0};
+  const std::vector<double> stiffnesses =
+      context.quick ? std::vector<double>{300, 1000} : std::vector<double>{30, 50, 100, 300, 2000};
+  Figure paper_way{
+      "stiffness.no_threshold_no_drift.error_percent.max", kUnset, 0.0, "%", Role::ours, kUnset, 0.05, ""};
+  Figure load{"stiffness.no_threshold_no_drift.load_error_percent.max",
+              kUnset,
+              0.0,
+              "%",
+              Role::ours,
+              kUnset,
+              0.05,
+              ""};
+  paper_way.least = load.least = INFINITY;
+  paper_way.most = load.most = -INFINITY;
+  const auto widen = [](Figure& f, const Spread& s) {
+    f.twin = std::max(f.twin, std::abs(s.mean));
+    f.least = std::min(f.least, s.least);
+    f.most = std::max(f.most, s.most);
+  };
   for (const Level& level : levels_of(setup, stiffnesses, extent.repeats, context.seed + 500)) {
-    worst[0] = std::max(worst[0], spread(level, &Push::measured).worst());
-    worst[1] = std::max(worst[1], spread(level, &Push::load).worst());
+    widen(paper_way, spread(level, &Push::measured));
+    widen(load, spread(level, &Push::load));
     result.simulated += static_cast<double>(level.pushes.size()) * push_time(setup);
   }
-  const char* range = context.quick ? "0.3 and 1 N/mm" : "0.03 to 2 N/mm, 24 s of hold";
-  for (int i = 0; i < 2; ++i)
-    result.figures.push_back(
-        {fmt::format("stiffness.no_threshold_no_drift.{}_percent.max", i == 0 ? "error" : "load_error"),
-         kUnset, worst[i], "%", Role::ours, kUnset, 0.05,
-         fmt::format("{}; noise and steps of the readings stay; above, the machine's 3 um "
-                     "step shows (1 % of the deflection at 200 N/mm)",
-                     range)});
+  paper_way.note = load.note = fmt::format(
+      "mean of the repetitions, the worst from {} to {} N/mm; noise and steps of the readings stay. Above, "
+      "the "
+      "machine's 3 um step shows: up to 1 % of the deflection at 200 N/mm",
+      name_of(stiffnesses.front()), name_of(stiffnesses.back()));
+  result.figures.push_back(std::move(paper_way));
+  result.figures.push_back(std::move(load));
 }
 
-// Stiffnesses of the grid that are looked at whatever the boundary, N/m.
 void add_boundary(const BenchContext& context, const Extent& extent, const Paper& paper,
                   BenchResult& result) {
   const models::Setup setup = push_setup(context.models, extent.set);
@@ -201,19 +215,19 @@ void add_firm(const BenchContext& context, const Extent& extent, BenchResult& re
 
 void add_motion_plot(const BenchContext& context, const Extent& extent, BenchResult& result) {
   const models::Setup setup = push_setup(context.models, extent.set);
-  const std::array<double, 2> stiffnesses{20, 35};
-  std::array<PushTrace, 2> traces;
-  in_parallel(2, [&](std::size_t i) {
+  const std::array<double, 3> stiffnesses{10, 20, 35};
+  std::array<PushTrace, 3> traces;
+  in_parallel(stiffnesses.size(), [&](std::size_t i) {
     (void)push_once(with_stiffness(setup, stiffnesses[i]), context.seed + 1000, &traces[i]);
   });
   Plot plot{"stiffness.motion",
-            "A push that comes to rest, and one that does not",
+            "A push that comes to rest, and two that do not",
             "time, s",
             "deflection of the tip, mm",
             false,
             false,
             {}};
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
     Series s{name_of(stiffnesses[i]) + " N/mm", {}, {}};
     for (std::size_t j = 0; j < traces[i].time.size(); j += 10) {
       s.x.push_back(traces[i].time[j]);
@@ -221,7 +235,9 @@ void add_motion_plot(const BenchContext& context, const Extent& extent, BenchRes
     }
     plot.series.push_back(std::move(s));
   }
-  plot.caption = "True deflection while something pushes in for 2 s and then waits.";
+  plot.caption =
+      "True deflection while something pushes in for 2 s and then waits; what swings at 0.035 N/mm is tremor "
+      "and noise.";
   result.plots.push_back(std::move(plot));
 }
 
