@@ -129,6 +129,14 @@ double strongest_frequency(std::span<const double> signal, double dt) {
   return best;
 }
 
+models::Setup push_setup(const std::string& models, const std::vector<std::string>& set,
+                         const std::vector<std::string>& variant) {
+  std::vector<std::string> all{"rig.force.tare=start", "rig.contact.softest_N_per_mm=0"};
+  all.insert(all.end(), set.begin(), set.end());
+  all.insert(all.end(), variant.begin(), variant.end());
+  return models::load(models + "/scenes/stiffness.toml", "sim", all);
+}
+
 models::Setup with_stiffness(models::Setup setup, double stiffness) {
   const std::string& name = setup.scene.pusher->object;
   const auto object = std::find_if(setup.scene.objects.begin(), setup.scene.objects.end(),

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/loop_model.h"
@@ -41,7 +42,11 @@ struct PushTrace {
   std::vector<double> time, deflection;  // s, m
 };
 
-// How a study changes a set-up: another stiffness of the pushed object, N/m; or what --set can say.
+// The scene `stiffness` as the paper did it: force zero found once, and nothing is too soft to be tried. Then
+// what the user sets; then, stronger than that, what a variant of the experiment is made of.
+[[nodiscard]] models::Setup push_setup(const std::string& models, const std::vector<std::string>& set,
+                                       const std::vector<std::string>& variant = {});
+// The same with another stiffness of the pushed object, N/m.
 [[nodiscard]] models::Setup with_stiffness(models::Setup setup, double stiffness);
 [[nodiscard]] Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace = nullptr);
 
