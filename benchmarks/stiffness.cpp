@@ -11,6 +11,7 @@
 #include "benchmarks/parallel.h"
 #include "benchmarks/reference.h"
 #include "benchmarks/statistics.h"
+#include "benchmarks/stiffness_beyond.h"
 
 namespace enc::bench {
 namespace {
@@ -362,7 +363,8 @@ BenchResult run_stiffness(const BenchContext& context) {
   add_level_table(all, result);
   add_motion_plot(context, extent, result);
   if (!context.quick) add_knee(context, result);
-  tell(share);
+  add_beyond(
+      context, [&](double done) { tell((0.8 + 0.2 * done) * share); }, result);
   if (context.full)
     add_switches(
         context, [&](double done) { tell(share + (1.0 - share) * done); }, result);
