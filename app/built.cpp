@@ -70,6 +70,11 @@ std::vector<Part> parts_of(const models::Setup& setup) {
        !scene.probe ? ""
                     : fmt::format("{:g} mm radius, {} pushes of {:g} mm", millimetres(scene.probe->radius),
                                   scene.probe->repeats, millimetres(scene.probe->depth)));
+  part("pusher", scene.pusher.has_value(),
+       !scene.pusher
+           ? ""
+           : fmt::format("{:g} N/mm, {} pushes of {:g} mm or {:g} N", setup.twin.pusher.stiffness * 1e-3,
+                         scene.pusher->repeats, millimetres(scene.pusher->depth), scene.pusher->force));
   part("arm", false, "");
   part("gripper", scene.gripper.has_value(),
        fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));

@@ -18,6 +18,8 @@ std::span<const Benchmark> benchmarks() {
       {"nearest", "geodesic ball", "nearest point on a mesh: time, growth, jumps, race against Embree",
        run_nearest},
       {"speed", "tennis_ball", "step(), times real time, wrapper over raw mj_step", run_speed},
+      {"stiffness", "stiffness", "apparent over commanded stiffness, softest stable wall (VHMR Fig 3)",
+       run_stiffness},
       {"structure", "tennis_ball", "hexapod on elastic legs: sag, modes, order of the integrator, cost",
        run_structure},
   });

@@ -1,5 +1,6 @@
 // Force in, displacement out [VHMR 3.4]; and where the tip should therefore be.
 #include <algorithm>
+#include <cmath>
 
 #include "core/stages.h"
 
@@ -14,12 +15,28 @@ Vec3 tangential_give(const Object& object, const Vec<'N'>& force) {
   return size > object.limit ? Vec3(give * (object.limit / size)) : give;
 }
 
+// What the object carries of the pressing force; the rest is the damper's.
+double carried(const Walk& walk, const Object& object, Contact& contact, double force, double pressed) {
+  if (!walk.scene.damping) return pressed;
+  const DampingLaw& law = *walk.scene.damping;
+  Swing& swing = contact.swing;
+  const double depth = -(contact.X_WN.inverse() * walk.X_WH.origin()).xyz[2] - walk.scene.tip_radius;
+  if (std::isnan(swing.depth)) {
+    const double near = 1e-3 * object.limit;
+    swing = law.begin(object.response.press(near) / near, force, depth);
+  }
+  const double damping = law.observe(swing, force, depth);
+  swing.carried = law.carry(object.response, contact.response, swing.carried, pressed, damping, object.limit);
+  return swing.carried;
+}
+
 }  // namespace
 
 void model(Walk& walk, State& state) noexcept {
   Contact& contact = state.contact;
   if (state.mode != Mode::contact) {
     contact.response = ResponseState{};
+    contact.swing = Swing{};
     contact.displacement = Vec<'N'>::zero();
     return;
   }
@@ -27,7 +44,8 @@ void model(Walk& walk, State& state) noexcept {
   const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
   const Vec<'N'> force = contact.X_WN.inverse() * walk.force;
   const double pressed = std::max(0.0, -force.xyz[2] - walk.scene.force.threshold);
-  const double deflection = object.response.deflection(contact.response, pressed, object.limit);
+  const double deflection = object.response.deflection(
+      contact.response, carried(walk, object, contact, -force.xyz[2], pressed), object.limit);
   if (deflection >= object.limit) walk.why |= kAtLimit;
   // The limit is such that the object never asks for this much (scene.cpp): the target stays where it is.
   if (pressed > walk.scene.strength) walk.why |= kOverload;

@@ -112,6 +112,16 @@ void fields(F& f, Outputs& out) {
   fields(f, out.grip);
 }
 template <class F>
+void fields(F& f, Swing& s) {
+  f("swing_depth", s.depth);
+  f("swing_slow_force", s.slow_force);
+  f("swing_slow_depth", s.slow_depth);
+  f("swing_exchanged", s.exchanged);
+  f("swing_moved", s.moved);
+  f("swing_stiffness", s.stiffness);
+  f("carried", s.carried);
+}
+template <class F>
 void fields(F& f, Contact& c) {
   f("contact_object", c.object);
   fields(f, "contact_X_WN", c.X_WN);
@@ -120,6 +130,7 @@ void fields(F& f, Contact& c) {
   f("response_deflection", c.response.deflection);
   f("response_alpha", c.response.alpha);
   fields(f, "response_stop", c.response.stop);
+  fields(f, c.swing);
   fields(f, "displacement_N", c.displacement);
 }
 template <class F>
@@ -145,6 +156,9 @@ void fields(F& f, State& s) {
   fields(f, s.dent);
   fields(f, "force_zero_F", s.force_zero);
   f("tared", s.tared);
+  fields(f, "tare_mean_F", s.tare_mean);
+  fields(f, "tare_last_F", s.tare_last);
+  f("tare_window", s.tare_window);
   fields(f, "force_W", s.force);
   fields(f, s.contact);
   fields(f, s.probing);

@@ -54,7 +54,10 @@ void in_contact(Walk& walk, State& state) {
   const double force = pressing_force(walk, normal);
   if (!state.contact.anchored) anchor(walk, state, force);
   if (force >= 0.5 * walk.scene.force.contact && !too_far(walk)) state.contact.loaded = walk.tick.t;
-  const bool unloaded = age(walk.tick.t, state.contact.loaded) >= walk.scene.contact.leave_time;
+  // Behind a damper the tip comes back slowly; what pushed it may wait there.
+  const bool returning =
+      walk.scene.damping && -state.contact.displacement.xyz[2] > walk.scene.contact.leave_gap;
+  const bool unloaded = !returning && age(walk.tick.t, state.contact.loaded) >= walk.scene.contact.leave_time;
   // Slid off: beside the tip, where the two can no longer touch.
   const double beside = walk.tool_known ? (walk.surface_point - state.contact.X_WN.origin()).norm() : 0.0;
   const bool slid_off = beside > walk.scene.tip_radius + walk.tool_radius;

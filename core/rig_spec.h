@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/damping.h"
 #include "core/frames.h"
 #include "core/hexapod.h"
 
@@ -46,7 +47,8 @@ struct ManipulatorRig {
 
 enum class Tare : std::uint8_t {
   start,  // once, before the first touch, as the paper's rig does
-  free    // and slowly again whenever the tool is clear of the object
+  free,   // and slowly again whenever the tool is clear of the object
+  window  // and anew from each whole tare_time in which it is clear, but for the last one before a touch
 };
 
 struct ForceRig {
@@ -56,7 +58,7 @@ struct ForceRig {
   double contact = 0.10;    // pressing force that is a contact, N
   double mass = 0.91;       // behind the sensor (gripper, adapters, tip), kg
   Tare tare = Tare::free;
-  double tare_time = 0.2;         // s, of the first zero
+  double tare_time = 0.2;         // s, of the first zero; 0: the sensor's own zero is believed
   double tare_clearance = 0.003;  // m of gap
   double stale = 0.005;           // s
 };
@@ -87,6 +89,8 @@ struct ContactRig {
   double hand_stiffness =
       700.0;  // N/m, hand_damping N s/m: of the person at the loop's limit frequency (parameters 5.1)
   double hand_damping = 4.0;
+  // N/m: softer objects are refused; unset: what that hand makes unstable (loop_model.h), 0: none is refused
+  double softest = kUnset;
 };
 
 struct RigSpec {
@@ -100,6 +104,7 @@ struct RigSpec {
   DisplayRig display;
   GripperRig gripper;
   ContactRig contact;
+  AdmittanceRig admittance;
 };
 
 }  // namespace enc

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/mesh_tree.h"
+#include "core/stages.h"
 
 namespace enc {
 namespace {
@@ -118,15 +119,33 @@ Tip<'T'> tip_of(const ToolSpec& tool) {
   return tip;
 }
 
-// Which object the user presses: the named one, or the first.
-std::size_t pressed_object(const SceneSpec& spec, const UserSpec& user) {
-  if (spec.objects.empty()) throw Error("a user needs an object to press", "user.object");
-  if (user.object.empty()) return 0;
+// Which object is pressed by `who` ("user", "pusher"): the named one, or the first.
+std::size_t pressed_object(const SceneSpec& spec, const std::string& name, const std::string& who) {
+  if (spec.objects.empty()) throw Error("a " + who + " needs an object to press", who + ".object");
+  if (name.empty()) return 0;
   const auto named = std::find_if(spec.objects.begin(), spec.objects.end(),
-                                  [&](const ObjectSpec& o) { return o.name == user.object; });
-  if (named == spec.objects.end()) throw Error("no object '" + user.object + "' in the scene", "user.object");
+                                  [&](const ObjectSpec& o) { return o.name == name; });
+  if (named == spec.objects.end()) throw Error("no object '" + name + "' in the scene", who + ".object");
   return static_cast<std::size_t>(named - spec.objects.begin());
 }
+
+}  // namespace
+
+PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
+  const PusherSpec& pusher = *spec.pusher;
+  const std::size_t index = pressed_object(spec, pusher.object, "pusher");
+  const Object& object = scene.objects[index];
+  if (pusher.depth > object.wanted * (1.0 + 1e-9))
+    throw Error("the push is deeper than the deflection limit of object '" + spec.objects[index].name +
+                    "'; lower it, or raise that limit",
+                "pusher.depth");
+  const Nearest near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0));
+  ResponseState rest;
+  const double depth = object.response.deflection(rest, pusher.force, std::min(pusher.depth, object.limit));
+  return {{object.X_WO * near.point, object.X_WO * near.normal}, depth, object.response.press(depth)};
+}
+
+namespace {
 
 // A user's press must be possible from the first touch to the limit; an object nobody is told to press must
 // be touchable somewhere.
@@ -150,9 +169,15 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
       throw Error("object '" + spec.objects[i].name + "' is outside the machine's reach" + advice,
                   "object." + spec.objects[i].name + ".position");
   }
+  if (spec.pusher) {
+    const PushedPoint pushed = pushed_point(spec, scene);
+    if (!reached(pushed.at.point, pushed.at.normal, 0.0) ||
+        !reached(pushed.at.point, pushed.at.normal, pushed.depth))
+      throw Error("the push ends where the machine does not reach" + advice, "pusher.depth");
+  }
   if (!spec.user) return;
   const PressPoint press = press_point(spec, *spec.user);
-  const double depth = scene.objects[pressed_object(spec, *spec.user)].limit;
+  const double depth = scene.objects[pressed_object(spec, spec.user->object, "user")].limit;
   if (!reached(press.point, press.normal, 0.0) || !reached(press.point, press.normal, depth))
     throw Error("the user presses where the machine does not reach" + advice, "user.polar");
 }
@@ -229,7 +254,7 @@ std::pair<Point<'O'>, Vec<'O'>> first_met(const Mesh& mesh, const Vec3& through,
 }  // namespace
 
 PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
-  const ObjectSpec& object = spec.objects[pressed_object(spec, user)];
+  const ObjectSpec& object = spec.objects[pressed_object(spec, user.object, "user")];
   const Vec3 axis(std::sin(user.polar) * std::cos(user.azimuth),
                   std::sin(user.polar) * std::sin(user.azimuth), std::cos(user.polar));
   const Vec3 side = axis.unitOrthogonal();
@@ -262,6 +287,9 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   scene.tip_radius = spec.probe ? spec.probe->radius : rig.manipulator.tip_radius;
   scene.dt = 1.0 / rig.loop.rate;
   scene.filter_gain = 1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter * scene.dt);
+  if (rig.admittance.damping == Damping::observed)
+    scene.damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
+                          stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
   scene.has_manipulator = spec.manipulator.has_value();
   scene.has_force = spec.force.has_value();
   scene.has_tracker = spec.tracker.has_value();
@@ -273,7 +301,8 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   }
   if (!scene.has_manipulator)
     throw Error("a scene needs [manipulator]: something has to carry the surface", "manipulator");
-  scene.lowest_slope = lowest_stable_stiffness(loop_of(rig));
+  scene.lowest_slope =
+      std::isnan(rig.contact.softest) ? lowest_stable_stiffness(loop_of(rig)) : rig.contact.softest;
   scene.strength = rig.manipulator.payload - scene.force.mass * kGravity;
   if (!(scene.strength > 0.0))
     throw Error("the machine does not even carry what is mounted on it (force.mass)",

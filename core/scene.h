@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/damping.h"
 #include "core/frames.h"
 #include "core/loop_model.h"
 #include "core/probe.h"
@@ -60,11 +61,12 @@ struct Scene {
   DisplayRig display;
   ContactRig contact;
   LoopRig loop;
+  std::optional<DampingLaw> damping;  // where the rig wants the object damped
   std::optional<Probe> probe;    // then the machine presses, and nothing is rendered
   double tip_radius = kUnset;    // of the haptic-tip or the probe, m
   double dt = kUnset;            // s, one tick
   double filter_gain = kUnset;   // of the force low-pass, per tick
-  double lowest_slope = kUnset;  // N/m: softest object the loop renders stably (loop_model.h)
+  double lowest_slope = kUnset;  // N/m: softest object that is accepted (loop_model.h)
   double strength = kUnset;      // N: pressing force that the machine carries beside its own load
 };
 
@@ -96,5 +98,12 @@ struct PressPoint {
   Vec<'W'> normal;
 };
 [[nodiscard]] PressPoint press_point(const SceneSpec& spec, const UserSpec& user);
+// Where the pusher of the scene pushes, and where that shall end: at its depth or its force, whichever comes
+// first.
+struct PushedPoint {
+  PressPoint at;
+  double depth = kUnset, force = kUnset;  // m, N: on the object's curve
+};
+[[nodiscard]] PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene);
 
 }  // namespace enc

@@ -22,11 +22,29 @@ bool clear_of_object(const Walk& walk, const State& state) {
   return !walk.tool_known || walk.gap > walk.scene.force.tare_clearance;
 }
 
-// The running mean of the first tare_time becomes the zero; with Tare::free it then follows slowly.
+// The zero is the mean of the last window but one: no part of a touch is in it, however slowly it begins.
+void tare_again(const Walk& walk, const Vec<'F'>& unloaded, bool clear, State& state) {
+  if (state.tare_window == 0.0 || !clear) state.tare_mean = Vec<'F'>::zero();
+  if (!clear) {
+    state.tare_last = Vec<'F'>();
+    state.tare_window = 0.0;
+    return;
+  }
+  state.tare_window += walk.scene.dt;
+  state.tare_mean = state.tare_mean + (walk.scene.dt / state.tare_window) * (unloaded - state.tare_mean);
+  if (state.tare_window < walk.scene.force.tare_time) return;
+  if (state.tare_last.finite()) state.force_zero = state.tare_last;
+  state.tare_last = state.tare_mean;
+  state.tare_window = 0.0;
+}
+
+// The running mean of the first tare_time becomes the zero; after that it is as the rig says.
 void tare(const Walk& walk, const Vec<'F'>& unloaded, State& state) {
   const ForceRig& rig = walk.scene.force;
+  const bool clear = clear_of_object(walk, state);
   const bool first = state.tared < rig.tare_time;
-  if (!clear_of_object(walk, state) || (!first && rig.tare == Tare::start)) return;
+  if (!first && rig.tare == Tare::window) return tare_again(walk, unloaded, clear, state);
+  if (!clear || (!first && rig.tare == Tare::start)) return;
   state.tared += walk.scene.dt;
   const double gain = walk.scene.dt / (first ? state.tared : kFreeTareTime);
   state.force_zero = state.force_zero + gain * (unloaded - state.force_zero);

@@ -44,6 +44,7 @@ struct Contact {
   bool anchored = false;  // true once force was felt with the tip under the tool: the anchor no longer moves
   Time loaded{};          // last tick on which force was felt
   ResponseState response;
+  Swing swing;
   Vec<'N'> displacement = Vec<'N'>::zero();
 };
 
@@ -77,7 +78,9 @@ struct State {
   Stamped<TrackedTool> tool;
   Stamped<DentSample> dent;
   Vec<'F'> force_zero = Vec<'F'>::zero();
-  double tared = 0.0;  // s of signal in force_zero
+  double tared = 0.0;             // s of signal in force_zero
+  Vec<'F'> tare_mean, tare_last;  // Tare::window: of the present window so far, and of the one before
+  double tare_window = 0.0;       // s of signal in tare_mean
   Vec<'W'> force = Vec<'W'>::zero();
   Contact contact;
   Probing probing;

@@ -44,4 +44,14 @@ struct ProbeSpec {
   std::int64_t repeats = 5;
 };
 
+// Something outside of the machine pushes the haptic-tip into an object that the core renders [VHMR 2, Fig
+// 3]: along the outward normal of the surface point that is nearest to W's origin. Nobody holds a tool.
+struct PusherSpec {
+  std::string object;                                        // rendered and pushed into; empty: the first
+  double depth = 0.015;                                      // wanted deflection, m, unless
+  double force = 30.0;                                       // the object pushes back with this, N, before
+  double ramp_time = 2.0, hold_time = 8.0, rest_time = 1.0;  // s; rest: clear of the tip, before each push
+  std::int64_t repeats = 1;
+};
+
 }  // namespace enc

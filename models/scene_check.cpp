@@ -214,6 +214,34 @@ void check_probe(const Setup& setup) {
   }
 }
 
+// What pushes from outside is alone with the machine and its force sensor: force alone makes the contact.
+void check_pusher(const Setup& setup) {
+  const SceneSpec& s = setup.scene;
+  if (!s.pusher) return;
+  check_named(setup, s.objects, s.pusher->object, "object", "pusher");
+  const auto alone = [&](bool there, const char* table) {
+    if (there)
+      fail(setup, table,
+           fmt::format("the scene has both [pusher] and [{}]; expected one of them; remove one", table));
+  };
+  alone(s.user.has_value(), "user");
+  alone(s.probe.has_value(), "probe");
+  alone(s.tracker.has_value(), "tracker");
+  alone(s.display.has_value(), "display");
+  if (!s.force)
+    fail(setup, "pusher", "the tip cannot feel the pusher; expected a [force]; add it or remove [pusher]");
+  if (setup.rig.force.driver != "none" && setup.rig.force.driver != "sim")
+    fail(setup, "pusher",
+         fmt::format("[pusher] is simulated and the rig's force sensor is {}; expected 'sim'; use '--rig sim' "
+                     "or push the real machine by other means, without [pusher]",
+                     quoted(setup.rig.force.driver)));
+  if (s.pusher->rest_time < setup.rig.force.tare_time)
+    fail(setup, "pusher.rest_s",
+         fmt::format("'rest_s' is {:g}; expected at least 'rig.force.tare_time_s', {:g}, in which the force "
+                     "zero is found; raise it",
+                     s.pusher->rest_time, setup.rig.force.tare_time));
+}
+
 // The tool that the gripper clamps is nobody's hand-held one.
 void check_gripper(const Setup& setup) {
   const SceneSpec& s = setup.scene;
@@ -279,6 +307,7 @@ void check(const Setup& setup) {
   }
   check_user(setup);
   check_probe(setup);
+  check_pusher(setup);
   check_gripper(setup);
   check_rig(setup);
   if (setup.twin.steps_per_tick(setup.rig.loop.rate) == 0) {

@@ -8,7 +8,8 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::array<std::string_view, 2> kTares{"start", "free"};
+constexpr std::array<std::string_view, 3> kTares{"start", "free", "window"};
+constexpr std::array<std::string_view, 2> kDampings{"none", "observed"};
 
 // A device table that is there must say by what the role is filled.
 void driver(Visitor& v, std::string& value) {
@@ -41,8 +42,13 @@ void describe(Visitor& v, ForceRig& f) {
           &f.contact);
   v.value({"mass_kg", "behind the sensor: gripper, adapters, tip", "parameters 2.3", assumed, kNotNegative},
           &f.mass);
-  choice(v, {"tare", "zero once at the start, or also when free", "fidelity 1", chosen}, kTares, f.tare);
-  v.value({"tare_time_s", "of the first zero", "fidelity 1", assumed, kPositive}, &f.tare_time);
+  choice(v,
+         {"tare", "zero once at the start, or also when free: slowly, or by windows of tare_time_s",
+          "fidelity 1", chosen},
+         kTares, f.tare);
+  v.value({"tare_time_s", "of the first zero; 0: the sensor's own zero is believed", "fidelity 1", assumed,
+           kNotNegative},
+          &f.tare_time);
   v.value({"tare_clearance_mm", "gap from which on the tool is clear", "fidelity 1", assumed, kPositive},
           &f.tare_clearance);
   v.value({"stale_ms", "an older sample is lost", "architecture B10", assumed, kPositive}, &f.stale);
@@ -87,6 +93,24 @@ void describe(Visitor& v, ContactRig& c) {
            assumed, kPositive},
           &c.hand_stiffness);
   v.value({"hand_damping_Ns_per_m", "likewise", "parameters 5.1", assumed, kNotNegative}, &c.hand_damping);
+  v.value({"softest_N_per_mm",
+           "softer objects are refused; unset: what that hand makes unstable; 0: none is refused",
+           "fidelity 1", chosen, kNotNegative, optional},
+          &c.softest);
+}
+
+void describe(Visitor& v, AdmittanceRig& a) {
+  const std::string_view source = "docs/model.md (damping)";
+  choice(v, {"damping", "none, or as much as the energy that is seen to swing asks for", source, chosen},
+         kDampings, a.damping);
+  v.value({"margin", "of the damping over what suffices", "fidelity 1", derived, kPositive}, &a.margin);
+  v.value({"calm_time_s", "in which damping falls to 1/e when nothing swings", source, chosen, kPositive},
+          &a.calm_time);
+  v.value({"slowest_hz", "slower changes are the user's own", source, chosen, kPositive}, &a.slowest);
+  v.value({"average_time_s", "over which energies are averaged", source, chosen, kPositive}, &a.average_time);
+  v.value({"least_swing_um", "rms; less does not count as a swing", source, chosen, kPositive},
+          &a.least_swing);
+  v.value({"most_damping_Ns_per_m", "never more than this", source, chosen, kPositive}, &a.most_damping);
 }
 
 }  // namespace
@@ -149,6 +173,7 @@ void describe(Visitor& v, RigSpec& r) {
   table(v, "display", [&] { describe(v, r.display); });
   table(v, "gripper", [&] { describe(v, r.gripper); });
   table(v, "contact", [&] { describe(v, r.contact); });
+  table(v, "admittance", [&] { describe(v, r.admittance); });
 }
 
 void describe_all(Visitor& v, SceneSpec& scene, RigSpec& rig, sim::TwinSpec& twin) {

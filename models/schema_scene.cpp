@@ -174,6 +174,18 @@ void describe(Visitor& v, ProbeSpec& p) {
   v.value({"repeats", "pushes", "[VHMR 4.2]", published, {1.0, 1e6}}, &p.repeats);
 }
 
+void describe(Visitor& v, PusherSpec& p) {
+  v.value({"object", "pushed into, by name; empty: the first", kAuthor, chosen}, &p.object);
+  v.value({"depth_mm", "wanted deflection", "fidelity 1", assumed, kPositive}, &p.depth);
+  v.value({"force_max_N", "no deeper than where the object pushes back with this", "fidelity 1", assumed,
+           kPositive},
+          &p.force);
+  v.value({"ramp_s", "from clear to depth, and back", "fidelity 1", assumed, kPositive}, &p.ramp_time);
+  v.value({"hold_s", "at depth", kAuthor, chosen, kPositive}, &p.hold_time);
+  v.value({"rest_s", "clear of the tip before each push", kAuthor, chosen, kPositive}, &p.rest_time);
+  v.value({"repeats", "pushes", kAuthor, chosen, {1.0, 1e6}}, &p.repeats);
+}
+
 }  // namespace
 
 void describe(Visitor& v, SceneSpec& s) {
@@ -202,6 +214,7 @@ void describe(Visitor& v, SceneSpec& s) {
   });
   part(v, "user", s.user, [&](UserSpec& u) { describe(v, u); });
   part(v, "probe", s.probe, [&](ProbeSpec& p) { describe(v, p); });
+  part(v, "pusher", s.pusher, [&](PusherSpec& p) { describe(v, p); });
 }
 
 namespace {

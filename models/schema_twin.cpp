@@ -94,9 +94,21 @@ void describe(Visitor& v, sim::ForceTruth& f) {
   v.value({"torque_range_Nm", "larger torques saturate", "parameters 3", published, kPositive},
           &f.torque_range);
   v.value({"noise_N", "rms of a sample", "fidelity 1", assumed, kNotNegative}, &f.noise);
+  v.value({"oversampling",
+           "readings, each with noise and steps, averaged into a sample",
+           "docs/model.md",
+           chosen,
+           {1.0, 64.0}},
+          &f.oversampling);
   v.value({"torque_noise_Nm", "rms of a sample", "parameters 3", assumed, kNotNegative}, &f.torque_noise);
   v.value({"zero_N", "rms of the zero error at power-up", "parameters 3", assumed, kNotNegative}, &f.zero);
   v.value({"drift_N_per_sqrt_s", "random walk of the zero", "fidelity 1", assumed, kNotNegative}, &f.drift);
+  v.value({"drift_N_per_push", "rms: where the zero has got to, drawn anew for each push of [pusher]",
+           "fidelity 1", assumed, kNotNegative},
+          &f.push_drift);
+  v.value({"drift_ahead_s", "before a push, in which its zero gets there; 0: at once as it begins",
+           "docs/model.md", chosen, kNotNegative},
+          &f.drift_ahead);
   v.value(
       {"turned_deg", "of the sensor against where the rig says it is", "injected", chosen, {-180.0, 180.0}},
       &f.turned);
@@ -139,6 +151,15 @@ void describe(Visitor& v, sim::HandTruth& h) {
   v.value({"tremor_mm", "rms", "parameters 5.2", assumed, kNotNegative}, &h.tremor);
   v.value({"tremor_rate_hz", "of the tremor", "parameters 5.2", published, kPositive}, &h.tremor_rate);
   v.value({"drift_mm", "rms, below 2 Hz", "parameters 5.2", assumed, kNotNegative}, &h.drift);
+}
+
+void describe(Visitor& v, sim::PusherTruth& p) {
+  v.value(
+      {"stiffness_N_per_mm", "of what pushes, a hand or a stand; firm: 1", "decisions 1", assumed, kPositive},
+      &p.stiffness);
+  v.value({"damping_Ns_per_m", "likewise", "fidelity 1", assumed, kNotNegative}, &p.damping);
+  v.value({"tremor_N", "rms, while it pushes", "fidelity 1", assumed, kNotNegative}, &p.tremor);
+  v.value({"tremor_rate_hz", "of the tremor", "parameters 5.2", published, kPositive}, &p.tremor_rate);
 }
 
 // What is unset comes from the set.
@@ -200,6 +221,7 @@ void describe(Visitor& v, sim::TwinSpec& t) {
   table(v, "display", [&] { describe(v, t.display); });
   table(v, "hand", [&] { describe(v, t.hand); });
   table(v, "ball", [&] { describe(v, t.ball); });
+  table(v, "pusher", [&] { describe(v, t.pusher); });
 }
 
 }  // namespace enc::models

@@ -14,6 +14,7 @@ namespace {
 constexpr auto kUnits = std::to_array<Unit>({{"_N_per_sqrt_s", "N/sqrt(s)"},
                                              {"_N_per_mm_k", "N/mm^k", 3, false, true},
                                              {"_Ns_per_m", "N s/m"},
+                                             {"_N_per_push", "N"},
                                              {"_N_per_um", "N/um", 6},
                                              {"_N_per_mm", "N/mm", 3},
                                              {"_N_per_m", "N/m"},

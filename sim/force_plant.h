@@ -12,7 +12,10 @@ class ForcePlant {
  public:
   struct State {
     Stream noise;
-    Vec<'F'> zero = Vec<'F'>::zero();  // N
+    Vec<'F'> zero = Vec<'F'>::zero();      // N
+    Vec<'F'> shifted = Vec<'F'>::zero();   // N, of this push
+    Vec<'F'> shifting = Vec<'F'>::zero();  // N/s, for
+    double shift_left = 0.0;               // s more
     Stamped<Wrench> sample;
   };
   ForcePlant(const ForceTruth& truth, std::uint64_t seed);
@@ -20,6 +23,8 @@ class ForcePlant {
   [[nodiscard]] const Stamped<Wrench>& sample() const { return state_.sample; }
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
+  void begin_push() noexcept;  // the zero is somewhere else than in the last push
+  [[nodiscard]] Vec<'F'> zero() const { return state_.zero + state_.shifted; }
   // raw: force and torque on the sensor in its true axes; inertia: m a of what is behind it, in the same
   // axes. Once a tick.
   void measure(Time t, double dt, const Wrench& raw, const Vec<'F'>& inertia);

@@ -65,6 +65,7 @@ std::vector<std::byte> World::save() const {
   if (tracker) saver.put(tracker->state());
   if (display) saver.put(display->state());
   if (ball) saver.put(ball->state());
+  if (pusher) saver.put(pusher->state());
   if (gripper) saver.put(gripper->state());
   if (user_) saver.put(user_->state());
   saver.put(next_);
@@ -82,6 +83,7 @@ void World::restore(const std::vector<std::byte>& saved) {
   if (tracker) tracker->restore(from.take<TrackerPlant::State>());
   if (display) display->restore(from.take<DisplayPlant::State>());
   if (ball) ball->restore(from.take<BallContact::State>());
+  if (pusher) pusher->restore(from.take<Pusher::State>());
   if (gripper) gripper->restore(from.take<GripperPlant::State>());
   if (user_) user_->restore(from.take<User::State>());
   next_ = from.take<Tick>();

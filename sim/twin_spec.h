@@ -31,11 +31,14 @@ struct ForceTruth {
   double quantum = 0.025;           // N
   double torque_quantum = 0.00125;  // N m
   double range = 130.0;             // N
+  std::int64_t oversampling = 1;    // readings averaged into a sample
   double torque_range = 10.0;       // N m
   double noise = 0.0125;            // N rms
   double torque_noise = 0.0005;     // N m rms
   double zero = 0.5;                // N rms: zero error at power-up, constant
   double drift = 0.002;             // N / sqrt(s): random walk of the zero
+  double push_drift = 0.02;         // N rms: where the zero has got to, drawn anew for each push of a pusher
+  double drift_ahead = 0.0;         // s before the push in which it gets there; 0: at once
   Vec3 turned{0, 0, 0};             // of the sensor against the believed X_HF, rad
 };
 
@@ -87,6 +90,14 @@ struct BallTruth {
   Vec3 misplaced{0, 0, 0};         // of the ball against where the scene says it is, m
 };
 
+// What pushes the haptic-tip from outside, a hand or a stand: a spring to where it wants to be, and a damper.
+struct PusherTruth {
+  double stiffness = 90.0;   // N/m (decisions 1); "firm": 1000
+  double damping = 2.2;      // N s/m
+  double tremor = 0.02;      // N rms
+  double tremor_rate = 8.1;  // Hz
+};
+
 struct TwinSpec {
   WorldTruth world;
   FramesTruth frames;
@@ -98,6 +109,7 @@ struct TwinSpec {
   DisplayTruth display;
   HandTruth hand;
   BallTruth ball;
+  PusherTruth pusher;
 
   [[nodiscard]] bool structural() const { return hexapod.form == HexapodForm::structural; }
   [[nodiscard]] double timestep() const { return structural() ? structure.timestep : world.timestep; }  // s

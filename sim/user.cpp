@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "sim/minimum_jerk.h"
 
 namespace enc::sim {
 namespace {
@@ -16,17 +17,6 @@ constexpr double kSpeedUp = 0.3;   // s to reach approach speed
 constexpr double kRetreat = 0.8;   // s to go back to the start
 constexpr double kExpected =
     1900.0;  // N/m: the stiffness that the person has learned to expect (mean of the ball's press curve)
-
-// Minimum jerk from 0 to 1 in unit time: position, velocity, acceleration.
-struct MinimumJerk {
-  double x, v, a;
-  explicit MinimumJerk(double s) {
-    s = std::clamp(s, 0.0, 1.0);
-    x = s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
-    v = 30.0 * s * s * (1.0 - s) * (1.0 - s);
-    a = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
-  }
-};
 
 }  // namespace
 

@@ -94,7 +94,11 @@ World::World(const WorldSpec& spec)
     tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);
   if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
   if (spec.prepared.probe) ball.emplace(probed_ball(spec));
+  if (spec.scene.pusher)
+    pusher.emplace(*spec.scene.pusher, spec.twin.pusher, pushed_point(spec.scene, spec.prepared),
+                   spec.prepared.tip_radius, spec.seed);
   if (user_) programme_time_ = user_->duration();
+  if (pusher) programme_time_ = pusher->duration();
   if (ball) programme_time_ = enc::programme_time(spec.prepared);
   if (spec.scene.gripper) gripper.emplace(spec.twin.gripper, spec.seed);
   const mjModel* m = physics_.model();
@@ -172,32 +176,49 @@ void World::physics_step(double t) {
   }
   // Placed, the probe gets to the machine's new pose in this step; carried by legs it is where physics has
   // it.
-  if (ball) press_ball(from, legs ? from.origin() : X_WR_ * machine.true_pose().origin(), h);
+  if (by_own_law()) {
+    const Point<'W'> to = legs ? from.origin() : X_WR_ * machine.true_pose().origin();
+    ball ? press_ball(from, to, h) : push_tip(from, to, t, h);
+  }
   try {
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
     diverged_at_ = next_.index;
     fatal_ = e.what();
   }
-  if (!ball) truth_.contact_force = contact_force(truth_.touching);
+  if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
 }
 
 // The ball pushes where the probe gets to in this step, so that force and pose of a tick belong together.
 void World::press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h) {
   ball->move(to, h);
   const BallContact::State& pressed = ball->state();
+  apply(pressed.force, pressed.touched, X_WH, to);
+  truth_.penetration = pressed.penetration;
+}
+
+// Likewise what pushes from outside.
+void World::push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h) {
+  if (force && pusher->near(t, h, twin_.force.drift_ahead)) force->begin_push();
+  const Vec<'W'> velocity(Vec3(Eigen::Map<const Vec3>(physics_.data()->qvel + platform_qvel_)));
+  const Vec<'W'> pushed = pusher->act(t, h, to, velocity);
+  apply(pushed, to + truth_.tip_radius * pusher->normal(), X_WH, to);
+}
+
+// A force on the haptic-tip, whose centre gets to `to` in this step.
+void World::apply(const Vec<'W'>& pushed, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
+                  const Point<'W'>& to) {
   const mjModel* m = physics_.model();
   // MuJoCo wants force and torque at the body's centre of mass, which in this step is still where it was.
   const double* middle = m->body_ipos + 3 * tip_body_;
   const Point<'W'> centre = X_WH * Point<'H'>(middle[0], middle[1], middle[2]);
   const Vec3 shift = (to - X_WH.origin()).e();
-  const Vec3 torque = ((pressed.touched - centre).e() - shift).cross(pressed.force.e());
+  const Vec3 torque = ((touched - centre).e() - shift).cross(pushed.e());
   double* applied = physics_.data()->xfrc_applied + 6 * tip_body_;
-  std::copy_n(pressed.force.xyz.begin(), 3, applied);
+  std::copy_n(pushed.xyz.begin(), 3, applied);
   std::copy_n(torque.data(), 3, applied + 3);
-  truth_.contact_force = pressed.force;
-  truth_.touching = pressed.force.norm() > 0.0;
-  truth_.penetration = pressed.penetration;
+  truth_.contact_force = pushed;
+  truth_.touching = pushed.norm() > 0.0;
 }
 
 Vec<'W'> World::contact_force(bool& touching) const {
@@ -230,7 +251,7 @@ void World::observe_machine() {
   }
   mjData* d = physics_.data();
   mj_forward(physics_.model(), d);
-  if (!ball) truth_.contact_force = contact_force(truth_.touching);
+  if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
   truth_.tip = Point<'W'>(Vec3(Eigen::Map<const Vec3>(d->qpos + platform_qpos_)));
   truth_.tip_velocity = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qvel + platform_qvel_)));
   truth_.tip_acceleration = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qacc + platform_qvel_)));
@@ -247,6 +268,10 @@ Pose<'W', 'H'> World::true_tip() const {
 void World::observe(Time t) {
   truth_.t = t;
   observe_machine();
+  if (pusher) {
+    truth_.press = pusher->state().push;
+    truth_.phase = pusher->state().phase;
+  }
   if (!user_) return;
   const mjData* d = physics_.data();
   const double* q = d->qpos + tool_qpos_;

@@ -16,6 +16,7 @@
 #include "sim/hexapod_plant.h"
 #include "sim/legs.h"
 #include "sim/mujoco.h"
+#include "sim/pusher.h"
 #include "sim/tracker_plant.h"
 #include "sim/truth.h"
 #include "sim/user.h"
@@ -45,7 +46,7 @@ class World {
 
   [[nodiscard]] const Truth& truth() const { return truth_; }
   [[nodiscard]] bool user_done() const { return !user_ || user_->done(); }
-  // s, of what the user or the probe does; 10 where nobody does anything.
+  // s, of what the user, the probe or the pusher does; 10 where nobody does anything.
   [[nodiscard]] double programme_time() const { return programme_time_; }
   // Tick after which the physics is not to be trusted, -1 while it is sound, and MuJoCo's own words.
   [[nodiscard]] std::int64_t diverged_at() const { return diverged_at_; }
@@ -63,6 +64,7 @@ class World {
   std::optional<TrackerPlant> tracker;
   std::optional<DisplayPlant> display;
   std::optional<BallContact> ball;  // there if the scene presses one with a probe
+  std::optional<Pusher> pusher;
   std::optional<GripperPlant> gripper;
   std::optional<Legs> legs;  // in the structural form
 
@@ -75,6 +77,10 @@ class World {
   void observe(Time t);
   void sense(Time t);
   void press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h);
+  void push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h);
+  void apply(const Vec<'W'>& force, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
+             const Point<'W'>& to);
+  [[nodiscard]] bool by_own_law() const { return ball || pusher; }  // no contact of MuJoCo's
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
 
   TwinSpec twin_;

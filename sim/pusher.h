@@ -1,0 +1,61 @@
+// What pushes the haptic-tip from outside, such as a hand or a stand: a spring and a damper towards a point
+// that goes in, waits and comes back along a line. It can push and cannot pull [fidelity 1]:
+//
+//   F = max(0, k (x_s - x) + b (v_s - v) + tremor)      x: of the tip's outermost point, in from the surface
+//
+// The law is ours: MuJoCo only carries the force to the sensor.
+#pragma once
+
+#include <cstdint>
+
+#include "core/scene.h"
+#include "sim/random.h"
+#include "sim/truth.h"
+#include "sim/twin_spec.h"
+
+namespace enc::sim {
+
+class Pusher {
+ public:
+  struct State {
+    std::int32_t push = 0;      // the coming or present one
+    Phase phase = Phase::wait;  // then press, hold, release
+    double phase_start = 0.0;   // s
+    Stream noise;
+    double tremor[2] = {0.0, 0.0};  // N, in phase and a quarter period behind
+    double force = 0.0;             // N
+  };
+
+  Pusher(const PusherSpec& spec, const PusherTruth& truth, const PushedPoint& to, double tip_radius,
+         std::uint64_t seed);
+
+  [[nodiscard]] const State& state() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+  [[nodiscard]] const Vec<'W'>& normal() const { return to_.at.normal; }  // outward: against the push
+  [[nodiscard]] bool done() const { return state_.push >= spec_.repeats; }
+  [[nodiscard]] double duration() const;  // s, of the whole programme
+  // m in from the surface, where the spring is at rest at the end of the ramp: the object's force holds it
+  // there at the wanted depth.
+  [[nodiscard]] double reach() const { return to_.depth + to_.force / truth_.stiffness; }
+  // Whether the step of h from t comes to where the next push is `ahead` s away.
+  [[nodiscard]] bool near(double t, double h, double ahead) const;
+  // Advances by h from t, s. The tip's centre and velocity at the end of that; the force on the tip, N.
+  Vec<'W'> act(double t, double h, const Point<'W'>& tip, const Vec<'W'>& velocity);
+
+ private:
+  struct Intent {
+    double x, v;  // m, m/s
+  };
+  [[nodiscard]] double phase_time() const;
+  [[nodiscard]] Intent intent(double since) const;
+  void next_phase(double t);
+  double tremble(double h);
+
+  PusherSpec spec_;
+  PusherTruth truth_;
+  PushedPoint to_;
+  double tip_radius_;
+  State state_;
+};
+
+}  // namespace enc::sim
