@@ -83,6 +83,7 @@ struct Benchmark {
 
 BenchResult run_dent(const BenchContext& context);       // the seen surface: speed, contact vertex, volume
 BenchResult run_encounter(const BenchContext& context);  // miss at first touch over approach speed
+BenchResult run_prediction(const BenchContext& context);  // where the tool is now, when its pose is old
 BenchResult run_press(const BenchContext& context);      // one contact a press, limit held, tip inside
 BenchResult run_structure(const BenchContext& context);  // the hexapod's legs: sag, modes, order, cost
 BenchResult run_response(const BenchContext& context);  // minor loops, tremor, energy of both response models
