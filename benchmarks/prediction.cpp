@@ -157,9 +157,18 @@ Table peak_table(const Bench& bench) {
   return table;
 }
 
+Plot named_plot(std::string id, std::string title, std::string x_label, std::string y_label) {
+  Plot plot;
+  plot.id = std::move(id);
+  plot.title = std::move(title);
+  plot.x_label = std::move(x_label);
+  plot.y_label = std::move(y_label);
+  return plot;
+}
+
 Plot rmse_plot(const Bench& bench) {
-  Plot plot{"tracking_predicted_rmse", "Error of the tool's tip by motion and prediction",
-            "motion (see below)", "RMS distance, mm"};
+  Plot plot = named_plot("tracking_predicted_rmse", "Error of the tool's tip by motion and prediction",
+                         "motion (see below)", "RMS distance, mm");
   plot.log_y = true;
   Series paper{"paper (holds, polled)", {}, {}, {}, {}, Mark::points, true};
   std::string rows;
@@ -197,7 +206,7 @@ Plot time_plot(const Bench& bench, const BenchContext& context, const std::strin
   run.from = std::max(0.0, run.from - 0.1);
   TipTrace trace;
   (void)predicted_run(bench.scene, bench.X_WC, run, &trace);
-  Plot plot{std::move(plot_id), row->title, "time, s", "error along x, mm"};
+  Plot plot = named_plot(std::move(plot_id), row->title, "time, s", "error along x, mm");
   for (std::size_t k = 0; k < kName.size(); ++k) {
     Series series{kLongName[k], trace.time, trace.error[k]};
     for (double& y : series.y) y *= 1e3;
@@ -263,8 +272,8 @@ void add_loop(BenchResult& result, const models::Setup& setup, const BenchContex
               "In the whole loop: cost of step() and miss at first touch",
               {"prediction", "step() p50 us"},
               {}};
-  Plot plot{"tracking_predicted_miss", "Miss at first touch by prediction", "approach speed, mm/s",
-            "miss, mm"};
+  Plot plot = named_plot("tracking_predicted_miss", "Miss at first touch by prediction",
+                         "approach speed, mm/s", "miss, mm");
   plot.log_x = true;
   for (const double v : kSpeeds) table.columns.push_back(fmt::format("miss at {:.0f} mm/s mm", v * 1e3));
   for (std::size_t k = 0; k < 3; ++k) {
