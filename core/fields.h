@@ -140,6 +140,16 @@ void fields(F& f, Probing& p) {
   f("probe_deflection", p.deflection);
 }
 template <class F>
+void fields(F& f, TipMotion& m) {
+  f("motion_tool", m.tool);
+  f("motion_t", m.t);
+  fields(f, "motion_position_W", m.position);
+  fields(f, "motion_velocity_W", m.velocity);
+  fields(f, "motion_acceleration_W", m.acceleration);
+  for (double* const x : {&m.xx, &m.xv, &m.xa, &m.vv, &m.va, &m.aa}) f("motion_covariance", *x);
+  fields(f, "motion_behind_W", m.behind);
+}
+template <class F>
 void fields(F& f, std::string_view name, ObjectHint& h) {
   f(name, h.object);
   f(name, h.feature);
@@ -153,6 +163,7 @@ void fields(F& f, State& s) {
   f("entered", s.entered);
   f("outside_dent", s.outside_dent);
   fields(f, s.tool);
+  fields(f, s.tip_motion);
   fields(f, s.dent);
   fields(f, "force_zero_F", s.force_zero);
   f("tared", s.tared);

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/mode.h"
+#include "core/predict.h"
 #include "core/response.h"
 #include "core/sample.h"
 #include "core/scene.h"
@@ -76,6 +77,7 @@ struct State {
   bool entered = false;       // the tip has been inside that object
   bool outside_dent = false;  // and is outside its deformed surface
   Stamped<TrackedTool> tool;
+  TipMotion tip_motion;  // of the tracked tool
   Stamped<DentSample> dent;
   Vec<'F'> force_zero = Vec<'F'>::zero();
   double tared = 0.0;             // s of signal in force_zero

@@ -1,4 +1,4 @@
-// Where the tool and the tip are at this tick: newest pose held, its age judged. [VHMR 3.3]
+// Where the tool and the tip are at this tick: from the newest pose to now, its age judged. [VHMR 3.3]
 #include <cmath>
 
 #include "core/stages.h"
@@ -13,7 +13,7 @@ bool plausible(const Walk& walk, const Stamped<TrackedTool>& sample) {
 }
 
 void judge_age(Walk& walk, const State& state) {
-  const double old = age(walk.tick.t, state.tool.t);
+  const double old = age(walk.tick.t, exposed(walk.scene.tracker, state.tool.t));
   walk.tool_fresh = old <= walk.scene.tracker.usual_age;
   if (walk.tool_fresh) return;
   if (old <= walk.scene.tracker.lost_age) {
@@ -26,6 +26,26 @@ void judge_age(Walk& walk, const State& state) {
   }
 }
 
+void take_in(const Walk& walk, State& state) {
+  const TrackerRig& rig = walk.scene.tracker;
+  if (rig.prediction == Prediction::hold) return;
+  const TrackedTool& pose = state.tool.value;
+  const Point<'T'>& tip = walk.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
+  observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip), walk.tick.t,
+          state.tip_motion);
+  // Nobody follows a tool that was away, so nothing has to be caught up.
+  if (state.mode == Mode::away) state.tip_motion.behind = Vec<'W'>::zero();
+}
+
+// The tip goes on from the newest pose; the tool moves with it and keeps that pose's rotation: nothing is
+// felt of it, and where it turns the tip, that is in the tip's own motion.
+void carry_on(Walk& walk, State& state) {
+  catch_up(state.tip_motion, walk.scene.dt);
+  const Point<'W'> tip = predict(walk.scene.tracker, state.tip_motion, walk.tick.t) - state.tip_motion.behind;
+  walk.X_WT = {walk.X_WT.q(), walk.X_WT.origin() + (tip - walk.tool_tip)};
+  walk.tool_tip = tip;
+}
+
 void track_tool(Walk& walk, State& state) {
   const auto& sample = walk.in.tool;
   if (sample.health == Health::fault) walk.why |= kToolInvalid;
@@ -34,6 +54,7 @@ void track_tool(Walk& walk, State& state) {
       walk.why |= kToolInvalid;
     } else if (state.tool.health == Health::absent || sample.t > state.tool.t) {
       state.tool = sample;  // older or repeated packets change nothing
+      take_in(walk, state);
     }
   }
   if (state.tool.health != Health::ok) {
@@ -45,6 +66,7 @@ void track_tool(Walk& walk, State& state) {
   const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
   walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
   walk.tool_tip = walk.X_WT * tool.tip.centre;
+  if (walk.scene.tracker.prediction != Prediction::hold) carry_on(walk, state);
   walk.tool_radius = tool.tip.radius;
   judge_age(walk, state);
 }

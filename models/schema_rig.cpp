@@ -10,6 +10,7 @@ using enum Presence;
 
 constexpr std::array<std::string_view, 3> kTares{"start", "free", "window"};
 constexpr std::array<std::string_view, 2> kDampings{"none", "observed"};
+constexpr std::array<std::string_view, 3> kPredictions{"hold", "constant_velocity", "constant_acceleration"};
 
 // A device table that is there must say by what the role is filled.
 void driver(Visitor& v, std::string& value) {
@@ -56,6 +57,26 @@ void describe(Visitor& v, ForceRig& f) {
 
 void describe(Visitor& v, TrackerRig& t) {
   driver(v, t.driver);
+  choice(v, {"prediction", "how the tool's tip goes on from an old pose", "fidelity 2", chosen}, kPredictions,
+         t.prediction);
+  v.value({"measurement_noise_mm", "rms of a pose along an axis, as the prediction believes",
+           "parameters 6.2", derived, kNotNegative},
+          &t.measurement_noise);
+  v.value({"acceleration_noise_m_s2_per_sqrt_hz", "what drives the tip, to constant_velocity", "fidelity 2",
+           derived, kPositive},
+          &t.acceleration_noise);
+  v.value({"jerk_noise_m_s3_per_sqrt_hz", "what drives the tip, to constant_acceleration", "fidelity 2",
+           derived, kPositive},
+          &t.jerk_noise);
+  v.value({"longest_prediction_ms", "then the prediction slows down to rest", "decisions 8", chosen,
+           kNotNegative},
+          &t.longest_prediction);
+  v.value({"stamp_late_ms",
+           "how much later than the exposure the stamps are believed to be",
+           "the lab's calibration",
+           assumed,
+           {-50.0, 50.0}},
+          &t.stamp_late);
   v.value({"usual_age_ms", "older poses are predicted and flagged", "parameters 6.3, decisions 8", derived,
            kPositive},
           &t.usual_age);

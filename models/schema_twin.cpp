@@ -11,6 +11,7 @@ using enum Presence;
 constexpr std::array<std::string_view, 5> kIntegrators{"euler", "rk4", "implicit", "implicitfast",
                                                        "discrete"};  // of MuJoCo
 constexpr std::array<std::string_view, 2> kForms{"control", "structural"};
+constexpr std::array<std::string_view, 2> kPackets{"polled", "event"};
 constexpr Range kTimestep{0.0, 5000.0, true};  // 5 ms: beyond it a servo and a contact diverge (fidelity 5)
 
 constexpr std::array<std::string_view, 6> kBallSets{"nominal", "low_loss", "high_loss",
@@ -117,13 +118,24 @@ void describe(Visitor& v, sim::ForceTruth& f) {
 void describe(Visitor& v, sim::TrackerTruth& t) {
   v.value({"rate_hz", "exposures, free-running", "[VHMR 2]", published, kPositive}, &t.rate);
   v.value({"latency_ms", "from exposure to the server", "parameters 6.3", derived, kNotNegative}, &t.latency);
-  v.value({"server_rate_hz", "how often the server sends", "[VHMR 2]", published, kPositive}, &t.server_rate);
+  choice(v,
+         {"packets", "polled: newest pose at the server's rate; event: each pose when ready", "[VHMR 2]",
+          published},
+         kPackets, t.packets);
+  v.value({"server_rate_hz", "how often the server sends polled packets", "[VHMR 2]", published, kPositive},
+          &t.server_rate);
   v.value({"udp_delay_ms", "mean of the exponential delay of process and network", "parameters 6.3", derived,
            kNotNegative},
           &t.udp_delay);
   v.value({"bias_mm", "of registration, in W", "parameters 6.2", derived}, &t.bias);
   v.value({"noise_mm", "rms of a frame, along the axes of W", "parameters 6.2", derived, kNotNegative},
           &t.noise);
+  v.value({"stamp_error_ms",
+           "how much later than the exposure the stamps are",
+           "injected",
+           chosen,
+           {-50.0, 50.0}},
+          &t.stamp_error);
   v.value({"loss", "share of packets lost", "injected", chosen, {0.0, 1.0}}, &t.loss);
   v.value(
       {"blackout_at_s", "one drop-out starts here; unset: none", "injected", chosen, kNotNegative, optional},

@@ -11,7 +11,9 @@ namespace enc::models {
 namespace {
 
 // Longest suffix first, because "_mm_s" also ends in "_s".
-constexpr auto kUnits = std::to_array<Unit>({{"_N_per_sqrt_s", "N/sqrt(s)"},
+constexpr auto kUnits = std::to_array<Unit>({{"_m_s2_per_sqrt_hz", "m/s^2/sqrt(Hz)"},
+                                             {"_m_s3_per_sqrt_hz", "m/s^3/sqrt(Hz)"},
+                                             {"_N_per_sqrt_s", "N/sqrt(s)"},
                                              {"_N_per_mm_k", "N/mm^k", 3, false, true},
                                              {"_Ns_per_m", "N s/m"},
                                              {"_N_per_push", "N"},

@@ -38,10 +38,21 @@ void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT
   const Vec3 error = truth_.bias + truth_.noise.cwiseProduct(state_.noise.normal3());
   if (blind) return;
   const Pose<'W', 'T'> measured(Quat(X_WT.q()), Vec3(X_WT.p() + error));
-  put(state_.exposed, {{tool, X_CW_ * measured}, at, Health::ok}, at + from_seconds(truth_.latency));
+  put(state_.exposed, {{tool, X_CW_ * measured}, at + from_seconds(truth_.stamp_error), Health::ok},
+      at + from_seconds(truth_.latency));
 }
 
-void TrackerPlant::send(Time now) {
+void TrackerPlant::transmit(const Stamped<TrackedTool>& sample, Time at) {
+  const double delay = truth_.udp_delay > 0.0 ? state_.noise.exponential(truth_.udp_delay) : 0.0;
+  const bool lost = state_.noise.uniform() < truth_.loss;
+  if (lost)
+    ++state_.dropped;
+  else
+    put(state_.on_wire, sample, at + from_seconds(delay));
+}
+
+// The newest pose that the server has, unless it was sent before.
+void TrackerPlant::poll_exposed(Time now) {
   for (Packet& packet : state_.exposed) {
     if (!packet.waiting || packet.due > now) continue;
     packet.waiting = false;
@@ -50,12 +61,15 @@ void TrackerPlant::send(Time now) {
   }
   if (state_.at_server.health != Health::ok || state_.at_server.t <= state_.sent) return;
   state_.sent = state_.at_server.t;
-  const double delay = truth_.udp_delay > 0.0 ? state_.noise.exponential(truth_.udp_delay) : 0.0;
-  const bool lost = state_.noise.uniform() < truth_.loss;
-  if (lost)
-    ++state_.dropped;
-  else
-    put(state_.on_wire, state_.at_server, now + from_seconds(delay));
+  transmit(state_.at_server, now);
+}
+
+void TrackerPlant::send_ready(Time now) {
+  for (Packet& packet : state_.exposed) {
+    if (!packet.waiting || packet.due > now) continue;
+    packet.waiting = false;
+    transmit(packet.sample, packet.due);
+  }
 }
 
 void TrackerPlant::deliver(Time now) {
@@ -77,7 +91,9 @@ void TrackerPlant::advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT
         first || span <= 0.0 ? 1.0 : std::clamp(seconds(at - state_.before_t) / span, 0.0, 1.0);
     expose(at, tool, first ? X_WT : between(state_.before, X_WT, share));
   }
-  for (Time at = state_.server.next(); state_.server.due(t); at = state_.server.next()) send(at);
+  if (truth_.packets == Packets::event) send_ready(t);
+  for (Time at = state_.server.next(); state_.server.due(t); at = state_.server.next())
+    if (truth_.packets == Packets::polled) poll_exposed(at);
   deliver(t);
   state_.before = X_WT;
   state_.before_t = t;

@@ -40,7 +40,9 @@ class TrackerPlant {
 
  private:
   void expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT);
-  void send(Time now);
+  void poll_exposed(Time now);
+  void send_ready(Time now);
+  void transmit(const Stamped<TrackedTool>& sample, Time at);
   void deliver(Time now);
 
   TrackerTruth truth_;

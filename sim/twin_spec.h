@@ -42,13 +42,20 @@ struct ForceTruth {
   Vec3 turned{0, 0, 0};             // of the sensor against the believed X_HF, rad
 };
 
+enum class Packets : std::uint8_t {
+  polled,  // the server sends its newest pose at its own rate, as the paper's does [VHMR 2]
+  event    // each pose as soon as it is there
+};
+
 struct TrackerTruth {
-  double rate = 120.0;                          // Hz, exposures, free-running
-  double latency = 0.0035;                      // s, exposure to host
-  double server_rate = 100.0;                   // Hz
+  double rate = 120.0;      // Hz, exposures, free-running
+  double latency = 0.0035;  // s, exposure to host
+  Packets packets = Packets::polled;
+  double server_rate = 100.0;                   // Hz, of polled packets
   double udp_delay = 0.0023;                    // s, mean of the exponential part (process and network)
   Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
   Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
+  double stamp_error = 0.0;                     // s: stamps are this much later than the exposure
   double loss = 0.0;                            // share of packets lost
   double blackout_at = kUnset;                  // s: one drop-out from here
   double blackout_for = 0.0;                    // s long

@@ -28,6 +28,13 @@ namespace enc::test {
 // 10 mm radius, which first touches it at 52 - 33 - 10 = 9 mm.
 [[nodiscard]] SceneSpec rig_scene();
 
+// For a tracker that is exact and never late, and tools that leap: what it says is taken as it is.
+[[nodiscard]] inline RigSpec exact_rig() {
+  RigSpec rig;
+  rig.tracker.prediction = Prediction::hold;
+  return rig;
+}
+
 inline constexpr double kTop = 0.008;         // m, of ball and plane above W's origin
 inline constexpr double kBallRadius = 0.033;  // m
 inline constexpr double kToolRadius = 0.002;  // m

@@ -60,7 +60,7 @@ void expect_within_limits(const Loop& loop) {
   EXPECT_TRUE(loop.always_reachable);
 }
 
-Loop make(const SceneSpec& spec, const RigSpec& rig = {}) { return Loop(prepare(spec, rig)); }
+Loop make(const SceneSpec& spec, const RigSpec& rig = test::exact_rig()) { return Loop(prepare(spec, rig)); }
 
 // Tool above the top with its surface `gap` over it, tared, and the tip waiting under it.
 void wait_under(Loop& loop, double gap = 0.010) {
@@ -317,7 +317,7 @@ void oblique(Tangential tangential) {
   BehaviourSpec behaviour = test::spring();
   behaviour.tangential = tangential;
   behaviour.tangential_stiffness = 4000.0;
-  RigSpec rig;
+  RigSpec rig = test::exact_rig();
   rig.frames.H_F = {{0.004, -0.003, -0.127}, {0.3, -0.7, 2.1}};
   rig.force.tare = Tare::start;
   Loop loop = make(test::ball_scene(behaviour), rig);

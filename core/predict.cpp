@@ -1,0 +1,119 @@
+#include "core/predict.h"
+
+#include <algorithm>
+
+namespace enc {
+namespace {
+
+// A hand does not leap by more than this between two poses: another tool was taken for it, or it came back.
+constexpr double kFastest = 5.0;  // m/s
+constexpr double kLeap = 5e-3;    // m
+// What is known of a tool that has just come into view.
+constexpr double kSpeed = 0.3;         // m/s rms
+constexpr double kAcceleration = 3.0;  // m/s^2 rms
+constexpr double kUnsure = 0.1;        // m/s rms: a speed known no better is a guess
+// After the longest prediction the tip is thought to come to rest within this time (decisions 8: 200 ms in
+// all).
+constexpr double kSlowDown = 0.1;  // s
+// How fast the prediction catches up: 0.05 mm in a tick of 1 ms [fidelity 5].
+constexpr double kCatchUp = 0.05;  // m/s
+
+double square(double x) { return x * x; }
+
+void begin(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion) {
+  motion = {tool, t, tip, Vec<'W'>::zero(), Vec<'W'>::zero()};
+  motion.xx = square(rig.measurement_noise);
+  motion.vv = square(kSpeed);
+  motion.aa = rig.prediction == Prediction::constant_acceleration ? square(kAcceleration) : 0.0;
+}
+
+// The time for which speed and acceleration may be carried on from a pose that is `old`, s.
+double carried_on(const TrackerRig& rig, double old) {
+  const double late = std::clamp(old - rig.longest_prediction, 0.0, kSlowDown);
+  return std::clamp(old, 0.0, rig.longest_prediction) + late - 0.5 * late * late / kSlowDown;
+}
+
+// The state and its covariance h s later. White noise drives the acceleration (constant velocity) or the jerk
+// (constant acceleration) [Bar-Shalom, Estimation with Applications, 6.2].
+void propagate(const TrackerRig& rig, double h, TipMotion& m) {
+  m.position.e() += h * m.velocity.e() + 0.5 * h * h * m.acceleration.e();
+  m.velocity.e() += h * m.acceleration.e();
+  // P <- F P F', F = [1 h h^2/2; 0 1 h; 0 0 1], row by row.
+  const double k = 0.5 * h * h;
+  const double xx = m.xx + h * m.xv + k * m.xa;
+  const double xv = m.xv + h * m.vv + k * m.va;
+  const double xa = m.xa + h * m.va + k * m.aa;
+  const double vv = m.vv + h * m.va;
+  const double va = m.va + h * m.aa;
+  m.xx = xx + h * xv + k * xa;
+  m.xv = xv + h * xa;
+  m.xa = xa;
+  m.vv = vv + h * va;
+  m.va = va;
+  if (rig.prediction == Prediction::constant_velocity) {
+    const double q = square(rig.acceleration_noise);
+    m.xx += q * h * h * h / 3.0;
+    m.xv += q * h * h / 2.0;
+    m.vv += q * h;
+  } else {
+    const double q = square(rig.jerk_noise);
+    m.xx += q * h * h * h * h * h / 20.0;
+    m.xv += q * h * h * h * h / 8.0;
+    m.xa += q * h * h * h / 6.0;
+    m.vv += q * h * h * h / 3.0;
+    m.va += q * h * h / 2.0;
+    m.aa += q * h;
+  }
+}
+
+void correct(const TrackerRig& rig, const Vec3& innovation, TipMotion& m) {
+  const double s = m.xx + square(rig.measurement_noise);
+  const double kx = s > 0.0 ? m.xx / s : 1.0;  // neither noise nor doubt: the pose is the truth
+  const double kv = s > 0.0 ? m.xv / s : 0.0;
+  const double ka = s > 0.0 ? m.xa / s : 0.0;
+  m.position.e() += kx * innovation;
+  m.velocity.e() += kv * innovation;
+  m.acceleration.e() += ka * innovation;
+  m.vv -= kv * m.xv;
+  m.va -= kv * m.xa;
+  m.aa -= ka * m.xa;
+  m.xv *= 1.0 - kx;
+  m.xa *= 1.0 - kx;
+  m.xx *= 1.0 - kx;
+}
+
+}  // namespace
+
+void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, Time now,
+             TipMotion& motion) noexcept {
+  if (rig.prediction == Prediction::hold || motion.tool != tool) return begin(rig, tool, t, tip, motion);
+  const double h = age(t, motion.t);
+  const Point<'W'> shown = predict(rig, motion, now) - motion.behind;
+  // After a drop-out; and with the pose after that, which tells the speed for the first time.
+  const bool in_the_dark = age(now, motion.t) > rig.usual_age || motion.vv > square(kUnsure);
+  if (h > rig.longest_prediction) {  // what was known of its speed is worth nothing now
+    begin(rig, tool, t, tip, motion);
+  } else {
+    TipMotion next = motion;
+    propagate(rig, h, next);
+    const Vec3 innovation = (tip - next.position).e();
+    if (innovation.norm() > kLeap + kFastest * h) return begin(rig, tool, t, tip, motion);
+    correct(rig, innovation, next);
+    next.t = t;
+    motion = next;
+  }
+  if (in_the_dark) motion.behind = predict(rig, motion, now) - shown;
+}
+
+Point<'W'> predict(const TrackerRig& rig, const TipMotion& motion, Time now) noexcept {
+  const double h = carried_on(rig, age(now, motion.t));
+  return Point<'W'>(
+      Vec3(motion.position.e() + h * motion.velocity.e() + 0.5 * h * h * motion.acceleration.e()));
+}
+
+void catch_up(TipMotion& motion, double dt) noexcept {
+  const double left = motion.behind.norm();
+  motion.behind = left > kCatchUp * dt ? (1.0 - kCatchUp * dt / left) * motion.behind : Vec<'W'>::zero();
+}
+
+}  // namespace enc

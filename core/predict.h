@@ -1,0 +1,41 @@
+// Where the tracked tool's tip is now: its poses are old when they come, so the tip's way is filtered and
+// extrapolated. Kalman filter on the tip's position in W, taken at the exposure stamps [fidelity 2].
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/frames.h"
+#include "core/rig_spec.h"
+#include "core/time.h"
+
+namespace enc {
+
+// What the filter knows of the tip at the newest exposure. The three axes have the same noise, so they share
+// one covariance: of position, velocity and acceleration along an axis, m, s.
+struct TipMotion {
+  std::int32_t tool = -1;  // -1: nothing is known
+  Time t{};
+  Point<'W'> position;
+  Vec<'W'> velocity, acceleration;
+  double xx = 0.0, xv = 0.0, xa = 0.0, vv = 0.0, va = 0.0, aa = 0.0;
+  Vec<'W'> behind = Vec<'W'>::zero();  // m: what is still to be caught up after a drop-out
+};
+
+// When a pose with this stamp was exposed, as the rig believes.
+[[nodiscard]] inline Time exposed(const TrackerRig& rig, Time stamp) {
+  return stamp - from_seconds(rig.stamp_late);
+}
+
+// Takes in the tip's position, exposed at `t`, which is later than any before. `now` is the tick on which it
+// came: after a drop-out the prediction does not leap to the new data but catches up with it.
+void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, Time now,
+             TipMotion& motion) noexcept;
+
+// Where the tip is `now`. What is left to catch up is not in it.
+[[nodiscard]] Point<'W'> predict(const TrackerRig& rig, const TipMotion& motion, Time now) noexcept;
+
+// A tick of catching up, dt s long.
+void catch_up(TipMotion& motion, double dt) noexcept;
+
+}  // namespace enc

@@ -1,0 +1,260 @@
+// The prediction of the tool's tip: the filter against matrices and against gains worked by hand, its limits,
+// and what it makes of late, repeated, lost and impossible poses.
+#include "core/predict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <gtest/gtest.h>
+
+#include "core/fields.h"
+#include "tests/support/scenes.h"
+
+namespace enc {
+namespace {
+
+constexpr Duration kMs{1'000'000};
+Time at_ms(int ms) { return Time(ms * kMs); }
+
+TrackerRig rig_with(Prediction prediction) {
+  TrackerRig rig;
+  rig.prediction = prediction;
+  return rig;
+}
+const TrackerRig kHold = rig_with(Prediction::hold);
+const TrackerRig kVelocity = rig_with(Prediction::constant_velocity);
+const TrackerRig kAcceleration = rig_with(Prediction::constant_acceleration);
+
+// A pose every 10 ms until `end`, each there at once.
+template <class Way>
+TipMotion tracked(const TrackerRig& rig, const Way& way, int end) {
+  TipMotion motion;
+  for (int ms = 0; ms <= end; ms += 10)
+    observe(rig, 0, at_ms(ms), Point<'W'>(way(1e-3 * ms), 0, 0), at_ms(ms), motion);
+  return motion;
+}
+double x_at(const TrackerRig& rig, const TipMotion& motion, int ms) {
+  return predict(rig, motion, at_ms(ms)).xyz[0];
+}
+
+// Second pose, 10 ms after the first, 1 mm on. By hand, with r = 0.015 mm, 0.3 m/s rms, q = 0.055^2 m^2/s^3:
+//   P = r^2 + 0.09 * 1e-4 + q * 1e-6 / 3 = 9.001233e-6,  with the velocity 9e-4 + q * 1e-4 / 2 = 9.0015125e-4
+//   S = P + r^2 = 9.001458e-6;  K = P / S = 0.9999750,  K_v = 100.0006 / s
+TEST(Predict, GainsOfTheSecondPoseAreThoseWorkedByHand) {
+  TipMotion motion;
+  observe(kVelocity, 0, at_ms(0), Point<'W'>(0, 0, 0), at_ms(0), motion);
+  observe(kVelocity, 0, at_ms(10), Point<'W'>(1e-3, 0, 0), at_ms(10), motion);
+  EXPECT_NEAR(motion.position.xyz[0], 0.9999750e-3, 1e-10);
+  EXPECT_NEAR(motion.velocity.xyz[0], 0.1000006, 1e-7);
+  EXPECT_EQ(motion.velocity.xyz[1], 0.0);
+  EXPECT_EQ(motion.acceleration.xyz[0], 0.0);
+}
+
+// The same filter written with matrices.
+struct Matrices {
+  Mat3 P;
+  Vec3 x;
+  void step(const TrackerRig& rig, double h, double z) {
+    Mat3 F = Mat3::Identity();
+    F << 1, h, h * h / 2, 0, 1, h, 0, 0, 1;
+    Mat3 Q = Mat3::Zero();
+    if (rig.prediction == Prediction::constant_velocity) {
+      F(0, 2) = F(1, 2) = 0.0;
+      Q.topLeftCorner<2, 2>() << h * h * h / 3, h * h / 2, h * h / 2, h;
+      Q *= rig.acceleration_noise * rig.acceleration_noise;
+    } else {
+      Q << std::pow(h, 5) / 20, std::pow(h, 4) / 8, std::pow(h, 3) / 6,  //
+          std::pow(h, 4) / 8, std::pow(h, 3) / 3, h * h / 2,             //
+          std::pow(h, 3) / 6, h * h / 2, h;
+      Q *= rig.jerk_noise * rig.jerk_noise;
+    }
+    x = F * x;
+    P = F * P * F.transpose() + Q;
+    const Vec3 K = P.col(0) / (P(0, 0) + rig.measurement_noise * rig.measurement_noise);
+    x += K * (z - x(0));
+    P = (Mat3::Identity() - K * Vec3::UnitX().transpose()) * P;
+  }
+};
+
+TEST(Predict, IsTheKalmanFilterThatMatricesGive) {
+  for (const TrackerRig& rig : {kVelocity, kAcceleration}) {
+    TipMotion motion;
+    observe(rig, 0, at_ms(0), Point<'W'>(0, 0, 0), at_ms(0), motion);
+    Matrices other{Vec3(motion.xx, motion.vv, motion.aa).asDiagonal(), Vec3::Zero()};
+    int before = 0;
+    for (const int ms : {8, 17, 33, 42, 50, 100, 108, 117}) {
+      const double z = 2e-3 * std::sin(0.02 * ms);
+      observe(rig, 0, at_ms(ms), Point<'W'>(z, 0, 0), at_ms(ms), motion);
+      other.step(rig, 1e-3 * (ms - before), z);
+      before = ms;
+      EXPECT_NEAR(motion.position.xyz[0], other.x(0), 1e-15);
+      EXPECT_NEAR(motion.velocity.xyz[0], other.x(1), 1e-13);
+      EXPECT_NEAR(motion.acceleration.xyz[0], other.x(2), 1e-11);
+      EXPECT_NEAR(motion.xx / other.P(0, 0), 1.0, 1e-9);
+      EXPECT_NEAR(motion.xv / other.P(0, 1), 1.0, 1e-9);
+      EXPECT_NEAR(motion.vv / other.P(1, 1), 1.0, 1e-9);
+    }
+  }
+}
+
+TEST(Predict, EachModelEndsUpExactOnItsOwnMotion) {
+  const auto even = [](double t) { return 0.04 * t; };
+  const auto speeding = [](double t) { return 0.1 * t * t; };
+  EXPECT_NEAR(x_at(kVelocity, tracked(kVelocity, even, 2000), 2020), even(2.020), 1e-9);
+  EXPECT_NEAR(x_at(kAcceleration, tracked(kAcceleration, even, 2000), 2020), even(2.020), 1e-9);
+  EXPECT_NEAR(x_at(kAcceleration, tracked(kAcceleration, speeding, 2000), 2020), speeding(2.020), 1e-9);
+  // Hold is behind by the age, constant velocity never learns the acceleration.
+  EXPECT_EQ(x_at(kHold, tracked(kHold, even, 2000), 2020), even(2.0));
+  EXPECT_GT(std::abs(x_at(kVelocity, tracked(kVelocity, speeding, 2000), 2020) - speeding(2.020)), 1e-5);
+}
+
+TEST(Predict, WithoutNoiseThePoseIsTheTruth) {
+  TrackerRig rig = kVelocity;
+  rig.measurement_noise = 0.0;
+  const TipMotion motion = tracked(
+      rig, [](double t) { return std::sin(9.0 * t); }, 500);
+  EXPECT_NEAR(motion.position.xyz[0], std::sin(4.5), 1e-15);
+}
+
+TEST(Predict, GoesOnFor100MsThenComesToRestWithin200) {
+  const auto way = [](double t) { return 0.04 * t; };
+  const TipMotion motion = tracked(kVelocity, way, 1000);
+  EXPECT_NEAR(x_at(kVelocity, motion, 1100), way(1.1), 1e-7);
+  double before = way(1.1);
+  double speed = 0.04;
+  for (int ms = 1101; ms <= 1200; ++ms) {
+    const double x = x_at(kVelocity, motion, ms);
+    EXPECT_LE((x - before) / 1e-3, speed + 1e-9) << ms;  // never faster again
+    EXPECT_GE(x, before) << ms;                          // and never back
+    speed = (x - before) / 1e-3;
+    before = x;
+  }
+  EXPECT_EQ(x_at(kVelocity, motion, 1200), x_at(kVelocity, motion, 9000));
+  EXPECT_NEAR(x_at(kVelocity, motion, 9000), way(1.150), 1e-7);  // half of the speed on average
+}
+
+TEST(Predict, AfterALongSilenceNothingIsLeftOfTheSpeed) {
+  TipMotion motion = tracked(
+      kVelocity, [](double t) { return 0.04 * t; }, 1000);
+  observe(kVelocity, 0, at_ms(1101), Point<'W'>(0.05, 0, 0), at_ms(1101), motion);
+  EXPECT_EQ(motion.velocity.xyz[0], 0.0);
+  EXPECT_EQ(motion.position.xyz[0], 0.05);
+}
+
+TEST(Predict, ALeapOrAnotherToolBeginsAnew) {
+  for (const auto& [tool, x] : {std::pair{0, 0.5}, std::pair{1, 0.0401}}) {
+    TipMotion motion = tracked(
+        kVelocity, [](double t) { return 0.04 * t; }, 1000);
+    observe(kVelocity, tool, at_ms(1010), Point<'W'>(x, 0, 0), at_ms(1010), motion);
+    EXPECT_EQ(motion.tool, tool);
+    EXPECT_EQ(motion.position.xyz[0], x);
+    EXPECT_EQ(motion.velocity.xyz[0], 0.0);
+    EXPECT_EQ(motion.behind.norm(), 0.0);
+  }
+}
+
+TEST(Predict, CatchesUpAfterADropOutWithoutALeap) {
+  for (const int silence : {60, 99, 150, 500}) {
+    TipMotion motion = tracked(
+        kVelocity, [](double t) { return 0.04 * t; }, 1000);
+    int now = 1000 + silence;
+    const double shown = x_at(kVelocity, motion, now);
+    observe(kVelocity, 0, at_ms(now), Point<'W'>(shown + 0.004, 0, 0), at_ms(now), motion);
+    const double after = x_at(kVelocity, motion, now);
+    EXPECT_NEAR(after - motion.behind.xyz[0], shown, 1e-15) << silence;
+    double left = motion.behind.norm();
+    for (; left > 0.0; ++now) {
+      catch_up(motion, 1e-3);
+      EXPECT_LE(left - motion.behind.norm(), 0.05e-3 + 1e-15);
+      left = motion.behind.norm();
+      ASSERT_LT(now, 3000);
+    }
+  }
+}
+
+TEST(Predict, StampsThatAreLateAreTakenBack) {
+  TrackerRig rig = kVelocity;
+  rig.stamp_late = 0.003;
+  EXPECT_EQ(exposed(rig, at_ms(10)), at_ms(7));
+}
+
+// ---- in the core
+// ---------------------------------------------------------------------------------------------------
+
+// A tool that moves at 40 mm/s along x above the ball, each pose 20 ms old; another one every `every` ticks.
+struct Moving {
+  test::Loop loop{prepare(test::ball_scene(), RigSpec{})};
+  int ms = 0;
+  bool older = false;
+  [[nodiscard]] static Point<'W'> truth(int at) { return {0.04e-3 * at, 0, 0.03}; }
+  void tick(int every = 10) {
+    const Point<'W'> tip = truth(ms);
+    loop.spoil = [this, every](Inputs& in) {
+      const int then = (ms - 20) / every * every;
+      in.tool.t = loop.k.t - (ms - then) * kMs;
+      const Tool& tool = loop.scene.tools.front();
+      const Vec3 markers = truth(then).e() - tool.tip.centre.e();
+      in.tool.value.X_CT = loop.scene.X_WC.inverse() * Pose<'W', 'T'>(Quat::Identity(), markers);
+      if (!older || ms % 10 < 3) return;
+      in.tool.t -= ms * kMs / 10;
+      in.tool.value.X_CT.xyz[0] += 0.001;
+    };
+    loop.tool_tip = tip;
+    loop.tick();
+    ++ms;
+  }
+};
+
+TEST(PredictInTheCore, TheToolIsWhereItIsNowAndItsPoseGoesWithItsTip) {
+  Moving moving;
+  moving.loop.tick(50);
+  moving.ms = 50;
+  for (int i = 0; i < 1000; ++i) moving.tick();
+  const View& view = moving.loop.out.view;
+  EXPECT_NEAR((view.tip - Moving::truth(moving.ms - 1)).norm(), 0.0, 1e-6);
+  const Point<'W'> tip = view.X_WT * moving.loop.scene.tools.front().tip.centre;
+  EXPECT_NEAR((tip - view.tip).norm(), 0.0, 1e-15);
+}
+
+TEST(PredictInTheCore, OldAndRepeatedPosesChangeNothing) {
+  Moving plain;      // each pose ten times over
+  Moving disturbed;  // and in between one that is older and elsewhere
+  disturbed.older = true;
+  for (Moving* const moving : {&plain, &disturbed}) {
+    moving->loop.tick(50);
+    moving->ms = 50;
+  }
+  for (int i = 0; i < 400; ++i) {
+    plain.tick();
+    disturbed.tick();
+    StateHash a;
+    StateHash b;
+    add_tick(a, plain.loop.state, plain.loop.out);
+    add_tick(b, disturbed.loop.state, disturbed.loop.out);
+    ASSERT_EQ(a.value, b.value) << i;
+  }
+}
+
+TEST(PredictInTheCore, APoseThatIsNoPoseIsNotTakenIn) {
+  Moving moving;
+  moving.loop.tick(50);
+  moving.ms = 50;
+  for (int i = 0; i < 200; ++i) moving.tick();
+  TipMotion before = moving.loop.state.tip_motion;
+  Inputs in = moving.loop.in;
+  Outputs out;
+  in.tool.t += 5 * kMs;
+  in.tool.value.X_CT.xyz[1] = kUnset;
+  step(moving.loop.scene, moving.loop.k, in, moving.loop.state, out);
+  EXPECT_NE(out.why & kToolInvalid, 0U);
+  StateHash a;
+  StateHash b;
+  fields(a, before);
+  fields(b, moving.loop.state.tip_motion);
+  EXPECT_EQ(a.value, b.value);
+  EXPECT_TRUE(out.view.tip.finite());
+}
+
+}  // namespace
+}  // namespace enc
