@@ -70,6 +70,12 @@ std::vector<Part> parts_of(const models::Setup& setup) {
        !scene.probe ? ""
                     : fmt::format("{:g} mm radius, {} pushes of {:g} mm", millimetres(scene.probe->radius),
                                   scene.probe->repeats, millimetres(scene.probe->depth)));
+  part("travel", scene.travel.has_value(),
+       !scene.travel
+           ? ""
+           : fmt::format("{} of {:g} mm at {:g} mm/s", scene.travel->axes,
+                         millimetres(scene.travel->stops.empty() ? 0.0 : scene.travel->stops.back()),
+                         millimetres(scene.travel->speed)));
   part("arm", false, "");
   part("gripper", scene.gripper.has_value(),
        fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));

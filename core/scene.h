@@ -16,6 +16,7 @@
 #include "core/scene_spec.h"
 #include "core/surface.h"
 #include "core/tip.h"
+#include "core/travel.h"
 
 namespace enc {
 
@@ -61,6 +62,7 @@ struct Scene {
   ContactRig contact;
   LoopRig loop;
   std::optional<Probe> probe;    // then the machine presses, and nothing is rendered
+  std::optional<Travel> travel;  // then it carries a tool around, and nothing is rendered
   double tip_radius = kUnset;    // of the haptic-tip or the probe, m
   double dt = kUnset;            // s, one tick
   double filter_gain = kUnset;   // of the force low-pass, per tick

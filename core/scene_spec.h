@@ -94,6 +94,7 @@ struct SceneSpec {
   std::optional<GripperSpec> gripper;
   std::optional<UserSpec> user;
   std::optional<ProbeSpec> probe;
+  std::optional<TravelSpec> travel;
   std::vector<BehaviourSpec> behaviours;  // the entries of models/behaviours.toml that the objects name
 };
 

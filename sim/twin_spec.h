@@ -39,10 +39,17 @@ struct ForceTruth {
   Vec3 turned{0, 0, 0};             // of the sensor against the believed X_HF, rad
 };
 
+enum class TrackerClocks : std::uint8_t {
+  free,    // exposures and server ticks begin at any time, drawn by the seed
+  aligned  // both begin with the loop: no sample waits where the rates are the loop's
+};
+
 struct TrackerTruth {
-  double rate = 120.0;                          // Hz, exposures, free-running
-  double latency = 0.0035;                      // s, exposure to host
-  double server_rate = 100.0;                   // Hz
+  double rate = 120.0;         // Hz, exposures, free-running
+  double latency = 0.0035;     // s, exposure to host
+  double server_rate = 100.0;  // Hz
+  TrackerClocks clocks = TrackerClocks::free;
+  double process = 0.0;                         // s, in the server's application, from its tick to the packet
   double udp_delay = 0.0023;                    // s, mean of the exponential part (process and network)
   Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
   Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
