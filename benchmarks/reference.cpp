@@ -68,7 +68,8 @@ double Reference::number(std::size_t row, std::string_view column) const {
   double value = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size())
-    throw Error(fmt::format("{}: column '{}' of row {} is '{}'; expected a number", name_, column, row + 1, cell));
+    throw Error(
+        fmt::format("{}: column '{}' of row {} is '{}'; expected a number", name_, column, row + 1, cell));
   return value;
 }
 

@@ -1,5 +1,5 @@
-// Values printed in the papers, as small CSV files in benchmarks/reference: '#' begins a line about the source, then
-// a header, then rows. Names keep their unit; numbers stay in the file's unit.
+// Values printed in the papers, as small CSV files in benchmarks/reference: '#' begins a line about the
+// source, then a header, then rows. Names keep their unit; numbers stay in the file's unit.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@ namespace enc::bench {
 
 class Reference {
  public:
-  // `models`: the models folder, which stands beside benchmarks. Throws Error with the place of what is wrong.
+  // `models`: the models folder, which stands beside benchmarks. Throws Error with the place of what is
+  // wrong.
   static Reference load(const std::string& models, const std::string& name);
   static Reference parse(std::string_view text, const std::string& name);
 

@@ -20,6 +20,8 @@ std::span<const Benchmark> benchmarks() {
       {"speed", "tennis_ball", "step(), times real time, wrapper over raw mj_step", run_speed},
       {"structure", "tennis_ball", "hexapod on elastic legs: sag, modes, order of the integrator, cost",
        run_structure},
+      {"tracking", "tracking", "Table 1: the tracker against the machine that carries the tool",
+       run_tracking},
   });
   return kAll;
 }

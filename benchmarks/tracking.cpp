@@ -1,6 +1,6 @@
-// Table 1, Fig 6 [VHMR 4.1]: the machine carries a clamped tool past the tracker. Three questions: what does the twin
-// print in that table; what do the columns at rest and at 20 mm/s alone say about 40 mm/s; and on which side of the
-// lag is the registration's bias?
+// Table 1, Fig 6 [VHMR 4.1]: the machine carries a clamped tool past the tracker. Three questions: what does
+// the twin print in that table; what do the columns at rest and at 20 mm/s alone say about 40 mm/s; and on
+// which side of the lag is the registration's bias?
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -58,8 +58,8 @@ void run_all(const std::vector<Group*>& groups, const BenchContext& context, dou
   in_parallel(jobs.size(), [&](std::size_t i) {
     Job& job = jobs[i];
     // Every axis has its own phase of tracker and server, as experiments one after another have.
-    job.errors = run_travel(job.group->setup[job.axis], context.seed * 1000 + 3 * job.seed + job.axis,
-                            job.seed == 0);
+    job.errors =
+        run_travel(job.group->setup[job.axis], context.seed * 1000 + 3 * job.seed + job.axis, job.seed == 0);
     ++done;
   });
   for (const Job& job : jobs) {
@@ -153,8 +153,8 @@ double exact_error(const BenchContext& context, double& simulated) {
           "truth.hexapod.step_um=0",
           "truth.hexapod.repeatability_um=0"};
   append(set, context.set);
-  const TravelErrors errors = run_travel(
-      models::load(context.models + "/scenes/tracking.toml", "sim", set), context.seed, false);
+  const TravelErrors errors =
+      run_travel(models::load(context.models + "/scenes/tracking.toml", "sim", set), context.seed, false);
   simulated += errors.simulated;
   return errors.largest;
 }
@@ -170,13 +170,14 @@ Sizes sizes_of(const BenchContext& context) {
 
 // Every run of the benchmark, made at once.
 struct Experiment {
-  Group slow, fast;                      // 20 and 40 mm/s, both ways, as the rig is
-  Group slow_from_20, fast_from_20;      // with what columns 0 and 20 alone give
-  Group slow_adds, fast_adds;            // with the best of the other hypothesis
-  Group later, crawl;                    // 40 mm/s with 5 ms more; 5 mm/s
+  Group slow, fast;                  // 20 and 40 mm/s, both ways, as the rig is
+  Group slow_from_20, fast_from_20;  // with what columns 0 and 20 alone give
+  Group slow_adds, fast_adds;        // with the best of the other hypothesis
+  Group later, crawl;                // 40 mm/s with 5 ms more; 5 mm/s
 };
 
-void add_table_figures(BenchResult& result, const Table1& paper, const TwinTable& twin, const Table1& theory) {
+void add_table_figures(BenchResult& result, const Table1& paper, const TwinTable& twin,
+                       const Table1& theory) {
   const auto add = [&](const char* statistic, std::size_t s, std::size_t a, double Cell::*what) {
     const double share = a == 3 ? 0.06 : s == 2 ? 0.13 : 0.12;
     const double value = paper[s][a].*what * 1e3;
@@ -235,8 +236,7 @@ void add_check_figures(BenchResult& result, const Experiment& runs, const TwinTa
                        const Candidate& theory, double exact) {
   constexpr double kMore = 5e-3;  // s
   const double gain = norm_rmse(runs.later.all()) - twin.table[2][3].rmse;
-  const double expected =
-      theory_of(runs.later.setup[0]).table[0][2][3].rmse - theory.table[0][2][3].rmse;
+  const double expected = theory_of(runs.later.setup[0]).table[0][2][3].rmse - theory.table[0][2][3].rmse;
   double off = 0.0;
   for (std::size_t s = 0; s < 3; ++s)
     for (std::size_t a = 0; a < 4; ++a)
@@ -249,11 +249,13 @@ void add_check_figures(BenchResult& result, const Experiment& runs, const TwinTa
   ours("tracking.latency_gain.norm.40", gain / expected, "", 0.9, 1.1,
        fmt::format("+5 ms latency: RMSE grows by {:.4f} mm per ms, by theory {:.4f}", gain / kMore,
                    expected / kMore));
-  ours("tracking.theory.max", 100.0 * off, "%", kUnset, 5.0, "largest difference of twin and theory in Table 1");
-  ours("tracking.exact.max", exact, "m", kUnset, 1e-9, "no bias, noise, delay, sample wait and position step");
+  ours("tracking.theory.max", 100.0 * off, "%", kUnset, 5.0,
+       "largest difference of twin and theory in Table 1");
+  ours("tracking.exact.max", exact, "m", kUnset, 1e-9,
+       "no bias, noise, delay, sample wait and position step");
   const double crawl = norm_rmse(runs.crawl.all());
-  result.figures.push_back({"tracking.rmse.norm.5", kUnset, crawl * 1e3, "mm", Role::predicted, kUnset, kUnset,
-                            "at 5 mm/s, which nobody has measured"});
+  result.figures.push_back({"tracking.rmse.norm.5", kUnset, crawl * 1e3, "mm", Role::predicted, kUnset,
+                            kUnset, "at 5 mm/s, which nobody has measured"});
   result.figures.push_back({"tracking.rmse_over_static.norm.5", kUnset, crawl / twin.table[0][3].rmse, "",
                             Role::predicted, kUnset, 1.0,
                             "below 1 where the bias opposes the lag: the sharpest test of its side"});
@@ -278,8 +280,8 @@ BenchResult run_tracking(const BenchContext& context) {
     append(set, more);
     return group_of(context, set, seeds);
   };
-  Experiment runs{at(20, "both_ways", {}, sizes.seeds), at(40, "both_ways", {}, sizes.seeds), {}, {}, {}, {}, {},
-                  {}};
+  Experiment runs{
+      at(20, "both_ways", {}, sizes.seeds), at(40, "both_ways", {}, sizes.seeds), {}, {}, {}, {}, {}, {}};
 
   // Calibration, by the theory alone.
   const models::Setup& base = runs.fast.setup[0];
@@ -317,10 +319,9 @@ BenchResult run_tracking(const BenchContext& context) {
   add_prediction_figures(result, paper, fits.prediction[0]);
   add_check_figures(result, runs, twin, theory, exact);
   for (std::size_t side = 0; side < kSides.size(); ++side)
-    result.figures.push_back(
-        {fmt::format("tracking.misfit.{}.20", kSides[side]), kUnset,
-         100.0 * misfit(fits.from_20[side].table[side], paper).moving20, "%", Role::ours, kUnset, kUnset,
-         "rms of the six figures at 20 mm/s, best chain"});
+    result.figures.push_back({fmt::format("tracking.misfit.{}.20", kSides[side]), kUnset,
+                              100.0 * misfit(fits.from_20[side].table[side], paper).moving20, "%", Role::ours,
+                              kUnset, kUnset, "rms of the six figures at 20 mm/s, best chain"});
 
   const Pictures pictures{paper,
                           twin,

@@ -125,8 +125,8 @@ Misfit misfit(const Table1& table, const Table1& paper) {
   Misfit m;
   for (std::size_t s = 1; s < table.size(); ++s)
     for (std::size_t a = 0; a < table[s].size(); ++a)
-      for (const double d : {relative(table[s][a].rmse, paper[s][a].rmse),
-                             relative(table[s][a].mae, paper[s][a].mae)}) {
+      for (const double d :
+           {relative(table[s][a].rmse, paper[s][a].rmse), relative(table[s][a].mae, paper[s][a].mae)}) {
         m.worst = std::max(m.worst, std::abs(d) / (a == 3 ? kNorm : kEach));
         if (a == 3) continue;
         m.moving += d * d / 12.0;
@@ -143,9 +143,8 @@ std::vector<Candidate> spread(const ChainSpec& chain, const MovesSpec& moves,
   asked.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
     asked.push_back({kShortest + (kLongest - kShortest) * spread_out(i, 2), kMostJitter * spread_out(i, 3),
-                     std::isnan(acceleration)
-                         ? kSlowest * std::pow(kQuickest / kSlowest, spread_out(i, 5))
-                         : acceleration});
+                     std::isnan(acceleration) ? kSlowest * std::pow(kQuickest / kSlowest, spread_out(i, 5))
+                                              : acceleration});
   return candidates_at(asked, chain, moves, axes);
 }
 
@@ -163,9 +162,9 @@ Candidate best(const std::vector<Candidate>& candidates, const Table1& paper, Bi
       asked.push_back(
           {std::clamp(found.fixed + off(2) * (kLongest - kShortest), kShortest, kLongest),
            std::clamp(found.jitter + off(3) * kMostJitter, 0.0, kMostJitter),
-           acceleration_free ? std::clamp(found.acceleration * std::pow(kQuickest / kSlowest, off(5)),
-                                          kSlowest, kQuickest)
-                             : found.acceleration});
+           acceleration_free
+               ? std::clamp(found.acceleration * std::pow(kQuickest / kSlowest, off(5)), kSlowest, kQuickest)
+               : found.acceleration});
     }
     const std::vector<Candidate> near = candidates_at(asked, chain, moves, axis_errors(paper));
     const Candidate& nearest = *std::min_element(near.begin(), near.end(), better);

@@ -1,5 +1,5 @@
-// Which chain of delays fits Table 1 [VHMR 4.1]? The theory is asked for thousands of chains, spread evenly; each is
-// as likely as its misfit says. Bias and noise of each axis are those of the column at rest.
+// Which chain of delays fits Table 1 [VHMR 4.1]? The theory is asked for thousands of chains, spread evenly;
+// each is as likely as its misfit says. Bias and noise of each axis are those of the column at rest.
 #pragma once
 
 #include <array>
@@ -40,9 +40,9 @@ struct Candidate {
                                      const std::array<AxisError, 3>& axes);
 
 struct Misfit {
-  double moving20 = 0.0;    // rms of the relative differences of the six figures at 20 mm/s
-  double moving = 0.0;      // of the twelve at 20 and 40 mm/s
-  double worst = 0.0;       // largest difference, in units of what is asked: 13 % each, 6 % the norm
+  double moving20 = 0.0;  // rms of the relative differences of the six figures at 20 mm/s
+  double moving = 0.0;    // of the twelve at 20 and 40 mm/s
+  double worst = 0.0;     // largest difference, in units of what is asked: 13 % each, 6 % the norm
 };
 [[nodiscard]] Misfit misfit(const Table1& table, const Table1& paper);
 
@@ -59,12 +59,12 @@ enum class Judge : std::uint8_t { moving20, worst };
 
 // What columns 0 and 20 alone leave open about column 40.
 struct Prediction {
-  Table1 low{}, median{}, high{};      // 5, 50 and 95 % of each figure
-  std::vector<double> norm_rmse;       // m, of column 40, in order
-  std::vector<std::size_t> drawn;      // candidates, as often as they are likely
+  Table1 low{}, median{}, high{};  // 5, 50 and 95 % of each figure
+  std::vector<double> norm_rmse;   // m, of column 40, in order
+  std::vector<std::size_t> drawn;  // candidates, as often as they are likely
 };
-// The size of the model's error and of one repetition's scatter is not known: it is judged by the misfit itself
-// (Student's t).
+// The size of the model's error and of one repetition's scatter is not known: it is judged by the misfit
+// itself (Student's t).
 [[nodiscard]] Prediction predict_40(const std::vector<Candidate>& candidates, const Table1& paper,
                                     BiasSide side, std::uint64_t seed);
 

@@ -26,8 +26,8 @@ struct Pictures {
   const Candidate& theory;  // of the default rig
   const Fits& fits;
   const std::vector<Candidate>& open;
-  Table1 twin_from_20, twin_adds;    // whole loop with the best chains of the two
-  Table1 twin_back, twin_both;       // the default rig, motion along -, and both ways
+  Table1 twin_from_20, twin_adds;           // whole loop with the best chains of the two
+  Table1 twin_back, twin_both;              // the default rig, motion along -, and both ways
   const std::vector<PacketError>& packets;  // one seed at 40 mm/s
   ChainSpec chain;
   double bias_x = 0.0;  // m

@@ -1,7 +1,8 @@
-// What a chain of delays makes of a motion: the errors of Table 1 to be expected, from the numbers of the chain
-// alone and without a simulator. A packet that reaches the core at a tick shows the tool where it was one age ago:
-//   age = fixed delay + wait for the next server tick + exponential delay + wait for the next tick of the core
-//   error = x(t - age) - x(t) + bias + noise
+// What a chain of delays makes of a motion: the errors of Table 1 to be expected, from the numbers of the
+// chain alone and without a simulator. A packet that reaches the core at a tick shows the tool where it was
+// one age ago:
+//   age = fixed delay + wait for the next server tick + exponential delay + wait for the next tick of the
+//   core error = x(t - age) - x(t) + bias + noise
 #pragma once
 
 #include <cstddef>

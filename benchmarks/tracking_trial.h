@@ -1,5 +1,5 @@
-// The experiment of [VHMR 4.1] in the twin: scene `tracking` through the whole loop, and the error whenever a new
-// packet has come: tracked tool tip (through the believed calibration) less where the machine says it is.
+// The experiment of [VHMR 4.1] in the twin: scene `tracking` through the whole loop, and the error whenever a
+// new packet has come: tracked tool tip (through the believed calibration) less where the machine says it is.
 #pragma once
 
 #include <array>
