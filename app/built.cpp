@@ -75,6 +75,12 @@ std::vector<Part> parts_of(const models::Setup& setup) {
            ? ""
            : fmt::format("{:g} N/mm, {} pushes of {:g} mm or {:g} N", setup.twin.pusher.stiffness * 1e-3,
                          scene.pusher->repeats, millimetres(scene.pusher->depth), scene.pusher->force));
+  part("travel", scene.travel.has_value(),
+       !scene.travel
+           ? ""
+           : fmt::format("{} of {:g} mm at {:g} mm/s", scene.travel->axes,
+                         millimetres(scene.travel->stops.empty() ? 0.0 : scene.travel->stops.back()),
+                         millimetres(scene.travel->speed)));
   part("arm", false, "");
   part("gripper", scene.gripper.has_value(),
        fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));

@@ -25,6 +25,8 @@ std::span<const Benchmark> benchmarks() {
        run_stiffness},
       {"structure", "tennis_ball", "hexapod on elastic legs: sag, modes, order of the integrator, cost",
        run_structure},
+      {"tracking", "tracking", "Table 1: the tracker against the machine that carries the tool",
+       run_tracking},
   });
   return kAll;
 }

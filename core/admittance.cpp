@@ -72,6 +72,7 @@ void target(Walk& walk, State& state) noexcept {
     case Mode::away:
     case Mode::hold:
     case Mode::probe:
+    case Mode::travel:
       walk.target = walk.scene.X_WR * state.command;
       break;
   }

@@ -150,6 +150,12 @@ void fields(F& f, TipMotion& m) {
   fields(f, "motion_behind_W", m.behind);
 }
 template <class F>
+void fields(F& f, Travelling& t) {
+  f("travel_phase", t.phase);
+  f("travel_elapsed", t.elapsed);
+  f("travel_leg", t.leg);
+}
+template <class F>
 void fields(F& f, std::string_view name, ObjectHint& h) {
   f(name, h.object);
   f(name, h.feature);
@@ -173,6 +179,7 @@ void fields(F& f, State& s) {
   fields(f, "force_W", s.force);
   fields(f, s.contact);
   fields(f, s.probing);
+  fields(f, s.travelling);
   fields(f, "command_R", s.command);
   fields(f, "command_velocity_R", s.command_velocity);
   fields(f, "last_query_W", s.last_query);

@@ -89,6 +89,8 @@ Point<'R'> reachable(Walk& walk, const Point<'R'>& from, const Point<'R'>& to) {
 struct Walls {
   Vec3 normal = Vec3::UnitZ();                                                                         // in W
   double out = std::numeric_limits<double>::infinity(), in = std::numeric_limits<double>::infinity();  // m
+  double speed = std::numeric_limits<double>::infinity();  // along the normal, m/s
+  double share = kAlongShare;                              // of the acceleration, along the normal
 };
 
 Walls walls_around(const Walk& walk, State& state) {
@@ -96,6 +98,17 @@ Walls walls_around(const Walk& walk, State& state) {
     const Probe& probe = *walk.scene.probe;
     Walls walls{probe.X_WN.q() * Vec3::UnitZ()};
     walls.in = probe.depth - probe.deflection(walk.scene.X_WR * state.command);
+    return walls;
+  }
+  // Nothing is in the way, and nothing is sideways of a straight leg: so each is a trapezoid of the leg's
+  // speed and the machine's whole acceleration.
+  if (walk.scene.travel) {
+    const Travel& travel = *walk.scene.travel;
+    if (!travel.on_leg(state.travelling.leg)) return {};
+    const TravelLeg& leg = travel.legs[static_cast<std::size_t>(state.travelling.leg)];
+    Walls walls{leg.along.e()};
+    walls.speed = leg.speed;
+    walls.share = 1.0;
     return walls;
   }
   if (state.object < 0 || !state.entered) return {};
@@ -127,7 +140,8 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
   const Reach& reach = walk.scene.reach;
   const double most = reach.acceleration * dt;
   const auto toward = [&](double distance) {
-    return std::min(approach_speed(distance, kAlongShare * reach.acceleration, dt), reach.speed);
+    return std::min(
+        {approach_speed(distance, walls.share * reach.acceleration, dt), reach.speed, walls.speed});
   };
   const double along = walls.normal.dot(way);
   const double v0 = walls.normal.dot(before);
@@ -140,7 +154,7 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
   const double side_least = std::max(0.0, side_before.norm() - kSideShare * most);
   const double room = std::sqrt(std::max(0.0, reach.speed * reach.speed - side_least * side_least));
   const double v =
-      std::clamp(v0 + std::clamp(wanted - v0, -kAlongShare * most, kAlongShare * most), -room, room);
+      std::clamp(v0 + std::clamp(wanted - v0, -walls.share * most, walls.share * most), -room, room);
 
   const Vec3 aside = way - along * walls.normal;
   const double distance = aside.norm();

@@ -14,9 +14,10 @@ enum class Mode : std::uint8_t {
             // [VHMR 3.4]
   restore,  // released: the tip returns to the buffered first-touch point [VHMR 3.4]
   hold,     // something is wrong: the tip stands still; `why` says what
-  probe     // the machine itself presses a real object and measures it: nothing is rendered [VHMR 4.2]
+  probe,    // the machine itself presses a real object and measures it: nothing is rendered [VHMR 4.2]
+  travel    // it carries a clamped tool past the tracker: nothing is rendered [VHMR 4.1]
 };
-inline constexpr int kModes = 6;
+inline constexpr int kModes = 7;
 
 enum Why : std::uint32_t {
   // Reasons to hold.

@@ -311,6 +311,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back({tip_of(tool)});
   if (spec.probe) scene.probe = make_probe(spec, scene);
+  if (spec.travel) scene.travel = make_travel(spec, scene);
   check_reach(spec, scene);
   return scene;
 }

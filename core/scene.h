@@ -17,6 +17,7 @@
 #include "core/scene_spec.h"
 #include "core/surface.h"
 #include "core/tip.h"
+#include "core/travel.h"
 
 namespace enc {
 
@@ -63,6 +64,7 @@ struct Scene {
   LoopRig loop;
   std::optional<DampingLaw> damping;  // where the rig wants the object damped
   std::optional<Probe> probe;    // then the machine presses, and nothing is rendered
+  std::optional<Travel> travel;  // then it carries a tool around, and nothing is rendered
   double tip_radius = kUnset;    // of the haptic-tip or the probe, m
   double dt = kUnset;            // s, one tick
   double filter_gain = kUnset;   // of the force low-pass, per tick

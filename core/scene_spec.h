@@ -95,6 +95,7 @@ struct SceneSpec {
   std::optional<UserSpec> user;
   std::optional<ProbeSpec> probe;
   std::optional<PusherSpec> pusher;
+  std::optional<TravelSpec> travel;
   std::vector<BehaviourSpec> behaviours;  // the entries of models/behaviours.toml that the objects name
 };
 

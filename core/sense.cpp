@@ -18,6 +18,7 @@ bool at_rest(const Probing& probing) {
 
 bool clear_of_object(const Walk& walk, const State& state) {
   if (walk.scene.probe) return at_rest(state.probing) && walk.gap > walk.scene.force.tare_clearance;
+  if (walk.scene.travel) return state.travelling.phase != TravelPhase::move;
   if (state.mode != Mode::away && state.mode != Mode::follow) return false;
   return !walk.tool_known || walk.gap > walk.scene.force.tare_clearance;
 }

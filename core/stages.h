@@ -37,8 +37,9 @@ void sense(Walk& walk, State& state) noexcept;
 void mode(Walk& walk, State& state) noexcept;
 void model(Walk& walk, State& state) noexcept;
 void target(Walk& walk, State& state) noexcept;
-// In place of the three above, where the machine presses a real object.
+// In place of the three above: where the machine presses a real object, and where it carries a tool around.
 void probe(Walk& walk, State& state) noexcept;
+void travel(Walk& walk, State& state) noexcept;
 // Inside the object, inside the seen surface, finite, reachable, slow enough. Writes the set-point into
 // state.command.
 void check_tip(Walk& walk, State& state) noexcept;

@@ -46,6 +46,8 @@ void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, 
   if (!stages::holding(walk)) {
     if (scene.probe) {
       stages::probe(walk, state);  // the object is real: pressed and measured, not rendered
+    } else if (scene.travel) {
+      stages::travel(walk, state);  // from stop to stop, whatever is around
     } else {
       stages::mode(walk, state);    // away, follow, contact, restore
       stages::model(walk, state);   // force in, displacement out

@@ -58,6 +58,14 @@ struct Probing {
   double deflection = 0.0;  // wanted, m; negative: above the surface
 };
 
+// Where the machine is in its travel (travel.h). Time stands still in a hold, here too.
+enum class TravelPhase : std::uint8_t { wait, move, dwell, done };
+struct Travelling {
+  TravelPhase phase = TravelPhase::wait;
+  double elapsed = 0.0;  // s of this phase
+  std::int32_t leg = 0;  // of the programme
+};
+
 // Which part of which object was nearest: makes the next search faster, and changes no result (surface.h).
 struct ObjectHint {
   std::int32_t object = -1, feature = -1;
@@ -86,6 +94,7 @@ struct State {
   Vec<'W'> force = Vec<'W'>::zero();
   Contact contact;
   Probing probing;
+  Travelling travelling;
   Point<'R'> command;  // last set-point
   Vec<'R'> command_velocity = Vec<'R'>::zero();
   Point<'W'> last_query, last_point;  // of the last tick: the tracked tool's tip and the surface under it

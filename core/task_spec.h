@@ -1,5 +1,5 @@
-// What is done in a scene: a person presses with a tool, or the machine with a probe. Parts of the scene file
-// (scene_spec.h); SI.
+// What is done in a scene: a person presses with a tool, the machine presses with a probe, or it carries a
+// tool past the tracker. Parts of the scene file (scene_spec.h); SI.
 #pragma once
 
 #include <cmath>
@@ -52,6 +52,22 @@ struct PusherSpec {
   double force = 30.0;                                       // the object pushes back with this, N, before
   double ramp_time = 2.0, hold_time = 8.0, rest_time = 1.0;  // s; rest: clear of the tip, before each push
   std::int64_t repeats = 1;
+};
+
+// The machine carries a clamped tool past the tracker, from stop to stop [VHMR 4.1, Fig 6]. Nobody holds a
+// tool, and nothing is rendered.
+enum class TravelWays : std::uint8_t {
+  one_way,   // stop by stop to the last; then straight back to the start
+  both_ways  // and stop by stop back again
+};
+struct TravelSpec {
+  std::string axes = "xyz";     // of W, one after another
+  Vec3 start{0.0, 0.0, -0.02};  // of the travel along each axis, m; the other two axes stay at 0
+  std::vector<double> stops{0.0, 0.005, 0.010, 0.020, 0.040};  // from the start, towards +, m
+  TravelWays ways = TravelWays::one_way;
+  double speed = 0.020;      // m/s
+  double dwell = 5.0;        // at each stop, s
+  std::int64_t repeats = 1;  // of the whole
 };
 
 }  // namespace enc

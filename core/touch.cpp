@@ -85,6 +85,7 @@ void touch_probed(Walk& walk, State& state) noexcept {
 
 void touch(Walk& walk, State& state) noexcept {
   if (walk.scene.probe) return touch_probed(walk, state);
+  if (walk.scene.travel) return;  // nothing is touched
   // Without a tracker the tip itself asks: it then waits at its own nearest surface point, and force alone
   // makes a contact.
   const bool by_tool = walk.scene.has_tracker;

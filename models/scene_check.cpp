@@ -292,7 +292,7 @@ void check_rig(const Setup& setup) {
 
 void check(const Setup& setup) {
   const SceneSpec& s = setup.scene;
-  if (s.objects.empty())
+  if (s.objects.empty() && !s.travel)
     fail(
         setup, "",
         "the scene has no object; expected at least one [[object]]; add one, as in models/scenes/plane.toml");

@@ -11,6 +11,7 @@ constexpr std::array<std::string_view, 3> kTips{"sphere", "cone", "edge"};
 constexpr std::array<std::string_view, 3> kShapes{"plane", "sphere", "mesh"};
 constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
 constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ishlinskii"};
+constexpr std::array<std::string_view, 2> kWays{"one_way", "both_ways"};
 constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
 constexpr std::array<std::string_view, 1> kUsers{"press_release"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
@@ -186,6 +187,23 @@ void describe(Visitor& v, PusherSpec& p) {
   v.value({"repeats", "pushes", kAuthor, chosen, {1.0, 1e6}}, &p.repeats);
 }
 
+void describe(Visitor& v, TravelSpec& t) {
+  v.value({"axes", "of W, travelled one after another, such as \"xyz\" or \"z\"", "[VHMR 4.1]", published},
+          &t.axes);
+  v.value({"start_mm", "where the travel along x, along y and along z begins; the other two axes stay at 0",
+           "decisions 21", chosen},
+          &t.start);
+  v.value({"stops_mm", "from the start, towards +, growing", "[VHMR 4.1]", published, kNotNegative},
+          &t.stops);
+  choice(v,
+         {"ways", "one_way: straight back from the last stop; both_ways: stop by stop back", "[VHMR 4.1]",
+          assumed},
+         kWays, t.ways);
+  v.value({"speed_mm_s", "from stop to stop", "[VHMR 4.1]", published, kPositive}, &t.speed);
+  v.value({"dwell_s", "at each stop", "[VHMR 4.1]", published, kNotNegative}, &t.dwell);
+  v.value({"repeats", "of the whole", kAuthor, chosen, {1.0, 1e4}}, &t.repeats);
+}
+
 }  // namespace
 
 void describe(Visitor& v, SceneSpec& s) {
@@ -215,6 +233,7 @@ void describe(Visitor& v, SceneSpec& s) {
   part(v, "user", s.user, [&](UserSpec& u) { describe(v, u); });
   part(v, "probe", s.probe, [&](ProbeSpec& p) { describe(v, p); });
   part(v, "pusher", s.pusher, [&](PusherSpec& p) { describe(v, p); });
+  part(v, "travel", s.travel, [&](TravelSpec& t) { describe(v, t); });
 }
 
 namespace {

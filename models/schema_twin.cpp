@@ -12,6 +12,7 @@ constexpr std::array<std::string_view, 5> kIntegrators{"euler", "rk4", "implicit
                                                        "discrete"};  // of MuJoCo
 constexpr std::array<std::string_view, 2> kForms{"control", "structural"};
 constexpr std::array<std::string_view, 2> kPackets{"polled", "event"};
+constexpr std::array<std::string_view, 2> kClocks{"free", "aligned"};
 constexpr Range kTimestep{0.0, 5000.0, true};  // 5 ms: beyond it a servo and a contact diverge (fidelity 5)
 
 constexpr std::array<std::string_view, 6> kBallSets{"nominal", "low_loss", "high_loss",
@@ -124,6 +125,13 @@ void describe(Visitor& v, sim::TrackerTruth& t) {
          kPackets, t.packets);
   v.value({"server_rate_hz", "how often the server sends polled packets", "[VHMR 2]", published, kPositive},
           &t.server_rate);
+  choice(v,
+         {"clocks", "free: exposures and server ticks begin at any time; aligned: both begin with the loop",
+          "parameters 6.1", assumed},
+         kClocks, t.clocks);
+  v.value({"process_ms", "fixed part of the server's own delay", "Table 1 (benchmark tracking)", derived,
+           kNotNegative},
+          &t.process);
   v.value({"udp_delay_ms", "mean of the exponential delay of process and network", "parameters 6.3", derived,
            kNotNegative},
           &t.udp_delay);

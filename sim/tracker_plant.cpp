@@ -28,8 +28,11 @@ TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC
   if (truth.latency * truth.rate > 60.0)
     throw Error("at most 60 frames can be on their way at once", "truth.tracker.latency");
   state_.noise = Stream(seed, "tracker");
-  state_.exposure = {truth.rate, 0, from_seconds(state_.noise.uniform() / truth.rate)};
-  state_.server = {truth.server_rate, 0, from_seconds(state_.noise.uniform() / truth.server_rate)};
+  if (truth.process * truth.server_rate > 60.0)
+    throw Error("at most 60 packets can be on their way at once", "truth.tracker.process");
+  const double phase = truth.clocks == TrackerClocks::free ? 1.0 : 0.0;
+  state_.exposure = {truth.rate, 0, from_seconds(phase * state_.noise.uniform() / truth.rate)};
+  state_.server = {truth.server_rate, 0, from_seconds(phase * state_.noise.uniform() / truth.server_rate)};
 }
 
 void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
@@ -43,7 +46,8 @@ void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT
 }
 
 void TrackerPlant::transmit(const Stamped<TrackedTool>& sample, Time at) {
-  const double delay = truth_.udp_delay > 0.0 ? state_.noise.exponential(truth_.udp_delay) : 0.0;
+  const double delay =
+      truth_.process + (truth_.udp_delay > 0.0 ? state_.noise.exponential(truth_.udp_delay) : 0.0);
   const bool lost = state_.noise.uniform() < truth_.loss;
   if (lost)
     ++state_.dropped;

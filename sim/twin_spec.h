@@ -42,6 +42,11 @@ struct ForceTruth {
   Vec3 turned{0, 0, 0};             // of the sensor against the believed X_HF, rad
 };
 
+enum class TrackerClocks : std::uint8_t {
+  free,    // exposures and server ticks begin at any time, drawn by the seed
+  aligned  // both begin with the loop: no sample waits where the rates are the loop's
+};
+
 enum class Packets : std::uint8_t {
   polled,  // the server sends its newest pose at its own rate, as the paper's does [VHMR 2]
   event    // each pose as soon as it is there
@@ -52,7 +57,9 @@ struct TrackerTruth {
   double latency = 0.0035;  // s, exposure to host
   Packets packets = Packets::polled;
   double server_rate = 100.0;                   // Hz, of polled packets
-  double udp_delay = 0.0023;                    // s, mean of the exponential part (process and network)
+  TrackerClocks clocks = TrackerClocks::free;
+  double process = 0.0096;                      // s, in the server's application, from its tick to the packet
+  double udp_delay = 0.0002;                    // s, mean of the exponential part (process and network)
   Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
   Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
   double stamp_error = 0.0;                     // s: stamps are this much later than the exposure

@@ -100,6 +100,7 @@ World::World(const WorldSpec& spec)
   if (user_) programme_time_ = user_->duration();
   if (pusher) programme_time_ = pusher->duration();
   if (ball) programme_time_ = enc::programme_time(spec.prepared);
+  if (spec.prepared.travel) programme_time_ = spec.prepared.travel->duration();
   if (spec.scene.gripper) gripper.emplace(spec.twin.gripper, spec.seed);
   const mjModel* m = physics_.model();
   const int platform = physics_.id(mjOBJ_JOINT, "platform");

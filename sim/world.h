@@ -46,7 +46,7 @@ class World {
 
   [[nodiscard]] const Truth& truth() const { return truth_; }
   [[nodiscard]] bool user_done() const { return !user_ || user_->done(); }
-  // s, of what the user, the probe or the pusher does; 10 where nobody does anything.
+  // s, of what the user, the probe, the pusher or the travel does; 10 where nobody does anything.
   [[nodiscard]] double programme_time() const { return programme_time_; }
   // Tick after which the physics is not to be trusted, -1 while it is sound, and MuJoCo's own words.
   [[nodiscard]] std::int64_t diverged_at() const { return diverged_at_; }

@@ -1,0 +1,41 @@
+// The travel of [VHMR 4.1, Fig 6], made ready: straight legs from stop to stop, along one axis of W after
+// another. Each is a trapezoid: the leg's speed, the machine's acceleration.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc {
+
+struct Scene;
+struct SceneSpec;
+
+struct TravelLeg {
+  Point<'W'> to;
+  Vec<'W'> along{1, 0, 0};  // unit
+  double length = 0.0;      // m
+  double speed = kUnset;    // m/s
+  double dwell = kUnset;    // s, at its end
+  std::int32_t axis = -1;   // 0 to 2; -1: on the way to a start
+  std::int32_t way = 0;     // 1 towards + of the axis, -1 towards -
+};
+
+struct Travel {
+  std::vector<TravelLeg> legs;
+  double acceleration = kUnset;  // m/s^2
+  bool tool_held = false;        // the tool must be clamped before anything moves
+
+  [[nodiscard]] bool on_leg(std::int32_t leg) const {
+    return leg >= 0 && static_cast<std::size_t>(leg) < legs.size();
+  }
+  // s, from the start to the end of the last dwell; a little more than it takes.
+  [[nodiscard]] double duration() const;
+};
+
+// `scene` has everything else by now. Throws Error where this machine cannot do the travel.
+[[nodiscard]] Travel make_travel(const SceneSpec& spec, const Scene& scene);
+
+}  // namespace enc
