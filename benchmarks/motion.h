@@ -1,0 +1,70 @@
+// Scripted motions of a tool's tip as functions of time, for measures that need no simulated hand: the
+// paper's moves with stops [VHMR 4.1], reaches of several shapes, a press, tremor, a sudden stop.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc::bench {
+
+struct MotionPoint {
+  Vec3 position{0, 0, 0}, velocity{0, 0, 0};  // m, m/s
+};
+
+// `at` takes s since the start and may be asked beyond both ends, where the tool rests.
+struct Motion {
+  std::string name;
+  double duration = 0.0;  // s
+  std::function<MotionPoint(double)> at;
+};
+
+// From stop to stop at a speed, in straight lines [VHMR 4.1]: dwell, move, dwell, ... The last dwell is
+// whole.
+struct StopsSpec {
+  Vec3 from{0, 0, 0};                                          // m, of stop 0
+  Vec3 direction{1, 0, 0};                                     // the stops lie along it
+  std::vector<double> stops{0.0, 0.005, 0.010, 0.020, 0.040};  // m
+  double speed = 0.040;                                        // m/s
+  double acceleration = 0.41;  // m/s^2, both ends of a move; a short move does not reach its speed
+  double dwell = 5.0;          // s
+  bool both_ways = true;       // and back over the same stops
+};
+[[nodiscard]] Motion moves_with_stops(const StopsSpec& spec);
+
+// The shape of a reach: way and speed from 0 to 1 in unit time, and its highest speed.
+struct ReachShape {
+  const char* name;
+  double peak;
+  double (*way)(double s);
+  double (*speed)(double s);
+};
+// Minimum jerk (Flash and Hogan 1985); early peak, s^2 (1 - s)^4; a main movement and a correction,
+// overlapping.
+[[nodiscard]] const ReachShape& minimum_jerk();
+[[nodiscard]] const ReachShape& early_peak();
+[[nodiscard]] const ReachShape& two_movements();
+
+// There and back, `times` times, with a rest after each way.
+struct ReachSpec {
+  Vec3 way{0.020, 0, 0};      // m
+  double peak_speed = 0.040;  // m/s
+  double rest = 0.3;          // s
+  int times = 4;
+};
+[[nodiscard]] Motion reaches(const ReachShape& shape, const ReachSpec& spec);
+
+[[nodiscard]] Motion at_rest(double duration);
+// amplitude * sin(2 pi rate t)
+[[nodiscard]] Motion swing(const Vec3& amplitude, double rate, double duration);
+// The motion with a tremor of `rms` along each axis (m), of 16 waves between two rates, Hz, phases by the
+// seed.
+[[nodiscard]] Motion with_tremor(Motion motion, double rms, double lowest, double highest,
+                                 std::uint64_t seed);
+// The motion until it meets something, at `at`, s; from there it stands still.
+[[nodiscard]] Motion stopped(Motion motion, double at);
+
+}  // namespace enc::bench
