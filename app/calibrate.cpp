@@ -128,9 +128,9 @@ std::string advice_text(const LatencyFit& fit) {
 }
 
 Json number(double x, double unit) { return std::isfinite(x) ? Json(x * unit) : Json(nullptr); }
-void put(Json& to, const std::string& name, const Interval& i, double unit) {
-  to[name] = number(i.value, unit);
-  to[name + "_half"] = number(i.half, unit);
+void put(Json& to, const std::string& name, const char* label, const Interval& i, double unit) {
+  to[fmt::format("{}_{}", name, label)] = number(i.value, unit);
+  to[fmt::format("{}_half_{}", name, label)] = number(i.half, unit);
 }
 
 std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
@@ -143,11 +143,11 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
   for (std::size_t a = 0; a < 3; ++a) {
     const AxisLatency& x = fit.axes[a];
     Json axis;
-    put(axis, "latency_ms", x.latency, kMs);
-    put(axis, "bias_mm", x.bias, kMm);
+    put(axis, "latency", "ms", x.latency, kMs);
+    put(axis, "bias", "mm", x.bias, kMm);
     axis["noise_mm"] = number(x.noise, kMm);
-    put(axis, "bias_change_mm", x.change, kMm);
-    put(axis, "lag_step_mm", x.step, kMm);
+    put(axis, "bias_change", "mm", x.change, kMm);
+    put(axis, "lag_step", "mm", x.step, kMm);
     axis["places_mm"] = number(x.places, kMm);
     axis["travel_mm"] = x.travel * kMm;
     axis["stops"] = x.stops;
@@ -155,11 +155,11 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
     axis["one_way"] = x.one_way;
     json["axes"][std::string(1, kNames[a])] = axis;
   }
-  put(json, "latency_ms", fit.latency, kMs);
-  put(json, "scatter_ms", fit.scatter, kMs);
+  put(json, "latency", "ms", fit.latency, kMs);
+  put(json, "scatter", "ms", fit.scatter, kMs);
   json["axes_agree"] = fit.axes_agree;
   json["stamp_age_ms"] = number(fit.stamp_age.value, kMs);
-  put(json, "stamp_late_ms", fit.stamp_error, kMs);
+  put(json, "stamp_late", "ms", fit.stamp_error, kMs);
   json["notes"] = log.notes;
   return json.dump(2);
 }

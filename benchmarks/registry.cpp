@@ -20,6 +20,9 @@ std::span<const Benchmark> benchmarks() {
       {"speed", "tennis_ball", "step(), times real time, wrapper over raw mj_step", run_speed},
       {"structure", "tennis_ball", "hexapod on elastic legs: sag, modes, order of the integrator, cost",
        run_structure},
+      {"workspace", "tennis_ball",
+       "box and volume of the tip's travel, tracker's volume, directions from which the ball can be pressed",
+       run_workspace},
   });
   return kAll;
 }

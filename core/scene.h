@@ -37,6 +37,7 @@ struct Object {
 
 struct Tool {
   Tip<'T'> tip;
+  double length = 0.0;  // of its shaft: from the tip's centre to the middle of the markers, m
 };
 
 struct Scene {
