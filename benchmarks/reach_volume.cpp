@@ -129,22 +129,31 @@ double ReachVolume::turned_slack(const Vec3& p) const {
   return best;
 }
 
-double ReachVolume::turned(double step) const {
-  constexpr double kDeep = 0.06;  // m
-  const auto n = static_cast<std::size_t>(std::ceil(2.0 * kHalf / step));
-  const auto layers = static_cast<std::size_t>(std::ceil(2.0 * kDeep / step));
-  std::vector<double> reached(n, 0.0);
-  const auto place = [&](std::size_t i, double half) {
-    return -half + (static_cast<double>(i) + 0.5) * step;
+double ReachVolume::turned_height(double x, double y) const {
+  constexpr double kDeep = 0.06, kLayer = 0.01, kExact = 0.1e-3;  // m
+  const auto reached = [&](double z) { return turned_slack({x, y, z}) >= 0.0; };
+  double low = kNever, high = -kNever;
+  for (double z = -kDeep; z <= kDeep; z += kLayer)
+    if (reached(z)) low = std::min(low, z), high = std::max(high, z);
+  if (low > high) return 0.0;
+  const auto edge = [&](double in, double outside) {
+    while (std::abs(outside - in) > kExact)
+      (reached(0.5 * (in + outside)) ? in : outside) = 0.5 * (in + outside);
+    return in;
   };
+  return edge(high, high + kLayer) - edge(low, low - kLayer);
+}
+
+double ReachVolume::turned(double step) const {
+  const auto n = static_cast<std::size_t>(std::ceil(2.0 * kHalf / step));
+  std::vector<double> rows(n, 0.0);
+  const auto place = [&](std::size_t i) { return -kHalf + (static_cast<double>(i) + 0.5) * step; };
   in_parallel(n, [&](std::size_t i) {
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t k = 0; k < layers; ++k)
-        if (turned_slack({place(i, kHalf), place(j, kHalf), place(k, kDeep)}) >= 0.0) reached[i] += 1.0;
+    for (std::size_t j = 0; j < n; ++j) rows[i] += turned_height(place(i), place(j));
   });
-  double cells = 0.0;
-  for (const double r : reached) cells += r;
-  return cells * step * step * step;
+  double sum = 0.0;
+  for (const double row : rows) sum += row;
+  return sum * step * step;
 }
 
 }  // namespace enc::bench

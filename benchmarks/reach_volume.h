@@ -28,9 +28,11 @@ class ReachVolume {
   // Least stroke that a strut has left, m, in the best of the allowed turns; negative: none gets there. The
   // search climbs, so it may miss some: a lower bound.
   [[nodiscard]] double turned_slack(const Vec3& p) const;
-  [[nodiscard]] double turned(double step) const;  // m^3: share of a grid's cells whose middle is reached
+  [[nodiscard]] double turned(double step) const;  // m^3: midpoint rule over x and y
 
  private:
+  // From the lowest to the highest that is reached over (x, y), m; what is between counts as reached.
+  [[nodiscard]] double turned_height(double x, double y) const;
   [[nodiscard]] double slack(const Vec3& p, const Vec3& turn) const;
   Hexapod machine_;
 };

@@ -58,15 +58,16 @@ std::array<double, 3> converged(Table& table, const char* what, double step, int
 }
 
 void add_volumes(const BenchContext& context, BenchResult& result, const ReachVolume& reach) {
-  Table table{"workspace_convergence",
-              "Volumes over the step of their grids",
-              {"volume", "step (mm)", "m3", "change (%)"},
-              {},
-              "Straight: heights in closed form, midpoint rule over x and y. Turned: cells whose middle is "
-              "reached with some allowed turn; the search for the turn may miss some."};
+  Table table{
+      "workspace_convergence",
+      "Volumes over the step of their grids",
+      {"volume", "step (mm)", "m3", "change (%)"},
+      {},
+      "Midpoint rule over x and y. Straight: heights in closed form. Turned: heights found by bisection "
+      "with a search for the best allowed turn, which may miss some."};
   const auto straight = converged(table, "straight", 4e-3, context.quick ? 1 : 3,
                                   [&](double step) { return reach.straight(step); });
-  const auto turned = converged(table, "turned", context.quick ? 40e-3 : 24e-3, context.full ? 2 : 1,
+  const auto turned = converged(table, "turned", context.quick ? 32e-3 : 24e-3, context.full ? 2 : 1,
                                 [&](double step) { return reach.turned(step); });
   const double box = result.figures.back().twin;
   add(result, "straight.volume", kUnset, straight[0], "m3", Role::ours, kUnset, kUnset,
@@ -133,14 +134,9 @@ double share(const std::vector<Direction>& all, Which which) {
 bool is_allowed(const Direction& d) { return d.reached && d.obstacle == Obstacle::none; }
 bool is_below(const Direction& d) { return d.polar > 150.0; }
 
-void add_map(BenchResult& result, const std::vector<Direction>& all) {
-  Plot plot{"workspace_directions",
-            "From where can the ball be pressed?",
-            "azimuth, deg",
-            "polar, deg (0: from above)",
-            false,
-            false,
-            {}};
+void add_map(BenchResult& result, const std::vector<Direction>& all, const char* id, const char* title,
+             const char* caption) {
+  Plot plot{id, title, "azimuth, deg", "polar, deg (0: from above)", false, false, {}, caption};
   const auto series = [&](const char* name, auto which) {
     Series s{name, {}, {}, {}, {}, Mark::points};
     for (const Direction& d : all)
@@ -154,11 +150,6 @@ void add_map(BenchResult& result, const std::vector<Direction>& all) {
          [](const Direction& d) { return d.reached && d.obstacle > Obstacle::stem; });
   series("out of reach, and the machine in the way",
          [](const Direction& d) { return !d.reached && d.obstacle != Obstacle::none; });
-  plot.caption =
-      "The ball of the scene tennis_ball, pressed to its limit along its radius. From the side and below its "
-      "surface is out of the tip's reach; from further below what carries the tip would be in the tool's "
-      "way, "
-      "wherever the ball were.";
   result.plots.push_back(std::move(plot));
 }
 
@@ -171,20 +162,26 @@ void add_directions(const BenchContext& context, BenchResult& result, const Scen
       grid);
   add(result, "directions.reach.percent", kUnset, share(all, [](const Direction& d) { return d.reached; }),
       "%", Role::ours, kUnset, kUnset, grid + ", by the reach alone");
-  add(result, "directions.machine.percent", kUnset,
-      share(all, [](const Direction& d) { return d.obstacle == Obstacle::none; }), "%", Role::ours, kUnset,
-      kUnset, grid + ", with nothing of the machine in the way, wherever the ball is");
   double whole = 180.0;
   for (const Direction& d : all)
     if (!is_allowed(d)) whole = std::min(whole, d.polar - 0.5 * step);
   add(result, "polar.allowed.max", kUnset, whole, "deg", Role::ours, kUnset, kUnset,
       "off straight down, allowed from all sides", 0.5 * step);
-  add(result, "polar.machine.max", kUnset, steepest_press(scene, scene.tools.front()) / kDegree, "deg",
-      Role::ours, kUnset, kUnset, "from there on the stem is in the tool's way, wherever the ball is");
+  const double steepest = steepest_press(scene, scene.tools.front());
+  add(result, "directions.machine.percent", kUnset, 50.0 * (1.0 - std::cos(steepest)), "%", Role::ours,
+      kUnset, kUnset, "of the sphere with nothing of the machine in the way, wherever the ball is");
+  add(result, "polar.machine.max", kUnset, steepest / kDegree, "deg", Role::ours, kUnset, kUnset,
+      "from there on the stem is in the tool's way, wherever the ball is");
 
   // Not the reach alone: were the ball higher, the tip would get to its lower side.
   const Point<'W'> raised(centre.xyz[0], centre.xyz[1], 0.5 * scene.objects.front().radius);
   std::vector<Direction> below = directions(scene, raised, step);
+  add_map(result, all, "workspace_directions", "From where can the ball be pressed?",
+          "The ball of the scene, pressed to its limit along its radius. From the side and from below its "
+          "surface is out of the tip's reach.");
+  add_map(result, below, "workspace_directions_raised", "From where, if the ball stood higher?",
+          "Its centre half a radius above W: now its lower side is in reach. From further below than its "
+          "stem allows it still cannot be pressed, because the stem would be in the tool's way.");
   std::erase_if(below, [](const Direction& d) { return !is_below(d); });
   add(result, "below.refused.percent", 100.0, share(below, [](const Direction& d) { return !is_allowed(d); }),
       "%", Role::predicted, 100.0, 100.0,
@@ -192,7 +189,6 @@ void add_directions(const BenchContext& context, BenchResult& result, const Scen
       "paper: one cannot indent the ball from below [VHMR 5]");
   add(result, "below.reach.percent", kUnset, share(below, [](const Direction& d) { return d.reached; }), "%",
       Role::ours, kUnset, kUnset, "of the same, by the reach alone: it is the stem that refuses");
-  add_map(result, all);
 }
 
 // Outline of the straight reach in a plane through W's axes, with the paper's box.
@@ -237,8 +233,8 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
             false,
             false,
             {},
-            "Horizontal slices. Widest a little below the zero."};
-  for (const double z : {-0.020, -0.015, 0.0, 0.015}) {
+            "Horizontal slices. Below -13 mm they fall into pieces, see the sections."};
+  for (const double z : {-0.010, 0.0, 0.010, 0.020}) {
     Series edge{fmt::format("z = {:g} mm", z * kMm), {}, {}};
     for (int degree = 0; degree <= 360; degree += 2) {
       const Vec3 out(std::cos(degree * kDegree), std::sin(degree * kDegree), 0.0);
