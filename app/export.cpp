@@ -57,7 +57,7 @@ int export_record(const ExportOptions& options) {
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = bench::prepare_setup(setup);
   Output output(options.csv);
-  const bench::RecordTable table(setup, scene);
+  bench::RecordTable table(setup, scene);
   output.write(bench::RecordTable::header());
   for (RecordedTick frame; record.next(frame);) output.write(table.row(frame.tick, frame.in, frame.out));
   output.close();

@@ -1,13 +1,12 @@
 // `encounter fit LOOP.csv`: a measured loop becomes a response file, and what is known about it is said.
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include "app/options.h"
 #include "core/error.h"
 #include "core/scene.h"
+#include "models/csv_reader.h"
 #include "models/loop_fit.h"
 #include "models/response_file.h"
 #include "models/scene_file.h"
@@ -17,18 +16,6 @@ namespace {
 
 using models::BranchKnown;
 using models::LoopFit;
-
-std::string text_of(const std::string& path) {
-  std::error_code none;
-  std::ifstream file(path, std::ios::binary);
-  const bool good = file.is_open() && !std::filesystem::is_directory(path, none);
-  std::string text = good ? std::string{std::istreambuf_iterator<char>(file), {}} : "";
-  if (!good || file.bad())
-    throw Error(path +
-                ":1:1: cannot read this loop; expected a CSV file with time_s, deflection_mm, force_N, "
-                "repeat; check the name");
-  return text;
-}
 
 std::string branch_text(const char* name, const BranchKnown& known, double rmse, double rmse_free) {
   std::string text =
@@ -94,7 +81,9 @@ int fit(const FitOptions& options) {
           fmt::format("--ceiling-N-per-mm: expected more than {:.3f} N/mm, the softest that the loop renders",
                       how.floor * 1e-3));
   }
-  const models::LoopData loop = models::parse_loop(text_of(options.loop), options.loop, how.limit);
+  const models::LoopData loop = models::parse_loop(
+      models::csv_text(options.loop, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
+      options.loop, how.limit);
   LoopFit fit;
   try {
     fit = models::fit_loop(loop, how);

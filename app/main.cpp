@@ -124,6 +124,17 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       "stiffest that the stops may be; lower: quieter at rest, less exact where motion turns");
   fit_command->callback([&] { code = fit(fit_options); });
 
+  CalibrateOptions calibrate_options;
+  CLI::App* calibrate_command = app.add_subcommand(
+      "calibrate", "bias, noise and latency of a tracker out of a log of a tool that the machine carries");
+  calibrate_command
+      ->add_option("log", calibrate_options.log, "CSV as export writes: time_s, tip_x_mm.., tool_x_mm..")
+      ->required();
+  calibrate_command->add_option("--rate-Hz", calibrate_options.rate,
+                                "rows a second that the log shall have; default: any");
+  calibrate_command->add_flag("--json", calibrate_options.json, "one JSON object instead of text");
+  calibrate_command->callback([&] { code = calibrate(calibrate_options); });
+
   NearestOptions nearest_options;
   CLI::App* nearest_command = app.add_subcommand(
       "nearest",

@@ -55,6 +55,11 @@ struct FitOptions {
   double limit_mm = 6.0;
   std::optional<double> ceiling;  // N/mm
 };
+struct CalibrateOptions {
+  std::string log;
+  std::optional<double> rate;  // Hz, of the rows, as expected
+  bool json = false;
+};
 struct NearestOptions {
   std::string what;  // a mesh file, or SCENE#object
   std::string points;
@@ -73,6 +78,7 @@ int doctor();
 int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
 int fit(const FitOptions& options);
+int calibrate(const CalibrateOptions& options);
 int nearest(const NearestOptions& options);
 int mesh(const MeshOptions& options);
 

@@ -50,12 +50,26 @@ std::string source_of(const models::Setup& setup) {
 RecordTable::RecordTable(const models::Setup& setup, const Scene& scene)
     : scene_(scene), source_(source_of(setup)) {}
 
-std::string_view RecordTable::header() {
-  return "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
-         "source\n";
+// Only in the row in which it came: a log must not count one packet twice.
+void RecordTable::add_tool(std::string& row, const Stamped<TrackedTool>& tool) {
+  const bool known = tool.health == Health::ok && tool.value.tool >= 0 &&
+                     tool.value.tool < static_cast<std::int32_t>(scene_.tools.size());
+  if (!known || tool.t == tool_t_) {
+    row += ",,,,";
+    return;
+  }
+  tool_t_ = tool.t;
+  const Point<'T'>& centre = scene_.tools[static_cast<std::size_t>(tool.value.tool)].tip.centre;
+  for (const double x : (scene_.X_WC * (tool.value.X_CT * centre)).xyz) add(row, 1e3 * x);
+  add(row, seconds(tool.t.time_since_epoch()));
 }
 
-std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) const {
+std::string_view RecordTable::header() {
+  return "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
+         "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source\n";
+}
+
+std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
   constexpr double kMillimetres = 1e3;
   std::string row = fmt::format("{},{}", seconds(tick.t.time_since_epoch()), mode_name(out.mode));
   const Point<'W'> tip = scene_.X_WR * in.tip.value.X_RH.origin();
@@ -64,13 +78,15 @@ std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& 
   add(row, kMillimetres * out.deflection);
   add(row, pressing(scene_, out));
   const std::int32_t number = repeat(out);
-  return row + fmt::format(",{},{}\n", number, number > 0 ? source_ : "");
+  row += fmt::format(",{}", number);
+  add_tool(row, in.tool);
+  return row + ',' + (number > 0 ? source_ : "") + '\n';
 }
 
 std::string table_of_run(const models::Setup& setup, std::uint64_t seed) {
   std::string text(RecordTable::header());
   const Scene scene = prepare_setup(setup);
-  const RecordTable table(setup, scene);
+  RecordTable table(setup, scene);
   TrialOptions options;
   options.seed = seed;
   options.watch = [&](const Glance& glance) { text += table.row(glance.tick, glance.in, glance.out); };

@@ -27,6 +27,9 @@ std::span<const Benchmark> benchmarks() {
        run_structure},
       {"tracking", "tracking", "Table 1: the tracker against the machine that carries the tool",
        run_tracking},
+      {"workspace", "tennis_ball",
+       "box and volume of the tip's travel, tracker's volume, directions from which the ball can be pressed",
+       run_workspace},
   });
   return kAll;
 }

@@ -6,8 +6,8 @@
 namespace enc {
 
 std::string_view mode_name(Mode mode) {
-  static constexpr std::array<std::string_view, kModes> kNames{"away",    "follow", "contact",
-                                                               "restore", "hold",   "probe",   "travel"};
+  static constexpr std::array<std::string_view, kModes> kNames{"away", "follow", "contact", "restore",
+                                                               "hold", "probe",  "travel"};
   return kNames[static_cast<std::size_t>(mode)];
 }
 

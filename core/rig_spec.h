@@ -40,9 +40,13 @@ struct ManipulatorRig {
   double acceleration = 0.41;  // of commands, m/s^2 (decisions 1)
   double payload = 98.1;       // N: 10 kg, what it carries and is pressed with, together [VHMR 2]
   double tip_radius = 0.005;   // of the haptic-tip's sphere, m; H is its centre
-  double servo = 15.0;         // what the rig is believed to answer with: natural frequency, Hz,
-  double servo_damping = 0.8;  // damping ratio
-  double delay = 0.004;        // and dead time, s; they set how soft an object may be (loop_model.h)
+  // What carries the tip from below, round about H's z: a stem, then gripper and sensor, then the platform.
+  double stem_radius = 0.004;      // m
+  double stem_length = 0.040;      // from H down to the gripper, m
+  double gripper_radius = 0.0377;  // of gripper and sensor, m: that of the sensor (parameters 3)
+  double servo = 15.0;             // what the rig is believed to answer with: natural frequency, Hz,
+  double servo_damping = 0.8;      // damping ratio
+  double delay = 0.004;            // and dead time, s; they set how soft an object may be (loop_model.h)
 };
 
 enum class Tare : std::uint8_t {
@@ -78,6 +82,9 @@ struct TrackerRig {
   double usual_age = 0.045;  // s: what latency, polling and jitter explain; older is predicted and flagged
   double lost_age = 0.100;   // s: older is lost (decisions 8)
   double farthest = 3.0;     // m from C: beyond is not a tool
+  // Sides along W of the box around its origin in which tools are followed, m: 75e-3 m^3 [VHMR 5]. The paper
+  // gives the product alone.
+  Vec3 volume{0.5, 0.5, 0.3};
 };
 
 struct DisplayRig {

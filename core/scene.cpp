@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/mesh_tree.h"
+#include "core/press_check.h"
 #include "core/stages.h"
 
 namespace enc {
@@ -119,6 +120,12 @@ Tip<'T'> tip_of(const ToolSpec& tool) {
   return tip;
 }
 
+double length_of(const ToolSpec& tool) {
+  Vec3 middle = tool.markers.empty() ? tool.tip : Vec3::Zero();
+  for (const Vec3& marker : tool.markers) middle += marker / static_cast<double>(tool.markers.size());
+  return (middle - tool.tip).norm();
+}
+
 // Which object is pressed by `who` ("user", "pusher"): the named one, or the first.
 std::size_t pressed_object(const SceneSpec& spec, const std::string& name, const std::string& who) {
   if (spec.objects.empty()) throw Error("a " + who + " needs an object to press", who + ".object");
@@ -147,13 +154,17 @@ PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
 
 namespace {
 
+// What the user holds; null where there is nothing to hold.
+const Tool* used_tool(const SceneSpec& spec, const Scene& scene) {
+  if (scene.tools.empty()) return nullptr;
+  const auto named = std::find_if(spec.tools.begin(), spec.tools.end(),
+                                  [&](const ToolSpec& t) { return t.name == spec.user->tool; });
+  return &scene.tools[named == spec.tools.end() ? 0 : static_cast<std::size_t>(named - spec.tools.begin())];
+}
+
 // A user's press must be possible from the first touch to the limit; an object nobody is told to press must
 // be touchable somewhere.
 void check_reach(const SceneSpec& spec, const Scene& scene) {
-  const auto reached = [&](const Point<'W'>& surface, const Vec<'W'>& normal, double depth) {
-    const Point<'W'> tip = surface - (scene.tip_radius + depth) * normal;
-    return scene.reach.contains(Pose<'R', 'H'>(scene.X_WR.q().conjugate(), scene.X_WR.inverse() * tip));
-  };
   const std::string advice =
       "; the tip reaches +-50, +-50 and +-25 (x, y, z of W, in millimetres) around the origin, straight axes";
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -164,28 +175,40 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
         near.distance < 0 ? near.point
                           : object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0.1)).point;
     const Nearest top = object.surface.nearest(top_O);
-    if (!reached(object.X_WO * near.point, object.X_WO * near.normal, 0.0) &&
-        !reached(object.X_WO * top.point, object.X_WO * top.normal, 0.0))
+    if (!carried_to(scene, {object.X_WO * near.point, object.X_WO * near.normal}, 0.0) &&
+        !carried_to(scene, {object.X_WO * top.point, object.X_WO * top.normal}, 0.0))
       throw Error("object '" + spec.objects[i].name + "' is outside the machine's reach" + advice,
                   "object." + spec.objects[i].name + ".position");
   }
   if (spec.pusher) {
     const PushedPoint pushed = pushed_point(spec, scene);
-    if (!reached(pushed.at.point, pushed.at.normal, 0.0) ||
-        !reached(pushed.at.point, pushed.at.normal, pushed.depth))
+    if (!carried_to(scene, pushed.at, 0.0) || !carried_to(scene, pushed.at, pushed.depth))
       throw Error("the push ends where the machine does not reach" + advice, "pusher.depth");
   }
   if (!spec.user) return;
   const PressPoint press = press_point(spec, *spec.user);
   const double depth = scene.objects[pressed_object(spec, spec.user->object, "user")].limit;
-  if (!reached(press.point, press.normal, 0.0) || !reached(press.point, press.normal, depth))
+  if (!carried_to(scene, press, 0.0) || !carried_to(scene, press, depth))
     throw Error("the user presses where the machine does not reach" + advice, "user.polar");
+  const Tool* tool = used_tool(spec, scene);
+  if (tool == nullptr) return;
+  if (const Obstacle way = in_the_way(scene, press.normal, *tool); way != Obstacle::none)
+    throw Error("the user presses from where the machine carries its tip: its " +
+                    std::string(obstacle_name(way)) + " is in the tool's way; press at most " +
+                    std::to_string(std::lround(std::floor(steepest_press(scene, *tool) * 180.0 / M_PI))) +
+                    " degrees off straight down",
+                "user.polar");
 }
 
 }  // namespace
 
 Reach reach_of(const RigSpec& rig) {
-  return {rig.manipulator.speed, rig.manipulator.acceleration, Hexapod(rig.manipulator.geometry)};
+  const ManipulatorRig& m = rig.manipulator;
+  return {
+      m.speed,
+      m.acceleration,
+      Hexapod(m.geometry),
+      {m.stem_radius, m.stem_length, m.gripper_radius, m.geometry.tip_height, m.geometry.platform_radius}};
 }
 
 const ToolSpec* clamped_tool(const SceneSpec& spec) {
@@ -309,7 +332,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
                 "rig.manipulator.payload");
   for (const ObjectSpec& object : spec.objects)
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
-  for (const ToolSpec& tool : spec.tools) scene.tools.push_back({tip_of(tool)});
+  for (const ToolSpec& tool : spec.tools) scene.tools.push_back({tip_of(tool), length_of(tool)});
   if (spec.probe) scene.probe = make_probe(spec, scene);
   if (spec.travel) scene.travel = make_travel(spec, scene);
   check_reach(spec, scene);

@@ -39,6 +39,7 @@ struct Object {
 
 struct Tool {
   Tip<'T'> tip;
+  double length = 0.0;  // of its shaft: from the tip's centre to the middle of the markers, m
 };
 
 struct Scene {
@@ -63,13 +64,13 @@ struct Scene {
   ContactRig contact;
   LoopRig loop;
   std::optional<DampingLaw> damping;  // where the rig wants the object damped
-  std::optional<Probe> probe;    // then the machine presses, and nothing is rendered
-  std::optional<Travel> travel;  // then it carries a tool around, and nothing is rendered
-  double tip_radius = kUnset;    // of the haptic-tip or the probe, m
-  double dt = kUnset;            // s, one tick
-  double filter_gain = kUnset;   // of the force low-pass, per tick
-  double lowest_slope = kUnset;  // N/m: softest object that is accepted (loop_model.h)
-  double strength = kUnset;      // N: pressing force that the machine carries beside its own load
+  std::optional<Probe> probe;         // then the machine presses, and nothing is rendered
+  std::optional<Travel> travel;       // then it carries a tool around, and nothing is rendered
+  double tip_radius = kUnset;         // of the haptic-tip or the probe, m
+  double dt = kUnset;                 // s, one tick
+  double filter_gain = kUnset;        // of the force low-pass, per tick
+  double lowest_slope = kUnset;       // N/m: softest object that is accepted (loop_model.h)
+  double strength = kUnset;           // N: pressing force that the machine carries beside its own load
 };
 
 // Throws Error (key = the file key without its unit) where the scene cannot be rendered by this rig: an

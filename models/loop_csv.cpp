@@ -1,147 +1,56 @@
 #include "models/loop_csv.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <string_view>
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "models/csv_reader.h"
 #include "models/wording.h"
 
 namespace enc::models {
 namespace {
 
-constexpr std::array<std::string_view, 4> kColumns{"time_s", "deflection_mm", "force_N", "repeat"};
-enum : std::size_t { kTime, kDeflection, kForce, kRepeat };
+enum : std::size_t { kTime, kDeflection, kForce, kRepeat, kSource };
+using Repeats = std::map<std::int64_t, std::vector<LoopPoint>>;
 
-struct Cell {
-  std::string_view text;
-  std::size_t column = 1;  // counts from 1, as editors do
-};
-
-std::vector<Cell> cells_of(std::string_view line) {
-  std::vector<Cell> cells;
-  for (std::size_t at = 0;;) {
-    const std::size_t comma = std::min(line.find(',', at), line.size());
-    std::string_view text = line.substr(at, comma - at);
-    std::size_t column = at + 1;
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1), ++column;
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    cells.push_back({text, column});
-    if (comma == line.size()) return cells;
-    at = comma + 1;
-  }
+std::int64_t repeat_of(const CsvReader& row) {
+  if (row.text(kRepeat).empty()) return 0;
+  const double which = row.number(kRepeat);
+  if (!(which >= 0.0 && which <= 1e6) || which != std::floor(which))
+    row.fail(kRepeat, fmt::format("'repeat' is {}; expected a whole number, 0 or nothing outside of a press; "
+                                  "correct it",
+                                  quoted(std::string(row.text(kRepeat)))));
+  return static_cast<std::int64_t>(which);
 }
 
-class Reader {
- public:
-  Reader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
-
-  // Fills one list of readings for each repeat.
-  std::map<std::int64_t, std::vector<LoopPoint>> read(std::string& remark) {
-    std::string_view line;
-    while (next(line) && (line.empty() || line.front() == '#')) {
-      while (!line.empty() && (line.front() == '#' || line.front() == ' ')) line.remove_prefix(1);
-      remark += (remark.empty() || line.empty() ? "" : " ") + std::string(line);
-    }
-    header(line);
-    std::map<std::int64_t, std::vector<LoopPoint>> repeats;
-    while (next(line))
-      if (!line.empty()) row(cells_of(line), repeats);
-    if (!origin_.empty()) remark = origin_;
-    return repeats;
-  }
-  [[noreturn]] void fail(std::size_t column, const std::string& what) const {
-    throw Error(fmt::format("{}:{}:{}: {}", name_, std::max<std::size_t>(line_, 1), column, what));
-  }
-
- private:
-  bool next(std::string_view& line) {
-    line = {};
-    if (text_.empty()) return false;
-    const std::size_t end = std::min(text_.find('\n'), text_.size());
-    line = text_.substr(0, end);
-    text_.remove_prefix(std::min(end + 1, text_.size()));
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    ++line_;
-    return true;
-  }
-
-  void header(std::string_view line) {
-    const std::vector<Cell> cells = cells_of(line);
-    std::vector<std::string> names;
-    names.reserve(cells.size());
-    for (const Cell& cell : cells) names.emplace_back(cell.text);
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      const auto found = std::find(names.begin(), names.end(), kColumns[i]);
-      if (found == names.end()) {
-        const std::string near = nearest_name(kColumns[i], names);
-        fail(1,
-             fmt::format(
-                 "there is no column '{}'; expected a header with time_s, deflection_mm, force_N, repeat; {}",
-                 kColumns[i],
-                 near.empty() ? "name the columns in the first line"
-                              : fmt::format("rename {}", quoted(near))));
-      }
-      if (std::find(found + 1, names.end(), kColumns[i]) != names.end())
-        fail(1, fmt::format("there are two columns '{}'; expected one; rename the other", kColumns[i]));
-      at_[i] = static_cast<std::size_t>(found - names.begin());
-    }
-    columns_ = cells.size();
-    source_ = static_cast<std::size_t>(std::find(names.begin(), names.end(), "source") - names.begin());
-  }
-
-  double number(const Cell& cell, std::size_t which) const {
-    double value = 0.0;
-    const char* end = cell.text.data() + cell.text.size();
-    const auto [stop, bad] = std::from_chars(cell.text.data(), end, value);
-    if (bad != std::errc() || stop != end || !std::isfinite(value))
-      fail(cell.column,
-           fmt::format("'{}' is {}; expected a finite number such as 1.25; correct or remove the row",
-                       kColumns[which], quoted(std::string(cell.text))));
-    return value;
-  }
-
-  void row(const std::vector<Cell>& cells, std::map<std::int64_t, std::vector<LoopPoint>>& repeats) {
-    if (cells.size() != columns_)
-      fail(cells.back().column,
-           fmt::format("this row has {} columns; expected {} as in the header; correct or remove it",
-                       cells.size(), columns_));
-    const double time = number(cells[at_[kTime]], kTime);
-    if (!(time > time_))
-      fail(cells[at_[kTime]].column,
-           fmt::format("the time {} s does not come after {} s; expected increasing times; sort the rows",
-                       cells[at_[kTime]].text, time_));
-    time_ = time;
-    const Cell& repeat = cells[at_[kRepeat]];
-    const double which = repeat.text.empty() ? 0.0 : number(repeat, kRepeat);
-    if (!(which >= 0.0 && which <= 1e6) || which != std::floor(which))
-      fail(repeat.column,
-           fmt::format("'repeat' is {}; expected a whole number, 0 or nothing outside of a press; "
-                       "correct it",
-                       quoted(std::string(repeat.text))));
+// One list of readings for each repeat, and who measured them.
+Repeats read(CsvReader& row, std::string& remark) {
+  row.header({"time_s", "deflection_mm", "force_N", "repeat"}, {"source"});
+  remark = row.remark();
+  Repeats repeats;
+  double before = -std::numeric_limits<double>::infinity();
+  while (row.next()) {
+    const double time = row.number(kTime);
+    if (!(time > before))
+      row.fail(kTime,
+               fmt::format("the time {} s does not come after {} s; expected increasing times; sort the rows",
+                           row.text(kTime), before));
+    before = time;
+    const std::int64_t which = repeat_of(row);
     // A rig that has not found its zero yet has no force to tell; outside of a press nothing is lost by that.
     const auto reading = [&](std::size_t column) {
-      const Cell& cell = cells[at_[column]];
-      return which == 0.0 && cell.text.empty() ? 0.0 : number(cell, column);
+      return which == 0 && row.text(column).empty() ? 0.0 : row.number(column);
     };
     const LoopPoint point{reading(kDeflection) * 1e-3, reading(kForce)};
-    if (which == 0.0 || !(point.deflection > 0.0)) return;
-    if (repeats.empty() && source_ < cells.size()) origin_ = cells[source_].text;
-    repeats[static_cast<std::int64_t>(which)].push_back(point);
+    if (which == 0 || !(point.deflection > 0.0)) continue;
+    if (repeats.empty() && !row.text(kSource).empty()) remark = row.text(kSource);
+    repeats[which].push_back(point);
   }
-
-  std::string_view text_;
-  std::string name_;
-  std::size_t line_ = 0, columns_ = 0, source_ = 0;
-  std::string origin_;
-  std::array<std::size_t, kColumns.size()> at_{};
-  double time_ = -std::numeric_limits<double>::infinity();
-};
+  return repeats;
+}
 
 // Pressing or releasing, by the travel over a window of readings, which a coarse or noisy position does not
 // turn around. What travels less than a quarter of the usual is at standstill or turns.
@@ -168,7 +77,7 @@ std::vector<LoopPoint> branches(std::vector<LoopPoint>& press) {
 }
 
 // What the whole file must say; `where` is its end.
-void check(const Reader& where, const LoopData& loop, double limit) {
+void check(const CsvReader& where, const LoopData& loop, double limit) {
   constexpr std::ptrdiff_t kFewest = 20;
   constexpr double kNear = 0.05e-3;  // m (decisions 6)
   double deepest = 0.0;
@@ -179,29 +88,27 @@ void check(const Reader& where, const LoopData& loop, double limit) {
   for (const auto& press : loop.moving)
     for (const LoopPoint& point : press) ++(point.pressing ? pressing : releasing);
   if (loop.presses.empty())
-    where.fail(
-        1,
+    where.fail_line(
         "no reading belongs to a press; expected rows with repeat 1, 2, ... and deflection_mm above 0; "
         "fill the column 'repeat'");
   if (deepest < limit - kNear)
-    where.fail(
-        1, fmt::format("the deepest deflection is {:.3f} mm; expected {:g} mm, the limit; press deeper, or "
-                       "give --limit-mm {:g}",
-                       deepest * 1e3, limit * 1e3, std::floor(deepest * 1e4) / 10.0));
+    where.fail_line(
+        fmt::format("the deepest deflection is {:.3f} mm; expected {:g} mm, the limit; press deeper, or "
+                    "give --limit-mm {:g}",
+                    deepest * 1e3, limit * 1e3, std::floor(deepest * 1e4) / 10.0));
   if (pressing < kFewest || releasing < kFewest)
-    where.fail(
-        1, fmt::format("there are {} readings while {}; expected at least {} on either branch; record the "
-                       "whole loop",
-                       pressing < kFewest ? pressing : releasing,
-                       pressing < kFewest ? "pressing" : "releasing", kFewest));
+    where.fail_line(fmt::format(
+        "there are {} readings while {}; expected at least {} on either branch; record the "
+        "whole loop",
+        pressing < kFewest ? pressing : releasing, pressing < kFewest ? "pressing" : "releasing", kFewest));
 }
 
 }  // namespace
 
 LoopData parse_loop(const std::string& text, const std::string& name, double limit) {
-  Reader reader(text, name);
+  CsvReader reader(text, name);
   LoopData loop;
-  auto repeats = reader.read(loop.remark);
+  auto repeats = read(reader, loop.remark);
   for (auto& [repeat, press] : repeats) {
     loop.moving.push_back(branches(press));
     loop.presses.push_back(std::move(press));

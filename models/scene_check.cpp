@@ -231,10 +231,11 @@ void check_pusher(const Setup& setup) {
   if (!s.force)
     fail(setup, "pusher", "the tip cannot feel the pusher; expected a [force]; add it or remove [pusher]");
   if (setup.rig.force.driver != "none" && setup.rig.force.driver != "sim")
-    fail(setup, "pusher",
-         fmt::format("[pusher] is simulated and the rig's force sensor is {}; expected 'sim'; use '--rig sim' "
-                     "or push the real machine by other means, without [pusher]",
-                     quoted(setup.rig.force.driver)));
+    fail(
+        setup, "pusher",
+        fmt::format("[pusher] is simulated and the rig's force sensor is {}; expected 'sim'; use '--rig sim' "
+                    "or push the real machine by other means, without [pusher]",
+                    quoted(setup.rig.force.driver)));
   if (s.pusher->rest_time < setup.rig.force.tare_time)
     fail(setup, "pusher.rest_s",
          fmt::format("'rest_s' is {:g}; expected at least 'rig.force.tare_time_s', {:g}, in which the force "

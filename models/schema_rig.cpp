@@ -23,6 +23,14 @@ void describe(Visitor& v, ManipulatorRig& m) {
   v.value({"acceleration_m_s2", "limit of commands", "decisions 1", derived, kPositive}, &m.acceleration);
   v.value({"tip_radius_mm", "haptic-tip's sphere; H is its centre", "fidelity 5", assumed, kPositive},
           &m.tip_radius);
+  v.value({"stem_radius_mm", "rod under the haptic-tip; in the way of a tool from below", "[VHMR 5]", assumed,
+           kNotNegative},
+          &m.stem_radius);
+  v.value({"stem_length_mm", "of it, from H down to the gripper", "[VHMR 5]", assumed, kPositive},
+          &m.stem_length);
+  v.value({"gripper_radius_mm", "of gripper and sensor, round about H's z: the sensor's", "parameters 3",
+           derived, kNotNegative},
+          &m.gripper_radius);
   v.value(
       {"servo_hz", "believed natural frequency of the position loop", "parameters 2.1", assumed, kPositive},
       &m.servo);
@@ -84,6 +92,9 @@ void describe(Visitor& v, TrackerRig& t) {
   v.value(
       {"farthest_m", "distance from C beyond which it is not a tool", "parameters 6.1", assumed, kPositive},
       &t.farthest);
+  v.value({"volume_mm", "sides along W of the box around its origin in which tools are followed",
+           "[VHMR 5] gives the product, 75e-3 m3", assumed, kPositive},
+          &t.volume);
 }
 
 void describe(Visitor& v, DisplayRig& d) {

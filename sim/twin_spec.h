@@ -56,7 +56,7 @@ struct TrackerTruth {
   double rate = 120.0;      // Hz, exposures, free-running
   double latency = 0.0035;  // s, exposure to host
   Packets packets = Packets::polled;
-  double server_rate = 100.0;                   // Hz, of polled packets
+  double server_rate = 100.0;  // Hz, of polled packets
   TrackerClocks clocks = TrackerClocks::free;
   double process = 0.0096;                      // s, in the server's application, from its tick to the packet
   double udp_delay = 0.0002;                    // s, mean of the exponential part (process and network)

@@ -87,14 +87,14 @@ std::vector<Row> rows_of(const std::string& csv) {
   EXPECT_EQ(
       text,
       "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
-      "source");
+      "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source");
   while (std::getline(in, text)) {
     Row row;
     std::istringstream cells(text);
     for (std::string cell; std::getline(cells, cell, ',');) {
       if (row.numbers.size() == 1 && row.mode.empty())
         row.mode = cell;
-      else if (row.numbers.size() == 10)
+      else if (row.numbers.size() == 14)
         row.source = cell;
       else
         row.numbers.push_back(cell.empty() ? kUnset : std::strtod(cell.c_str(), nullptr));
@@ -124,7 +124,7 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
   for (const Row& row : rows) {
     RecordedTick tick;
     ASSERT_TRUE(record.next(tick));
-    ASSERT_EQ(row.numbers.size(), 10U);
+    ASSERT_EQ(row.numbers.size(), 14U);
     ASSERT_EQ(row.mode, "probe");
     ASSERT_EQ(row.source,
               row.numbers[9] > 0 ? "SIMULATED and not measured: ball 'nominal' pressed 6 mm at 4 mm/s" : "");

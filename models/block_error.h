@@ -1,0 +1,51 @@
+// Errors of an estimate from sums over blocks of time: neighbouring readings err alike, blocks hardly do.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc::models {
+
+// A value and half of the width of its 95 % interval. Unset where nothing is known.
+struct Interval {
+  double value = kUnset, half = kUnset;
+  [[nodiscard]] bool known() const { return !std::isnan(value) && !std::isnan(half); }
+  [[nodiscard]] bool holds(double x) const { return x >= value - half && x <= value + half; }
+};
+
+// Student's t for 95 %, from the normal quantile (Abramowitz and Stegun 26.7.5).
+[[nodiscard]] inline double student(double freedom) {
+  constexpr double z = 1.959964;
+  constexpr double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
+  const double n = std::max(2.0, freedom);
+  return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
+         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
+}
+
+// What each block of time did to one number: the sum of their influences is its error.
+struct Blocks {
+  std::vector<double> influence, weight;  // weight: how much the block knows about it
+
+  [[nodiscard]] double variance() const {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t b = 0; b < influence.size(); ++b) {
+      sum += influence[b] * influence[b];
+      count += weight[b] > 0.0 ? 1.0 : 0.0;
+    }
+    return count > 1.0 ? sum * count / (count - 1.0) : kUnset;
+  }
+  // As many equal blocks, less one, would know as much.
+  [[nodiscard]] double freedom() const {
+    double sum = 0.0, squares = 0.0;
+    for (const double w : weight) sum += w, squares += w * w;
+    return squares > 0.0 ? sum * sum / squares - 1.0 : 0.0;
+  }
+  [[nodiscard]] Interval around(double value) const {
+    return {value, student(freedom()) * std::sqrt(variance())};
+  }
+};
+
+}  // namespace enc::models
