@@ -40,7 +40,7 @@ tr.no td { background: #fdecea }
 .missing { border-left: 4px solid #c00; padding: .5rem 1rem; background: #fdecea }
 .note { font-size: .9rem; color: #444; max-width: 60rem }
 @media (max-width: 40rem) { dl { grid-template-columns: 1fr } dd { margin-bottom: .4rem } body { padding: .6rem } }
-@media print { body { max-width: none; padding: 0; font-size: 10pt } .wide { overflow: visible } nav { display: none }
+@media print { html { font-size: 10pt } body { max-width: none; padding: 0; font-size: 10pt } .wide { overflow: visible } nav { display: none }
   table { font-size: 7pt } th { white-space: normal } tr, figure { break-inside: avoid } h2, h3 { break-after: avoid }
   .plots { grid-template-columns: 1fr 1fr } }
 </style>
