@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -48,13 +49,14 @@ models::Setup with_mesh(const BenchContext& context, Mesh mesh) {
 
 BenchResult run_mesh(const BenchContext& context) {
   BenchResult result{"mesh", "tennis_ball", 0, 0, {}};
-  const TemporaryFile file;
+  std::optional<TemporaryFile> file(std::in_place);
   const Mesh made = geodesic_ball(224);
-  models::write_mesh(made, file.path.string());
+  models::write_mesh(made, file->path.string());
   const double cpu_start = thread_seconds();
   const double start = wall_seconds();
-  models::CheckedMesh solid = models::load_solid(file.path.string());
+  models::CheckedMesh solid = models::load_solid(file->path.string());
   const double checked = wall_seconds();
+  file.reset();  // now, and not at the end: a run may be stopped
   const MeshTree tree(solid.mesh);
   const double ready = wall_seconds();
   const double cpu = thread_seconds() - cpu_start;
