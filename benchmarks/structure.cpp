@@ -128,15 +128,16 @@ void work_and_precision(const Report& report, const BenchContext& context) {
       jobs.size(),
       [&](std::size_t i) { jobs[i].path = swung(jobs[i].form, jobs[i].integrator, jobs[i].step, seconds); },
       context.progress);
-  report.result.plots.push_back({"structure.error_over_step",
-                                 "Error of H over the time step",
-                                 "time step (us)",
-                                 "rms error of H (um)",
-                                 true,
-                                 true,
-                                 {},
-                                 "RK4 falls with the fourth power of the step once it resolves the fastest "
-                                 "vibration, the others with the first."});
+  report.result.plots.push_back(
+      {"structure.error_over_step",
+       "Error of H over the time step",
+       "time step (us)",
+       "rms error of H (um)",
+       true,
+       true,
+       {},
+       "By theory RK4 falls with the fourth power of the step once that resolves the fastest vibration, "
+       "the others with the first; the table has the orders found."});
   report.result.plots.push_back({"structure.error_over_cost",
                                  "Work and precision of the hexapod's legs",
                                  "CPU time for each second of experiment (s)",
