@@ -177,8 +177,8 @@ class Session {
   [[noreturn]] void stop() const {
     std::string missing;
     for (const std::string& name : report_.missing) missing += " " + name;
-    fmt::print(stderr, "\nencounter: interrupted; {} of {} benchmarks complete, missing:{}\n",
-               report_.results.size(), choices_.size(), missing);
+    fmt::print(stderr, "{}encounter: interrupted; {} of {} benchmarks complete, missing:{}\n",
+               isatty(STDERR_FILENO) != 0 ? "\n" : "", report_.results.size(), choices_.size(), missing);
     std::fflush(nullptr);
     _exit(1);
   }

@@ -65,6 +65,7 @@ std::vector<Choice> chosen(const std::vector<std::string>& words) {
     if (benchmark == nullptr) refuse(word);
     add(list, benchmark, dot == std::string::npos ? std::string{} : word);
   }
+  if (list.empty()) throw Error(words.front() + " has no benchmark here; see encounter bench --list");
   return list;
 }
 

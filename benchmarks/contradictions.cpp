@@ -63,14 +63,16 @@ void force_errors(std::vector<Contradiction>& list) {
     const double share = 2.0 * std::pow(cell.mae / cell.rmse, 2);
     if (cell.mae - kHalfDigit > cell.rmse + kHalfDigit)
       c.found = fmt::format(
-          "impossible: neither mean |error| nor |mean error| can exceed the RMSE, here they would {:.2f} "
-          "times",
+          "impossible: neither mean |error| nor |mean error| can exceed the RMSE, here it would be {:.2f} "
+          "times as "
+          "large",
           cell.mae / cell.rmse);
     else if (share < 0.01)
       c.found = fmt::format(
-          "as mean |error|, {:.2f} % of the samples, each off by more than {:.1f} N, would make half of the "
-          "mean "
-          "square; the paper's repeatability is 0.2 N: possible only as |mean error|",
+          "as mean |error|, at least half of the mean square would come from at most {:.2f} % of the "
+          "samples, each "
+          "off by more than {:.1f} N, where the paper's repeatability is 0.2 N: possible only as |mean "
+          "error|",
           100.0 * share, cell.rmse * cell.rmse / (2.0 * cell.mae));
     if (!c.found.empty()) list.push_back(c);
   }

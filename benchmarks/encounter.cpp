@@ -89,7 +89,7 @@ BenchResult run_encounter(const BenchContext& context) {
        true,
        {{"median, bars: least and most over seeds", {}, {}, {}, {}, Mark::both},
         {"bound from rig and twin", {}, {}}},
-       "Every miss stays under the bound that follows from the numbers of the rig alone."});
+       "A miss must stay under the bound, which follows from the numbers of rig and twin alone."});
   double share = 0.0;
   for (const double speed : kSpeeds) {
     setup.scene.user->approach = {speed};

@@ -45,6 +45,21 @@ void drop_empty_columns(Table& table) {
   }
 }
 
+std::string verdict(const Report& report) {
+  std::size_t figures = 0;
+  std::size_t with_bounds = 0;
+  std::vector<std::string> broken;
+  for (const BenchResult& result : report.results) {
+    figures += result.figures.size();
+    with_bounds += count(result, bounded);
+    for (const Figure& f : result.figures)
+      if (!f.ok()) broken.push_back(f.id);
+  }
+  return fmt::format(
+      "{}, {} of them with bounds; {}", figures, with_bounds,
+      broken.empty() ? "all hold" : fmt::format("{} out of bounds: {}", broken.size(), joined(broken)));
+}
+
 }  // namespace
 
 const char* role_name(Role role) {
@@ -66,11 +81,22 @@ std::vector<Fact> facts(const Report& report) {
                          {"Machine", fmt::format("{}, {} cores, {}, compiler {}", machine.processor,
                                                  machine.cores, machine.system, machine.compiler)},
                          {"Seed", std::to_string(report.seed)},
-                         {"Command", report.command}};
+                         {"Command", report.command},
+                         {"Figures", verdict(report)}};
   if (!report.set.empty()) list.push_back({"With --set", joined(report.set)});
   if (!report.not_drawn.empty()) list.push_back({"Not drawn", report.not_drawn});
   if (!report.missing.empty()) list.push_back({"Missing", joined(report.missing)});
   return list;
+}
+
+std::vector<const Plot*> ordered_plots(const Report& report) {
+  std::vector<const Plot*> plots;
+  for (const BenchResult& result : report.results)
+    for (const Plot& plot : result.plots) plots.push_back(&plot);
+  std::stable_partition(plots.begin(), plots.end(), [](const Plot* plot) {
+    return std::any_of(plot->series.begin(), plot->series.end(), [](const Series& s) { return s.paper; });
+  });
+  return plots;
 }
 
 Table overview_table(const Report& report) {

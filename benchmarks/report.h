@@ -27,6 +27,8 @@ struct Fact {
   std::string name, value;
 };
 [[nodiscard]] std::vector<Fact> facts(const Report& report);
+// Those first that have a value of the paper in them.
+[[nodiscard]] std::vector<const Plot*> ordered_plots(const Report& report);
 // What the two forms of the report have in common. Columns with nothing in them are left out.
 [[nodiscard]] Table overview_table(const Report& report);
 [[nodiscard]] Table figure_table(const BenchResult& result);

@@ -40,7 +40,7 @@ tr.no td { background: #fdecea }
 .missing { border-left: 4px solid #c00; padding: .5rem 1rem; background: #fdecea }
 .note { font-size: .9rem; color: #444; max-width: 60rem }
 @media (max-width: 40rem) { dl { grid-template-columns: 1fr } dd { margin-bottom: .4rem } body { padding: .6rem } }
-@media print { body { max-width: none; padding: 0; font-size: 10pt } .wide { overflow: visible } nav { display: none }
+@media print { html { font-size: 10pt } body { max-width: none; padding: 0; font-size: 10pt } .wide { overflow: visible } nav { display: none }
   table { font-size: 7pt } th { white-space: normal } tr, figure { break-inside: avoid } h2, h3 { break-after: avoid }
   .plots { grid-template-columns: 1fr 1fr } }
 </style>
@@ -74,8 +74,9 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+// Also of a range.
 bool is_number(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("+-0123456789.e") == std::string::npos &&
+  return !text.empty() && text.find_first_not_of("+-0123456789.e ") == std::string::npos &&
          text.find_first_of("0123456789") != std::string::npos;
 }
 
@@ -114,14 +115,13 @@ std::string head(const Report& report) {
 
 std::string plots(const Report& report) {
   std::string text;
-  for (const BenchResult& result : report.results)
-    for (const Plot& plot : result.plots) {
-      const auto svg = report.drawings.find(plot.id);
-      if (svg == report.drawings.end()) continue;
-      text += fmt::format(
-          "<figure id=\"plot.{}\">\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
-          escaped(plot.id), svg_for_page(svg->second, plot.id), escaped(plot.title), escaped(plot.caption));
-    }
+  for (const Plot* plot : ordered_plots(report)) {
+    const auto svg = report.drawings.find(plot->id);
+    if (svg == report.drawings.end()) continue;
+    text += fmt::format(
+        "<figure id=\"plot.{}\">\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
+        escaped(plot->id), svg_for_page(svg->second, plot->id), escaped(plot->title), escaped(plot->caption));
+  }
   if (text.empty()) return {};
   return "<h2>Plots</h2>\n<p class=\"note\">Black, open circles or dashed: the paper. Colours: the twin. "
          "Crosses at the "

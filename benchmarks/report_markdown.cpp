@@ -45,13 +45,12 @@ std::string report_markdown(const Report& report) {
   std::string text = "# Encounter: benchmark report\n\n";
   for (const Fact& fact : facts(report)) text += fmt::format("- **{}**: {}\n", fact.name, plain(fact.value));
   text += "\n" + table(overview_table(report));
-  for (const BenchResult& result : report.results)
-    for (const Plot& plot : result.plots) {
-      text += fmt::format("\n## {}\n\n", plain(plot.title));
-      if (report.drawings.contains(plot.id))
-        text += fmt::format("![{}]({}.svg)\n\n", plain(plot.title), plot.id);
-      text += fmt::format("{} ([data]({}.plot.csv))\n", plain(plot.caption), plot.id);
-    }
+  for (const Plot* plot : ordered_plots(report)) {
+    text += fmt::format("\n## {}\n\n", plain(plot->title));
+    if (report.drawings.contains(plot->id))
+      text += fmt::format("![{}]({}.svg)\n\n", plain(plot->title), plot->id);
+    text += fmt::format("{} ([data]({}.plot.csv))\n", plain(plot->caption), plot->id);
+  }
   for (const BenchResult& result : report.results) {
     text += fmt::format("\n## {}\n\n{}", plain(result.name), table(figure_table(result)));
     for (const Table& t : result.tables) text += fmt::format("\n### {}\n\n{}", plain(t.title), table(t));

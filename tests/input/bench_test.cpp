@@ -75,6 +75,22 @@ TEST(Bench, WithoutGnuplotItSaysSoInOneLine) {
   EXPECT_THAT(bytes_of(folder.path() / "out/encounter.csv"), HasSubstr("encounter.miss.10.median"));
 }
 
+// Also on all cores: the same seed gives the same figures to the last digit, an override others.
+TEST(Bench, FiguresFollowFromSeedAndOverridesAlone) {
+  const test::TemporaryFolder folder;
+  const auto figures = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"bench", "encounter", "--repeats=3", "--out", folder.file("out")});
+    run_program(more);
+    return bytes_of(folder.path() / "out/encounter.csv") + bytes_of(folder.path() / "out/encounter.miss.svg");
+  };
+  const std::string first = figures({});
+  EXPECT_THAT(first, HasSubstr("</svg>"));
+  EXPECT_EQ(figures({}), first);
+  EXPECT_NE(figures({"--seed", "2"}), first);
+  EXPECT_NE(figures({"--set", "truth.tracker.bias_mm=[0,0,0.3]"}), first);
+  EXPECT_THAT(bytes_of(folder.path() / "out/report.html"), HasSubstr("truth.tracker.bias_mm=[0,0,0.3]"));
+}
+
 // Stopped when the first benchmark is complete, in the middle of the second, which would take minutes.
 class StoppedBench : public ::testing::TestWithParam<int> {};
 

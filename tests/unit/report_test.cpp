@@ -117,6 +117,22 @@ TEST(ReportHtml, IsOnePageWithItsPicturesAndWithoutScriptsOrLinksOut) {
   EXPECT_LT(page.find("<svg"), page.find("<table"));
 }
 
+TEST(ReportHtml, SaysFirstWhatDoesNotHold) {
+  EXPECT_THAT(report_html(small_report()),
+              HasSubstr("<dd>3, 2 of them with bounds; 1 out of bounds: press.b.max</dd>"));
+}
+
+TEST(ReportHtml, PlotsWithThePaperInThemComeFirst) {
+  Report report = small_report();
+  report.results[0].plots.insert(report.results[0].plots.begin(), small_plot());
+  report.results[0].plots[0].id = "press.alone";
+  report.results[0].plots[0].series.pop_back();
+  const std::vector<const Plot*> plots = ordered_plots(report);
+  ASSERT_EQ(plots.size(), 2U);
+  EXPECT_EQ(plots[0]->id, "press.demo");
+  EXPECT_EQ(plots[1]->id, "press.alone");
+}
+
 TEST(ReportHtml, TextIsText) {
   const std::string page = report_html(small_report());
   EXPECT_THAT(page, HasSubstr("a | b &lt;c&gt;"));

@@ -1,0 +1,74 @@
+// What the words after `bench` name.
+#include "benchmarks/choice.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace enc::bench {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> names_of(const std::vector<Choice>& choices) {
+  std::vector<std::string> names;
+  for (const Choice& c : choices) names.emplace_back(c.benchmark->name);
+  return names;
+}
+
+std::string refusal(const std::vector<std::string>& words) {
+  try {
+    (void)chosen(words);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "not refused";
+}
+
+TEST(Choice, NoWordsAreAllBenchmarks) { EXPECT_EQ(chosen({}).size(), benchmarks().size()); }
+
+TEST(Choice, IsInTheOrderNamedAndEachOnce) {
+  EXPECT_THAT(names_of(chosen({"speed", "dent", "speed"})), ElementsAre("speed", "dent"));
+}
+
+TEST(Choice, IdsOfOneBenchmarkComeTogetherAndTheWholeWins) {
+  const std::vector<Choice> ids = chosen({"press.restore", "dent", "press.outside.max"});
+  ASSERT_THAT(names_of(ids), ElementsAre("press", "dent"));
+  EXPECT_THAT(ids[0].ids, ElementsAre("press.restore", "press.outside.max"));
+  EXPECT_THAT(ids[1].ids, IsEmpty());
+  EXPECT_THAT(chosen({"press.restore", "press"}).front().ids, IsEmpty());
+  EXPECT_THAT(chosen({"press", "press.restore"}).front().ids, IsEmpty());
+}
+
+TEST(Choice, AnIdIsWholeTokens) {
+  const Choice choice = chosen({"encounter.miss.10"}).front();
+  const auto figure = [](const char* id) {
+    return Figure{id, kUnset, 1.0, "", Role::ours, kUnset, kUnset, ""};
+  };
+  EXPECT_TRUE(wanted(choice, figure("encounter.miss.10.max")));
+  EXPECT_TRUE(wanted(choice, figure("encounter.miss.10")));
+  EXPECT_FALSE(wanted(choice, figure("encounter.miss.100.max")));
+  EXPECT_FALSE(wanted(choice, figure("encounter.miss.20.max")));
+}
+
+TEST(Choice, WhatDoesNotExistIsRefusedWithTheNearest) {
+  EXPECT_THAT(refusal({"pres.restore.max"}), HasSubstr("unknown benchmark 'pres'; did you mean 'press'?"));
+  EXPECT_THAT(refusal({"paper-2021"}), HasSubstr("'paper-2020'"));
+  EXPECT_THAT(refusal({""}), HasSubstr("unknown benchmark"));
+  BenchResult result{
+      "press", "", 0, 0, {{"press.restore.max", kUnset, 1.0, "", Role::ours, kUnset, kUnset, ""}}};
+  EXPECT_NO_THROW(check_ids(chosen({"press.restore"}).front(), result));
+  EXPECT_NO_THROW(check_ids(chosen({"press"}).front(), result));
+  try {
+    check_ids(chosen({"press.restor.max"}).front(), result);
+    FAIL() << "not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("unknown figure 'press.restor.max'; did you mean 'press.restore.max'?"));
+  }
+}
+
+}  // namespace
+}  // namespace enc::bench
