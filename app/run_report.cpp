@@ -122,6 +122,16 @@ std::string push_lines(const RunReport& r) {
   return text;
 }
 
+// What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
+std::string pushed_lines(const RunReport& r) {
+  if (!r.setup.scene.pusher) return "";
+  const auto& pushes = r.presses.presses();
+  return fmt::format("pushed      {} of {} times from outside; at most {:.2f} N and {:.3f} mm deep (true)\n",
+                     pushes.size(), r.setup.scene.pusher->repeats,
+                     peak(pushes, &bench::PressFigures::peak_force),
+                     peak(pushes, &bench::PressFigures::peak_deflection) * 1e3);
+}
+
 }  // namespace
 
 StepTimes step_times(const std::vector<std::uint32_t>& ns) {
@@ -138,7 +148,7 @@ std::string run_text(const RunReport& r) {
     if (&why == &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) break;
   }
   text += weak_text(r.setup, r.scene);
-  text += press_lines(r) + push_lines(r);
+  text += press_lines(r) + push_lines(r) + pushed_lines(r);
   if (r.result.contacts == 0 && r.setup.scene.user)
     text += fmt::format("note        the user never touched anything; last notice of the core: {}\n",
                         r.result.last_why == 0 ? "none" : why_text(r.result.last_why));

@@ -153,9 +153,21 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
       {"stiffness.unstable.0.02.percent", 100.0, 100.0 * at_20, "%", Role::calibrated, 100, 100, note});
   result.figures.push_back(
       {"stiffness.unstable.0.035.percent", 0.0, 100.0 * at_35, "%", Role::calibrated, 0, 0, note});
-  result.figures.push_back(
-      {"stiffness.lowest_stable_N_per_mm", paper.softest, lowest / kPerMm, "N/mm", Role::calibrated, 0.026,
-       0.034, "from here up 22 of 24 pushes come to rest; calibrated by the pusher's stiffness"});
+  Figure boundary{"stiffness.lowest_stable_N_per_mm",
+                  paper.softest,
+                  lowest / kPerMm,
+                  "N/mm",
+                  Role::calibrated,
+                  0.026,
+                  0.034,
+                  "from here up 22 of 24 pushes come to rest; calibrated by the pusher's stiffness. "
+                  "Interval: from where all are unstable to where none is"};
+  for (const auto& [point, ways] : map.seen()) {  // in rising order
+    const double k = static_cast<double>(point) * map.grid();
+    if (map.unstable_share(k) == 1.0) boundary.least = k / kPerMm;
+    if (map.unstable_share(k) == 0.0 && std::isnan(boundary.most)) boundary.most = k / kPerMm;
+  }
+  result.figures.push_back(std::move(boundary));
   result.figures.push_back({"stiffness.linear.lowest_stable_N_per_mm", kUnset, linear / kPerMm, "N/mm",
                             Role::ours, kUnset, kUnset,
                             "of the loop without limits of speed and acceleration (core/loop_model.h)"});
