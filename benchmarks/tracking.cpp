@@ -3,7 +3,6 @@
 // which side of the lag is the registration's bias?
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -54,19 +53,16 @@ void run_all(const std::vector<Group*>& groups, const BenchContext& context, dou
   for (Group* group : groups)
     for (std::size_t seed = 0; seed < group->seeds.size(); ++seed)
       for (std::size_t axis = 0; axis < 3; ++axis) jobs.push_back({group, seed, axis, {}});
-  std::atomic<std::size_t> done{0};
   in_parallel(jobs.size(), [&](std::size_t i) {
     Job& job = jobs[i];
     // Every axis has its own phase of tracker and server, as experiments one after another have.
     job.errors =
         run_travel(job.group->setup[job.axis], context.seed * 1000 + 3 * job.seed + job.axis, job.seed == 0);
-    ++done;
   });
   for (const Job& job : jobs) {
     job.group->seeds[job.seed].add(job.errors);
     simulated += job.errors.simulated;
   }
-  if (context.progress) context.progress(1.0);
 }
 
 std::array<Cell, 4> moving_column(const TravelErrors& errors, BiasSide side) {
@@ -164,8 +160,8 @@ struct Sizes {
 };
 Sizes sizes_of(const BenchContext& context) {
   const auto repeats = static_cast<std::size_t>(context.repeats);
-  if (context.quick) return {repeats > 0 ? repeats : 6, 2, 300};
-  return {repeats > 0 ? repeats : 24, 6, context.full ? 6000UL : 2000UL};
+  if (context.quick) return {repeats > 0 ? repeats : 12, 2, 300};
+  return {repeats > 0 ? repeats : 36, 6, context.full ? 6000UL : 2000UL};
 }
 
 // Every run of the benchmark, made at once.
