@@ -20,10 +20,10 @@ double miss_bound(const models::Setup& setup, double approach_speed) {
   // Still errors: inset, registration, three sigma of the tracker, tremor and drift of the hand within the
   // data's age.
   const double still = setup.scene.follow.inset + twin.tracker.bias.norm() + 3.0 * twin.tracker.noise.norm();
-  // Age of what the tip acts on, at worst: a frame, a server slot, three times the mean network delay,
-  // cycles, servo.
+  // Age of what the tip acts on, at worst: a frame, a server slot and its processing, three times the mean
+  // network delay, cycles, servo.
   const double age = 1.0 / twin.tracker.rate + twin.tracker.latency + 1.0 / twin.tracker.server_rate +
-                     3.0 * twin.tracker.udp_delay +
+                     twin.tracker.process + 3.0 * twin.tracker.udp_delay +
                      (static_cast<double>(twin.hexapod.delay_cycles) + 2.0) / rig.loop.rate +
                      2.0 * twin.hexapod.damping / (2.0 * M_PI * twin.hexapod.servo);
   const double tilt = setup.scene.user ? setup.scene.user->approach_tilt : 0.0;

@@ -3,7 +3,6 @@
 // which side of the lag is the registration's bias?
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -54,19 +53,16 @@ void run_all(const std::vector<Group*>& groups, const BenchContext& context, dou
   for (Group* group : groups)
     for (std::size_t seed = 0; seed < group->seeds.size(); ++seed)
       for (std::size_t axis = 0; axis < 3; ++axis) jobs.push_back({group, seed, axis, {}});
-  std::atomic<std::size_t> done{0};
   in_parallel(jobs.size(), [&](std::size_t i) {
     Job& job = jobs[i];
     // Every axis has its own phase of tracker and server, as experiments one after another have.
     job.errors =
         run_travel(job.group->setup[job.axis], context.seed * 1000 + 3 * job.seed + job.axis, job.seed == 0);
-    ++done;
   });
   for (const Job& job : jobs) {
     job.group->seeds[job.seed].add(job.errors);
     simulated += job.errors.simulated;
   }
-  if (context.progress) context.progress(1.0);
 }
 
 std::array<Cell, 4> moving_column(const TravelErrors& errors, BiasSide side) {
@@ -164,15 +160,16 @@ struct Sizes {
 };
 Sizes sizes_of(const BenchContext& context) {
   const auto repeats = static_cast<std::size_t>(context.repeats);
-  if (context.quick) return {repeats > 0 ? repeats : 3, 2, 300};
-  return {repeats > 0 ? repeats : 12, 6, context.full ? 6000UL : 2000UL};
+  if (context.quick) return {repeats > 0 ? repeats : 12, 2, 300};
+  return {repeats > 0 ? repeats : 36, 6, context.full ? 6000UL : 2000UL};
 }
 
 // Every run of the benchmark, made at once.
 struct Experiment {
-  Group slow, fast;                  // 20 and 40 mm/s, both ways, as the rig is
+  Group slow, fast;                  // 20 and 40 mm/s, one way, as the rig is
+  Group slow_both, fast_both;        // both ways
   Group slow_from_20, fast_from_20;  // with what columns 0 and 20 alone give
-  Group slow_adds, fast_adds;        // with the best of the other hypothesis
+  Group slow_adds, fast_adds;        // with the best of the other hypothesis, both ways
   Group later, crawl;                // 40 mm/s with 5 ms more; 5 mm/s
 };
 
@@ -280,8 +277,11 @@ BenchResult run_tracking(const BenchContext& context) {
     append(set, more);
     return group_of(context, set, seeds);
   };
-  Experiment runs{
-      at(20, "both_ways", {}, sizes.seeds), at(40, "both_ways", {}, sizes.seeds), {}, {}, {}, {}, {}, {}};
+  Experiment runs;
+  runs.slow = at(20, "one_way", {}, sizes.seeds);
+  runs.fast = at(40, "one_way", {}, sizes.seeds);
+  runs.slow_both = at(20, "both_ways", {}, sizes.few_seeds);
+  runs.fast_both = at(40, "both_ways", {}, sizes.few_seeds);
 
   // Calibration, by the theory alone.
   const models::Setup& base = runs.fast.setup[0];
@@ -308,8 +308,8 @@ BenchResult run_tracking(const BenchContext& context) {
   runs.crawl = at(5, "one_way", {}, sizes.few_seeds);
   runs.later = runs.fast;
   for (models::Setup& setup : runs.later.setup) setup = later(setup);
-  run_all({&runs.slow, &runs.fast, &runs.slow_from_20, &runs.fast_from_20, &runs.slow_adds, &runs.fast_adds,
-           &runs.later, &runs.crawl},
+  run_all({&runs.slow, &runs.fast, &runs.slow_both, &runs.fast_both, &runs.slow_from_20, &runs.fast_from_20,
+           &runs.slow_adds, &runs.fast_adds, &runs.later, &runs.crawl},
           context, result.simulated);
   const double exact = exact_error(context, result.simulated);
 
@@ -330,8 +330,8 @@ BenchResult run_tracking(const BenchContext& context) {
                           open,
                           twin_table(runs.slow_from_20, runs.fast_from_20, BiasSide::opposes).table,
                           twin_table(runs.slow_adds, runs.fast_adds, BiasSide::adds).table,
-                          twin_table(runs.slow, runs.fast, BiasSide::adds).table,
-                          twin_table(runs.slow, runs.fast, BiasSide::both_ways).table,
+                          twin_table(runs.slow_both, runs.fast_both, BiasSide::adds).table,
+                          twin_table(runs.slow_both, runs.fast_both, BiasSide::both_ways).table,
                           runs.fast.seeds.front().packets,
                           chain,
                           base.twin.tracker.bias.x()};

@@ -225,7 +225,7 @@ Plot predictive_plot(const Pictures& p) {
   }
   const double value = p.paper[2][3].rmse * kMillimetres;
   plot.series.push_back({"paper", {value, value}, {0.0, 1.0}, {}, {}, Mark::line, true});
-  plot.caption = "The paper's value lies in the middle of what 'opposes' predicts.";
+  plot.caption = "The paper's value is an ordinary one where the bias opposes the lag.";
   return plot;
 }
 

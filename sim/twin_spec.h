@@ -58,8 +58,8 @@ struct TrackerTruth {
   Packets packets = Packets::polled;
   double server_rate = 100.0;  // Hz, of polled packets
   TrackerClocks clocks = TrackerClocks::free;
-  double process = 0.0096;                      // s, in the server's application, from its tick to the packet
-  double udp_delay = 0.0002;                    // s, mean of the exponential part (process and network)
+  double process = 0.0092;                      // s, in the server's application, from its tick to the packet
+  double udp_delay = 0.0005;                    // s, mean of the exponential part (process and network)
   Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
   Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
   double stamp_error = 0.0;                     // s: stamps are this much later than the exposure

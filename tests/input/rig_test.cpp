@@ -198,6 +198,29 @@ TEST_F(RigProgram, MistakesInAProbe) {
   EXPECT_THAT(refused({"truth.ball.uneven=0.06"}), HasSubstr("expected a number from -0.05 to 0.05"));
 }
 
+TEST_F(RigProgram, MistakesInATravel) {
+  const auto said = [&](const std::string& set) {
+    const Result r = run_program({"run", scene("tracking"), "--set", set});
+    EXPECT_EQ(r.code, 2) << set;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    return r.err;
+  };
+  EXPECT_THAT(said("travel.speed_mm_s=51"),
+              HasSubstr("the machine cannot travel that fast; lower speed_mm_s"));
+  EXPECT_THAT(said("travel.speed_mm_s=0"), HasSubstr("expected a positive number"));
+  EXPECT_THAT(said("travel.stops_mm=[0, 60]"), HasSubstr("out of the machine's reach"));
+  EXPECT_THAT(said("travel.stops_mm=[0, 20, 10]"), HasSubstr("stops must grow"));
+  EXPECT_THAT(said("travel.stops_mm=[0]"), HasSubstr("at least two stops"));
+  EXPECT_THAT(said("travel.start_mm=[0, 0, 0]"), HasSubstr("move start_mm"));
+  EXPECT_THAT(said("travel.axes=\"xw\""), HasSubstr("expected axes out of x, y and z"));
+  EXPECT_THAT(said("travel.ways=\"back\""), HasSubstr("'ways' is 'back'; expected"));
+  EXPECT_THAT(said("travel.dwell_s=nan"), HasSubstr("dwell_s"));
+  EXPECT_THAT(said("travel.repeats=0"), HasSubstr("expected"));
+  EXPECT_THAT(said("travel.spead_mm_s=20"), HasSubstr("speed_mm_s"));
+  EXPECT_THAT(said("truth.tracker.process_ms=700"), HasSubstr("at most 60 packets"));
+  EXPECT_THAT(said("truth.tracker.clocks=\"tied\""), HasSubstr("'clocks' is 'tied'; expected"));
+}
+
 TEST_F(RigProgram, ScenesThatAreNoRig) {
   const auto said = [&](const std::string& from, const std::string& to) {
     const Result r = run_program({"run", edited(from, to)}, kModels);
