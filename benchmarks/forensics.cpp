@@ -117,7 +117,10 @@ void add_figures(BenchResult& result, const std::vector<Tried>& trials) {
   add("bias.percent", near_bias * share, "%", 95.0, logs + ", all axes recovered to 0.01 mm; up to 0.3 mm");
   add("latency.max", worst / kMillisecond, "ms", kUnset, "largest error of the latency");
   add("bias.max", worst_bias / kMillimetre, "mm", kUnset, "largest error of a bias");
-  add("latency_interval.percent", held * share, "%", kUnset, "its 95 % interval holds the latency");
+  add("latency_interval.percent", held * share, "%", kUnset,
+      "its 95 % interval holds the mean age of this log's packets; it is wide, because it is made for the "
+      "mean of "
+      "all that might have come");
   add("bias_interval.percent", bias_held * share, "%", kUnset, "its 95 % interval holds the bias");
 }
 

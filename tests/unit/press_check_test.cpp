@@ -36,11 +36,12 @@ TEST(PressCheck, ThenTheGripper) {
   rig.manipulator.stem_radius = 0.0;
   const Scene scene = prepare(test::ball_scene(), rig);
   const double edge = std::atan2(37.7, 40.0) + std::asin(2.0 / std::hypot(37.7, 40.0));
-  EXPECT_NEAR(steepest_press(scene, scene.tools.front()) / kDegree, 180.0 - edge / kDegree, 1e-6);
-  EXPECT_EQ(in_the_way(scene, from(150), scene.tools.front()), Obstacle::gripper);
-  Tool shorter = scene.tools.front();
-  shorter.length = 0.010;  // ends above the gripper
-  EXPECT_EQ(in_the_way(scene, from(150), shorter), Obstacle::none);
+  Tool tool = scene.tools.front();
+  tool.length = 0.120;
+  EXPECT_NEAR(steepest_press(scene, tool) / kDegree, 180.0 - edge / kDegree, 1e-6);
+  EXPECT_EQ(in_the_way(scene, from(150), tool), Obstacle::gripper);
+  tool.length = 0.010;  // ends above the gripper
+  EXPECT_EQ(in_the_way(scene, from(150), tool), Obstacle::none);
 }
 
 TEST(PressCheck, APressFromBelowIsRefusedEvenWithinReach) {
@@ -87,7 +88,9 @@ TEST(ReachVolume, AgreesWithTheMachinesOwnLimit) {
     const bool reached =
         machine.limit(Pose<'R', 'H'>(Quat::Identity(), Vec3(p + machine.zero().p()))) == ReachLimit::none;
     EXPECT_EQ(p.z() >= column.low && p.z() <= column.high, reached) << p.transpose();
-    if (reached) EXPECT_GE(reach.turned_slack(p), 0.0);
+    if (reached) {
+      EXPECT_GE(reach.turned_slack(p), 0.0);
+    }
     inside += reached;
   }
   // 0.29e-3 of 0.2 x 0.2 x 0.08 m3.

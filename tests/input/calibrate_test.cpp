@@ -1,0 +1,110 @@
+// `encounter calibrate` as a person uses it: from a run to its bias; and mistakes in logs, one line each.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
+
+class Calibrate : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (temporary_.path() / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+  // What one line on stderr says, with exit code 2.
+  static std::string line(const std::vector<std::string>& args) {
+    const Result r = run_program(args, kModels);
+    EXPECT_EQ(r.code, 2) << r.out;
+    EXPECT_EQ(r.out, "");
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    return r.err;
+  }
+  test::TemporaryFolder temporary_;
+};
+
+// 20 ms late, there and back along x at two speeds.
+std::string log_text() {
+  const auto tip = [](double t) {
+    const double phase = std::fmod(t, 4.0), speed = t < 4.0 ? 20.0 : 40.0;
+    const double moved = phase < 1.0 ? 0.0 : phase < 2.0 ? phase - 1.0 : phase < 3.0 ? 1.0 : 4.0 - phase;
+    return t < 0.0 ? 0.0 : speed * moved;
+  };
+  std::string text = "time_s,tip_x_mm,tip_y_mm,tip_z_mm,tool_x_mm,tool_y_mm,tool_z_mm\n";
+  for (int n = 0; n < 8000; ++n) {
+    const double t = n * 1e-3;
+    text += fmt::format("{:.3f},{:.4f},0,0,", t, tip(t));
+    text +=
+        n % 10 == 0 ? fmt::format("{:.4f},{:.4f},0.1\n", tip(t - 0.020) + 0.3, 0.002 * (n / 10 % 3)) : ",,\n";
+  }
+  return text;
+}
+
+TEST_F(Calibrate, TellsBiasAndLatency) {
+  const Result r = run_program({"calibrate", write("l.csv", log_text())});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("800 packets at 100 Hz"), HasSubstr("\nx            20.0"),
+                           HasSubstr("0.3000 +- 0.000"), HasSubstr("y did not move"),
+                           HasSubstr("rig.frames.W_C.position_mm: take away [0.3000")));
+  const Result json = run_program({"calibrate", path("l.csv"), "--json"});
+  EXPECT_THAT(json.out, AllOf(HasSubstr("\"latency_ms\": 20.0"), HasSubstr("\"latency_half_ms\": "),
+                              HasSubstr("\"one_way\": false"), HasSubstr("\"stamp_late_ms\": null")));
+}
+
+TEST_F(Calibrate, ReadsWhatExportWrites) {
+  const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml";
+  ASSERT_EQ(run_program({"run", scene, "--for-s", "3", "--record", path("r.encrec"), "--set",
+                         "truth.tracker.bias_mm=[0.2,0,-0.1]"},
+                        kModels)
+                .code,
+            0);
+  ASSERT_EQ(run_program({"export", path("r.encrec"), "--csv", path("r.csv")}).code, 0);
+  const Result r = run_program({"calibrate", path("r.csv")});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out,
+              AllOf(HasSubstr("3001 rows at 1000 Hz"), HasSubstr("x did not move"),
+                    HasSubstr("nothing moved to compare them with"), HasSubstr(" 0.20"), HasSubstr("-0.10")));
+}
+
+TEST_F(Calibrate, RefusesBadLogsInOneLine) {
+  const std::string good = log_text();
+  const std::string head = good.substr(0, good.find('\n') + 1);
+  const auto at = [&](int row) {  // where a row begins
+    std::size_t place = 0;
+    for (int i = 0; i <= row; ++i) place = good.find('\n', place) + 1;
+    return place;
+  };
+  EXPECT_THAT(line({"calibrate", write("empty.csv", "")}), HasSubstr("empty.csv:1:1: there is no column"));
+  EXPECT_THAT(line({"calibrate", path("none.csv")}), HasSubstr("none.csv:1:1: cannot read this log"));
+  EXPECT_THAT(line({"calibrate", temporary_.path().string()}), HasSubstr("cannot read this log"));
+  EXPECT_THAT(line({"calibrate", write("nan.csv", good + "8.000,nan,0,0,,,\n")}),
+              HasSubstr("nan.csv:8002:7: 'tip_x_mm' is 'nan'"));
+  EXPECT_THAT(line({"calibrate", write("back.csv", good + "1.000,0,0,0,,,\n")}),
+              HasSubstr("back.csv:8002:1: the time 1.000 s does not come after 7.999 s"));
+  EXPECT_THAT(line({"calibrate", write("gap.csv", good.substr(0, at(3000)) + good.substr(at(3100)))}),
+              HasSubstr("gap.csv:3002:1: rows are missing from 2.999 to 3.1 s"));
+  EXPECT_THAT(line({"calibrate", write("short.csv", good.substr(0, at(5)))}), HasSubstr("there are 5 rows"));
+  EXPECT_THAT(line({"calibrate", write("few.csv", good.substr(0, at(50)))}),
+              HasSubstr("there are 5 packets"));
+  EXPECT_THAT(line({"calibrate", write("l.csv", good), "--rate-Hz", "500"}), HasSubstr("expected 500 Hz"));
+  EXPECT_THAT(line({"calibrate", path("l.csv"), "--rate-Hz", "-1"}), HasSubstr("--rate-Hz"));
+}
+
+}  // namespace
+}  // namespace enc::tests
