@@ -62,6 +62,38 @@ TEST(SimulatedTracker, RateAndAgeAreThoseOfTheRig) {
   EXPECT_NEAR(tally.age / tally.news, expected, 0.05 * expected);
 }
 
+// Sent when ready: every exposure comes, and none waits for the server.
+TEST(SimulatedTracker, PacketsByEventComeAtTheExposuresRateWithoutTheServersWait) {
+  Twin twin({"truth.tracker.packets=event", "truth.tracker.server_rate_hz=1"});
+  const Tally tally = watch(twin, 60.0);
+  const sim::TrackerTruth& truth = twin.setup.twin.tracker;
+  EXPECT_FALSE(tally.backwards);
+  EXPECT_GT(tally.news / 60.0,
+            110.0);  // of 120: a packet that is overtaken, or comes with the next, is not news
+  EXPECT_LE(tally.news / 60.0, 120.1);
+  const double expected = truth.latency + truth.udp_delay + 0.5e-3;
+  EXPECT_NEAR(tally.age / tally.news, expected, 0.1 * expected);
+}
+
+TEST(SimulatedTracker, AStampErrorIsInTheStampsAndNowhereElse) {
+  Twin right;
+  Twin wrong({"truth.tracker.stamp_error_ms=3"});
+  Stamped<TrackedTool> a;
+  Stamped<TrackedTool> b;
+  int news = 0;
+  for (int i = 0; i < 1000; ++i) {
+    right.rig.clock->next();
+    wrong.rig.clock->next();
+    const bool is_news = right.rig.tracker->poll(a);
+    ASSERT_EQ(wrong.rig.tracker->poll(b), is_news);
+    if (!is_news) continue;
+    ++news;
+    EXPECT_EQ(b.t - a.t, from_seconds(0.003));
+    EXPECT_EQ(b.value.X_CT.xyz, a.value.X_CT.xyz);
+  }
+  EXPECT_GT(news, 90);
+}
+
 TEST(SimulatedTracker, BlackOutIsAsLongAsSaid) {
   Twin twin({"truth.tracker.blackout_at_s=1", "truth.tracker.blackout_for_s=0.2"});
   const Tally tally = watch(twin, 3.0);

@@ -32,6 +32,7 @@ TipMotion tracked(const TrackerRig& rig, const Way& way, int end) {
   TipMotion motion;
   for (int ms = 0; ms <= end; ms += 10)
     observe(rig, 0, at_ms(ms), Point<'W'>(way(1e-3 * ms), 0, 0), at_ms(ms), motion);
+  catch_up(motion, 1e3);  // the second pose, which told the speed
   return motion;
 }
 double x_at(const TrackerRig& rig, const TipMotion& motion, int ms) {
