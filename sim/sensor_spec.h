@@ -1,0 +1,56 @@
+// What sensors and display really do: [truth.force], [truth.tracker], [truth.display]. A part of twin_spec.h.
+#pragma once
+
+#include <cstdint>
+
+#include "core/frames.h"
+
+namespace enc::sim {
+
+struct ForceTruth {
+  double quantum = 0.025;           // N
+  double torque_quantum = 0.00125;  // N m
+  double range = 130.0;             // N
+  std::int64_t oversampling = 1;    // readings averaged into a sample
+  double torque_range = 10.0;       // N m
+  double noise = 0.0125;            // N rms
+  double torque_noise = 0.0005;     // N m rms
+  double zero = 0.5;                // N rms: zero error at power-up, constant
+  double drift = 0.002;             // N / sqrt(s): random walk of the zero
+  double push_drift = 0.02;         // N rms: where the zero has got to, drawn anew for each push of a pusher
+  double drift_ahead = 0.0;         // s before the push in which it gets there; 0: at once
+  Vec3 turned{0, 0, 0};             // of the sensor against the believed X_HF, rad
+};
+
+enum class TrackerClocks : std::uint8_t {
+  free,    // exposures and server ticks begin at any time, drawn by the seed
+  aligned  // both begin with the loop: no sample waits where the rates are the loop's
+};
+
+enum class Packets : std::uint8_t {
+  polled,  // the server sends its newest pose at its own rate, as the paper's does [VHMR 2]
+  event    // each pose as soon as it is there
+};
+
+struct TrackerTruth {
+  double rate = 120.0;      // Hz, exposures, free-running
+  double latency = 0.0035;  // s, exposure to host
+  Packets packets = Packets::polled;
+  double server_rate = 100.0;  // Hz, of polled packets
+  TrackerClocks clocks = TrackerClocks::free;
+  double process = 0.0092;                      // s, in the server's application, from its tick to the packet
+  double udp_delay = 0.0005;                    // s, mean of the exponential part (process and network)
+  Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
+  Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
+  double stamp_error = 0.0;                     // s: stamps are this much later than the exposure
+  double loss = 0.0;                            // share of packets lost
+  double blackout_at = kUnset;                  // s: one drop-out from here
+  double blackout_for = 0.0;                    // s long
+};
+
+struct DisplayTruth {
+  double rate = 60.0;      // Hz, frames
+  double latency = 0.010;  // s, frame to the surface's return at the core
+};
+
+}  // namespace enc::sim
