@@ -37,11 +37,32 @@ void take_in(const Walk& walk, State& state) {
   if (state.mode == Mode::away) state.tip_motion.behind = Vec<'W'>::zero();
 }
 
+// The way from `from` to `to` ends where the tool's tip meets the haptic-tip: a prediction knows nothing of a
+// touch before the poses show it, and would see the tool go on right through the machine.
+Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>& from,
+                          const Point<'W'>& to) {
+  if (!walk.X_WH.valid()) return to;
+  const double apart = tool_radius + walk.scene.tip_radius;
+  const Vec3 c = (from - walk.X_WH.origin()).e();
+  const Vec3 way = (to - from).e();
+  const double toward = -c.dot(way);
+  if (toward <= 0.0) return to;
+  const double outside = c.squaredNorm() - apart * apart;
+  if (outside <= 0.0) return Point<'W'>(Vec3(from.e() + way + (toward / c.squaredNorm()) * c));  // slides
+  const double root = toward * toward - way.squaredNorm() * outside;
+  if (root <= 0.0) return to;  // passes by
+  const double share = (toward - std::sqrt(root)) / way.squaredNorm();
+  return share < 1.0 ? Point<'W'>(Vec3(from.e() + share * way)) : to;
+}
+
 // The tip goes on from the newest pose; the tool moves with it and keeps that pose's rotation: nothing is
 // felt of it, and where it turns the tip, that is in the tip's own motion.
 void carry_on(Walk& walk, State& state) {
   catch_up(state.tip_motion, walk.scene.dt);
-  const Point<'W'> tip = predict(walk.scene.tracker, state.tip_motion, walk.tick.t) - state.tip_motion.behind;
+  const TipMotion& motion = state.tip_motion;
+  const double radius = walk.scene.tools[static_cast<std::size_t>(motion.tool)].tip.radius;
+  const Point<'W'> ahead = predict(walk.scene.tracker, motion, walk.tick.t) - motion.behind;
+  const Point<'W'> tip = stopped_by_tip(walk, radius, motion.position - motion.behind, ahead);
   walk.X_WT = {walk.X_WT.q(), walk.X_WT.origin() + (tip - walk.tool_tip)};
   walk.tool_tip = tip;
 }

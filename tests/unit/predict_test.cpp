@@ -237,6 +237,29 @@ TEST(PredictInTheCore, OldAndRepeatedPosesChangeNothing) {
   }
 }
 
+// Down at 100 mm/s onto the haptic-tip, where it stops. Poses are 20 ms old, in which it would go 2 mm
+// farther.
+TEST(PredictInTheCore, TheToolIsNotSeenToGoThroughTheHapticTip) {
+  test::Loop loop(prepare(test::plane_scene(), RigSpec{}));
+  const double touch = test::kTop + test::kToolRadius;
+  const auto height = [&](int ms) { return std::max(touch, 0.040 - 1e-4 * std::max(0, ms - 500)); };
+  double nearest = 1.0;
+  for (int ms = 0; ms < 1200; ++ms) {
+    loop.spoil = [&](Inputs& in) {
+      const int then = std::max(0, ms - 20);
+      const Vec3 markers = Vec3(0, 0, height(then)) - loop.scene.tools.front().tip.centre.e();
+      in.tool.t = loop.k.t - (ms - then) * kMs;
+      in.tool.value.X_CT = loop.scene.X_WC.inverse() * Pose<'W', 'T'>(Quat::Identity(), markers);
+    };
+    loop.tick();
+    const Point<'W'> tip = loop.scene.X_WR * loop.in.tip.value.X_RH.origin();
+    if (ms > 100) nearest = std::min(nearest, (loop.out.view.tip - tip).norm());
+  }
+  EXPECT_EQ(loop.out.mode, Mode::contact);
+  EXPECT_LT(nearest, 0.0071);        // they met: 5 mm and 2 mm
+  EXPECT_GT(nearest, 0.007 - 2e-4);  // less than what the filter itself goes too far
+}
+
 TEST(PredictInTheCore, APoseThatIsNoPoseIsNotTakenIn) {
   Moving moving;
   moving.loop.tick(50);
