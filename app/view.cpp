@@ -108,7 +108,10 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
     const Vec<'W'> along = scale * kForceScale * truth.contact_force;
     const Point<'W'> to = truth.tip + right;
     request.arrows.push_back({to - along, along, 0.0035 * scale, kForce});
-    request.labels.push_back({fmt::format("force of the {}: {:.1f} N", m.scene.probe ? "ball" : "tool",
+    request.labels.push_back({fmt::format("force of the {}: {:.1f} N",
+                                          m.scene.probe    ? "ball"
+                                          : m.world.pusher ? "pusher"
+                                                           : "tool",
                                           truth.contact_force.norm()),
                               to - 0.6 * along, false});
   }

@@ -348,8 +348,10 @@ void add_level_table(const std::vector<Level>& levels, BenchResult& result) {
 
 }  // namespace
 
-BenchResult run_stiffness(const BenchContext& context) {
+BenchResult run_stiffness(const BenchContext& given) {
   BenchResult result{"stiffness", "stiffness", 0, 0, {}};
+  BenchContext context = given;
+  context.seed = (given.seed - 1) * 10'000 + 1;  // each push has a seed of its own: seeds 1 and 2 share none
   const Paper paper = paper_of(context.models);
   const Extent extent = extent_of(context, paper);
   const double share = context.full ? 0.3 : 1.0;  // of the bar
