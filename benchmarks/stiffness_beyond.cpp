@@ -43,7 +43,7 @@ struct Extent {
   Words hold;
 };
 Extent extent_of(const BenchContext& context) {
-  Extent e{{10, 20, 30, 100, 1000, 10000, 100000}, {1, 1.5, 2, 2.5, 3}, 3, {"pusher.hold_s=12"}};
+  Extent e{{10, 20, 30, 100, 1000, 10000, 100000}, {1, 2, 3}, 3, {"pusher.hold_s=12"}};
   if (context.quick) e = {{10, 1000}, {2}, 1, {"pusher.hold_s=6"}};
   if (context.repeats > 0) e.pushes = static_cast<std::size_t>(context.repeats);
   return e;

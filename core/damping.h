@@ -25,7 +25,7 @@ enum class Damping : std::uint8_t {
 struct AdmittanceRig {
   Damping damping = Damping::none;
   double margin = 2.0;          // of the damping over what suffices
-  double calm_time = 2.0;       // s, in which damping falls to 1/e when nothing swings
+  double calm_time = 1.0;       // s, in which damping falls to 1/e when nothing swings
   double slowest = 1.0;         // Hz: slower changes are the user's own
   double average_time = 0.2;    // s, over which energies are averaged
   double least_swing = 20e-6;   // m rms: smaller ones do not count as a swing
