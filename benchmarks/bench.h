@@ -84,10 +84,9 @@ struct Benchmark {
 };
 [[nodiscard]] std::span<const Benchmark> benchmarks();
 
-BenchResult run_dent(const BenchContext& context);        // the seen surface: speed, contact vertex, volume
-BenchResult run_encounter(const BenchContext& context);   // miss at first touch over approach speed
-BenchResult run_prediction(const BenchContext& context);  // where the tool is now, when its pose is old
-BenchResult run_press(const BenchContext& context);       // one contact a press, limit held, tip inside
+BenchResult run_dent(const BenchContext& context);       // the seen surface: speed, contact vertex, volume
+BenchResult run_encounter(const BenchContext& context);  // miss at first touch over approach speed
+BenchResult run_press(const BenchContext& context);      // one contact a press, limit held, tip inside
 BenchResult run_stiffness(
     const BenchContext& context);  // apparent stiffness, the softest that is stable (Fig 3)
 BenchResult run_structure(const BenchContext& context);  // the hexapod's legs: sag, modes, order, cost

@@ -296,8 +296,7 @@ void add_loop(BenchResult& result, const models::Setup& setup, const BenchContex
 
 }  // namespace
 
-BenchResult run_prediction(const BenchContext& context) {
-  BenchResult result{"prediction", "tennis_ball", 0, 0, {}};
+void add_prediction(const BenchContext& context, BenchResult& result) {
   Bench bench{models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set), {}, {}, {}};
   bench.scene = prepare_setup(bench.setup);
   bench.X_WC = pose_of<'W', 'C'>(bench.setup.twin.frames.W_C);
@@ -305,20 +304,24 @@ BenchResult run_prediction(const BenchContext& context) {
   const std::size_t seeds =
       context.repeats > 0 ? static_cast<std::size_t>(context.repeats) : (context.quick ? 2U : 24U);
   run_rows(bench, context, seeds);
-  result.figures = figures_of(bench);
-  result.tables = {rmse_table(bench), peak_table(bench)};
-  result.plots = {
-      rmse_plot(bench),
-      time_plot(bench, context, "stop.200", "tracking_predicted_stop",
-                "The tool meets a wall at 200 mm/s. Until the first pose from after the stop has come, "
-                "every prediction goes on; holding never leads."),
-      time_plot(bench, context, "drop_out.100", "tracking_predicted_drop_out",
-                "No poses for 100 ms in the middle of a reach. The prediction goes on for 100 ms and "
-                "catches up afterwards.")};
-  result.simulated = bench.simulated;
+  const auto append = [](auto& list, auto more) {
+    list.insert(list.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  append(result.figures, figures_of(bench));
+  append(result.tables, std::vector<Table>{rmse_table(bench), peak_table(bench)});
+  append(
+      result.plots,
+      std::vector<Plot>{
+          rmse_plot(bench),
+          time_plot(bench, context, "stop.200", "tracking_predicted_stop",
+                    "The tool meets a wall at 200 mm/s. Until the first pose from after the stop has come, "
+                    "every prediction goes on; holding never leads."),
+          time_plot(bench, context, "drop_out.100", "tracking_predicted_drop_out",
+                    "No poses for 100 ms in the middle of a reach. The prediction goes on for 100 ms and "
+                    "catches up afterwards.")});
+  result.simulated += bench.simulated;
   if (context.progress) context.progress(0.8);
   add_loop(result, bench.setup, context);
-  return result;
 }
 
 }  // namespace enc::bench

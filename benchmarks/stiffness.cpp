@@ -12,6 +12,7 @@
 #include "benchmarks/reference.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/stiffness_beyond.h"
+#include "benchmarks/work_precision.h"
 
 namespace enc::bench {
 namespace {
@@ -382,6 +383,11 @@ BenchResult run_stiffness(const BenchContext& given) {
   if (context.full)
     add_switches(
         context, [&](double done) { tell(share + (1.0 - share) * done); }, result);
+  if (context.full) {
+    std::vector<std::string> set = extent.set;
+    set.insert(set.end(), {"truth.pusher.tremor_N=0"});
+    add_work_precision({"stiffness", "stiffness", std::move(set), kUnset, 30e-6}, context, result);
+  }
   result.note =
       "Calibrated on the softest stable wall: the pusher's stiffness. Assumed: threshold and drift of the "
       "force's zero, which set the error below 0.3 N/mm.";

@@ -173,8 +173,8 @@ Candidate best(const std::vector<Candidate>& candidates, const Table1& paper, Bi
   return found;
 }
 
-Prediction predict_40(const std::vector<Candidate>& candidates, const Table1& paper, BiasSide side,
-                      std::uint64_t seed) {
+Predicted40 predict_40(const std::vector<Candidate>& candidates, const Table1& paper, BiasSide side,
+                       std::uint64_t seed) {
   constexpr int kFigures = 6;  // that decide: rmse and mae of three axes at 20 mm/s
   constexpr std::size_t kDraws = 4000;
   std::vector<double> sum(candidates.size());
@@ -185,7 +185,7 @@ Prediction predict_40(const std::vector<Candidate>& candidates, const Table1& pa
     sum[i] = total += std::pow(size[i], -kFigures);  // the error's size s integrated out over ds / s
   }
   sim::Stream random(seed, "predict_40");
-  Prediction prediction;
+  Predicted40 prediction;
   std::array<std::vector<double>, 8> figures;
   for (std::size_t n = 0; n < kDraws; ++n) {
     const double at = total * random.uniform();

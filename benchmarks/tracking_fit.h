@@ -58,14 +58,14 @@ enum class Judge : std::uint8_t { moving20, worst };
                              bool acceleration_free);
 
 // What columns 0 and 20 alone leave open about column 40.
-struct Prediction {
+struct Predicted40 {
   Table1 low{}, median{}, high{};  // 5, 50 and 95 % of each figure
   std::vector<double> norm_rmse;   // m, of column 40, in order
   std::vector<std::size_t> drawn;  // candidates, as often as they are likely
 };
 // The size of the model's error and of one repetition's scatter is not known: it is judged by the misfit
 // itself (Student's t).
-[[nodiscard]] Prediction predict_40(const std::vector<Candidate>& candidates, const Table1& paper,
-                                    BiasSide side, std::uint64_t seed);
+[[nodiscard]] Predicted40 predict_40(const std::vector<Candidate>& candidates, const Table1& paper,
+                                     BiasSide side, std::uint64_t seed);
 
 }  // namespace enc::bench

@@ -44,7 +44,7 @@ Table from_20(const Pictures& p) {
               {"axis", "statistic", "paper (mm)", "median (mm)", "5 % (mm)", "95 % (mm)", "paper inside",
                "twin, best chain (mm)", "difference (%)"},
               {}};
-  const Prediction& prediction = p.fits.prediction[0];
+  const Predicted40& prediction = p.fits.prediction[0];
   for (std::size_t a = 0; a < kTableAxes.size(); ++a)
     for (const auto& [name, what] : kStatistics) {
       const double value = p.paper[2][a].*what;
@@ -118,7 +118,7 @@ Plot table_plot(const Pictures& p, const Statistic& statistic) {
   Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
   Series twin{"twin, calibrated on all columns", {}, {}, {}, {}, Mark::bars};
   Series predicted{"from columns 0 and 20: median, 90 %", {}, {}, {}, {}, Mark::bars};
-  const Prediction& prediction = p.fits.prediction[0];
+  const Predicted40& prediction = p.fits.prediction[0];
   for (std::size_t s = 0; s < p.paper.size(); ++s)
     for (std::size_t a = 0; a < kTableAxes.size(); ++a) {
       const double x = static_cast<double>(4 * s + a + 1);

@@ -17,7 +17,7 @@ struct TwinTable {
 // For each BiasSide.
 struct Fits {
   std::array<Candidate, 3> from_20, all, all_free;  // columns 0 and 20; all, with the rig's acceleration; all
-  std::array<Prediction, 3> prediction;
+  std::array<Predicted40, 3> prediction;
 };
 
 struct Pictures {

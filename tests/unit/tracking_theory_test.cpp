@@ -122,7 +122,7 @@ TEST(TrackingFit, FindsTheChainThatMadeATable) {
   EXPECT_LT(misfit(c.table[0], table).worst, 0.1);
   EXPECT_NEAR(c.fixed + c.jitter, 0.0134, 0.3e-3);
   EXPECT_GT(misfit(c.table[1], table).worst, 1.0);
-  const Prediction prediction = predict_40(candidates, table, BiasSide::opposes, 1);
+  const Predicted40 prediction = predict_40(candidates, table, BiasSide::opposes, 1);
   EXPECT_LT(prediction.low[2][3].rmse, table[2][3].rmse);
   EXPECT_GT(prediction.high[2][3].rmse, table[2][3].rmse);
 }
