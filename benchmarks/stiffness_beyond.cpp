@@ -195,9 +195,15 @@ void add_plots(const std::array<Study, 2>& studies, BenchResult& result) {
              "commanded stiffness, N/mm",
              "worst error of true load, %",
              true,
-             true};
-  Plot settling{"stiffness.beyond.settling", "Beyond the paper: what it costs", "commanded stiffness, N/mm",
-                "settling time, s", true};
+             true,
+             {}};
+  Plot settling{"stiffness.beyond.settling",
+                "Beyond the paper: what it costs",
+                "commanded stiffness, N/mm",
+                "settling time, s",
+                true,
+                false,
+                {}};
   for (std::size_t i = 0; i < studies.size(); ++i) {
     const std::string pusher = fmt::format(", {} pusher", kPushers[i].name);
     std::vector<Level> all = studies[i].soft_end;
@@ -243,9 +249,20 @@ Course course_of(const models::Setup& setup, std::uint64_t seed) {
 
 // Both pushers on a very soft wall, with and without the damper; and what drives the damper.
 void add_courses(const BenchContext& context, const Extent& extent, BenchResult& result) {
-  Plot motion{"stiffness.beyond.motion", "A push into a wall of 0.01 N/mm", "time, s", "deflection, mm"};
-  Plot seen{"stiffness.beyond.seen", "What drives the damper: the pusher's stiffness, as seen in the swing",
-            "time, s", "stiffness, N/mm"};
+  Plot motion{"stiffness.beyond.motion",
+              "A push into a wall of 0.01 N/mm",
+              "time, s",
+              "deflection, mm",
+              false,
+              false,
+              {}};
+  Plot seen{"stiffness.beyond.seen",
+            "What drives the damper: the pusher's stiffness, as seen in the swing",
+            "time, s",
+            "stiffness, N/mm",
+            false,
+            false,
+            {}};
   std::array<Course, 4> courses;
   in_parallel(courses.size(), [&](std::size_t i) {
     const Words damper = i < 2 ? Words{} : Words{"rig.admittance.damping=none"};
