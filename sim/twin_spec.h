@@ -61,9 +61,9 @@ struct BallTruth {
 
 // What pushes the haptic-tip from outside, a hand or a stand: a spring to where it wants to be, and a damper.
 struct PusherTruth {
-  double stiffness = 90.0;   // N/m (decisions 1); "firm": 1000
-  double damping = 2.2;      // N s/m
-  double tremor = 0.02;      // N rms
+  double stiffness = 40.0;   // N/m: calibrated (docs/stiffness.md); "firm": 1000
+  double damping = 1.0;      // N s/m
+  double tremor = 0.005;     // N rms
   double tremor_rate = 8.1;  // Hz
 };
 
