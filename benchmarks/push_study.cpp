@@ -113,7 +113,7 @@ double strongest_frequency(std::span<const double> signal, double dt) {
   const double mean = steady_mean(signal);
   const auto n = static_cast<double>(signal.size());
   double best = kUnset;
-  double most = 0.0;
+  double most = std::norm(1e-9 * n * mean);  // rounding is no oscillation
   for (double f = 1.0; f <= 0.25 / dt; f += std::max(0.5, 1.0 / (n * dt))) {
     const std::complex<double> turn = std::polar(1.0, 2.0 * std::numbers::pi * f * dt);
     std::complex<double> at = 1.0;

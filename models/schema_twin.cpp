@@ -154,9 +154,9 @@ void describe(Visitor& v, sim::HandTruth& h) {
 }
 
 void describe(Visitor& v, sim::PusherTruth& p) {
-  v.value(
-      {"stiffness_N_per_mm", "of what pushes, a hand or a stand; firm: 1", "decisions 1", assumed, kPositive},
-      &p.stiffness);
+  v.value({"stiffness_N_per_mm", "of what pushes, a hand or a stand; firm: 1", "[VHMR Fig 3]", derived,
+           kPositive},
+          &p.stiffness);
   v.value({"damping_Ns_per_m", "likewise", "fidelity 1", assumed, kNotNegative}, &p.damping);
   v.value({"tremor_N", "rms, while it pushes", "fidelity 1", assumed, kNotNegative}, &p.tremor);
   v.value({"tremor_rate_hz", "of the tremor", "parameters 5.2", published, kPositive}, &p.tremor_rate);

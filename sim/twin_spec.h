@@ -90,14 +90,6 @@ struct BallTruth {
   Vec3 misplaced{0, 0, 0};         // of the ball against where the scene says it is, m
 };
 
-// What pushes the haptic-tip from outside, a hand or a stand: a spring to where it wants to be, and a damper.
-struct PusherTruth {
-  double stiffness = 90.0;   // N/m (decisions 1); "firm": 1000
-  double damping = 2.2;      // N s/m
-  double tremor = 0.02;      // N rms
-  double tremor_rate = 8.1;  // Hz
-};
-
 struct TwinSpec {
   WorldTruth world;
   FramesTruth frames;

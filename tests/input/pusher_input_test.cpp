@@ -31,7 +31,7 @@ TEST(PusherInput, NumbersOutOfRange) {
         "pusher.hold_s=-1", "pusher.rest_s=0", "pusher.repeats=0", "truth.pusher.stiffness_N_per_mm=0",
         "truth.pusher.damping_Ns_per_m=-1", "truth.pusher.tremor_N=-0.1", "truth.force.drift_N_per_push=-1",
         "rig.contact.softest_N_per_mm=-1", "rig.force.tare_time_s=-0.1"})
-    EXPECT_THAT(said({set}), HasSubstr("expected a number")) << set;
+    EXPECT_THAT(said({set}), HasSubstr("; expected a ")) << set;
   EXPECT_THAT(said({"pusher.depth_mm=nan"}), HasSubstr("expected a")) << "nan";
 }
 

@@ -112,9 +112,19 @@ TEST(Pusher, TremorHasItsSizeAndRate) {
 
 // The twin: 1 N/mm, pushed 15 mm deep, without anything that errs.
 std::vector<std::string> exact() {
-  return {"rig.force.threshold_N=0", "truth.force.noise_N=0",          "truth.force.quantum_N=0",
-          "truth.force.zero_N=0",    "truth.force.drift_N_per_push=0", "truth.force.drift_N_per_sqrt_s=0",
-          "truth.pusher.tremor_N=0", "truth.hexapod.step_um=0",        "truth.hexapod.repeatability_um=0"};
+  return {"rig.force.tare=start",
+          "rig.force.tare_time_s=0",
+          "truth.force.torque_noise_Nm=0",
+          "truth.force.torque_quantum_Nm=0",
+          "rig.force.threshold_N=0",
+          "truth.force.noise_N=0",
+          "truth.force.quantum_N=0",
+          "truth.force.zero_N=0",
+          "truth.force.drift_N_per_push=0",
+          "truth.force.drift_N_per_sqrt_s=0",
+          "truth.pusher.tremor_N=0",
+          "truth.hexapod.step_um=0",
+          "truth.hexapod.repeatability_um=0"};
 }
 
 TEST(Pusher, FindsItsBalanceWithARenderedSpring) {
