@@ -1,5 +1,5 @@
-// What the machine and its gripper really are: [truth.hexapod], [truth.structure], [truth.gripper]. A part of
-// twin_spec.h.
+// What the machine, its gripper and what pushes it really are: [truth.hexapod], [truth.structure],
+// [truth.gripper], [truth.pusher]. A part of twin_spec.h.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +48,14 @@ struct GripperTruth {
   double force_max = 215.0;        // N
   double repeatability = 0.02e-3;  // m rms, of where the jaws stand
   double width = 0.006;            // m, of what is between the jaws; 0: nothing
+};
+
+// What pushes the haptic-tip from outside, a hand or a stand: a spring to where it wants to be, and a damper.
+struct PusherTruth {
+  double stiffness = 40.0;   // N/m: calibrated (docs/stiffness.md); "firm": 1000
+  double damping = 1.0;      // N s/m
+  double tremor = 0.005;     // N rms
+  double tremor_rate = 8.1;  // Hz
 };
 
 }  // namespace enc::sim

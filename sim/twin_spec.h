@@ -59,14 +59,6 @@ struct BallTruth {
   Vec3 misplaced{0, 0, 0};         // of the ball against where the scene says it is, m
 };
 
-// What pushes the haptic-tip from outside, a hand or a stand: a spring to where it wants to be, and a damper.
-struct PusherTruth {
-  double stiffness = 40.0;   // N/m: calibrated (docs/stiffness.md); "firm": 1000
-  double damping = 1.0;      // N s/m
-  double tremor = 0.005;     // N rms
-  double tremor_rate = 8.1;  // Hz
-};
-
 struct TwinSpec {
   WorldTruth world;
   FramesTruth frames;

@@ -120,6 +120,7 @@ TEST(Schema, describes_every_member) {
   EXPECT_EQ(n["rig.display"], members<DisplayRig>());
   EXPECT_EQ(n["rig.gripper"], members<GripperRig>());
   EXPECT_EQ(n["rig.contact"], members<ContactRig>());
+  EXPECT_EQ(n["rig.admittance"], members<AdmittanceRig>());
   EXPECT_EQ(n["truth"], members<sim::TwinSpec>());
   EXPECT_EQ(n["truth.world"], members<sim::WorldTruth>());
   EXPECT_EQ(n["truth.hexapod"], members<sim::HexapodTruth>());
