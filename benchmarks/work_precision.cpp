@@ -169,16 +169,23 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
     for (const std::string_view integrator : kIntegrators) {
       Series series{fmt::format("{} {}", form.name, integrator), {}, {}};
       series.mark = Mark::both;
+      Series failed{"", {}, {}};
+      failed.mark = Mark::crosses;
       for (const Point& point : points) {
         if (point.form != &form || point.integrator != integrator) continue;
-        series.x.push_back(point.cpu);
-        series.y.push_back(point.failure.empty() ? point.error * 1e6 : kUnset);
+        const bool there = point.failure.empty();
+        Series& into = there ? series : failed;
+        if (std::isfinite(point.cpu)) {  // not so where it was refused before it ran
+          into.x.push_back(point.cpu);
+          into.y.push_back(there ? point.error * 1e6 : kUnset);
+        }
         table.rows.push_back({form.name, std::string(integrator), fmt::format("{:g}", point.step * 1e6),
-                              point.failure.empty() ? fmt::format("{:.3g}", point.error * 1e6) : "",
+                              there ? fmt::format("{:.3g}", point.error * 1e6) : "",
                               fmt::format("{:.3g}", point.cpu), fmt::format("{:.0f}", 1.0 / point.cpu),
                               point.failure});
       }
       plot.series.push_back(std::move(series));
+      if (!failed.x.empty()) plot.series.push_back(std::move(failed));
     }
   result.plots.push_back(std::move(plot));
   result.tables.push_back(std::move(table));
