@@ -56,12 +56,13 @@ void run_all(const std::vector<Group*>& groups, const BenchContext& context, dou
   for (Group* group : groups)
     for (std::size_t seed = 0; seed < group->seeds.size(); ++seed)
       for (std::size_t axis = 0; axis < 3; ++axis) jobs.push_back({group, seed, axis, {}});
-  in_parallel(jobs.size(), [&](std::size_t i) {
+  const auto work = [&](std::size_t i) {
     Job& job = jobs[i];
     // Every axis has its own phase of tracker and server, as experiments one after another have.
     job.errors =
         run_travel(job.group->setup[job.axis], context.seed * 1000 + 3 * job.seed + job.axis, job.seed == 0);
-  });
+  };
+  in_parallel(jobs.size(), work, context.progress);
   for (const Job& job : jobs) {
     job.group->seeds[job.seed].add(job.errors);
     simulated += job.errors.simulated;
