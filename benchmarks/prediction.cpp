@@ -2,6 +2,7 @@
 // paper's moves and on what a hand does otherwise; packets polled at 100 Hz as the paper's, or sent when
 // ready.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -104,7 +105,7 @@ std::vector<Figure> figures_of(const Bench& bench) {
                       fmt::format("{}; {}", row.title,
                                   row.peak ? "along an axis, on every tick" : "on ticks with a new pose"));
         if (k == 0 && p == 0) figure.paper = row.paper * 1e3;
-        if (!std::isnan(figure.paper)) figure.role = Role::predicted;
+        if (!std::isnan(figure.paper)) figure.role = Role::calibrated;  // Table 1 gave the delays
         figures.push_back(std::move(figure));
       }
     }
@@ -166,35 +167,55 @@ Plot named_plot(std::string id, std::string title, std::string x_label, std::str
   return plot;
 }
 
+// Of all rows the table tells; the plot has room for these.
+struct Shown {
+  const char *id, *name;
+};
+constexpr auto kShown = std::to_array<Shown>({{"20", "paper 20"},
+                                              {"40", "paper 40"},
+                                              {"reach.40", "reach 40"},
+                                              {"reach.200", "reach 200"},
+                                              {"press", "press 2 Hz"},
+                                              {"tremor.200um", "tremor"},
+                                              {"rest", "rest"},
+                                              {"stop.200", "stop"},
+                                              {"drop_out.100", "drop-out"},
+                                              {"loss", "loss"}});
+
 Plot rmse_plot(const Bench& bench) {
   Plot plot = named_plot("tracking_predicted_rmse", "Error of the tool's tip by motion and prediction",
-                         "motion (see below)", "RMS distance, mm");
+                         "motion", "RMS distance, mm");
   plot.log_y = true;
+  std::vector<std::size_t> rows;
   Series paper{"paper (holds, polled)", {}, {}, {}, {}, Mark::points, true};
-  std::string rows;
-  for (std::size_t r = 0; r < bench.rows.size(); ++r) {
-    rows += fmt::format("{}{} {}", r == 0 ? "" : ", ", r + 1, bench.rows[r].title);
-    if (std::isnan(bench.rows[r].paper)) continue;
-    paper.x.push_back(static_cast<double>(r + 1));
-    paper.y.push_back(bench.rows[r].paper * 1e3);
-  }
+  for (const Shown& shown : kShown)
+    for (std::size_t r = 0; r < bench.rows.size(); ++r) {
+      if (bench.rows[r].id != shown.id) continue;
+      if (!std::isnan(bench.rows[r].paper)) {
+        paper.x.push_back(static_cast<double>(rows.size()) - 0.25);
+        paper.y.push_back(bench.rows[r].paper * 1e3);
+      }
+      plot.x_names.emplace_back(shown.name);
+      rows.push_back(r);
+    }
   for (std::size_t p = 0; p < kPackets.size(); ++p)
     for (std::size_t k = 0; k < kName.size(); ++k) {
-      Series series{fmt::format("{}, {}", kLongName[k], kPacketName[p]), {}, {}, {}, {}, Mark::both};
-      for (std::size_t r = 0; r < bench.rows.size(); ++r) {
-        const std::vector<double>& of = bench.cells[r][p].at_packets[k];
+      Series series{fmt::format("{}, {}", kLongName[k], kPacketName[p]), {}, {}, {}, {}, Mark::points};
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::vector<double>& of = bench.cells[rows[i]][p].at_packets[k];
         const auto [least, most] = std::minmax_element(of.begin(), of.end());
-        series.x.push_back(static_cast<double>(r + 1) + 0.1 * (static_cast<double>(3 * p + k) - 2.5));
+        series.x.push_back(static_cast<double>(i) + 0.1 * (static_cast<double>(3 * p + k) - 2.5));
         series.y.push_back(root_mean_square(of) * 1e3);
         series.low.push_back(*least * 1e3);
         series.high.push_back(*most * 1e3);
       }
-      series.mark = Mark::points;
       plot.series.push_back(std::move(series));
     }
   plot.series.push_back(std::move(paper));
-  plot.caption = "On ticks with a new pose; bars: over seeds. Motions: " + rows +
-                 ". Prediction does not help where the tool shakes at 8 to 12 Hz or has just stopped.";
+  plot.caption =
+      "On ticks with a new pose; intervals: over seeds. The table below has all motions. Where the tool "
+      "shakes at 8 to "
+      "12 Hz or has just stopped, compare with hold: there prediction need not help.";
   return plot;
 }
 

@@ -76,7 +76,6 @@ void add_paper(std::vector<PredictionRow>& rows, double acceleration) {
   rows.push_back(back);
   add_wrong_stamps(rows, back);
   PredictionRow one_way = rows[1];
-  one_way.in_figures = false;
   one_way.paper = one_way.highest = kUnset;
   add_wrong_stamps(rows, one_way);
   PredictionRow made = row("registered.40", "paper's moves, 40 mm/s", moves(0.040, true));

@@ -172,14 +172,14 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
   result.figures.push_back({"stiffness.linear.lowest_stable_N_per_mm", kUnset, linear / kPerMm, "N/mm",
                             Role::ours, kUnset, kUnset,
                             "of the loop without limits of speed and acceleration (core/loop_model.h)"});
-  Plot plot{"stiffness.instability",
+  Plot plot{"stiffness_instability",
             "Which stiffness makes the machine unstable",
             "commanded stiffness, N/mm",
             "unstable pushes, %",
             true,
             false,
             {}};
-  Table table{"stiffness.wander",
+  Table table{"stiffness_wander",
               "Way of the tip at the end of the hold, peak to peak",
               {"stiffness, N/mm", "pushes", "unstable", "least, mm", "median, mm", "most, mm"},
               {},
@@ -234,7 +234,7 @@ void add_motion_plot(const BenchContext& context, const Extent& extent, BenchRes
   in_parallel(stiffnesses.size(), [&](std::size_t i) {
     (void)push_once(with_stiffness(setup, stiffnesses[i]), context.seed + 1000, &traces[i]);
   });
-  Plot plot{"stiffness.motion",
+  Plot plot{"stiffness_motion",
             "A push that comes to rest, and two that do not",
             "time, s",
             "deflection of the tip, mm",
@@ -270,7 +270,7 @@ Series bars_of(const std::vector<Level>& levels, double Push::*felt, const char*
 }
 
 void add_error_plots(const std::vector<Level>& levels, const Paper& paper, BenchResult& result) {
-  Plot error{"stiffness.error",
+  Plot error{"stiffness_error",
              "Error of the rendered stiffness (VHMR Fig 3b)",
              "commanded stiffness, N/mm",
              "error, %",
@@ -309,7 +309,7 @@ void add_error_plots(const std::vector<Level>& levels, const Paper& paper, Bench
       "Points are means, bars reach from the least to the greatest of the repetitions. The error is an "
       "absolute "
       "force error (threshold and drift of the zero) over a small force: it falls as 1/k.";
-  Plot line{"stiffness.apparent",
+  Plot line{"stiffness_apparent",
             "Rendered over commanded stiffness",
             "commanded stiffness, N/mm",
             "apparent stiffness, N/mm",
@@ -325,7 +325,7 @@ void add_error_plots(const std::vector<Level>& levels, const Paper& paper, Bench
 }
 
 void add_level_table(const std::vector<Level>& levels, BenchResult& result) {
-  Table table{"stiffness.levels",
+  Table table{"stiffness_levels",
               "Each commanded stiffness, least to greatest of the repetitions",
               {"stiffness, N/mm", "force, N", "error, %", "error of true load, %", "error of one reading, %",
                "peak to peak, mm", "unstable"},

@@ -172,7 +172,7 @@ void add_figures(const Study& s, const Pusher& pusher, BenchResult& result) {
 }
 
 Table level_table(const std::array<Study, 2>& studies) {
-  Table table{"stiffness.beyond",
+  Table table{"stiffness_beyond",
               "Damped by what is seen to swing, re-tared before each push",
               {"pusher", "stiffness, N/mm", "error of true load, %", "error of measured force, %",
                "settling, s", "peak to peak, mm"},
@@ -190,14 +190,14 @@ Table level_table(const std::array<Study, 2>& studies) {
 }
 
 void add_plots(const std::array<Study, 2>& studies, BenchResult& result) {
-  Plot error{"stiffness.beyond.error",
+  Plot error{"stiffness_beyond_error",
              "Beyond the paper: error of the rendered stiffness",
              "commanded stiffness, N/mm",
              "worst error of true load, %",
              true,
              true,
              {}};
-  Plot settling{"stiffness.beyond.settling",
+  Plot settling{"stiffness_beyond_settling",
                 "Beyond the paper: what it costs",
                 "commanded stiffness, N/mm",
                 "settling time, s",
@@ -249,14 +249,14 @@ Course course_of(const models::Setup& setup, std::uint64_t seed) {
 
 // Both pushers on a very soft wall, with and without the damper; and what drives the damper.
 void add_courses(const BenchContext& context, const Extent& extent, BenchResult& result) {
-  Plot motion{"stiffness.beyond.motion",
+  Plot motion{"stiffness_beyond_motion",
               "A push into a wall of 0.01 N/mm",
               "time, s",
               "deflection, mm",
               false,
               false,
               {}};
-  Plot seen{"stiffness.beyond.seen",
+  Plot seen{"stiffness_beyond_seen",
             "What drives the damper: the pusher's stiffness, as seen in the swing",
             "time, s",
             "stiffness, N/mm",
@@ -286,7 +286,7 @@ void add_courses(const BenchContext& context, const Extent& extent, BenchResult&
 
 // What the controller costs where the paper's needs no help: the tennis ball.
 void add_price(const BenchContext& context, BenchResult& result) {
-  Table table{"stiffness.beyond.elsewhere",
+  Table table{"stiffness_beyond_elsewhere",
               "The tennis ball with and without the damper",
               {"controller", "press RMSE, N", "release RMSE, N", "net work of the tip, mJ"},
               {},
@@ -329,7 +329,7 @@ void add_parts(const BenchContext& context, const Extent& extent, BenchResult& r
       {"filter 30 Hz", {"rig.force.filter_hz=30"}},
       {"margin 1", {"rig.admittance.margin=1"}},
       {"margin 4", {"rig.admittance.margin=4"}}};
-  Table table{"stiffness.beyond.parts",
+  Table table{"stiffness_beyond_parts",
               "What each part does",
               {"left out or changed", "pusher", "error at 0.003 N/mm, %", "at 0.01", "at 0.03",
                "peak to peak at 0.003, mm", "at 0.01", "settling at 0.01, s"},

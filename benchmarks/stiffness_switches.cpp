@@ -116,7 +116,7 @@ std::vector<Switch> switches(const models::Setup& baseline) {
 }  // namespace
 
 void add_knee(const BenchContext& context, BenchResult& result) {
-  Table table{"stiffness.knee",
+  Table table{"stiffness_knee",
               "Two explanations of the knee at 0.3 N/mm",
               {"explanation", "stiffness, N/mm", "force at rest, N rms", "strongest at, Hz", "error, %",
                "error of one reading, %"},
@@ -159,7 +159,7 @@ void add_knee(const BenchContext& context, BenchResult& result) {
 
 void add_switches(const BenchContext& context, const Progress& progress, BenchResult& result) {
   Table table{
-      "stiffness.switches",
+      "stiffness_switches",
       "What each effect does",
       {"changed", "linear boundary, N/mm", "boundary, N/mm", "worst error at 0.03, %", "at 0.1, %",
        "at 0.3, %"},
