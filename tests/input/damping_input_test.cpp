@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 std::string refused(const std::string& setting) {
   try {
-    models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/plane.toml", "sim", {setting});
+    models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml", "sim", {setting});
   } catch (const Error& e) {
     return e.what();
   }

@@ -69,7 +69,7 @@ class SceneFile : public ::testing::Test {
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("enc_scene_file_" + std::to_string(getpid()));
     for (const char* sub : {"scenes", "rigs", "responses"}) fs::create_directories(folder_ / sub);
-    std::ifstream rig(std::string(ENCOUNTER_SOURCE_DIR) + "/models/rigs/sim.toml");
+    std::ifstream rig(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml");
     std::stringstream text;
     text << rig.rdbuf();
     rig_ = text.str();
@@ -426,7 +426,7 @@ TEST_F(SceneFile, places) {
 
 // Every committed scene loads. (What needs its measured curve is skipped until that is generated.)
 TEST(Scenes, all_load) {
-  const std::string models = std::string(ENCOUNTER_SOURCE_DIR) + "/models";
+  const std::string models = ENCOUNTER_SOURCE_DIR "/models";
   EXPECT_GE(files_in(models, "scenes").size(), 3U);
   const bool curves = fs::exists(models + "/responses/tennis_ball.toml");
   for (const std::string& name : files_in(models, "scenes")) {

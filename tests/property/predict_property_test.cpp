@@ -111,7 +111,8 @@ TEST(PredictProperty, NeverFarFromWhatWasSeen) {
         for (const double later : {0.0, 0.02, 0.1, 1.0}) {
           const Point<'W'> at = predict(rig, state, now + from_seconds(later));
           ASSERT_TRUE(at.finite());
-          // What passes for a motion is bounded by the speed of a leap (predict.cpp), and so is what is made of it.
+          // What passes for a motion is bounded by the speed of a leap (predict.cpp), and so is what is made
+          // of it.
           ASSERT_LT((at - tip).norm(), 3.0) << seed << " " << i;
         }
       }

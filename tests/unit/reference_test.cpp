@@ -38,8 +38,7 @@ TEST(Reference, SaysWhatIsWrong) {
 
 // The norms follow from their components but for the one that the paper has wrong.
 TEST(Reference, TableOneAddsUp) {
-  const Table1 paper =
-      table1_of(Reference::load(ENCOUNTER_SOURCE_DIR "/models", "table1.csv"));
+  const Table1 paper = table1_of(Reference::load(ENCOUNTER_SOURCE_DIR "/models", "table1.csv"));
   for (std::size_t s = 0; s < 3; ++s) {
     std::array<Cell, 4> column = paper[s];
     fill_norm(column);
