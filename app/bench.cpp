@@ -13,8 +13,8 @@
 
 #include "app/modules.h"
 #include "app/options.h"
-#include "benchmarks/choice.h"
-#include "benchmarks/report.h"
+#include "benchmarks/report/choice.h"
+#include "benchmarks/report/report.h"
 #include "core/error.h"
 #include "models/scene_file.h"
 

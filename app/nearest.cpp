@@ -9,7 +9,7 @@
 #include "app/options.h"
 #include "benchmarks/trial.h"
 #include "core/error.h"
-#include "core/mesh_tree.h"
+#include "core/mesh/mesh_tree.h"
 #include "models/mesh_check.h"
 #include "models/mesh_file.h"
 #include "models/wording.h"

@@ -2,7 +2,7 @@
 // use.
 #pragma once
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace enc::bench {
 

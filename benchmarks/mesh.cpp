@@ -14,7 +14,7 @@
 #include "benchmarks/shapes.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/trial.h"
-#include "core/mesh_tree.h"
+#include "core/mesh/mesh_tree.h"
 #include "models/mesh_check.h"
 #include "models/mesh_write.h"
 

@@ -13,7 +13,7 @@
 #include "benchmarks/peers/peers.h"
 #include "benchmarks/shapes.h"
 #include "benchmarks/statistics.h"
-#include "core/mesh_tree.h"
+#include "core/mesh/mesh_tree.h"
 #include "core/module.h"
 
 namespace enc::bench {

@@ -2,7 +2,7 @@
 // size of a hand.
 #pragma once
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace enc::bench {
 

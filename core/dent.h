@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 #include "core/sample.h"
 #include "core/surface.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/mesh_tree.h"
+#include "core/mesh/mesh_tree.h"
 #include "core/press_check.h"
 #include "core/stages.h"
 

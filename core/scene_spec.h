@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/frames.h"
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 #include "core/response.h"
 #include "core/task_spec.h"
 #include "core/tip.h"

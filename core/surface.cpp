@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/mesh_tree.h"
+#include "core/mesh/mesh_tree.h"
 
 namespace enc {
 namespace {

@@ -18,7 +18,7 @@ struct Sphere {
 };
 
 class MeshTree;
-// Closed triangle mesh; the tree (core/mesh_tree.h) is shared and constant.
+// Closed triangle mesh; the tree (core/mesh/mesh_tree.h) is shared and constant.
 struct MeshSurface {
   std::shared_ptr<const MeshTree> tree;
 };

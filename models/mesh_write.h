@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace enc::models {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "core/mesh.h"
+#include "core/mesh/mesh.h"
 
 namespace enc::bench {
 

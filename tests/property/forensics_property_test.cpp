@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/forensics.h"
+#include "benchmarks/tracking/forensics.h"
 
 namespace enc::bench {
 namespace {

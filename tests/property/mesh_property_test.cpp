@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/shapes.h"
-#include "core/mesh_tree.h"
+#include "core/mesh/mesh_tree.h"
 
 namespace enc {
 namespace {

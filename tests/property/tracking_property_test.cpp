@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/tracking_fit.h"
-#include "benchmarks/tracking_trial.h"
+#include "benchmarks/tracking/tracking_fit.h"
+#include "benchmarks/tracking/tracking_trial.h"
 
 namespace enc::bench {
 namespace {

@@ -1,5 +1,5 @@
 // What the words after `bench` name.
-#include "benchmarks/choice.h"
+#include "benchmarks/report/choice.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/motion.h"
+#include "benchmarks/tracking/motion.h"
 
 namespace enc::models {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/mesh_tree.h"
+#include "core/mesh/mesh_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/shapes.h"
-#include "core/mesh_normals.h"
-#include "core/triangle.h"
+#include "core/mesh/mesh_normals.h"
+#include "core/mesh/triangle.h"
 
 namespace enc {
 namespace {

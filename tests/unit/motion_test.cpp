@@ -1,6 +1,6 @@
 // Scripted motions: speed is the derivative of the way, ends and peaks are as asked for; and what a tracker
 // of known age makes of them.
-#include "benchmarks/motion.h"
+#include "benchmarks/tracking/motion.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/prediction_run.h"
+#include "benchmarks/tracking/prediction_run.h"
 
 namespace enc::bench {
 namespace {

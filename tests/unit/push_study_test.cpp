@@ -1,13 +1,13 @@
 // Judging a push: what counts as unstable, what a steady mean is; and the boundary of stability, which has to
 // follow from the parameters as the linear theory says where that holds.
-#include "benchmarks/push_study.h"
+#include "benchmarks/stiffness/push_study.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/stiffness.h"
+#include "benchmarks/stiffness/stiffness.h"
 
 namespace enc::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/push_study.h"
+#include "benchmarks/stiffness/push_study.h"
 #include "tests/conformance/bench_world.h"
 
 namespace enc::test {

@@ -1,10 +1,10 @@
 // Values printed in the papers.
-#include "benchmarks/reference.h"
+#include "benchmarks/report/reference.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/tracking_fit.h"
+#include "benchmarks/tracking/tracking_fit.h"
 #include "core/error.h"
 
 namespace enc::bench {

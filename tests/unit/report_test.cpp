@@ -1,5 +1,5 @@
 // The report: what it says of a figure, that text cannot break it, and that it is drawn right.
-#include "benchmarks/report.h"
+#include "benchmarks/report/report.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/contradictions.h"
-#include "benchmarks/plot.h"
+#include "benchmarks/report/contradictions.h"
+#include "benchmarks/report/plot.h"
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 // The theory of Table 1 against counting: a tracker, a server and a network, packet by packet, written once
 // more.
-#include "benchmarks/tracking_theory.h"
+#include "benchmarks/tracking/tracking_theory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/tracking_fit.h"
+#include "benchmarks/tracking/tracking_fit.h"
 
 namespace enc::bench {
 namespace {

@@ -1,0 +1,87 @@
+#include "benchmarks/report/choice.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "models/wording.h"
+
+namespace enc::bench {
+namespace {
+
+const Benchmark* named(const std::string& name) {
+  const std::span<const Benchmark> all = benchmarks();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Benchmark& b) { return name == b.name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// A benchmark that is named as a whole stays whole.
+void add(std::vector<Choice>& list, const Benchmark* benchmark, const std::string& id) {
+  const auto same =
+      std::find_if(list.begin(), list.end(), [&](const Choice& c) { return c.benchmark == benchmark; });
+  if (same == list.end())
+    list.push_back({benchmark, id.empty() ? std::vector<std::string>{} : std::vector<std::string>{id}});
+  else if (id.empty())
+    same->ids.clear();
+  else if (!same->ids.empty())
+    same->ids.push_back(id);
+}
+
+[[noreturn]] void refuse(const std::string& word) {
+  std::vector<std::string> names;
+  for (const Group& g : groups()) names.emplace_back(g.name);
+  for (const Benchmark& b : benchmarks()) names.emplace_back(b.name);
+  const std::string first = word.substr(0, word.find('.'));
+  throw Error("unknown benchmark " + models::quoted(first) + "; " + models::advice(first, names) +
+              " (all: encounter bench --list)");
+}
+
+bool begins(const std::string& id, const std::string& with) {
+  return id.starts_with(with) && (id.size() == with.size() || id[with.size()] == '.');
+}
+
+}  // namespace
+
+std::span<const Group> groups() {
+  static const std::vector<Group> kAll{
+      {"paper-2020", "what VHMR (2020) measured on its devices", {"tracking", "stiffness", "workspace"}},
+  };
+  return kAll;
+}
+
+std::vector<Choice> chosen(const std::vector<std::string>& words) {
+  std::vector<Choice> list;
+  if (words.empty())
+    for (const Benchmark& b : benchmarks()) list.push_back({&b, {}});
+  for (const std::string& word : words) {
+    const auto group =
+        std::find_if(groups().begin(), groups().end(), [&](const Group& g) { return word == g.name; });
+    if (group != groups().end()) {
+      for (const std::string& member : group->members)
+        if (const Benchmark* benchmark = named(member)) add(list, benchmark, {});
+      continue;
+    }
+    const std::size_t dot = word.find('.');
+    const Benchmark* benchmark = named(word.substr(0, dot));
+    if (benchmark == nullptr) refuse(word);
+    add(list, benchmark, dot == std::string::npos ? std::string{} : word);
+  }
+  if (list.empty()) throw Error(words.front() + " has no benchmark here; see encounter bench --list");
+  return list;
+}
+
+bool wanted(const Choice& choice, const Figure& figure) {
+  return choice.ids.empty() || std::any_of(choice.ids.begin(), choice.ids.end(),
+                                           [&](const std::string& id) { return begins(figure.id, id); });
+}
+
+void check_ids(const Choice& choice, const BenchResult& result) {
+  std::vector<std::string> there;
+  for (const Figure& f : result.figures) there.push_back(f.id);
+  for (const std::string& id : choice.ids) {
+    if (std::any_of(there.begin(), there.end(), [&](const std::string& f) { return begins(f, id); }))
+      continue;
+    throw Error("unknown figure " + models::quoted(id) + "; " + models::advice(id, there));
+  }
+}
+
+}  // namespace enc::bench

@@ -1,0 +1,270 @@
+#include "benchmarks/report/plot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace enc::bench {
+namespace {
+
+// Told apart also by the colour-blind [Okabe and Ito 2008]; the paper is black.
+constexpr std::array kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A5195"};
+constexpr std::array kPoints{7, 5, 9, 13, 11, 15, 3};  // gnuplot's numbers of filled shapes
+constexpr double kTop = 0.975;                         // where failures stand, as a share of the axis
+
+// In gnuplot nothing is special between single quotes but the quote itself and the end of the line.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') out += '\'';
+    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return out + "'";
+}
+
+double at(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() && std::isfinite(values[i]) ? values[i] : kUnset;
+}
+std::string word(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : "NaN"; }
+
+struct Limits {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  double least_positive = least;
+  void see(double value) {
+    if (!std::isfinite(value)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
+    if (value > 0.0) least_positive = std::min(least_positive, value);
+  }
+  // Something that an axis of either kind can show.
+  [[nodiscard]] bool any(bool log) const { return log ? std::isfinite(least_positive) : least <= most; }
+};
+Limits limits_of(const Plot& plot, bool of_y) {
+  Limits limits;
+  for (const Series& s : plot.series) {
+    for (const double value : of_y ? s.y : s.x) limits.see(value);
+    for (std::size_t i = 0; of_y && i < s.low.size(); ++i) limits.see(s.low[i]);
+    for (std::size_t i = 0; of_y && i < s.high.size(); ++i) limits.see(s.high[i]);
+  }
+  return limits;
+}
+
+bool with_bars(const Series& s) { return !s.low.empty() && !s.high.empty(); }
+bool any_finite(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double y) { return std::isfinite(y); });
+}
+
+// How wide one bar is, and how far the bars of one x stand apart: all in the unit of x.
+struct Bars {
+  double width = 0.8;
+  int count = 0;
+  explicit Bars(const Plot& plot) {
+    std::vector<double> xs;
+    for (const Series& s : plot.series) {
+      if (s.mark != Mark::bars) continue;
+      ++count;
+      for (const double x : s.x)
+        if (std::isfinite(x)) xs.push_back(x);
+    }
+    std::sort(xs.begin(), xs.end());
+    double gap = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < xs.size(); ++i)
+      if (xs[i] > xs[i - 1]) gap = std::min(gap, xs[i] - xs[i - 1]);
+    width = 0.8 * (std::isfinite(gap) ? gap : 1.0) / std::max(1, count);
+  }
+  [[nodiscard]] double offset(int bar) const { return (bar - 0.5 * (count - 1)) * width; }
+};
+
+// The data of a series. On a logarithmic axis what is not positive has no place: a value becomes a gap, the
+// lower end of an error bar the edge of the picture.
+std::string data_block(const Series& s, const Plot& plot, std::size_t index, double shift, double floor) {
+  std::string text = fmt::format("$d{} << EOD\n", index);
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    double x = at(s.x, i);
+    double y = at(s.y, i);
+    double low = at(s.low, i);
+    const double high = at(s.high, i);
+    if (plot.log_x && x <= 0.0) x = kUnset;
+    if (plot.log_y && y <= 0.0) y = kUnset;
+    if (plot.log_y && low <= 0.0) low = floor;
+    text += fmt::format("{} {} {} {}\n", word(x + shift), word(y), word(low), word(high));
+  }
+  return text + "EOD\n";
+}
+
+// The parts of gnuplot's one `plot` command.
+class Parts {
+ public:
+  void add(const Series& s, std::size_t index) {
+    if (s.x.empty()) return;
+    if (s.mark != Mark::crosses) look_ = s.paper ? paper() : ours();
+    const std::string data = fmt::format("$d{} using ", index);
+    std::string title = " title " + quoted(s.name);
+    const auto part = [&](const std::string& how) {
+      if (!text_.empty()) text_ += ", \\\n  ";
+      text_ += data + how + title;
+      title = " notitle";  // one entry of the legend for each series
+    };
+    if (s.mark == Mark::crosses)
+      part(crosses(s));
+    else if (s.mark == Mark::bars)
+      part(fmt::format("1:2 with boxes lc rgb '{}' {}", look_.colour,
+                       s.paper ? "lw 1.6 fs empty border" : "fs solid 0.75 noborder"));
+    else if (s.mark == Mark::band)
+      part(
+          fmt::format("1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.2 noborder", look_.colour));
+    const bool curve = s.mark != Mark::bars && s.mark != Mark::crosses && any_finite(s.y);
+    if (curve && s.mark == Mark::points)
+      part(fmt::format("1:2 with points lc rgb '{}' pt {} ps {} lw 1.5", look_.colour, look_.point,
+                       look_.size));
+    if (curve && s.mark == Mark::both)
+      part(fmt::format("1:2 with linespoints lc rgb '{}' lw {} dt {} pt {} ps {}", look_.colour, look_.width,
+                       look_.dash, look_.point, look_.size));
+    if (curve && (s.mark == Mark::line || s.mark == Mark::band))
+      part(fmt::format("1:2 with lines lc rgb '{}' lw {} dt {}", look_.colour, look_.width, look_.dash));
+    // Arrows with blunt heads, because gnuplot's error bars wipe what is under their points.
+    if (with_bars(s) && s.mark != Mark::band && s.mark != Mark::crosses)
+      part(fmt::format("1:3:(0):($4-$3) with vectors heads size graph 0.007,90 lc rgb '{}' lw 1.4",
+                       s.mark == Mark::bars ? "#222222" : look_.colour));
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  struct Look {
+    std::string colour = "#000000", dash = "solid";
+    int point = 6;
+    double width = 2.0, size = 0.7;
+  };
+  static Look paper() { return {"#000000", "(8,5)", 6, 1.6, 1.0}; }
+  Look ours() {
+    const std::size_t i = next_++;
+    // After three lines the dash tells, too.
+    return {kColours[i % kColours.size()],
+            i < 3        ? "solid"
+            : i % 2 == 1 ? "(12,4)"
+                         : "(12,4,3,4)",
+            kPoints[i % kPoints.size()], 2.0, 0.7};
+  }
+  // In the colour of the series before them, whose failures they are.
+  [[nodiscard]] std::string crosses(const Series& s) const {
+    return fmt::format("1:{} with points lc rgb '{}' pt 2 ps 0.9 lw 2.2",
+                       any_finite(s.y) ? "2" : fmt::format("({}) axes x1y2", kTop), look_.colour);
+  }
+
+  std::string text_;
+  Look look_;
+  std::size_t next_ = 0;
+};
+
+// Round numbers where an axis has few powers of ten: there 1, 2, 5, 10, ...
+std::string log_tics(const char* axis, double low, double high) {
+  const bool plain = low >= 1e-5 && high <= 1e6;
+  std::string text = fmt::format("set logscale {0}\nset format {0} {1}\n", axis, plain ? "'%g'" : "'1e%T'");
+  if (std::log10(high / low) > 2.0) return text;
+  std::string tics;
+  for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10.0)
+    for (const double tic : {power, 2.0 * power, 5.0 * power})
+      if (tic >= low && tic <= high) tics += fmt::format("{}{:.9g}", tics.empty() ? "" : ", ", tic);
+  return text + fmt::format("set format {} '%g'\nset {}tics ({})\n", axis, axis, tics);
+}
+
+// A little wider than the data; `above` is a share of the axis that is kept free at the upper end.
+std::string axis_range(const char* axis, const Limits& limits, bool log, double above) {
+  if (!limits.any(log)) return fmt::format("set {}range [{}]\n", axis, log ? "0.1:1" : "0:1");
+  double low = log ? std::log(limits.least_positive) : limits.least;
+  double high = log ? std::log(limits.most) : limits.most;
+  const double span = high > low ? high - low : log ? 1.0 : std::max(std::abs(high), 1e-9);
+  const bool from_zero = !log && low >= 0.0 && low < 0.1 * span;
+  low = from_zero ? 0.0 : low - 0.04 * span;
+  high += (0.04 + above) * span;
+  if (!log) return fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, low, high);
+  return fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, std::exp(low), std::exp(high)) +
+         log_tics(axis, std::exp(low), std::exp(high));
+}
+
+// Bands first: they cover what is behind them.
+std::vector<std::size_t> drawing_order(const Plot& plot) {
+  std::vector<std::size_t> order(plot.series.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t i) { return plot.series[i].mark == Mark::band; });
+  return order;
+}
+
+std::string axes(const Plot& plot, const Bars& bars) {
+  Limits x = limits_of(plot, false);
+  Limits y = limits_of(plot, true);
+  const bool failures = std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) {
+    return s.mark == Mark::crosses && !any_finite(s.y);
+  });
+  if (bars.count > 0) {
+    x.see(x.least - 0.6 * bars.width * bars.count);
+    x.see(x.most + 0.6 * bars.width * bars.count);
+    y.see(0.0);  // the length of a bar is its value
+  }
+  std::string text =
+      axis_range("x", x, plot.log_x, 0.0) + axis_range("y", y, plot.log_y, failures ? 0.08 : 0.0);
+  if (!plot.x_names.empty()) {
+    text += fmt::format("set xrange [-0.6:{}]\nset xtics (", static_cast<double>(plot.x_names.size()) - 0.4);
+    for (std::size_t i = 0; i < plot.x_names.size(); ++i)
+      text += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(plot.x_names[i]), i);
+    text += ")\n";
+  }
+  if (plot.equal) text += "set size ratio -1\n";
+  return text;
+}
+
+}  // namespace
+
+std::string plot_script(const Plot& plot) {
+  std::size_t longest = 1;
+  for (const Series& s : plot.series) longest = std::max(longest, s.name.size());
+  const std::size_t columns = std::max<std::size_t>(1, 590 / (62 + 8 * longest));
+  const std::size_t rows = (plot.series.size() + columns - 1) / columns;
+  std::string text = fmt::format(
+      "set encoding utf8\nset terminal svg size 640,{} font 'sans-serif,15' background '#ffffff' "
+      "noenhanced\n",
+      (plot.equal ? 520 : 360) + 22 * rows);
+  text +=
+      "set border 3 lc rgb '#555555'\nset tics nomirror out textcolor rgb '#333333'\n"
+      "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";
+  text += fmt::format("set key bmargin center horizontal Left reverse samplen 2.5 height 0.5 maxcols {}\n",
+                      columns);
+  text += "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
+          quoted(plot.y_label) + "\n";
+  const Limits y = limits_of(plot, true);
+  const Bars bars(plot);
+  text += axes(plot, bars);
+  text += fmt::format("set boxwidth {}\n", bars.width);
+  Parts parts;
+  int bar = 0;
+  for (const std::size_t i : drawing_order(plot)) {
+    const Series& s = plot.series[i];
+    text += data_block(s, plot, i, s.mark == Mark::bars ? bars.offset(bar++) : 0.0, y.least_positive);
+    parts.add(s, i);
+  }
+  return text + (parts.text().empty() ? "plot NaN notitle\n" : "plot " + parts.text() + "\n");
+}
+
+std::string svg_for_page(const std::string& svg, const std::string& plot_id) {
+  std::string text = svg.substr(std::min(svg.find("<svg"), svg.size()));
+  std::string prefix = plot_id;
+  std::replace(prefix.begin(), prefix.end(), '.', '_');
+  const std::string title = "<title>Gnuplot</title>";  // a page shows it under the pointer
+  if (const std::size_t i = text.find(title); i != std::string::npos) text.erase(i, title.size());
+  // Where gnuplot defines a name of its own, and where it uses one.
+  for (const std::string found :
+       {"='gp", "=\"gp", "=\"gnuplot", "='#gp", "=\"#gp", "(#gp", "='textbox", "='greybox"}) {
+    const std::size_t name = found.find_last_of("'\"#") + 1;
+    const std::string renamed = std::string(found).insert(name, prefix + "_");
+    for (std::size_t i = text.find(found); i != std::string::npos; i = text.find(found, i + renamed.size()))
+      text.replace(i, found.size(), renamed);
+  }
+  return text;
+}
+
+}  // namespace enc::bench

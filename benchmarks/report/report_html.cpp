@@ -1,0 +1,146 @@
+// One page that needs nothing but itself: no script, no link out, pictures in it.
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "benchmarks/report/plot.h"
+#include "benchmarks/report/report.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr const char* kHead = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Encounter: benchmark report</title>
+<style>
+:root { color-scheme: light }
+body { margin: 0 auto; padding: 1rem; max-width: 84rem; background: #fff; color: #1a1a1a;
+  font: 16px/1.5 system-ui, sans-serif }
+h1, h2, h3 { line-height: 1.2; margin: 1.8em 0 .5em }
+h1 { margin-top: .5em }
+h2 { border-bottom: 1px solid #ccc; padding-bottom: .2em }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: 0 }
+dt { color: #555 }
+dd { margin: 0; overflow-wrap: anywhere }
+nav a { margin-right: 1rem }
+.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 34rem), 1fr)); gap: 1.5rem }
+figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: .5rem }
+figure svg { display: block; width: 100%; height: auto }
+figcaption { padding: .5rem; font-size: .9rem }
+.wide { overflow-x: auto }
+table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums }
+th, td { padding: .25rem .6rem; text-align: left; vertical-align: top; border-bottom: 1px solid #e5e5e5 }
+th { background: #f4f4f4; white-space: nowrap }
+td.n { text-align: right; white-space: nowrap }
+tr.no td { background: #fdecea }
+.missing { border-left: 4px solid #c00; padding: .5rem 1rem; background: #fdecea }
+.note { font-size: .9rem; color: #444; max-width: 60rem }
+@media (max-width: 40rem) { dl { grid-template-columns: 1fr } dd { margin-bottom: .4rem } body { padding: .6rem } }
+@media print { html { font-size: 10pt } body { max-width: none; padding: 0; font-size: 10pt } .wide { overflow: visible } nav { display: none }
+  table { font-size: 7pt } th { white-space: normal } tr, figure { break-inside: avoid } h2, h3 { break-after: avoid }
+  .plots { grid-template-columns: 1fr 1fr } }
+</style>
+</head>
+<body>
+)";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+// Also of a range.
+bool is_number(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("+-0123456789.e ") == std::string::npos &&
+         text.find_first_of("0123456789") != std::string::npos;
+}
+
+std::string table(const Table& t) {
+  std::string text = "<div class=\"wide\"><table>\n<thead><tr>";
+  for (const std::string& column : t.columns) text += "<th>" + escaped(column) + "</th>";
+  text += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : t.rows) {
+    const bool no = std::find(row.begin(), row.end(), "NO") != row.end();
+    text += no ? "<tr class=\"no\">" : "<tr>";
+    for (const std::string& cell : row)
+      text += (is_number(cell) ? "<td class=\"n\">" : "<td>") + escaped(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  text += "</tbody></table></div>\n";
+  return text + (t.note.empty() ? "" : "<p class=\"note\">" + escaped(t.note) + "</p>\n");
+}
+
+std::string head(const Report& report) {
+  std::string text = std::string(kHead) + "<h1>Encounter: benchmark report</h1>\n";
+  if (!report.missing.empty()) {
+    text += "<p class=\"missing\"><strong>Not complete.</strong> Missing:";
+    for (const std::string& name : report.missing) text += " " + escaped(name);
+    text += "</p>\n";
+  }
+  text += "<dl>\n";
+  for (const Fact& fact : facts(report))
+    text += "<dt>" + escaped(fact.name) + "</dt><dd>" + escaped(fact.value) + "</dd>\n";
+  text += "</dl>\n<nav><p>";
+  for (const BenchResult& r : report.results)
+    text += fmt::format("<a href=\"#{0}\">{0}</a>", escaped(r.name));
+  return text +
+         "<a href=\"#roles\">calibrated and predicted</a><a "
+         "href=\"#contradictions\">contradictions</a></p></nav>\n";
+}
+
+std::string plots(const Report& report) {
+  std::string text;
+  for (const Plot* plot : ordered_plots(report)) {
+    const auto svg = report.drawings.find(plot->id);
+    if (svg == report.drawings.end()) continue;
+    text += fmt::format(
+        "<figure id=\"plot.{}\">\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
+        escaped(plot->id), svg_for_page(svg->second, plot->id), escaped(plot->title), escaped(plot->caption));
+  }
+  if (text.empty()) return {};
+  return "<h2>Plots</h2>\n<p class=\"note\">Black, open circles or dashed: the paper. Colours: the twin. "
+         "Crosses at the "
+         "upper edge: failed.</p>\n<div class=\"plots\">\n" +
+         text + "</div>\n";
+}
+
+}  // namespace
+
+std::string report_html(const Report& report) {
+  std::string text = head(report) + plots(report);
+  text += "<h2>What was run</h2>\n" + table(overview_table(report));
+  for (const BenchResult& result : report.results) {
+    text += fmt::format("<h2 id=\"{0}\">{0}</h2>\n{1}", escaped(result.name), table(figure_table(result)));
+    for (const Table& t : result.tables) text += "<h3>" + escaped(t.title) + "</h3>\n" + table(t);
+  }
+  for (const Table& t : {role_table(report), contradiction_table()})
+    text += fmt::format("<h2 id=\"{}\">{}</h2>\n{}", escaped(t.id), escaped(t.title), table(t));
+  return text + "</body>\n</html>\n";
+}
+
+}  // namespace enc::bench

@@ -1,0 +1,163 @@
+// The files of a report, and results.json, which others read: keep its form (architecture B8).
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <encounter_version.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/utsname.h>
+
+#include "benchmarks/report/contradictions.h"
+#include "benchmarks/report/machine.h"
+#include "benchmarks/report/plot.h"
+#include "benchmarks/report/report.h"
+#include "core/error.h"
+#include "sim/mujoco.h"
+
+namespace enc::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+std::string word(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
+
+// A field of a CSV file [RFC 4180].
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + field(cells[i]);
+  return line + "\n";
+}
+
+std::string figures_csv(const BenchResult& result) {
+  std::string csv = "id,paper,twin,least,most,unit,role,low,high,ok\n";
+  for (const Figure& f : result.figures)
+    csv += csv_line({f.id, word(f.paper), word(f.twin), word(f.least), word(f.most), f.unit,
+                     role_name(f.role), word(f.low), word(f.high), f.ok() ? "1" : "0"});
+  return csv;
+}
+
+Json figure_json(const Figure& f) {
+  return {{"id", f.id},
+          {"paper", number(f.paper)},
+          {"twin", number(f.twin)},
+          {"unit", f.unit},
+          {"role", role_name(f.role)},
+          {"low", number(f.low)},
+          {"high", number(f.high)},
+          {"ok", f.ok()},
+          {"note", f.note},
+          {"least", number(f.least)},
+          {"most", number(f.most)}};
+}
+
+void write_whole(const fs::path& path, const std::string& text) {
+  const fs::path aside = path.string() + ".part";
+  std::ofstream file(aside, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code failed;
+  if (file) fs::rename(aside, path, failed);
+  if (!file || failed)
+    throw Error(path.string() + ": cannot be written; choose a folder that is yours and has room");
+}
+
+}  // namespace
+
+Machine this_machine() {
+  Machine machine{"unknown", {}, __VERSION__, std::thread::hardware_concurrency()};
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) {
+      machine.processor = line.substr(line.find(':') + 2);
+      break;
+    }
+  utsname system{};
+  uname(&system);
+  machine.system = fmt::format("{} {}", system.sysname, system.machine);
+  return machine;
+}
+
+bool Figure::ok() const {
+  if (!std::isfinite(twin)) return false;
+  return !(std::isfinite(low) && twin < low) && !(std::isfinite(high) && twin > high);
+}
+
+std::string plot_csv(const Plot& plot) {
+  const auto at = [](const std::vector<double>& values, std::size_t i) {
+    return i < values.size() ? word(values[i]) : "";
+  };
+  std::string csv = "series,paper,x,y,low,high\n";
+  for (const Series& s : plot.series)
+    for (std::size_t i = 0; i < s.x.size(); ++i)
+      csv += csv_line({s.name, s.paper ? "1" : "0", word(s.x[i]), at(s.y, i), at(s.low, i), at(s.high, i)});
+  return csv;
+}
+
+std::string table_csv(const Table& table) {
+  std::string csv = csv_line(table.columns);
+  for (const auto& row : table.rows) csv += csv_line(row);
+  return csv;
+}
+
+std::string results_json(const Report& report) {
+  const Machine machine = this_machine();
+  Json json;
+  json["encounter"] = ENCOUNTER_VERSION;
+  json["mujoco"] = sim::mujoco_version();
+  json["machine"] = {{"processor", machine.processor},
+                     {"cores", machine.cores},
+                     {"system", machine.system},
+                     {"compiler", machine.compiler}};
+  json["seed"] = report.seed;
+  json["command"] = report.command;
+  json["set"] = report.set;
+  json["missing"] = report.missing;
+  json["benchmarks"] = Json::array();
+  for (const BenchResult& result : report.results) {
+    Json figures = Json::array();
+    for (const Figure& f : result.figures) figures.push_back(figure_json(f));
+    json["benchmarks"].push_back({{"name", result.name},
+                                  {"scene", result.scene},
+                                  {"run_time_s", result.run_time},
+                                  {"simulated_s", result.simulated},
+                                  {"note", result.note},
+                                  {"figures", figures}});
+  }
+  json["contradictions"] = Json::array();
+  for (const Contradiction& c : contradictions())
+    json["contradictions"].push_back(
+        {{"id", c.id}, {"where", c.where}, {"printed", c.printed}, {"found", c.found}});
+  return json.dump(2) + "\n";
+}
+
+void write_report(const std::string& folder, const Report& report) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed)
+    throw Error(folder + ": cannot be made (" + failed.message() + "); choose a folder that is yours");
+  const fs::path at = folder;
+  for (const BenchResult& result : report.results) {
+    write_whole(at / (result.name + ".csv"), figures_csv(result));
+    for (const Table& table : result.tables) write_whole(at / (table.id + ".csv"), table_csv(table));
+    for (const Plot& plot : result.plots) {
+      write_whole(at / (plot.id + ".plot.csv"), plot_csv(plot));
+      if (const auto svg = report.drawings.find(plot.id); svg != report.drawings.end())
+        write_whole(at / (plot.id + ".svg"), svg->second);
+    }
+  }
+  write_whole(at / "REPORT.md", report_markdown(report));
+  write_whole(at / "report.html", report_html(report));
+  write_whole(at / "results.json", results_json(report));  // last: who waits for it finds all the rest
+}
+
+}  // namespace enc::bench

@@ -1,0 +1,348 @@
+// Where is the tool now, when its pose is old? Hold, constant velocity and constant acceleration on the
+// paper's moves and on what a hand does otherwise; packets polled at 100 Hz as the paper's, or sent when
+// ready.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "benchmarks/bench.h"
+#include "benchmarks/parallel.h"
+#include "benchmarks/press_measure.h"
+#include "benchmarks/statistics.h"
+#include "benchmarks/tracking/prediction_rows.h"
+#include "benchmarks/tracking/prediction_run.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr std::array<sim::Packets, 2> kPackets{sim::Packets::polled, sim::Packets::event};
+constexpr std::array kPacketName{"polled", "event"};
+constexpr std::array kName{"hold", "cv", "ca"};
+constexpr std::array kLongName{"hold", "constant velocity", "constant acceleration"};
+
+// One row with one kind of packets: of each prediction, over the seeds.
+struct Cell {
+  std::array<std::vector<double>, 3> at_packets, at_ticks, peak, step;  // m
+};
+struct Bench {
+  models::Setup setup;
+  Scene scene;
+  Pose<'W', 'C'> X_WC;
+  std::vector<PredictionRow> rows;
+  std::vector<std::array<Cell, 2>> cells{};
+  double simulated = 0.0;
+};
+
+double root_mean_square(const std::vector<double>& x) {
+  double sum = 0.0;
+  for (const double v : x) sum += v * v;
+  return std::sqrt(sum / static_cast<double>(x.size()));
+}
+
+PredictionRun run_of(const Bench& bench, const PredictionRow& row, sim::Packets packets, std::uint64_t seed) {
+  PredictionRun run{row.motion(seed), bench.setup.twin.tracker, seed, row.moving_only, row.from, row.to};
+  run.truth.packets = packets;
+  if (!row.with_bias) run.truth.bias = Vec3::Zero();
+  if (row.change) row.change(run.truth);
+  return run;
+}
+
+void run_rows(Bench& bench, const BenchContext& context, std::size_t seeds) {
+  struct Job {
+    std::size_t row, packets;
+    std::uint64_t seed;
+    std::array<TipErrors, 3> errors{};
+    double time = 0.0;
+  };
+  std::vector<Job> jobs;
+  for (std::size_t row = 0; row < bench.rows.size(); ++row)
+    for (std::size_t p = 0; p < kPackets.size(); ++p)
+      for (std::size_t s = 0; s < seeds; ++s) jobs.push_back({row, p, context.seed + s});
+  in_parallel(jobs.size(), [&](std::size_t i) {
+    Job& job = jobs[i];
+    const PredictionRun run = run_of(bench, bench.rows[job.row], kPackets[job.packets], job.seed);
+    job.errors = predicted_run(bench.scene, bench.X_WC, run);
+    job.time = std::min(run.motion.duration, run.to);
+  });
+  bench.cells.resize(bench.rows.size());
+  for (const Job& job : jobs) {
+    Cell& cell = bench.cells[job.row][job.packets];
+    for (std::size_t k = 0; k < 3; ++k) {
+      cell.at_packets[k].push_back(job.errors[k].at_packets);
+      cell.at_ticks[k].push_back(job.errors[k].at_ticks);
+      cell.peak[k].push_back(job.errors[k].peak);
+      cell.step[k].push_back(job.errors[k].largest_step);
+    }
+    bench.simulated += job.time;
+  }
+}
+
+Figure figure_of(std::string id, const std::vector<double>& over_seeds, double twin, double high,
+                 std::string note) {
+  const auto [least, most] = std::minmax_element(over_seeds.begin(), over_seeds.end());
+  return {std::move(id), kUnset, twin * 1e3,      "mm",         Role::ours,
+          kUnset,        high,   std::move(note), *least * 1e3, *most * 1e3};
+}
+
+std::vector<Figure> figures_of(const Bench& bench) {
+  std::vector<Figure> figures;
+  for (std::size_t r = 0; r < bench.rows.size(); ++r) {
+    const PredictionRow& row = bench.rows[r];
+    for (std::size_t p = 0; p < kPackets.size(); ++p) {
+      const Cell& cell = bench.cells[r][p];
+      for (std::size_t k = 0; k < kName.size(); ++k) {
+        if (!row.in_figures && (k != 1 || p != 0)) continue;  // the rest is in the tables
+        const bool bound = k == 1 && p == row.bound_on;
+        const std::vector<double>& of = row.peak ? cell.peak[k] : cell.at_packets[k];
+        Figure figure =
+            figure_of(fmt::format("tracking.predicted.{}.{}.{}.{}", kName[k], kPacketName[p],
+                                  row.peak ? "peak" : "rmse.norm", row.id),
+                      of, row.peak ? *std::max_element(of.begin(), of.end()) : root_mean_square(of),
+                      bound ? row.highest * 1e3 : kUnset,
+                      fmt::format("{}; {}", row.title,
+                                  row.peak ? "along an axis, on every tick" : "on ticks with a new pose"));
+        if (k == 0 && p == 0) figure.paper = row.paper * 1e3;
+        if (!std::isnan(figure.paper)) figure.role = Role::calibrated;  // Table 1 gave the delays
+        figures.push_back(std::move(figure));
+      }
+    }
+  }
+  return figures;
+}
+
+std::string mm(double m) { return fmt::format("{:.3f}", m * 1e3); }
+
+Table rmse_table(const Bench& bench) {
+  Table table{
+      "tracking_predicted", "Error of the tool's tip by motion and prediction", {"motion", "packets"}, {}};
+  for (const char* name : kLongName) table.columns.push_back(fmt::format("{} at packets mm", name));
+  for (const char* name : kLongName) table.columns.push_back(fmt::format("{} at every tick mm", name));
+  for (std::size_t r = 0; r < bench.rows.size(); ++r)
+    for (std::size_t p = 0; p < kPackets.size(); ++p) {
+      std::vector<std::string> line{bench.rows[r].title, kPacketName[p]};
+      for (std::size_t k = 0; k < 3; ++k)
+        line.push_back(mm(root_mean_square(bench.cells[r][p].at_packets[k])));
+      for (std::size_t k = 0; k < 3; ++k) line.push_back(mm(root_mean_square(bench.cells[r][p].at_ticks[k])));
+      table.rows.push_back(std::move(line));
+    }
+  table.note =
+      "RMS distance of tip and truth; every axis moves alike. Registration is taken out but where it is "
+      "named.";
+  return table;
+}
+
+Table peak_table(const Bench& bench) {
+  Table table{"tracking_predicted_peak",
+              "Largest error along an axis, and largest step of the prediction in a tick",
+              {"motion", "packets"},
+              {}};
+  for (const char* name : kLongName) table.columns.push_back(fmt::format("{} peak mm", name));
+  for (const char* name : kLongName) table.columns.push_back(fmt::format("{} step mm", name));
+  for (std::size_t r = 0; r < bench.rows.size(); ++r) {
+    if (!bench.rows[r].peak) continue;
+    for (std::size_t p = 0; p < kPackets.size(); ++p) {
+      std::vector<std::string> line{bench.rows[r].title, kPacketName[p]};
+      const auto most = [](const std::vector<double>& x) {
+        return mm(*std::max_element(x.begin(), x.end()));
+      };
+      for (std::size_t k = 0; k < 3; ++k) line.push_back(most(bench.cells[r][p].peak[k]));
+      for (std::size_t k = 0; k < 3; ++k) line.push_back(most(bench.cells[r][p].step[k]));
+      table.rows.push_back(std::move(line));
+    }
+  }
+  table.note =
+      "The step is beyond the tool's own way in that tick; the machine goes 0.05 mm in a tick at most.";
+  return table;
+}
+
+Plot named_plot(std::string id, std::string title, std::string x_label, std::string y_label) {
+  Plot plot;
+  plot.id = std::move(id);
+  plot.title = std::move(title);
+  plot.x_label = std::move(x_label);
+  plot.y_label = std::move(y_label);
+  return plot;
+}
+
+// Of all rows the table tells; the plot has room for these.
+struct Shown {
+  const char *id, *name;
+};
+constexpr auto kShown = std::to_array<Shown>({{"20", "paper 20"},
+                                              {"40", "paper 40"},
+                                              {"reach.40", "reach 40"},
+                                              {"reach.200", "reach 200"},
+                                              {"press", "press 2 Hz"},
+                                              {"tremor.200um", "tremor"},
+                                              {"rest", "rest"},
+                                              {"stop.200", "stop"},
+                                              {"drop_out.100", "drop-out"},
+                                              {"loss", "loss"}});
+
+Plot rmse_plot(const Bench& bench) {
+  Plot plot = named_plot("tracking_predicted_rmse", "Error of the tool's tip by motion and prediction",
+                         "motion", "RMS distance, mm");
+  plot.log_y = true;
+  std::vector<std::size_t> rows;
+  Series paper{"paper (holds, polled)", {}, {}, {}, {}, Mark::points, true};
+  for (const Shown& shown : kShown)
+    for (std::size_t r = 0; r < bench.rows.size(); ++r) {
+      if (bench.rows[r].id != shown.id) continue;
+      if (!std::isnan(bench.rows[r].paper)) {
+        paper.x.push_back(static_cast<double>(rows.size()) - 0.25);
+        paper.y.push_back(bench.rows[r].paper * 1e3);
+      }
+      plot.x_names.emplace_back(shown.name);
+      rows.push_back(r);
+    }
+  for (std::size_t p = 0; p < kPackets.size(); ++p)
+    for (std::size_t k = 0; k < kName.size(); ++k) {
+      Series series{fmt::format("{}, {}", kLongName[k], kPacketName[p]), {}, {}, {}, {}, Mark::points};
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::vector<double>& of = bench.cells[rows[i]][p].at_packets[k];
+        const auto [least, most] = std::minmax_element(of.begin(), of.end());
+        series.x.push_back(static_cast<double>(i) + 0.1 * (static_cast<double>(3 * p + k) - 2.5));
+        series.y.push_back(root_mean_square(of) * 1e3);
+        series.low.push_back(*least * 1e3);
+        series.high.push_back(*most * 1e3);
+      }
+      plot.series.push_back(std::move(series));
+    }
+  plot.series.push_back(std::move(paper));
+  plot.caption =
+      "On ticks with a new pose; intervals: over seeds. The table below has all motions. Where the tool "
+      "shakes at 8 to "
+      "12 Hz or has just stopped, compare with hold: there prediction need not help.";
+  return plot;
+}
+
+Plot time_plot(const Bench& bench, const BenchContext& context, const std::string& row_id,
+               std::string plot_id, std::string caption) {
+  const auto row = std::find_if(bench.rows.begin(), bench.rows.end(),
+                                [&](const PredictionRow& r) { return r.id == row_id; });
+  PredictionRun run = run_of(bench, *row, sim::Packets::event, context.seed);
+  run.from = std::max(0.0, run.from - 0.1);
+  TipTrace trace;
+  (void)predicted_run(bench.scene, bench.X_WC, run, &trace);
+  Plot plot = named_plot(std::move(plot_id), row->title, "time, s", "error along x, mm");
+  for (std::size_t k = 0; k < kName.size(); ++k) {
+    Series series{kLongName[k], trace.time, trace.error[k]};
+    for (double& y : series.y) y *= 1e3;
+    plot.series.push_back(std::move(series));
+  }
+  plot.caption = std::move(caption);
+  return plot;
+}
+
+// ---- what it costs and what it buys in the whole loop
+// --------------------------------------------------------
+
+// step() with each prediction, interleaved; ns, median of the runs' medians.
+std::array<double, 3> step_costs(const models::Setup& setup, const BenchContext& context, double& simulated) {
+  std::array<std::vector<double>, 3> medians;
+  for (int round = 0; round < (context.quick ? 1 : 5); ++round)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = (i + static_cast<std::size_t>(round)) % 3;
+      models::Setup with = setup;
+      with.rig.tracker.prediction = kPredictions[k];
+      TrialOptions options;
+      options.seed = context.seed;
+      options.seconds = context.quick ? 3.0 : 10.0;
+      const TrialResult run = Trial(with, options).run();
+      medians[k].push_back(median(run.step_ns));
+      simulated += run.simulated;
+    }
+  return {median(medians[0]), median(medians[1]), median(medians[2])};
+}
+
+constexpr std::array<double, 5> kSpeeds{0.010, 0.020, 0.050, 0.100, 0.200};  // m/s
+
+// Miss at first touch [docs/encounter.md], m: median over the seeds, for each prediction and approach speed.
+std::array<std::array<double, 5>, 3> misses(const models::Setup& setup, const BenchContext& context,
+                                            double& simulated) {
+  const std::size_t seeds = context.quick ? 2 : (context.full ? 40 : 10);
+  std::vector<double> miss(3 * kSpeeds.size() * seeds, kUnset);
+  std::vector<double> time(miss.size());
+  in_parallel(miss.size(), [&](std::size_t i) {
+    models::Setup with = setup;
+    with.rig.tracker.prediction = kPredictions[i / (kSpeeds.size() * seeds)];
+    UserSpec& user = *with.scene.user;
+    user.approach = {kSpeeds[i / seeds % kSpeeds.size()]};
+    user.press_time = user.release_time = 0.8;
+    user.hold_time = 0.1;
+    user.depth = 0.002;
+    miss[i] = measured_run(with, context.seed + i % seeds, time[i]).presses().front().miss;
+  });
+  for (const double t : time) simulated += t;
+  std::array<std::array<double, 5>, 3> result{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t v = 0; v < kSpeeds.size(); ++v) {
+      const auto from = miss.begin() + static_cast<std::ptrdiff_t>((k * kSpeeds.size() + v) * seeds);
+      result[k][v] = median(std::vector<double>(from, from + static_cast<std::ptrdiff_t>(seeds)));
+    }
+  return result;
+}
+
+void add_loop(BenchResult& result, const models::Setup& setup, const BenchContext& context) {
+  const auto cost = step_costs(setup, context, result.simulated);
+  const auto miss = misses(setup, context, result.simulated);
+  Table table{"tracking_predicted_loop",
+              "In the whole loop: cost of step() and miss at first touch",
+              {"prediction", "step() p50 us"},
+              {}};
+  Plot plot = named_plot("tracking_predicted_miss", "Miss at first touch by prediction",
+                         "approach speed, mm/s", "miss, mm");
+  plot.log_x = true;
+  for (const double v : kSpeeds) table.columns.push_back(fmt::format("miss at {:.0f} mm/s mm", v * 1e3));
+  for (std::size_t k = 0; k < 3; ++k) {
+    table.rows.push_back({kLongName[k], fmt::format("{:.2f}", cost[k] * 1e-3)});
+    Series series{kLongName[k], {}, {}, {}, {}, Mark::both};
+    for (std::size_t v = 0; v < kSpeeds.size(); ++v) {
+      table.rows.back().push_back(mm(miss[k][v]));
+      series.x.push_back(kSpeeds[v] * 1e3);
+      series.y.push_back(miss[k][v] * 1e3);
+    }
+    plot.series.push_back(std::move(series));
+    result.figures.push_back({fmt::format("tracking.predicted.{}.step.p50", kName[k]), kUnset, cost[k] * 1e-3,
+                              "us", Role::ours, kUnset, kUnset, "step() on tennis_ball, all stages"});
+  }
+  plot.caption =
+      "True tool tip to haptic-tip, medians over seeds. The rest of the miss is the machine's own lag.";
+  result.tables.push_back(std::move(table));
+  result.plots.push_back(std::move(plot));
+}
+
+}  // namespace
+
+void add_prediction(const BenchContext& context, BenchResult& result) {
+  Bench bench{models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set), {}, {}, {}};
+  bench.scene = prepare_setup(bench.setup);
+  bench.X_WC = pose_of<'W', 'C'>(bench.setup.twin.frames.W_C);
+  bench.rows = prediction_rows(bench.setup.twin.hexapod.acceleration);
+  const std::size_t seeds =
+      context.repeats > 0 ? static_cast<std::size_t>(context.repeats) : (context.quick ? 2U : 24U);
+  run_rows(bench, context, seeds);
+  const auto append = [](auto& list, auto more) {
+    list.insert(list.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  append(result.figures, figures_of(bench));
+  append(result.tables, std::vector<Table>{rmse_table(bench), peak_table(bench)});
+  append(
+      result.plots,
+      std::vector<Plot>{
+          rmse_plot(bench),
+          time_plot(bench, context, "stop.200", "tracking_predicted_stop",
+                    "The tool meets a wall at 200 mm/s. Until the first pose from after the stop has come, "
+                    "every prediction goes on; holding never leads."),
+          time_plot(bench, context, "drop_out.100", "tracking_predicted_drop_out",
+                    "No poses for 100 ms in the middle of a reach. The prediction goes on for 100 ms and "
+                    "catches up afterwards.")});
+  result.simulated += bench.simulated;
+  if (context.progress) context.progress(0.8);
+  add_loop(result, bench.setup, context);
+}
+
+}  // namespace enc::bench

@@ -1,0 +1,32 @@
+// The motions on which predictions are compared [fidelity 2, 5].
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "benchmarks/tracking/motion.h"
+#include "sim/twin_spec.h"
+
+namespace enc::bench {
+
+struct PredictionRow {
+  std::string id, title;
+  std::function<Motion(std::uint64_t seed)> motion;
+  std::function<void(sim::TrackerTruth&)> change{};                 // of the tracker; none: as the rig has it
+  bool with_bias = false;                                           // registration error kept
+  bool moving_only = false;                                         // stops do not count
+  bool peak = false;                                                // the largest error is what matters
+  bool in_figures = false;                                          // of each prediction and kind of packets
+  double from = 0.0, to = std::numeric_limits<double>::infinity();  // s of the motion that count
+  double paper = kUnset;                                            // m
+  double highest = kUnset;                                          // m: bound of constant velocity with
+  std::size_t bound_on = 1;                                         // packets: 0 polled, 1 event
+};
+
+// acceleration: of the machine that makes the paper's moves, m/s^2.
+[[nodiscard]] std::vector<PredictionRow> prediction_rows(double acceleration);
+
+}  // namespace enc::bench

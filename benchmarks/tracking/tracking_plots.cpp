@@ -1,0 +1,246 @@
+#include "benchmarks/tracking/tracking_plots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/frames.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr double kMillimetres = 1e3;
+
+std::string mm(double metres) { return fmt::format("{:.4f}", metres * kMillimetres); }
+std::string percent(double ratio) { return fmt::format("{:+.1f}", (ratio - 1.0) * 100.0); }
+
+struct Statistic {
+  const char* name;
+  double Cell::*what;
+};
+constexpr std::array<Statistic, 2> kStatistics{{{"RMSE", &Cell::rmse}, {"MAE", &Cell::mae}}};
+
+Table table1(const Pictures& p) {
+  Table table{"tracking_table1",
+              "Table 1: calibrated on all columns",
+              {"speed (mm/s)", "axis", "statistic", "paper (mm)", "twin (mm)", "difference (%)", "least (mm)",
+               "most (mm)", "theory (mm)"},
+              {}};
+  for (std::size_t s = 0; s < p.paper.size(); ++s)
+    for (std::size_t a = 0; a < kTableAxes.size(); ++a)
+      for (const auto& [name, what] : kStatistics)
+        table.rows.push_back(
+            {fmt::format("{}", kTableSpeeds[s]), kTableAxes[a], name, mm(p.paper[s][a].*what),
+             mm(p.twin.table[s][a].*what), percent(p.twin.table[s][a].*what / p.paper[s][a].*what),
+             mm(p.twin.least[s][a].*what), mm(p.twin.most[s][a].*what), mm(p.theory.table[0][s][a].*what)});
+  table.note = "Least and most: over seeds, which are the phases of the tracker's and the server's clocks.";
+  return table;
+}
+
+Table from_20(const Pictures& p) {
+  Table table{"tracking_from_20",
+              "40 mm/s predicted from the columns 0 and 20 mm/s alone",
+              {"axis", "statistic", "paper (mm)", "median (mm)", "5 % (mm)", "95 % (mm)", "paper inside",
+               "twin, best chain (mm)", "difference (%)"},
+              {}};
+  const Predicted40& prediction = p.fits.prediction[0];
+  for (std::size_t a = 0; a < kTableAxes.size(); ++a)
+    for (const auto& [name, what] : kStatistics) {
+      const double value = p.paper[2][a].*what;
+      const bool inside = value >= prediction.low[2][a].*what && value <= prediction.high[2][a].*what;
+      table.rows.push_back({kTableAxes[a], name, mm(value), mm(prediction.median[2][a].*what),
+                            mm(prediction.low[2][a].*what), mm(prediction.high[2][a].*what),
+                            inside ? "yes" : "no", mm(p.twin_from_20[2][a].*what),
+                            percent(p.twin_from_20[2][a].*what / value)});
+    }
+  return table;
+}
+
+Table hypotheses(const Pictures& p) {
+  Table table{"tracking_hypotheses",
+              "On which side of the lag is the bias?",
+              {"bias", "calibrated on", "misfit at 20 (%)", "misfit at 20 and 40 (%)",
+               "worst of what is asked", "fixed delay (ms)", "jitter (ms)", "acceleration (m/s2)",
+               "mean age (ms)", "norm RMSE 40 (mm)", "norm MAE 40 (mm)"},
+              {}};
+  const auto row = [&](std::size_t side, const char* on, const Candidate& c) {
+    const Misfit m = misfit(c.table[side], p.paper);
+    ChainSpec chain = p.chain;
+    chain.fixed = c.fixed;
+    chain.jitter = c.jitter;
+    table.rows.push_back({kSides[side], on, fmt::format("{:.1f}", 100.0 * m.moving20),
+                          fmt::format("{:.1f}", 100.0 * m.moving), fmt::format("{:.2f}", m.worst),
+                          fmt::format("{:.2f}", c.fixed * 1e3), fmt::format("{:.2f}", c.jitter * 1e3),
+                          fmt::format("{:.2f}", c.acceleration), fmt::format("{:.1f}", mean_age(chain) * 1e3),
+                          mm(c.table[side][2][3].rmse), mm(c.table[side][2][3].mae)});
+  };
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    row(side, "0, 20", p.fits.from_20[side]);
+    row(side, "all, rig's acceleration", p.fits.all[side]);
+    row(side, "all", p.fits.all_free[side]);
+  }
+  table.note =
+      "Worst: largest difference in units of 13 % for a figure and 6 % for a norm; above 1 the hypothesis "
+      "does "
+      "not fit. A bias fixed in the room opposes the lag one way and adds to it the other way; both_ways is "
+      "the "
+      "mixture.";
+  return table;
+}
+
+Table directions(const Pictures& p) {
+  Table table{"tracking_directions",
+              "One way, the other way, both ways: norm",
+              {"motion", "speed (mm/s)", "statistic", "paper (mm)", "twin, default rig (mm)", "theory (mm)",
+               "twin, best chain of 'adds' (mm)"},
+              {}};
+  const std::array<const Table1*, 3> twins{&p.twin.table, &p.twin_back, &p.twin_both};
+  constexpr std::array<const char*, 3> kMotions{"along + (opposes)", "along - (adds)", "both"};
+  for (std::size_t side = 0; side < twins.size(); ++side)
+    for (std::size_t s = 1; s < p.paper.size(); ++s)
+      for (const auto& [name, what] : kStatistics)
+        table.rows.push_back({kMotions[side], fmt::format("{}", kTableSpeeds[s]), name,
+                              mm(p.paper[s][3].*what), mm((*twins[side])[s][3].*what),
+                              mm(p.theory.table[side][s][3].*what),
+                              side == 1 ? mm(p.twin_adds[s][3].*what) : ""});
+  return table;
+}
+
+Plot table_plot(const Pictures& p, const Statistic& statistic) {
+  Plot plot{fmt::format("tracking_{}", statistic.name == std::string("RMSE") ? "rmse" : "mae"),
+            fmt::format("Table 1, {}", statistic.name),
+            "axis and speed, mm/s",
+            fmt::format("{} (mm)", statistic.name),
+            false,
+            false,
+            {}};
+  Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
+  Series twin{"twin, calibrated on all columns", {}, {}, {}, {}, Mark::bars};
+  Series predicted{"from columns 0 and 20: median, 90 %", {}, {}, {}, {}, Mark::bars};
+  const Predicted40& prediction = p.fits.prediction[0];
+  for (std::size_t s = 0; s < p.paper.size(); ++s)
+    for (std::size_t a = 0; a < kTableAxes.size(); ++a) {
+      const double x = static_cast<double>(4 * s + a);
+      plot.x_names.push_back(fmt::format("{} {}", kTableAxes[a], kTableSpeeds[s]));
+      const auto put = [&](Series& series, double at, double value) {
+        series.x.push_back(at);
+        series.y.push_back(value * kMillimetres);
+      };
+      put(paper, x, p.paper[s][a].*statistic.what);
+      put(twin, x, p.twin.table[s][a].*statistic.what);
+      twin.low.push_back(p.twin.least[s][a].*statistic.what * kMillimetres);
+      twin.high.push_back(p.twin.most[s][a].*statistic.what * kMillimetres);
+      if (s < 2) continue;
+      put(predicted, x, prediction.median[s][a].*statistic.what);
+      predicted.low.push_back(prediction.low[s][a].*statistic.what * kMillimetres);
+      predicted.high.push_back(prediction.high[s][a].*statistic.what * kMillimetres);
+    }
+  plot.series = {twin, predicted, paper};
+  plot.caption =
+      "Blue: the twin, its interval spans the seeds. Orange is a prediction: nothing at 40 mm/s was used for "
+      "it; "
+      "the interval holds 90 % of what the other columns leave open.";
+  return plot;
+}
+
+// One move of the paper's, from 20 to 40 mm along x.
+Plot move_plot(const Pictures& p) {
+  constexpr double kBefore = 0.0205, kAfter = 0.0395, kAround = 0.15;  // m, m, s
+  double from = INFINITY;
+  double to = -INFINITY;
+  for (const PacketError& packet : p.packets)
+    if (packet.axis == 0 && packet.moving == Moving::forward && packet.position > kBefore &&
+        packet.position < kAfter) {
+      from = std::min(from, packet.t);
+      to = std::max(to, packet.t);
+    }
+  Series error{"error at new packets", {}, {}, {}, {}, Mark::both};
+  Series place{"place of the tip / 100", {}, {}, {}, {}, Mark::line};
+  for (const PacketError& packet : p.packets) {
+    if (packet.axis != 0 || packet.t < from - kAround || packet.t > to + kAround) continue;
+    error.x.push_back(packet.t - from);
+    error.y.push_back(packet.error * kMillimetres);
+    place.x.push_back(packet.t - from);
+    place.y.push_back(packet.position * kMillimetres / 100.0);
+  }
+  return {
+      "tracking_move",
+      "One move, 20 to 40 mm along x at 40 mm/s",
+      "time (s)",
+      "error (mm)",
+      false,
+      false,
+      {error, place},
+      "At rest the error is the registration's bias, above zero. On the move the tool is seen where it was "
+      "an age ago: the lag is below zero, so on the way out the bias takes from it."};
+}
+
+double age_of(const Pictures& p, const Candidate& c) {
+  ChainSpec chain = p.chain;
+  chain.fixed = c.fixed;
+  chain.jitter = c.jitter;
+  return mean_age(chain) * 1e3;
+}
+
+Plot posterior_plot(const Pictures& p) {
+  Series likely{"as likely as columns 0 and 20 say", {}, {}, {}, {}, Mark::points};
+  for (std::size_t i = 0; i < p.fits.prediction[0].drawn.size(); i += 10) {
+    const Candidate& c = p.open[p.fits.prediction[0].drawn[i]];
+    likely.x.push_back(age_of(p, c));
+    likely.y.push_back(c.acceleration);
+  }
+  const auto one = [&](const char* name, const Candidate& c) {
+    return Series{name, {age_of(p, c)}, {c.acceleration}, {}, {}, Mark::points};
+  };
+  return {
+      "tracking_posterior",
+      "What the columns 0 and 20 mm/s leave open",
+      "mean age of a packet (ms)",
+      "acceleration of the machine (m/s2)",
+      false,
+      true,
+      {likely, one("best of columns 0 and 20", p.fits.from_20[0]),
+       one("best of all columns, rig's acceleration", p.fits.all[0])},
+      "At 20 mm/s a slow start and a long delay look alike: the acceleration stays open, and that is what "
+      "widens the prediction at 40 mm/s."};
+}
+
+Plot predictive_plot(const Pictures& p) {
+  constexpr std::array<const char*, 3> kNames{"bias opposes the lag", "bias adds to the lag", "both ways"};
+  Plot plot{"tracking_predictive",
+            "Norm RMSE at 40 mm/s, predicted from the columns 0 and 20",
+            "norm RMSE (mm)",
+            "share below",
+            false,
+            false,
+            {}};
+  for (std::size_t side = 0; side < kNames.size(); ++side) {
+    const std::vector<double>& values = p.fits.prediction[side].norm_rmse;
+    Series series{kNames[side], {}, {}, {}, {}, Mark::line};
+    for (std::size_t i = values.size() / 200; i < values.size() - values.size() / 200; i += 20) {
+      series.x.push_back(values[i] * kMillimetres);
+      series.y.push_back(static_cast<double>(i) / static_cast<double>(values.size()));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  const double value = p.paper[2][3].rmse * kMillimetres;
+  plot.series.push_back({"paper", {value, value}, {0.0, 1.0}, {}, {}, Mark::line, true});
+  plot.caption = "The paper's value is an ordinary one where the bias opposes the lag.";
+  return plot;
+}
+
+}  // namespace
+
+void add_tables(BenchResult& result, const Pictures& pictures) {
+  result.tables = {table1(pictures), from_20(pictures), hypotheses(pictures), directions(pictures)};
+}
+
+void add_plots(BenchResult& result, const Pictures& pictures) {
+  for (const Statistic& statistic : kStatistics) result.plots.push_back(table_plot(pictures, statistic));
+  result.plots.push_back(move_plot(pictures));
+  result.plots.push_back(posterior_plot(pictures));
+  result.plots.push_back(predictive_plot(pictures));
+}
+
+}  // namespace enc::bench
