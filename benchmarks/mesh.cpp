@@ -71,11 +71,13 @@ BenchResult run_mesh(const BenchContext& context) {
   in_parallel(trials.size(), [&](std::size_t i) { trials[i] = std::make_unique<Trial>(setup, options); });
   if (context.progress) context.progress(0.5);
   std::vector<TrialResult> runs;
+  runs.reserve(trials.size());
   for (const auto& trial : trials) runs.push_back(trial->run());
   const TrialResult& run = runs.front();
   std::vector<std::uint32_t> middle = run.step_ns;
   for (std::size_t i = 0; i < middle.size(); ++i) {
     std::vector<std::uint32_t> same;
+    same.reserve(runs.size());
     for (const TrialResult& r : runs) same.push_back(r.step_ns[i]);
     middle[i] = static_cast<std::uint32_t>(median(same));
   }

@@ -176,10 +176,13 @@ void add_directions(const BenchContext& context, BenchResult& result, const Scen
   // Not the reach alone: were the ball higher, the tip would get to its lower side.
   const Point<'W'> raised(centre.xyz[0], centre.xyz[1], 0.5 * scene.objects.front().radius);
   std::vector<Direction> below = directions(scene, raised, step);
-  add_map(result, all, "workspace_directions", "From where can the ball be pressed?",
+  constexpr double kDrawn = 7.5;  // deg: points that can be told apart
+  add_map(result, directions(scene, centre, kDrawn), "workspace_directions",
+          "From where can the ball be pressed?",
           "The ball of the scene, pressed to its limit along its radius. From the side and from below its "
           "surface is out of the tip's reach.");
-  add_map(result, below, "workspace_directions_raised", "From where, if the ball stood higher?",
+  add_map(result, directions(scene, raised, kDrawn), "workspace_directions_raised",
+          "From where, if the ball stood higher?",
           "Its centre half a radius above W: now its lower side is in reach. From further below than its "
           "stem allows it still cannot be pressed, because the stem would be in the tool's way.");
   std::erase_if(below, [](const Direction& d) { return !is_below(d); });

@@ -195,6 +195,14 @@ std::vector<std::size_t> drawing_order(const Plot& plot) {
   return order;
 }
 
+// Names under the axis that have no room side by side.
+bool crowded(const Plot& plot) {
+  std::size_t letters = 0;
+  for (const std::string& name : plot.x_names) letters += name.size() + 2;
+  constexpr std::size_t kRoom = 60;
+  return letters > kRoom;
+}
+
 std::string axes(const Plot& plot, const Bars& bars) {
   Limits x = limits_of(plot, false);
   Limits y = limits_of(plot, true);
@@ -209,7 +217,8 @@ std::string axes(const Plot& plot, const Bars& bars) {
   std::string text =
       axis_range("x", x, plot.log_x, 0.0) + axis_range("y", y, plot.log_y, failures ? 0.08 : 0.0);
   if (!plot.x_names.empty()) {
-    text += fmt::format("set xrange [-0.6:{}]\nset xtics (", static_cast<double>(plot.x_names.size()) - 0.4);
+    text += fmt::format("set xrange [-0.6:{}]\nset xtics {}(", static_cast<double>(plot.x_names.size()) - 0.4,
+                        crowded(plot) ? "rotate by 30 right " : "");
     for (std::size_t i = 0; i < plot.x_names.size(); ++i)
       text += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(plot.x_names[i]), i);
     text += ")\n";
@@ -228,7 +237,7 @@ std::string plot_script(const Plot& plot) {
   std::string text = fmt::format(
       "set encoding utf8\nset terminal svg size 640,{} font 'sans-serif,15' background '#ffffff' "
       "noenhanced\n",
-      (plot.equal ? 520 : 360) + 22 * rows);
+      (plot.equal ? 520 : 360) + (crowded(plot) ? 50 : 0) + 22 * rows);
   text +=
       "set border 3 lc rgb '#555555'\nset tics nomirror out textcolor rgb '#333333'\n"
       "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";

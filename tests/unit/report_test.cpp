@@ -254,6 +254,10 @@ TEST(Plot, BarsOfOnePlaceStandSideBySide) {
   EXPECT_THAT(script, HasSubstr("set boxwidth 0.4\n"));
   EXPECT_THAT(script, HasSubstr("-0.2 1 NaN NaN\n0.8 2 NaN NaN\n"));
   EXPECT_THAT(script, HasSubstr("0.2 1 NaN NaN\n1.2 2 NaN NaN\n"));
+
+  Plot crowded = plot;
+  for (int i = 0; i < 8; ++i) crowded.x_names.emplace_back("a long name");
+  EXPECT_THAT(plot_script(crowded), HasSubstr("set xtics rotate by 30 right ('x' 0"));
 }
 
 // Every kind of mark, gaps, all failed, nothing at all: gnuplot takes it.
