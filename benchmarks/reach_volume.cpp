@@ -26,8 +26,9 @@ double largest(const std::function<double(double, double)>& f) {
     best = value, bx = x, by = y;
     return true;
   };
-  for (double x = -kHalf; x <= kHalf; x += kGrid)
-    for (double y = -kHalf; y <= kHalf; y += kGrid) look(x, y);
+  constexpr int kCells = static_cast<int>(kHalf / kGrid);  // to either side
+  for (int i = -kCells; i <= kCells; ++i)
+    for (int j = -kCells; j <= kCells; ++j) look(i * kGrid, j * kGrid);
   for (double step = kGrid / 2; step > 1e-8;) {
     const double x = bx, y = by;
     bool better = false;
@@ -69,7 +70,10 @@ ReachVolume::Extents ReachVolume::extents() const {
   const auto side = [&](bool along_x, double sign) {
     double in = 0.0, outside = kHalf;
     const auto open = [&](double at) {
-      for (double other = -kHalf; other <= kHalf; other += 0.25e-3) {
+      constexpr double kFine = 0.25e-3;  // m
+      constexpr int kCells = static_cast<int>(kHalf / kFine);
+      for (int i = -kCells; i <= kCells; ++i) {
+        const double other = i * kFine;
         const Column c = along_x ? column(sign * at, other) : column(other, sign * at);
         if (c.high >= c.low) return true;
       }
@@ -133,8 +137,9 @@ double ReachVolume::turned_height(double x, double y) const {
   constexpr double kDeep = 0.06, kLayer = 0.01, kExact = 0.1e-3;  // m
   const auto reached = [&](double z) { return turned_slack({x, y, z}) >= 0.0; };
   double low = kNever, high = -kNever;
-  for (double z = -kDeep; z <= kDeep; z += kLayer)
-    if (reached(z)) low = std::min(low, z), high = std::max(high, z);
+  constexpr int kLayers = static_cast<int>(kDeep / kLayer + 0.5);
+  for (int i = -kLayers; i <= kLayers; ++i)
+    if (const double z = i * kLayer; reached(z)) low = std::min(low, z), high = std::max(high, z);
   if (low > high) return 0.0;
   const auto edge = [&](double in, double outside) {
     while (std::abs(outside - in) > kExact)

@@ -110,8 +110,12 @@ struct Direction {
 std::vector<Direction> directions(const Scene& scene, const Point<'W'>& centre, double step) {
   std::vector<Direction> all;
   const Object& ball = scene.objects.front();
-  for (double polar = 0.5 * step; polar < 180.0; polar += step)
-    for (double azimuth = 0.5 * step; azimuth < 360.0; azimuth += step) {
+  const int rows = static_cast<int>(std::lround(180.0 / step));
+  all.reserve(static_cast<std::size_t>(2 * rows * rows));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < 2 * rows; ++column) {
+      const double polar = (row + 0.5) * step;
+      const double azimuth = (column + 0.5) * step;
       const Vec<'W'> n(std::sin(polar * kDegree) * std::cos(azimuth * kDegree),
                        std::sin(polar * kDegree) * std::sin(azimuth * kDegree), std::cos(polar * kDegree));
       const PressPoint press{centre + ball.radius * n, n};
@@ -200,7 +204,8 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
     Series edge{"reach, straight axes", {}, {}};
     Series turned{"reach, any allowed turn", {}, {}, {}, {}, Mark::points};
     std::vector<std::array<double, 2>> lower;
-    for (double at = -0.1; at <= 0.1; at += 0.5e-3) {
+    for (int i = -200; i <= 200; ++i) {
+      const double at = i * 0.5e-3;  // m
       const auto c = along_x ? reach.column(at, 0.0) : reach.column(0.0, at);
       if (c.high < c.low) continue;
       edge.x.push_back(at * kMm), edge.y.push_back(c.high * kMm);
@@ -209,8 +214,10 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
     for (auto p = lower.rbegin(); p != lower.rend(); ++p)
       edge.x.push_back((*p)[0]), edge.y.push_back((*p)[1]);
     if (!edge.x.empty()) edge.x.push_back(edge.x.front()), edge.y.push_back(edge.y.front());
-    for (double at = -0.11; at <= 0.11; at += 5e-3)
-      for (double z = -0.05; z <= 0.05; z += 5e-3) {
+    for (int i = -22; i <= 22; ++i)
+      for (int j = -10; j <= 10; ++j) {
+        const double at = i * 5e-3;  // m
+        const double z = j * 5e-3;
         const Vec3 p = along_x ? Vec3(at, 0, z) : Vec3(0, at, z);
         if (reach.turned_slack(p) >= 0.0) turned.x.push_back(at * kMm), turned.y.push_back(z * kMm);
       }

@@ -77,7 +77,9 @@ class Fit {
     constexpr double kGrid = 4e-3;  // s
     const std::size_t stride = std::max<std::size_t>(1, log_.packets.size() / 600);
     double best = 0.0, least = INFINITY;
-    for (double age = kEarliest; age <= kLatest; age += kGrid) {
+    constexpr int kAges = static_cast<int>((kLatest - kEarliest) / kGrid);
+    for (int i = 0; i <= kAges; ++i) {
+      const double age = kEarliest + i * kGrid;
       std::array<std::vector<double>, 3> errors;
       for (std::size_t k = 0; k < times_->size(); k += stride) {
         const double t = (*times_)[k] - age;

@@ -166,8 +166,9 @@ std::string log_tics(const char* axis, double low, double high) {
   std::string text = fmt::format("set logscale {0}\nset format {0} {1}\n", axis, plain ? "'%g'" : "'1e%T'");
   if (std::log10(high / low) > 2.0) return text;
   std::string tics;
-  for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10.0)
-    for (const double tic : {power, 2.0 * power, 5.0 * power})
+  for (int exponent = static_cast<int>(std::floor(std::log10(low))); exponent <= std::log10(high); ++exponent)
+    for (const double tic :
+         {std::pow(10.0, exponent), 2.0 * std::pow(10.0, exponent), 5.0 * std::pow(10.0, exponent)})
       if (tic >= low && tic <= high) tics += fmt::format("{}{:.9g}", tics.empty() ? "" : ", ", tic);
   return text + fmt::format("set format {} '%g'\nset {}tics ({})\n", axis, axis, tics);
 }

@@ -113,8 +113,11 @@ double strongest_frequency(std::span<const double> signal, double dt) {
   const double mean = steady_mean(signal);
   const auto n = static_cast<double>(signal.size());
   double best = kUnset;
-  double most = std::norm(1e-9 * n * mean);  // rounding is no oscillation
-  for (double f = 1.0; f <= 0.25 / dt; f += std::max(0.5, 1.0 / (n * dt))) {
+  double most = std::norm(1e-9 * n * mean);           // rounding is no oscillation
+  const double step = std::max(0.5, 1.0 / (n * dt));  // Hz
+  const int steps = static_cast<int>((0.25 / dt - 1.0) / step);
+  for (int k = 0; k <= steps; ++k) {
+    const double f = 1.0 + k * step;
     const std::complex<double> turn = std::polar(1.0, 2.0 * std::numbers::pi * f * dt);
     std::complex<double> at = 1.0;
     std::complex<double> sum = 0.0;

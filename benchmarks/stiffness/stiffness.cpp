@@ -200,8 +200,8 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
       std::move(seen),
       {"linear prediction", {linear / kPerMm, linear / kPerMm}, {0, 100}}};
   plot.caption =
-      "Pushes that do not come to rest. The linear loop is stable from far below: what makes the swinging "
-      "large is the machine's limited acceleration, which adds lag the larger the swing.";
+      "Pushes that do not come to rest. The linear prediction knows nothing of the machine's limited "
+      "acceleration, which adds lag the larger the swing.";
   result.plots.push_back(std::move(plot));
   result.tables.push_back(std::move(table));
   result.simulated += map.simulated();
@@ -319,7 +319,7 @@ void add_error_plots(const std::vector<Level>& levels, const Paper& paper, Bench
   line.series = {{"as commanded", {paper.softest, paper.stiffest}, {paper.softest, paper.stiffest}},
                  apparent};
   line.caption =
-      "Over four decades the felt stiffness is the commanded one; only the soft end leaves the line.";
+      "Felt over commanded stiffness, measured force over displacement; on the line nothing is lost.";
   result.plots.push_back(std::move(error));
   result.plots.push_back(std::move(line));
 }

@@ -215,8 +215,9 @@ void add_plots(const std::array<Study, 2>& studies, BenchResult& result) {
   }
   error.series.push_back({"paper: within 2 % from 0.3 N/mm", {0.3, 200}, {2, 2}, {}, {}, Mark::line, true});
   error.caption =
-      "Worst of the pushes. With the damper both pushers come to rest on walls far below 0.03 N/mm, and "
-      "without threshold and with a fresh zero the error is below 2 % from 0.01 N/mm.";
+      "Worst of the pushes, where they come to rest. With the damper: no threshold, a fresh zero, a sensor "
+      "that "
+      "averages eight readings.";
   settling.caption =
       "Time after the push until the tip stays within 2 % of where it ends; as long as the hold where it "
       "never "

@@ -42,9 +42,12 @@ std::vector<double> delays(double mean, double period) {
   std::vector<double> density;
   constexpr double kLongest = 12.0;  // means
   double total = 0.0;
-  for (double d = 0.5 * kCell; d < kLongest * mean; d += kCell) {
+  const int cells = static_cast<int>(std::ceil(kLongest * mean / kCell));
+  density.reserve(static_cast<std::size_t>(cells));
+  for (int i = 0; i < cells; ++i) {
+    const double d = (i + 0.5) * kCell;
     double weight = std::exp(-d / mean);
-    for (double ahead = d - period; ahead > 0.0; ahead -= period) weight *= std::exp(-ahead / mean);
+    for (int later = 1; later * period < d; ++later) weight *= std::exp(-(d - later * period) / mean);
     density.push_back(weight);
     total += weight;
   }
