@@ -32,6 +32,7 @@ Spread spread(const Level& level, double Push::*felt) {
 std::vector<Level> levels_of(const models::Setup& setup, const std::vector<double>& stiffnesses,
                              std::size_t pushes, std::uint64_t seed, const Progress& progress) {
   std::vector<Level> levels;
+  levels.reserve(stiffnesses.size());
   for (const double k : stiffnesses) levels.push_back({k, std::vector<Push>(pushes)});
   in_parallel(
       levels.size() * pushes,

@@ -136,7 +136,7 @@ Motion swing(const Vec3& amplitude, double rate, double duration) {
   return {"swing", duration, at};
 }
 
-Motion with_tremor(Motion motion, double rms, double lowest, double highest, std::uint64_t seed) {
+Motion with_tremor(const Motion& motion, double rms, double lowest, double highest, std::uint64_t seed) {
   constexpr std::size_t kWaves = 16;
   std::array<Wave, kWaves> waves;
   sim::Stream random(seed, "tremor");
@@ -157,7 +157,7 @@ Motion with_tremor(Motion motion, double rms, double lowest, double highest, std
   return {motion.name + ", tremor", motion.duration, at};
 }
 
-Motion stopped(Motion motion, double at) {
+Motion stopped(const Motion& motion, double at) {
   const Vec3 place = motion.at(at).position;
   return {motion.name + ", stopped", motion.duration, [at, place, base = motion.at](double t) {
             return t < at ? base(t) : MotionPoint{place, Vec3(0, 0, 0)};

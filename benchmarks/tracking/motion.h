@@ -62,9 +62,9 @@ struct ReachSpec {
 [[nodiscard]] Motion swing(const Vec3& amplitude, double rate, double duration);
 // The motion with a tremor of `rms` along each axis (m), of 16 waves between two rates, Hz, phases by the
 // seed.
-[[nodiscard]] Motion with_tremor(Motion motion, double rms, double lowest, double highest,
+[[nodiscard]] Motion with_tremor(const Motion& motion, double rms, double lowest, double highest,
                                  std::uint64_t seed);
 // The motion until it meets something, at `at`, s; from there it stands still.
-[[nodiscard]] Motion stopped(Motion motion, double at);
+[[nodiscard]] Motion stopped(const Motion& motion, double at);
 
 }  // namespace enc::bench
