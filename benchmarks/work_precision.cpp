@@ -35,20 +35,27 @@ struct Path {
   std::string failure;    // why there is none
 };
 
+// The run's own settings come before the user's, so that the user's win; `more` is what is compared.
+models::Setup setup_of(const WorkSpec& spec, const BenchContext& context,
+                       const std::vector<std::string>& more) {
+  std::vector<std::string> set = spec.set;
+  set.insert(set.end(), context.set.begin(), context.set.end());
+  set.insert(set.end(), more.begin(), more.end());
+  return models::load(context.models + "/scenes/" + spec.scene + ".toml", "sim", set);
+}
+
 Path run_once(const WorkSpec& spec, const BenchContext& context, const Form& form,
               std::string_view integrator, double step) {
   Path path;
-  std::vector<std::string> set = spec.set;
-  set.insert(set.end(), context.set.begin(), context.set.end());
-  set.push_back(fmt::format("truth.hexapod.form={}", form.name));
-  set.push_back(fmt::format("{}.timestep_us={:g}", form.table, step * 1e6));
-  set.push_back(fmt::format("{}.integrator={}", form.table, integrator));
+  const std::vector<std::string> compared{fmt::format("truth.hexapod.form={}", form.name),
+                                          fmt::format("{}.timestep_us={:g}", form.table, step * 1e6),
+                                          fmt::format("{}.integrator={}", form.table, integrator)};
   try {
     TrialOptions options;
     options.seed = context.seed;
     options.seconds = spec.seconds;
     options.watch = [&](const Glance& glance) { path.tip.push_back(glance.truth.tip.e()); };
-    Trial trial(models::load(context.models + "/scenes/" + spec.scene + ".toml", "sim", set), options);
+    Trial trial(setup_of(spec, context, compared), options);
     const double start = thread_seconds();
     const TrialResult run = trial.run();
     path.cpu = (thread_seconds() - start) / run.simulated;
@@ -144,10 +151,7 @@ void add_figures(const WorkSpec& spec, const std::vector<Point>& points, const m
 
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result) {
   const std::vector<Point> points = measured(spec, context);
-  std::vector<std::string> set = spec.set;
-  set.insert(set.end(), context.set.begin(), context.set.end());
-  add_figures(spec, points, models::load(context.models + "/scenes/" + spec.scene + ".toml", "sim", set),
-              result);
+  add_figures(spec, points, setup_of(spec, context, {}), result);
 
   Plot plot{spec.benchmark + "_work_precision",
             "Error against run time: " + spec.scene,

@@ -1,4 +1,4 @@
-// Damping put in series with a rendered object while the tip is seen to swing against what pushes on it:
+// A damper beside a rendered object while the tip is seen to swing against what pushes on it:
 //
 //   b dd/dt + F_object(d) = F,      b = margin (2/pi) tau k_seen
 //

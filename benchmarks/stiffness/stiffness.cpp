@@ -380,13 +380,11 @@ BenchResult run_stiffness(const BenchContext& given) {
   if (!context.quick) add_knee(context, result);
   add_beyond(
       context, [&](double done) { tell((0.8 + 0.2 * done) * share); }, result);
-  if (context.full)
+  if (context.full) {
     add_switches(
         context, [&](double done) { tell(share + (1.0 - share) * done); }, result);
-  if (context.full) {
-    std::vector<std::string> set = extent.set;
-    set.insert(set.end(), {"truth.pusher.tremor_N=0"});
-    add_work_precision({"stiffness", "stiffness", std::move(set), kUnset, 30e-6}, context, result);
+    add_work_precision({"stiffness", "stiffness", {"truth.pusher.tremor_N=0"}, kUnset, 30e-6}, context,
+                       result);
   }
   result.note =
       "Calibrated on the softest stable wall: the pusher's stiffness. Assumed: threshold and drift of the "

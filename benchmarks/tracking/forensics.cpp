@@ -7,6 +7,7 @@
 
 #include "benchmarks/parallel.h"
 #include "benchmarks/tracking/motion.h"
+#include "benchmarks/tracking/tracking_fit.h"
 #include "models/scene_file.h"
 #include "sim/random.h"
 #include "sim/tracker_plant.h"
@@ -139,17 +140,8 @@ void add_plot(BenchResult& result, const std::vector<Tried>& trials) {
   result.plots.push_back(std::move(plot));
 }
 
-// RMSE and MAE at rest, at 20 and at 40 mm/s, mm [VHMR Table 1].
-struct PaperAxis {
-  const char* name;
-  std::array<double, 3> rmse, mae;
-};
-constexpr std::array<PaperAxis, 3> kTable1{{{"x", {0.0802, 0.2734, 0.5117}, {0.0779, 0.2542, 0.4883}},
-                                            {"y", {0.0669, 0.2746, 0.4891}, {0.0659, 0.2503, 0.4675}},
-                                            {"z", {0.1197, 0.2494, 0.4151}, {0.1192, 0.2296, 0.3761}}}};
-
 // Table 1 is no log: three speeds, and no sign. So what it says depends on what is assumed of the bias.
-void add_table(BenchResult& result) {
+void add_table(const Table1& paper, BenchResult& result) {
   Table table{"tracking_table1_latency",
               "Latency in the paper's Table 1, by what is assumed of the bias (ms)",
               {"axis", "bias (mm)", "noise (mm)", "RMSE, bias in quadrature, 20", "same, 40", "bias adds, 20",
@@ -158,18 +150,22 @@ void add_table(BenchResult& result) {
               "Column 0 gives bias and noise. Quadrature: as if the bias fell out between two directions. "
               "Adds, opposes: (MAE -/+ bias) / speed. Slope: (MAE at 40 - MAE at 20) / 20 mm/s, any bias "
               "that does not change. Speed changes at both ends of a move are ignored."};
-  for (const PaperAxis& a : kTable1) {
-    std::vector<std::string> row{
-        a.name, fmt::format("{:.4f}", a.mae[0]),
-        fmt::format("{:.4f}", std::sqrt(a.rmse[0] * a.rmse[0] - a.mae[0] * a.mae[0]))};
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::array<double, 3> rmse{}, mae{};  // at rest, at 20 and at 40 mm/s, mm
+    for (std::size_t s = 0; s < paper.size(); ++s) {
+      rmse[s] = paper[s][a].rmse / kMillimetre;
+      mae[s] = paper[s][a].mae / kMillimetre;
+    }
+    std::vector<std::string> row{kTableAxes[a], fmt::format("{:.4f}", mae[0]),
+                                 fmt::format("{:.4f}", std::sqrt(rmse[0] * rmse[0] - mae[0] * mae[0]))};
     const auto add = [&](double mm, double speed) { row.push_back(fmt::format("{:.1f}", 1e3 * mm / speed)); };
-    add(std::sqrt(a.rmse[1] * a.rmse[1] - a.rmse[0] * a.rmse[0]), 20.0);
-    add(std::sqrt(a.rmse[2] * a.rmse[2] - a.rmse[0] * a.rmse[0]), 40.0);
-    add(a.mae[1] - a.mae[0], 20.0);
-    add(a.mae[2] - a.mae[0], 40.0);
-    add(a.mae[1] + a.mae[0], 20.0);
-    add(a.mae[2] + a.mae[0], 40.0);
-    add(a.mae[2] - a.mae[1], 20.0);
+    add(std::sqrt(rmse[1] * rmse[1] - rmse[0] * rmse[0]), 20.0);
+    add(std::sqrt(rmse[2] * rmse[2] - rmse[0] * rmse[0]), 40.0);
+    add(mae[1] - mae[0], 20.0);
+    add(mae[2] - mae[0], 40.0);
+    add(mae[1] + mae[0], 20.0);
+    add(mae[2] + mae[0], 40.0);
+    add(mae[2] - mae[1], 20.0);
     table.rows.push_back(std::move(row));
   }
   result.tables.push_back(std::move(table));
@@ -183,7 +179,7 @@ void add_forensics(const BenchContext& context, BenchResult& result) {
   in_parallel(trials.size(), [&](std::size_t i) { trials[i] = tried(setup.twin.tracker, context.seed + i); });
   add_figures(result, trials);
   add_plot(result, trials);
-  add_table(result);
+  add_table(table1_of(Reference::load(context.models, "table1.csv")), result);
 }
 
 }  // namespace enc::bench

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/minimum_jerk.h"
 #include "sim/random.h"
 
 namespace enc::bench {
@@ -38,8 +39,8 @@ struct Leg {
   }
 };
 
-double minimum_jerk_way(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
-double minimum_jerk_speed(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); }
+double minimum_jerk_way(double s) { return sim::MinimumJerk(s).x; }
+double minimum_jerk_speed(double s) { return sim::MinimumJerk(s).v; }
 
 double early_peak_way(double s) {
   return s * s * s * (35.0 + s * (-105.0 + s * (126.0 + s * (-70.0 + 15.0 * s))));

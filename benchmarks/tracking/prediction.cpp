@@ -24,7 +24,7 @@ constexpr std::array kName{"hold", "cv", "ca"};
 constexpr std::array kLongName{"hold", "constant velocity", "constant acceleration"};
 
 // One row with one kind of packets: of each prediction, over the seeds.
-struct Cell {
+struct Outcome {
   std::array<std::vector<double>, 3> at_packets, at_ticks, peak, step;  // m
 };
 struct Bench {
@@ -32,7 +32,7 @@ struct Bench {
   Scene scene;
   Pose<'W', 'C'> X_WC;
   std::vector<PredictionRow> rows;
-  std::vector<std::array<Cell, 2>> cells{};
+  std::vector<std::array<Outcome, 2>> cells{};
   double simulated = 0.0;
 };
 
@@ -69,7 +69,7 @@ void run_rows(Bench& bench, const BenchContext& context, std::size_t seeds) {
   });
   bench.cells.resize(bench.rows.size());
   for (const Job& job : jobs) {
-    Cell& cell = bench.cells[job.row][job.packets];
+    Outcome& cell = bench.cells[job.row][job.packets];
     for (std::size_t k = 0; k < 3; ++k) {
       cell.at_packets[k].push_back(job.errors[k].at_packets);
       cell.at_ticks[k].push_back(job.errors[k].at_ticks);
@@ -92,7 +92,7 @@ std::vector<Figure> figures_of(const Bench& bench) {
   for (std::size_t r = 0; r < bench.rows.size(); ++r) {
     const PredictionRow& row = bench.rows[r];
     for (std::size_t p = 0; p < kPackets.size(); ++p) {
-      const Cell& cell = bench.cells[r][p];
+      const Outcome& cell = bench.cells[r][p];
       for (std::size_t k = 0; k < kName.size(); ++k) {
         if (!row.in_figures && (k != 1 || p != 0)) continue;  // the rest is in the tables
         const bool bound = k == 1 && p == row.bound_on;
@@ -321,7 +321,8 @@ void add_prediction(const BenchContext& context, BenchResult& result) {
   Bench bench{models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set), {}, {}, {}};
   bench.scene = prepare_setup(bench.setup);
   bench.X_WC = pose_of<'W', 'C'>(bench.setup.twin.frames.W_C);
-  bench.rows = prediction_rows(bench.setup.twin.hexapod.acceleration);
+  bench.rows = prediction_rows(bench.setup.twin.hexapod.acceleration,
+                               table1_of(Reference::load(context.models, "table1.csv")));
   const std::size_t seeds =
       context.repeats > 0 ? static_cast<std::size_t>(context.repeats) : (context.quick ? 2U : 24U);
   run_rows(bench, context, seeds);

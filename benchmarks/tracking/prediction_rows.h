@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmarks/tracking/motion.h"
+#include "benchmarks/tracking/tracking_fit.h"
 #include "sim/twin_spec.h"
 
 namespace enc::bench {
@@ -26,7 +27,8 @@ struct PredictionRow {
   std::size_t bound_on = 1;                                         // packets: 0 polled, 1 event
 };
 
-// acceleration: of the machine that makes the paper's moves, m/s^2.
-[[nodiscard]] std::vector<PredictionRow> prediction_rows(double acceleration);
+// acceleration: of the machine that makes the paper's moves, m/s^2; paper: what the rows of its moves are
+// compared with.
+[[nodiscard]] std::vector<PredictionRow> prediction_rows(double acceleration, const Table1& paper);
 
 }  // namespace enc::bench

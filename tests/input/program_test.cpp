@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "core/record.h"
+#include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -34,10 +35,7 @@ using ::testing::StartsWith;
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::bytes_of;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/record.h"
+#include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,10 +25,7 @@ using Words = std::vector<std::string>;
 std::string scene(const std::string& name) {
   return std::string(ENCOUNTER_SOURCE_DIR).append("/models/scenes/").append(name).append(".toml");
 }
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::bytes_of;
 
 class RigProgram : public testing::Test {
  protected:

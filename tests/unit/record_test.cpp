@@ -13,11 +13,14 @@
 
 #include "core/error.h"
 #include "core/replay.h"
+#include "tests/support/bytes_of.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace enc {
 namespace {
+
+using test::bytes_of;
 
 namespace fs = std::filesystem;
 
@@ -39,10 +42,6 @@ class RecordTest : public ::testing::Test {
     }
     record.close();
     ASSERT_FALSE(record.full()) << record.error();
-  }
-  static std::string bytes_of(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
   }
   static void write_bytes(const std::string& path, std::string_view bytes) {
     std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

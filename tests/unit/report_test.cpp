@@ -13,6 +13,7 @@
 #include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/plot.h"
 #include "core/error.h"
+#include "tests/support/bytes_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace enc::bench {
@@ -26,10 +27,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using test::bytes_of;
 
 std::size_t count_of(const std::string& text, const std::string& what) {
   std::size_t n = 0;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 
 namespace enc::test {
@@ -23,12 +24,6 @@ const tests::Environment kNotOurLeaks{{"ASAN_OPTIONS", "detect_leaks=0"}};
 
 bool view_is_built() { return fs::exists(ENCOUNTER_MODULE_DIR "/encounter_view.so"); }
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
 unsigned big_endian(const std::string& bytes, std::size_t at) {
   unsigned value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = value << 8U | static_cast<unsigned char>(bytes.at(at + i));
