@@ -26,8 +26,8 @@ Motion reach(const ReachShape& shape, double peak_speed) {
   return reaches(shape, {0.5 * peak_speed * kAll, peak_speed * kAll.norm()});
 }
 
-Motion shaking(Motion motion, double rms, std::uint64_t seed) {
-  return with_tremor(std::move(motion), rms, 8.0, 12.0, seed);
+Motion shaking(const Motion& motion, double rms, std::uint64_t seed) {
+  return with_tremor(motion, rms, 8.0, 12.0, seed);
 }
 
 double middle(const ReachShape& shape) { return 0.25 * shape.peak; }  // s, of the first of those reaches
