@@ -115,8 +115,14 @@ build_preset() {  # PRESET TARGET...
     minutes=$((files * 7 / $(nproc) / 60 + 1))
     say "building ($preset, $files files), about $minutes minute$([[ $minutes == 1 ]] || echo s)"
   fi
+  # Presets differ in few objects: what one has compiled, the next takes from the cache. The cache lives in build/ like all else.
+  local launcher=""
+  ! command -v ccache >/dev/null || launcher=ccache
+  local -x CCACHE_DIR=$root/build/ccache CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_MAXSIZE=2G
+  local -x CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
   cd "$root" || exit 2  # presets are found from here; callers that care use a subshell
-  if logged cmake --preset "$preset" -DMUJOCO_ROOT="${ENCOUNTER_MUJOCO:-}" && logged cmake --build --preset "$preset" --target "$@"; then
+  if logged cmake --preset "$preset" -DMUJOCO_ROOT="${ENCOUNTER_MUJOCO:-}" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" &&
+    logged cmake --build --preset "$preset" --target "$@"; then
     return 0
   fi
   local errors; errors=$(grep -A 4 -E 'error:|CMake Error|undefined reference' "$log" | head -n 40)

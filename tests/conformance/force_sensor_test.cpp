@@ -3,6 +3,7 @@
 
 #include "app/modules.h"
 #include "tests/conformance/bench_world.h"
+#include "tests/support/built.h"
 
 namespace enc::test {
 namespace {
@@ -84,7 +85,7 @@ TEST(SimulatedForce, NoiseIsWhatTheRigSays) {
 }
 
 TEST(SampleForce, ReadsZeroOnceACycle) {
-  setenv("ENCOUNTER_MODULES", ENCOUNTER_MODULE_DIR, 1);
+  setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
   const auto force = app::load_module("sample").driver->force();
   for (int i = 0; i < 5; ++i) {
     const auto s = force->read();

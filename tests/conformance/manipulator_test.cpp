@@ -6,6 +6,7 @@
 
 #include "app/modules.h"
 #include "tests/conformance/bench_world.h"
+#include "tests/support/built.h"
 
 namespace enc::test {
 namespace {
@@ -38,7 +39,7 @@ struct Entry {
 class ManipulatorTest : public testing::TestWithParam<Entry> {
  protected:
   void SetUp() override {
-    setenv("ENCOUNTER_MODULES", ENCOUNTER_MODULE_DIR, 1);
+    setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
     machine_ = GetParam().make();
   }
   Stamped<TipSample> after(const Pose<'R', 'H'>& command, int cycles) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -100,7 +101,7 @@ TEST_P(StoppedBench, LeavesWhatIsCompleteAndSaysWhatIsMissing) {
                         "set -m; \"$1\" bench dent press --repeats 1000000 --out \"$2\" & "
                         "until grep -q dent.contact \"$2/results.json\" 2>/dev/null; do sleep 0.05; done; "
                         "kill -$3 $!; wait $!",
-                        "bash", ENCOUNTER_BINARY, out.string(), std::to_string(GetParam())});
+                        "bash", program_file(), out.string(), std::to_string(GetParam())});
   const bool asked = GetParam() != SIGKILL;
   EXPECT_EQ(r.code, asked ? 1 : 128 + SIGKILL) << r.err;
   if (asked) {

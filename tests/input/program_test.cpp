@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "core/record.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -397,7 +398,7 @@ TEST_F(Program, UnwritableRecordFolder) {
 TEST_F(Program, FullDiskWhileRecordingEndsTheRunAndLeavesWhatWasWritten) {
   const std::string record = path("full.encrec");
   const Result r = run({"bash", "-c",
-                        "ulimit -f 200; exec '" ENCOUNTER_BINARY "' run '" + plane() +
+                        "ulimit -f 200; exec '" + program_file() + "' run '" + plane() +
                             "' --for-s 3 --record '" + record + "'"});
   EXPECT_EQ(r.code, 2);
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
@@ -417,9 +418,9 @@ TEST_F(Program, FullDiskWhileRecordingEndsTheRunAndLeavesWhatWasWritten) {
 // The first 2 KiB do not even hold the header: nothing runs, so nothing may be left.
 TEST_F(Program, DiskTooFullForTheHeaderLeavesNoFile) {
   const std::string record = path("full.encrec");
-  const Result r = run(
-      {"bash", "-c",
-       "ulimit -f 1; exec '" ENCOUNTER_BINARY "' run '" + plane() + "' --for-s 3 --record '" + record + "'"});
+  const Result r = run({"bash", "-c",
+                        "ulimit -f 1; exec '" + program_file() + "' run '" + plane() +
+                            "' --for-s 3 --record '" + record + "'"});
   EXPECT_EQ(r.code, 2);
   EXPECT_EQ(r.out, "");
   EXPECT_THAT(r.err, HasSubstr("cannot write the record"));

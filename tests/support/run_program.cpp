@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/built.h"
+
 namespace enc::tests {
 namespace {
 
@@ -122,7 +124,7 @@ Result run(const std::vector<std::string>& command, const Environment& environme
 }
 
 Result run_program(const std::vector<std::string>& args, const Environment& environment, double timeout) {
-  std::vector<std::string> command{ENCOUNTER_BINARY};
+  std::vector<std::string> command{program_file()};
   command.insert(command.end(), args.begin(), args.end());
   return run(command, environment, timeout);
 }

@@ -19,7 +19,7 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 Result run(const std::vector<std::string>& command, const Environment& environment = {},
            double timeout = 60.0);
 
-// ENCOUNTER_BINARY with these arguments, with `environment` on top of ours.
+// program_file() with these arguments, with `environment` on top of ours.
 Result run_program(const std::vector<std::string>& args, const Environment& environment = {},
                    double timeout = 60.0);
 

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "tests/support/run_program.h"
 
 namespace enc::test {
@@ -94,7 +95,7 @@ TEST_F(ModulesTest, AnotherInterfaceVersionOrName) {
 TEST_F(ModulesTest, ANameIsNoPath) { EXPECT_THAT(refusal("../view"), HasSubstr("has no '/'")); }
 
 TEST_F(ModulesTest, TheSampleIsTaken) {
-  setenv("ENCOUNTER_MODULES", ENCOUNTER_MODULE_DIR, 1);
+  setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
   const ModuleInfo& info = app::load_module("sample");
   EXPECT_STREQ(info.name, "sample");
   ASSERT_NE(info.driver, nullptr);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 
@@ -22,7 +23,7 @@ const char* const kScene = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml
 // stays checked.
 const tests::Environment kNotOurLeaks{{"ASAN_OPTIONS", "detect_leaks=0"}};
 
-bool view_is_built() { return fs::exists(ENCOUNTER_MODULE_DIR "/encounter_view.so"); }
+bool view_is_built() { return fs::exists(tests::module_folder() + "/encounter_view.so"); }
 
 unsigned big_endian(const std::string& bytes, std::size_t at) {
   unsigned value = 0;

@@ -1,0 +1,12 @@
+// What this build made, for tests that run it. Functions and not macros, so that the tests are the same text in
+// every preset and a compiler cache knows them again.
+#pragma once
+
+#include <string>
+
+namespace enc::tests {
+
+[[nodiscard]] std::string program_file();
+[[nodiscard]] std::string module_folder();
+
+}  // namespace enc::tests
