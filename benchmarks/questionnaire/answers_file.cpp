@@ -3,10 +3,12 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "benchmarks/questionnaire/answers.h"
@@ -21,10 +23,13 @@ class LockedFile {
   explicit LockedFile(std::string path)
       : path_(std::move(path)), fd_(open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0644)) {
     if (fd_ < 0) fail();
-    if (flock(fd_, LOCK_EX) != 0) {
-      close(fd_);
-      fail();
-    }
+    struct stat kind {};
+    if (fstat(fd_, &kind) == 0 && S_ISREG(kind.st_mode) && flock(fd_, LOCK_EX) == 0) return;
+    if (!S_ISREG(kind.st_mode)) errno = EINVAL;  // a device or a pipe keeps nothing
+    const int why = errno;
+    close(fd_);
+    errno = why;
+    fail();
   }
   ~LockedFile() { close(fd_); }
   LockedFile(const LockedFile&) = delete;
@@ -66,6 +71,21 @@ std::string line_of(const Answer& a, bool dated) {
   return line + (dated ? "," + a.date : "") + "\n";
 }
 
+// Rows are written in the form's order; a file in another one can be read, but not added to.
+void check_order(const std::string& text, const std::string& path, const std::vector<std::string>& columns) {
+  std::istringstream lines(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line.front() == '#') continue;
+    const std::string expected = fmt::format("{}", fmt::join(columns, ","));
+    if (line == expected) return;
+    throw Error(fmt::format("{}:{}:1: the columns stand in another order; expected {}; choose another file",
+                            path, number, expected));
+  }
+}
+
 bool in_file(const Answers& answers, const std::string& participant) {
   return std::any_of(answers.rows.begin(), answers.rows.end(),
                      [&](const Answer& a) { return a.participant == participant; });
@@ -84,6 +104,7 @@ Answers append_answers(const std::string& path, const Form& form, std::vector<An
     text = fmt::format("{}\n", fmt::join(answer_columns(form, dates), ","));
   } else {
     all = parse_answers(before, path, form);
+    check_order(before, path, answer_columns(form, all.dated));
     if (dates && !all.dated)
       throw Error(
           fmt::format("{}:1:1: there is no column 'date'; expected one for answers with a date; "
