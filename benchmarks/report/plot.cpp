@@ -246,12 +246,13 @@ std::string axes(const Plot& plot, const Bars& bars) {
 std::string plot_script(const Plot& plot) {
   std::size_t longest = 1;
   for (const Series& s : plot.series) longest = std::max(longest, s.name.size());
-  const std::size_t columns = std::max<std::size_t>(1, 590 / (62 + 8 * longest));
+  const std::size_t width = plot.y_names.empty() ? 640 : 900;  // names take their room from the plot
+  const std::size_t columns = std::max<std::size_t>(1, (width - 50) / (62 + 8 * longest));
   const std::size_t rows = (plot.series.size() + columns - 1) / columns;
   std::string text = fmt::format(
-      "set encoding utf8\nset terminal svg size 640,{} font 'sans-serif,15' background '#ffffff' "
+      "set encoding utf8\nset terminal svg size {},{} font 'sans-serif,15' background '#ffffff' "
       "noenhanced\n",
-      height_of(plot) + (crowded(plot) ? 50 : 0) + 22 * rows);
+      width, height_of(plot) + (crowded(plot) ? 50 : 0) + 22 * rows);
   text +=
       "set border 3 lc rgb '#555555'\nset tics nomirror out textcolor rgb '#333333'\n"
       "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";

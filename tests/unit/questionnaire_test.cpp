@@ -106,7 +106,7 @@ TEST(QuestionnaireAnswers, SayWhatIsWrongAndWhere) {
   EXPECT_THAT(refused(""), StartsWith("a.csv:1:1: there is no header"));
   EXPECT_THAT(refused("participant,vr,item_1\n"), AllOf(StartsWith("a.csv:1:1: "), HasSubstr("item_2")));
   EXPECT_THAT(refused("participant,vr,item_1,item_2,item_3\n"),
-              AllOf(StartsWith("a.csv:1:29: column 'item_3'"), HasSubstr("form 'small'")));
+              AllOf(StartsWith("a.csv:1:30: column 'item_3'"), HasSubstr("form 'small'")));
   EXPECT_THAT(refused(header + "1,yes,4,2\n"),
               AllOf(StartsWith("a.csv:2:7: 'item_1' is '4'"), HasSubstr("whole number from 1 to 3")));
   EXPECT_THAT(refused(header + "1,yes,0,2\n"), StartsWith("a.csv:2:7: "));
@@ -226,7 +226,7 @@ TEST(QuestionnaireOpinion, IsMeanRangeAndCounts) {
 TEST(QuestionnaireProxies, AreFiguresAndNoAnswers) {
   const std::vector<ItemReference> items = items_of(small_form(), kModels);
   Judged j;
-  j.figure = {"b.x", kUnset, 0.5, "mm", Role::ours};
+  j.figure = {"b.x", kUnset, 0.5, "mm", Role::ours, kUnset, kUnset, ""};
   j.felt = Felt::yes;
   const Table table = proxy_table(items, {j});
   ASSERT_EQ(table.rows.size(), 1U);
