@@ -176,8 +176,9 @@ void write_report(const std::string& folder, const Report& report) {
     for (const Plot& plot : result.plots) write_plot(plot);
   }
   if (!report.verdict.y_names.empty()) {
-    write_whole(at / "verdict.csv",
-                table_csv(verdict_table(judged(report.results, report.background.thresholds))));
+    const std::vector<Judged> all = judged(report.results, report.background.thresholds);
+    for (const Table& table : {verdict_table(all), threshold_table(all)})
+      write_whole(at / (table.id + ".csv"), table_csv(table));
     write_plot(report.verdict);
   }
   write_whole(at / "REPORT.md", report_markdown(report));

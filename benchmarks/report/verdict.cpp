@@ -12,6 +12,8 @@
 namespace enc::bench {
 namespace {
 
+constexpr double kLeastDrawn = 0.01;  // error over threshold: what is less still is a point, at the edge
+
 [[noreturn]] void refuse(const std::string& name, std::size_t row, const std::string& what) {
   throw Error(fmt::format("{}: row {}: {}", name, row + 1, what));
 }
@@ -75,18 +77,19 @@ std::string range_of(const Threshold& t) {
 }
 std::string word(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : ""; }
 
+bool same(const Threshold& a, const Threshold& b) { return a.figure == b.figure && a.sign == b.sign; }
+
 // The worst judged figure of each threshold, in the order of the first of each.
 std::vector<const Judged*> worst_of_each(const std::vector<Judged>& all) {
   std::vector<const Judged*> worst;
   for (const Judged& j : all) {
     if (!std::isfinite(j.over)) continue;
-    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Judged* w) {
-      return w->threshold.figure == j.threshold.figure && w->threshold.sign == j.threshold.sign;
-    });
-    if (same == worst.end())
+    const auto found = std::find_if(worst.begin(), worst.end(),
+                                    [&](const Judged* w) { return same(w->threshold, j.threshold); });
+    if (found == worst.end())
       worst.push_back(&j);
-    else if (j.over > (*same)->over)
-      *same = &j;
+    else if (j.over > (*found)->over)
+      *found = &j;
   }
   return worst;
 }
@@ -156,18 +159,32 @@ std::vector<Judged> judged(const std::vector<BenchResult>& results,
 Table verdict_table(const std::vector<Judged>& all) {
   Table table{"verdict",
               "Felt or not",
-              {"figure", "error", "unit", "threshold", "error over threshold", "verdict", "paper", "paper's",
-               "what a person compares", "rule", "source", "how sure"},
+              {"figure", "error", "unit", "threshold", "error over threshold", "verdict", "paper's error",
+               "paper's verdict"},
               {},
               "Threshold: its typical value, and the range over studies, people and places. Not felt: below "
               "the range. Felt: above it. In between: some people, or in some places. Not comparable: nobody "
-              "has measured what a person can tell there, and the column says what is missing."};
+              "has measured what a person can tell there."};
+  for (const Judged& j : all)
+    table.rows.push_back({j.figure.id, word(j.figure.twin), j.figure.unit, range_of(j.threshold),
+                          word(j.over), felt_name(j.felt), word(j.figure.paper),
+                          std::isfinite(j.paper_over) ? felt_name(j.paper) : ""});
+  return table;
+}
+
+Table threshold_table(const std::vector<Judged>& all) {
+  Table table{"verdict_thresholds",
+              "What a person can tell",
+              {"figures", "threshold", "unit", "what a person compares", "rule", "source", "how sure"},
+              {},
+              "Those of benchmarks/reference/thresholds.csv that were used above."};
+  std::vector<const Threshold*> seen;
   for (const Judged& j : all) {
     const Threshold& t = j.threshold;
-    table.rows.push_back({j.figure.id, word(j.figure.twin), j.figure.unit, range_of(t), word(j.over),
-                          felt_name(j.felt), word(j.figure.paper),
-                          std::isfinite(j.paper_over) ? felt_name(j.paper) : "", t.compares, t.rule, t.source,
-                          t.confidence});
+    const bool there = std::any_of(seen.begin(), seen.end(), [&](const Threshold* s) { return same(*s, t); });
+    if (there) continue;
+    seen.push_back(&t);
+    table.rows.push_back({t.figure, range_of(t), t.unit, t.compares, t.rule, t.source, t.confidence});
   }
   return table;
 }
@@ -181,7 +198,7 @@ Plot verdict_plot(const std::vector<Judged>& all) {
             false,
             {},
             "The worst error of each kind. Left of the bar: not felt. Right of it: felt. The bar is how far "
-            "studies, people and places differ; 1 is the typical threshold."};
+            "studies, people and places differ; 1 is the typical threshold. Less than 0.01 stands at 0.01."};
   Series range{"range of the threshold", {}, {}};
   Series twin{"twin", {}, {}, {}, {}, Mark::points};
   Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
@@ -195,8 +212,7 @@ Plot verdict_plot(const std::vector<Judged>& all) {
       range.x.push_back(x);
       range.y.push_back(y);
     }
-    // An error of nothing still is a point, at the edge.
-    twin.x.push_back(std::max(j.over, 1e-4));
+    twin.x.push_back(std::max(j.over, kLeastDrawn));
     twin.y.push_back(y);
     paper.x.push_back(j.paper_over);
     paper.y.push_back(y);

@@ -45,6 +45,8 @@ struct Judged {
 
 // Without rows where nothing was judged.
 [[nodiscard]] Table verdict_table(const std::vector<Judged>& all);
+// What stands behind it: each threshold once.
+[[nodiscard]] Table threshold_table(const std::vector<Judged>& all);
 // The worst error of each threshold.
 [[nodiscard]] Plot verdict_plot(const std::vector<Judged>& all);
 // "12 not felt, 3 in between (a, b, c), 1 felt (d)"

@@ -99,8 +99,10 @@ TEST(Verdict, ThePaperIsJudgedAsTheTwinIs) {
   const std::vector<Threshold> t = of("x.*,any,absolute,0.4,0.3,0.5,-,-,-,-,mm,tip beside tip,b,c\n");
   const std::vector<Judged> all = judged({result_of("x.1", 0.2, "mm", 0.8), result_of("x.2", 0.6, "mm")}, t);
   const Table table = verdict_table(all);
-  EXPECT_THAT(table.rows[0], ElementsAre("x.1", "0.2", "mm", "0.4 (0.3 .. 0.5)", "0.5", "not felt", "0.8",
-                                         "felt", "tip beside tip", "", "b", "c"));
+  EXPECT_THAT(table.rows[0],
+              ElementsAre("x.1", "0.2", "mm", "0.4 (0.3 .. 0.5)", "0.5", "not felt", "0.8", "felt"));
+  EXPECT_THAT(threshold_table(all).rows,
+              ElementsAre(ElementsAre("x.*", "0.4 (0.3 .. 0.5)", "mm", "tip beside tip", "", "b", "c")));
   EXPECT_EQ(verdict_line(all), "1 not felt, 1 felt (x.2)");
   // One row for each threshold: its worst error.
   const Plot plot = verdict_plot(all);
