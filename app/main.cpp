@@ -168,6 +168,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   questionnaire_command->add_option("--participant", questionnaire_options.participant,
                                     "number or code; default: the next number");
   questionnaire_command->add_option("--out", questionnaire_options.out, "folder for picture and tables");
+  questionnaire_command->add_option("--results", questionnaire_options.results,
+                                    "results.json of a bench run: shows its figures beside the items");
   questionnaire_command->add_flag("--date", questionnaire_options.date, "keep the date, too");
   questionnaire_command->add_flag("--json", questionnaire_options.json, "one JSON object instead of text");
   questionnaire_command->callback([&] { code = questionnaire(questionnaire_options); });

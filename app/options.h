@@ -66,7 +66,7 @@ struct NearestOptions {
 };
 struct QuestionnaireOptions {
   std::string form = "vhmr_2020";
-  std::string store, answers, participant, out;
+  std::string store, answers, participant, out, results;
   bool date = false, json = false;
 };
 struct MeshOptions {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -91,17 +92,35 @@ std::string table_text(const bench::Table& table) {
   return text;
 }
 
-std::string proxies_text(const std::vector<bench::ItemReference>& items) {
+// "0.842 mm, felt" of each figure of a bench run that has a verdict.
+std::map<std::string, std::string> verdicts_of(const std::string& path) {
+  std::map<std::string, std::string> found;
+  if (path.empty()) return found;
+  const Json json = Json::parse(models::csv_text(path, "results", "results.json of `encounter bench --out`"),
+                                nullptr, false);
+  if (!json.is_object() || !json.contains("verdicts") || !json["verdicts"].is_array())
+    throw Error(path +
+                ":1:1: there is no list 'verdicts'; expected results.json of `encounter bench --out`; run "
+                "that");
+  for (const Json& v : json["verdicts"])
+    if (v.is_object() && v.contains("error") && v["error"].is_number())
+      found[v.value("figure", "")] =
+          fmt::format("{:.3g} {}, {}", v["error"].get<double>(), v.value("unit", ""), v.value("verdict", ""));
+  return found;
+}
+
+std::string proxies_text(const std::vector<bench::ItemReference>& items,
+                         const std::map<std::string, std::string>& verdicts) {
   std::string text;
-  for (const bench::ItemReference& item : items) {
-    if (item.figures.empty()) continue;
-    std::string ids;
-    for (const std::string& id : item.figures) ids += " " + id;
-    text += fmt::format("  item {:3}{}\n", item.name, ids);
-  }
-  return text.empty()
-             ? ""
-             : "measured    by `encounter bench`, beside the items and in place of no answer:\n" + text;
+  for (const bench::ItemReference& item : items)
+    for (const std::string& id : item.figures) {
+      const auto verdict = verdicts.find(id);
+      text += fmt::format("  item {:3} {:24} {}\n", item.name, id,
+                          verdict == verdicts.end() ? "" : verdict->second);
+      text.erase(text.find_last_not_of(" \n") + 1);
+      text += '\n';
+    }
+  return text.empty() ? "" : "measured    by `encounter bench`: beside the items, no answers\n" + text;
 }
 
 // Where the study's own numbers do not agree about an item of this form.
@@ -182,6 +201,7 @@ int questionnaire(const QuestionnaireOptions& options) {
   const std::string models = models::models_dir("");
   const bench::Form form = bench::load_form(models, options.form);
   const std::vector<bench::ItemReference> items = bench::items_of(form, models);
+  const std::map<std::string, std::string> verdicts = verdicts_of(options.results);
   const Answers answers = collect(options, form);
   const std::vector<bench::Contradiction> found = doubts(form, models);
   if (!options.out.empty()) write_pictures(options.out, form, items, answers.rows);
@@ -192,7 +212,7 @@ int questionnaire(const QuestionnaireOptions& options) {
   const bench::Table table = bench::opinion_table(form, items, answers.rows);
   fmt::print("{} {}\n{}mean of all {:.1f}\n\n{}\n{}", table.title, form.source, table_text(table),
              bench::global_mean(answers.rows), table_text(bench::experience_table(form, answers.rows)),
-             proxies_text(items));
+             proxies_text(items, verdicts));
   for (const bench::Contradiction& c : found)
     fmt::print("note        {}: {}; {}\n", c.where, c.printed, c.found);
   return 0;

@@ -48,7 +48,7 @@ std::vector<Answer> with_experience(const std::vector<Answer>& rows, std::size_t
 Table opinion_table(const Form& form, const std::vector<ItemReference>& items,
                     const std::vector<Answer>& rows) {
   Table table{"answers",
-              fmt::format("{}: {} answers", form.title, rows.size()),
+              fmt::format("{}: {} {}", form.title, rows.size(), rows.size() == 1 ? "person" : "people"),
               {"item", "asked", "mean", "range"},
               {},
               "Points: 1, " + form.steps.front().text + ", to " + std::to_string(form.highest()) + ", " +
@@ -92,9 +92,10 @@ Plot opinion_plot(const Form& form, const std::vector<ItemReference>& items,
             false,
             false,
             {},
-            fmt::format("Means of {} answers to each item, bars: their range; the paper's means beside.",
+            fmt::format("Means of {} people for each item, bars: their range; the paper's means beside.",
                         rows.size())};
-  Series range{"range", {}, {}};
+  // The axis shows the whole scale, whatever was answered.
+  Series range{"range", {1.0, static_cast<double>(form.highest())}, {kUnset, kUnset}};
   Series mean{fmt::format("mean of {}", rows.size()), {}, {}, {}, {}, Mark::points};
   Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
   for (std::size_t i = 0; i < items.size(); ++i) {

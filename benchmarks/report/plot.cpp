@@ -246,8 +246,9 @@ std::string axes(const Plot& plot, const Bars& bars) {
 std::string plot_script(const Plot& plot) {
   std::size_t longest = 1;
   for (const Series& s : plot.series) longest = std::max(longest, s.name.size());
-  const std::size_t width = plot.y_names.empty() ? 640 : 900;  // names take their room from the plot
-  const std::size_t columns = std::max<std::size_t>(1, (width - 50) / (62 + 8 * longest));
+  const bool names = !plot.y_names.empty();  // they take their room from the plot, under which the legend is
+  const std::size_t width = names ? 900 : 640;
+  const std::size_t columns = std::max<std::size_t>(1, (names ? 340 : 590) / (62 + 8 * longest));
   const std::size_t rows = (plot.series.size() + columns - 1) / columns;
   std::string text = fmt::format(
       "set encoding utf8\nset terminal svg size {},{} font 'sans-serif,15' background '#ffffff' "
