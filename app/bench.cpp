@@ -112,6 +112,7 @@ class Session {
     report_.set = options.set;
     for (const bench::Choice& choice : choices_) report_.missing.emplace_back(choice.benchmark->name);
     context_.models = models::models_dir("");
+    report_.background = bench::load_background(context_.models);
     context_.seed = options.seed;
     context_.repeats = options.repeats;
     context_.quick = options.quick;
@@ -131,6 +132,9 @@ class Session {
       bench::add_result(report_, std::move(result));
       write();
     }
+    const std::string felt =
+        bench::verdict_line(bench::judged(report_.results, report_.background.thresholds));
+    if (!felt.empty()) fmt::print("errors beside what a person can tell: {}\n", felt);
     if (!options_.out.empty() && !report_.not_drawn.empty())
       fmt::print(stderr, "encounter: not drawn: {}; tables and figures are complete\n", report_.not_drawn);
     return all_ok_ ? 0 : 1;

@@ -102,6 +102,13 @@ std::string parts_text(const models::Setup& setup) {
       thread_count() == 1 ? "" : "s", left_out.empty() ? "nothing" : left_out);
 }
 
+std::string questionnaire_text(const models::Setup& setup) {
+  if (!setup.scene.questionnaire) return "";
+  return fmt::format(
+      "afterwards  encounter questionnaire {} --store answers.csv   (nothing of it is simulated)\n",
+      setup.scene.questionnaire->form);
+}
+
 void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
 }

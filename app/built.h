@@ -18,6 +18,9 @@ struct Part {
 // "built: hexapod, force (sim)…" and "left out: camera (not named)…": two lines.
 [[nodiscard]] std::string parts_text(const models::Setup& setup);
 
+// How to ask what the scene wants the person to be asked, in one line; or nothing.
+[[nodiscard]] std::string questionnaire_text(const models::Setup& setup);
+
 // What was repaired in meshes, a line each on standard error.
 void print_notes(const std::vector<std::string>& notes);
 

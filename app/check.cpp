@@ -12,8 +12,8 @@ int check(const SceneOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
   print_notes(setup.notes);
   const Scene scene = bench::prepare_setup(setup);
-  fmt::print("{}\n{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n", setup.scene.title,
-             parts_text(setup), frame_graph(scene), chain_residual(scene));
+  fmt::print("{}\n{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n", setup.scene.title,
+             parts_text(setup), questionnaire_text(setup), frame_graph(scene), chain_residual(scene));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (std::isnan(scene.objects[i].limit)) {
       fmt::print("  object '{}': real, pressed by the machine and not rendered\n",

@@ -155,6 +155,25 @@ int dispatch(CLI::App& app, int argc, char** argv) {
                            "3 to 400: how finely it is cut; a ball has 20 n^2 triangles");
   mesh_command->callback([&] { code = mesh(mesh_options); });
 
+  QuestionnaireOptions questionnaire_options;
+  CLI::App* questionnaire_command = app.add_subcommand(
+      "questionnaire", "ask a person what the paper asked, keep the answers, show mean, range and counts");
+  questionnaire_command
+      ->add_option("form", questionnaire_options.form, "a name in models/questionnaires, or a file")
+      ->capture_default_str();
+  questionnaire_command->add_option("--store", questionnaire_options.store,
+                                    "CSV file that the answers are added to; what is in it stays");
+  questionnaire_command->add_option("--answers", questionnaire_options.answers,
+                                    "CSV file with answers of many, in place of asking");
+  questionnaire_command->add_option("--participant", questionnaire_options.participant,
+                                    "number or code; default: the next number");
+  questionnaire_command->add_option("--out", questionnaire_options.out, "folder for picture and tables");
+  questionnaire_command->add_option("--results", questionnaire_options.results,
+                                    "results.json of a bench run: shows its figures beside the items");
+  questionnaire_command->add_flag("--date", questionnaire_options.date, "keep the date, too");
+  questionnaire_command->add_flag("--json", questionnaire_options.json, "one JSON object instead of text");
+  questionnaire_command->callback([&] { code = questionnaire(questionnaire_options); });
+
   CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
   doctor_command->callback([&] { code = doctor(); });
 

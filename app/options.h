@@ -64,6 +64,11 @@ struct NearestOptions {
   std::string what;  // a mesh file, or SCENE#object
   std::string points;
 };
+struct QuestionnaireOptions {
+  std::string form = "vhmr_2020";
+  std::string store, answers, participant, out, results;
+  bool date = false, json = false;
+};
 struct MeshOptions {
   std::string name, out;
   std::optional<int> fine;
@@ -81,5 +86,6 @@ int fit(const FitOptions& options);
 int calibrate(const CalibrateOptions& options);
 int nearest(const NearestOptions& options);
 int mesh(const MeshOptions& options);
+int questionnaire(const QuestionnaireOptions& options);
 
 }  // namespace enc::app

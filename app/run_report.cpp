@@ -152,6 +152,7 @@ std::string run_text(const RunReport& r) {
   if (r.result.contacts == 0 && r.setup.scene.user)
     text += fmt::format("note        the user never touched anything; last notice of the core: {}\n",
                         r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
+  text += questionnaire_text(r.setup);
   const StepTimes times = step_times(r.result.step_ns);
   text += fmt::format("tick        step() p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.1f} us\n",
                       times.p50 * 1e-3, times.p99 * 1e-3, times.p999 * 1e-3, times.max * 1e-3);

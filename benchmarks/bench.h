@@ -46,6 +46,7 @@ struct Plot {
   std::string caption{};               // what to see in it
   std::vector<std::string> x_names{};  // under x = 0, 1, 2, ... in place of numbers
   bool equal = false;                  // one unit of x is as long as one of y (maps)
+  std::vector<std::string> y_names{};  // beside y = 0, 1, 2, ... from the top down, in place of numbers
 };
 struct Table {
   std::string id;  // file name without ".csv"; begins with the benchmark's name

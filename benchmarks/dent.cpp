@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/shapes.h"
 #include "benchmarks/statistics.h"
 #include "core/scene.h"
@@ -124,7 +125,7 @@ BenchResult run_dent(const BenchContext& context) {
                        const char* note) {
     result.figures.push_back({id, kUnset, twin, unit, Role::ours, low, high, note});
   };
-  const models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  const models::Setup setup = load_scene(context, "tennis_ball");
   const Scene scene = prepare(setup.scene, setup.rig);
   const Surface& surface = scene.objects.front().surface;
   const double radius = setup.scene.objects.front().radius;

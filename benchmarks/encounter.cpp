@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/press_measure.h"
 #include "benchmarks/statistics.h"
@@ -74,7 +75,7 @@ void add_figures(BenchResult& result, double speed, const Met& hands, double bou
 
 BenchResult run_encounter(const BenchContext& context) {
   BenchResult result{"encounter", "tennis_ball", 0, 0, {}};
-  models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  models::Setup setup = load_scene(context, "tennis_ball");
   // A short press is enough: the figure is the meeting, not what follows.
   setup.scene.user->press_time = setup.scene.user->release_time = 0.8;
   setup.scene.user->hold_time = 0.1;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/shapes.h"
 #include "benchmarks/statistics.h"
@@ -37,7 +38,7 @@ struct TemporaryFile {
 
 // The tennis ball's scene with its sphere in triangles.
 models::Setup with_mesh(const BenchContext& context, Mesh mesh) {
-  models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  models::Setup setup = load_scene(context, "tennis_ball");
   ObjectSpec& ball = setup.scene.objects.front();
   ball.shape = ShapeKind::mesh;
   ball.radius = kUnset;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/press_measure.h"
 
@@ -62,7 +63,7 @@ Vec3 bias_of(std::int64_t i) {
 
 BenchResult run_press(const BenchContext& context) {
   BenchResult result{"press", "tennis_ball", 0, 0, {}};
-  models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  models::Setup setup = load_scene(context, "tennis_ball");
   const std::int64_t repeats = context.repeats > 0 ? context.repeats : (context.quick ? 20 : 200);
   UserSpec& user = *setup.scene.user;
   user.press_time = user.release_time = 1.5;
@@ -91,7 +92,7 @@ BenchResult run_press(const BenchContext& context) {
   add("press.tension.max", tally.tension, "N", 0, 0.05, "pull on the unbound tool");
   result.simulated = tally.simulated;
 
-  setup = models::load(context.models + "/scenes/push_limit.toml", "sim", context.set);
+  setup = load_scene(context, "push_limit");
   for (const double limit : {0.006, 0.004, 0.002}) {
     setup.scene.objects.front().limit = limit;
     const Tally pushed = press_all(context.quick ? 2U : 10U, [&](std::size_t i, Tally& one) {

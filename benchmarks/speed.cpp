@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/trial.h"
 #include "sim/mujoco.h"
@@ -46,7 +47,7 @@ Ratios interleaved(sim::Physics& physics, int rounds) {
 
 BenchResult run_speed(const BenchContext& context) {
   BenchResult result{"speed", "tennis_ball", 0, 0, {}};
-  const models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  const models::Setup setup = load_scene(context, "tennis_ball");
   TrialOptions options;
   options.seed = context.seed;
   if (context.quick) options.seconds = 20.0;

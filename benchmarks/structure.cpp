@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/structure_model.h"
@@ -192,19 +193,20 @@ void modes(const Report& report, const BenchContext& /*context*/) {
                fmt::format("by differences of the physics; M^-1 J'KJ says {:.1f} Hz", expected(i)));
 }
 
+// The scene in structural form.
+models::Setup on_legs(const BenchContext& context, std::vector<std::string> more = {}) {
+  more.emplace_back("truth.hexapod.form=structural");
+  return load_scene(context, "tennis_ball", {}, more);
+}
+
 // A world of the scene in structural form without a person, its machine told where to go.
 struct Machine {
   explicit Machine(const BenchContext& context, const std::vector<std::string>& more)
-      : setup(models::load(context.models + "/scenes/tennis_ball.toml", "sim", with(context.set, more))) {
+      : setup(on_legs(context, more)) {
     setup.scene.user.reset();
     scene = prepare_setup(setup);
     world = std::make_unique<sim::World>(sim::WorldSpec{setup.scene, setup.rig, setup.twin, scene,
                                                         context.models + "/mjcf", context.seed, false});
-  }
-  static std::vector<std::string> with(std::vector<std::string> set, const std::vector<std::string>& more) {
-    set.emplace_back("truth.hexapod.form=structural");
-    set.insert(set.end(), more.begin(), more.end());
-    return set;
   }
   const sim::Truth& go(const Vec3& from_zero, int ticks) {
     const Vec3 there = world->machine.machine().zero().p() + from_zero;
@@ -276,9 +278,7 @@ void speed(const Report& report, const BenchContext& context) {
   TrialOptions options;
   options.seed = context.seed;
   options.seconds = context.quick ? 10.0 : 30.0;
-  Trial trial(
-      models::load(context.models + "/scenes/tennis_ball.toml", "sim", Machine::with(context.set, {})),
-      options);
+  Trial trial(on_legs(context), options);
   const double start = thread_seconds();
   const TrialResult run = trial.run();
   report.result.simulated += run.simulated;

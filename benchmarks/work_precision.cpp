@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/load_scene.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/trial.h"
 #include "core/error.h"
@@ -35,15 +36,6 @@ struct Path {
   std::string failure;    // why there is none
 };
 
-// The run's own settings come before the user's, so that the user's win; `more` is what is compared.
-models::Setup setup_of(const WorkSpec& spec, const BenchContext& context,
-                       const std::vector<std::string>& more) {
-  std::vector<std::string> set = spec.set;
-  set.insert(set.end(), context.set.begin(), context.set.end());
-  set.insert(set.end(), more.begin(), more.end());
-  return models::load(context.models + "/scenes/" + spec.scene + ".toml", "sim", set);
-}
-
 Path run_once(const WorkSpec& spec, const BenchContext& context, const Form& form,
               std::string_view integrator, double step) {
   Path path;
@@ -55,7 +47,7 @@ Path run_once(const WorkSpec& spec, const BenchContext& context, const Form& for
     options.seed = context.seed;
     options.seconds = spec.seconds;
     options.watch = [&](const Glance& glance) { path.tip.push_back(glance.truth.tip.e()); };
-    Trial trial(setup_of(spec, context, compared), options);
+    Trial trial(load_scene(context, spec.scene, spec.set, compared), options);
     const double start = thread_seconds();
     const TrialResult run = trial.run();
     path.cpu = (thread_seconds() - start) / run.simulated;
@@ -151,7 +143,7 @@ void add_figures(const WorkSpec& spec, const std::vector<Point>& points, const m
 
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result) {
   const std::vector<Point> points = measured(spec, context);
-  add_figures(spec, points, setup_of(spec, context, {}), result);
+  add_figures(spec, points, load_scene(context, spec.scene, spec.set), result);
 
   Plot plot{spec.benchmark + "_work_precision",
             "Error against run time: " + spec.scene,

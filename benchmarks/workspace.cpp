@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/reach_volume.h"
 #include "core/press_check.h"
 #include "models/scene_file.h"
@@ -268,7 +269,7 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
 
 BenchResult run_workspace(const BenchContext& context) {
   BenchResult result{"workspace", "tennis_ball", 0, 0, {}};
-  const models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
+  const models::Setup setup = load_scene(context, "tennis_ball");
   const Scene scene = prepare(setup.scene, setup.rig);
   const ReachVolume reach(scene.reach.machine);
   add_box(result, reach);

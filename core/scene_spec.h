@@ -81,6 +81,11 @@ struct GripperSpec {
   std::string tool;  // clamped, its tip at H and its shaft upwards; empty: the first
 };
 
+// What the person is asked afterwards. Nothing of it is simulated.
+struct QuestionnaireSpec {
+  std::string form;  // file in models/questionnaires without ".toml"
+};
+
 struct SceneSpec {
   std::int64_t format = 1;
   std::string title;
@@ -96,6 +101,7 @@ struct SceneSpec {
   std::optional<ProbeSpec> probe;
   std::optional<PusherSpec> pusher;
   std::optional<TravelSpec> travel;
+  std::optional<QuestionnaireSpec> questionnaire;
   std::vector<BehaviourSpec> behaviours;  // the entries of models/behaviours.toml that the objects name
 };
 

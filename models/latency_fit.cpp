@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/block_error.h"
+#include "models/order_statistics.h"
 
 namespace enc::models {
 namespace {
@@ -26,14 +27,6 @@ struct Seen {
   double t;
 };
 using Axis = std::vector<Seen>;
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 struct Solved {
   Vec4 x = Vec4::Zero();
@@ -120,7 +113,8 @@ class Fit {
     std::vector<double> speeds;
     for (const Seen& s : axes_[a])
       if (std::abs(s.speed) > kStill) speeds.push_back(std::abs(s.speed));
-    fastest_[a] = quantile(speeds, 0.95);  // one jump of the machine's reading is no motion
+    fastest_[a] =
+        speeds.empty() ? 0.0 : percentile(speeds, 0.95);  // one jump of the machine's reading is no motion
     limit_[a] = std::max(kStill, 0.1 * fastest_[a]);
     std::size_t ahead = 0, back = 0;
     for (const Seen& s : axes_[a]) ahead += s.speed > limit_[a], back += s.speed < -limit_[a];

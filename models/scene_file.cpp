@@ -155,6 +155,17 @@ ResponseFile read_response(const std::string& path, Places& places) {
   return file;
 }
 
+void check_form(const Setup& setup, const std::string& models_dir) {
+  if (!setup.scene.questionnaire) return;
+  const std::string& form = setup.scene.questionnaire->form;
+  const std::vector<std::string> names = files_in(models_dir, "questionnaires");
+  if (std::find(names.begin(), names.end(), form) != names.end()) return;
+  throw Error(fmt::format("{}: there is no questionnaire {}; expected a file in {}; {}",
+                          place_of(setup, "questionnaire.form"), quoted(form),
+                          (fs::path(models_dir) / "questionnaires").lexically_normal().string(),
+                          advice(form, names)));
+}
+
 }  // namespace
 
 ResponseSpec load_response(const std::string& path) {
@@ -220,6 +231,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   check(setup);
   fill_curves(setup, models_dir(scene_path));
   fill_meshes(setup, models_dir(scene_path));
+  check_form(setup, models_dir(scene_path));
   check(setup);
   round_to_text(setup);
   return setup;

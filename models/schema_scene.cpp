@@ -234,6 +234,11 @@ void describe(Visitor& v, SceneSpec& s) {
   part(v, "probe", s.probe, [&](ProbeSpec& p) { describe(v, p); });
   part(v, "pusher", s.pusher, [&](PusherSpec& p) { describe(v, p); });
   part(v, "travel", s.travel, [&](TravelSpec& t) { describe(v, t); });
+  part(v, "questionnaire", s.questionnaire, [&](QuestionnaireSpec& q) {
+    v.value({"form", "asked afterwards: a file in models/questionnaires without .toml", "[VHMR 4.4]", chosen,
+             kAny, needed},
+            &q.form);
+  });
 }
 
 namespace {

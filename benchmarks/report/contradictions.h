@@ -13,7 +13,7 @@ struct Contradiction {
   std::string found;    // what the printed numbers give when computed with
 };
 
-// Computed from the printed numbers, each time.
-[[nodiscard]] std::vector<Contradiction> contradictions();
+// Computed from the printed numbers (benchmarks/reference), each time. `models`: the models folder.
+[[nodiscard]] std::vector<Contradiction> contradictions(const std::string& models);
 
 }  // namespace enc::bench

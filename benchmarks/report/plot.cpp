@@ -204,6 +204,13 @@ bool crowded(const Plot& plot) {
   return letters > kRoom;
 }
 
+// px, without the legend.
+std::size_t height_of(const Plot& plot) {
+  if (plot.equal) return 520;
+  constexpr std::size_t kUsual = 360;
+  return std::max(kUsual, 110 + 24 * plot.y_names.size());
+}
+
 std::string axes(const Plot& plot, const Bars& bars) {
   Limits x = limits_of(plot, false);
   Limits y = limits_of(plot, true);
@@ -224,6 +231,12 @@ std::string axes(const Plot& plot, const Bars& bars) {
       text += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(plot.x_names[i]), i);
     text += ")\n";
   }
+  if (!plot.y_names.empty()) {
+    text += fmt::format("set yrange [{}:-0.6]\nset ytics (", static_cast<double>(plot.y_names.size()) - 0.4);
+    for (std::size_t i = 0; i < plot.y_names.size(); ++i)
+      text += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(plot.y_names[i]), i);
+    text += ")\n";
+  }
   if (plot.equal) text += "set size ratio -1\n";
   return text;
 }
@@ -233,12 +246,14 @@ std::string axes(const Plot& plot, const Bars& bars) {
 std::string plot_script(const Plot& plot) {
   std::size_t longest = 1;
   for (const Series& s : plot.series) longest = std::max(longest, s.name.size());
-  const std::size_t columns = std::max<std::size_t>(1, 590 / (62 + 8 * longest));
+  const bool names = !plot.y_names.empty();  // they take their room from the plot, under which the legend is
+  const std::size_t width = names ? 900 : 640;
+  const std::size_t columns = std::max<std::size_t>(1, (names ? 340 : 590) / (62 + 8 * longest));
   const std::size_t rows = (plot.series.size() + columns - 1) / columns;
   std::string text = fmt::format(
-      "set encoding utf8\nset terminal svg size 640,{} font 'sans-serif,15' background '#ffffff' "
+      "set encoding utf8\nset terminal svg size {},{} font 'sans-serif,15' background '#ffffff' "
       "noenhanced\n",
-      (plot.equal ? 520 : 360) + (crowded(plot) ? 50 : 0) + 22 * rows);
+      width, height_of(plot) + (crowded(plot) ? 50 : 0) + 22 * rows);
   text +=
       "set border 3 lc rgb '#555555'\nset tics nomirror out textcolor rgb '#333333'\n"
       "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";

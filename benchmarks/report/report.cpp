@@ -6,7 +6,7 @@
 #include <encounter_version.h>
 #include <fmt/format.h>
 
-#include "benchmarks/report/contradictions.h"
+#include "benchmarks/questionnaire/form.h"
 #include "benchmarks/report/machine.h"
 #include "benchmarks/report/plot.h"
 #include "sim/mujoco.h"
@@ -45,7 +45,7 @@ void drop_empty_columns(Table& table) {
   }
 }
 
-std::string verdict(const Report& report) {
+std::string figures_line(const Report& report) {
   std::size_t figures = 0;
   std::size_t with_bounds = 0;
   std::vector<std::string> broken;
@@ -82,7 +82,9 @@ std::vector<Fact> facts(const Report& report) {
                                                  machine.cores, machine.system, machine.compiler)},
                          {"Seed", std::to_string(report.seed)},
                          {"Command", report.command},
-                         {"Figures", verdict(report)}};
+                         {"Figures", figures_line(report)}};
+  const std::string felt = verdict_line(judged(report.results, report.background.thresholds));
+  if (!felt.empty()) list.push_back({"Felt or not", felt});
   if (!report.set.empty()) list.push_back({"With --set", joined(report.set)});
   if (!report.not_drawn.empty()) list.push_back({"Not drawn", report.not_drawn});
   if (!report.missing.empty()) list.push_back({"Missing", joined(report.missing)});
@@ -166,23 +168,40 @@ Table role_table(const Report& report) {
   return table;
 }
 
-Table contradiction_table() {
+Table contradiction_table(const std::vector<Contradiction>& contradictions) {
   Table table{"contradictions", "Where the paper contradicts itself", {"where", "printed", "found"}, {}};
-  for (const Contradiction& c : contradictions()) table.rows.push_back({c.where, c.printed, c.found});
+  for (const Contradiction& c : contradictions) table.rows.push_back({c.where, c.printed, c.found});
   table.note = "Computed from the printed numbers. None of these values is a target of any figure.";
   return table;
 }
 
+Background load_background(const std::string& models) {
+  return {contradictions(models), load_thresholds(models), items_of(load_form(models, "vhmr_2020"), models)};
+}
+
+std::vector<Table> closing_tables(const Report& report) {
+  const std::vector<Judged> all = judged(report.results, report.background.thresholds);
+  std::vector<Table> tables{verdict_table(all), threshold_table(all),
+                            proxy_table(report.background.items, all), role_table(report),
+                            contradiction_table(report.background.contradictions)};
+  std::erase_if(tables, [](const Table& t) { return t.rows.empty(); });
+  for (Table& t : tables) drop_empty_columns(t);
+  return tables;
+}
+
 void add_result(Report& report, BenchResult result) {
   std::erase(report.missing, result.name);
-  for (const Plot& plot : result.plots) {
+  const auto add = [&](const Plot& plot) {
     Drawing drawing = draw(plot);
     if (drawing.svg.empty())
       report.not_drawn = drawing.why_not;
     else
       report.drawings[plot.id] = std::move(drawing.svg);
-  }
+  };
+  for (const Plot& plot : result.plots) add(plot);
   report.results.push_back(std::move(result));
+  report.verdict = verdict_plot(judged(report.results, report.background.thresholds));
+  if (!report.verdict.y_names.empty()) add(report.verdict);
 }
 
 }  // namespace enc::bench

@@ -8,8 +8,20 @@
 #include <vector>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/questionnaire/proxies.h"
+#include "benchmarks/report/contradictions.h"
+#include "benchmarks/report/verdict.h"
 
 namespace enc::bench {
+
+// What does not depend on the run: the paper's contradictions, what a person can tell, and what people were
+// asked.
+struct Background {
+  std::vector<Contradiction> contradictions;
+  std::vector<Threshold> thresholds;
+  std::vector<ItemReference> items;
+};
+[[nodiscard]] Background load_background(const std::string& models);
 
 struct Report {
   std::string command;  // that made it
@@ -19,6 +31,8 @@ struct Report {
   std::vector<BenchResult> results{};
   std::map<std::string, std::string> drawings{};  // SVG by plot id
   std::string not_drawn{};                        // why a drawing is missing; empty: none is
+  Background background{};
+  Plot verdict{};  // of the results so far; without names where nothing was judged
 };
 
 [[nodiscard]] const char* role_name(Role role);
@@ -33,13 +47,15 @@ struct Fact {
 [[nodiscard]] Table overview_table(const Report& report);
 [[nodiscard]] Table figure_table(const BenchResult& result);
 [[nodiscard]] Table role_table(const Report& report);
-[[nodiscard]] Table contradiction_table();
+[[nodiscard]] Table contradiction_table(const std::vector<Contradiction>& contradictions);
+// What stands after the benchmarks, in order. Tables with nothing in them are left out.
+[[nodiscard]] std::vector<Table> closing_tables(const Report& report);
 
 [[nodiscard]] std::string results_json(const Report& report);
 [[nodiscard]] std::string report_markdown(const Report& report);
 [[nodiscard]] std::string report_html(const Report& report);
 
-// Draws the plots of a result and moves it from what is missing to the results.
+// Draws the plots of a result, and the verdict with it, and moves it from what is missing to the results.
 void add_result(Report& report, BenchResult result);
 // Every file whole or not at all (written aside, then renamed), so that a run that was killed leaves what was
 // complete. Throws Error where the folder cannot be written.

@@ -28,6 +28,7 @@ dt { color: #555 }
 dd { margin: 0; overflow-wrap: anywhere }
 nav a { margin-right: 1rem }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 34rem), 1fr)); gap: 1.5rem }
+.one { max-width: 60rem; margin-bottom: 1rem }
 figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: .5rem }
 figure svg { display: block; width: 100%; height: auto }
 figcaption { padding: .5rem; font-size: .9rem }
@@ -108,20 +109,22 @@ std::string head(const Report& report) {
   text += "</dl>\n<nav><p>";
   for (const BenchResult& r : report.results)
     text += fmt::format("<a href=\"#{0}\">{0}</a>", escaped(r.name));
-  return text +
-         "<a href=\"#roles\">calibrated and predicted</a><a "
-         "href=\"#contradictions\">contradictions</a></p></nav>\n";
+  for (const Table& t : closing_tables(report))
+    text += fmt::format("<a href=\"#{}\">{}</a>", escaped(t.id), escaped(t.title));
+  return text + "</p></nav>\n";
+}
+
+std::string picture(const Report& report, const Plot& plot) {
+  const auto svg = report.drawings.find(plot.id);
+  if (svg == report.drawings.end()) return {};
+  return fmt::format(
+      "<figure id=\"plot.{}\">\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
+      escaped(plot.id), svg_for_page(svg->second, plot.id), escaped(plot.title), escaped(plot.caption));
 }
 
 std::string plots(const Report& report) {
   std::string text;
-  for (const Plot* plot : ordered_plots(report)) {
-    const auto svg = report.drawings.find(plot->id);
-    if (svg == report.drawings.end()) continue;
-    text += fmt::format(
-        "<figure id=\"plot.{}\">\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
-        escaped(plot->id), svg_for_page(svg->second, plot->id), escaped(plot->title), escaped(plot->caption));
-  }
+  for (const Plot* plot : ordered_plots(report)) text += picture(report, *plot);
   if (text.empty()) return {};
   return "<h2>Plots</h2>\n<p class=\"note\">Black, open circles or dashed: the paper. Colours: the twin. "
          "Crosses at the "
@@ -138,8 +141,12 @@ std::string report_html(const Report& report) {
     text += fmt::format("<h2 id=\"{0}\">{0}</h2>\n{1}", escaped(result.name), table(figure_table(result)));
     for (const Table& t : result.tables) text += "<h3>" + escaped(t.title) + "</h3>\n" + table(t);
   }
-  for (const Table& t : {role_table(report), contradiction_table()})
-    text += fmt::format("<h2 id=\"{}\">{}</h2>\n{}", escaped(t.id), escaped(t.title), table(t));
+  for (const Table& t : closing_tables(report)) {
+    text += fmt::format("<h2 id=\"{}\">{}</h2>\n", escaped(t.id), escaped(t.title));
+    if (t.id == report.verdict.id)
+      text += "<div class=\"one\">" + picture(report, report.verdict) + "</div>\n";
+    text += table(t);
+  }
   return text + "</body>\n</html>\n";
 }
 

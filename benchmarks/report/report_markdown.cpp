@@ -39,6 +39,12 @@ std::string table(const Table& t) {
   return text + (t.note.empty() ? "" : "\n" + plain(t.note) + "\n");
 }
 
+std::string picture(const Report& report, const Plot& plot) {
+  std::string text;
+  if (report.drawings.contains(plot.id)) text = fmt::format("![{}]({}.svg)\n\n", plain(plot.title), plot.id);
+  return text + fmt::format("{} ([data]({}.plot.csv))\n", plain(plot.caption), plot.id);
+}
+
 }  // namespace
 
 std::string report_markdown(const Report& report) {
@@ -46,17 +52,17 @@ std::string report_markdown(const Report& report) {
   for (const Fact& fact : facts(report)) text += fmt::format("- **{}**: {}\n", fact.name, plain(fact.value));
   text += "\n" + table(overview_table(report));
   for (const Plot* plot : ordered_plots(report)) {
-    text += fmt::format("\n## {}\n\n", plain(plot->title));
-    if (report.drawings.contains(plot->id))
-      text += fmt::format("![{}]({}.svg)\n\n", plain(plot->title), plot->id);
-    text += fmt::format("{} ([data]({}.plot.csv))\n", plain(plot->caption), plot->id);
+    text += fmt::format("\n## {}\n\n{}", plain(plot->title), picture(report, *plot));
   }
   for (const BenchResult& result : report.results) {
     text += fmt::format("\n## {}\n\n{}", plain(result.name), table(figure_table(result)));
     for (const Table& t : result.tables) text += fmt::format("\n### {}\n\n{}", plain(t.title), table(t));
   }
-  for (const Table& t : {role_table(report), contradiction_table()})
-    text += fmt::format("\n## {}\n\n{}", plain(t.title), table(t));
+  for (const Table& t : closing_tables(report)) {
+    text += fmt::format("\n## {}\n\n", plain(t.title));
+    if (t.id == report.verdict.id) text += picture(report, report.verdict) + "\n";
+    text += table(t);
+  }
   return text;
 }
 

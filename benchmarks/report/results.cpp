@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <sys/utsname.h>
 
-#include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/machine.h"
 #include "benchmarks/report/plot.h"
 #include "benchmarks/report/report.h"
@@ -58,6 +57,23 @@ Json figure_json(const Figure& f) {
           {"note", f.note},
           {"least", number(f.least)},
           {"most", number(f.most)}};
+}
+
+Json judged_json(const Judged& j) {
+  const Threshold& t = j.threshold;
+  return {{"figure", j.figure.id},
+          {"error", number(j.figure.twin)},
+          {"unit", j.figure.unit},
+          {"threshold", number(t.value)},
+          {"least", number(t.least)},
+          {"most", number(t.most)},
+          {"over", number(j.over)},
+          {"verdict", felt_name(j.felt)},
+          {"paper", j.paper == Felt::not_comparable ? Json(nullptr) : Json(felt_name(j.paper))},
+          {"compares", t.compares},
+          {"rule", t.rule},
+          {"source", t.source},
+          {"confidence", t.confidence}};
 }
 
 void write_whole(const fs::path& path, const std::string& text) {
@@ -134,9 +150,12 @@ std::string results_json(const Report& report) {
                                   {"figures", figures}});
   }
   json["contradictions"] = Json::array();
-  for (const Contradiction& c : contradictions())
+  for (const Contradiction& c : report.background.contradictions)
     json["contradictions"].push_back(
         {{"id", c.id}, {"where", c.where}, {"printed", c.printed}, {"found", c.found}});
+  json["verdicts"] = Json::array();
+  for (const Judged& j : judged(report.results, report.background.thresholds))
+    json["verdicts"].push_back(judged_json(j));
   return json.dump(2) + "\n";
 }
 
@@ -146,14 +165,21 @@ void write_report(const std::string& folder, const Report& report) {
   if (failed)
     throw Error(folder + ": cannot be made (" + failed.message() + "); choose a folder that is yours");
   const fs::path at = folder;
+  const auto write_plot = [&](const Plot& plot) {
+    write_whole(at / (plot.id + ".plot.csv"), plot_csv(plot));
+    if (const auto svg = report.drawings.find(plot.id); svg != report.drawings.end())
+      write_whole(at / (plot.id + ".svg"), svg->second);
+  };
   for (const BenchResult& result : report.results) {
     write_whole(at / (result.name + ".csv"), figures_csv(result));
     for (const Table& table : result.tables) write_whole(at / (table.id + ".csv"), table_csv(table));
-    for (const Plot& plot : result.plots) {
-      write_whole(at / (plot.id + ".plot.csv"), plot_csv(plot));
-      if (const auto svg = report.drawings.find(plot.id); svg != report.drawings.end())
-        write_whole(at / (plot.id + ".svg"), svg->second);
-    }
+    for (const Plot& plot : result.plots) write_plot(plot);
+  }
+  if (!report.verdict.y_names.empty()) {
+    const std::vector<Judged> all = judged(report.results, report.background.thresholds);
+    for (const Table& table : {verdict_table(all), threshold_table(all)})
+      write_whole(at / (table.id + ".csv"), table_csv(table));
+    write_plot(report.verdict);
   }
   write_whole(at / "REPORT.md", report_markdown(report));
   write_whole(at / "report.html", report_html(report));

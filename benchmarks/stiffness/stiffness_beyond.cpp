@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/press_measure.h"
 #include "benchmarks/statistics.h"
@@ -297,8 +298,7 @@ void add_price(const BenchContext& context, BenchResult& result) {
   std::array<std::vector<std::string>, 2> rows;
   std::array<double, 2> simulated{};
   in_parallel(2, [&](std::size_t i) {
-    models::Setup setup =
-        models::load(context.models + "/scenes/tennis_ball.toml", "sim", sets[i] + context.set);
+    models::Setup setup = load_scene(context, "tennis_ball", sets[i]);
     setup.scene.user->approach = {0.02};
     const PressMeasure m = measured_run(setup, context.seed, simulated[i]);
     release[i] = m.rmse_release();

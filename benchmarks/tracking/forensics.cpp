@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/tracking/motion.h"
 #include "benchmarks/tracking/tracking_fit.h"
@@ -174,7 +175,7 @@ void add_table(const Table1& paper, BenchResult& result) {
 }  // namespace
 
 void add_forensics(const BenchContext& context, BenchResult& result) {
-  const models::Setup setup = models::load(context.models + "/scenes/clamped_tool.toml", "sim", context.set);
+  const models::Setup setup = load_scene(context, "clamped_tool");
   std::vector<Tried> trials(context.quick ? 20 : 100);
   in_parallel(trials.size(), [&](std::size_t i) { trials[i] = tried(setup.twin.tracker, context.seed + i); });
   add_figures(result, trials);

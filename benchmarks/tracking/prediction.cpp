@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/press_measure.h"
 #include "benchmarks/statistics.h"
@@ -318,7 +319,7 @@ void add_loop(BenchResult& result, const models::Setup& setup, const BenchContex
 }  // namespace
 
 void add_prediction(const BenchContext& context, BenchResult& result) {
-  Bench bench{models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set), {}, {}, {}};
+  Bench bench{load_scene(context, "tennis_ball"), {}, {}, {}};
   bench.scene = prepare_setup(bench.setup);
   bench.X_WC = pose_of<'W', 'C'>(bench.setup.twin.frames.W_C);
   bench.rows = prediction_rows(bench.setup.twin.hexapod.acceleration,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/tracking/forensics.h"
 #include "benchmarks/tracking/prediction.h"
@@ -39,8 +40,7 @@ Group group_of(const BenchContext& context, const Set& own, std::size_t seeds) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Set set{fmt::format("travel.axes=\"{}\"", kTableAxes[axis])};
     set.insert(set.end(), own.begin(), own.end());
-    set.insert(set.end(), context.set.begin(), context.set.end());
-    group.setup[axis] = models::load(context.models + "/scenes/tracking.toml", "sim", set);
+    group.setup[axis] = load_scene(context, "tracking", set);
   }
   group.seeds.resize(seeds);
   return group;
@@ -139,22 +139,20 @@ void append(Set& set, const Set& more) { set.insert(set.end(), more.begin(), mor
 
 // Everything zero that Table 1 is made of. What remains is rounding.
 double exact_error(const BenchContext& context, double& simulated) {
-  Set set{"travel.speed_mm_s=40",
-          "travel.dwell_s=0.1",
-          "rig.tracker.usual_age_ms=45",
-          "truth.tracker.bias_mm=[0, 0, 0]",
-          "truth.tracker.noise_mm=[0, 0, 0]",
-          "truth.tracker.latency_ms=0",
-          "truth.tracker.process_ms=0",
-          "truth.tracker.udp_delay_ms=0",
-          "truth.tracker.clocks=\"aligned\"",
-          "truth.tracker.rate_hz=1000",
-          "truth.tracker.server_rate_hz=1000",
-          "truth.hexapod.step_um=0",
-          "truth.hexapod.repeatability_um=0"};
-  append(set, context.set);
-  const TravelErrors errors =
-      run_travel(models::load(context.models + "/scenes/tracking.toml", "sim", set), context.seed, false);
+  const Set set{"travel.speed_mm_s=40",
+                "travel.dwell_s=0.1",
+                "rig.tracker.usual_age_ms=45",
+                "truth.tracker.bias_mm=[0, 0, 0]",
+                "truth.tracker.noise_mm=[0, 0, 0]",
+                "truth.tracker.latency_ms=0",
+                "truth.tracker.process_ms=0",
+                "truth.tracker.udp_delay_ms=0",
+                "truth.tracker.clocks=\"aligned\"",
+                "truth.tracker.rate_hz=1000",
+                "truth.tracker.server_rate_hz=1000",
+                "truth.hexapod.step_um=0",
+                "truth.hexapod.repeatability_um=0"};
+  const TravelErrors errors = run_travel(load_scene(context, "tracking", set), context.seed, false);
   simulated += errors.simulated;
   return errors.largest;
 }

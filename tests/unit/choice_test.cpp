@@ -54,6 +54,14 @@ TEST(Choice, AnIdIsWholeTokens) {
   EXPECT_FALSE(wanted(choice, figure("encounter.miss.20.max")));
 }
 
+// 4.1, 2 and 4.2 to 5 of the paper; what this program has of it.
+TEST(Choice, ThePaperIsInItsOwnOrder) {
+  std::vector<std::string> order;
+  for (const std::string& name : names_of(chosen({"paper-2020"})))
+    if (name == "tracking" || name == "stiffness" || name == "workspace") order.push_back(name);
+  EXPECT_THAT(order, ElementsAre("tracking", "stiffness", "workspace"));
+}
+
 TEST(Choice, WhatDoesNotExistIsRefusedWithTheNearest) {
   EXPECT_THAT(refusal({"pres.restore.max"}), HasSubstr("unknown benchmark 'pres'; did you mean 'press'?"));
   EXPECT_THAT(refusal({"paper-2021"}), HasSubstr("'paper-2020'"));

@@ -34,6 +34,7 @@ models::Setup full() {
   s.scene.objects.push_back(
       {"hare", ShapeKind::mesh, kUnset, {0, 0, 0}, {0, 0, 1}, "wall", kUnset, "hare.glb"});
   s.scene.display.emplace();
+  s.scene.questionnaire = QuestionnaireSpec{"vhmr_2020"};
   s.scene.user->approach = {0.01, 0.02, 0.05};
   s.scene.behaviours[0].curves = {
       {1.0 / 3.0 * 1e3, -2.0 / 7.0 * 1e6, 1e9 / 9.0, 0.0}, {600, 0, 0, 1e12}, 0.006};
@@ -106,6 +107,7 @@ TEST(Schema, describes_every_member) {
   EXPECT_EQ(n["tool.stylus"], members<ToolSpec>() - 3);    // a sphere has no axis, angle or edge
   EXPECT_EQ(n["follow"], members<FollowSpec>());
   EXPECT_EQ(n["user"], members<UserSpec>());
+  EXPECT_EQ(n["questionnaire"], members<QuestionnaireSpec>());
   EXPECT_EQ(n["behaviour.wall"], members<BehaviourSpec>());
   EXPECT_EQ(n["behaviour.wall.curves"], members<ResponseSpec>());
   EXPECT_EQ(n["behaviour.wall.curves.stops"], members<StopsSpec>());

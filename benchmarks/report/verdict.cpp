@@ -1,0 +1,242 @@
+#include "benchmarks/report/verdict.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/report/reference.h"
+#include "core/error.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr double kLeastDrawn = 0.01;  // error over threshold: what is less still is a point, at the edge
+
+[[noreturn]] void refuse(const std::string& name, std::size_t row, const std::string& what) {
+  throw Error(fmt::format("{}: row {}: {}", name, row + 1, what));
+}
+
+// A share of the size at which the error happens [Weber], with a floor below which the share does not hold.
+void fill_share(const Reference& table, std::size_t row, Threshold& t) {
+  const auto number = [&](const char* column) { return table.number(row, column); };
+  const double floor = number("floor");
+  const auto of = [&](const char* share, const char* at) {
+    return std::max(floor, 0.01 * number(share) * number(at));
+  };
+  t.value = of("threshold", "at");
+  t.least = of("least", "at_least");
+  t.most = of("most", "at_most");
+  t.rule = fmt::format("{:g} % ({:g} .. {:g}) of {:g} {} ({:g} .. {:g}), at least {:g}", number("threshold"),
+                       number("least"), number("most"), number("at"), t.unit, number("at_least"),
+                       number("at_most"), floor);
+}
+
+Threshold threshold_of(const Reference& table, std::size_t row, const std::string& name) {
+  Threshold t;
+  t.figure = table.text(row, "figure");
+  t.compares = table.text(row, "compares");
+  t.unit = table.text(row, "unit");
+  t.source = table.text(row, "source");
+  t.confidence = table.text(row, "confidence");
+  const std::string& sign = table.text(row, "sign");
+  if (sign != "any" && sign != "+" && sign != "-")
+    refuse(name, row, "sign '" + sign + "'; expected any, + or -");
+  t.sign = sign == "any" ? 0 : sign == "+" ? 1 : -1;
+  const std::string& kind = table.text(row, "kind");
+  if (kind == "none") return t;
+  if (kind != "absolute" && kind != "strictest" && kind != "share")
+    refuse(name, row, "kind '" + kind + "'; expected absolute, strictest, share or none");
+  t.strictest = kind == "strictest";
+  if (kind == "share") {
+    fill_share(table, row, t);
+  } else {
+    t.value = table.number(row, "threshold");
+    t.least = table.number(row, "least");
+    t.most = table.number(row, "most");
+  }
+  if (!(t.least > 0.0) || t.value < t.least || t.most < t.value)
+    refuse(name, row, "expected 0 < least <= threshold <= most");
+  return t;
+}
+
+std::vector<Threshold> thresholds_of(const Reference& table, const std::string& name) {
+  std::vector<Threshold> all;
+  all.reserve(table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) all.push_back(threshold_of(table, row, name));
+  return all;
+}
+
+bool right_sign(double error, const Threshold& t) { return t.sign == 0 || t.sign * error >= 0.0; }
+
+std::string range_of(const Threshold& t) {
+  if (!std::isfinite(t.value)) return "";
+  const std::string value = fmt::format("{:.3g}", t.value);
+  return t.least == t.most ? value : fmt::format("{} ({:.3g} .. {:.3g})", value, t.least, t.most);
+}
+std::string word(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : ""; }
+
+bool same(const Threshold& a, const Threshold& b) { return a.figure == b.figure && a.sign == b.sign; }
+
+// The worst judged figure of each threshold, in the order of the first of each.
+std::vector<const Judged*> worst_of_each(const std::vector<Judged>& all) {
+  std::vector<const Judged*> worst;
+  for (const Judged& j : all) {
+    if (!std::isfinite(j.over)) continue;
+    const auto found = std::find_if(worst.begin(), worst.end(),
+                                    [&](const Judged* w) { return same(w->threshold, j.threshold); });
+    if (found == worst.end())
+      worst.push_back(&j);
+    else if (j.over > (*found)->over)
+      *found = &j;
+  }
+  return worst;
+}
+
+}  // namespace
+
+const char* felt_name(Felt felt) {
+  constexpr std::array kNames{"not felt", "in between", "felt", "not comparable"};
+  return kNames[static_cast<std::size_t>(felt)];
+}
+
+std::vector<Threshold> parse_thresholds(const std::string& text, const std::string& name) {
+  return thresholds_of(Reference::parse(text, name), name);
+}
+std::vector<Threshold> load_thresholds(const std::string& models) {
+  const std::string name = "thresholds.csv";
+  return thresholds_of(Reference::load(models, name), name);
+}
+
+// Each '*' takes as little as it can; where the rest then does not fit, the last one takes one more.
+bool matches(const std::string& pattern, const std::string& id) {
+  std::size_t p = 0;
+  std::size_t star = std::string::npos;
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < id.size();) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      taken = i;
+    } else if (p < pattern.size() && pattern[p] == id[i]) {
+      ++p;
+      ++i;
+    } else if (star != std::string::npos) {
+      p = star + 1;
+      i = ++taken;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string::npos;
+}
+
+Felt felt(double error, const Threshold& t) {
+  if (!std::isfinite(error) || !std::isfinite(t.value) || !right_sign(error, t)) return Felt::not_comparable;
+  const double size = std::abs(error);
+  if (size <= t.least) return Felt::no;
+  if (t.strictest) return Felt::not_comparable;
+  return size > t.most ? Felt::yes : Felt::between;
+}
+
+std::vector<Judged> judged(const std::vector<BenchResult>& results,
+                           const std::vector<Threshold>& thresholds) {
+  std::vector<Judged> all;
+  for (const BenchResult& result : results)
+    for (const Figure& f : result.figures) {
+      if (!std::isfinite(f.twin)) continue;
+      const auto t = std::find_if(thresholds.begin(), thresholds.end(), [&](const Threshold& one) {
+        return matches(one.figure, f.id) && one.unit == f.unit && right_sign(f.twin, one);
+      });
+      if (t == thresholds.end()) continue;
+      Judged j{f, *t, felt(f.twin, *t), felt(f.paper, *t), std::abs(f.twin) / t->value, kUnset};
+      if (j.paper != Felt::not_comparable) j.paper_over = std::abs(f.paper) / t->value;
+      all.push_back(std::move(j));
+    }
+  return all;
+}
+
+Table verdict_table(const std::vector<Judged>& all) {
+  Table table{"verdict",
+              "Felt or not",
+              {"figure", "error", "unit", "threshold", "error over threshold", "verdict", "paper's error",
+               "paper's verdict"},
+              {},
+              "Threshold: its typical value, and the range over studies, people and places. Not felt: below "
+              "the range. Felt: above it. In between: some people, or in some places. Not comparable: nobody "
+              "has measured what a person can tell there."};
+  for (const Judged& j : all)
+    table.rows.push_back({j.figure.id, word(j.figure.twin), j.figure.unit, range_of(j.threshold),
+                          word(j.over), felt_name(j.felt), word(j.figure.paper),
+                          std::isfinite(j.paper_over) ? felt_name(j.paper) : ""});
+  return table;
+}
+
+Table threshold_table(const std::vector<Judged>& all) {
+  Table table{"verdict_thresholds",
+              "What a person can tell",
+              {"figures", "threshold", "unit", "what a person compares", "rule", "source", "how sure"},
+              {},
+              "Those of benchmarks/reference/thresholds.csv that were used above."};
+  std::vector<const Threshold*> seen;
+  for (const Judged& j : all) {
+    const Threshold& t = j.threshold;
+    const bool there = std::any_of(seen.begin(), seen.end(), [&](const Threshold* s) { return same(*s, t); });
+    if (there) continue;
+    seen.push_back(&t);
+    table.rows.push_back({t.figure, range_of(t), t.unit, t.compares, t.rule, t.source, t.confidence});
+  }
+  return table;
+}
+
+Plot verdict_plot(const std::vector<Judged>& all) {
+  Plot plot{"verdict",
+            "Errors beside what a person can tell",
+            "error over threshold",
+            "",
+            true,
+            false,
+            {},
+            "The worst error of each kind. Left of the bar: not felt. Right of it: felt. The bar is how far "
+            "studies, people and places differ; 1 is the typical threshold. Less than 0.01 stands at 0.01."};
+  Series range{"range of the threshold", {}, {}};
+  Series twin{"twin", {}, {}, {}, {}, Mark::points};
+  Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
+  const std::vector<const Judged*> worst = worst_of_each(all);
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    const Judged& j = *worst[i];
+    const auto y = static_cast<double>(i);
+    plot.y_names.push_back(j.figure.id);
+    for (const double x :
+         {j.threshold.least / j.threshold.value, j.threshold.most / j.threshold.value, kUnset}) {
+      range.x.push_back(x);
+      range.y.push_back(y);
+    }
+    twin.x.push_back(std::max(j.over, kLeastDrawn));
+    twin.y.push_back(y);
+    paper.x.push_back(j.paper_over);
+    paper.y.push_back(y);
+  }
+  const double below = static_cast<double>(worst.size()) - 0.4;
+  plot.series = {std::move(range), std::move(twin), {"threshold", {1, 1}, {-0.6, below}}, std::move(paper)};
+  return plot;
+}
+
+std::string verdict_line(const std::vector<Judged>& all) {
+  std::string line;
+  for (const Felt felt : {Felt::no, Felt::between, Felt::yes, Felt::not_comparable}) {
+    std::size_t count = 0;
+    std::string which;
+    for (const Judged& j : all) {
+      if (j.felt != felt) continue;
+      ++count;
+      which += (which.empty() ? "" : ", ") + j.figure.id;
+    }
+    if (count == 0) continue;
+    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count, felt_name(felt));
+    if (felt == Felt::between || felt == Felt::yes) line += " (" + which + ")";
+  }
+  return line;
+}
+
+}  // namespace enc::bench
