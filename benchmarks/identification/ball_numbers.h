@@ -1,0 +1,51 @@
+// The numbers of the ball's law (sim/ball_plant.h) as unknowns of a fit: names as in [truth.ball].
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "sim/ball_plant.h"
+
+namespace enc::bench {
+
+// The ball and how it stands in the rig.
+struct StandingBall {
+  sim::BallParameters law;
+  double nearer = 0.0;  // m, to the probe than the deflection says; as if misplaced by that along the push
+};
+
+// First those that a loop of force and deflection tells, then those that are held unless freed.
+enum BallNumberIndex : std::size_t {
+  kRubberModulus,
+  kPressure,
+  kFeltModulus,
+  kFriction,
+  kFrictionTravel,
+  kRelaxingFast,
+  kRelaxingMiddle,
+  kRelaxingSlow,
+  kNearer,
+  kLoopNumbers,
+  kWall = kLoopNumbers,
+  kFelt,
+  kRelaxationFast,
+  kRelaxationMiddle,
+  kRelaxationSlow,
+  kBallNumbers
+};
+
+struct BallNumber {
+  std::string_view name;  // with its unit; after "truth.ball." but for nearer_mm
+  double unit;            // SI of 1
+  double scale;           // SI, a usual value: steps of the fit are counted in it
+  bool elastic;           // changes the elastic force
+  bool positive;          // 0 or less is no ball
+  double& (*of)(StandingBall&);
+  std::string_view remedy;  // where the loops do not tell it
+};
+[[nodiscard]] std::span<const BallNumber> ball_numbers();
+
+[[nodiscard]] inline double value_of(const BallNumber& number, StandingBall ball) { return number.of(ball); }
+
+}  // namespace enc::bench
