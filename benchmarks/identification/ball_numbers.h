@@ -16,24 +16,11 @@ struct StandingBall {
 };
 
 // First those that a loop of force and deflection tells, then those that are held unless freed.
-enum BallNumberIndex : std::size_t {
-  kRubberModulus,
-  kPressure,
-  kFeltModulus,
-  kFriction,
-  kFrictionTravel,
-  kRelaxingFast,
-  kRelaxingMiddle,
-  kRelaxingSlow,
-  kNearer,
-  kLoopNumbers,
-  kWall = kLoopNumbers,
-  kFelt,
-  kRelaxationFast,
-  kRelaxationMiddle,
-  kRelaxationSlow,
-  kBallNumbers
-};
+inline constexpr std::size_t kRubberModulus = 0, kPressure = 1, kFeltModulus = 2, kFriction = 3,
+                             kFrictionTravel = 4, kRelaxingFast = 5, kRelaxingMiddle = 6, kRelaxingSlow = 7,
+                             kNearer = 8, kLoopNumbers = 9;
+inline constexpr std::size_t kWall = 9, kFelt = 10, kRelaxationFast = 11, kRelaxationMiddle = 12,
+                             kRelaxationSlow = 13, kBallNumbers = 14;
 
 struct BallNumber {
   std::string_view name;  // with its unit; after "truth.ball." but for nearer_mm
