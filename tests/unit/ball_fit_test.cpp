@@ -92,7 +92,8 @@ TEST(BallFit, JacobianAgainstCentralDifferences) {
   for (std::size_t i = 0; i < kBallNumbers; ++i) {
     constexpr double kStep = 1e-4;
     const BallNumber& n = ball_numbers()[i];
-    StandingBall less, more;
+    StandingBall less;
+    StandingBall more;
     n.of(less) -= kStep * n.scale;
     n.of(more) += kStep * n.scale;
     const Eigen::VectorXd central = (loops.predicted(sim::BallPlant(more.law), more.nearer) -
@@ -113,9 +114,13 @@ TEST(BallFit, SaysWhatLoopsDoNotTell) {
   options.free[kFelt] = true;
   const BallFit fit = fit_ball(BallLoops({pushes}), options);
   for (const BallEstimate& e : fit.estimates) {
-    if (e.number == kRubberModulus) EXPECT_NE(e.known(), Known::not_at_all);
-    if (e.number == kRelaxingSlow || e.number == kFelt) EXPECT_EQ(e.known(), Known::not_at_all) << e.width();
-    if (e.number == kFelt) EXPECT_LT(e.alone, 0.1 * e.interval.half) << "alone it would be known";
+    const bool told = e.number != kRelaxingSlow && e.number != kFelt;
+    if (e.number == kRubberModulus || !told) {
+      EXPECT_EQ(e.known() != Known::not_at_all, told) << e.width();
+    }
+    if (e.number == kFelt) {
+      EXPECT_LT(e.alone, 0.1 * e.interval.half) << "alone it would be known";
+    }
   }
 }
 
