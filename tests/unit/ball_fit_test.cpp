@@ -115,8 +115,8 @@ TEST(BallFit, SaysWhatLoopsDoNotTell) {
   const BallFit fit = fit_ball(BallLoops({pushes}), options);
   for (const BallEstimate& e : fit.estimates) {
     const bool told = e.number != kRelaxingSlow && e.number != kFelt;
-    if (e.number == kRubberModulus || !told) {
-      EXPECT_EQ(e.known() != Known::not_at_all, told) << e.width();
+    if (e.number == kFriction || !told) {
+      EXPECT_EQ(e.known() != Known::not_at_all, told) << ball_numbers()[e.number].name << " " << e.width();
     }
     if (e.number == kFelt) {
       EXPECT_LT(e.alone, 0.1 * e.interval.half) << "alone it would be known";
