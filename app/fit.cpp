@@ -1,4 +1,5 @@
 // `encounter fit LOOP.csv`: a measured loop becomes a response file, and what is known about it is said.
+#include <cmath>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -29,11 +30,21 @@ std::string branch_text(const char* name, const BranchKnown& known, double rmse,
   text += "  curve    ";
   for (std::size_t i = 0; i < known.curve.size(); ++i)
     text += fmt::format("{}{:.2f}+-{:.3f}", i == 0 ? " " : ", ", known.curve[i].value, known.curve[i].half);
-  return text +
-         fmt::format(
-             " N at 1, 2, ... mm\n  tied      d^{} and d^{} go together (correlation {:.4f}; condition "
-             "number {:.2g}): the curve is known, these two singly are not\n",
-             known.tied[0], known.tied[1], known.correlation, known.condition);
+  text += " N at 1, 2, ... mm\n";
+  if (!known.repeats.empty() && !std::isnan(known.repeats.front())) {
+    text += "  repeats  ";
+    for (std::size_t i = 0; i < known.repeats.size(); ++i)
+      text += fmt::format("{}+-{:.3f}", i == 0 ? " " : ", ", known.repeats[i]);
+    text += " N of their mean there\n";
+  }
+  if (!known.curve.empty())
+    text += fmt::format("  deepest   full width of the interval at {} mm: {:.3f} N, {:.1f} % of the force\n",
+                        known.curve.size(), 2.0 * known.curve.back().half,
+                        200.0 * known.curve.back().half / known.curve.back().value);
+  return text + fmt::format(
+                    "  tied      d^{} and d^{} go together (correlation {:.4f}; condition "
+                    "number {:.2g}): the curve is known, these two singly are not\n",
+                    known.tied[0], known.tied[1], known.correlation, known.condition);
 }
 
 std::string stops_text(const LoopFit& fit) {
@@ -69,6 +80,11 @@ std::string report(const LoopFit& fit) {
 }  // namespace
 
 int fit(const FitOptions& options) {
+  if (options.loops.size() != 1)
+    throw Error("fit: a response comes from one loop; expected one file; give --ball to use several");
+  if (options.json || !options.hold.empty() || !options.free.empty())
+    throw Error("fit: --hold, --free and --json are of the ball; expected them with --ball; add it");
+  const std::string& file_name = options.loops.front();
   if (!(options.limit_mm > 0.0 && options.limit_mm < 1e3))
     throw Error("--limit-mm: expected a positive number of millimetres");
   models::LoopFitOptions how;
@@ -82,14 +98,14 @@ int fit(const FitOptions& options) {
                       how.floor * 1e-3));
   }
   const models::LoopData loop = models::parse_loop(
-      models::csv_text(options.loop, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
-      options.loop, how.limit);
+      models::csv_text(file_name, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
+      file_name, how.limit);
   LoopFit fit;
   try {
     fit = models::fit_loop(loop, how);
   } catch (const Error& e) {
     throw Error(
-        fmt::format("{}:1:1: {}; record the loop again, or give another --limit-mm", options.loop, e.what()));
+        fmt::format("{}:1:1: {}; record the loop again, or give another --limit-mm", file_name, e.what()));
   }
   fmt::print("{}", report(fit));
   if (options.out.empty()) return 0;

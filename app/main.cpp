@@ -111,8 +111,9 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   bench_command->callback([&] { code = bench(bench_options); });
 
   FitOptions fit_options;
-  CLI::App* fit_command = app.add_subcommand("fit", "turn a measured loop (CSV) into a response file");
-  fit_command->add_option("loop", fit_options.loop, "CSV with time_s, deflection_mm, force_N, repeat")
+  CLI::App* fit_command = app.add_subcommand(
+      "fit", "turn a measured loop (CSV) into a response file, or into the ball behind it");
+  fit_command->add_option("loop", fit_options.loops, "CSV with time_s, deflection_mm, force_N, repeat")
       ->required();
   fit_command->add_option("--out", fit_options.out, "response file to write, models/responses/NAME.toml");
   fit_command->add_option("--limit-mm", fit_options.limit_mm, "deflection up to which the response holds")
@@ -122,7 +123,12 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   fit_command->add_option(
       "--ceiling-N-per-mm", fit_options.ceiling,
       "stiffest that the stops may be; lower: quieter at rest, less exact where motion turns");
-  fit_command->callback([&] { code = fit(fit_options); });
+  fit_command->add_flag("--ball", fit_options.ball,
+                        "the numbers of the ball that was pressed, with intervals; takes several loops");
+  fit_command->add_option("--hold", fit_options.hold, "of the ball: NAME or NAME=VALUE that is known");
+  fit_command->add_option("--free", fit_options.free, "of the ball: NAME to be found that is held otherwise");
+  fit_command->add_flag("--json", fit_options.json, "of the ball: one JSON object instead of text");
+  fit_command->callback([&] { code = fit_options.ball ? fit_ball(fit_options) : fit(fit_options); });
 
   CalibrateOptions calibrate_options;
   CLI::App* calibrate_command = app.add_subcommand(

@@ -50,10 +50,14 @@ struct BenchOptions {
   bool quick = false, full = false, list = false;
 };
 struct FitOptions {
-  std::string loop, out;
+  std::vector<std::string> loops;
+  std::string out;
   std::string rig = "sim";
   double limit_mm = 6.0;
   std::optional<double> ceiling;  // N/mm
+  // The ball behind the loops instead of a response.
+  bool ball = false, json = false;
+  std::vector<std::string> hold, free;  // "wall_mm=3.4", "wall_mm"
 };
 struct CalibrateOptions {
   std::string log;
@@ -83,6 +87,7 @@ int doctor();
 int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
 int fit(const FitOptions& options);
+int fit_ball(const FitOptions& options);
 int calibrate(const CalibrateOptions& options);
 int nearest(const NearestOptions& options);
 int mesh(const MeshOptions& options);

@@ -44,7 +44,7 @@ Repeats read(CsvReader& row, std::string& remark) {
     const auto reading = [&](std::size_t column) {
       return which == 0 && row.text(column).empty() ? 0.0 : row.number(column);
     };
-    const LoopPoint point{reading(kDeflection) * 1e-3, reading(kForce)};
+    const LoopPoint point{reading(kDeflection) * 1e-3, reading(kForce), true, time};
     if (which == 0 || !(point.deflection > 0.0)) continue;
     if (repeats.empty() && !row.text(kSource).empty()) remark = row.text(kSource);
     repeats[which].push_back(point);

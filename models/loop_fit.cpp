@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "models/block_error.h"
 
 namespace enc::models {
 namespace {
@@ -111,6 +112,27 @@ double force_near(const std::vector<LoopPoint>& press, double d, bool pressing, 
   return count > 0 ? sum / count : kUnset;
 }
 
+// Between repeats alone, whatever the curve's shape cannot follow: Student's interval of their mean at 1, 2,
+// ... mm.
+std::vector<double> known_by_repeats(const LoopData& loop, const Response& response, bool pressing) {
+  std::vector<double> halves;
+  for (int i = 1; i * 1e-3 <= response.limit() * (1.0 + 1e-9); ++i) {
+    double sum = 0.0;
+    double squares = 0.0;
+    double n = 0.0;
+    for (const auto& press : loop.moving) {
+      const double force = force_near(press, i * 1e-3, pressing, response);
+      if (std::isnan(force)) continue;
+      sum += force;
+      squares += force * force;
+      n += 1.0;
+    }
+    const double variance = n > 2.0 ? std::max(0.0, squares - sum * sum / n) / (n - 1.0) : kUnset;
+    halves.push_back(student(n - 1.0) * std::sqrt(variance / n));
+  }
+  return halves;
+}
+
 void find_repeatability(const LoopData& loop, const Response& response, LoopFit& fit) {
   constexpr double kStep = 0.25e-3;  // m
   for (int i = 1; i * kStep < response.limit(); ++i)
@@ -167,6 +189,8 @@ LoopFit fit_loop(const LoopData& loop, const LoopFitOptions& options) {
       bootstrap(loop, options.limit, renderable(options.floor, options.limit, margin), 0.01 * margin);
   fit.press = known(q, drawn, fit.response.press, options.limit, true);
   fit.release = known(q, drawn, fit.response.release, options.limit, false);
+  fit.press.repeats = known_by_repeats(loop, response, true);
+  fit.release.repeats = known_by_repeats(loop, response, false);
   find_repeatability(loop, response, fit);
   fit.source = source_of(fit, loop.remark);
   return fit;

@@ -16,6 +16,7 @@ struct LoopPoint {
   double deflection = 0.0;  // m
   double force = 0.0;       // N
   bool pressing = true;     // else releasing
+  double time = 0.0;        // s; the curves do not need it, a law with rate effects does
 };
 
 // Root mean squares of the residuals, N. "Free": least squares that is zero at zero and nothing else; the

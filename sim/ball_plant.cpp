@@ -91,6 +91,15 @@ BallPlant::BallPlant(const BallParameters& parameters) : parameters_(parameters)
   for (int i = 0; i < kRows; ++i) table_.push_back(series_force(parameters_, i * kStep));
 }
 
+BallPlant BallPlant::with_loss(const BallParameters& loss) const {
+  BallPlant plant = *this;
+  plant.parameters_.friction = loss.friction;
+  plant.parameters_.friction_travel = loss.friction_travel;
+  plant.parameters_.relaxing = loss.relaxing;
+  plant.parameters_.relaxation = loss.relaxation;
+  return plant;
+}
+
 double BallPlant::elastic(double deflection) const {
   if (!(deflection > 0.0)) return 0.0;
   // Cubic between the rows, slopes by central differences (0 at the start: felt begins with the square of its

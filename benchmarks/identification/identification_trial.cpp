@@ -1,0 +1,72 @@
+#include "benchmarks/identification/identification_trial.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/trial.h"
+#include "sim/ball_contact.h"
+#include "sim/random.h"
+
+namespace enc::bench {
+namespace {
+
+std::vector<std::string> drawn_ball(const IdentificationCase& which, std::uint64_t seed) {
+  constexpr double kModulus = 0.15, kOthers = 0.3, kThickness = 0.2e-3;
+  sim::Stream random(seed, "identification");
+  std::vector<std::string> settings;
+  const auto draw = [&](std::size_t number, double share) {
+    const BallNumber& n = ball_numbers()[number];
+    const double value = value_of(n, {}) * (1.0 + share * (2.0 * random.uniform() - 1.0));
+    settings.push_back(fmt::format("truth.ball.{}={}", n.name, value / n.unit));
+  };
+  for (std::size_t i = 0; i < kNearer; ++i) draw(i, i == kRubberModulus ? kModulus : kOthers);
+  if (which.draw_wall) draw(bench::kWall, kThickness / value_of(ball_numbers()[bench::kWall], {}));
+  return settings;
+}
+
+// The ball in the world of a set-up.
+StandingBall truth_of(const models::Setup& setup, const Scene& scene) {
+  const ObjectSpec& object = setup.scene.objects[static_cast<std::size_t>(scene.probe->object)];
+  const Vec<'W'> out = scene.probe->X_WN * Vec<'N'>(0, 0, 1);
+  return {sim::ball_of(setup.twin.ball, object.radius), dot(Vec<'W'>(setup.twin.ball.misplaced), out)};
+}
+
+}  // namespace
+
+bool IdentificationTrial::holds(const BallEstimate& estimate) const {
+  return estimate.interval.holds(value_of(ball_numbers()[estimate.number], truth));
+}
+
+Pushes pushes_of_run(const models::Setup& setup, std::uint64_t seed, double& simulated) {
+  Pushes pushes;
+  TrialOptions options;
+  options.seed = seed;
+  options.watch = [&](const Glance& glance) {
+    const Outputs& out = glance.out;
+    if (out.mode != Mode::probe || out.contacts == 0 || !(out.deflection > 0.0) || !out.felt.finite()) return;
+    pushes.resize(static_cast<std::size_t>(out.contacts));
+    const double force = dot(out.felt, glance.scene.probe->X_WN * Vec<'N'>(0, 0, 1));
+    pushes.back().push_back({out.deflection, force, true, seconds(glance.tick.t.time_since_epoch())});
+  };
+  simulated += Trial(setup, options).run().simulated;
+  return pushes;
+}
+
+IdentificationTrial identify_once(const BenchContext& context, const IdentificationCase& which,
+                                  std::uint64_t seed) {
+  std::vector<std::string> settings = drawn_ball(which, seed);
+  settings.insert(settings.end(), which.settings.begin(), which.settings.end());
+  settings.insert(settings.end(), context.set.begin(), context.set.end());
+  const models::Setup setup =
+      models::load(fmt::format("{}/scenes/{}.toml", context.models, which.scene), "sim", settings);
+  IdentificationTrial trial;
+  trial.truth = truth_of(setup, prepare_setup(setup));
+  BallFitOptions options;
+  options.free[kNearer] = !which.hold_nearer;
+  options.free[kWall] = which.free_wall;
+  trial.fit = fit_ball(BallLoops({pushes_of_run(setup, seed, trial.simulated)}), options);
+  return trial;
+}
+
+}  // namespace enc::bench
