@@ -212,7 +212,7 @@ Plot width_plot(const std::array<Trials, 6>& all) {
     Series series{cases()[c].what, {}, {}, {}, {}, Mark::bars};
     for (std::size_t i = 0; i < kNearer; ++i) {
       const Tally t = tally(all[c], i);
-      series.x.push_back(static_cast<double>(i) + 0.08 * static_cast<double>(c));
+      series.x.push_back(static_cast<double>(i) + 0.15 * static_cast<double>(plot.series.size()));
       series.y.push_back(100.0 * median(t.widths));
       series.low.push_back(100.0 * percentile(t.widths, 0.0));
       series.high.push_back(100.0 * percentile(t.widths, 1.0));
