@@ -14,11 +14,10 @@
 
 #include <Eigen/SparseCore>
 
+#include "benchmarks/deformation/contour.h"
 #include "sim/ball_plant.h"
 
 namespace enc::bench {
-
-using Vec2 = Eigen::Vector2d;
 
 // Nodes in columns from the outer to the inner side, the pole's first.
 struct ShellMesh {

@@ -50,12 +50,11 @@ bool settle(const ShellEnergy& energy, Eigen::VectorXd& x, ShellEnergy::Value& v
 
 // The felt rides on the wall with its own thickness along the wall's normal; what would be inside the probe
 // and the shaft above it, of the same radius, is pushed straight down onto the probe.
-std::vector<Vec2> felt_contour(const ShellEnergy& energy, const sim::BallParameters& ball,
-                               const Eigen::VectorXd& x) {
+Contour felt_contour(const ShellEnergy& energy, const sim::BallParameters& ball, const Eigen::VectorXd& x) {
   constexpr double kOutside = std::numeric_limits<double>::infinity();
   const ShellMesh& mesh = energy.mesh();
   const auto at = [&](int i) { return Vec2(x.segment<2>(2 * mesh.node(i, 0))); };
-  std::vector<Vec2> contour;
+  Contour contour;
   contour.reserve(static_cast<std::size_t>(mesh.along) + 1);
   for (int i = 0; i <= mesh.along; ++i) {
     // Mirrored at the axis; one-sided at the mount.

@@ -4,16 +4,17 @@
 
 #include <vector>
 
+#include "benchmarks/deformation/contour.h"
 #include "benchmarks/deformation/shell_energy.h"
 
 namespace enc::bench {
 
 struct PressedShell {
-  double depth = 0.0;         // m
-  double force = 0.0;         // N, at rest, without the rubber's and the felt's losses
-  double residual = 0.0;      // N, largest force on a node that is not balanced
-  double core_depth = 0.0;    // m, of the wall's outer side at the pole
-  std::vector<Vec2> contour;  // m, outer side of the felt from the pole to the mount
+  double depth = 0.0;       // m
+  double force = 0.0;       // N, at rest, without the rubber's and the felt's losses
+  double residual = 0.0;    // N, largest force on a node that is not balanced
+  double core_depth = 0.0;  // m, of the wall's outer side at the pole
+  Contour contour;          // m, outer side of the felt from the pole to the mount
 };
 
 // At each of `depths` (m, rising). Throws enc::Error where no state of rest is found.

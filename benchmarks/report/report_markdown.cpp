@@ -53,7 +53,8 @@ std::string report_markdown(const Report& report) {
   }
   for (const BenchResult& result : report.results) {
     text += fmt::format("\n## {}\n\n{}", plain(result.name), table(figure_table(result)));
-    for (const Table& t : result.tables) text += fmt::format("\n### {}\n\n{}", plain(t.title), table(t));
+    for (const Table& t : result.tables)
+      if (t.source.empty()) text += fmt::format("\n### {}\n\n{}", plain(t.title), table(t));
   }
   for (const Table& t : {role_table(report), contradiction_table()})
     text += fmt::format("\n## {}\n\n{}", plain(t.title), table(t));
