@@ -194,14 +194,6 @@ Contour seen_contour(const Surface& ball, double tip_radius, double depth,
   return contour;
 }
 
-double own_error(const std::vector<PressedShell>& coarse, const std::vector<Contour>& fine) {
-  double most = 0.0;
-  for (std::size_t d = 0; d < coarse.size(); ++d)
-    most =
-        std::max(most, contour_gap(coarse[d].contour, fine[d], sim::BallParameters{}.outer_radius).largest);
-  return most / 3.0;
-}
-
 void add_full(BenchResult& result, const BenchContext& context, const Surface& ball,
               const Fig11Contours& reference) {
   const auto done = [&](double share) {

@@ -18,9 +18,6 @@ struct Sinking {
 [[nodiscard]] Contour seen_contour(const Surface& ball, double tip_radius, double depth,
                                    const std::optional<Sinking>& sinking = {});
 
-// How far the file may be off: what half as fine elements change, over 3 (order 2); m.
-[[nodiscard]] double own_error(const std::vector<PressedShell>& coarse, const std::vector<Contour>& fine);
-
 void add_full(BenchResult& result, const BenchContext& context, const Surface& ball,
               const Fig11Contours& reference);
 

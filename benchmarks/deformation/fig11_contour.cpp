@@ -1,5 +1,6 @@
 #include "benchmarks/deformation/fig11_contour.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -60,6 +61,14 @@ std::vector<PressedShell> press_fig11(double tip_radius, Fineness fineness) {
   sim::BallParameters ball = sim::ball_set(sim::BallSet::nominal);
   ball.probe_radius = tip_radius;
   return press_shell(ball, fineness.through, fineness.fine, fig11_depths());
+}
+
+double own_error(const std::vector<PressedShell>& coarse, const std::vector<Contour>& fine) {
+  double most = 0.0;
+  for (std::size_t d = 0; d < coarse.size(); ++d)
+    most =
+        std::max(most, contour_gap(coarse[d].contour, fine[d], sim::BallParameters{}.outer_radius).largest);
+  return most / 3.0;
 }
 
 Fig11Contours load_fig11(const std::string& models) {

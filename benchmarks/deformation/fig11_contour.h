@@ -25,6 +25,9 @@ inline constexpr Fineness kCoarse{8, 0.25e-3};  // what a run compares it with
 // One for each depth.
 [[nodiscard]] std::vector<PressedShell> press_fig11(double tip_radius, Fineness fineness);
 
+// How far the file may be off: what half as fine elements change, over 3 (order 2); m.
+[[nodiscard]] double own_error(const std::vector<PressedShell>& coarse, const std::vector<Contour>& fine);
+
 struct Fig11Contours {
   std::vector<Contour> probe, stylus;  // for each depth
 };

@@ -100,9 +100,10 @@ std::vector<PressedShell> press_shell(const sim::BallParameters& ball, int throu
       now = depth - now - way < 1e-12 ? depth : now + way;
       step = std::min(kStep, 2.0 * step);
     }
-    const double outer = ball.outer_radius - ball.felt;
-    states.push_back(
-        {depth, value.probe_force, largest(value.gradient), outer - x[1], felt_contour(energy, ball, x)});
+    const int inside = energy.mesh().node(0, through);
+    const double inner = ball.outer_radius - ball.felt - ball.wall;
+    states.push_back({depth, value.probe_force, largest(value.gradient), inner - x[2 * inside + 1],
+                      felt_contour(energy, ball, x)});
   }
   return states;
 }

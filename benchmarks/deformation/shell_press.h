@@ -13,7 +13,7 @@ struct PressedShell {
   double depth = 0.0;       // m
   double force = 0.0;       // N, at rest, without the rubber's and the felt's losses
   double residual = 0.0;    // N, largest force on a node that is not balanced
-  double core_depth = 0.0;  // m, of the wall's outer side at the pole
+  double core_depth = 0.0;  // m, of the wall's inner side at the pole
   Contour contour;          // m, outer side of the felt from the pole to the mount
 };
 
