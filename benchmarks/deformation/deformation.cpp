@@ -117,7 +117,8 @@ BenchResult run_deformation(const BenchContext& context) {
   const Surface& ball = scene.objects.front().surface;
   const double radius = ball.bound().radius;
   const double probe_radius = sim::BallParameters{}.probe_radius;
-  const Fig11Contours reference = load_fig11(context.models);
+  const Fig11Contours reference =
+      context.full ? add_anew(result, context.models) : load_fig11(context.models);
 
   std::array<std::vector<PressedShell>, 2> coarse;  // under the probe, under the stylus
   in_parallel(coarse.size(),

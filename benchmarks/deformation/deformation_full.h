@@ -18,6 +18,9 @@ struct Sinking {
 [[nodiscard]] Contour seen_contour(const Surface& ball, double tip_radius, double depth,
                                    const std::optional<Sinking>& sinking = {});
 
+// Presses the ball with the file's elements, compares with the file and leaves a table to write it from.
+[[nodiscard]] Fig11Contours add_anew(BenchResult& result, const std::string& models);
+
 void add_full(BenchResult& result, const BenchContext& context, const Surface& ball,
               const Fig11Contours& reference);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
@@ -51,20 +50,35 @@ bool settle(const ShellEnergy& energy, Eigen::VectorXd& x, ShellEnergy::Value& v
 // The felt rides on the wall with its own thickness along the wall's normal; what would be inside the probe
 // and the shaft above it, of the same radius, is pushed straight down onto the probe.
 Contour felt_contour(const ShellEnergy& energy, const sim::BallParameters& ball, const Eigen::VectorXd& x) {
-  constexpr double kOutside = std::numeric_limits<double>::infinity();
   const ShellMesh& mesh = energy.mesh();
   const auto at = [&](int i) { return Vec2(x.segment<2>(2 * mesh.node(i, 0))); };
+  const auto pushed = [&](const Vec2& p) {
+    const double under = ball.probe_radius * ball.probe_radius - p[0] * p[0];
+    return under > 0.0 ? Vec2(p[0], std::min(p[1], energy.probe_centre()[1] - std::sqrt(under))) : p;
+  };
   Contour contour;
-  contour.reserve(static_cast<std::size_t>(mesh.along) + 1);
+  contour.reserve(static_cast<std::size_t>(mesh.along) + 3);
+  Vec2 last = Vec2::Zero();
+  bool touched = true;  // at the pole
   for (int i = 0; i <= mesh.along; ++i) {
     // Mirrored at the axis; one-sided at the mount.
     const Vec2 before = i > 0 ? at(i - 1) : Vec2(-at(1)[0], at(1)[1]);
     const Vec2 tangent = at(std::min(i + 1, mesh.along)) - before;
     const Vec2 point = at(i) + ball.felt * Vec2(-tangent[1], tangent[0]).normalized();
-    const Vec2 off = point - energy.probe_centre();
-    const double under = ball.probe_radius * ball.probe_radius - off[0] * off[0];
-    const double lower = under > 0.0 ? -std::sqrt(under) : kOutside;
-    contour.push_back(off[1] > lower ? energy.probe_centre() + Vec2(off[0], lower) : point);
+    const bool touches = pushed(point) != point;
+    if (i > 0 && touched && !touches) {  // where it leaves the probe there is a corner
+      Vec2 in = last;
+      Vec2 out = point;
+      for (int k = 0; k < 50; ++k) {
+        const Vec2 middle = 0.5 * (in + out);
+        (pushed(middle) == middle ? out : in) = middle;
+      }
+      contour.push_back(pushed(in));
+      contour.push_back(out);
+    }
+    contour.push_back(pushed(point));
+    last = point;
+    touched = touches;
   }
   return contour;
 }
