@@ -84,7 +84,7 @@ void add_plots(BenchResult& result, double radius, const Fig11Contours& referenc
     result.plots.push_back(std::move(plot));
   };
   Plot gaps{"deformation_residual",
-            "Seen ball outside of the pressed ball",
+            "Pressed ball outside of the seen ball",
             "along the seen contour (mm)",
             "distance (mm)",
             false,
@@ -103,7 +103,7 @@ void add_plots(BenchResult& result, double radius, const Fig11Contours& referenc
     gaps.series.push_back(std::move(series));
   }
   gaps.caption =
-      "Negative: the pressed ball is outside. Far from the probe it bulges, which the seen ball does not.";
+      "Positive: the pressed ball is outside. Far from the probe it bulges, which the seen ball does not.";
   result.plots.push_back(std::move(gaps));
   contours("deformation_stylus_6mm", "6 mm under a stylus of 2 mm", reference.stylus.back(), stylus.back());
 }
