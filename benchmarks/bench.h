@@ -54,6 +54,7 @@ struct Table {
   std::vector<std::string> columns;  // with their unit
   std::vector<std::vector<std::string>> rows;
   std::string note{};
+  std::string source{};  // of a data file: lines about it, which begin its CSV; the report leaves it out
 };
 
 struct BenchResult {
@@ -85,9 +86,10 @@ struct Benchmark {
 };
 [[nodiscard]] std::span<const Benchmark> benchmarks();
 
-BenchResult run_dent(const BenchContext& context);       // the seen surface: speed, contact vertex, volume
-BenchResult run_encounter(const BenchContext& context);  // miss at first touch over approach speed
-BenchResult run_press(const BenchContext& context);      // one contact a press, limit held, tip inside
+BenchResult run_deformation(const BenchContext& context);  // the seen ball against a pressed one (Fig 11)
+BenchResult run_dent(const BenchContext& context);         // the seen surface: speed, contact vertex, volume
+BenchResult run_encounter(const BenchContext& context);    // miss at first touch over approach speed
+BenchResult run_press(const BenchContext& context);        // one contact a press, limit held, tip inside
 BenchResult run_stiffness(
     const BenchContext& context);  // apparent stiffness, the softest that is stable (Fig 3)
 BenchResult run_structure(const BenchContext& context);  // the hexapod's legs: sag, modes, order, cost

@@ -8,6 +8,8 @@ std::span<const Benchmark> benchmarks() {
   static constexpr auto kAll = std::to_array<Benchmark>({
       {"dent", "tennis_ball",
        "the seen surface: contact vertex, volume, time of an update of 10,242 vertices", run_dent},
+      {"deformation", "tennis_ball", "the seen ball's contour against that of a pressed ball (VHMR Fig 11)",
+       run_deformation},
       {"encounter", "tennis_ball",
        "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
        run_encounter},

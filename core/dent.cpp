@@ -10,9 +10,14 @@
 namespace enc {
 namespace {
 
-// The slope at which the surface leaves the tip. A thin ball dimples over sqrt(R d) [parameters 4.2,
-// Pogorelov]: with twice that dimple's own slope at its rim, sqrt(d/R), the displacement of a ball under a
-// point ends exactly there. A half space dents over a few depths: 10/3 d.
+// How far the contact sinks with the ball itself, and how far around that is seen: shares of the ball's
+// radius. Calibrated at 2 and 6 mm on a pressed tennis ball [docs/deformation.md]: at first the felt gives
+// way, then the wall. A half space does not sink.
+constexpr double kStiff = 0.116;
+constexpr double kSinking = 0.80;
+
+// The slope at which the surface leaves the tip: twice the slope sqrt(d/R) at the rim of the dimple of a thin
+// ball [parameters 4.2, Pogorelov]. A half space dents over a few depths: 10/3 d.
 double leaving_slope(double size, double depth, const DentSample& dent, const Vec3& n) {
   const double own = std::isfinite(size) ? 2.0 * std::sqrt(depth / size) : 0.75;
   if (dent.tip.shape != TipShape::cone) return own;
@@ -112,10 +117,16 @@ DentField<double> dent_field(const Surface& surface, const DentSample& dent, std
   field.active = true;
   Vec3::Map(field.n.data()) = n;
   Vec3::Map(field.origin.data()) = at.centre.e() - dent.tip.radius * n;
+  Vec3::Map(field.contact.data()) = at.centre.e() - (dent.tip.radius - dent.depth) * n;
   field.depth = dent.depth;
-  field.blend = 0.5 * dent.depth;
+  const double size = surface.bound().radius;
+  if (std::isfinite(size)) {
+    field.sink = dent.depth * dent.depth / (dent.depth + kStiff * size);
+    field.narrow = 1.0 / (kSinking * size * kSinking * size);
+  }
+  field.blend = 0.5 * (dent.depth - field.sink);
   field.radius = std::max(dent.tip.radius, kPoint);
-  field.slope = leaving_slope(surface.bound().radius, dent.depth, dent, n);
+  field.slope = leaving_slope(size, dent.depth, dent, n);
   const double cosine = 1.0 / std::sqrt(1.0 + field.slope * field.slope);
   const double cap = field.radius * field.slope * cosine;
   field.cap2 = cap * cap;
@@ -127,11 +138,11 @@ DentField<double> dent_field(const Surface& surface, const DentSample& dent, std
 
 Displaced displaced(const DentField<double>& field, const Point<'O'>& p, const Vec<'O'>& normal) noexcept {
   const auto shift = shift_at(field, p);
-  if (!(shift.share > 0.0)) return {p, normal, 0.0};
-  // x -> x - n u(h - E) has the gradient I - share n (n - grad E)^T; normals go with its inverse transpose.
+  if (!(shift.by > 0.0)) return {p, normal, 0.0};
+  // x -> x - n by(x) has the gradient I - n g^T; normals go with its inverse transpose.
   const Vec3 n = vec(field.n);
-  const Vec3 over = n - Vec3(shift.gx, shift.gy, shift.gz);
-  const Vec3 turned = (1.0 - shift.share) * normal.e() + shift.share * normal.e().dot(n) * over;
+  const Vec3 g(shift.gx, shift.gy, shift.gz);
+  const Vec3 turned = (1.0 - g.dot(n)) * normal.e() + normal.e().dot(n) * g;
   return {p - shift.by * Vec<'O'>(n), Vec<'O'>(turned.normalized()), shift.by};
 }
 
@@ -143,7 +154,9 @@ double dented_distance(const Surface& surface, const DentSample& dent, const Poi
   const Vec3 n = vec(field.n);
   const Vec3 from_tip = p.e() - vec(field.origin);
   const double aside = (from_tip - from_tip.dot(n) * n).norm();
-  if (field.slope * aside >= 2.0 * field.depth + field.reach) return at.distance;
+  const bool on_tip = field.slope * aside < 2.0 * field.depth + field.reach;
+  const bool sunk = field.sink > 0.0 && aside * aside * field.narrow < 1.0;
+  if (!on_tip && !sunk) return at.distance;
   double up = 0.0;
   if (!surface_over(surface, n, p, at, up)) return at.distance;
   const Point<'O'> top = p + up * Vec<'O'>(n);

@@ -1,9 +1,10 @@
 // What the eye sees: the surface displaced by the tool's tip [VHMR 3.5, Fig 11]. The renderer draws it, the
 // core tests the haptic-tip against it. How it is made: docs/model.md, "The seen surface".
 //
-// Let q be the tip's deepest point, n the outward normal there, d its depth. A point at height h above q
-// along n and at w sideways moves by u(h - E(w)) against n. E is the lower boundary of the tip, continued
-// with the slope at which the surface leaves it; u(v) = v from d/2 on and fades to zero at v = -3d/2. So the
+// Let q be the tip's deepest point, n the outward normal there, d its depth. Points move against n, in two
+// parts. A ball is a thin shell: around the contact it sinks by s (1 - (c / L)^2)^3, c the distance from the
+// undeformed contact. What is then still at height v > 0 over E, the lower boundary of the tip continued with
+// the slope at which the surface leaves it, moves down to it by u(v); u fades to zero at v = -3b. So the
 // point under the tool moves by d, the surface lies on the tip around it, never reaches into it, and far
 // points do not move.
 #pragma once
@@ -35,10 +36,12 @@ struct DentField {
   bool active = false;   // false: nothing is displaced
   bool edge = false;     // the tip is swept along `along`
   Triple origin{}, n{};  // q and the outward normal there, in O
-  T depth{}, blend{};    // d and d/2
+  Triple contact{};      // the undeformed contact, q + d n
+  T depth{}, blend{};    // d, b
+  T sink{}, narrow{};    // s, 1 / L^2
   T radius{}, cap2{};    // of the ball; (sideways extent of its part below the slope)^2
   T slope{}, cone{};     // beyond it E = cone + slope |w|
-  T reach{};             // no point moves where h + reach <= slope |w|
+  T reach{};             // u is zero where h + reach <= slope |w|; h along n from q, w sideways
   Triple along{};        // edge: sideways unit direction, and from where to where
   T from{}, to{};
   T rise{}, lean{}, lean_cone{};  // its tangent and sine above the tangent plane; rise/sqrt(slope^2 - rise^2)

@@ -8,68 +8,108 @@ namespace {
 
 constexpr std::size_t kBlock = 16;  // points that are tested, and skipped, together
 
-// Whether any of these points can move.
-bool any_in_reach(const DentField<float>& f, const float* x, const float* y, const float* z,
-                  std::size_t count) {
-  int any = 0;
-  const float slope2 = f.slope * f.slope;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float px = x[i] - f.origin[0];
-    const float py = y[i] - f.origin[1];
-    const float pz = z[i] - f.origin[2];
-    const float h = px * f.n[0] + py * f.n[1] + pz * f.n[2];
-    const float aside2 = px * px + py * py + pz * pz - h * h;
-    const float up = h + f.reach;
-    any |= static_cast<int>(up > 0.0F) & static_cast<int>(up * up > slope2 * aside2);
-  }
-  return any != 0;
-}
+// What can move these points: nothing, only the ball that sinks, or also the tip.
+enum class Moves : int { nothing, ball, tip };
 
-template <bool kEdge>
+// Tells it for a block of points; what is the same for all of them is computed once.
+class Range {
+ public:
+  explicit Range(const DentField<float>& field) : f_(field) {
+    const float wide = f_.sink > 0.0F ? 1.0F / std::sqrt(f_.narrow) : 0.0F;
+    lowest_ = f_.origin[0] * f_.n[0] + f_.origin[1] * f_.n[1] + f_.origin[2] * f_.n[2] -
+              std::max(f_.reach, wide - f_.depth);
+    wide2_ = f_.sink > 0.0F ? wide * wide : -1.0F;
+    slope2_ = f_.slope * f_.slope;
+  }
+
+  [[nodiscard]] Moves operator()(const float* x, const float* y, const float* z, std::size_t count) const {
+    int any = 0;  // most blocks are too low for both
+    for (std::size_t i = 0; i < count; ++i)
+      any |= static_cast<int>(x[i] * f_.n[0] + y[i] * f_.n[1] + z[i] * f_.n[2] > lowest_);
+    if (any == 0) return Moves::nothing;
+    int by_tip = 0;
+    int by_ball = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float px = x[i] - f_.contact[0];
+      const float py = y[i] - f_.contact[1];
+      const float pz = z[i] - f_.contact[2];
+      const float h = px * f_.n[0] + py * f_.n[1] + pz * f_.n[2];
+      const float away2 = px * px + py * py + pz * pz;
+      const float up = h + f_.depth + f_.reach;
+      by_tip |= static_cast<int>(up > 0.0F) & static_cast<int>(up * up > slope2_ * (away2 - h * h));
+      by_ball |= static_cast<int>(away2 < wide2_);
+    }
+    if (by_tip != 0) return Moves::tip;
+    return by_ball != 0 ? Moves::ball : Moves::nothing;
+  }
+
+ private:
+  const DentField<float> f_;  // a copy of its own: nothing written can change it
+  float lowest_, wide2_, slope2_;
+};
+
+template <Moves kMoves, bool kEdge>
 void displace(const DentField<float>& field, const float* __restrict x, const float* __restrict y,
               const float* __restrict z, const float* __restrict nx, const float* __restrict ny,
               const float* __restrict nz, float* __restrict ox, float* __restrict oy, float* __restrict oz,
               float* __restrict onx, float* __restrict ony, float* __restrict onz, std::size_t count) {
   const DentField<float> f = field;  // a copy of its own: nothing written can change it
   for (std::size_t i = 0; i < count; ++i) {
-    const auto s = detail::shift<kEdge>(f, x[i], y[i], z[i]);
+    const auto s = kMoves == Moves::tip ? detail::shift<kEdge>(f, x[i], y[i], z[i])
+                                        : detail::sinking(f, x[i], y[i], z[i]);
     ox[i] = x[i] - s.by * f.n[0];
     oy[i] = y[i] - s.by * f.n[1];
     oz[i] = z[i] - s.by * f.n[2];
-    const float on = s.share * (nx[i] * f.n[0] + ny[i] * f.n[1] + nz[i] * f.n[2]);
-    const float keep = 1.0F - s.share;
-    const float tx = keep * nx[i] + on * (f.n[0] - s.gx);
-    const float ty = keep * ny[i] + on * (f.n[1] - s.gy);
-    const float tz = keep * nz[i] + on * (f.n[2] - s.gz);
+    const float along = nx[i] * f.n[0] + ny[i] * f.n[1] + nz[i] * f.n[2];
+    const float keep = 1.0F - (s.gx * f.n[0] + s.gy * f.n[1] + s.gz * f.n[2]);
+    const float tx = keep * nx[i] + along * s.gx;
+    const float ty = keep * ny[i] + along * s.gy;
+    const float tz = keep * nz[i] + along * s.gz;
     const float unit = 1.0F / std::sqrt(tx * tx + ty * ty + tz * tz);
-    onx[i] = s.share > 0.0F ? tx * unit : nx[i];
-    ony[i] = s.share > 0.0F ? ty * unit : ny[i];
-    onz[i] = s.share > 0.0F ? tz * unit : nz[i];
+    onx[i] = s.by > 0.0F ? tx * unit : nx[i];
+    ony[i] = s.by > 0.0F ? ty * unit : ny[i];
+    onz[i] = s.by > 0.0F ? tz * unit : nz[i];
   }
+}
+
+void copy(const DentField<float>& /*field*/, const float* x, const float* y, const float* z, const float* nx,
+          const float* ny, const float* nz, float* ox, float* oy, float* oz, float* onx, float* ony,
+          float* onz, std::size_t count) {
+  std::copy_n(x, count, ox);
+  std::copy_n(y, count, oy);
+  std::copy_n(z, count, oz);
+  std::copy_n(nx, count, onx);
+  std::copy_n(ny, count, ony);
+  std::copy_n(nz, count, onz);
 }
 
 }  // namespace
 
 void apply(const DentField<float>& field, const DentIn& in, const DentOut& out, std::size_t count) noexcept {
-  const auto block = field.edge ? displace<true> : displace<false>;
-  std::size_t still = 0;  // from here on nothing moves; copied in one go
-  const auto copy_up_to = [&](std::size_t end) {
-    std::copy(in.x + still, in.x + end, out.x + still);
-    std::copy(in.y + still, in.y + end, out.y + still);
-    std::copy(in.z + still, in.z + end, out.z + still);
-    std::copy(in.nx + still, in.nx + end, out.nx + still);
-    std::copy(in.ny + still, in.ny + end, out.ny + still);
-    std::copy(in.nz + still, in.nz + end, out.nz + still);
+  const Range range(field);
+  const auto moves = [&](std::size_t at) {
+    if (!field.active || at >= count) return Moves::nothing;
+    return range(in.x + at, in.y + at, in.z + at, std::min(kBlock, count - at));
   };
-  for (std::size_t i = 0; field.active && i < count; i += kBlock) {
-    const std::size_t n = std::min(kBlock, count - i);
-    if (!any_in_reach(field, in.x + i, in.y + i, in.z + i, n)) continue;
-    copy_up_to(i);
-    still = i + n;
-    block(field, in.x + i, in.y + i, in.z + i, in.nx + i, in.ny + i, in.nz + i, out.x + i, out.y + i,
-          out.z + i, out.nx + i, out.ny + i, out.nz + i, n);
+  const auto run = [&](Moves by, std::size_t at, std::size_t size) {
+    const auto to = [&](auto move) {
+      move(field, in.x + at, in.y + at, in.z + at, in.nx + at, in.ny + at, in.nz + at, out.x + at, out.y + at,
+           out.z + at, out.nx + at, out.ny + at, out.nz + at, size);
+    };
+    if (by == Moves::nothing) return to(copy);
+    if (by == Moves::ball) return to(displace<Moves::ball, false>);
+    field.edge ? to(displace<Moves::tip, true>) : to(displace<Moves::tip, false>);
+  };
+  // Blocks that are alike go together.
+  std::size_t begin = 0;
+  Moves now = moves(0);
+  for (std::size_t end = kBlock; begin < count; end += kBlock) {
+    const Moves next = moves(end);
+    if (end < count && next == now) continue;
+    run(now, begin, std::min(end, count) - begin);
+    begin = end;
+    now = next;
   }
-  copy_up_to(count);
 }
 
 DentField<float> to_float(const DentField<double>& from) noexcept {
@@ -77,11 +117,11 @@ DentField<float> to_float(const DentField<double>& from) noexcept {
   const auto narrow3 = [&](const std::array<double, 3>& a) {
     return std::array<float, 3>{narrow(a[0]), narrow(a[1]), narrow(a[2])};
   };
-  return {from.active,           from.edge,          narrow3(from.origin), narrow3(from.n),
-          narrow(from.depth),    narrow(from.blend), narrow(from.radius),  narrow(from.cap2),
-          narrow(from.slope),    narrow(from.cone),  narrow(from.reach),   narrow3(from.along),
-          narrow(from.from),     narrow(from.to),    narrow(from.rise),    narrow(from.lean),
-          narrow(from.lean_cone)};
+  return {from.active,           from.edge,           narrow3(from.origin), narrow3(from.n),
+          narrow3(from.contact), narrow(from.depth),  narrow(from.blend),   narrow(from.sink),
+          narrow(from.narrow),   narrow(from.radius), narrow(from.cap2),    narrow(from.slope),
+          narrow(from.cone),     narrow(from.reach),  narrow3(from.along),  narrow(from.from),
+          narrow(from.to),       narrow(from.rise),   narrow(from.lean),    narrow(from.lean_cone)};
 }
 
 }  // namespace enc

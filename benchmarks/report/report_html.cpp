@@ -139,7 +139,8 @@ std::string report_html(const Report& report) {
   text += "<h2>What was run</h2>\n" + table(overview_table(report));
   for (const BenchResult& result : report.results) {
     text += fmt::format("<h2 id=\"{0}\">{0}</h2>\n{1}", escaped(result.name), table(figure_table(result)));
-    for (const Table& t : result.tables) text += "<h3>" + escaped(t.title) + "</h3>\n" + table(t);
+    for (const Table& t : result.tables)
+      if (t.source.empty()) text += "<h3>" + escaped(t.title) + "</h3>\n" + table(t);
   }
   for (const Table& t : closing_tables(report)) {
     text += fmt::format("<h2 id=\"{}\">{}</h2>\n", escaped(t.id), escaped(t.title));

@@ -56,7 +56,8 @@ std::string report_markdown(const Report& report) {
   }
   for (const BenchResult& result : report.results) {
     text += fmt::format("\n## {}\n\n{}", plain(result.name), table(figure_table(result)));
-    for (const Table& t : result.tables) text += fmt::format("\n### {}\n\n{}", plain(t.title), table(t));
+    for (const Table& t : result.tables)
+      if (t.source.empty()) text += fmt::format("\n### {}\n\n{}", plain(t.title), table(t));
   }
   for (const Table& t : closing_tables(report)) {
     text += fmt::format("\n## {}\n\n", plain(t.title));

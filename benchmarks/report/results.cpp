@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include <encounter_version.h>
@@ -120,7 +121,10 @@ std::string plot_csv(const Plot& plot) {
 }
 
 std::string table_csv(const Table& table) {
-  std::string csv = csv_line(table.columns);
+  std::string csv;
+  std::istringstream source(table.source);
+  for (std::string line; std::getline(source, line);) csv += "# " + line + "\n";
+  csv += csv_line(table.columns);
   for (const auto& row : table.rows) csv += csv_line(row);
   return csv;
 }

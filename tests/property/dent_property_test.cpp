@@ -94,5 +94,33 @@ TEST(DentProperty, NothingOfABallIsInsideTheTipAndTheSignIsRight) {
 }
 TEST(DentProperty, NothingOfAPlaneIsInsideTheTipAndTheSignIsRight) { any_pose(Surface(Plane{}), 0.0, 2); }
 
+TEST(DentProperty, TheFieldIsContinuousAndTheContactMovesByTheDepth) {
+  const Surface ball(Sphere{0.033});
+  Case pick{std::mt19937_64(3)};
+  for (int i = 0; i < 300; ++i) {
+    Vec3 n;
+    const Tip<'O'> tip = pick.tip(0.033, n);
+    const DentSample dent = dent_of(ball, 0, tip);
+    if (!(dent.depth > 0.0) || dent.depth > 0.010) continue;
+    const DentField<double> field = dent_field(ball, dent);
+    const Nearest contact = deepest(ball, tip).at;
+    ASSERT_NEAR(displaced(field, contact.point, contact.normal).by, dent.depth, 1e-9);
+    // Away along any great circle: a step of 1 um moves the point by a few at most, the last not at all.
+    const Vec3 up = contact.normal.e();
+    const Vec3 side = (pick.direction().cross(up)).normalized();
+    double before = dent.depth;
+    for (int k = 0; k <= 6000; ++k) {
+      const double polar = 1e-6 * k * 10 / 0.033;
+      const Vec3 out = std::cos(polar) * up + std::sin(polar) * side;
+      const double now = displaced(field, Point<'O'>(Vec3(0.033 * out)), Vec<'O'>(out)).by;
+      ASSERT_NEAR(now, before, 40e-6) << k;
+      before = now;
+    }
+    if (tip.shape == TipShape::sphere) {
+      ASSERT_EQ(before, 0.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace enc

@@ -94,16 +94,20 @@ TEST(Dent, TheSurfaceLiesOnTheTip) {
   EXPECT_LT(moved(kPlane, edge, {3e-3, 0, 0}).by, 0.003);
 }
 
-TEST(Dent, EndsAtPogorelovsWidthOnABall) {
-  // Under a point of 0.2 mm, 3 mm deep, the ball moves up to sqrt(33 x 3) = 9.95 mm from the axis.
+TEST(Dent, TheBallSinksAroundTheTip) {
+  // A point of 0.2 mm, 3 mm deep: the ball sinks by s = d^2 / (d + 0.116 R) = 1.3182 mm, seen up to 0.8 R =
+  // 26.4 mm from the contact, where a chord of that length is 24.20 mm from the axis.
   const DentSample dent = dent_of(kBall, 0, ball_tip({0, 0, 0.030}, 0.0));
   const auto by = [&](double aside) {
     return moved(kBall, dent, {aside, 0, std::sqrt(0.033 * 0.033 - aside * aside)}).by;
   };
-  EXPECT_GT(by(9.6e-3), 0.0);
-  EXPECT_EQ(by(10.1e-3), 0.0);
+  EXPECT_GT(by(24.1e-3), 0.0);
+  EXPECT_EQ(by(24.3e-3), 0.0);
+  // 15 mm from the axis, out of the tip's reach: 15.43 mm from the contact.
+  const double chord2 = 2 * 0.033 * (0.033 - std::sqrt(0.033 * 0.033 - 0.015 * 0.015));
+  EXPECT_NEAR(by(15e-3), 9e-6 / 6.828e-3 * std::pow(1.0 - chord2 / (0.0264 * 0.0264), 3), 1e-12);
   double before = 1.0;
-  for (int i = 0; i < 99; ++i) {
+  for (int i = 0; i < 242; ++i) {
     const double now = by(1e-4 * i);
     EXPECT_LT(now, before);
     before = now;
