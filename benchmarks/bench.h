@@ -87,6 +87,7 @@ struct Benchmark {
 BenchResult run_dent(const BenchContext& context);       // the seen surface: speed, contact vertex, volume
 BenchResult run_encounter(const BenchContext& context);  // miss at first touch over approach speed
 BenchResult run_press(const BenchContext& context);      // one contact a press, limit held, tip inside
+BenchResult run_session(const BenchContext& context);    // a user's two minutes, a change of tools (4.4)
 BenchResult run_stiffness(
     const BenchContext& context);  // apparent stiffness, the softest that is stable (Fig 3)
 BenchResult run_structure(const BenchContext& context);  // the hexapod's legs: sag, modes, order, cost
