@@ -94,8 +94,10 @@ void SessionPlan::draw_reach(Stream& draws, Press& press) const {
   const double distance = way.norm();
   const Vec3 along = way / distance;
   const double gain = hand_.primary_share + hand_.primary_scatter * draw_bounded(draws);
-  Vec3 aside = draws.normal3();
-  aside -= along.dot(aside) * along;
+  const Vec3 across = along.unitOrthogonal();
+  const double x = draw_bounded(draws);
+  const double y = draw_bounded(draws);
+  const Vec3 aside = x * across + y * Vec3(along.cross(across));
   const Vec3 primary = gain * way + hand_.aside_scatter * distance * aside;
   const double peak = draw(draws, spec_.peak_speed);
   press.primary = {0.0, 1.875 * primary.norm() / peak, Vec<'W'>(primary)};

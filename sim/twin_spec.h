@@ -41,8 +41,8 @@ struct HandTruth {
   double tremor_band = 4.0;       // Hz, from tremor_rate upwards, where the scene asks for a band
   // Reaches of a session. Their first part aims at this share of the way and scatters, along it and aside.
   double primary_share = 0.93, primary_scatter = 0.05,
-         aside_scatter = 0.03;  // of the way; standard deviations
-  double shortest = 0.15;       // s, of a submovement
+         aside_scatter = 0.02;  // of the way; standard deviations
+  double shortest = 0.20;       // s, of a submovement
   double aborted = 0.1;         // share of reaches that turn back before the touch
 };
 
