@@ -222,8 +222,12 @@ void check_session(const Setup& setup) {
                     quoted(object.name)));
   if (!std::isnan(user.push))
     fail(setup, "user.push_N", "a session presses to a depth; expected no 'push_N'; remove it");
-  check_named(setup, setup.scene.tools, s.other_tool, "tool", "user.session.other");
   if (s.other_tool.empty()) return;
+  const std::vector<std::string> tools = names_of(setup.scene.tools);
+  if (std::find(tools.begin(), tools.end(), s.other_tool) == tools.end())
+    fail(setup, "user.session.other_tool",
+         fmt::format("there is no tool {}; expected the name of a [[tool]]; {}", quoted(s.other_tool),
+                     advice(s.other_tool, tools)));
   if (s.other_tool == first(setup.scene.tools, user.tool).name)
     fail(setup, "user.session.other_tool",
          fmt::format("'other_tool' is {}, which is held already; expected another tool; name it, or leave it "

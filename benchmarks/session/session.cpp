@@ -79,7 +79,8 @@ class Figures {
 };
 
 void Figures::add_counts() {
-  std::int64_t presses = 0, single = 0, none = 0, aborted = 0, in_aborted = 0, bounces = 0, bounced = 0;
+  std::int64_t presses = 0, single = 0, none = 0, aborted = 0, in_aborted = 0, bounces = 0, longest = 0,
+               bounced = 0;
   each_press([&](const SessionPress& press) {
     if (press.aborted) {
       ++aborted;
@@ -89,7 +90,8 @@ void Figures::add_counts() {
     ++presses;
     single += press.contacts == 1 ? 1 : 0;
     none += press.contacts == 0 ? 1 : 0;
-    bounced += press.bounces > 0 ? 1 : 0;
+    bounced += press.long_bounces > 0 ? 1 : 0;
+    longest = std::max<std::int64_t>(longest, press.long_bounces);
     bounces = std::max<std::int64_t>(bounces, press.bounces);
   });
   add("presses.one_contact_percent",
@@ -98,8 +100,9 @@ void Figures::add_counts() {
   add("aborted.contacts", static_cast<double>(in_aborted), "", 0, 0,
       fmt::format("in {} reaches that turn back before the touch", aborted));
   add("bounces.max", static_cast<double>(bounces), "", kUnset, kUnset,
-      fmt::format("true contact lost and regained within 200 ms, in one press; {} presses have any",
-                  bounced));
+      "true contact lost and regained within 200 ms, in one press: rattle of the hard tips for some ms, too");
+  add("bounces_of_20_ms.max", static_cast<double>(longest), "", kUnset, kUnset,
+      fmt::format("the same, lost for 20 ms or more; {} of the presses have any", bounced));
 }
 
 template <class Of>

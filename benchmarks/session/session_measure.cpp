@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kImpactTime = 0.1;  // s from the first touch
 constexpr double kBounceTime = 0.2;  // s: later it is another touch
+constexpr double kLong = 0.02;       // s: shorter is a rattle of two hard tips
 
 double time_of(const sim::Truth& truth) { return seconds(truth.t.time_since_epoch()); }
 
@@ -42,7 +43,9 @@ void SessionMeasure::see_touch(const Glance& glance, SessionPress& press, const 
   const double now = time_of(truth);
   if (truth.touching && !touching_) {
     if (std::isnan(touched_at_)) touched_at_ = now;
-    if (now - lost_at_ <= kBounceTime) ++press.bounces;  // false before anything was lost
+    const double lost = now - lost_at_;  // NaN before anything was
+    if (lost <= kBounceTime) ++press.bounces;
+    if (lost <= kBounceTime && lost >= kLong) ++press.long_bounces;
   }
   if (!truth.touching && touching_) lost_at_ = now;
   touching_ = truth.touching;

@@ -19,7 +19,8 @@ struct SessionPress {
   double impact = kUnset;  // N: most of force less the object's own at that deflection, 0.1 s from the touch
   double peak_force = 0.0, over_limit = -kInfinite;  // N, m: PressFigures
   std::int32_t contacts = 0;                         // of the core
-  std::int32_t bounces = 0;                          // contact lost and regained within 0.2 s
+  std::int32_t bounces = 0,
+               long_bounces = 0;  // contact lost and regained within 0.2 s; lost for 20 ms or more
 };
 
 // The change of the tool, from laying one down until the first reach with the other.
