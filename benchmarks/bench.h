@@ -90,10 +90,11 @@ BenchResult run_deformation(const BenchContext& context);  // the seen ball agai
 BenchResult run_dent(const BenchContext& context);         // the seen surface: speed, contact vertex, volume
 BenchResult run_encounter(const BenchContext& context);    // miss at first touch over approach speed
 BenchResult run_press(const BenchContext& context);        // one contact a press, limit held, tip inside
+BenchResult run_session(const BenchContext& context);      // a user's two minutes, a change of tools (4.4)
 BenchResult run_stiffness(
     const BenchContext& context);  // apparent stiffness, the softest that is stable (Fig 3)
-BenchResult run_structure(const BenchContext& context);  // the hexapod's legs: sag, modes, order, cost
-BenchResult run_workspace(const BenchContext& context);  // reach, tracked volume, directions of a press
+BenchResult run_structure(const BenchContext& context);       // the hexapod's legs: sag, modes, order, cost
+BenchResult run_workspace(const BenchContext& context);       // reach, tracked volume, directions of a press
 BenchResult run_identification(const BenchContext& context);  // the ball's numbers out of a rig's loops
 BenchResult run_response(const BenchContext& context);  // minor loops, tremor, energy of both response models
 BenchResult run_mesh(const BenchContext& context);      // a million triangles: load, tick

@@ -124,6 +124,7 @@ void fields(F& f, Swing& s) {
 template <class F>
 void fields(F& f, Contact& c) {
   f("contact_object", c.object);
+  f("contact_tool", c.tool);
   fields(f, "contact_X_WN", c.X_WN);
   f("anchored", c.anchored);
   f("loaded", c.loaded);

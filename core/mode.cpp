@@ -12,9 +12,13 @@ double pressing_force(const Walk& walk, const Vec<'W'>& normal) {
 
 // A tool this far away presses nothing, whatever the force says: the zero has drifted, and only free space
 // can mend that. Wider than what a tool at 200 mm/s moves while its pose is on the way.
-bool too_far(const Walk& walk) {
-  constexpr double kFar = 10e-3;  // m
-  return walk.tool_known && walk.gap > kFar;
+constexpr double kFar = 10e-3;  // m
+bool too_far(const Walk& walk) { return walk.tool_known && walk.gap > kFar; }
+
+// A hand that presses cannot change its tool: another one in view did not make this contact, and where it is
+// says nothing of it. Then force alone holds the contact and ends it.
+bool changed_tool(const Walk& walk, const State& state) {
+  return walk.tool_known && state.tool.value.tool != state.contact.tool;
 }
 
 // As near to the buffered point as the machine gets.
@@ -35,9 +39,11 @@ void begin_contact(Walk& walk, State& state, bool by_force) {
   ++state.contacts;
   state.contact = Contact{};
   state.contact.object = state.object;
+  state.contact.tool = walk.tool_known ? state.tool.value.tool : -1;
   state.contact.X_WN = frame_under_tool(walk, state);
+  if (!by_force) return;
   state.contact.loaded = walk.tick.t;
-  if (by_force) walk.why |= kByForce;
+  walk.why |= kByForce;
 }
 
 // Until force is felt with the tip under the tool, the anchor goes where the tool goes: a fast or slanted
@@ -52,8 +58,11 @@ void anchor(Walk& walk, State& state, double force) {
 void in_contact(Walk& walk, State& state) {
   const Vec<'W'> normal = state.contact.X_WN * Vec<'N'>(0, 0, 1);
   const double force = pressing_force(walk, normal);
-  if (!state.contact.anchored) anchor(walk, state, force);
-  if (force >= 0.5 * walk.scene.force.contact && !too_far(walk)) state.contact.loaded = walk.tick.t;
+  const bool changed = changed_tool(walk, state);
+  if (!state.contact.anchored && !changed) anchor(walk, state, force);
+  // Nothing but the force speaks for the contact of a tool that is no longer seen: it has to be a whole one.
+  const double least = (changed ? 1.0 : 0.5) * walk.scene.force.contact;
+  if (force >= least && (changed || !too_far(walk))) state.contact.loaded = walk.tick.t;
   // Behind a damper the tip comes back slowly; what pushed it may wait there.
   const bool returning =
       walk.scene.damping && -state.contact.displacement.xyz[2] > walk.scene.contact.leave_gap;
@@ -61,7 +70,11 @@ void in_contact(Walk& walk, State& state) {
   // Slid off: beside the tip, where the two can no longer touch.
   const double beside = walk.tool_known ? (walk.surface_point - state.contact.X_WN.origin()).norm() : 0.0;
   const bool slid_off = beside > walk.scene.tip_radius + walk.tool_radius;
-  const bool gone = !walk.tool_known || walk.gap > walk.scene.contact.leave_gap || slid_off;
+  // Before any force was felt the tool may not be there yet: what slows down is predicted too far ahead. To
+  // let go of it and then to be touched would make two contacts of one press.
+  const bool felt = state.contact.loaded > Time{};
+  const double leave = felt ? walk.scene.contact.leave_gap : kFar;
+  const bool gone = !walk.tool_known || changed || walk.gap > leave || slid_off;
   if (unloaded && gone) state.mode = Mode::restore;
 }
 

@@ -41,9 +41,10 @@ struct Outputs {
 // The anchor of a contact [VHMR 3.4]: surface frame and how the object answers from there.
 struct Contact {
   std::int32_t object = -1;
+  std::int32_t tool = -1;  // that began it; -1: none was known
   Pose<'W', 'N'> X_WN;    // at the first touch
   bool anchored = false;  // true once force was felt with the tip under the tool: the anchor no longer moves
-  Time loaded{};          // last tick on which force was felt
+  Time loaded{};          // last tick on which force was felt; the start of time: never
   ResponseState response;
   Swing swing;
   Vec<'N'> displacement = Vec<'N'>::zero();

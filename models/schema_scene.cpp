@@ -13,7 +13,8 @@ constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
 constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ishlinskii"};
 constexpr std::array<std::string_view, 2> kWays{"one_way", "both_ways"};
 constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
-constexpr std::array<std::string_view, 1> kUsers{"press_release"};
+constexpr std::array<std::string_view, 2> kTremors{"sine", "band"};
+constexpr std::array<std::string_view, 2> kUsers{"press_release", "session"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
 
 Key name_key(std::string_view meaning) { return {"name", meaning, kAuthor, chosen, kAny, needed, {}, true}; }
@@ -133,6 +134,46 @@ void describe_presses(Visitor& v, UserSpec& u) {
   v.value({"repeats", "of the whole list of presses", kAuthor, chosen, {1.0, 1e6}}, &u.repeats);
 }
 
+// A pair is the least and the most of what is drawn.
+void describe(Visitor& v, SessionSpec& s) {
+  v.value({"duration_s", "of the session", "[VHMR 4.4]", published, kPositive}, &s.duration);
+  v.value({"polar_max_deg",
+           "places are even over the directions up to here from +z of W that can be pressed",
+           "[VHMR 4.4]",
+           assumed,
+           {0.0, 85.0}},
+          &s.polar_most);
+  v.value({"tilt_deg", "of a reach from the surface normal: least, most", kAuthor, assumed, {0.0, 60.0}},
+          &s.tilt);
+  v.value({"reach_mm", "from where a reach begins to the touched point: least, most", kAuthor, assumed,
+           kPositive},
+          &s.reach);
+  v.value({"peak_mm_s", "of the first, ballistic part of a reach: least, most", "parameters 5.2", published,
+           kPositive},
+          &s.peak_speed);
+  v.value({"touch_mm_s", "wanted at the surface: least, most", "parameters 5.2", assumed, kPositive},
+          &s.touch_speed);
+  v.value({"depth_mm", "wanted deflection: least, most", "[VHMR 4.2]", assumed, kPositive}, &s.depth);
+  v.value(
+      {"press_mm_s", "mean, of pressing and of releasing: least, most", "parameters 5.2", assumed, kPositive},
+      &s.press_speed);
+  v.value({"hold_s", "at depth: least, most", kAuthor, assumed, kNotNegative}, &s.hold);
+  v.value({"rest_s", "over the next place: least, most", kAuthor, assumed, kNotNegative}, &s.rest);
+  v.value({"other_tool", "that the user changes to, by name; empty: no change", "[VHMR 4.4]", chosen},
+          &s.other_tool);
+  v.value({"change_share",
+           "of the duration, after which the next pause is the change: least, most",
+           "[VHMR 4.4]",
+           assumed,
+           {0.0, 1.0}},
+          &s.change);
+  v.value({"tray_mm",
+           "in W: where the first tool's tip lies when it is not held; the other's 80 mm further "
+           "along y",
+           kAuthor, chosen},
+          &s.tray);
+}
+
 void describe(Visitor& v, UserSpec& u) {
   v.value({"kind", "what the user does", kAuthor, chosen, kAny, defaulted, kUsers}, &u.kind);
   v.value({"object", "pressed object, by name; empty: the first", kAuthor, chosen}, &u.object);
@@ -143,6 +184,11 @@ void describe(Visitor& v, UserSpec& u) {
           &u.polar);
   v.value({"offset_mm", "sideways of the axis (indentation B)", "[VHMR 4.2]", chosen}, &u.offset);
   describe_presses(v, u);
+  choice(
+      v,
+      {"tremor", "one sine for each axis, or a band of several that wax and wane", "parameters 5.2", assumed},
+      kTremors, u.tremor);
+  part(v, "session", u.session, [&](SessionSpec& session) { describe(v, session); });
 }
 
 void describe(Visitor& v, ProbeSpec& p) {

@@ -171,6 +171,22 @@ void describe(Visitor& v, sim::HandTruth& h) {
   v.value({"tremor_mm", "rms", "parameters 5.2", assumed, kNotNegative}, &h.tremor);
   v.value({"tremor_rate_hz", "of the tremor", "parameters 5.2", published, kPositive}, &h.tremor_rate);
   v.value({"drift_mm", "rms, below 2 Hz", "parameters 5.2", assumed, kNotNegative}, &h.drift);
+  v.value({"tremor_band_hz", "from tremor_rate_hz upwards, where the scene asks for a band: 8 to 12 Hz",
+           "parameters 5.2", published, kNotNegative},
+          &h.tremor_band);
+  v.value({"primary_share", "of the way, at which the first part of a reach aims",
+           "Elliott, Hansen and Grierson 2010", assumed, kPositive},
+          &h.primary_share);
+  v.value({"primary_scatter", "of that share, standard deviation, cut at two", "Meyer et al. 1988", assumed,
+           kNotNegative},
+          &h.primary_scatter);
+  v.value({"aside_scatter", "of its end to each side, as a share of the way, standard deviation",
+           "Meyer et al. 1988", assumed, kNotNegative},
+          &h.aside_scatter);
+  v.value({"submovement_min_ms", "shortest correction", "Milner 1992", assumed, kPositive}, &h.shortest);
+  v.value(
+      {"aborted", "share of the reaches of a session that turn back", "features L16", assumed, {0.0, 1.0}},
+      &h.aborted);
 }
 
 void describe(Visitor& v, sim::PusherTruth& p) {

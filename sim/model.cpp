@@ -112,11 +112,11 @@ void add_sensor(mjSpec* spec, mjtSensor type, const char* text) {
   name(sensor->element, text);
 }
 
-// The held tool: its tip's centre on three slides. The hand keeps its orientation.
-void add_tool(mjSpec* spec, const ModelParts& parts) {
+// A tool of the user's: its tip's centre on three slides. The hand keeps its orientation.
+void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const std::string& called) {
   mjsBody* body = mjs_addBody(mjs_findBody(spec, "world"), nullptr);
-  name(body->element, "tool");
-  body->mass = parts.tool->mass;
+  name(body->element, called);
+  body->mass = tool.mass;
   body->explicitinertial = true;
   std::fill_n(body->inertia, 3, 1e-5);
   for (int axis = 0; axis < 3; ++axis) {
@@ -125,13 +125,13 @@ void add_tool(mjSpec* spec, const ModelParts& parts) {
     set3(slide->axis, Vec3::Unit(axis));
   }
   mjsGeom* tip = mjs_addGeom(body, nullptr);
-  name(tip->element, "tool_tip");
+  name(tip->element, called + "_tip");
   tip->type = mjGEOM_SPHERE;
-  tip->size[0] = std::max(parts.tool->tip_radius, 1e-4);
+  tip->size[0] = std::max(tool.tip_radius, 1e-4);
   tip->mass = 0;
   colour(tip, {0.85F, 0.85F, 0.20F, 1});
   hard_contact(tip, parts.twin.world);
-  draw_tool(body, *parts.tool, parts.q_WT, Vec3::Zero());
+  draw_tool(body, tool, parts.q_WT, Vec3::Zero());
 }
 
 mjsGeom* draw_object(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
@@ -194,9 +194,10 @@ SpecPtr build_model(const ModelParts& parts) {
     add_sensor(spec.get(), mjSENS_TORQUE, "torque");
   }
   if (parts.tool != nullptr)
-    add_tool(spec.get(), parts);
+    add_tool(spec.get(), parts, *parts.tool, "tool");
   else
     spec->option.disableflags |= mjDSBL_CONTACT | mjDSBL_CONSTRAINT;  // nothing can touch
+  if (parts.other != nullptr) add_tool(spec.get(), parts, *parts.other, "other_tool");
   if (parts.draw_all) add_pictures(spec.get(), parts);
   return spec;
 }

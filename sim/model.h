@@ -20,6 +20,7 @@ struct ModelParts {
   Pose<'W', 'R'> X_WR;                // where the machine really stands
   std::string mjcf_dir;               // models/mjcf
   bool draw_all = false;              // also legs, objects and lights, for a picture
+  const ToolSpec* other = nullptr;    // that the user changes to
 };
 
 [[nodiscard]] SpecPtr build_model(const ModelParts& parts);

@@ -39,7 +39,7 @@ void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT
   const double t = seconds(at.time_since_epoch());
   const bool blind = t >= truth_.blackout_at && t < truth_.blackout_at + truth_.blackout_for;
   const Vec3 error = truth_.bias + truth_.noise.cwiseProduct(state_.noise.normal3());
-  if (blind) return;
+  if (blind || tool < 0) return;  // none in view: a hand covers the markers, or none is held
   const Pose<'W', 'T'> measured(Quat(X_WT.q()), Vec3(X_WT.p() + error));
   put(state_.exposed, {{tool, X_CW_ * measured}, at + from_seconds(truth_.stamp_error), Health::ok},
       at + from_seconds(truth_.latency));
@@ -88,7 +88,7 @@ void TrackerPlant::deliver(Time now) {
 }
 
 void TrackerPlant::advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
-  const bool first = !state_.before.valid();
+  const bool first = !state_.before.valid() || tool != state_.tool_before;
   for (Time at = state_.exposure.next(); state_.exposure.due(t); at = state_.exposure.next()) {
     const double span = seconds(t - state_.before_t);
     const double share =
@@ -100,6 +100,7 @@ void TrackerPlant::advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT
     if (truth_.packets == Packets::polled) poll_exposed(at);
   deliver(t);
   state_.before = X_WT;
+  state_.tool_before = tool;
   state_.before_t = t;
 }
 

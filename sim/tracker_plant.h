@@ -26,6 +26,7 @@ class TrackerPlant {
     Time sent{};                     // stamp of the newest packet sent
     std::array<Packet, 64> on_wire;
     Pose<'W', 'T'> before;  // the tool one tick ago: exposures lie between ticks
+    std::int32_t tool_before = -1;
     Time before_t{};
     Stamped<TrackedTool> arrived;  // newest that reached the core
     bool news = false;

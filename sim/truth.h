@@ -9,7 +9,15 @@
 
 namespace enc::sim {
 
-enum class Phase : std::uint8_t { wait, approach, press, hold, release, retreat };
+enum class Phase : std::uint8_t {
+  wait,
+  approach,
+  press,
+  hold,
+  release,
+  retreat,
+  change
+};  // change: of tools
 
 struct Truth {
   Time t{};
@@ -29,7 +37,9 @@ struct Truth {
   // What the person is at: which press, and which part of it.
   std::int32_t press = -1;
   Phase phase = Phase::wait;
-  double approach_speed = kUnset;  // of this press, m/s
+  double approach_speed = kUnset;  // of this press, m/s, as planned
+  bool aborted = false;            // this reach turns back before the touch
+  std::int32_t tool = -1;          // in the hand, index in the scene; -1: none
 };
 
 }  // namespace enc::sim

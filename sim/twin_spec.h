@@ -38,6 +38,12 @@ struct HandTruth {
   double tremor = 0.06e-3;        // m rms
   double tremor_rate = 8.1;       // Hz
   double drift = 0.15e-3;         // m rms, below 2 Hz
+  double tremor_band = 4.0;       // Hz, from tremor_rate upwards, where the scene asks for a band
+  // Reaches of a session. Their first part aims at this share of the way and scatters, along it and aside.
+  double primary_share = 0.93, primary_scatter = 0.05,
+         aside_scatter = 0.02;  // of the way; standard deviations
+  double shortest = 0.20;       // s, of a submovement
+  double aborted = 0.1;         // share of reaches that turn back before the touch
 };
 
 // Sets of ball_plant.h [parameters 4.4]: four others that also give 12 N at 6 mm, and a ball as played with.

@@ -17,30 +17,53 @@ constexpr double kSpeedUp = 0.3;   // s to reach approach speed
 constexpr double kRetreat = 0.8;   // s to go back to the start
 constexpr double kExpected =
     1900.0;  // N/m: the stiffness that the person has learned to expect (mean of the ball's press curve)
+constexpr std::size_t kSines = 4;  // of a band of tremor, for each axis
+
+std::int32_t held_tool(const SceneSpec& scene) {
+  const auto named = std::find_if(scene.tools.begin(), scene.tools.end(),
+                                  [&](const ToolSpec& t) { return t.name == scene.user->tool; });
+  return named == scene.tools.end() ? 0 : static_cast<std::int32_t>(named - scene.tools.begin());
+}
+
+// Each sine has a quarter of the band to itself, so that they beat and none is drawn twice.
+void draw_band(const HandTruth& hand, Stream draws, User::State& state) {
+  for (std::size_t i = 0; i < state.band_rate.size(); ++i) {
+    const double share = (static_cast<double>(i % kSines) + draws.uniform()) / kSines;
+    state.band_rate[i] = 2.0 * std::numbers::pi * (hand.tremor_rate + hand.tremor_band * share);
+    state.band_phase[i] = 2.0 * std::numbers::pi * draws.uniform();
+  }
+}
 
 }  // namespace
 
-User::User(const SceneSpec& scene, const UserSpec& spec, const HandTruth& hand, double tool_radius,
-           std::uint64_t seed)
-    : spec_(spec), hand_(hand), tool_radius_(tool_radius), press_(enc::press_point(scene, spec)) {
-  if (spec.kind != "press_release")
-    throw Error("unknown user '" + spec.kind + "'; expected \"press_release\"", "user.kind");
+User::User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand, std::uint64_t seed)
+    : spec_(*scene.user), hand_(hand), tool_(held_tool(scene)), press_(enc::press_point(scene, spec_)) {
+  if (spec_.kind != "press_release" && spec_.kind != "session")
+    throw Error("unknown user '" + spec_.kind + "'; expected \"press_release\" or \"session\"", "user.kind");
   const Vec3 n = press_.normal.e();
   const Vec3 side = Vec3::UnitX() - n * n.x();
   const Vec3 across = side.norm() > 1e-6 ? Vec3(side.normalized()) : n.unitOrthogonal();
-  away_ = std::cos(spec.approach_tilt) * n + std::sin(spec.approach_tilt) * across;
-  touch_ = press_.point + tool_radius * press_.normal;
-  start_ = touch_ + Vec<'W'>(Vec3(spec.approach_from * away_));
+  away_ = std::cos(spec_.approach_tilt) * n + std::sin(spec_.approach_tilt) * across;
+  touch_ = press_.point + prepared.tools[static_cast<std::size_t>(tool_)].tip.radius * press_.normal;
+  start_ = touch_ + Vec<'W'>(Vec3(spec_.approach_from * away_));
+  if (spec_.kind == "session") {
+    session_.emplace(scene, prepared, hand);
+    state_.session = session_->begin(seed);
+    start_ = state_.session.press.start;
+  }
   state_.hand = start_;
   state_.noise = Stream(seed, "hand");
   for (double& phase : state_.tremor_phase) phase = 2.0 * std::numbers::pi * state_.noise.uniform();
+  if (spec_.tremor == TremorForm::band) draw_band(hand_, Stream(seed, "tremor"), state_);
 }
 
 double User::approach_speed() const {
+  if (session_) return state_.session.press.touch_speed;
   return spec_.approach[static_cast<std::size_t>(state_.press) % spec_.approach.size()];
 }
 
 bool User::done() const {
+  if (session_) return state_.session.finished;
   return state_.press >=
          static_cast<std::int32_t>(spec_.approach.size() * static_cast<std::size_t>(spec_.repeats));
 }
@@ -62,11 +85,14 @@ double User::phase_time(Phase phase) const {
       return spec_.release_time;
     case Phase::retreat:
       return kRetreat;
+    case Phase::change:
+      break;  // of a session only
   }
   return 0.0;
 }
 
 double User::duration() const {
+  if (session_) return session_->duration();
   double total = 1.5;
   User probe(*this);
   for (probe.state_.press = 0; !probe.done(); ++probe.state_.press)
@@ -77,7 +103,7 @@ double User::duration() const {
 }
 
 // Speeds up smoothly, then keeps the approach speed until the touch.
-User::Plan User::approach(double since) const {
+HandPlan User::approach(double since) const {
   const double v = approach_speed();
   const double speed_up = std::min(kSpeedUp, spec_.approach_from / v);
   const double s = std::min(1.0, since / speed_up);
@@ -90,13 +116,13 @@ User::Plan User::approach(double since) const {
   return {start_.e() - away_ * way, -away_ * speed, -away_ * gain, 0.0};
 }
 
-User::Plan User::plan(double since) const {
+HandPlan User::plan(double since) const {
   const Vec3 n = press_.normal.e();
   const auto along_normal = [&](double from, double to, double time, double at) {
     const MinimumJerk m(at / time);
     const double depth = from + (to - from) * m.x;
-    return Plan{touch_.e() - n * depth, -n * ((to - from) * m.v / time),
-                -n * ((to - from) * m.a / (time * time)), depth};
+    return HandPlan{touch_.e() - n * depth, -n * ((to - from) * m.v / time),
+                    -n * ((to - from) * m.a / (time * time)), depth};
   };
   const double depth = std::isnan(spec_.push) ? spec_.depth : 0.0;
   switch (state_.phase) {
@@ -105,7 +131,7 @@ User::Plan User::plan(double since) const {
     case Phase::approach:
       return approach(since);
     case Phase::press: {
-      Plan p = along_normal(0.0, depth, spec_.press_time, since);
+      HandPlan p = along_normal(0.0, depth, spec_.press_time, since);
       const double left = std::exp(-since / kSettle);
       p.position -= away_ * (approach_speed() * kSettle * (1.0 - left));
       p.velocity -= away_ * (approach_speed() * left);
@@ -122,6 +148,8 @@ User::Plan User::plan(double since) const {
       const Vec3 way = start_.e() - from;
       return {from + way * m.x, way * (m.v / kRetreat), way * (m.a / (kRetreat * kRetreat)), 0.0};
     }
+    case Phase::change:
+      break;
   }
   return {};
 }
@@ -137,39 +165,60 @@ void User::next_phase(double t) {
   }
 }
 
-// Tremor: one sine for each axis. Drift: low-passed noise of the wanted rms below 2 Hz.
-Vec3 User::unsteadiness(double h) {
-  Vec3 tremor;
+HandPlan User::planned(double t) {
+  if (session_) {
+    session_->advance(t, state_.session);
+    return session_->at(t, state_.session);
+  }
+  next_phase(t);
+  return done() ? HandPlan{start_.e()} : plan(t - state_.phase_start);
+}
+
+// One sine for each axis, or a band of them with the same rms.
+Vec3 User::tremor(double t, double h) {
+  Vec3 tremor = Vec3::Zero();
+  if (spec_.tremor == TremorForm::band) {
+    for (std::size_t i = 0; i < state_.band_rate.size(); ++i)
+      tremor(static_cast<Eigen::Index>(i / kSines)) +=
+          std::sin(state_.band_rate[i] * t + state_.band_phase[i]);
+    return hand_.tremor * std::sqrt(2.0 / kSines) * tremor;
+  }
   for (int i = 0; i < 3; ++i) {
     state_.tremor_phase[i] += 2.0 * std::numbers::pi * hand_.tremor_rate * h;
     tremor(i) = hand_.tremor * std::numbers::sqrt2 * std::sin(state_.tremor_phase[i]);
   }
+  return tremor;
+}
+
+// Tremor, and drift: low-passed noise of the wanted rms below 2 Hz.
+Vec3 User::unsteadiness(double t, double h) {
+  const Vec3 trembling = tremor(t, h);
   constexpr double kDriftCorner = 2.0 * std::numbers::pi * 1.0;  // rad/s
   const double keep = std::exp(-kDriftCorner * h);
   state_.drift = Vec<'W'>(
       Vec3(keep * state_.drift.e() + hand_.drift * std::sqrt(1.0 - keep * keep) * state_.noise.normal3()));
-  return tremor + state_.drift.e();
+  return trembling + state_.drift.e();
 }
 
 Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
                    bool touching) {
-  next_phase(t);
-  const Plan p = done() ? Plan{start_.e(), Vec3::Zero(), Vec3::Zero(), 0.0} : plan(t - state_.phase_start);
-  const Vec3 n = press_.normal.e();
-  const bool pressing =
-      state_.phase == Phase::press || state_.phase == Phase::hold || state_.phase == Phase::release;
-  const bool pushing = pressing && !std::isnan(spec_.push);
+  const HandPlan p = planned(t);
+  const Vec<'W'>& normal = session_ ? state_.session.press.at.normal : press_.normal;
+  const Point<'W'>& touch = session_ ? state_.session.press.touch : touch_;
+  const Vec3 n = normal.e();
+  const bool pressing = phase() == Phase::press || phase() == Phase::hold || phase() == Phase::release;
+  const bool pushing = pressing && !session_ && !std::isnan(spec_.push);
 
   // Intent: the plan, plus what experience says the ball will take, plus what the depth loop has found to be
   // missing.
-  const double depth = dot(touch_ - tool_tip, press_.normal);
+  const double depth = dot(touch - tool_tip, normal);
   if (touching && pressing && !pushing)
-    state_.integral += h * (p.depth - depth) / hand_.integral_time;
+    state_.integral += p.load * h * (p.depth - depth) / hand_.integral_time;
   else
     state_.integral *= std::exp(-h / hand_.integral_time);
   const double series = hand_.stiffness * hand_.grip_stiffness / (hand_.stiffness + hand_.grip_stiffness);
-  const double expected = pressing ? std::max(0.0, p.depth) * kExpected / series : 0.0;
-  const Vec3 intent = p.position + unsteadiness(h) - n * (expected + state_.integral);
+  const double expected = pressing ? p.load * std::max(0.0, p.depth) * kExpected / series : 0.0;
+  const Vec3 intent = p.position + unsteadiness(t, h) - n * (expected + state_.integral);
 
   const Vec3 grip = hand_.grip_stiffness * (state_.hand - tool_tip).e() +
                     hand_.grip_damping * (state_.hand_velocity - tool_velocity).e();

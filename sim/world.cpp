@@ -19,17 +19,22 @@ const ToolSpec* held_tool(const SceneSpec& scene) {
   return named == scene.tools.end() ? &scene.tools.front() : &*named;
 }
 
-// The person points the tool along the surface normal: tip towards the surface, markers away from it.
-Quat tool_orientation(const ToolSpec& tool, const Vec3& normal) {
+// From the tool's tip to the middle of its markers, in T.
+Vec3 shaft_of(const ToolSpec& tool) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& marker : tool.markers) middle += marker / static_cast<double>(tool.markers.size());
-  const Vec3 shaft = middle - tool.tip;
-  return shaft.norm() > 1e-9 ? Quat::FromTwoVectors(shaft, normal) : Quat::Identity();
+  return middle - tool.tip;
 }
+
+// The person points the tool along the surface normal: tip towards the surface, markers away from it.
+Quat pointed(const Vec3& shaft_T, const Vec3& normal) {
+  return shaft_T.norm() > 1e-9 ? Quat::FromTwoVectors(shaft_T, normal) : Quat::Identity();
+}
+Quat tool_orientation(const ToolSpec& tool, const Vec3& normal) { return pointed(shaft_of(tool), normal); }
 
 std::optional<User> make_user(const WorldSpec& spec, const ToolSpec* tool) {
   if (tool == nullptr) return std::nullopt;
-  return User(spec.scene, *spec.scene.user, spec.twin.hand, tool->tip_radius, spec.seed);
+  return User(spec.scene, spec.prepared, spec.twin.hand, spec.seed);
 }
 
 // Built so that H would be W at the machine's zero, then put wrong: about W, so that a turn alone moves
@@ -58,10 +63,12 @@ BallContact probed_ball(const WorldSpec& spec) {
   return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
 }
 
-SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
+SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, std::int32_t other, const Quat& q_WT,
+                 const Pose<'W', 'R'>& X_WR) {
   const ToolSpec* clamped = clamped_tool(spec.scene);
   return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, clamped, clamped_pose(clamped), X_WR,
-                      spec.mjcf_dir, spec.draw_all});
+                      spec.mjcf_dir, spec.draw_all,
+                      other < 0 ? nullptr : &spec.scene.tools[static_cast<std::size_t>(other)]});
 }
 
 int whole_steps(const WorldSpec& spec) {
@@ -88,7 +95,7 @@ World::World(const WorldSpec& spec)
                                    enc::press_point(spec.scene, *spec.scene.user).normal.e())),
       X_HT_(clamped_pose(clamped_tool(spec.scene))),
       user_(make_user(spec, held_tool(spec.scene))),
-      physics_(model_of(spec, held_tool(spec.scene), q_WT_, X_WR_)) {
+      physics_(model_of(spec, held_tool(spec.scene), user_ ? user_->other_tool() : -1, q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
   if (spec.scene.tracker)
     tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);
@@ -117,19 +124,26 @@ World::World(const WorldSpec& spec)
   mass_behind_ = m->body_subtreemass[physics_.id(mjOBJ_BODY, "behind_sensor")];
   next_.dt = from_seconds(dt_);
   truth_.tip_radius = m->geom_size[3 * tip_geom_];
-  if (const ToolSpec* tool = held_tool(spec.scene)) {
-    tool_ = static_cast<std::int32_t>(tool - spec.scene.tools.data());
-    tip_T_ = tool->tip;
-    truth_.tool_radius = tool->tip_radius;
-    tool_body_ = physics_.id(mjOBJ_BODY, "tool");
-    tool_qpos_ = m->jnt_qposadr[m->body_jntadr[tool_body_]];
-    tool_qvel_ = m->jnt_dofadr[m->body_jntadr[tool_body_]];
-    std::copy_n(user_->start().xyz.begin(), 3, physics_.data()->qpos + tool_qpos_);
-  }
+  if (user_) find_tools(spec.scene);
   place_machine(machine.true_pose());
   if (legs) legs->drive(physics_.data(), leg_motion(), leg_motion(), dt_);
   mj_forward(physics_.model(), physics_.data());
   observe(next_.t);
+}
+
+void World::find_tools(const SceneSpec& scene) {
+  const mjModel* m = physics_.model();
+  const auto find = [&](std::int32_t index, const char* name, const Point<'W'>& at) {
+    const ToolSpec& tool = scene.tools[static_cast<std::size_t>(index)];
+    Held held{index, physics_.id(mjOBJ_BODY, name), 0, 0, tool.tip, shaft_of(tool), tool.tip_radius};
+    held.qpos = m->jnt_qposadr[m->body_jntadr[held.body]];
+    held.qvel = m->jnt_dofadr[m->body_jntadr[held.body]];
+    std::copy_n(at.xyz.begin(), 3, physics_.data()->qpos + held.qpos);
+    tools_.push_back(held);
+  };
+  find(user_->tool(), "tool", user_->start());
+  if (user_->other_tool() >= 0) find(user_->other_tool(), "other_tool", user_->spot(1));
+  truth_.tool_radius = tools_.front().radius;
 }
 
 // The platform's pose and velocity are prescribed. Not a mocap body: that has no velocity, so a contact with
@@ -155,16 +169,7 @@ LegMotion World::leg_motion() const {
 void World::physics_step(double t) {
   const double h = physics_.model()->opt.timestep;
   mjData* d = physics_.data();
-  if (user_) {
-    const double* q = d->qpos + tool_qpos_;
-    const double* v = d->qvel + tool_qvel_;
-    const Point<'W'> at(q[0], q[1], q[2]);
-    const Vec<'W'> moving(v[0], v[1], v[2]);
-    truth_.hand_force = user_->act(t, h, at, moving, truth_.touching);
-    double* applied = d->xfrc_applied + 6 * tool_body_;
-    for (std::size_t i = 0; i < 3; ++i) applied[i] = truth_.hand_force.xyz[i];
-    applied[2] += kGravity * physics_.model()->body_mass[tool_body_];  // the hand carries the tool
-  }
+  if (user_) hold_tools(t, h);
   const Pose<'W', 'H'> from = true_tip();
   if (legs) {
     const LegMotion wanted = leg_motion();
@@ -188,6 +193,29 @@ void World::physics_step(double t) {
     fatal_ = e.what();
   }
   if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
+}
+
+// The hand carries the tool that it holds; the other one lies still.
+void World::hold_tools(double t, double h) {
+  mjData* d = physics_.data();
+  const std::int32_t held = user_->tool();
+  Point<'W'> at = user_->state().hand;  // an empty hand feels nothing
+  Vec<'W'> moving = user_->state().hand_velocity;
+  for (const Held& tool : tools_) {
+    if (tool.index != held) continue;
+    const double* q = d->qpos + tool.qpos;
+    const double* v = d->qvel + tool.qvel;
+    at = Point<'W'>(q[0], q[1], q[2]);
+    moving = Vec<'W'>(v[0], v[1], v[2]);
+  }
+  truth_.hand_force = user_->act(t, h, at, moving, truth_.touching);
+  for (const Held& tool : tools_) {
+    double* applied = d->xfrc_applied + 6 * tool.body;
+    const bool carried = tool.index == held;
+    for (std::size_t i = 0; i < 3; ++i) applied[i] = carried ? truth_.hand_force.xyz[i] : 0.0;
+    applied[2] += kGravity * physics_.model()->body_mass[tool.body];
+    if (!carried) std::fill_n(d->qvel + tool.qvel, 3, 0.0);
+  }
 }
 
 // The ball pushes where the probe gets to in this step, so that force and pose of a tick belong together.
@@ -274,14 +302,23 @@ void World::observe(Time t) {
     truth_.phase = pusher->state().phase;
   }
   if (!user_) return;
-  const mjData* d = physics_.data();
-  const double* q = d->qpos + tool_qpos_;
-  const double* v = d->qvel + tool_qvel_;
+  truth_.press = user_->press();
+  truth_.phase = user_->phase();
+  truth_.approach_speed = user_->approach_speed();
+  truth_.aborted = user_->aborted();
+  truth_.tool = user_->tool();
+  truth_.tool_tip = user_->state().hand;
+  truth_.tool_velocity = user_->state().hand_velocity;
+  const auto in_hand =
+      std::find_if(tools_.begin(), tools_.end(), [&](const Held& tool) { return tool.index == truth_.tool; });
+  in_hand_ = in_hand == tools_.end() ? nullptr : &*in_hand;
+  if (in_hand_ == nullptr) return;
+  const double* q = physics_.data()->qpos + in_hand_->qpos;
+  const double* v = physics_.data()->qvel + in_hand_->qvel;
   truth_.tool_tip = Point<'W'>(q[0], q[1], q[2]);
   truth_.tool_velocity = Vec<'W'>(v[0], v[1], v[2]);
-  truth_.press = user_->state().press;
-  truth_.phase = user_->state().phase;
-  truth_.approach_speed = user_->approach_speed();
+  truth_.tool_radius = in_hand_->radius;
+  if (user_->turns()) q_WT_ = pointed(in_hand_->shaft_T, user_->shaft(seconds(t.time_since_epoch())).e());
 }
 
 void World::sense(Time t) {
@@ -297,9 +334,9 @@ void World::sense(Time t) {
                      Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
     force->measure(t, dt_, raw, inertia);
   }
-  if (tracker && tool_ >= 0) {
-    const Vec3 origin = truth_.tool_tip.e() - q_WT_ * tip_T_;
-    tracker->advance(t, tool_, Pose<'W', 'T'>(q_WT_, origin));
+  if (tracker && user_) {
+    const Vec3 tip_T = in_hand_ != nullptr ? in_hand_->tip_T : Vec3(Vec3::Zero());
+    tracker->advance(t, truth_.tool, Pose<'W', 'T'>(q_WT_, Vec3(truth_.tool_tip.e() - q_WT_ * tip_T)));
   } else if (tracker && clamped_ >= 0) {
     tracker->advance(t, clamped_, true_tip() * X_HT_);
   }

@@ -70,6 +70,8 @@ class World {
 
  private:
   void physics_step(double t);
+  void find_tools(const SceneSpec& scene);
+  void hold_tools(double t, double h);
   void place_machine(const Pose<'R', 'H'>& from);  // where it was; its state says how it moves
   [[nodiscard]] LegMotion leg_motion() const;      // that the servo wants
   void observe_machine();
@@ -90,13 +92,20 @@ class World {
   Pose<'W', 'R'> X_WR_;        // true
   Pose<'H', 'F'> X_HF_;
   Quat q_WT_ = Quat::Identity();
-  Vec3 tip_T_{0, 0, 0};
   Pose<'H', 'T'> X_HT_;  // how the clamped tool stands
   std::optional<User> user_;
   Physics physics_;
-  std::int32_t tool_ = -1;  // held by the user
-  int tool_body_ = -1, tip_geom_ = -1, tip_body_ = -1;
-  int platform_qpos_ = 0, platform_qvel_ = 0, tool_qpos_ = 0, tool_qvel_ = 0;
+  // A tool of the user's: its body, and what of it the tracker and the truth need.
+  struct Held {
+    std::int32_t index = -1;  // in the scene
+    int body = -1, qpos = 0, qvel = 0;
+    Vec3 tip_T, shaft_T;  // centre of its tip; from there to the markers
+    double radius = kUnset;
+  };
+  std::vector<Held> tools_;        // the one that it begins with, and the one that it changes to
+  const Held* in_hand_ = nullptr;  // of these; none: the hand is empty
+  int tip_geom_ = -1, tip_body_ = -1;
+  int platform_qpos_ = 0, platform_qvel_ = 0;
   double programme_time_ = 10.0;  // s
   double mass_behind_ = 0.0;      // the sensor, kg
   Tick next_;

@@ -1,0 +1,230 @@
+// A user's two minutes [VHMR 4.4], for many hands: is every press one contact, how well is it met, what does
+// the touch feel like, and what does a change of the tool do?
+#include "benchmarks/session/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/parallel.h"
+#include "benchmarks/statistics.h"
+#include "benchmarks/work_precision.h"
+#include "core/mode.h"
+#include "core/stages.h"
+
+namespace enc::bench {
+namespace {
+
+SessionSample sample_of(const Glance& glance) {
+  const sim::Truth& truth = glance.truth;
+  const double distance = stages::nearest(glance.scene.objects.front(), truth.tip).distance;
+  return {seconds(truth.t.time_since_epoch()),
+          truth.tool_velocity.norm(),
+          -(distance + truth.tip_radius),
+          glance.out.mode,
+          truth.phase,
+          truth.press,
+          truth.tool,
+          glance.out.view.tool};
+}
+
+SessionRun run_once(const models::Setup& setup, std::uint64_t seed, std::vector<SessionSample>* drawn) {
+  SessionMeasure measure(setup);
+  TrialOptions options;
+  options.seed = seed;
+  options.watch = [&](const Glance& glance) {
+    measure.see(glance);
+    if (drawn != nullptr) drawn->push_back(sample_of(glance));
+  };
+  SessionRun run;
+  run.simulated = Trial(setup, options).run().simulated;
+  run.presses = measure.presses();
+  run.change = measure.change();
+  run.tension = measure.tension();
+  run.beyond = measure.beyond_machine();
+  run.holds = measure.holds();
+  run.hold_reasons = measure.hold_reasons();
+  run.ticks = measure.ticks();
+  return run;
+}
+
+class Figures {
+ public:
+  Figures(const std::vector<SessionRun>& runs, BenchResult& result) : runs_(runs), result_(result) {}
+
+  void add_counts();
+  void add_distributions();
+  void add_machine();
+  void add_change(double packet_rate);
+
+ private:
+  void add(const std::string& id, double twin, const char* unit, double low, double high,
+           const std::string& note, double least = kUnset, double most = kUnset) {
+    result_.figures.push_back(
+        {"session." + id, kUnset, twin, unit, Role::ours, low, high, note, least, most});
+  }
+  // `of` is NaN where a press has none of it.
+  template <class Of>
+  void distribution(const std::string& id, const char* unit, const std::string& note, Of of,
+                    const std::vector<std::pair<const char*, double>>& shares);
+  template <class Use>
+  void each_press(Use use) const {
+    for (const SessionRun& run : runs_)
+      for (const SessionPress& press : run.presses) use(press);
+  }
+
+  const std::vector<SessionRun>& runs_;
+  BenchResult& result_;
+};
+
+void Figures::add_counts() {
+  std::int64_t presses = 0, single = 0, none = 0, aborted = 0, in_aborted = 0, bounces = 0, longest = 0,
+               bounced = 0;
+  each_press([&](const SessionPress& press) {
+    if (press.aborted) {
+      ++aborted;
+      in_aborted += press.contacts;
+      return;
+    }
+    ++presses;
+    single += press.contacts == 1 ? 1 : 0;
+    none += press.contacts == 0 ? 1 : 0;
+    bounced += press.long_bounces > 0 ? 1 : 0;
+    longest = std::max<std::int64_t>(longest, press.long_bounces);
+    bounces = std::max<std::int64_t>(bounces, press.bounces);
+  });
+  add("presses.one_contact_percent",
+      presses > 0 ? 100.0 * static_cast<double>(single) / static_cast<double>(presses) : kUnset, "%", 100,
+      100, fmt::format("{} presses of {} hands; {} without a contact", presses, runs_.size(), none));
+  add("aborted.contacts", static_cast<double>(in_aborted), "", 0, 0,
+      fmt::format("in {} reaches that turn back before the touch", aborted));
+  add("bounces.max", static_cast<double>(bounces), "", kUnset, kUnset,
+      "true contact lost and regained within 200 ms, in one press: rattle of the hard tips for some ms, too");
+  add("bounces_of_20_ms.max", static_cast<double>(longest), "", kUnset, kUnset,
+      fmt::format("the same, lost for 20 ms or more; {} of the presses have any", bounced));
+}
+
+template <class Of>
+void Figures::distribution(const std::string& id, const char* unit, const std::string& note, Of of,
+                           const std::vector<std::pair<const char*, double>>& shares) {
+  std::vector<double> values;
+  each_press([&](const SessionPress& press) {
+    const double value = of(press);
+    if (!press.aborted && !std::isnan(value)) values.push_back(value);
+  });
+  if (values.empty()) return;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  for (const auto& [name, share] : shares)
+    add(id + "." + name, percentile(values, share), unit, kUnset, kUnset,
+        fmt::format("{}; {} presses", note, values.size()), *least, *most);
+}
+
+void Figures::add_distributions() {
+  const std::vector<std::pair<const char*, double>> all{{"p50", 0.5}, {"p95", 0.95}, {"max", 1.0}};
+  distribution(
+      "miss_mm", "mm", "true tool tip to haptic-tip where the tool meets the surface, inset included",
+      [](const SessionPress& p) { return p.miss * 1e3; }, all);
+  distribution("delay_ms", "ms", "from meeting the surface to the first true force",
+               [](const SessionPress& p) { return p.delay * 1e3; }, {{"p50", 0.5}, {"p95", 0.95}});
+  distribution(
+      "impact_N", "N",
+      "largest force beyond the ball's own at the same true deflection, 100 ms from the touch",
+      [](const SessionPress& p) { return p.impact; }, all);
+  distribution("touch_mm_s", "mm/s", "true speed of the tool where it meets the surface",
+               [](const SessionPress& p) { return p.touch_speed * 1e3; },
+               {{"p05", 0.05}, {"p50", 0.5}, {"p95", 0.95}});
+}
+
+void Figures::add_machine() {
+  std::int64_t beyond = 0, holds = 0, ticks = 0;
+  double over = -kInfinite, tension = 0.0;
+  std::uint32_t reasons = 0;
+  for (const SessionRun& run : runs_) {
+    beyond += run.beyond;
+    holds += run.holds;
+    ticks += run.ticks;
+    reasons |= run.hold_reasons;
+    tension = std::max(tension, run.tension);
+  }
+  each_press([&](const SessionPress& press) { over = std::max(over, press.over_limit); });
+  add("command.over", static_cast<double>(beyond), "", 0, 0,
+      fmt::format("set-points beyond the machine's speed, acceleration or reach, of {} ticks", ticks));
+  add("limit.over_mm", std::isfinite(over) ? over * 1e3 : kUnset, "mm", kUnset, 0.05,
+      "true deflection above the limit, largest");
+  add("tension_N", tension, "N", 0, 0.05, "pull on the unbound tool, largest");
+  add("hold.share", static_cast<double>(holds) / static_cast<double>(ticks), "", kUnset, kUnset,
+      holds == 0 ? "of the time" : "of the time; why: " + why_text(reasons));
+}
+
+void Figures::add_change(double packet_rate) {
+  double periods = kUnset, exposure = kUnset, force = 0.0, given = 0.0;
+  std::int64_t changes = 0, contacts = 0, missed = 0;
+  for (const SessionRun& run : runs_) {
+    if (std::isnan(run.change.seen_at)) continue;
+    ++changes;
+    if (std::isnan(run.change.switched_at)) {
+      ++missed;
+      continue;
+    }
+    periods = std::fmax(periods, (run.change.switched_at - run.change.seen_at) * packet_rate);
+    exposure = std::fmax(exposure, run.change.switched_at - run.change.exposed_at);
+    force = std::max(force, run.change.force);
+    given = std::max(given, run.change.given);
+    contacts += run.change.contacts;
+  }
+  if (changes == 0) return;  // too short, or the scene has no other tool
+  add("tool_change.periods.max", missed == 0 ? periods : kInfinite, "periods", kUnset, 1,
+      fmt::format(
+          "of the tracker's packets, from the first pose of the new tool at the core to the overlay's "
+          "switch; {} changes",
+          changes));
+  add("tool_change.exposure_ms.max", exposure * 1e3, "ms", kUnset, kUnset,
+      "the same from when that pose was taken: the tracker's chain");
+  add("tool_change.force_N.max", force, "N", 0, 0.2,
+      "true, from laying one tool down until the other is there");
+  add("tool_change.displacement_um.max", given * 1e6, "um", 0, 0, "of the contact, as commanded, meanwhile");
+  add("tool_change.contacts", static_cast<double>(contacts), "", 0, 0, "begun meanwhile");
+}
+
+// Drift is drawn anew at each physics step and would differ from step to step; all else is the same hand.
+void add_precision(const BenchContext& context, BenchResult& result) {
+  constexpr double kAccuracy = 20e-6;  // m rms: a fiftieth of the median miss
+  constexpr double kTime = 8.0;        // s: a reach, a press, and the next reach
+  for (const char* law : {"energy_stop", "prandtl_ishlinskii"})
+    add_work_precision({std::string("session.") + law,
+                        "session",
+                        {"truth.hand.drift_mm=0", std::string("behaviour.tennis_ball.reversal=") + law},
+                        kTime,
+                        kAccuracy},
+                       context, result);
+}
+
+}  // namespace
+
+BenchResult run_session(const BenchContext& context) {
+  BenchResult result{"session", "session", 0, 0, {}};
+  std::vector<std::string> set;
+  if (context.quick) set = {"user.session.duration_s=10", "user.session.change_share=[0.1, 0.2]"};
+  set.insert(set.end(), context.set.begin(), context.set.end());
+  const models::Setup setup = models::load(context.models + "/scenes/session.toml", "sim", set);
+  const auto hands =
+      static_cast<std::size_t>(context.repeats > 0 ? context.repeats : (context.quick ? 2 : 20));
+  std::vector<SessionRun> runs(hands);
+  std::vector<SessionSample> drawn;
+  in_parallel(
+      hands, [&](std::size_t i) { runs[i] = run_once(setup, context.seed + i, i == 0 ? &drawn : nullptr); },
+      context.progress);
+  for (const SessionRun& run : runs) result.simulated += run.simulated;
+  Figures figures(runs, result);
+  figures.add_counts();
+  figures.add_distributions();
+  figures.add_machine();
+  const sim::TrackerTruth& tracker = setup.twin.tracker;
+  figures.add_change(tracker.packets == sim::Packets::polled ? tracker.server_rate : tracker.rate);
+  add_session_plots(runs, drawn, result);
+  if (context.full) add_precision(context, result);
+  return result;
+}
+
+}  // namespace enc::bench

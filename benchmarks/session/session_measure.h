@@ -1,0 +1,68 @@
+// What the presses of a session were, judged by the truth: the encounter, what the hand felt of it, and what
+// the change of the tool did.
+#pragma once
+
+#include <vector>
+
+#include "benchmarks/press_measure.h"
+
+namespace enc::bench {
+
+// One reach, and the press after it unless it turned back.
+struct SessionPress {
+  bool aborted = false;
+  std::int32_t tool = -1;
+  Vec3 normal = Vec3::Zero();            // of the place, in W: at the tool when it was nearest
+  double nearest = kInfinite;            // m, of the tool's tip to the surface; negative inside
+  double miss = kUnset, delay = kUnset;  // m, s: PressFigures
+  double touch_speed = kUnset;           // m/s, true, of the tool when it meets the surface
+  double impact = kUnset;  // N: most of force less the object's own at that deflection, 0.1 s from the touch
+  double peak_force = 0.0, over_limit = -kInfinite;  // N, m: PressFigures
+  std::int32_t contacts = 0;                         // of the core
+  std::int32_t bounces = 0,
+               long_bounces = 0;  // contact lost and regained within 0.2 s; lost for 20 ms or more
+};
+
+// The change of the tool, from laying one down until the first reach with the other.
+struct ToolChange {
+  double seen_at = kUnset;      // s: the first pose of the new tool reaches the core
+  double exposed_at = kUnset;   // s: and was taken then
+  double switched_at = kUnset;  // s: the overlay shows it
+  double force = 0.0;           // N, true, largest
+  double given = 0.0;           // m, commanded displacement of the contact, largest
+  std::int32_t contacts = 0;
+};
+
+class SessionMeasure {
+ public:
+  explicit SessionMeasure(const models::Setup& setup) : setup_(setup), presses_(setup) {}
+  void see(const Glance& glance);
+  // All that have begun, the figures of PressMeasure filled in.
+  [[nodiscard]] std::vector<SessionPress> presses() const;
+  [[nodiscard]] const ToolChange& change() const { return change_; }
+  [[nodiscard]] double tension() const { return presses_.greatest_tension(); }  // N
+  [[nodiscard]] std::int64_t beyond_machine() const { return beyond_; }  // ticks with a command beyond it
+  [[nodiscard]] std::int64_t holds() const { return holds_; }            // ticks in hold
+  [[nodiscard]] std::uint32_t hold_reasons() const { return hold_reasons_; }
+  [[nodiscard]] std::int64_t ticks() const { return ticks_; }
+
+ private:
+  void see_command(const Glance& glance);
+  void see_press(const Glance& glance);
+  void see_touch(const Glance& glance, SessionPress& press, const Object& object);
+  void see_change(const Glance& glance);
+
+  const models::Setup& setup_;
+  PressMeasure presses_;
+  std::vector<SessionPress> seen_;
+  ToolChange change_;
+  double touched_at_ = kUnset, lost_at_ = kUnset;  // s
+  bool touching_ = false;
+  std::int32_t tool_before_ = -1, contacts_before_ = 0;
+  Point<'R'> command_;
+  Vec3 command_velocity_ = Vec3::Zero();
+  std::int64_t beyond_ = 0, holds_ = 0, ticks_ = 0;
+  std::uint32_t hold_reasons_ = 0;
+};
+
+}  // namespace enc::bench
