@@ -48,6 +48,7 @@ class User {
     Vec3 position, velocity, acceleration;
     double depth = 0.0;  // m, below the surface
   };
+  [[nodiscard]] double wanted_depth() const;  // of this press, m
   [[nodiscard]] double phase_time(Phase phase) const;
   [[nodiscard]] Plan plan(double since) const;
   [[nodiscard]] Plan approach(double since) const;

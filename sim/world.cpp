@@ -277,11 +277,22 @@ void World::observe(Time t) {
   const mjData* d = physics_.data();
   const double* q = d->qpos + tool_qpos_;
   const double* v = d->qvel + tool_qvel_;
-  truth_.tool_tip = Point<'W'>(q[0], q[1], q[2]);
+  truth_.tool_tip = Point<'W'>(q[0], q[1], q[2]) + twin_.contact.compliance * truth_.contact_force;
   truth_.tool_velocity = Vec<'W'>(v[0], v[1], v[2]);
   truth_.press = user_->state().press;
   truth_.phase = user_->state().phase;
   truth_.approach_speed = user_->approach_speed();
+}
+
+// The tool tilts about its tip. Under load its markers go on where its tip stops.
+Pose<'W', 'T'> World::held_tool_pose(double t) const {
+  Quat q = q_WT_;
+  if (twin_.hand.tilt != 0.0) {
+    const double angle = twin_.hand.tilt * std::sin(2.0 * M_PI * twin_.hand.tilt_rate * t);
+    q = Quat(Eigen::AngleAxisd(angle, (q_WT_ * tip_T_).unitOrthogonal())) * q_WT_;
+  }
+  const Vec3 bent = twin_.contact.flexure * truth_.contact_force.e();
+  return {q, Vec3(truth_.tool_tip.e() - q * tip_T_ + bent)};
 }
 
 void World::sense(Time t) {
@@ -298,8 +309,7 @@ void World::sense(Time t) {
     force->measure(t, dt_, raw, inertia);
   }
   if (tracker && tool_ >= 0) {
-    const Vec3 origin = truth_.tool_tip.e() - q_WT_ * tip_T_;
-    tracker->advance(t, tool_, Pose<'W', 'T'>(q_WT_, origin));
+    tracker->advance(t, tool_, held_tool_pose(seconds(t.time_since_epoch())));
   } else if (tracker && clamped_ >= 0) {
     tracker->advance(t, clamped_, true_tip() * X_HT_);
   }
