@@ -19,6 +19,14 @@ Point<'W'> haptic_tip_ahead(const stages::Walk& walk, const State& state) {
   return over > 0.0 ? tip + over * (state.contact.X_WN * Vec<'N'>(0, 0, 1)) : tip;
 }
 
+// The same of a tool that does not press, by the tracker's prediction; where it holds, nothing is ahead.
+Point<'W'> free_tip_ahead(const stages::Walk& walk, const State& state) {
+  const TrackerRig& rig = walk.scene.tracker;
+  if (rig.prediction == Prediction::hold) return walk.tool_tip;
+  const Time then = walk.tick.t + from_seconds(walk.scene.display.lead);
+  return walk.tool_tip + (predict(rig, state.tip_motion, then) - predict(rig, state.tip_motion, walk.tick.t));
+}
+
 }  // namespace
 
 Point<'W'> touching(const Point<'W'>& haptic_tip, double apart, const Point<'W'>& believed) {
@@ -34,15 +42,18 @@ double pressing_share(double pressing_force, double contact_force) {
 SeenTool seen_tool(const stages::Walk& walk, const State& state) noexcept {
   const DisplayRig& rig = walk.scene.display;
   if (rig.tip == SeenTip::tracked) return {walk.X_WT_newest, walk.tip_newest};
-  const SeenTool predicted{walk.X_WT, walk.tool_tip};
-  const bool pressed = state.mode == Mode::contact && walk.force.finite() && walk.X_WH.valid();
-  if (rig.tip == SeenTip::predicted || !walk.tool_known || !pressed) return predicted;
-  const double force = -dot(walk.force, state.contact.X_WN * Vec<'N'>(0, 0, 1));
-  const double share = pressing_share(force, walk.scene.force.contact);
-  const double apart = walk.tool_radius + walk.scene.tip_radius - rig.compliance * std::max(0.0, force);
-  // The direction from now, the place from then.
-  const Vec<'W'> beside = touching(walk.X_WH.origin(), apart, walk.tool_tip) - walk.X_WH.origin();
-  const Vec<'W'> shift = share * (haptic_tip_ahead(walk, state) + beside - walk.tool_tip);
+  if (rig.tip == SeenTip::predicted || !walk.tool_known) return {walk.X_WT, walk.tool_tip};
+  const Point<'W'> free = free_tip_ahead(walk, state);
+  Vec<'W'> shift = free - walk.tool_tip;
+  if (state.mode == Mode::contact && walk.felt.finite() && walk.X_WH.valid()) {
+    // Before the low-pass: a tool that has left is not to be held back by what was felt of it.
+    const double force = -dot(walk.felt, state.contact.X_WN * Vec<'N'>(0, 0, 1));
+    const double apart = walk.tool_radius + walk.scene.tip_radius - rig.compliance * std::max(0.0, force);
+    // The direction from now, the place from then.
+    const Vec<'W'> beside = touching(walk.X_WH.origin(), apart, walk.tool_tip) - walk.X_WH.origin();
+    const double share = pressing_share(force, walk.scene.force.contact);
+    shift = shift + share * (haptic_tip_ahead(walk, state) + beside - free);
+  }
   return {{walk.X_WT.q(), walk.X_WT.origin() + shift}, walk.tool_tip + shift};
 }
 

@@ -61,24 +61,17 @@ Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, d
   }
 }
 
-// The object's, `asked`, or the behaviour's where that is unset.
-double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object, double asked) {
+double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
   const double curve = behaviour.curves.limit;
   const double own = std::isnan(behaviour.limit) ? curve : behaviour.limit;
+  const auto [least, most] = std::minmax_element(object.limits.begin(), object.limits.end());
+  const double asked = object.limits.empty() ? object.limit : *most;
   const double limit = std::isnan(asked) ? own : asked;
-  if (!(limit > 0.0) || limit > curve * (1.0 + 1e-12))
-    throw Error("the deflection limit lies between 0 and that of the response",
+  const double smallest = object.limits.empty() ? limit : *least;
+  if (!(smallest > 0.0) || limit > curve * (1.0 + 1e-12) || object.limits.size() > ContactLimits::kMost)
+    throw Error("the deflection limit lies between 0 and that of the response, for at most 16 contacts",
                 "object." + object.name + (object.limits.empty() ? ".limit" : ".limits"));
   return limit;
-}
-
-// All that are asked for.
-std::vector<double> limits_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
-  std::vector<double> all = object.limits.empty() ? std::vector<double>{object.limit} : object.limits;
-  if (all.size() > ContactLimits::kMost)
-    throw Error("at most 16 contacts have a limit of their own", "object." + object.name + ".limits");
-  for (double& limit : all) limit = limit_of(behaviour, object, limit);
-  return all;
 }
 
 // The deflection, at most `wanted`, up to which the object pushes back with no more than `strength`: the
@@ -99,23 +92,25 @@ Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest
   if (behaviour.tangential == Tangential::spring && behaviour.tangential_stiffness < lowest_slope)
     throw Error("behaviour '" + behaviour.name + "' gives sideways more than the loop renders stably",
                 "object." + spec.name + ".behaviour");
-  std::vector<double> limits = limits_of(behaviour, spec);
-  if (*std::min_element(limits.begin(), limits.end()) < scene.follow.inset)
+  const auto too_shallow = [&](double limit) { return limit < scene.follow.inset; };
+  if (too_shallow(limit_of(behaviour, spec)) ||
+      std::any_of(spec.limits.begin(), spec.limits.end(), too_shallow))
     throw Error("the tip waits deeper than the deflection limit of object '" + spec.name +
                     "'; make the inset smaller",
                 "follow.inset");
   const Response response = response_of(behaviour, spec, lowest_slope);
-  const double wanted = *std::max_element(limits.begin(), limits.end());
+  const double wanted = limit_of(behaviour, spec);
   const double limit = carried(response, wanted, strength);
   if (limit < scene.follow.inset)
     throw Error("object '" + spec.name + "' is too hard: the machine could not carry the force at its inset",
                 "object." + spec.name + ".behaviour");
+  std::vector<double> limits = spec.limits;
+  for (double& one : limits) one = std::min(one, limit);
   Object object{surface_of(spec),     place_of(spec),
                 response,             limit,
                 wanted,               behaviour.tangential,
                 behaviour.tangential_stiffness};
-  for (double& one : limits) one = std::min(one, limit);
-  if (!spec.limits.empty()) object.limits = ContactLimits(limits);
+  object.limits = ContactLimits(limits);
   return object;
 }
 

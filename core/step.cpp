@@ -30,9 +30,8 @@ void report(const stages::Walk& walk, const State& state, Outputs& out) {
   out.first_touch =
       engaged ? state.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - stages::kSkin) : Point<'W'>();
   const SeenTool seen = seen_tool(walk, state);
-  out.view = {walk.tick.t,  walk.tool_known ? state.tool.value.tool : -1,
-              state.object, seen.X_WT,
-              seen.tip,     out.mode};
+  out.view = {walk.tick.t, walk.tool_known ? state.tool.value.tool : -1, state.object, seen.X_WT, seen.tip,
+              out.mode};
 }
 
 }  // namespace

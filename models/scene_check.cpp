@@ -55,12 +55,12 @@ void check_real(const Setup& setup, const ObjectSpec& o) {
                     "like 'behaviour = \"tennis_ball\"'",
                     quoted(o.name)));
   }
-  if (!std::isnan(o.limit)) {
-    fail(
-        setup, path + ".limit_mm",
-        fmt::format("object {} is real and has a 'limit_mm'; expected none, or a 'behaviour' that it limits; "
-                    "remove it",
-                    quoted(o.name)));
+  if (!std::isnan(o.limit) || !o.limits.empty()) {
+    const char* key = o.limits.empty() ? "limit_mm" : "limits_mm";
+    fail(setup, fmt::format("{}.{}", path, key),
+         fmt::format("object {} is real and has a '{}'; expected none, or a 'behaviour' that it limits; "
+                     "remove it",
+                     quoted(o.name), key));
   }
 }
 

@@ -100,12 +100,16 @@ void describe(Visitor& v, TrackerRig& t) {
 
 void describe(Visitor& v, DisplayRig& d) {
   driver(v, d.driver);
-  choice(v,
-         {"tip",
-          "what dents the seen surface: the newest pose; that carried on; or, while it presses, the haptic-tip",
-          "docs/synchrony.md", chosen},
-         kSeenTips, d.tip);
-  v.value({"lead_ms", "fused: how far ahead; half a frame and the way back", "docs/synchrony.md", chosen,
+  choice(
+      v,
+      {"tip",
+       "what dents the seen surface: the newest pose; that carried on; or, while it presses, the haptic-tip",
+       "docs/synchrony.md", chosen},
+      kSeenTips, d.tip);
+  v.value({"lead_ms",
+           "fused: how far ahead; half a frame and the way back",
+           "docs/synchrony.md",
+           chosen,
            {0.0, 200.0}},
           &d.lead);
   v.value({"compliance_um_per_N", "fused: believed of tool and haptic-tip where they touch",

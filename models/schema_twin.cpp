@@ -177,8 +177,9 @@ void describe(Visitor& v, sim::HandTruth& h) {
   v.value({"tremor_mm", "rms", "parameters 5.2", assumed, kNotNegative}, &h.tremor);
   v.value({"tremor_rate_hz", "of the tremor", "parameters 5.2", published, kPositive}, &h.tremor_rate);
   v.value({"drift_mm", "rms, below 2 Hz", "parameters 5.2", assumed, kNotNegative}, &h.drift);
-  v.value({"tilt_deg", "of the tool about its tip, to either side", "docs/synchrony.md", assumed, {0.0, 45.0}},
-          &h.tilt);
+  v.value(
+      {"tilt_deg", "of the tool about its tip, to either side", "docs/synchrony.md", assumed, {0.0, 45.0}},
+      &h.tilt);
   v.value({"tilt_rate_hz", "of that tilting", "docs/synchrony.md", assumed, kNotNegative}, &h.tilt_rate);
 }
 

@@ -34,8 +34,7 @@ double lag_of(std::span<const double> earlier, std::span<const double> later, do
   const Signal b(later.data(), n);
   std::vector<double> all;
   all.reserve(static_cast<std::size_t>(2 * reach + 1));
-  for (Eigen::Index shift = -reach; shift <= reach; ++shift)
-    all.push_back(correlation(a, b, reach, shift));
+  for (Eigen::Index shift = -reach; shift <= reach; ++shift) all.push_back(correlation(a, b, reach, shift));
   const auto best = std::max_element(all.begin(), all.end());
   if (std::isnan(*best) || best == all.begin() || best + 1 == all.end()) return kUnset;
   const double before = *(best - 1), at = *best, after = *(best + 1);

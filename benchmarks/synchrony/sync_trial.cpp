@@ -36,8 +36,7 @@ class SyncMeasure {
     s.contact = g.out.mode == Mode::contact;
     s.haptic = haptic_deflection(g, object);
     s.visual = visual_deflection(g.in);
-    s.truth =
-        std::max(0.0, g.truth.tool_radius - stages::nearest(object, g.truth.tool_tip).distance);
+    s.truth = std::max(0.0, g.truth.tool_radius - stages::nearest(object, g.truth.tool_tip).distance);
     s.force = g.truth.contact_force.norm();
     s.news = g.in.dent.t != packet_;
     packet_ = g.in.dent.t;
@@ -45,8 +44,8 @@ class SyncMeasure {
     run.contacts = g.out.contacts;
     run.held = run.held || g.out.mode == Mode::hold;
     if (g.truth.touching)
-      run.given = std::max(run.given, g.truth.tool_radius + g.truth.tip_radius -
-                                          (g.truth.tool_tip - g.truth.tip).norm());
+      run.given = std::max(
+          run.given, g.truth.tool_radius + g.truth.tip_radius - (g.truth.tool_tip - g.truth.tip).norm());
     watch_limit(g, object);
   }
   SyncRun run;
@@ -116,6 +115,16 @@ SyncErrors SyncRun::with_rests() const {
 
 double SyncRun::lag() const { return lag_behind(samples, &SyncSample::haptic); }
 double SyncRun::truth_lag() const { return lag_behind(samples, &SyncSample::truth); }
+
+double SyncRun::peak_speed() const {
+  constexpr std::size_t kOver = 20;  // samples
+  double most = 0.0;
+  for (std::size_t i = kOver; i < samples.size(); ++i)
+    if (samples[i - kOver].contact && samples[i].contact)
+      most = std::max(
+          most, (samples[i].haptic - samples[i - kOver].haptic) / (samples[i].t - samples[i - kOver].t));
+  return most;
+}
 
 SyncRun run_sync(const models::Setup& setup, std::uint64_t seed) {
   SyncMeasure measure;

@@ -38,8 +38,9 @@ struct SyncRun {
   [[nodiscard]] SyncErrors against_truth() const;
   // The same over all cycles from the first to the last contact, rests included.
   [[nodiscard]] SyncErrors with_rests() const;
-  [[nodiscard]] double lag() const;        // s, visual behind haptic
-  [[nodiscard]] double truth_lag() const;  // s, visual behind truth
+  [[nodiscard]] double lag() const;         // s, visual behind haptic
+  [[nodiscard]] double truth_lag() const;   // s, visual behind truth
+  [[nodiscard]] double peak_speed() const;  // m/s, of the haptic-tip inwards, over 20 ms
   // Largest approach of the two tips' centres over the sum of their radii, m: what gives in the contact.
   double given = 0.0;
 };

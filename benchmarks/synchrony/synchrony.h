@@ -1,6 +1,7 @@
 // What the benchmark `synchrony` has run, for its figures, tables and plots. Internal to it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct SyncSummary {
   double lag = kUnset, truth_lag = kUnset;  // s
   std::array<double, 3> over{};             // m, of each press
   double given = 0.0;                       // m
+  double peak_speed = kUnset;               // m/s
   std::int32_t contacts = 0;
   bool held = false;
 };
@@ -48,18 +50,19 @@ struct SyncGroup {
 
 // On which side of the way in the tracker's static bias is, along z [VHMR Table 1 gives no sign].
 inline constexpr std::array<const char*, 3> kBiasSides{"deeper", "shallower", "none"};
-inline constexpr std::array<double, 3> kPressTimes{0.8, 1.2, 2.4};  // s [fidelity 2]
-inline constexpr std::array<int, 4> kRates{30, 60, 90, 120};        // Hz
+inline constexpr std::array<double, 4> kPressTimes{0.8, 1.2, 1.7, 2.4};  // s
+inline constexpr std::array<int, 4> kRates{30, 60, 90, 120};             // Hz
 
 struct SyncStudy {
-  SyncGroup paper;                                 // the paper's pipeline, calibrated
-  std::array<std::array<SyncGroup, 3>, 3> presses;  // [bias side][press time]
+  SyncGroup paper;  // the paper's pipeline, calibrated
+  std::array<std::array<SyncGroup, kPressTimes.size()>, kBiasSides.size()>
+      presses;  // [bias side][press time]
   std::array<SyncGroup, 4> rates;
-  SyncGroup later;      // the display 10 ms later
-  SyncGroup predicted;  // the loop's own predicted tool
+  SyncGroup later;              // the display 10 ms later
+  SyncGroup predicted;          // the loop's own predicted tool
   SyncGroup fused, late_fused;  // with and without looking ahead, nothing gives
   // Where tool and contact give, and the tool tilts:
-  SyncGroup giving_paper, giving_fused, giving_late_fused, giving_known;
+  SyncGroup giving_paper, giving_fused, giving_late_fused, giving_known, giving_blind;
   double paper_mae = kUnset, paper_rmse = kUnset;  // m, as printed
 };
 
