@@ -161,7 +161,7 @@ void add_figure_13(const SyncStudy& study, BenchResult& result) {
       "The machine stops the presses at 6, 4 and 2 mm. The visual tip comes later and in steps, as frames "
       "do."));
   result.plots.push_back(deflections(
-      "synchrony_fig13_held", "Zoom i: the first press, held", run, middle - 0.15, middle + 0.15,
+      "synchrony_fig13_held", "Zoom i: the first press, held", run, middle, middle + 0.4,
       "At the limit the haptic-tip stands; the visual tip shows the tracker's jitter, the hand's tremor and "
       "the registration's bias."));
   result.plots.push_back(deflections(
