@@ -8,25 +8,26 @@ namespace enc::stages {
 namespace {
 
 // Sideways give of the contact point, never more than the deflection limit.
-Vec3 tangential_give(const Object& object, const Vec<'N'>& force) {
+Vec3 tangential_give(const Object& object, const Vec<'N'>& force, double limit) {
   if (object.tangential == Tangential::stick) return Vec3::Zero();
   Vec3 give(force.xyz[0] / object.tangential_stiffness, force.xyz[1] / object.tangential_stiffness, 0.0);
   const double size = give.norm();
-  return size > object.limit ? Vec3(give * (object.limit / size)) : give;
+  return size > limit ? Vec3(give * (limit / size)) : give;
 }
 
 // What the object carries of the pressing force; the rest is the damper's.
-double carried(const Walk& walk, const Object& object, Contact& contact, double force, double pressed) {
+double carried(const Walk& walk, const Object& object, Contact& contact, double force, double pressed,
+               double limit) {
   if (!walk.scene.damping) return pressed;
   const DampingLaw& law = *walk.scene.damping;
   Swing& swing = contact.swing;
   const double depth = -(contact.X_WN.inverse() * walk.X_WH.origin()).xyz[2] - walk.scene.tip_radius;
   if (std::isnan(swing.depth)) {
-    const double near = 1e-3 * object.limit;
+    const double near = 1e-3 * limit;
     swing = law.begin(object.response.press(near) / near, force, depth);
   }
   const double damping = law.observe(swing, force, depth);
-  swing.carried = law.carry(object.response, contact.response, swing.carried, pressed, damping, object.limit);
+  swing.carried = law.carry(object.response, contact.response, swing.carried, pressed, damping, limit);
   return swing.carried;
 }
 
@@ -44,12 +45,13 @@ void model(Walk& walk, State& state) noexcept {
   const Object& object = walk.scene.objects[static_cast<std::size_t>(contact.object)];
   const Vec<'N'> force = contact.X_WN.inverse() * walk.force;
   const double pressed = std::max(0.0, -force.xyz[2] - walk.scene.force.threshold);
+  const double limit = object.limit_at(state.contacts);
   const double deflection = object.response.deflection(
-      contact.response, carried(walk, object, contact, -force.xyz[2], pressed), object.limit);
-  if (deflection >= object.limit) walk.why |= kAtLimit;
+      contact.response, carried(walk, object, contact, -force.xyz[2], pressed, limit), limit);
+  if (deflection >= limit) walk.why |= kAtLimit;
   // The limit is such that the object never asks for this much (scene.cpp): the target stays where it is.
   if (pressed > walk.scene.strength) walk.why |= kOverload;
-  const Vec3 sideways = tangential_give(object, force);
+  const Vec3 sideways = tangential_give(object, force, limit);
   contact.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
 }
 

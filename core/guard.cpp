@@ -117,7 +117,7 @@ Walls walls_around(const Walk& walk, State& state) {
       nearest(walk.scene, state.object, walk.scene.X_WR * state.command, state.hints.command);
   const double depth = -(at.distance + walk.scene.tip_radius);
   Walls walls{at.normal.e(), depth - kSkin};
-  if (state.mode == Mode::contact) walls.in = object.limit + kSkin - depth;
+  if (state.mode == Mode::contact) walls.in = object.limit_at(state.contacts) + kSkin - depth;
   return walls;
 }
 

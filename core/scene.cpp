@@ -64,10 +64,13 @@ Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, d
 double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
   const double curve = behaviour.curves.limit;
   const double own = std::isnan(behaviour.limit) ? curve : behaviour.limit;
-  const double limit = std::isnan(object.limit) ? own : object.limit;
-  if (!(limit > 0.0) || limit > curve * (1.0 + 1e-12))
-    throw Error("the deflection limit lies between 0 and that of the response",
-                "object." + object.name + ".limit");
+  const auto [least, most] = std::minmax_element(object.limits.begin(), object.limits.end());
+  const double asked = object.limits.empty() ? object.limit : *most;
+  const double limit = std::isnan(asked) ? own : asked;
+  const double smallest = object.limits.empty() ? limit : *least;
+  if (!(smallest > 0.0) || limit > curve * (1.0 + 1e-12) || object.limits.size() > ContactLimits::kMost)
+    throw Error("the deflection limit lies between 0 and that of the response, for at most 16 contacts",
+                "object." + object.name + (object.limits.empty() ? ".limit" : ".limits"));
   return limit;
 }
 
@@ -89,7 +92,9 @@ Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest
   if (behaviour.tangential == Tangential::spring && behaviour.tangential_stiffness < lowest_slope)
     throw Error("behaviour '" + behaviour.name + "' gives sideways more than the loop renders stably",
                 "object." + spec.name + ".behaviour");
-  if (limit_of(behaviour, spec) < scene.follow.inset)
+  const auto too_shallow = [&](double limit) { return limit < scene.follow.inset; };
+  if (too_shallow(limit_of(behaviour, spec)) ||
+      std::any_of(spec.limits.begin(), spec.limits.end(), too_shallow))
     throw Error("the tip waits deeper than the deflection limit of object '" + spec.name +
                     "'; make the inset smaller",
                 "follow.inset");
@@ -99,13 +104,14 @@ Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest
   if (limit < scene.follow.inset)
     throw Error("object '" + spec.name + "' is too hard: the machine could not carry the force at its inset",
                 "object." + spec.name + ".behaviour");
-  return {surface_of(spec),
-          place_of(spec),
-          response,
-          limit,
-          wanted,
-          behaviour.tangential,
-          behaviour.tangential_stiffness};
+  std::vector<double> limits = spec.limits;
+  for (double& one : limits) one = std::min(one, limit);
+  Object object{surface_of(spec),     place_of(spec),
+                response,             limit,
+                wanted,               behaviour.tangential,
+                behaviour.tangential_stiffness};
+  object.limits = ContactLimits(limits);
+  return object;
 }
 
 Tip<'T'> tip_of(const ToolSpec& tool) {

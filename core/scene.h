@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact_limits.h"
 #include "core/damping.h"
 #include "core/frames.h"
 #include "core/loop_model.h"
@@ -25,13 +26,16 @@ struct Object {
   Surface surface;
   Pose<'W', 'O'> X_WO;
   Response response;      // none where the object is real: then only a probe touches it
-  double limit = kUnset;  // deflection, m: what is rendered
+  double limit = kUnset;  // deflection, m: what is rendered; with `limits` the largest of them
   double wanted =
       kUnset;  // what object, behaviour and response ask for; more only where the machine is too weak
   Tangential tangential = Tangential::stick;
   double tangential_stiffness = kUnset;               // N/m
   Point<'W'> centre = X_WO * surface.bound().centre;  // of a ball that holds the object
   double radius = surface.bound().radius;             // m; infinite for a half space
+  ContactLimits limits{};                             // of contacts that have their own
+
+  [[nodiscard]] double limit_at(std::int32_t contact) const { return limits.at(contact, limit); }  // m
 
   // No surface point of the object is nearer to p than this, m; negative where p may be inside.
   [[nodiscard]] double least_distance(const Point<'W'>& p) const { return (p - centre).norm() - radius; }

@@ -17,6 +17,8 @@ struct Walk {
   bool tool_known = false;  // track
   bool tool_fresh = false;
   Pose<'W', 'T'> X_WT;
+  Pose<'W', 'T'> X_WT_newest;  // of the newest pose, not carried on; and the tip there
+  Point<'W'> tip_newest;
   Point<'W'> tool_tip;
   double tool_radius = 0.0;
   Pose<'W', 'H'> X_WH;  // track: where the machine says the tip is

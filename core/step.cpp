@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/fuse.h"
 #include "core/rotation.h"
 #include "core/stages.h"
 
@@ -28,9 +29,9 @@ void report(const stages::Walk& walk, const State& state, Outputs& out) {
                                     : std::max(0.0, -state.contact.displacement.xyz[2]);
   out.first_touch =
       engaged ? state.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - stages::kSkin) : Point<'W'>();
-  out.view = {walk.tick.t,   walk.tool_known ? state.tool.value.tool : -1,
-              state.object,  walk.X_WT,
-              walk.tool_tip, out.mode};
+  const SeenTool seen = seen_tool(walk, state);
+  out.view = {walk.tick.t, walk.tool_known ? state.tool.value.tool : -1, state.object, seen.X_WT, seen.tip,
+              out.mode};
 }
 
 }  // namespace

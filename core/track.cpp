@@ -87,6 +87,8 @@ void track_tool(Walk& walk, State& state) {
   const Tool& tool = walk.scene.tools[static_cast<std::size_t>(state.tool.value.tool)];
   walk.X_WT = walk.scene.X_WC * state.tool.value.X_CT;
   walk.tool_tip = walk.X_WT * tool.tip.centre;
+  walk.X_WT_newest = walk.X_WT;
+  walk.tip_newest = walk.tool_tip;
   if (walk.scene.tracker.prediction != Prediction::hold) carry_on(walk, state);
   walk.tool_radius = tool.tip.radius;
   judge_age(walk, state);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/contact_limits.h"
 #include "core/error.h"
 #include "core/probe.h"
 #include "models/scene_file.h"
@@ -54,12 +55,37 @@ void check_real(const Setup& setup, const ObjectSpec& o) {
                     "like 'behaviour = \"tennis_ball\"'",
                     quoted(o.name)));
   }
-  if (!std::isnan(o.limit)) {
-    fail(
-        setup, path + ".limit_mm",
-        fmt::format("object {} is real and has a 'limit_mm'; expected none, or a 'behaviour' that it limits; "
-                    "remove it",
-                    quoted(o.name)));
+  if (!std::isnan(o.limit) || !o.limits.empty()) {
+    const char* key = o.limits.empty() ? "limit_mm" : "limits_mm";
+    fail(setup, fmt::format("{}.{}", path, key),
+         fmt::format("object {} is real and has a '{}'; expected none, or a 'behaviour' that it limits; "
+                     "remove it",
+                     quoted(o.name), key));
+  }
+}
+
+// Of contacts that have their own; `most`: where the behaviour ends, 0 while that is not known.
+void check_limits(const Setup& setup, const ObjectSpec& o, double most, const std::string& behaviour) {
+  const std::string key = fmt::format("object.{}.limits_mm", o.name);
+  if (o.limits.empty()) return;
+  if (!std::isnan(o.limit))
+    fail(setup, key,
+         fmt::format("object {} has both 'limit_mm' and 'limits_mm'; expected one of them; remove one",
+                     quoted(o.name)));
+  if (o.limits.size() > ContactLimits::kMost)
+    fail(setup, key,
+         fmt::format("'limits_mm' has {} elements; expected at most {}; the last one stays for all further "
+                     "contacts; remove some",
+                     o.limits.size(), ContactLimits::kMost));
+  for (std::size_t i = 0; i < o.limits.size(); ++i) {
+    if (o.shape == ShapeKind::sphere && o.limits[i] >= o.radius)
+      fail(setup, key,
+           fmt::format("'limits_mm[{}]' is {}; expected less than the radius, {} mm; lower it", i,
+                       mm(o.limits[i]), mm(o.radius)));
+    if (most > 0.0 && o.limits[i] > most)
+      fail(setup, key,
+           fmt::format("'limits_mm[{}]' is {}; expected at most {} mm, where behaviour {} ends; lower it", i,
+                       mm(o.limits[i]), mm(most), quoted(behaviour)));
   }
 }
 
@@ -92,6 +118,7 @@ void check_object(const Setup& setup, const ObjectSpec& o) {
          fmt::format("'limit_mm' is {}; expected at most {} mm, where behaviour {} ends; lower it",
                      mm(o.limit), mm(most), quoted(b->name)));
   }
+  check_limits(setup, o, most, b->name);
 }
 
 // Called before and after the curves are there.

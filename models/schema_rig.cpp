@@ -10,6 +10,7 @@ using enum Presence;
 
 constexpr std::array<std::string_view, 3> kTares{"start", "free", "window"};
 constexpr std::array<std::string_view, 2> kDampings{"none", "observed"};
+constexpr std::array<std::string_view, 3> kSeenTips{"tracked", "predicted", "fused"};
 constexpr std::array<std::string_view, 3> kPredictions{"hold", "constant_velocity", "constant_acceleration"};
 
 // A device table that is there must say by what the role is filled.
@@ -99,6 +100,21 @@ void describe(Visitor& v, TrackerRig& t) {
 
 void describe(Visitor& v, DisplayRig& d) {
   driver(v, d.driver);
+  choice(
+      v,
+      {"tip",
+       "what dents the seen surface: the newest pose; that carried on; or, while it presses, the haptic-tip",
+       "docs/synchrony.md", chosen},
+      kSeenTips, d.tip);
+  v.value({"lead_ms",
+           "fused: how far ahead; half a frame and the way back",
+           "docs/synchrony.md",
+           chosen,
+           {0.0, 200.0}},
+          &d.lead);
+  v.value({"compliance_um_per_N", "fused: believed of tool and haptic-tip where they touch",
+           "docs/synchrony.md", assumed, kNotNegative},
+          &d.compliance);
   v.value({"overdue_ms", "an older visual surface means hold", "[VHMR 3.5]", assumed, kPositive}, &d.overdue);
   v.value({"margin_mm", "tolerated between seen and felt surface", "parameters 6.2", assumed, kNotNegative},
           &d.margin);

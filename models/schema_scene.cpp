@@ -75,6 +75,9 @@ void describe(Visitor& v, ObjectSpec& o) {
   v.value({"limit_mm", "deflection limit that the device holds; unset: the behaviour's", "[VHMR 4.2]", chosen,
            kPositive, optional},
           &o.limit);
+  v.value({"limits_mm", "instead: of the first, second, ... contact; the last stays; unset: all alike",
+           "[VHMR 4.3]", chosen, kPositive, optional},
+          &o.limits);
 }
 
 void describe(Visitor& v, ToolSpec& t) {
@@ -117,6 +120,9 @@ void describe(Visitor& v, FollowSpec& f) {
 
 void describe_presses(Visitor& v, UserSpec& u) {
   v.value({"depth_mm", "deflection that the user wants to see", "[VHMR 4.2]", chosen, kPositive}, &u.depth);
+  v.value({"depths_mm", "instead: of the first, second, ... press; the last stays; unset: all alike",
+           "[VHMR 4.3]", chosen, kPositive, optional},
+          &u.depths);
   v.value(
       {"push_N", "push with this force instead, whatever the depth", kAuthor, chosen, kPositive, optional},
       &u.push);

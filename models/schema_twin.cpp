@@ -138,6 +138,12 @@ void describe(Visitor& v, sim::TrackerTruth& t) {
   v.value({"bias_mm", "of registration, in W", "parameters 6.2", derived}, &t.bias);
   v.value({"noise_mm", "rms of a frame, along the axes of W", "parameters 6.2", derived, kNotNegative},
           &t.noise);
+  v.value({"turn_noise_deg",
+           "rms, each frame, about each axis of W; 0: what noise_mm has of it is all",
+           "docs/synchrony.md",
+           assumed,
+           {0.0, 10.0}},
+          &t.turn_noise);
   v.value({"stamp_error_ms",
            "how much later than the exposure the stamps are",
            "injected",
@@ -187,6 +193,19 @@ void describe(Visitor& v, sim::HandTruth& h) {
   v.value(
       {"aborted", "share of the reaches of a session that turn back", "features L16", assumed, {0.0, 1.0}},
       &h.aborted);
+  v.value(
+      {"tilt_deg", "of the tool about its tip, to either side", "docs/synchrony.md", assumed, {0.0, 45.0}},
+      &h.tilt);
+  v.value({"tilt_rate_hz", "of that tilting", "docs/synchrony.md", assumed, kNotNegative}, &h.tilt_rate);
+}
+
+void describe(Visitor& v, sim::ContactTruth& c) {
+  v.value({"compliance_um_per_N", "of tool tip and haptic-tip where they touch: they come nearer",
+           "docs/synchrony.md", assumed, kNotNegative},
+          &c.compliance);
+  v.value({"flexure_um_per_N", "of the tool: its markers go on where its tip stops", "docs/synchrony.md",
+           assumed, kNotNegative},
+          &c.flexure);
 }
 
 void describe(Visitor& v, sim::PusherTruth& p) {
@@ -255,6 +274,7 @@ void describe(Visitor& v, sim::TwinSpec& t) {
   table(v, "force", [&] { describe(v, t.force); });
   table(v, "tracker", [&] { describe(v, t.tracker); });
   table(v, "display", [&] { describe(v, t.display); });
+  table(v, "contact", [&] { describe(v, t.contact); });
   table(v, "hand", [&] { describe(v, t.hand); });
   table(v, "ball", [&] { describe(v, t.ball); });
   table(v, "pusher", [&] { describe(v, t.pusher); });

@@ -282,6 +282,8 @@ void read_value(const std::string& text, const std::string& place, const Key& ke
     **number = kUnset;
     return;
   }
+  auto* const* numbers = std::get_if<std::vector<double>*>(&target);
+  if (numbers != nullptr && text == "unset" && key.presence == Presence::optional) return (*numbers)->clear();
   const bool is_text = std::holds_alternative<std::string*>(target) || std::holds_alternative<Choice>(target);
   const bool bare = is_text && !text.starts_with('"') && !text.starts_with('\'');
   toml::table table;

@@ -74,6 +74,8 @@ std::string write_toml(const std::function<void(Visitor&)>& walk) {
 }
 
 std::string value_text(const Key& key, const Target& target) {
+  const auto* const* numbers = std::get_if<std::vector<double>*>(&target);
+  if (numbers != nullptr && (*numbers)->empty() && key.presence == Presence::optional) return {};  // unset
   return std::visit(Text{unit_of(key.name)}, target);
 }
 

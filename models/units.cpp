@@ -18,6 +18,7 @@ constexpr auto kUnits = std::to_array<Unit>({{"_m_s2_per_sqrt_hz", "m/s^2/sqrt(H
                                              {"_Ns_per_m", "N s/m"},
                                              {"_N_per_push", "N"},
                                              {"_N_per_um", "N/um", 6},
+                                             {"_um_per_N", "um/N", -6},
                                              {"_N_per_mm", "N/mm", 3},
                                              {"_N_per_m", "N/m"},
                                              {"_mm_s2", "mm/s^2", -3},

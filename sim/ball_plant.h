@@ -39,8 +39,8 @@ struct BallPlantState {
 class BallPlant {
  public:
   explicit BallPlant(const BallParameters& parameters = {});
-  // The same elastic ball with the friction and relaxation of `loss`; its other numbers are not read. Saves the
-  // table.
+  // The same elastic ball with the friction and relaxation of `loss`; its other numbers are not read. Saves
+  // the table.
   [[nodiscard]] BallPlant with_loss(const BallParameters& loss) const;
 
   // Elastic force at rest, N; 0 below zero. Tabulated to 8 mm, straight on beyond (the formula is meant to 6

@@ -42,6 +42,7 @@ struct TrackerTruth {
   double udp_delay = 0.0005;                    // s, mean of the exponential part (process and network)
   Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
   Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
+  double turn_noise = 0.0;                      // rad rms, each frame, about each axis of W
   double stamp_error = 0.0;                     // s: stamps are this much later than the exposure
   double loss = 0.0;                            // share of packets lost
   double blackout_at = kUnset;                  // s: one drop-out from here

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/rotation.h"
 
 namespace enc::sim {
 namespace {
@@ -40,7 +41,10 @@ void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT
   const bool blind = t >= truth_.blackout_at && t < truth_.blackout_at + truth_.blackout_for;
   const Vec3 error = truth_.bias + truth_.noise.cwiseProduct(state_.noise.normal3());
   if (blind || tool < 0) return;  // none in view: a hand covers the markers, or none is held
-  const Pose<'W', 'T'> measured(Quat(X_WT.q()), Vec3(X_WT.p() + error));
+  Quat turned(X_WT.q());
+  if (truth_.turn_noise > 0.0)  // else nothing is drawn, and other noise stays what it is
+    turned = rotation_xyz(truth_.turn_noise * state_.noise.normal3()) * turned;
+  const Pose<'W', 'T'> measured(turned, Vec3(X_WT.p() + error));
   put(state_.exposed, {{tool, X_CW_ * measured}, at + from_seconds(truth_.stamp_error), Health::ok},
       at + from_seconds(truth_.latency));
 }

@@ -28,6 +28,12 @@ struct FramesTruth {
   PoseSpec H_F{{0.0, 0.0, -0.127}, {0, 0, 0}};
 };
 
+// What gives where the tool touches, in series: quasi-static, as far as it is seen (World::observe).
+struct ContactTruth {
+  double compliance = 0.0;  // m/N, of tool tip and haptic-tip where they touch: their centres come nearer
+  double flexure = 0.0;  // m/N, of the tool between its tip and its markers: these go on where the tip stops
+};
+
 struct HandTruth {
   double mass = 1.35;             // kg, arm endpoint and hand
   double damping = 12.0;          // N s/m
@@ -44,6 +50,8 @@ struct HandTruth {
          aside_scatter = 0.02;  // of the way; standard deviations
   double shortest = 0.20;       // s, of a submovement
   double aborted = 0.1;         // share of reaches that turn back before the touch
+  double tilt = 0.0;            // rad: the tool tilts about its tip by so much to either side
+  double tilt_rate = 0.5;       // Hz, of that
 };
 
 // Sets of ball_plant.h [parameters 4.4]: four others that also give 12 N at 6 mm, and a ball as played with.
@@ -74,6 +82,7 @@ struct TwinSpec {
   ForceTruth force;
   TrackerTruth tracker;
   DisplayTruth display;
+  ContactTruth contact;
   HandTruth hand;
   BallTruth ball;
   PusherTruth pusher;

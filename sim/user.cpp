@@ -62,6 +62,11 @@ double User::approach_speed() const {
   return spec_.approach[static_cast<std::size_t>(state_.press) % spec_.approach.size()];
 }
 
+double User::wanted_depth() const {
+  if (spec_.depths.empty()) return spec_.depth;
+  return spec_.depths[std::min(static_cast<std::size_t>(state_.press), spec_.depths.size() - 1)];
+}
+
 bool User::done() const {
   if (session_) return state_.session.finished;
   return state_.press >=
@@ -124,7 +129,7 @@ HandPlan User::plan(double since) const {
     return HandPlan{touch_.e() - n * depth, -n * ((to - from) * m.v / time),
                     -n * ((to - from) * m.a / (time * time)), depth};
   };
-  const double depth = std::isnan(spec_.push) ? spec_.depth : 0.0;
+  const double depth = std::isnan(spec_.push) ? wanted_depth() : 0.0;
   switch (state_.phase) {
     case Phase::wait:
       return {start_.e(), Vec3::Zero(), Vec3::Zero(), 0.0};

@@ -60,6 +60,7 @@ class User {
   Vec<'W'> act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity, bool touching);
 
  private:
+  [[nodiscard]] double wanted_depth() const;  // of this press, m
   [[nodiscard]] double phase_time(Phase phase) const;
   [[nodiscard]] HandPlan planned(double t);  // also goes on to the next phase
   [[nodiscard]] HandPlan plan(double since) const;

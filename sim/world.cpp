@@ -315,10 +315,22 @@ void World::observe(Time t) {
   if (in_hand_ == nullptr) return;
   const double* q = physics_.data()->qpos + in_hand_->qpos;
   const double* v = physics_.data()->qvel + in_hand_->qvel;
-  truth_.tool_tip = Point<'W'>(q[0], q[1], q[2]);
+  truth_.tool_tip = Point<'W'>(q[0], q[1], q[2]) + twin_.contact.compliance * truth_.contact_force;
   truth_.tool_velocity = Vec<'W'>(v[0], v[1], v[2]);
   truth_.tool_radius = in_hand_->radius;
   if (user_->turns()) q_WT_ = pointed(in_hand_->shaft_T, user_->shaft(seconds(t.time_since_epoch())).e());
+}
+
+// The tool tilts about its tip. Under load its markers go on where its tip stops.
+Pose<'W', 'T'> World::held_tool_pose(double t) const {
+  const Vec3 tip_T = in_hand_ != nullptr ? in_hand_->tip_T : Vec3(Vec3::Zero());
+  Quat q = q_WT_;
+  if (twin_.hand.tilt != 0.0) {
+    const double angle = twin_.hand.tilt * std::sin(2.0 * M_PI * twin_.hand.tilt_rate * t);
+    q = Quat(Eigen::AngleAxisd(angle, (q_WT_ * tip_T).unitOrthogonal())) * q_WT_;
+  }
+  const Vec3 bent = twin_.contact.flexure * truth_.contact_force.e();
+  return {q, Vec3(truth_.tool_tip.e() - q * tip_T + bent)};
 }
 
 void World::sense(Time t) {
@@ -335,8 +347,7 @@ void World::sense(Time t) {
     force->measure(t, dt_, raw, inertia);
   }
   if (tracker && user_) {
-    const Vec3 tip_T = in_hand_ != nullptr ? in_hand_->tip_T : Vec3(Vec3::Zero());
-    tracker->advance(t, truth_.tool, Pose<'W', 'T'>(q_WT_, Vec3(truth_.tool_tip.e() - q_WT_ * tip_T)));
+    tracker->advance(t, truth_.tool, held_tool_pose(seconds(t.time_since_epoch())));
   } else if (tracker && clamped_ >= 0) {
     tracker->advance(t, clamped_, true_tip() * X_HT_);
   }

@@ -77,6 +77,7 @@ class World {
   void observe_machine();
   [[nodiscard]] Pose<'W', 'H'> true_tip() const;
   void observe(Time t);
+  [[nodiscard]] Pose<'W', 'T'> held_tool_pose(double t) const;  // s; as its markers stand
   void sense(Time t);
   void press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h);
   void push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h);

@@ -131,6 +131,7 @@ TEST(Schema, describes_every_member) {
   EXPECT_EQ(n["truth.force"], members<sim::ForceTruth>());
   EXPECT_EQ(n["truth.tracker"], members<sim::TrackerTruth>());
   EXPECT_EQ(n["truth.display"], members<sim::DisplayTruth>());
+  EXPECT_EQ(n["truth.contact"], members<sim::ContactTruth>());
   EXPECT_EQ(n["truth.hand"], members<sim::HandTruth>());
 }
 

@@ -1,0 +1,50 @@
+// The experiment of [VHMR 4.3, Fig 13] in the twin: scene `synchrony` through the whole loop. At each haptic
+// cycle the deflection that the display has drawn and sent back is compared with the haptic-tip's own
+// deflection, and with that of the true tool.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "models/scene_file.h"
+
+namespace enc::bench {
+
+// A cycle, m. Deflections are 0 where nothing is deflected.
+struct SyncSample {
+  double t = 0.0;       // s
+  double haptic = 0.0;  // hexapod's position against the buffered first touch, inwards along the normal there
+  double visual = 0.0;  // depth of the drawn dent, as the core has it now
+  double truth = 0.0;   // depth of the true tool tip below the undeformed surface
+  double force = 0.0;   // true, of the tool on the haptic-tip, N
+  bool contact = false;  // the core's mode: this sample counts
+  bool news = false;     // a new packet of the display has come
+};
+
+struct SyncErrors {
+  double mae = 0.0, rmse = 0.0, bias = 0.0;  // m; the bias is the mean, with its sign
+};
+
+struct SyncRun {
+  std::vector<SyncSample> samples;
+  std::array<double, 3> over{};  // m: deepest true haptic-tip less the limit, of each press
+  std::int32_t contacts = 0;
+  bool held = false;       // the machine stood still for a fault
+  double simulated = 0.0;  // s
+
+  // Visual less haptic, visual less truth. In contact alone; at each cycle, or where a packet has come.
+  [[nodiscard]] SyncErrors against_haptic(bool at_packets = false) const;
+  [[nodiscard]] SyncErrors against_truth() const;
+  // The same over all cycles from the first to the last contact, rests included.
+  [[nodiscard]] SyncErrors with_rests() const;
+  [[nodiscard]] double lag() const;         // s, visual behind haptic
+  [[nodiscard]] double truth_lag() const;   // s, visual behind truth
+  [[nodiscard]] double peak_speed() const;  // m/s, of the haptic-tip inwards, over 20 ms
+  // Largest approach of the two tips' centres over the sum of their radii, m: what gives in the contact.
+  double given = 0.0;
+};
+
+[[nodiscard]] SyncRun run_sync(const models::Setup& setup, std::uint64_t seed);
+
+}  // namespace enc::bench

@@ -1,0 +1,34 @@
+// Deflection limits that change from contact to contact [VHMR 4.3: 6, 4 and 2 mm]: the k-th contact of an
+// experiment takes the k-th, the last one stays.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace enc {
+
+class ContactLimits {
+ public:
+  static constexpr std::size_t kMost = 16;
+
+  ContactLimits() = default;
+  // Of `limits` the first kMost count, m; none: no contact has a limit of its own.
+  explicit ContactLimits(std::span<const double> limits) : count_(std::min(limits.size(), kMost)) {
+    std::copy_n(limits.begin(), count_, limits_.begin());
+  }
+  // Of a contact, counted from 1 as State::contacts does, m; `otherwise` where it has none of its own.
+  [[nodiscard]] double at(std::int32_t contact, double otherwise) const {
+    if (count_ == 0) return otherwise;
+    const auto index = static_cast<std::size_t>(std::max(contact, 1) - 1);
+    return limits_[std::min(index, count_ - 1)];
+  }
+
+ private:
+  std::array<double, kMost> limits_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace enc
