@@ -1,6 +1,7 @@
 #include <array>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/indentation/indentation.h"
 
 namespace enc::bench {
 
@@ -11,6 +12,10 @@ std::span<const Benchmark> benchmarks() {
       {"encounter", "tennis_ball",
        "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
        run_encounter},
+      {"indentation", "indentation",
+       "a hand replicates indentations A, B, C on the virtual ball (VHMR Figs 8 and 10, Table 2); "
+       "directions, lag",
+       run_indentation},
       {"press", "tennis_ball", "one contact for each press, limit held, tip inside, no pull", run_press},
       {"response", "tennis_ball", "both response models: minor loops, jumps, tremor at rest, energy",
        run_response},

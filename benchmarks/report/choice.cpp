@@ -43,7 +43,7 @@ bool begins(const std::string& id, const std::string& with) {
 
 std::span<const Group> groups() {
   static const std::vector<Group> kAll{
-      {"paper-2020", "what VHMR (2020) measured on its devices", {"tracking", "stiffness", "workspace"}},
+      {"paper-2020", "what VHMR (2020) measured on its devices", {"tracking", "stiffness", "workspace", "indentation"}},
   };
   return kAll;
 }

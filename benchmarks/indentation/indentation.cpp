@@ -1,0 +1,396 @@
+// A hand replicates the test rig's indentations A, B and C on the virtual ball [VHMR 4.2]. The error is the
+// force that the haptic loop works with less the reference curve at the deflection that the machine reports
+// (docs/indentation.md says why this force).
+#include "benchmarks/indentation/indentation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/report/reference.h"
+#include "benchmarks/work_precision.h"
+
+namespace enc::bench {
+namespace {
+
+using Runs = std::vector<std::vector<IndentRun>>;
+constexpr double kBin = 0.05e-3;  // m
+
+const Recording& recording_of(const IndentRun& run, Reading reading) {
+  return reading == Reading::sensor ? run.sensor : reading == Reading::truth ? run.truth : run.recorded;
+}
+
+// Mean force of each bin of deflection; NaN where there is none. `minus`: less the reference curve.
+std::vector<double> binned(const Branch& branch, double limit, const Response* minus, bool press) {
+  const auto bins = static_cast<std::size_t>(std::lround(limit / kBin));
+  std::vector<double> sum(bins, 0.0), count(bins, 0.0);
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    const double d = branch.deflection[i];
+    const auto bin = static_cast<std::size_t>(std::max(0.0, d / kBin));
+    if (bin >= bins) continue;
+    const double curve = minus == nullptr ? 0.0 : press ? minus->press(d) : minus->release(d);
+    sum[bin] += branch.force[i] - curve;
+    count[bin] += 1.0;
+  }
+  for (std::size_t i = 0; i < bins; ++i) sum[i] = count[i] > 0.0 ? sum[i] / count[i] : kUnset;
+  return sum;
+}
+double centre_of(std::size_t bin) { return (static_cast<double>(bin) + 0.5) * kBin; }
+
+// The greatest difference between runs at equal deflection, press and release apart.
+double spread_of(const std::vector<IndentRun>& runs, Reading reading) {
+  double most = 0.0;
+  for (const bool press : {true, false}) {
+    std::vector<std::vector<double>> all;
+    for (const IndentRun& run : runs) {
+      const Recording& r = recording_of(run, reading);
+      all.push_back(binned(press ? r.press : r.release, run.limit, nullptr, press));
+    }
+    for (std::size_t bin = 0; bin < all.front().size(); ++bin) {
+      double low = INFINITY, high = -INFINITY;
+      for (const std::vector<double>& run : all) {
+        low = std::fmin(low, run[bin]);
+        high = std::fmax(high, run[bin]);
+      }
+      if (high > low) most = std::max(most, high - low);
+    }
+  }
+  return most;
+}
+
+void add_cells(const IndentStudy& study, const Runs& runs, BenchResult& result) {
+  const std::vector<Cell> recorded = cells_of(runs, Reading::recorded);
+  const std::vector<Cell> sensor = cells_of(runs, Reading::sensor), truth = cells_of(runs, Reading::truth);
+  Table table{
+      "indentation_table2",
+      "Error between felt and reference force (VHMR Table 2)",
+      {"indentation", "way", "paper RMSE (N)", "RMSE (N)", "paper MAE (N)", "mean |e| (N)", "|mean e| (N)",
+       "RMSE of the sensor's force (N)", "RMSE of the true force (N)"},
+      {},
+      "MAE of the paper can be either mean. Its RMSE of A, release, is below its own MAE: nobody's target."};
+  for (std::size_t i = 0; i < kCells; ++i) {
+    const PaperCell& paper = study.paper[i];
+    const Cell& c = recorded[i];
+    const std::string where = paper.indentation + "." + paper.way;
+    Figure rmse{"indentation.rmse." + where,
+                paper.rmse,
+                c.rmse,
+                "N",
+                paper.consistent ? Role::calibrated : Role::predicted,
+                paper.consistent ? 0.6 * paper.rmse : kUnset,
+                paper.consistent ? 1.6 * paper.rmse : kUnset,
+                paper.consistent ? "one press time for all cells is calibrated"
+                                 : "the paper's RMSE is below its MAE and cannot be right"};
+    rmse.least = c.least;
+    rmse.most = c.most;
+    result.figures.push_back(std::move(rmse));
+    result.figures.push_back({"indentation.mae." + where, paper.mae, c.mae, "N", Role::predicted, kUnset,
+                              kUnset, "the paper's MAE read as mean |e|"});
+    result.figures.push_back({"indentation.bias." + where, paper.mae, c.bias, "N", Role::predicted, kUnset,
+                              kUnset, "the paper's MAE read as |mean e|"});
+    for (const auto& [name, cell] : {std::pair{"sensor", sensor[i]}, std::pair{"truth", truth[i]}}) {
+      Figure f{fmt::format("indentation.{}.rmse.{}", name, where),
+               kUnset,
+               cell.rmse,
+               "N",
+               Role::ours,
+               kUnset,
+               kUnset,
+               cell.rmse == sensor[i].rmse ? "the force sensor before the filter, at the recorded deflection"
+                                           : "true contact force at the true deflection"};
+      f.least = cell.least;
+      f.most = cell.most;
+      result.figures.push_back(std::move(f));
+    }
+    const auto n = [](double x) { return fmt::format("{:.4f}", x); };
+    table.rows.push_back({paper.indentation, paper.way, n(paper.rmse), n(c.rmse), n(paper.mae), n(c.mae),
+                          n(c.bias), n(sensor[i].rmse), n(truth[i].rmse)});
+  }
+  result.tables.push_back(std::move(table));
+}
+
+void add_single_figures(const IndentStudy& study, const Runs& runs, BenchResult& result) {
+  const Reference fig10 = Reference::load(study.context.models, "fig10.csv");
+  const double within = fig10.number(fig10.row({{"quantity", "repeatability_N"}}), "value");
+  const auto paper_runs = static_cast<std::size_t>(fig10.number(fig10.row({{"quantity", "runs"}}), "value"));
+  const std::vector<IndentRun>& a = runs.front();
+  const std::vector<IndentRun> five(a.begin(),
+                                    a.begin() + static_cast<std::ptrdiff_t>(std::min(paper_runs, a.size())));
+  result.figures.push_back(
+      {"indentation.repeatability_N", within, spread_of(five, Reading::recorded), "N", Role::predicted,
+       kUnset, within, fmt::format("greatest difference of {} runs of A at equal deflection", five.size())});
+  result.figures.push_back({"indentation.sensor.repeatability_N", kUnset, spread_of(five, Reading::sensor),
+                            "N", Role::ours, kUnset, kUnset,
+                            "the same of the force before the filter: tremor is in it"});
+  Figure peak{
+      "indentation.peak_N",
+      kUnset,
+      0.0,
+      "N",
+      Role::ours,
+      11,
+      13,
+      "A: true force when the true deflection first comes within 0.05 mm of 6 mm; 12 +- 1 N in Fig 8"};
+  peak.least = INFINITY;
+  peak.most = -INFINITY;
+  for (const IndentRun& run : a) {
+    peak.twin += run.force_at_limit / static_cast<double>(a.size());
+    peak.least = std::min(peak.least, run.force_at_limit);
+    peak.most = std::max(peak.most, run.force_at_limit);
+  }
+  result.figures.push_back(std::move(peak));
+  double over = -INFINITY;
+  std::int32_t contacts = 0, presses = 0;
+  for (const std::vector<IndentRun>& of : runs)
+    for (const IndentRun& run : of) {
+      over = std::max(over, run.greatest - run.limit);
+      contacts += run.contacts;
+      presses += 1;
+      result.simulated += run.simulated;
+    }
+  result.figures.push_back({"indentation.overshoot_mm", kUnset, over * 1e3, "mm", Role::ours, kUnset, 0.05,
+                            "true deflection beyond the limit of 6 mm, the worst of all runs"});
+  result.figures.push_back({"indentation.contacts_per_press.ratio", kUnset,
+                            static_cast<double>(contacts) / static_cast<double>(presses), "", Role::ours, 1,
+                            1, "a press is one contact"});
+}
+
+void add_energy_stop(const IndentStudy& study, BenchResult& result) {
+  for (std::size_t i = 0; i < indentations().size(); ++i) {
+    const models::Setup setup = with_reversal(
+        indent_setup(study.context.models, indentations()[i], {}, study.context.set), Reversal::energy_stop);
+    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, study.context.quick ? 1 : 2);
+    for (const bool press : {true, false})
+      result.figures.push_back(
+          {fmt::format("indentation.energy_stop.rmse.{}.{}", indentations()[i].name,
+                       press ? "press" : "release"),
+           kUnset, cell_of(runs, Reading::recorded, press).rmse, "N", Role::ours, kUnset, kUnset,
+           "the other law: its blend from one curve to the other takes 1.5 mm of travel"});
+    for (const IndentRun& run : runs) result.simulated += run.simulated;
+  }
+}
+
+Series line_of(const Branch& loop, const std::string& name, double from, double to, bool press_only,
+               bool release_only) {
+  Series s{name, {}, {}};
+  const auto top = static_cast<std::size_t>(std::max_element(loop.deflection.begin(), loop.deflection.end()) -
+                                            loop.deflection.begin());
+  const std::size_t each = to - from > 2e-3 ? 20 : 5;
+  for (std::size_t i = 0; i < loop.size(); i += each) {
+    if ((press_only && i > top) || (release_only && i <= top)) continue;
+    if (loop.deflection[i] < from || loop.deflection[i] > to) continue;
+    s.x.push_back(loop.deflection[i] * 1e3);
+    s.y.push_back(loop.force[i]);
+  }
+  return s;
+}
+
+// The two polynomials between two deflections.
+void add_curves(const Response& reference, double from, double to, bool press, bool release, Plot& plot) {
+  constexpr int kSteps = 60;
+  for (const bool way : {true, false}) {
+    if (!(way ? press : release)) continue;
+    Series s{way ? "reference, press" : "reference, release", {}, {}};
+    for (int i = 0; i <= kSteps; ++i) {
+      const double d = from + (to - from) * i / kSteps;
+      s.x.push_back(d * 1e3);
+      s.y.push_back(way ? reference.press(d) : reference.release(d));
+    }
+    plot.series.push_back(std::move(s));
+  }
+}
+
+void add_loops(const Runs& runs, BenchResult& result) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const char* name = indentations()[i].name;
+    Plot plot{fmt::format("indentation_fig8_{}", name),
+              fmt::format("Indentation {} (VHMR Fig 8)", name),
+              "deflection (mm)",
+              "force (N)",
+              false,
+              false,
+              {}};
+    for (std::size_t r = 0; r < std::min<std::size_t>(5, runs[i].size()); ++r)
+      plot.series.push_back(
+          line_of(runs[i][r].loop, fmt::format("hand, run {}", r + 1), 0.0, 1.0, false, false));
+    add_curves(runs[i].front().reference, 0.0, runs[i].front().limit, true, true, plot);
+    plot.caption =
+        "Force and deflection as the device records them, over the two polynomials of the rig's loop. The "
+        "vertical "
+        "part at 6 mm is the limit: the force there is the hand's.";
+    result.plots.push_back(std::move(plot));
+  }
+  Plot residual{"indentation_residual",
+                "What is left of Fig 8: recorded force less the reference curve",
+                "deflection (mm)",
+                "force error (N)",
+                false,
+                false,
+                {}};
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const bool press : {true, false}) {
+      Series s{fmt::format("{}, {}", indentations()[i].name, press ? "press" : "release"), {}, {}};
+      const std::size_t count = std::min<std::size_t>(5, runs[i].size());
+      std::vector<double> sum;
+      for (std::size_t r = 0; r < count; ++r) {
+        const IndentRun& run = runs[i][r];
+        const std::vector<double> one =
+            binned(press ? run.recorded.press : run.recorded.release, run.limit, &run.reference, press);
+        sum.resize(one.size(), 0.0);
+        for (std::size_t b = 0; b < one.size(); ++b) sum[b] += one[b] / static_cast<double>(count);
+      }
+      for (std::size_t b = 0; b < sum.size(); ++b) {
+        s.x.push_back(centre_of(b) * 1e3);
+        s.y.push_back(sum[b]);
+      }
+      residual.series.push_back(std::move(s));
+    }
+  residual.caption =
+      "Mean of the runs. Pressing, the force is high by threshold and lag; releasing, the wave is where the "
+      "Prandtl-Ishlinskii law and the constrained polynomial of the rig differ.";
+  result.plots.push_back(std::move(residual));
+}
+
+void add_fig10(const std::vector<IndentRun>& a, BenchResult& result) {
+  struct Zoom {
+    const char *suffix, *title;
+    double from, to;
+    bool press, release;
+  };
+  for (const Zoom& z : {Zoom{"", "Five presses, indentation A (VHMR Fig 10)", 0.0, 6.1e-3, true, true},
+                        Zoom{"_i", "Fig 10, i: the rise at contact", 0.0, 0.8e-3, true, false},
+                        Zoom{"_ii", "Fig 10, ii: in the middle of the press", 2.6e-3, 3.4e-3, true, false},
+                        Zoom{"_iii", "Fig 10, iii: at the top", 5.2e-3, 6.02e-3, true, true},
+                        Zoom{"_iv", "Fig 10, iv: releasing", 2.6e-3, 3.4e-3, false, true}}) {
+    Plot plot{fmt::format("indentation_fig10{}", z.suffix),
+              z.title,
+              "deflection (mm)",
+              "force (N)",
+              false,
+              false,
+              {}};
+    for (std::size_t r = 0; r < std::min<std::size_t>(5, a.size()); ++r)
+      plot.series.push_back(
+          line_of(a[r].loop, fmt::format("run {}", r + 1), z.from, z.to, !z.release, !z.press));
+    plot.caption =
+        "A hand that differs in press time, depth, place and approach from run to run; the paper's five lie "
+        "within 0.2 N of each other.";
+    result.plots.push_back(std::move(plot));
+  }
+}
+
+void add_table2_plot(const IndentStudy& study, const std::vector<Cell>& standard,
+                     const std::vector<Cell>& accurate, BenchResult& result) {
+  Plot plot{"indentation_table2", "Error of the felt force (VHMR Table 2)", "", "RMSE (N)", false, false, {}};
+  Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
+  Series twin{"twin", {}, {}, {}, {}, Mark::points},
+      better{"twin, set for accuracy", {}, {}, {}, {}, Mark::points};
+  for (std::size_t i = 0; i < kCells; ++i) {
+    const auto x = static_cast<double>(i);
+    plot.x_names.push_back(fmt::format("{} {}{}", study.paper[i].indentation, study.paper[i].way,
+                                       study.paper[i].consistent ? "" : " (!)"));
+    paper.x.push_back(x - 0.15);
+    paper.y.push_back(study.paper[i].rmse);
+    for (const auto& [series, cell, at] :
+         {std::tuple{&twin, &standard[i], x}, std::tuple{&better, &accurate[i], x + 0.15}}) {
+      series->x.push_back(at);
+      series->y.push_back(cell->rmse);
+      series->low.push_back(cell->least);
+      series->high.push_back(cell->most);
+    }
+  }
+  plot.series = {std::move(paper), std::move(twin), std::move(better)};
+  plot.caption =
+      "Bars reach over the runs. (!): the paper's value is below its own MAE there and cannot be right.";
+  result.plots.push_back(std::move(plot));
+}
+
+}  // namespace
+
+std::vector<PaperCell> paper_cells(const std::string& models) {
+  const Reference table = Reference::load(models, "table2.csv");
+  std::vector<PaperCell> cells;
+  for (const Indentation& which : indentations())
+    for (const char* way : {"press", "release"}) {
+      const std::size_t row = table.row({{"indentation", which.name}, {"way", way}});
+      cells.push_back({which.name, way, table.number(row, "rmse_N"), table.number(row, "mae_N"),
+                       table.text(row, "consistent") == "yes"});
+    }
+  return cells;
+}
+
+Cell cell_of(const std::vector<IndentRun>& runs, Reading reading, bool press) {
+  Cell cell{0.0, 0.0, 0.0, INFINITY, -INFINITY};
+  double mean = 0.0;
+  for (const IndentRun& run : runs) {
+    const Recording& recording = recording_of(run, reading);
+    const Errors e = errors_of(press ? recording.press : recording.release, run.reference, press);
+    const double share = 1.0 / static_cast<double>(runs.size());
+    cell.rmse += share * e.rmse * e.rmse;
+    cell.mae += share * e.mae;
+    mean += share * e.mean;
+    cell.least = std::min(cell.least, e.rmse);
+    cell.most = std::max(cell.most, e.rmse);
+  }
+  cell.rmse = std::sqrt(cell.rmse);
+  cell.bias = std::abs(mean);
+  return cell;
+}
+
+std::vector<Cell> cells_of(const Runs& runs, Reading reading) {
+  std::vector<Cell> cells;
+  for (const std::vector<IndentRun>& of : runs)
+    for (const bool press : {true, false}) cells.push_back(cell_of(of, reading, press));
+  return cells;
+}
+
+Runs IndentStudy::all(const Words& own, std::size_t count) const {
+  Runs runs;
+  for (const Indentation& which : indentations())
+    runs.push_back(indent_runs(indent_setup(context.models, which, own, context.set), seed, count));
+  return runs;
+}
+
+BenchResult run_indentation(const BenchContext& context) {
+  BenchResult result{"indentation", "indentation", 0, 0, {}};
+  const IndentStudy study{context, paper_cells(context.models), (context.seed - 1) * 1000 + 1,
+                          context.repeats > 0 ? static_cast<std::size_t>(context.repeats)
+                          : context.quick     ? std::size_t{2}
+                                              : std::size_t{5}};
+  const auto tell = [&](double done) {
+    if (context.progress) context.progress(done);
+  };
+  const Runs runs = study.all({}, study.runs);
+  tell(0.3);
+  add_cells(study, runs, result);
+  add_single_figures(study, runs, result);
+  add_energy_stop(study, result);
+  tell(0.4);
+  const std::vector<Cell> standard = cells_of(runs, Reading::recorded);
+  add_table2_plot(study, standard, add_accuracy(study, standard, result), result);
+  tell(0.7);
+  add_loops(runs, result);
+  add_fig10(runs.front(), result);
+  add_press_time(study, result);
+  tell(0.9);
+  add_directions(study, result);
+  add_minor_loops(study, result);
+  if (context.full)
+    for (const char* law : {"prandtl_ishlinskii", "energy_stop"})
+      add_work_precision(
+          {fmt::format("indentation.{}", law),
+           "indentation",
+           {fmt::format("behaviour.tennis_ball_A.reversal={}", law), "user.press_s=2", "user.release_s=2"},
+           kUnset,
+           30e-6},
+          context, result);
+  result.note =
+      "Calibrated on Table 2: the press time of the hand, one for all cells. The hand's impedance, tremor "
+      "and drift are "
+      "those of the other scenes.";
+  return result;
+}
+
+}  // namespace enc::bench
