@@ -96,7 +96,7 @@ void add_price(const IndentStudy& study, const std::vector<Cell>& standard, cons
 // Where one set of devices cannot serve two figures: Table 2 wants a fast filter, Fig 3 a slow one.
 void add_trade_off(const IndentStudy& study, BenchResult& result) {
   const std::vector<double> corners =
-      study.context.quick ? std::vector<double>{5, 20} : std::vector<double>{2.5, 5, 10, 20, 40};
+      study.context.quick ? std::vector<double>{10} : std::vector<double>{2.5, 5, 10, 20, 40};
   Plot plot{"indentation_trade_off",
             "Force filter: error of a press against the softest stable object",
             "corner of the force filter (Hz)",
@@ -112,7 +112,7 @@ void add_trade_off(const IndentStudy& study, BenchResult& result) {
     models::Setup setup = indent_setup(study.context.models, indentations().front(), {}, study.context.set);
     setup.rig.force.filter = corner;
     setup.rig.contact.softest = 0.0;
-    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, 2);
+    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, study.context.quick ? 1 : 2);
     for (const auto& [series, y] : {std::pair{&recorded, cell_of(runs, Reading::recorded, true).rmse},
                                     std::pair{&truth, cell_of(runs, Reading::truth, true).rmse},
                                     std::pair{&grip, lowest_stable_stiffness(loop_of(setup.rig)) * 1e-3},
@@ -159,7 +159,7 @@ void add_pushed(const IndentStudy& study, BenchResult& result) {
 
 std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>& standard,
                                BenchResult& result) {
-  const std::vector<std::vector<IndentRun>> runs = study.all(kAccuracy, study.runs);
+  const std::vector<std::vector<IndentRun>> runs = study.all(kAccuracy, study.context.quick ? 1 : study.runs);
   const std::vector<Cell> cells = cells_of(runs, Reading::recorded);
   std::string words;
   for (const std::string& word : kAccuracy) words += " --set " + word;

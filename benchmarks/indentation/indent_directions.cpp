@@ -111,7 +111,7 @@ std::vector<double> path_of(const std::vector<double>& turns) {
 void add_directions(const IndentStudy& study, BenchResult& result) {
   const std::string path = study.context.models + "/directions/tennis_ball_any.toml";
   const std::vector<models::Direction> directions = models::load_directions(path);
-  std::vector<Misfit> all(pushes().size());
+  std::vector<Misfit> all(study.context.quick ? 2 : pushes().size());
   in_parallel(all.size(), [&](std::size_t i) { all[i] = misfit_of(study, pushes()[i], directions); });
   Table table{
       "indentation_directions",

@@ -158,10 +158,10 @@ void add_single_figures(const IndentStudy& study, const Runs& runs, BenchResult&
 }
 
 void add_energy_stop(const IndentStudy& study, BenchResult& result) {
-  for (std::size_t i = 0; i < indentations().size(); ++i) {
+  for (std::size_t i = 0; i < (study.context.quick ? 1 : indentations().size()); ++i) {
     const models::Setup setup = with_reversal(
         indent_setup(study.context.models, indentations()[i], {}, study.context.set), Reversal::energy_stop);
-    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, study.context.quick ? 1 : 2);
+    const std::vector<IndentRun> runs = indent_runs(setup, study.seed, 1);
     for (const bool press : {true, false})
       result.figures.push_back(
           {fmt::format("indentation.energy_stop.rmse.{}.{}", indentations()[i].name,
@@ -347,10 +347,10 @@ std::vector<Cell> cells_of(const Runs& runs, Reading reading) {
 }
 
 Runs IndentStudy::all(const Words& own, std::size_t count) const {
-  Runs runs;
+  Runs every;
   for (const Indentation& which : indentations())
-    runs.push_back(indent_runs(indent_setup(context.models, which, own, context.set), seed, count));
-  return runs;
+    every.push_back(indent_runs(indent_setup(context.models, which, own, context.set), seed, count));
+  return every;
 }
 
 BenchResult run_indentation(const BenchContext& context) {
@@ -358,7 +358,7 @@ BenchResult run_indentation(const BenchContext& context) {
   const IndentStudy study{context, paper_cells(context.models), (context.seed - 1) * 1000 + 1,
                           context.repeats > 0 ? static_cast<std::size_t>(context.repeats)
                           : context.quick     ? std::size_t{2}
-                                              : std::size_t{5}};
+                                              : std::size_t{10}};
   const auto tell = [&](double done) {
     if (context.progress) context.progress(done);
   };
