@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -14,30 +15,6 @@
 
 namespace enc::bench {
 namespace {
-
-using Runs = std::vector<std::vector<IndentRun>>;
-constexpr double kBin = 0.05e-3;  // m
-
-const Recording& recording_of(const IndentRun& run, Reading reading) {
-  return reading == Reading::sensor ? run.sensor : reading == Reading::truth ? run.truth : run.recorded;
-}
-
-// Mean force of each bin of deflection; NaN where there is none. `minus`: less the reference curve.
-std::vector<double> binned(const Branch& branch, double limit, const Response* minus, bool press) {
-  const auto bins = static_cast<std::size_t>(std::lround(limit / kBin));
-  std::vector<double> sum(bins, 0.0), count(bins, 0.0);
-  for (std::size_t i = 0; i < branch.size(); ++i) {
-    const double d = branch.deflection[i];
-    const auto bin = static_cast<std::size_t>(std::max(0.0, d / kBin));
-    if (bin >= bins) continue;
-    const double curve = minus == nullptr ? 0.0 : press ? minus->press(d) : minus->release(d);
-    sum[bin] += branch.force[i] - curve;
-    count[bin] += 1.0;
-  }
-  for (std::size_t i = 0; i < bins; ++i) sum[i] = count[i] > 0.0 ? sum[i] / count[i] : kUnset;
-  return sum;
-}
-double centre_of(std::size_t bin) { return (static_cast<double>(bin) + 0.5) * kBin; }
 
 // The greatest difference between runs at equal deflection, press and release apart.
 double spread_of(const std::vector<IndentRun>& runs, Reading reading) {
@@ -60,7 +37,7 @@ double spread_of(const std::vector<IndentRun>& runs, Reading reading) {
   return most;
 }
 
-void add_cells(const IndentStudy& study, const Runs& runs, BenchResult& result) {
+void add_cells(const IndentStudy& study, const IndentRuns& runs, BenchResult& result) {
   const std::vector<Cell> recorded = cells_of(runs, Reading::recorded);
   const std::vector<Cell> sensor = cells_of(runs, Reading::sensor), truth = cells_of(runs, Reading::truth);
   Table table{
@@ -90,7 +67,9 @@ void add_cells(const IndentStudy& study, const Runs& runs, BenchResult& result) 
                               kUnset, "the paper's MAE read as mean |e|"});
     result.figures.push_back({"indentation.bias." + where, paper.mae, c.bias, "N", Role::predicted, kUnset,
                               kUnset, "the paper's MAE read as |mean e|"});
-    for (const auto& [name, cell] : {std::pair{"sensor", sensor[i]}, std::pair{"truth", truth[i]}}) {
+    for (const auto& [name, cell, note] :
+         {std::tuple{"sensor", sensor[i], "the force sensor before the filter, at the recorded deflection"},
+          std::tuple{"truth", truth[i], "true contact force at the true deflection"}}) {
       Figure f{fmt::format("indentation.{}.rmse.{}", name, where),
                kUnset,
                cell.rmse,
@@ -98,8 +77,7 @@ void add_cells(const IndentStudy& study, const Runs& runs, BenchResult& result) 
                Role::ours,
                kUnset,
                kUnset,
-               cell.rmse == sensor[i].rmse ? "the force sensor before the filter, at the recorded deflection"
-                                           : "true contact force at the true deflection"};
+               note};
       f.least = cell.least;
       f.most = cell.most;
       result.figures.push_back(std::move(f));
@@ -111,18 +89,34 @@ void add_cells(const IndentStudy& study, const Runs& runs, BenchResult& result) 
   result.tables.push_back(std::move(table));
 }
 
-void add_single_figures(const IndentStudy& study, const Runs& runs, BenchResult& result) {
+void add_single_figures(const IndentStudy& study, const IndentRuns& runs, BenchResult& result) {
   const Reference fig10 = Reference::load(study.context.models, "fig10.csv");
   const double within = fig10.number(fig10.row({{"quantity", "repeatability_N"}}), "value");
   const auto paper_runs = static_cast<std::size_t>(fig10.number(fig10.row({{"quantity", "runs"}}), "value"));
   const std::vector<IndentRun>& a = runs.front();
-  const std::vector<IndentRun> five(a.begin(),
-                                    a.begin() + static_cast<std::ptrdiff_t>(std::min(paper_runs, a.size())));
-  result.figures.push_back(
-      {"indentation.repeatability_N", within, spread_of(five, Reading::recorded), "N", Role::predicted,
-       kUnset, within, fmt::format("greatest difference of {} runs of A at equal deflection", five.size())});
-  result.figures.push_back({"indentation.sensor.repeatability_N", kUnset, spread_of(five, Reading::sensor),
-                            "N", Role::ours, kUnset, kUnset,
+  // Fig 10 is one group of five; others of the same size say how much that is chance.
+  const std::size_t group = std::min(paper_runs, a.size());
+  const auto of_group = [&](std::size_t number, Reading reading) {
+    const auto first = a.begin() + static_cast<std::ptrdiff_t>(number * group);
+    return spread_of({first, first + static_cast<std::ptrdiff_t>(group)}, reading);
+  };
+  Figure repeatability{
+      "indentation.repeatability_N",
+      within,
+      of_group(0, Reading::recorded),
+      "N",
+      Role::predicted,
+      kUnset,
+      within,
+      fmt::format("greatest difference of {} runs of A at equal deflection; span over such groups", group)};
+  repeatability.least = repeatability.most = repeatability.twin;
+  for (std::size_t g = 1; (g + 1) * group <= a.size(); ++g) {
+    repeatability.least = std::min(repeatability.least, of_group(g, Reading::recorded));
+    repeatability.most = std::max(repeatability.most, of_group(g, Reading::recorded));
+  }
+  result.figures.push_back(std::move(repeatability));
+  result.figures.push_back({"indentation.sensor.repeatability_N", kUnset, of_group(0, Reading::sensor), "N",
+                            Role::ours, kUnset, kUnset,
                             "the same of the force before the filter: tremor is in it"});
   Figure peak{
       "indentation.peak_N",
@@ -172,142 +166,11 @@ void add_energy_stop(const IndentStudy& study, BenchResult& result) {
   }
 }
 
-Series line_of(const Branch& loop, const std::string& name, double from, double to, bool press_only,
-               bool release_only) {
-  Series s{name, {}, {}};
-  const auto top = static_cast<std::size_t>(std::max_element(loop.deflection.begin(), loop.deflection.end()) -
-                                            loop.deflection.begin());
-  const std::size_t each = to - from > 2e-3 ? 20 : 5;
-  for (std::size_t i = 0; i < loop.size(); i += each) {
-    if ((press_only && i > top) || (release_only && i <= top)) continue;
-    if (loop.deflection[i] < from || loop.deflection[i] > to) continue;
-    s.x.push_back(loop.deflection[i] * 1e3);
-    s.y.push_back(loop.force[i]);
-  }
-  return s;
-}
-
-// The two polynomials between two deflections.
-void add_curves(const Response& reference, double from, double to, bool press, bool release, Plot& plot) {
-  constexpr int kSteps = 60;
-  for (const bool way : {true, false}) {
-    if (!(way ? press : release)) continue;
-    Series s{way ? "reference, press" : "reference, release", {}, {}};
-    for (int i = 0; i <= kSteps; ++i) {
-      const double d = from + (to - from) * i / kSteps;
-      s.x.push_back(d * 1e3);
-      s.y.push_back(way ? reference.press(d) : reference.release(d));
-    }
-    plot.series.push_back(std::move(s));
-  }
-}
-
-void add_loops(const Runs& runs, BenchResult& result) {
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const char* name = indentations()[i].name;
-    Plot plot{fmt::format("indentation_fig8_{}", name),
-              fmt::format("Indentation {} (VHMR Fig 8)", name),
-              "deflection (mm)",
-              "force (N)",
-              false,
-              false,
-              {}};
-    for (std::size_t r = 0; r < std::min<std::size_t>(5, runs[i].size()); ++r)
-      plot.series.push_back(
-          line_of(runs[i][r].loop, fmt::format("hand, run {}", r + 1), 0.0, 1.0, false, false));
-    add_curves(runs[i].front().reference, 0.0, runs[i].front().limit, true, true, plot);
-    plot.caption =
-        "Force and deflection as the device records them, over the two polynomials of the rig's loop. The "
-        "vertical "
-        "part at 6 mm is the limit: the force there is the hand's.";
-    result.plots.push_back(std::move(plot));
-  }
-  Plot residual{"indentation_residual",
-                "What is left of Fig 8: recorded force less the reference curve",
-                "deflection (mm)",
-                "force error (N)",
-                false,
-                false,
-                {}};
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    for (const bool press : {true, false}) {
-      Series s{fmt::format("{}, {}", indentations()[i].name, press ? "press" : "release"), {}, {}};
-      const std::size_t count = std::min<std::size_t>(5, runs[i].size());
-      std::vector<double> sum;
-      for (std::size_t r = 0; r < count; ++r) {
-        const IndentRun& run = runs[i][r];
-        const std::vector<double> one =
-            binned(press ? run.recorded.press : run.recorded.release, run.limit, &run.reference, press);
-        sum.resize(one.size(), 0.0);
-        for (std::size_t b = 0; b < one.size(); ++b) sum[b] += one[b] / static_cast<double>(count);
-      }
-      for (std::size_t b = 0; b < sum.size(); ++b) {
-        s.x.push_back(centre_of(b) * 1e3);
-        s.y.push_back(sum[b]);
-      }
-      residual.series.push_back(std::move(s));
-    }
-  residual.caption =
-      "Mean of the runs. Pressing, the force is high by threshold and lag; releasing, the wave is where the "
-      "Prandtl-Ishlinskii law and the constrained polynomial of the rig differ.";
-  result.plots.push_back(std::move(residual));
-}
-
-void add_fig10(const std::vector<IndentRun>& a, BenchResult& result) {
-  struct Zoom {
-    const char *suffix, *title;
-    double from, to;
-    bool press, release;
-  };
-  for (const Zoom& z : {Zoom{"", "Five presses, indentation A (VHMR Fig 10)", 0.0, 6.1e-3, true, true},
-                        Zoom{"_i", "Fig 10, i: the rise at contact", 0.0, 0.8e-3, true, false},
-                        Zoom{"_ii", "Fig 10, ii: in the middle of the press", 2.6e-3, 3.4e-3, true, false},
-                        Zoom{"_iii", "Fig 10, iii: at the top", 5.2e-3, 6.02e-3, true, true},
-                        Zoom{"_iv", "Fig 10, iv: releasing", 2.6e-3, 3.4e-3, false, true}}) {
-    Plot plot{fmt::format("indentation_fig10{}", z.suffix),
-              z.title,
-              "deflection (mm)",
-              "force (N)",
-              false,
-              false,
-              {}};
-    for (std::size_t r = 0; r < std::min<std::size_t>(5, a.size()); ++r)
-      plot.series.push_back(
-          line_of(a[r].loop, fmt::format("run {}", r + 1), z.from, z.to, !z.release, !z.press));
-    plot.caption =
-        "A hand that differs in press time, depth, place and approach from run to run; the paper's five lie "
-        "within 0.2 N of each other.";
-    result.plots.push_back(std::move(plot));
-  }
-}
-
-void add_table2_plot(const IndentStudy& study, const std::vector<Cell>& standard,
-                     const std::vector<Cell>& accurate, BenchResult& result) {
-  Plot plot{"indentation_table2", "Error of the felt force (VHMR Table 2)", "", "RMSE (N)", false, false, {}};
-  Series paper{"paper", {}, {}, {}, {}, Mark::points, true};
-  Series twin{"twin", {}, {}, {}, {}, Mark::points},
-      better{"twin, set for accuracy", {}, {}, {}, {}, Mark::points};
-  for (std::size_t i = 0; i < kCells; ++i) {
-    const auto x = static_cast<double>(i);
-    plot.x_names.push_back(fmt::format("{} {}{}", study.paper[i].indentation, study.paper[i].way,
-                                       study.paper[i].consistent ? "" : " (!)"));
-    paper.x.push_back(x - 0.15);
-    paper.y.push_back(study.paper[i].rmse);
-    for (const auto& [series, cell, at] :
-         {std::tuple{&twin, &standard[i], x}, std::tuple{&better, &accurate[i], x + 0.15}}) {
-      series->x.push_back(at);
-      series->y.push_back(cell->rmse);
-      series->low.push_back(cell->least);
-      series->high.push_back(cell->most);
-    }
-  }
-  plot.series = {std::move(paper), std::move(twin), std::move(better)};
-  plot.caption =
-      "Bars reach over the runs. (!): the paper's value is below its own MAE there and cannot be right.";
-  result.plots.push_back(std::move(plot));
-}
-
 }  // namespace
+
+const Recording& recording_of(const IndentRun& run, Reading reading) {
+  return reading == Reading::sensor ? run.sensor : reading == Reading::truth ? run.truth : run.recorded;
+}
 
 std::vector<PaperCell> paper_cells(const std::string& models) {
   const Reference table = Reference::load(models, "table2.csv");
@@ -339,15 +202,15 @@ Cell cell_of(const std::vector<IndentRun>& runs, Reading reading, bool press) {
   return cell;
 }
 
-std::vector<Cell> cells_of(const Runs& runs, Reading reading) {
+std::vector<Cell> cells_of(const IndentRuns& runs, Reading reading) {
   std::vector<Cell> cells;
   for (const std::vector<IndentRun>& of : runs)
     for (const bool press : {true, false}) cells.push_back(cell_of(of, reading, press));
   return cells;
 }
 
-Runs IndentStudy::all(const Words& own, std::size_t count) const {
-  Runs every;
+IndentRuns IndentStudy::all(const Words& own, std::size_t count) const {
+  IndentRuns every;
   for (const Indentation& which : indentations())
     every.push_back(indent_runs(indent_setup(context.models, which, own, context.set), seed, count));
   return every;
@@ -362,7 +225,7 @@ BenchResult run_indentation(const BenchContext& context) {
   const auto tell = [&](double done) {
     if (context.progress) context.progress(done);
   };
-  const Runs runs = study.all({}, study.runs);
+  const IndentRuns runs = study.all({}, study.runs);
   tell(0.3);
   add_cells(study, runs, result);
   add_single_figures(study, runs, result);

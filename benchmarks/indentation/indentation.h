@@ -27,16 +27,20 @@ struct Cell {
   double rmse = kUnset, mae = kUnset, bias = kUnset, least = kUnset, most = kUnset;  // N
 };
 enum class Reading : std::uint8_t { recorded, sensor, truth };
+[[nodiscard]] const Recording& recording_of(const IndentRun& run, Reading reading);
+using IndentRuns = std::vector<std::vector<IndentRun>>;  // [i]: of indentation i
 [[nodiscard]] Cell cell_of(const std::vector<IndentRun>& runs, Reading reading, bool press);
-// runs[i]: of indentation i. The six cells.
-[[nodiscard]] std::vector<Cell> cells_of(const std::vector<std::vector<IndentRun>>& runs, Reading reading);
+[[nodiscard]] std::vector<Cell> cells_of(const IndentRuns& runs, Reading reading);  // all six
+// Mean force of each 0.05 mm of deflection; NaN where there is none. `minus`: less that reference curve.
+[[nodiscard]] std::vector<double> binned(const Branch& branch, double limit, const Response* minus,
+                                         bool press);
 
 struct IndentStudy {
   const BenchContext& context;
   std::vector<PaperCell> paper;
   std::uint64_t seed;  // of the first run
   std::size_t runs;    // of each indentation
-  [[nodiscard]] std::vector<std::vector<IndentRun>> all(const Words& own, std::size_t count) const;
+  [[nodiscard]] IndentRuns all(const Words& own, std::size_t count) const;
 };
 
 // The error of a press of minimum jerk, from the chain's own numbers: threshold, lag x speed x slope, and how
@@ -56,6 +60,10 @@ void add_press_time(const IndentStudy& study, BenchResult& result);
 // A set of devices that follows the curves more closely, and what it costs. Gives its six cells.
 [[nodiscard]] std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>& standard,
                                              BenchResult& result);
+void add_loops(const IndentRuns& runs, BenchResult& result);           // Fig 8 and what is left of it
+void add_fig10(const std::vector<IndentRun>& a, BenchResult& result);  // with its zooms i to iv
+void add_table2_plot(const IndentStudy& study, const std::vector<Cell>& standard,
+                     const std::vector<Cell>& accurate, BenchResult& result);
 // Presses in directions that nobody measured, against the rig's own push there.
 void add_directions(const IndentStudy& study, BenchResult& result);
 // Turning at 2 and at 4 mm, against the rig's ball.
