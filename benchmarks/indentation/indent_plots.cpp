@@ -10,7 +10,6 @@
 namespace enc::bench {
 namespace {
 
-constexpr double kBin = 0.05e-3;  // m
 double centre_of(std::size_t bin) { return (static_cast<double>(bin) + 0.5) * kBin; }
 
 Series line_of(const Branch& loop, const std::string& name, double from, double to, bool press_only,

@@ -110,8 +110,7 @@ models::Setup varied(models::Setup setup, std::uint64_t seed, const HandSpread& 
   user.depth += spread.depth * hand.normal();
   user.offset += spread.offset * hand.normal();
   user.approach_tilt += spread.tilt * std::numbers::pi / 180.0 * hand.normal();
-  for (double& speed : user.approach)
-    speed = spread.slowest * std::pow(spread.fastest / spread.slowest, hand.uniform());
+  for (double& speed : user.approach) speed *= std::exp(spread.speed * hand.normal());
   return setup;
 }
 

@@ -16,9 +16,12 @@
 namespace enc::bench {
 namespace {
 
+struct RunSpread {
+  double most = 0.0, at = 0.0;  // N; m, where that is
+};
 // The greatest difference between runs at equal deflection, press and release apart.
-double spread_of(const std::vector<IndentRun>& runs, Reading reading) {
-  double most = 0.0;
+RunSpread spread_of(const std::vector<IndentRun>& runs, Reading reading) {
+  RunSpread spread;
   for (const bool press : {true, false}) {
     std::vector<std::vector<double>> all;
     for (const IndentRun& run : runs) {
@@ -31,10 +34,11 @@ double spread_of(const std::vector<IndentRun>& runs, Reading reading) {
         low = std::fmin(low, run[bin]);
         high = std::fmax(high, run[bin]);
       }
-      if (high > low) most = std::max(most, high - low);
+      if (!(high - low > spread.most)) continue;
+      spread = {high - low, (static_cast<double>(bin) + 0.5) * kBin};
     }
   }
-  return most;
+  return spread;
 }
 
 void add_cells(const IndentStudy& study, const IndentRuns& runs, BenchResult& result) {
@@ -100,24 +104,27 @@ void add_single_figures(const IndentStudy& study, const IndentRuns& runs, BenchR
     const auto first = a.begin() + static_cast<std::ptrdiff_t>(number * group);
     return spread_of({first, first + static_cast<std::ptrdiff_t>(group)}, reading);
   };
+  const RunSpread first = of_group(0, Reading::recorded), sensor = of_group(0, Reading::sensor);
   Figure repeatability{
       "indentation.repeatability_N",
       within,
-      of_group(0, Reading::recorded),
+      first.most,
       "N",
       Role::predicted,
       kUnset,
       within,
-      fmt::format("greatest difference of {} runs of A at equal deflection; span over such groups", group)};
-  repeatability.least = repeatability.most = repeatability.twin;
+      fmt::format("greatest difference of {} runs of A at equal deflection, at {:.2f} mm; span over "
+                  "such groups",
+                  group, first.at * 1e3)};
+  repeatability.least = repeatability.most = first.most;
   for (std::size_t g = 1; (g + 1) * group <= a.size(); ++g) {
-    repeatability.least = std::min(repeatability.least, of_group(g, Reading::recorded));
-    repeatability.most = std::max(repeatability.most, of_group(g, Reading::recorded));
+    const double most = of_group(g, Reading::recorded).most;
+    repeatability.least = std::min(repeatability.least, most);
+    repeatability.most = std::max(repeatability.most, most);
   }
   result.figures.push_back(std::move(repeatability));
-  result.figures.push_back({"indentation.sensor.repeatability_N", kUnset, of_group(0, Reading::sensor), "N",
-                            Role::ours, kUnset, kUnset,
-                            "the same of the force before the filter: tremor is in it"});
+  result.figures.push_back({"indentation.sensor.repeatability_N", kUnset, sensor.most, "N", Role::ours,
+                            kUnset, kUnset, "the same of the force before the filter: tremor is in it"});
   Figure peak{
       "indentation.peak_N",
       kUnset,

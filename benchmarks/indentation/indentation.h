@@ -31,7 +31,8 @@ enum class Reading : std::uint8_t { recorded, sensor, truth };
 using IndentRuns = std::vector<std::vector<IndentRun>>;  // [i]: of indentation i
 [[nodiscard]] Cell cell_of(const std::vector<IndentRun>& runs, Reading reading, bool press);
 [[nodiscard]] std::vector<Cell> cells_of(const IndentRuns& runs, Reading reading);  // all six
-// Mean force of each 0.05 mm of deflection; NaN where there is none. `minus`: less that reference curve.
+// Mean force of each kBin of deflection; NaN where there is none. `minus`: less that reference curve.
+inline constexpr double kBin = 0.05e-3;  // m
 [[nodiscard]] std::vector<double> binned(const Branch& branch, double limit, const Response* minus,
                                          bool press);
 
