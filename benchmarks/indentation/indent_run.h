@@ -67,7 +67,7 @@ struct HandSpread {
   double offset = 0.25e-3;  // m, sd, of the place: drift of a lay hand, 0.15 mm rms an axis
   double tilt = 5.0;        // deg, sd, of the approach
   double speed =
-      0.3;  // of the approach, log-normal about the plan: 20 mm/s is the slow end of a final approach
+      0.3;  // of the approach, log-normal about the plan: the scene plans the speed of an indentation
 };
 // The set-up of run `number`: the hand's plan is drawn from the seed and what is set.
 [[nodiscard]] models::Setup varied(models::Setup setup, std::uint64_t seed, const HandSpread& spread = {});
