@@ -1,6 +1,7 @@
 #include <array>
 
 #include "benchmarks/bench.h"
+#include "benchmarks/indentation/indentation.h"
 
 namespace enc::bench {
 
@@ -16,6 +17,10 @@ std::span<const Benchmark> benchmarks() {
       {"identification", "rig_identify",
        "injected ball parameters out of a rig's loops: are they in the intervals, how wide are these",
        run_identification},
+      {"indentation", "indentation",
+       "a hand replicates indentations A, B, C on the virtual ball (VHMR Figs 8 and 10, Table 2); "
+       "directions, lag",
+       run_indentation},
       {"press", "tennis_ball", "one contact for each press, limit held, tip inside, no pull", run_press},
       {"response", "tennis_ball", "both response models: minor loops, jumps, tremor at rest, energy",
        run_response},

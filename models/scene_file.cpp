@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "models/directions.h"
 #include "models/units.h"
 #include "models/wording.h"
 
@@ -173,14 +174,47 @@ ResponseSpec load_response(const std::string& path) {
   return read_response(path, places).response;
 }
 
+namespace {
+
+// A file of models/directions: mixed for the press that [user] plans.
+ResponseSpec mixed_response(const Setup& setup, const BehaviourSpec& b, const std::string& path,
+                            const std::string& models_dir) {
+  const std::string place = place_of(setup, fmt::format("behaviour.{}.response", b.name));
+  const SceneSpec& scene = setup.scene;
+  if (!scene.user || !presses_sphere(scene, b.name))
+    throw Error(
+        fmt::format("{}: behaviour {} depends on the direction of the press; expected a [user] that presses "
+                    "a sphere with it; "
+                    "name the sphere in [user], or choose a behaviour with one response",
+                    place, quoted(b.name)));
+  const std::vector<Direction> directions = load_directions(path);
+  std::vector<ResponseSpec> parts;
+  parts.reserve(directions.size());
+  for (const Direction& d : directions)
+    parts.push_back(load_response((fs::path(models_dir) / "responses" / (d.response + ".toml")).string()));
+  try {
+    return mixed(parts, weights(directions, planned_way(scene)));
+  } catch (const Error& e) {
+    throw Error(fmt::format(
+        "{}:1:1: {}; expected responses with one limit and the same stops; fit them alike", path, e.what()));
+  }
+}
+
+}  // namespace
+
 void fill_curves(Setup& setup, const std::string& models_dir) {
   for (BehaviourSpec& b : setup.scene.behaviours) {
     if (b.response.empty()) {
       b.curves = {{b.stiffness, 0, 0, 0}, {b.stiffness, 0, 0, 0}, b.limit};
       continue;
     }
-    const fs::path path = (fs::path(models_dir) / "responses" / (b.response + ".toml")).lexically_normal();
     std::error_code none;
+    const fs::path directions = fs::path(models_dir) / "directions" / (b.response + ".toml");
+    if (fs::exists(directions, none)) {
+      b.curves = mixed_response(setup, b, directions.lexically_normal().string(), models_dir);
+      continue;
+    }
+    const fs::path path = (fs::path(models_dir) / "responses" / (b.response + ".toml")).lexically_normal();
     if (!fs::exists(path, none)) {
       throw Error(fmt::format("{}: there is no response file {}; expected a file in {}; {}",
                               place_of(setup, fmt::format("behaviour.{}.response", b.name)),

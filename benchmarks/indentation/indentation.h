@@ -1,0 +1,73 @@
+// Parts of the benchmark `indentation`; each adds its figures, plots and tables. [VHMR 4.2, Figs 8 and 10,
+// Table 2]
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "benchmarks/bench.h"
+#include "benchmarks/indentation/indent_run.h"
+
+namespace enc::bench {
+
+BenchResult run_indentation(const BenchContext& context);
+
+// A cell of Table 2 for each indentation and way: index 2 i for pressing, 2 i + 1 for releasing.
+inline constexpr std::size_t kCells = 6;
+struct PaperCell {
+  std::string indentation, way;
+  double rmse = kUnset, mae = kUnset;  // N
+  bool consistent = false;
+};
+[[nodiscard]] std::vector<PaperCell> paper_cells(const std::string& models);
+
+// Over several runs: root of the mean square, mean of |e|, |mean of e|; least and greatest RMSE of a run.
+struct Cell {
+  double rmse = kUnset, mae = kUnset, bias = kUnset, least = kUnset, most = kUnset;  // N
+};
+enum class Reading : std::uint8_t { recorded, sensor, truth };
+[[nodiscard]] const Recording& recording_of(const IndentRun& run, Reading reading);
+using IndentRuns = std::vector<std::vector<IndentRun>>;  // [i]: of indentation i
+[[nodiscard]] Cell cell_of(const std::vector<IndentRun>& runs, Reading reading, bool press);
+[[nodiscard]] std::vector<Cell> cells_of(const IndentRuns& runs, Reading reading);  // all six
+// Mean force of each kBin of deflection; NaN where there is none. `minus`: less that reference curve.
+inline constexpr double kBin = 0.05e-3;  // m
+[[nodiscard]] std::vector<double> binned(const Branch& branch, double limit, const Response* minus,
+                                         bool press);
+
+struct IndentStudy {
+  const BenchContext& context;
+  std::vector<PaperCell> paper;
+  std::uint64_t seed;  // of the first run
+  std::size_t runs;    // of each indentation
+  [[nodiscard]] IndentRuns all(const Words& own, std::size_t count) const;
+};
+
+// The error of a press of minimum jerk, from the chain's own numbers: threshold, lag x speed x slope, and how
+// far the law that is felt lies from the reference.
+struct LagTheory {
+  Response felt, reference;
+  double depth, threshold, lag;  // m, N, s
+};
+[[nodiscard]] double predicted_rmse(const LagTheory& theory, double time);  // N; time: s, of the press
+// s: of the machine's position behind the filtered force, and behind the force before the filter.
+[[nodiscard]] double recorded_lag(const models::Setup& setup);
+[[nodiscard]] double sensor_lag(const models::Setup& setup);
+
+// The press time is what the paper does not say: RMSE over it. And whether halving it does what lag x speed x
+// slope predicts.
+void add_press_time(const IndentStudy& study, BenchResult& result);
+// A set of devices that follows the curves more closely, and what it costs. Gives its six cells.
+[[nodiscard]] std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>& standard,
+                                             BenchResult& result);
+void add_loops(const IndentRuns& runs, BenchResult& result);           // Fig 8 and what is left of it
+void add_fig10(const std::vector<IndentRun>& a, BenchResult& result);  // with its zooms i to iv
+void add_table2_plot(const IndentStudy& study, const std::vector<Cell>& standard,
+                     const std::vector<Cell>& accurate, BenchResult& result);
+// Presses in directions that nobody measured, against the rig's own push there.
+void add_directions(const IndentStudy& study, BenchResult& result);
+// Turning at 2 and at 4 mm, against the rig's ball.
+void add_minor_loops(const IndentStudy& study, BenchResult& result);
+
+}  // namespace enc::bench
