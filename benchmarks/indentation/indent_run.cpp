@@ -94,7 +94,6 @@ IndentRun indent_run(const models::Setup& setup, std::uint64_t seed) {
   run.recorded = split(recorder.filtered, run.limit);
   run.truth = split(recorder.truth, run.limit);
   run.loop = recorder.filtered;
-  for (const double f : run.recorded.press.force) run.peak = std::max(run.peak, f);
   run.greatest = recorder.greatest;
   run.force_at_limit = recorder.force_at_limit;
   run.simulated = result.simulated;

@@ -51,10 +51,10 @@ struct IndentRun {
   Recording truth;     // true contact force over the true deflection
   Branch loop;         // as `recorded`, with what lies at the limit: for the plots
   Response reference;
-  double limit = kUnset;              // m
-  double peak = 0.0, greatest = 0.0;  // N, m: recorded force within the limit; true deflection
-  double force_at_limit = kUnset;     // N, true (decisions 6)
-  double simulated = 0.0;             // s
+  double limit = kUnset;           // m
+  double greatest = 0.0;           // m, true deflection
+  double force_at_limit = kUnset;  // N, true (decisions 6)
+  double simulated = 0.0;          // s
   std::int32_t contacts = 0;
 };
 [[nodiscard]] IndentRun indent_run(const models::Setup& setup, std::uint64_t seed);

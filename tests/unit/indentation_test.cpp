@@ -92,8 +92,8 @@ TEST(Indentation, HandsDifferWithTheirSeed) {
     const UserSpec user = *varied(setup, seed).scene.user;
     EXPECT_NEAR(user.press_time, setup.scene.user->press_time, 0.5 * setup.scene.user->press_time);
     EXPECT_NEAR(user.depth, setup.scene.user->depth, 0.25e-3);
-    EXPECT_GE(user.approach.front(), 0.005);
-    EXPECT_LE(user.approach.front(), 0.08);
+    const double faster = user.approach.front() / setup.scene.user->approach.front();
+    EXPECT_LT(std::abs(std::log(faster)), 4.0 * HandSpread{}.speed);
   }
 }
 
