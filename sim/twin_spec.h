@@ -31,7 +31,7 @@ struct FramesTruth {
 // What gives where the tool touches, in series: quasi-static, as far as it is seen (World::observe).
 struct ContactTruth {
   double compliance = 0.0;  // m/N, of tool tip and haptic-tip where they touch: their centres come nearer
-  double flexure = 0.0;     // m/N, of the tool between its tip and its markers: these go on where the tip stops
+  double flexure = 0.0;  // m/N, of the tool between its tip and its markers: these go on where the tip stops
 };
 
 struct HandTruth {
