@@ -10,8 +10,8 @@ namespace enc {
 // off as the two radii together (`apart`, m). `believed` itself where it is in the haptic-tip's very middle.
 [[nodiscard]] Point<'W'> touching(const Point<'W'>& haptic_tip, double apart, const Point<'W'>& believed);
 
-// How much of the tool's place is taken from the haptic-tip: 0 where nothing presses, 1 from the force on that
-// is a contact, so that the seen tool does not leap from one source to the other.
+// How much of the tool's place is taken from the haptic-tip: 0 where nothing presses, 1 from the force on
+// that is a contact, so that the seen tool does not leap from one source to the other.
 [[nodiscard]] double pressing_share(double pressing_force, double contact_force);
 
 // The tool of the view. Its rotation is the tracker's: the machine does not feel it.

@@ -78,8 +78,9 @@ enum class SeenTip : std::uint8_t {
 struct DisplayRig {
   std::string driver = "sim";
   SeenTip tip = SeenTip::predicted;
-  double lead = 0.0;            // s: fused: ahead of now by what a surface is old, in the middle, when it is seen
-  double compliance = 0.0;      // m/N: fused: by how much tool and haptic-tip are believed to give where they touch
+  // Of `fused`: ahead of now by what a surface is old, in the middle, while it is seen, s; and by how much
+  // tool and haptic-tip are believed to give where they touch, m/N.
+  double lead = 0.0, compliance = 0.0;
   double overdue = 0.200;       // s: older surfaces mean "hold"
   double margin = 0.0008;       // m: tracker and drawing error allowed between the seen and the felt surface
   double margin_speed = 0.050;  // m/s: how fast that margin grows with the surface's age

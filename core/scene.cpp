@@ -106,9 +106,12 @@ Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest
                 "object." + spec.name + ".behaviour");
   std::vector<double> limits = spec.limits;
   for (double& one : limits) one = std::min(one, limit);
-  Object object{surface_of(spec),     place_of(spec),
-                response,             limit,
-                wanted,               behaviour.tangential,
+  Object object{surface_of(spec),
+                place_of(spec),
+                response,
+                limit,
+                wanted,
+                behaviour.tangential,
                 behaviour.tangential_stiffness};
   object.limits = ContactLimits(limits);
   return object;

@@ -44,7 +44,8 @@ struct ObjectSpec {
   Vec3 normal{0, 0, 1};    // plane: outward, unit, in W
   std::string behaviour;   // by name; empty: a real thing, for [probe] alone
   double limit = kUnset;   // deflection limit, m; unset: the behaviour's
-  std::vector<double> limits{};  // instead: the k-th contact's, the last one stays (contact_limits.h), m
+  // Instead, m: the k-th contact of the experiment takes the k-th, the last one stays (contact_limits.h).
+  std::vector<double> limits{};
 
   // mesh
   std::string mesh{};                     // file

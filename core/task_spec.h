@@ -43,7 +43,8 @@ struct UserSpec {
   double polar = 0.0;    // and from +z of W, rad: 0 presses from above
   double offset = 0.0;   // sideways of the axis, m (indentation B)
   double depth = 0.006;  // wanted deflection, m
-  std::vector<double> depths{};  // instead: of the k-th press, the last one stays, m
+  // Instead, m: the k-th press takes the k-th, the last one stays.
+  std::vector<double> depths{};
   double push = kUnset;  // instead: push with this force, N, whatever the depth
   double press_time = 6.0, hold_time = 0.5, release_time = 6.0, rest_time = 1.0;  // s
   std::vector<double> approach{0.02};  // speed of the tool when it touches, m/s; one press for each entry

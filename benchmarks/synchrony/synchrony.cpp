@@ -59,7 +59,7 @@ Set fused_of(const sim::DisplayTruth& display, bool ahead) {
 
 SyncStudy study_of(const BenchContext& context) {
   const auto repeats = static_cast<std::size_t>(context.repeats);
-  const std::size_t seeds = repeats > 0 ? repeats : context.quick ? 2 : 12;
+  const std::size_t seeds = repeats > 0 ? repeats : context.quick ? 1 : 12;
   const std::size_t few = context.quick ? 1 : 4;
   const models::Setup base = setup_of(context, {});
   const Vec3 bias = base.twin.tracker.bias;

@@ -32,8 +32,8 @@ TEST(SynchronyInput, LimitsOfContacts) {
   EXPECT_THAT(said({key + "[6, -4]"}), HasSubstr("'limits_mm[1]' is -4"));
   EXPECT_THAT(said({key + "[6, nan]"}), HasSubstr("expected"));
   EXPECT_THAT(said({key + "6"}), HasSubstr("expected"));
-  EXPECT_THAT(said({key + "[6, 7]"}),
-              AllOf(HasSubstr("'limits_mm[1]' is 7"), HasSubstr("expected at most 6 mm"), HasSubstr("lower it")));
+  EXPECT_THAT(said({key + "[6, 7]"}), AllOf(HasSubstr("'limits_mm[1]' is 7"),
+                                            HasSubstr("expected at most 6 mm"), HasSubstr("lower it")));
   EXPECT_THAT(said({key + "[6, 0.3]"}), HasSubstr("waits deeper than the deflection limit"));
   std::string many = "[2";
   for (int i = 0; i < 16; ++i) many += ", 2";

@@ -41,7 +41,8 @@ TEST(SynchronyProperty, AnInjectedDelayIsFoundInNoise) {
 }
 
 bench::SyncRun run_with(std::vector<std::string> set, std::uint64_t seed = 3) {
-  for (const char* quick : {"user.repeats=1", "rig.tracker.prediction=\"hold\"", "rig.display.tip=\"tracked\""})
+  for (const char* quick :
+       {"user.repeats=1", "rig.tracker.prediction=\"hold\"", "rig.display.tip=\"tracked\""})
     set.insert(set.begin(), quick);
   return bench::run_sync(models::load(scene_file("synchrony"), "sim", set), seed);
 }
