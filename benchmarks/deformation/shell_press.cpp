@@ -36,12 +36,15 @@ bool settle(const ShellEnergy& energy, Eigen::VectorXd& x, ShellEnergy::Value& v
     if (!newton_step(value, step)) return false;
     const double before = value.gradient.norm();
     const double was = value.energy;
-    double share = 1.0;
-    for (; share > 1e-3; share *= 0.5) {
+    const auto better = [&] {
+      return std::isfinite(value.energy) && (value.energy < was || value.gradient.norm() < before);
+    };
+    double share = 2.0;
+    for (int halved = 0; halved == 0 || (halved < 11 && !better()); ++halved) {
+      share *= 0.5;
       value = energy.at(x + share * step);
-      if (std::isfinite(value.energy) && (value.energy < was || value.gradient.norm() < before)) break;
     }
-    if (share <= 1e-3) return false;
+    if (!better()) return false;
     x += share * step;
   }
   return false;
