@@ -73,7 +73,8 @@ TEST(SessionPlan, SubmovementsSumToTheWay) {
     ++reaches;
     const SessionPlan::Press& press = state.press;
     const Vec3 end = press.start.e() + press.primary.way.e() + press.second.way.e();
-    const Vec3 wanted = press.aborted ? press.start.e() : (press.touch - press.reached * press.at.normal).e();
+    const Vec3 wanted =
+        press.aborted ? Vec3(press.start.e()) : Vec3((press.touch - press.reached * press.at.normal).e());
     EXPECT_LT((end - wanted).norm(), 1e-12);
     EXPECT_GE(press.aborted ? 0.0 : press.reached, 0.0);
   }
@@ -100,7 +101,9 @@ TEST(SessionPlan, DrawsStayWithinTheirLimits) {
       EXPECT_TRUE(carried_to(session.scene, p.at, session.scene.objects.front().limit));
       EXPECT_EQ(in_the_way(session.scene, p.at.normal, session.scene.tools[state.held == 1 ? 1 : 0]),
                 Obstacle::none);
-      if (!p.aborted) EXPECT_TRUE(within(p.depth, spec.depth)) << p.depth;
+      if (!p.aborted) {
+        EXPECT_TRUE(within(p.depth, spec.depth)) << p.depth;
+      }
     });
   }
 }
