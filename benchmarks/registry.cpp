@@ -1,7 +1,6 @@
 #include <array>
 
 #include "benchmarks/bench.h"
-#include "benchmarks/indentation/indentation.h"
 
 namespace enc::bench {
 

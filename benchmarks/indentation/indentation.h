@@ -11,8 +11,6 @@
 
 namespace enc::bench {
 
-BenchResult run_indentation(const BenchContext& context);
-
 // A cell of Table 2 for each indentation and way: index 2 i for pressing, 2 i + 1 for releasing.
 inline constexpr std::size_t kCells = 6;
 struct PaperCell {

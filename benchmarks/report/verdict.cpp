@@ -234,7 +234,7 @@ std::string verdict_line(const std::vector<Judged>& all) {
     }
     if (count == 0) continue;
     line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count, felt_name(felt));
-    if (felt == Felt::between || felt == Felt::yes) line += " (" + which + ")";
+    if (felt == Felt::yes) line += " (" + which + ")";
   }
   return line;
 }

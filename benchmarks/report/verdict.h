@@ -49,7 +49,7 @@ struct Judged {
 [[nodiscard]] Table threshold_table(const std::vector<Judged>& all);
 // The worst error of each threshold.
 [[nodiscard]] Plot verdict_plot(const std::vector<Judged>& all);
-// "12 not felt, 3 in between (a, b, c), 1 felt (d)"
+// "12 not felt, 3 in between, 1 felt (a)"
 [[nodiscard]] std::string verdict_line(const std::vector<Judged>& all);
 
 }  // namespace enc::bench
