@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/built.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -32,7 +33,7 @@ class Questionnaire : public testing::Test {
   Result answer(const std::string& words, const std::string& more = "") const {
     return run(
         {"sh", "-c",
-         "printf '" + words + "' | " + ENCOUNTER_BINARY + " questionnaire --store " + path("a.csv") + more},
+         "printf '" + words + "' | " + program_file() + " questionnaire --store " + path("a.csv") + more},
         kModels);
   }
   static void expect_line(const Result& r) {

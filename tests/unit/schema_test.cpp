@@ -32,7 +32,7 @@ models::Setup full() {
   s.scene.objects[0].limit = 0.003;
   s.scene.objects.push_back({"ball", ShapeKind::sphere, 0.033, {0, 0, -0.02}, {0, 0, 1}, "wall", kUnset});
   s.scene.objects.push_back(
-      {"hare", ShapeKind::mesh, kUnset, {0, 0, 0}, {0, 0, 1}, "wall", kUnset, "hare.glb"});
+      {"hare", ShapeKind::mesh, kUnset, {0, 0, 0}, {0, 0, 1}, "wall", kUnset, {}, "hare.glb"});
   s.scene.display.emplace();
   s.scene.questionnaire = QuestionnaireSpec{"vhmr_2020"};
   s.scene.user->approach = {0.01, 0.02, 0.05};
