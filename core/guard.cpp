@@ -211,6 +211,19 @@ Vec3 commanded(Walk& walk, State& state, const Vec3& before) {
   return next_velocity(walk, walls, walk.scene.X_WR.q() * (target - state.command).e(), before);
 }
 
+// Legs have a shortest length, so the reach is not convex: a way of 3 mm between two points within it can
+// leave it by 8 um. Each leg is shortest where the way is at right angles to it.
+bool legs_reach_along(const Hexapod& machine, const Pose<'R', 'H'>& from, const Vec3& way) {
+  const double shortest = machine.zero_length() - machine.geometry().stroke;
+  const Mat3 R = from.q().toRotationMatrix();
+  for (int leg = 0; leg < 6; ++leg) {
+    const Vec3 strut = from.p() + R * machine.platform_joint(leg) - machine.base_joint(leg);
+    const double share = -strut.dot(way) / way.squaredNorm();
+    if (share > 0.0 && share < 1.0 && (strut + share * way).norm() < shortest) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void limit_command(Walk& walk, State& state) noexcept {
@@ -221,10 +234,14 @@ void limit_command(Walk& walk, State& state) noexcept {
   const Quat q_RH = q_WR.conjugate();
   const Vec3 before = state.command_velocity.e();
   Vec3 after = q_RH * commanded(walk, state, q_WR * before);
-  // Where the machine would come to rest if it braked from the next tick on: that must be within reach, too.
+  // Where the machine would come to rest if it braked from the next tick on: that must be within reach, and
+  // the way there, too.
   const Vec3 way = dt * after + after * (after.norm() / (2.0 * acceleration));
-  const auto within = [&](const Point<'R'>& p) { return walk.scene.reach.contains(Pose<'R', 'H'>(q_RH, p)); };
-  if (!within(state.command + Vec<'R'>(way)) && within(state.command)) {
+  const Reach& reach = walk.scene.reach;
+  const Pose<'R', 'H'> from(q_RH, state.command);
+  const bool safe = reach.contains(Pose<'R', 'H'>(q_RH, state.command + Vec<'R'>(way))) &&
+                    legs_reach_along(reach.machine, from, way);
+  if (!safe && reach.contains(from)) {
     walk.why |= kUnreachable;
     after = slowed(before, acceleration * dt);
   }

@@ -56,7 +56,7 @@ TEST_F(FitBall, TellsTheBallAndWhatItDoesNotKnow) {
   EXPECT_EQ(json.at("pushes"), 2);
   EXPECT_FALSE(json.at("numbers").contains("pressure_kPa"));
   EXPECT_EQ(json.at("held").at("pressure_kPa"), 10.0);
-  EXPECT_EQ(json.at("numbers").at("felt_mm").at("known"), "no");
+  EXPECT_EQ(json.at("numbers").at("felt_mm").at("known"), "poorly");
   EXPECT_EQ(json.at("numbers").at("rubber_modulus_MPa").at("known"), "well");
   const double modulus = json.at("numbers").at("rubber_modulus_MPa").at("value");
   EXPECT_NEAR(modulus, 2.6, 0.3);

@@ -1,0 +1,25 @@
+// What the checks of a scene share (scene_check.cpp, session_check.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/scene_file.h"
+
+namespace enc::models {
+
+// Throws Error: the place of the key in its file, and what is wrong, was expected and can be done.
+[[noreturn]] void fail(const Setup& setup, const std::string& key, const std::string& what);
+[[nodiscard]] std::string mm(double metres);  // as a file has it
+
+template <class T>
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<T>& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const T& item : items) names.push_back(item.name);
+  return names;
+}
+
+void check_session(const Setup& setup);  // [user.session]
+
+}  // namespace enc::models
