@@ -77,7 +77,7 @@ Plot timeline(const std::vector<SessionSample>& drawn) {
   Plot plot{"session_timeline",
             "One session",
             "time (s)",
-            "deflection (mm); steps: see the caption",
+            "deflection (mm)",
             false,
             false,
             {}};
