@@ -42,9 +42,9 @@ struct Outputs {
 struct Contact {
   std::int32_t object = -1;
   std::int32_t tool = -1;  // that began it; -1: none was known
-  Pose<'W', 'N'> X_WN;    // at the first touch
-  bool anchored = false;  // true once force was felt with the tip under the tool: the anchor no longer moves
-  Time loaded{};          // last tick on which force was felt; the start of time: never
+  Pose<'W', 'N'> X_WN;     // at the first touch
+  bool anchored = false;   // true once force was felt with the tip under the tool: the anchor no longer moves
+  Time loaded{};           // last tick on which force was felt; the start of time: never
   ResponseState response;
   Swing swing;
   Vec<'N'> displacement = Vec<'N'>::zero();

@@ -18,10 +18,10 @@ struct Known {
 struct BranchKnown {
   std::array<Known, 4> coefficients;  // of d^1..d^4, N/m^k
   std::vector<Known> curve;           // N, at 1, 2, ... mm up to the limit
-  std::vector<double> repeats;        // N, there: half of the interval of the repeats' mean; unset below three
-  double condition = 0.0;             // of the normal matrix, its columns scaled to length 1
-  std::array<int, 2> tied{};          // which two coefficients (1..4) are hardest to tell apart,
-  double correlation = 0.0;           // and how their errors go together
+  std::vector<double> repeats;  // N, there: half of the interval of the repeats' mean; unset below three
+  double condition = 0.0;       // of the normal matrix, its columns scaled to length 1
+  std::array<int, 2> tied{};    // which two coefficients (1..4) are hardest to tell apart,
+  double correlation = 0.0;     // and how their errors go together
 };
 
 struct LoopFit {

@@ -74,13 +74,7 @@ Plot places(const std::vector<SessionRun>& runs) {
 }
 
 Plot timeline(const std::vector<SessionSample>& drawn) {
-  Plot plot{"session_timeline",
-            "One session",
-            "time (s)",
-            "deflection (mm)",
-            false,
-            false,
-            {}};
+  Plot plot{"session_timeline", "One session", "time (s)", "deflection (mm)", false, false, {}};
   plot.caption =
       "True deflection under the haptic-tip, with what the core makes of it below: mode as a step at -3 "
       "(away), -2.5 "

@@ -28,14 +28,14 @@ void expect_fitted(const std::string& scene, const std::string& ball, const std:
   std::ifstream file(kResponses + response, std::ios::binary);
   const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   ASSERT_FALSE(committed.empty());
-  const models::Setup setup =
-      models::load(
-      ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene + ".toml", "sim", {"truth.ball.set=" + ball});
+  const models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene + ".toml", "sim",
+                                           {"truth.ball.set=" + ball});
   const models::LoopData loop = models::parse_loop(bench::table_of_run(setup, 1), scene + ".csv", kLimit);
   const models::LoopFit fit = models::fit_loop(loop, {kLimit, floor_of_rig(), kUnset});
   EXPECT_EQ(models::response_text(fit.response, fit.source), committed)
-      << "if that is as it should be:\n  build/release/encounter run models/scenes/"
-      << scene << ".toml --set truth.ball.set=" << ball << " --record out/a.encrec && build/release/encounter export out/a.encrec --csv out/a.csv && "
+      << "if that is as it should be:\n  build/release/encounter run models/scenes/" << scene
+      << ".toml --set truth.ball.set=" << ball
+      << " --record out/a.encrec && build/release/encounter export out/a.encrec --csv out/a.csv && "
       << "build/release/encounter fit out/a.csv --out models/responses/" << response;
 }
 
@@ -46,7 +46,9 @@ TEST(ResponseGolden, TennisBallOffItsAxisIsReproduced) {
 TEST(ResponseGolden, TennisBallBesideTheVerticalIsReproduced) {
   expect_fitted("rig_C", "nominal", "tennis_ball_C.toml");
 }
-TEST(ResponseGolden, RegulationBallIsReproduced) { expect_fitted("rig_A", "regulation", "regulation_ball.toml"); }
+TEST(ResponseGolden, RegulationBallIsReproduced) {
+  expect_fitted("rig_A", "regulation", "regulation_ball.toml");
+}
 
 // What the file says after reading, whichever model is felt: 12 +- 1 N where the true deflection first comes
 // within 0.05 mm of the limit (decisions 6), and accepted with the fit's own floor although its coefficients

@@ -133,11 +133,12 @@ TEST_F(SceneFile, unknown_key) {
   EXPECT_EQ(scene_said("radius_mm", "radus_mm"),
             "scenes/ball.toml:6:1: unknown key 'radus_mm'; expected a key of [[object]] 'ball'; did you mean "
             "'radius_mm'?");
-  EXPECT_EQ(scene_said("depth_mm = 6.3", "  colour = 3"),
-            "scenes/ball.toml:17:3: unknown key 'colour'; expected a key of [user]; the names here are "
-            "'kind', 'object', 'tool', "
-            "'azimuth_deg', 'polar_deg', 'offset_mm', 'depth_mm', 'depths_mm', 'push_N', 'press_s', 'hold_s', "
-            "'release_s', ...");
+  EXPECT_EQ(
+      scene_said("depth_mm = 6.3", "  colour = 3"),
+      "scenes/ball.toml:17:3: unknown key 'colour'; expected a key of [user]; the names here are "
+      "'kind', 'object', 'tool', "
+      "'azimuth_deg', 'polar_deg', 'offset_mm', 'depth_mm', 'depths_mm', 'push_N', 'press_s', 'hold_s', "
+      "'release_s', ...");
   EXPECT_EQ(scene_said("[force]", "[forces]"),
             "scenes/ball.toml:14:2: unknown key 'forces'; expected a key of the file; did you mean 'force'?");
   EXPECT_THAT(rig_said("filter_hz = 5", "filtre_hz = 5"),

@@ -1,5 +1,5 @@
-// What this build made, for tests that run it. Functions and not macros, so that the tests are the same text in
-// every preset and a compiler cache knows them again.
+// What this build made, for tests that run it. Functions and not macros, so that the tests are the same text
+// in every preset and a compiler cache knows them again.
 #pragma once
 
 #include <string>
