@@ -242,6 +242,7 @@ BenchResult run_synchrony(const BenchContext& context) {
     for (const char* law : {"energy_stop", "prandtl_ishlinskii"}) {
       Set own = kPaper;
       own.push_back(fmt::format("behaviour.tennis_ball.reversal=\"{}\"", law));
+      own.emplace_back("truth.hand.drift_mm=0");  // drawn at each physics step: another step, another hand
       BenchResult one;
       add_work_precision({fmt::format("synchrony.{}", law), "synchrony", own, 6.0, 30e-6}, context, one);
       for (Figure& f : one.figures) result.figures.push_back(std::move(f));
