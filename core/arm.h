@@ -1,5 +1,5 @@
-// A force-controlled arm with up to three joints that carries a passive prop at its tip: kinematics, statics and
-// inertia [VisHap 2.3]. Geometry is data: a PHANToM, or any chain of hinges and slides.
+// A force-controlled arm with up to three joints that carries a passive prop at its tip: kinematics, statics
+// and inertia [VisHap 2.3]. Geometry is data: a PHANToM, or any chain of hinges and slides.
 #pragma once
 
 #include <array>
@@ -17,10 +17,11 @@ using PerJoint = std::array<double, kMostJoints>;
 
 enum class ArmKind : std::uint8_t { phantom, chain };
 
-// Symbols of [VisHap eq. 5], which are those of Cavusoglu, Feygin and Tendick: a forearm, c parallelogram link,
-// be upper arm with motor, df crank with motor. q1 turret, q2 upper arm above horizontal, q3 forearm from
-// vertical (absolute). R is the centre of the gimbal of joints: the axes of turret and upper arm meet there; x
-// forwards and z upwards. Defaults: model 1.0A, scaled from the published 1.5 by 2/3 (parameters 1.5, derived).
+// Symbols of [VisHap eq. 5], which are those of Cavusoglu, Feygin and Tendick: a forearm, c parallelogram
+// link, be upper arm with motor, df crank with motor. q1 turret, q2 upper arm above horizontal, q3 forearm
+// from vertical (absolute). R is the centre of the gimbal of joints: the axes of turret and upper arm meet
+// there; x forwards and z upwards. Defaults: model 1.0A, scaled from the published 1.5 by 2/3
+// (parameters 1.5, derived).
 struct PhantomGeometry {
   double l1 = 0.1397, l2 = 0.1130, l3 = 0.02167;  // upper arm, forearm, crank, m
   double l5 = -0.02453, l6 = 0.03513;             // centres of mass of be (signed) and df from the axis, m
@@ -37,11 +38,11 @@ enum class JointKind : std::uint8_t { hinge, slide };
 struct ChainLink {
   std::string name;
   JointKind kind = JointKind::slide;
-  Vec3 axis{0, 0, 1};    // unit, in the frame of the link before; all frames are parallel to R where all joints
-                         // are at 0
-  Vec3 origin{0, 0, 0};  // of the joint, in the link before (its joint), m
-  double mass = 0.1;     // kg
-  Vec3 centre{0, 0, 0};  // of mass, from the joint, m
+  Vec3 axis{0, 0, 1};  // unit, in the frame of the link before; all frames are parallel to R where all joints
+                       // are at 0
+  Vec3 origin{0, 0, 0};            // of the joint, in the link before (its joint), m
+  double mass = 0.1;               // kg
+  Vec3 centre{0, 0, 0};            // of mass, from the joint, m
   Vec3 inertia{1e-5, 1e-5, 1e-5};  // about that, along the link's axes, kg m^2
 };
 
@@ -58,8 +59,8 @@ struct ArmMachine {
   std::vector<ChainLink> links;  // of a chain; at most kMostJoints
   Vec3 tip{0, 0, 0};             // of a chain: H in its last link, m
   std::array<ArmDrive, kMostJoints> drives{{{-M_PI / 2, M_PI / 2, 8.87},
-                                            {-2.164, 2.077, 7.47},      // -124 and 119 deg
-                                            {-0.506, 3.735, 7.47}}};    // -29 and 214 deg (parameters 1.3)
+                                            {-2.164, 2.077, 7.47},    // -124 and 119 deg
+                                            {-0.506, 3.735, 7.47}}};  // -29 and 214 deg (parameters 1.3)
 };
 
 // How the mass of a prop at the tip enters eq. 5.
@@ -78,10 +79,11 @@ class Arm {
   [[nodiscard]] PerJoint zero() const { return {}; }  // home: W is where H is there
 
   [[nodiscard]] Point<'R'> tip(const PerJoint& q) const noexcept;
-  // d tip / d q, m per rad or m; the columns of joints that are not there are 0. The body Jacobian J^b of eq. 4
-  // is R^T of it, and its force R^T F, so that J^bT R^T F = J^T F.
+  // d tip / d q, m per rad or m; the columns of joints that are not there are 0. The body Jacobian J^b of eq.
+  // 4 is R^T of it, and its force R^T F, so that J^bT R^T F = J^T F.
   [[nodiscard]] Mat3 jacobian(const PerJoint& q) const noexcept;
-  // What the motors must do against gravity [eq. 5], N m or N; payload at the tip, kg. Gravity is along -z of R.
+  // What the motors must do against gravity [eq. 5], N m or N; payload at the tip, kg. Gravity is along -z of
+  // R.
   [[nodiscard]] PerJoint gravity(const PerJoint& q, double payload, Payload form) const noexcept;
   // Mass matrix with rotors, kg m^2 (or kg, kg m); payload exact.
   [[nodiscard]] Mat3 mass(const PerJoint& q, double payload) const noexcept;

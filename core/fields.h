@@ -50,6 +50,13 @@ void fields(F& f, TipSample& s) {
   fields(f, "acceleration_R", s.acceleration);
 }
 template <class F>
+void fields(F& f, ArmSample& s) {
+  fields(f, "joints", s.joints);
+  fields(f, "joint_velocities", s.joint_velocities);
+  fields(f, "arm_tip_R", s.tip);
+  fields(f, "arm_velocity_R", s.velocity);
+}
+template <class F>
 void fields(F& f, DentSample& s) {
   f("dent_object", s.object);
   fields(f, "dent_tip_O", s.tip.centre);
@@ -83,6 +90,7 @@ void fields(F& f, Inputs& in) {
   fields(f, in.tool);
   fields(f, in.wrench);
   fields(f, in.tip);
+  fields(f, in.arm);
   fields(f, in.dent);
   fields(f, in.grip);
   f("missed", in.missed);
@@ -110,6 +118,10 @@ void fields(F& f, Outputs& out) {
   fields(f, "first_touch_W", out.first_touch);
   fields(f, out.view);
   fields(f, out.grip);
+  fields(f, "arm_force_R", out.arm_force);
+  fields(f, "wanted_W", out.wanted);
+  f("gain", out.gain);
+  f("prop_speed", out.prop_speed);
 }
 template <class F>
 void fields(F& f, Swing& s) {
@@ -157,6 +169,22 @@ void fields(F& f, Travelling& t) {
   f("travel_leg", t.leg);
 }
 template <class F>
+void fields(F& f, Reaching& r) {
+  fields(f, "target_W", r.target);
+  fields(f, "target_velocity_W", r.velocity);
+  fields(f, "error_W", r.error);
+  fields(f, "error_rate_W", r.error_rate);
+  f("lambda", r.gain);
+  f("sunk", r.sunk);
+  f("caught_up", r.caught_up);
+  f("triggered", r.triggered);
+}
+template <class F>
+void fields(F& f, Moved& m) {
+  fields(f, "shift_W", m.shift);
+  fields(f, "shift_velocity_W", m.velocity);
+}
+template <class F>
 void fields(F& f, std::string_view name, ObjectHint& h) {
   f(name, h.object);
   f(name, h.feature);
@@ -181,6 +209,8 @@ void fields(F& f, State& s) {
   fields(f, s.contact);
   fields(f, s.probing);
   fields(f, s.travelling);
+  fields(f, s.reaching);
+  for (Moved& moved : s.moved) fields(f, moved);
   fields(f, "command_R", s.command);
   fields(f, "command_velocity_R", s.command_velocity);
   fields(f, "last_query_W", s.last_query);

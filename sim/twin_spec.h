@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/rig_spec.h"
+#include "sim/arm_spec.h"
 #include "sim/machine_spec.h"
 #include "sim/sensor_spec.h"
 
@@ -78,6 +79,7 @@ struct TwinSpec {
   FramesTruth frames;
   HexapodTruth hexapod;
   StructureTruth structure;
+  ArmTruth arm;
   GripperTruth gripper;
   ForceTruth force;
   TrackerTruth tracker;

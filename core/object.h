@@ -1,0 +1,34 @@
+// An object of a scene made ready: its surface where it stands, and how it answers.
+#pragma once
+
+#include "core/contact_limits.h"
+#include "core/frames.h"
+#include "core/object_spec.h"
+#include "core/response.h"
+#include "core/surface.h"
+
+namespace enc {
+
+struct Object {
+  Surface surface;
+  Pose<'W', 'O'> X_WO;
+  Response response;      // none where the object is real: then only a probe touches it
+  double limit = kUnset;  // deflection, m: what is rendered; with `limits` the largest of them
+  double wanted =
+      kUnset;  // what object, behaviour and response ask for; more only where the machine is too weak
+  Tangential tangential = Tangential::stick;
+  double tangential_stiffness = kUnset;               // N/m
+  Point<'W'> centre = X_WO * surface.bound().centre;  // of a ball that holds the object
+  double radius = surface.bound().radius;             // m; infinite for a half space
+  ContactLimits limits{};                             // of contacts that have their own
+  InteractionSpec interaction{};
+  double stiffness = kUnset;  // of the interaction, N/m
+  std::int32_t moving = -1;   // place in State::moved; -1: it stands
+
+  [[nodiscard]] double limit_at(std::int32_t contact) const { return limits.at(contact, limit); }  // m
+
+  // No surface point of the object is nearer to p than this, m; negative where p may be inside.
+  [[nodiscard]] double least_distance(const Point<'W'>& p) const { return (p - centre).norm() - radius; }
+};
+
+}  // namespace enc
