@@ -100,6 +100,8 @@ double length_of(const ToolSpec& tool) {
 
 }  // namespace
 
+Tool made_tool(const ToolSpec& spec) { return {tip_of(spec), length_of(spec)}; }
+
 PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
   const PusherSpec& pusher = *spec.pusher;
   const std::size_t index = pressed_object(spec.objects, pusher.object, "pusher");
@@ -295,7 +297,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
                 "rig.manipulator.payload");
   for (const ObjectSpec& object : spec.objects)
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
-  for (const ToolSpec& tool : spec.tools) scene.tools.push_back({tip_of(tool), length_of(tool)});
+  for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
   if (spec.probe) scene.probe = make_probe(spec, scene);
   if (spec.travel) scene.travel = make_travel(spec, scene);
   check_reach(spec, scene);
