@@ -333,8 +333,9 @@ void check(const Setup& setup) {
   check_pusher(setup);
   check_gripper(setup);
   check_rig(setup);
-  if (setup.twin.steps_per_tick(setup.rig.loop.rate) == 0) {
-    fail(setup, setup.twin.structural() ? "truth.structure.timestep_us" : "truth.world.timestep_us",
+  const sim::Stepping stepping = setup.twin.stepping(s.arm.has_value());
+  if (stepping.steps_per_tick(setup.rig.loop.rate) == 0) {
+    fail(setup, stepping.table + ".timestep_us",
          fmt::format(
              "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "
              "as 'timestep_us = {:g}'",
