@@ -23,6 +23,11 @@ Surface surface_of(const ObjectSpec& spec) {
   if (spec.shape == ShapeKind::plane) return Surface(Plane{});
   if (spec.shape == ShapeKind::mesh)
     return Surface(MeshSurface{std::make_shared<const MeshTree>(scaled_mesh(spec))});
+  if (spec.shape == ShapeKind::button) {
+    if (!(spec.width > 0.0) || !(spec.height > 0.0))
+      throw Error("a button has a width and a height", "object." + spec.name + ".width");
+    return Surface(Button{spec.width, spec.height});
+  }
   if (!(spec.radius > 0.0)) throw Error("a sphere needs a radius", "object." + spec.name + ".radius");
   return Surface(Sphere{spec.radius});
 }
