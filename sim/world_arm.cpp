@@ -1,5 +1,6 @@
 // What of the world concerns an arm: its torques, its prop and what is seen of both.
 #include <cmath>
+#include <limits>
 
 #include "sim/world.h"
 
@@ -42,6 +43,7 @@ void World::set_up_arm(const WorldSpec& spec) {
   truth_.tip_radius = 0.0;  // its front is flat
   mj_kinematics(physics_.model(), physics_.data());
   truth_.tip = arm_body_->tip(physics_.data());
+  if (user_) truth_.tool_tip = user_->start();
   face_prop(0.0);
 }
 
