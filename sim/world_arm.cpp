@@ -29,8 +29,7 @@ Faced nearest_surface(const Scene& scene, const Point<'W'>& p) {
 
 }  // namespace
 
-// Built so that H would be W at q = 0, then put wrong: about W.
-Pose<'W', 'R'> World::arm_base(const ArmTruth& truth) {
+Pose<'W', 'R'> arm_base(const ArmTruth& truth) {
   const Quat turned = rotation_xyz(truth.turned);
   return {turned, Vec3(truth.misplaced - turned * Arm(true_machine(truth)).tip({}).e())};
 }
