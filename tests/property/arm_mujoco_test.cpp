@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/arm.h"
+#include "core/scene_spec.h"
+#include "sim/arm_model.h"
 #include "sim/mujoco.h"
 
 namespace enc::sim {
@@ -97,6 +99,29 @@ Built chain(const ArmMachine& machine, double payload) {
   return {Physics(std::move(spec)), Eigen::MatrixXd::Identity(static_cast<int>(machine.links.size()), 3)};
 }
 
+// The twin's own model of it, of either kind.
+Built twin(const ArmMachine& machine, double payload) {
+  SpecPtr spec = empty();
+  const ArmTruth truth{};
+  PropSpec prop;
+  prop.mass = payload;
+  build_arm(spec.get(), {machine, truth, &prop, Pose<'W', 'R'>::shift(0.1, -0.2, 0.3)});
+  Physics physics(std::move(spec));
+  const mjModel* m = physics.model();
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(m->nv, 3);
+  const auto row = [&](const char* joint, const Eigen::RowVector3d& of_q) {
+    G.row(m->jnt_dofadr[physics.id(mjOBJ_JOINT, joint)]) = of_q;
+  };
+  row("arm_1", {1, 0, 0});
+  if (m->nv > 1) row("arm_2", {0, 1, 0});
+  if (m->nv > 2) row("arm_3", {0, 0, 1});
+  if (machine.kind == ArmKind::phantom) {
+    row("arm_forearm", {0, -1, 1});
+    row("arm_link", {0, 1, -1});
+  }
+  return {std::move(physics), G};
+}
+
 struct Apart {
   double gravity = 0.0;  // N m
   double mass = 0.0;     // of the matrix, relative
@@ -135,10 +160,12 @@ struct Draw {
 };
 
 // Worst over poses.
-Apart worst_over_poses(const ArmMachine& machine, int poses, double payload, Draw& draw) {
+Apart worst_over_poses(const ArmMachine& machine, int poses, double payload, Draw& draw,
+                       bool of_twin = false) {
   const Arm arm(machine);
-  Built built =
-      machine.kind == ArmKind::phantom ? phantom(arm.machine(), payload) : chain(arm.machine(), payload);
+  Built built = of_twin                            ? twin(arm.machine(), payload)
+                : machine.kind == ArmKind::phantom ? phantom(arm.machine(), payload)
+                                                   : chain(arm.machine(), payload);
   Apart worst;
   for (int i = 0; i < poses; ++i) {
     const Apart apart = compare(arm, built, draw.pose(arm), payload);
@@ -157,24 +184,43 @@ TEST(ArmMujoco, GravityAndMassOfThePhantom) {
   EXPECT_LT(worst.mass, 1e-9);
 }
 
+// Masses, each with its inertia, and the forearm's length off by up to 20 %.
+ArmMachine off_by_twenty_percent(Draw& draw) {
+  ArmMachine machine;
+  PhantomGeometry& g = machine.phantom;
+  const auto scale = [&](double& mass, Vec3& inertia) {
+    const double off = draw.uniform(0.8, 1.2);
+    mass *= off;
+    inertia *= off;
+  };
+  scale(g.m_a, g.I_a);
+  scale(g.m_c, g.I_c);
+  scale(g.m_be, g.I_be);
+  scale(g.m_df, g.I_df);
+  g.l2 *= draw.uniform(0.8, 1.2);
+  return machine;
+}
+
 TEST(ArmMujoco, WithMassesAndForearmOffByTwentyPercent) {
   Draw draw;
   for (int i = 0; i < 50; ++i) {
-    ArmMachine machine;
-    PhantomGeometry& g = machine.phantom;
-    const auto scale = [&](double& mass, Vec3& inertia) {
-      const double off = draw.uniform(0.8, 1.2);
-      mass *= off;
-      inertia *= off;
-    };
-    scale(g.m_a, g.I_a);
-    scale(g.m_c, g.I_c);
-    scale(g.m_be, g.I_be);
-    scale(g.m_df, g.I_df);
-    g.l2 *= draw.uniform(0.8, 1.2);
-    const Apart worst = worst_over_poses(machine, 20, draw.uniform(0.0, 0.05), draw);
+    const Apart worst = worst_over_poses(off_by_twenty_percent(draw), 20, draw.uniform(0.0, 0.05), draw);
     EXPECT_LT(worst.gravity, 1e-12) << i;
     EXPECT_LT(worst.mass, 1e-9) << i;
+  }
+}
+
+TEST(ArmMujoco, TheTwinIsTheSamePhantom) {
+  Draw draw;
+  const Apart worst = worst_over_poses(ArmMachine{}, 1'000, 0.020, draw, true);
+  RecordProperty("gravity_Nm", std::to_string(1e15 * worst.gravity) + "e-15");
+  RecordProperty("mass_relative", std::to_string(1e15 * worst.mass) + "e-15");
+  EXPECT_LT(worst.gravity, 1e-9);
+  EXPECT_LT(worst.mass, 0.01);
+  for (int i = 0; i < 50; ++i) {
+    const Apart off = worst_over_poses(off_by_twenty_percent(draw), 20, draw.uniform(0.0, 0.05), draw, true);
+    EXPECT_LT(off.gravity, 1e-9) << i;
+    EXPECT_LT(off.mass, 0.01) << i;
   }
 }
 
