@@ -101,6 +101,8 @@ BenchResult run_gravity(const BenchContext& context) {
   add_statics(rig, context, result);
   if (context.progress) context.progress(0.5);
   add_catalogue(rig, result);
+  add_twin(rig, context, result);
+  if (context.progress) context.progress(0.7);
   add_race(rig, context, result);
   return result;
 }

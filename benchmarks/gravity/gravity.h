@@ -62,6 +62,7 @@ void add_figure(BenchResult& result, const std::string& id, double paper, double
 
 void add_statics(const GravityRig& rig, const BenchContext& context, BenchResult& result);
 void add_catalogue(const GravityRig& rig, BenchResult& result);
+void add_twin(const GravityRig& rig, const BenchContext& context, BenchResult& result);
 void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& result);
 
 }  // namespace enc::bench

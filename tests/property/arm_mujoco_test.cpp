@@ -46,7 +46,7 @@ struct Built {
 SpecPtr empty() {
   SpecPtr spec(mj_makeSpec());
   spec->option.gravity[2] = -kStandardGravity;
-  spec->compiler.boundinertia = 0.0;
+  spec->compiler.degree = 0;
   return spec;
 }
 
