@@ -65,7 +65,8 @@ std::string arm_name(const models::Setup& setup) {
 
 std::string prop_name(const PropSpec& prop) {
   constexpr std::array<const char*, 3> kNames{"plate", "key", "drum"};
-  return fmt::format("{}, {:g} g", kNames[static_cast<std::size_t>(prop.kind)], std::round(prop.mass * 1e6) * 1e-3);
+  return fmt::format("{}, {:g} g", kNames[static_cast<std::size_t>(prop.kind)],
+                     std::round(prop.mass * 1e6) * 1e-3);
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ bool all_simulated(const models::Setup& setup) {
   const RigSpec& rig = setup.rig;
   const auto simulated = [](bool named, const std::string& driver) { return !named || driver == "sim"; };
   return simulated(scene.manipulator.has_value(), rig.manipulator.driver) &&
-         simulated(scene.arm.has_value(), rig.arm.driver) && simulated(scene.force.has_value(), rig.force.driver) &&
+         simulated(scene.arm.has_value(), rig.arm.driver) &&
+         simulated(scene.force.has_value(), rig.force.driver) &&
          simulated(scene.tracker.has_value(), rig.tracker.driver) &&
          simulated(scene.display.has_value(), rig.display.driver) &&
          simulated(scene.gripper.has_value(), rig.gripper.driver);
@@ -66,6 +67,7 @@ int run(const RunOptions& options) {
     throw Error("--for-s: expected a positive number of seconds below a million");
   bench::PressMeasure presses(setup);
   bench::ProbeMeasure pushes;
+  bench::FingerMeasure fingers;
   bench::TrialOptions trial_options;
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
@@ -79,6 +81,7 @@ int run(const RunOptions& options) {
   trial_options.watch = [&](const bench::Glance& glance) {
     presses.see(glance);
     pushes.see(glance);
+    fingers.see(glance);
   };
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) trial_options.progress = show_progress;
@@ -91,7 +94,7 @@ int run(const RunOptions& options) {
   if (record) record->close();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const RunReport report{setup, trial.scene(), result, presses, pushes, started};
+  const RunReport report{setup, trial.scene(), result, presses, pushes, fingers, started};
   fmt::print("{}", options.json ? run_json(report) : run_text(report));
   if (record && record->full()) throw Error(record->error());
   if (result.diverged_at >= 0)

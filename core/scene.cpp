@@ -304,8 +304,19 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   return scene;
 }
 
+namespace {
+
+// H in the machine's base at its zero.
+Pose<'R', 'H'> home_of(const Scene& scene) {
+  if (!scene.impedance) return scene.reach.machine.zero();
+  const Arm& arm = scene.impedance->arm;
+  return {Quat::Identity(), arm.tip(arm.zero())};
+}
+
+}  // namespace
+
 double chain_residual(const Scene& scene) {
-  const Pose<'W', 'H'> X_WH = scene.X_WR * scene.reach.machine.zero();
+  const Pose<'W', 'H'> X_WH = scene.X_WR * home_of(scene);
   // As seen from W; the letter does not matter for the sum.
   const auto from_W = [](const auto& X) { return Pose<'W', 'N'>(Quat(X.q()), Vec3(X.p())); };
   std::vector<Pose<'W', 'N'>> seen{from_W(scene.X_WR), from_W(X_WH), from_W(X_WH * scene.X_HF),

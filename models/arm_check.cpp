@@ -13,15 +13,17 @@ void check_unit(const Setup& setup, const std::string& key, const Vec3& v) {
   const double length = v.norm();
   if (std::abs(length - 1.0) < 1e-6) return;
   const Vec3 u = length > 0 ? Vec3(v / length) : Vec3(0, 0, 1);
-  fail(setup, key, fmt::format("its length is {:.6g}; expected 1; write it like '[{}, {}, {}]'", length, u.x(), u.y(),
-                               u.z()));
+  fail(setup, key,
+       fmt::format("its length is {:.6g}; expected 1; write it like '[{}, {}, {}]'", length, u.x(), u.y(),
+                   u.z()));
 }
 
 void check_machine(const Setup& setup, const std::string& key, const ArmMachine& machine) {
   if (machine.kind == ArmKind::phantom) return;
   if (machine.links.empty() || machine.links.size() > kMostJoints)
-    fail(setup, key, fmt::format("this chain has {} links; expected 1 to {}; write each as '[[{}.link]]'",
-                                 machine.links.size(), kMostJoints, key));
+    fail(setup, key,
+         fmt::format("this chain has {} links; expected 1 to {}; write each as '[[{}.link]]'",
+                     machine.links.size(), kMostJoints, key));
   for (const ChainLink& link : machine.links)
     check_unit(setup, fmt::format("{}.link.{}.axis", key, link.name), link.axis);
 }
@@ -91,7 +93,8 @@ void check_arm(const Setup& setup) {
   check_machine(setup, "rig.arm.machine", setup.rig.arm.machine);
   if (setup.rig.arm.driver != "sim") return;
   if (!setup.twin.arm.there)
-    fail(setup, "rig.arm", "the rig's arm is simulated and nothing says what it is; expected [truth.arm]; add it");
+    fail(setup, "rig.arm",
+         "the rig's arm is simulated and nothing says what it is; expected [truth.arm]; add it");
   check_machine(setup, "truth.arm.machine", setup.twin.arm.machine);
 }
 

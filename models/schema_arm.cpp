@@ -88,24 +88,29 @@ void describe(Visitor& v, ArmMachine& m) {
 
 void describe(Visitor& v, ArmRig& a) {
   v.value({"driver", "sim, a folder of hw_drivers, or none", "rig", chosen, kAny, needed}, &a.driver);
-  choice(v, {"gravity", "what is done against it: nothing, eq. 5 with the prop in m_a, or the prop at the tip",
-             "[VisHap eq. 5]", chosen},
+  choice(v,
+         {"gravity", "what is done against it: nothing, eq. 5 with the prop in m_a, or the prop at the tip",
+          "[VisHap eq. 5]", chosen},
          kGravity, a.gravity);
   v.value({"stiffness_N_per_m", "K_p of eq. 2", "docs/plane_button.md", chosen}, &a.stiffness);
   v.value({"damping_Ns_per_m", "K_v of eq. 2", "docs/plane_button.md", chosen}, &a.damping);
-  v.value({"filter_hz", "a / 2 pi of eq. 3 in its s-domain form, a / (s + a)", "docs/plane_button.md", chosen},
-          &a.filter);
+  v.value(
+      {"filter_hz", "a / 2 pi of eq. 3 in its s-domain form, a / (s + a)", "docs/plane_button.md", chosen},
+      &a.filter);
   v.value({"peak_N", "what the tip pushes with at most", "parameters 1.1", published, kPositive}, &a.peak);
   v.value({"continuous_N", "and for hours", "parameters 1.1", published, kPositive}, &a.continuous);
-  v.value({"speed_mm_s", "of the target on its way to where the finger will touch", "docs/reaching.md", chosen,
-           kPositive},
+  v.value({"speed_mm_s", "of the target on its way to where the finger will touch", "docs/reaching.md",
+           chosen, kPositive},
           &a.speed);
   v.value({"acceleration_m_s2", "of that", "docs/reaching.md", chosen, kPositive}, &a.acceleration);
-  v.value({"settle_ms", "in which the target follows a leap of the finger that is seen", "docs/plane_button.md",
-           chosen, kPositive},
+  v.value({"settle_ms", "in which the target follows a leap of the finger that is seen",
+           "docs/plane_button.md", chosen, kPositive},
           &a.settle);
   v.value({"stale_ms", "an older sample is lost", "architecture B10", assumed, kPositive}, &a.stale);
-  v.value({"least_dexterity", "nearer to a singular pose no object may be", "docs/phantom.md", chosen,
+  v.value({"least_dexterity",
+           "nearer to a singular pose no object may be",
+           "docs/phantom.md",
+           chosen,
            {0.0, 1.0}},
           &a.least_dexterity);
   table(v, "machine", [&] { describe(v, a.machine); });
@@ -116,13 +121,15 @@ void describe(Visitor& v, sim::ArmTruth& a) {
           &a.timestep);
   v.value({"integrator", "of MuJoCo, likewise", "fidelity 4", chosen, kAny, defaulted, kIntegrators},
           &a.integrator);
-  v.value({"mass_scale", "of all its masses and inertias against the machine's below", "parameters 1.2", assumed,
-           kPositive},
+  v.value({"mass_scale", "of all its masses and inertias against the machine's below", "parameters 1.2",
+           assumed, kPositive},
           &a.mass_scale);
   const auto each = [&](const Key& key, PerJoint& numbers) { per_joint(v, key, numbers); };
-  each({"counts", "of each encoder, for a turn of its motor", "parameters 1.3", published, kPositive}, a.counts);
-  choice(v, {"friction_form", "dry: holds what is at rest; smooth: c tanh(10 qd), at rest nothing", "parameters 1.3",
-             chosen},
+  each({"counts", "of each encoder, for a turn of its motor", "parameters 1.3", published, kPositive},
+       a.counts);
+  choice(v,
+         {"friction_form", "dry: holds what is at rest; smooth: c tanh(10 qd), at rest nothing",
+          "parameters 1.3", chosen},
          kFriction, a.friction_form);
   each({"friction_Nm", "Coulomb's, at each joint; N of a slide", "parameters 1.3", published, kNotNegative},
        a.friction);
@@ -144,8 +151,9 @@ void describe(Visitor& v, sim::ArmTruth& a) {
           &a.gimbal_time);
   v.value({"contact_time_ms", "of the stop between finger and prop", "decisions 25", derived, kPositive},
           &a.contact_time);
-  v.value({"drum_time_ms", "of the motor that drives a prop's surface", "docs/objects.md", assumed, kPositive},
-          &a.drum_time);
+  v.value(
+      {"drum_time_ms", "of the motor that drives a prop's surface", "docs/objects.md", assumed, kPositive},
+      &a.drum_time);
   v.value({"prop_friction", "of a finger on the prop", "parameters 5.1", assumed, kNotNegative},
           &a.prop_friction);
   v.value({"misplaced_mm", "of the base against where the rig says it is", "injected", chosen}, &a.misplaced);
@@ -156,7 +164,8 @@ void describe(Visitor& v, sim::ArmTruth& a) {
 void describe(Visitor& v, PropSpec& p) {
   choice(v, {"kind", "what the arm carries at its tip", "[VisHap 2]", chosen}, kMounted, p.kind);
   v.value({"mass_kg", "of it", "[VisHap 2.3.2]", assumed, kNotNegative}, &p.mass);
-  v.value({"size_mm", "along x and y of its front, and behind it", "[VisHap 2.2]", assumed, kPositive}, &p.size);
+  v.value({"size_mm", "along x and y of its front, and behind it", "[VisHap 2.2]", assumed, kPositive},
+          &p.size);
 }
 
 // Entries of the interaction database that only an arm renders.
@@ -165,7 +174,8 @@ void describe(Visitor& v, InteractionSpec& i) {
          i.kind);
   if (i.kind == Interaction::press) return;
   auto prop = static_cast<std::uint8_t>(i.prop + 1);
-  choice(v, {"prop", "what the finger should meet; others are warned of", "[VisHap 2.2]", chosen}, kProps, prop);
+  choice(v, {"prop", "what the finger should meet; others are warned of", "[VisHap 2.2]", chosen}, kProps,
+         prop);
   i.prop = static_cast<std::int32_t>(prop) - 1;
   v.value({"gradual_mm", "depth over which one stiffness becomes the next; 0: at once", "[VisHap 3]", assumed,
            kNotNegative},
@@ -173,7 +183,8 @@ void describe(Visitor& v, InteractionSpec& i) {
   v.value({"gradual_ms", "and the time that takes at least; 0: none", "[VisHap 3]", assumed, kNotNegative},
           &i.gradual_time);
   if (i.kind == Interaction::click) {
-    v.value({"trigger_mm", "depth d1 at which it triggers", "[VisHap Fig 4]", assumed, kPositive}, &i.trigger);
+    v.value({"trigger_mm", "depth d1 at which it triggers", "[VisHap Fig 4]", assumed, kPositive},
+            &i.trigger);
     v.value({"after_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kAny, needed}, &i.after);
     v.value({"bottom_mm", "depth d2 of the bottom", "[VisHap Fig 4]", assumed, kPositive}, &i.bottom);
     v.value({"floor_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kAny, needed}, &i.floor);
@@ -183,7 +194,8 @@ void describe(Visitor& v, InteractionSpec& i) {
   if (i.kind == Interaction::hit)
     v.value({"restitution", "of a hit", "docs/objects.md", chosen, {0.0, 1.0}}, &i.restitution);
   if (i.kind == Interaction::shift || i.kind == Interaction::spin)
-    v.value({"way", "of length 1, along which it moves, in O", "docs/objects.md", chosen, {-1.0, 1.0}}, &i.way);
+    v.value({"way", "of length 1, along which it moves, in O", "docs/objects.md", chosen, {-1.0, 1.0}},
+            &i.way);
   if (i.kind == Interaction::shift) {
     v.value({"friction_N", "that stops it", "docs/objects.md", chosen, kNotNegative}, &i.friction);
     v.value({"travel_mm", "to its end", "docs/objects.md", chosen, kPositive}, &i.travel);

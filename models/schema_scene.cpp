@@ -13,7 +13,6 @@ constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
 constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ishlinskii"};
 constexpr std::array<std::string_view, 2> kWays{"one_way", "both_ways"};
 constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
-constexpr std::array<std::string_view, 2> kArms{"phantom", "chain"};
 constexpr std::array<std::string_view, 2> kTremors{"sine", "band"};
 constexpr std::array<std::string_view, 2> kUsers{"press_release", "session"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
@@ -143,6 +142,9 @@ void describe_presses(Visitor& v, UserSpec& u) {
           &u.approach_from);
   v.value({"approach_tilt_deg", "of the approach from the surface normal", kAuthor, chosen, {0.0, 80.0}},
           &u.approach_tilt);
+  v.value({"slide_mm", "there and back along the surface while it is held", kAuthor, chosen, kNotNegative},
+          &u.slide);
+  v.value({"slide_mm_s", "of that, at its fastest", kAuthor, chosen, kPositive}, &u.slide_speed);
   v.value({"repeats", "of the whole list of presses", kAuthor, chosen, {1.0, 1e6}}, &u.repeats);
 }
 
@@ -275,7 +277,13 @@ void describe(Visitor& v, SceneSpec& s) {
            true},
           &s.format);
   v.value({"title", "what the experiment is, in a line", kAuthor, chosen}, &s.title);
-  v.value({"rig", "that it is made for, in models/rigs; --rig says otherwise", kAuthor, chosen, kAny, defaulted, {},
+  v.value({"rig",
+           "that it is made for, in models/rigs; --rig says otherwise",
+           kAuthor,
+           chosen,
+           kAny,
+           defaulted,
+           {},
            true},
           &s.rig);
   list(v, "object", s.objects, [&](ObjectSpec& o) { describe(v, o); });
@@ -285,9 +293,7 @@ void describe(Visitor& v, SceneSpec& s) {
     v.value({"kind", "which machine carries the haptic-tip", "[VHMR 2]", chosen, kAny, defaulted, kMachines},
             &m.kind);
   });
-  part(v, "arm", s.arm, [&](ArmSpec& a) {
-    v.value({"kind", "which machine carries the prop", "[VisHap 2]", chosen, kAny, defaulted, kArms}, &a.kind);
-  });
+  part(v, "arm", s.arm, [](ArmSpec&) {});
   part(v, "prop", s.prop, [&](PropSpec& p) { describe(v, p); });
   part(v, "force", s.force, [](ForceSpec&) {});
   part(v, "tracker", s.tracker, [](TrackerSpec&) {});
@@ -375,7 +381,8 @@ void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
            sideways},
           &b.tangential_stiffness);
   const bool arm = b.interaction.kind != Interaction::press;
-  if (!table_if(v, "interaction", arm, [&] { describe(v, b.interaction); })) b.interaction = InteractionSpec{};
+  if (!table_if(v, "interaction", arm, [&] { describe(v, b.interaction); }))
+    b.interaction = InteractionSpec{};
   if (with_curves && !arm) table(v, "curves", [&] { describe(v, b.curves); });
 }
 
