@@ -16,7 +16,7 @@
 namespace enc::bench {
 namespace {
 
-// The twin's bodies alone: no friction and no limits.
+// The twin's bodies alone, without devices.
 struct TwinArm {
   sim::Physics physics;
   sim::ArmBody body;
@@ -31,19 +31,21 @@ struct TwinArm {
   }
 };
 
-TwinArm twin_arm(const Laden& laden, double timestep, mjtIntegrator integrator) {
+TwinArm twin_arm(const Laden& laden, double timestep, mjtIntegrator integrator, const PerJoint& friction = {},
+                 const PerJoint& viscous = {}) {
   sim::install_mujoco_handlers();
   sim::SpecPtr spec(mj_makeSpec());
   spec->compiler.degree = 0;  // limits are in rad
   spec->option.timestep = timestep;
   spec->option.integrator = integrator;
   spec->option.gravity[2] = -kStandardGravity;
-  sim::ArmTruth free;
-  free.friction = free.viscous = {0.0, 0.0, 0.0};
+  sim::ArmTruth truth;
+  truth.friction = friction;
+  truth.viscous = viscous;
   PropSpec prop;
   prop.mass = laden.payload;
   const ArmMachine& machine = laden.arm.machine();
-  sim::build_arm(spec.get(), {machine, free, &prop, Pose<'W', 'R'>::identity()});
+  sim::build_arm(spec.get(), {machine, truth, &prop, Pose<'W', 'R'>::identity()});
   sim::Physics physics(std::move(spec));
   const mjModel* m = physics.model();
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(m->nv, 3);
@@ -260,12 +262,81 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
   add_figure(result, "swing.times_real_time", kUnset, 1.0 / used.cost, "x", "the arm's bodies alone");
 }
 
+// What the tip does in ten seconds where nothing but gravity compensation drives the motors, a thousand times
+// a second from what the encoders read; or nothing at all.
+struct Still {
+  std::vector<double> time, way;  // s, mm
+  double dexterity = 0.0;         // at the end
+};
+Still left_alone(const GravityRig& rig, double payload, Compensation form, const PerJoint& friction) {
+  const sim::ArmTruth& truth = rig.setup.twin.arm;
+  const Arm& believed = rig.believed.arm;
+  const Laden laden{rig.real.arm, payload};
+  TwinArm twin = twin_arm(laden, 0.001, mjINT_RK4, friction, truth.viscous);
+  const PerJoint start{0.1, 0.2, 0.4};
+  twin.set(start, {});
+  const Vec3 home = laden.arm.tip(start).e();
+  Still still;
+  for (int tick = 0; tick <= 10'000; ++tick) {
+    PerJoint q = twin.body.joints(twin.physics.data());
+    if (tick % 50 == 0) {
+      still.time.push_back(1e-3 * tick);
+      still.way.push_back(1e3 * (laden.arm.tip(q).e() - home).norm());
+      still.dexterity = laden.arm.dexterity(laden.arm.jacobian(q));
+    }
+    for (std::size_t i = 0; i < kMostJoints; ++i)
+      q[i] = rig.encoder_step[i] * std::round(q[i] / rig.encoder_step[i]);
+    const Mat3 J = believed.jacobian(q);
+    if (form != Compensation::none)
+      twin.body.drive(twin.physics.data(),
+                      believed.torque(J, believed.force(J, believed.gravity(q, payload, Payload::exact))));
+    twin.physics.step();
+  }
+  return still;
+}
+
+void add_drift(const GravityRig& rig, BenchResult& result) {
+  constexpr double kPlate = 0.020;  // kg
+  using enum Compensation;
+  struct Case {
+    const char *id, *name;
+    double payload;
+    Compensation form;
+    bool friction;
+  };
+  constexpr std::array<Case, 4> kCases{
+      {{"drift.plate.max", "20 g plate, compensated", kPlate, exact, true},
+       {"drift.bare.max", "bare tip, compensated", 0.0, exact, true},
+       {"drift.no_friction.max", "20 g plate, compensated, no dry friction", kPlate, exact, false},
+       {"fall.bare.max", "bare tip, not compensated", 0.0, none, true}}};
+  Plot plot{"gravity.drift", "Left alone for ten seconds", "time, s", "way of the tip, mm", false, true, {}};
+  for (const Case& c : kCases) {
+    const Still still =
+        left_alone(rig, c.payload, c.form, c.friction ? rig.setup.twin.arm.friction : PerJoint{});
+    Series series{c.name, still.time, still.way};
+    for (double& way : series.y) way = std::max(way, 1e-4);
+    plot.series.push_back(std::move(series));
+    const double most = *std::max_element(still.way.begin(), still.way.end());
+    const bool held = c.form != none;
+    add_figure(result, c.id, kUnset, most, "mm",
+               held ? "in 10 s, bodies, encoders and gravity compensation alone"
+                    : fmt::format("in 10 s; where it ends the dexterity is {:.2f}", still.dexterity),
+               kUnset, held && c.friction ? 1.0 : kUnset);
+  }
+  plot.caption =
+      "Without compensation the arm falls to its limits: the counterweight was made for a gimbal that is "
+      "not there, and lifts the upper arm. With it, dry friction holds what the steps of the encoders leave. "
+      "No control of the position takes part here.";
+  result.plots.push_back(std::move(plot));
+}
+
 }  // namespace
 
 void add_twin(const GravityRig& rig, const BenchContext& context, BenchResult& result) {
   if (rig.real.arm.machine().kind != ArmKind::phantom) return;
   add_equations(rig.real, context, result);
   add_swing(rig, context, result);
+  add_drift(rig, result);
 }
 
 }  // namespace enc::bench
