@@ -89,6 +89,7 @@ struct Benchmark {
 BenchResult run_deformation(const BenchContext& context);  // the seen ball against a pressed one (Fig 11)
 BenchResult run_dent(const BenchContext& context);         // the seen surface: speed, contact vertex, volume
 BenchResult run_encounter(const BenchContext& context);    // miss at first touch over approach speed
+BenchResult run_gravity(const BenchContext& context);      // the arm's statics, against KDL (VisHap eq. 5)
 BenchResult run_indentation(const BenchContext& context);  // a hand on the virtual ball (Table 2, Figs 8, 10)
 BenchResult run_press(const BenchContext& context);        // one contact a press, limit held, tip inside
 BenchResult run_session(const BenchContext& context);      // a user's two minutes, a change of tools (4.4)

@@ -13,6 +13,10 @@ std::span<const Benchmark> benchmarks() {
       {"encounter", "tennis_ball",
        "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
        run_encounter},
+      {"gravity", "wall",
+       "gravity compensation of the arm: residual force over the workspace, catalogue, race against KDL "
+       "(VisHap eq. 5)",
+       run_gravity},
       {"identification", "rig_identify",
        "injected ball parameters out of a rig's loops: are they in the intervals, how wide are these",
        run_identification},
