@@ -33,7 +33,7 @@ struct ArmTruth {
   double drum_time = 0.020;        // s, of the motor that drives a prop's surface
   double gimbal_time = 0.030;      // s, in which the prop turns to another surface
   double prop_friction = 0.6;      // of a finger on the prop
-  double contact_time = 0.002;     // s, of the stop between finger and prop: a hard contact
+  double contact_time = 0.004;     // s, of the stop between finger and prop: a hard contact
   Vec3 misplaced{0, 0, 0};         // of the base against the believed X_WR, m
   Vec3 turned{0, 0, 0};            // rad
 };
