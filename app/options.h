@@ -13,7 +13,7 @@ namespace enc::app {
 
 struct SceneOptions {
   std::string scene;
-  std::string rig = "sim";
+  std::string rig;               // empty: the scene's own
   std::vector<std::string> set;  // "name=value"
   std::uint64_t seed = 1;
 };

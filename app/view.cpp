@@ -62,9 +62,9 @@ bool touching(const Moment& m) {
 
 // Each leg as a rod in a jacket, from its base joint to its platform joint.
 void add_legs(const Moment& m, sim::ViewRequest& request) {
-  const Hexapod& machine = m.world.machine.machine();
+  const Hexapod& machine = m.world.machine->machine();
   const Pose<'W', 'R'>& X_WR = m.world.X_WR();
-  const Pose<'W', 'H'> X_WH = X_WR * m.world.machine.state().pose;
+  const Pose<'W', 'H'> X_WH = X_WR * m.world.machine->state().pose;
   for (int leg = 0; leg < 6; ++leg) {
     const Point<'W'> from = X_WR * Point<'R'>(machine.base_joint(leg));
     const Point<'W'> to = X_WH * Point<'H'>(machine.platform_joint(leg));
@@ -149,7 +149,7 @@ Point<'W'> flank(const Moment& m, std::size_t object) {
 void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
   const sim::Truth& truth = m.world.truth();
   const auto in_H = [&](double x, double y, double z) {
-    return m.world.X_WR() * m.world.machine.state().pose * Point<'H'>(x, y, z);
+    return m.world.X_WR() * m.world.machine->state().pose * Point<'H'>(x, y, z);
   };
   request.labels.push_back({m.scene.probe ? "probe" : "haptic-tip", truth.tip, false});
   for (std::size_t i = 0; i < m.setup.scene.objects.size(); ++i)
@@ -163,7 +163,7 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
   request.labels.push_back({"gripper", in_H(0.02, -0.022, -0.09), true});
   request.labels.push_back({"force sensor", in_H(0.03, -0.025, -0.1437), false});
   request.labels.push_back({"platform", in_H(-0.09, -0.07, -0.186), true});
-  const Hexapod& machine = m.world.machine.machine();
+  const Hexapod& machine = m.world.machine->machine();
   const Vec3 base = machine.base_joint(0);
   const Point<'W'> leg = m.world.X_WR() * Point<'R'>(base);
   request.labels.push_back({"six legs (hexapod)", leg + 0.4 * (in_H(0, 0, -0.19) - leg), false});

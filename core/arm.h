@@ -12,6 +12,7 @@
 namespace enc {
 
 inline constexpr std::size_t kMostJoints = 3;
+inline constexpr double kStandardGravity = 9.80665;  // m/s^2, along -z of R
 // A number for each joint: rad or m, N m or N. Joints that a machine does not have are 0.
 using PerJoint = std::array<double, kMostJoints>;
 
@@ -26,9 +27,12 @@ struct PhantomGeometry {
   double l1 = 0.1397, l2 = 0.1130, l3 = 0.02167;  // upper arm, forearm, crank, m
   double l5 = -0.02453, l6 = 0.03513;             // centres of mass of be (signed) and df from the axis, m
   double m_a = 0.01347, m_c = 0.01660, m_be = 0.2325, m_df = 0.1865;  // kg
+  // In Cavusoglu's body axes, kg m^2: x along the axis of q2 and q3, z along be and c but y along a and df. a
+  // and c about their centres of mass, be and df about the origin of R: the published mass matrix has no
+  // m_be l5^2 and no m_df l6^2.
   Vec3 I_a{1.441e-5, 5e-8, 1.441e-5}, I_c{2.841e-5, 2.841e-5, 1.5e-7}, I_be{4.929e-4, 4.471e-4, 2.63e-5},
-      I_df{3.160e-4, 2.80e-5, 2.776e-4};  // about their centres of mass in Cavusoglu's body axes, kg m^2
-  double I_base = 5.276e-4;               // turret about its axis, kg m^2
+      I_df{3.160e-4, 2.80e-5, 2.776e-4};
+  double I_base = 5.276e-4;                         // turret about its axis, kg m^2
   double coupled_low = -0.96, coupled_high = 1.13;  // limits of q2 - q3, rad: -55 and 65 deg (parameters 1.3)
 };
 
@@ -82,8 +86,8 @@ class Arm {
   // d tip / d q, m per rad or m; the columns of joints that are not there are 0. The body Jacobian J^b of eq.
   // 4 is R^T of it, and its force R^T F, so that J^bT R^T F = J^T F.
   [[nodiscard]] Mat3 jacobian(const PerJoint& q) const noexcept;
-  // What the motors must do against gravity [eq. 5], N m or N; payload at the tip, kg. Gravity is along -z of
-  // R.
+  // What the motors must do against gravity [eq. 5], N m or N; payload at the tip, kg. A chain has no m_a:
+  // its payload is exact.
   [[nodiscard]] PerJoint gravity(const PerJoint& q, double payload, Payload form) const noexcept;
   // Mass matrix with rotors, kg m^2 (or kg, kg m); payload exact.
   [[nodiscard]] Mat3 mass(const PerJoint& q, double payload) const noexcept;
@@ -91,9 +95,10 @@ class Arm {
   [[nodiscard]] PerJoint torque(const Mat3& jacobian, const Vec<'R'>& force) const noexcept;
   [[nodiscard]] Vec<'R'> force(const Mat3& jacobian, const PerJoint& torque) const noexcept;
   // 1 where the tip moves equally well along every way that the machine has, 0 at a singular pose: least over
-  // largest singular value of the Jacobian, of those that belong to its joints.
+  // largest singular value of the Jacobian, of those that belong to its joints. 1 rad counts as 1 m.
   [[nodiscard]] double dexterity(const Mat3& jacobian) const noexcept;
-  // Joints at which the tip is at p, within limits; false where there are none.
+  // Joints at which the tip is at p, within limits; false, and q as it was, where there are none. A chain
+  // looks for them from q on.
   [[nodiscard]] bool inverse(const Point<'R'>& p, PerJoint& q) const noexcept;
   [[nodiscard]] bool within_limits(const PerJoint& q) const noexcept;
 

@@ -39,6 +39,7 @@ struct Impedance {
 struct Felt {
   double stiffness = 0.0, sunk = 0.0;
 };
-[[nodiscard]] Felt felt_at(const InteractionSpec& interaction, double stiffness, double depth);
+// `stiffness`: of the object where it is touched; `free`: of the tip that nobody touches, K_p.
+[[nodiscard]] Felt felt_at(const InteractionSpec& interaction, double stiffness, double free, double depth);
 
 }  // namespace enc

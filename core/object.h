@@ -1,6 +1,9 @@
 // An object of a scene made ready: its surface where it stands, and how it answers.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/contact_limits.h"
 #include "core/frames.h"
 #include "core/object_spec.h"
@@ -30,5 +33,15 @@ struct Object {
   // No surface point of the object is nearer to p than this, m; negative where p may be inside.
   [[nodiscard]] double least_distance(const Point<'W'>& p) const { return (p - centre).norm() - radius; }
 };
+
+// Parts of prepare(). Throw Error with the key in the file.
+[[nodiscard]] Mesh scaled_mesh(const ObjectSpec& spec);
+[[nodiscard]] Surface surface_of(const ObjectSpec& spec);
+[[nodiscard]] Pose<'W', 'O'> place_of(const ObjectSpec& spec);
+[[nodiscard]] const BehaviourSpec& behaviour_of(const std::vector<BehaviourSpec>& behaviours,
+                                                const ObjectSpec& object);
+// Which object is pressed by `who` ("user", "pusher"): the named one, or the first.
+[[nodiscard]] std::size_t pressed_object(const std::vector<ObjectSpec>& objects, const std::string& name,
+                                         const std::string& who);
 
 }  // namespace enc

@@ -64,6 +64,8 @@ struct Scene {
 // object or a press out of reach, a response that is not monotone or too soft, a role that is missing.
 [[nodiscard]] Scene prepare(const SceneSpec& spec, const RigSpec& rig);
 
+[[nodiscard]] Tool made_tool(const ToolSpec& spec);
+
 // The loop of hand, filter, machine and dead time that a rig file promises (loop_model.h).
 [[nodiscard]] LoopModel loop_of(const RigSpec& rig);
 

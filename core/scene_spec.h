@@ -38,9 +38,7 @@ struct FollowSpec {
 struct ManipulatorSpec {
   std::string kind = "hexapod";
 };
-struct ArmSpec {
-  std::string kind = "phantom";
-};
+struct ArmSpec {};  // which one, the rig says
 // What the arm carries at its tip [VisHap 2]: a thing with a front that the finger touches.
 struct PropSpec {
   PropKind kind = PropKind::plate;

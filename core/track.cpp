@@ -41,7 +41,7 @@ void take_in(const Walk& walk, State& state) {
 // touch before the poses show it, and would see the tool go on right through the machine.
 Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>& from,
                           const Point<'W'>& to) {
-  if (!walk.X_WH.valid()) return to;
+  if (!walk.X_WH.valid() || walk.scene.impedance) return to;
   const double apart = tool_radius + walk.scene.tip_radius;
   const Vec3 c = (from - walk.X_WH.origin()).e();
   const Vec3 way = (to - from).e();
@@ -136,7 +136,35 @@ void grip(Walk& walk) noexcept {
     walk.why |= kToolNotHeld;
 }
 
+namespace {
+
+// An arm's tip turns with its joints; what is felt is its place alone, so H keeps the axes of R.
+void track_arm(Walk& walk, State& state) {
+  const Stamped<ArmSample>& sample = walk.in.arm;
+  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.impedance->rig.stale) {
+    walk.why |= kTipLost;
+    return;
+  }
+  constexpr double kFastest = 20.0;  // m/s
+  const ArmSample& arm = sample.value;
+  bool usable = sample.health == Health::ok && arm.tip.finite() && arm.tip.e().norm() < 10.0 &&
+                arm.velocity.finite() && arm.velocity.norm() < kFastest &&
+                sample.t <= walk.tick.t + walk.tick.dt;
+  for (const double q : arm.joints) usable = usable && std::abs(q) < 100.0;  // false for NaN
+  if (!usable) {
+    walk.why |= kTipInvalid;
+    return;
+  }
+  walk.X_WH = walk.scene.X_WR * Pose<'R', 'H'>(Quat::Identity(), arm.tip);
+  walk.tip_velocity = walk.scene.X_WR * arm.velocity;
+  walk.jacobian = walk.scene.impedance->arm.jacobian(arm.joints);
+  state.started = true;
+}
+
+}  // namespace
+
 void track(Walk& walk, State& state) noexcept {
+  if (walk.scene.impedance) track_arm(walk, state);
   if (walk.scene.has_manipulator) track_tip(walk, state);
   if (walk.scene.has_tracker) track_tool(walk, state);
 }

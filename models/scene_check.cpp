@@ -111,6 +111,7 @@ void check_object(const Setup& setup, const ObjectSpec& o) {
 
 // Called before and after the curves are there.
 void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
+  if (b.interaction.kind != Interaction::press) return check_interaction(setup, b);
   const std::string path = "behaviour." + b.name;
   const bool linear = !std::isnan(b.stiffness);
   if (linear && !b.response.empty()) {
@@ -167,6 +168,7 @@ void check_tip(const Setup& setup, const ToolSpec& tool) {
 }
 
 void check_tool(const Setup& setup, const ToolSpec& tool) {
+  if (setup.scene.arm) return check_finger(setup, tool);
   check_tip(setup, tool);
   const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
   if (tool.markers.size() < 3) {
@@ -295,6 +297,7 @@ void check_rig(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   const RigSpec& r = setup.rig;
   check_driver(setup, s.manipulator.has_value(), "manipulator", r.manipulator.driver);
+  check_driver(setup, s.arm.has_value(), "arm", r.arm.driver);
   check_driver(setup, s.force.has_value(), "force", r.force.driver);
   check_driver(setup, s.tracker.has_value(), "tracker", r.tracker.driver);
   check_driver(setup, s.display.has_value(), "display", r.display.driver);
@@ -332,9 +335,11 @@ void check(const Setup& setup) {
   check_probe(setup);
   check_pusher(setup);
   check_gripper(setup);
+  check_arm(setup);
   check_rig(setup);
-  if (setup.twin.steps_per_tick(setup.rig.loop.rate) == 0) {
-    fail(setup, setup.twin.structural() ? "truth.structure.timestep_us" : "truth.world.timestep_us",
+  const sim::Stepping stepping = setup.twin.stepping(s.arm.has_value());
+  if (stepping.steps_per_tick(setup.rig.loop.rate) == 0) {
+    fail(setup, stepping.table + ".timestep_us",
          fmt::format(
              "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "
              "as 'timestep_us = {:g}'",

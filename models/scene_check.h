@@ -21,5 +21,9 @@ template <class T>
 }
 
 void check_session(const Setup& setup);  // [user.session]
+// arm_check.cpp
+void check_arm(const Setup& setup);
+void check_finger(const Setup& setup, const ToolSpec& tool);
+void check_interaction(const Setup& setup, const BehaviourSpec& behaviour);
 
 }  // namespace enc::models

@@ -25,8 +25,9 @@ struct Setup {
   std::vector<std::string> notes;  // what was repaired in a mesh, one line each
 };
 
-// rig: "sim", or another file in models/rigs without ".toml", or a path. overrides:
-// "object.ball.radius_mm=30", "rig.force.filter_hz=20", "truth.tracker.bias_mm=[0,0,0]".
+// rig: "sim", or another file in models/rigs without ".toml", or a path; empty: the one that the scene is
+// made for, or "sim". overrides: "object.ball.radius_mm=30", "rig.force.filter_hz=20",
+// "truth.tracker.bias_mm=[0,0,0]".
 Setup load(const std::string& scene_path, const std::string& rig,
            const std::vector<std::string>& overrides = {});
 

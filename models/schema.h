@@ -78,6 +78,10 @@ void describe(Visitor&, ResponseSpec&);
 void describe(Visitor&, ResponseFile&);
 void describe(Visitor&, RigSpec&);
 void describe(Visitor&, HexapodGeometry&);
+void describe(Visitor&, ArmRig&);
+void describe(Visitor&, sim::ArmTruth&);
+void describe(Visitor&, PropSpec&);
+void describe(Visitor&, InteractionSpec&);
 void describe(Visitor&, std::string_view table, PoseSpec&);
 void describe(Visitor&, sim::TwinSpec&);
 // Everything, under the names that --set takes: the scene at the root, then behaviour, rig and truth.
@@ -90,6 +94,15 @@ void table(Visitor& visitor, std::string_view name, Walk walk) {
   if (!visitor.open(name, true)) return;
   walk();
   visitor.close();
+}
+
+// A table that is there only if it is named. Says whether it is.
+template <class Walk>
+bool table_if(Visitor& visitor, std::string_view name, bool there, Walk walk) {
+  if (!visitor.open(name, there)) return false;
+  walk();
+  visitor.close();
+  return true;
 }
 
 template <class Enum>

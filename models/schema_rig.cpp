@@ -216,6 +216,7 @@ void describe(Visitor& v, RigSpec& r) {
     describe(v, "H_F", r.frames.H_F);
   });
   table(v, "manipulator", [&] { describe(v, r.manipulator); });
+  if (!table_if(v, "arm", r.arm.driver != "none", [&] { describe(v, r.arm); })) r.arm.driver = "none";
   table(v, "force", [&] { describe(v, r.force); });
   table(v, "tracker", [&] { describe(v, r.tracker); });
   table(v, "display", [&] { describe(v, r.display); });

@@ -8,7 +8,7 @@ using enum Confidence;
 using enum Presence;
 
 constexpr std::array<std::string_view, 3> kTips{"sphere", "cone", "edge"};
-constexpr std::array<std::string_view, 3> kShapes{"plane", "sphere", "mesh"};
+constexpr std::array<std::string_view, 4> kShapes{"plane", "sphere", "mesh", "button"};
 constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
 constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ishlinskii"};
 constexpr std::array<std::string_view, 2> kWays{"one_way", "both_ways"};
@@ -65,8 +65,11 @@ void describe(Visitor& v, ObjectSpec& o) {
   }
   if (o.shape == ShapeKind::mesh) describe_mesh(v, o);
   v.value({"position_mm", "where its origin O is in W", kAuthor, chosen, kAny, needed}, &o.position);
-  if (o.shape == ShapeKind::plane) {
-    v.value({"normal", "outward, of length 1, in W", kAuthor, chosen, {-1.0, 1.0}}, &o.normal);
+  if (o.shape == ShapeKind::plane || o.shape == ShapeKind::button)
+    v.value({"normal", "outward, of length 1, in W", kAuthor, chosen}, &o.normal);
+  if (o.shape == ShapeKind::button) {
+    v.value({"width_mm", "of its face", "[VisHap 2.2]", chosen, kPositive, needed}, &o.width);
+    v.value({"height_mm", "of its face", "[VisHap 2.2]", chosen, kPositive, needed}, &o.height);
   }
   v.value({"behaviour",
            "how it pushes back: an entry of models/behaviours.toml; empty: a real thing, for [probe] alone",
@@ -82,8 +85,7 @@ void describe(Visitor& v, ObjectSpec& o) {
 
 void describe(Visitor& v, ToolSpec& t) {
   v.value(name_key("what --set, the user and the report call it"), &t.name);
-  v.value({"markers_mm", "at least 3 markers in T; the tool is recognised by them", "[VHMR 3.2]", chosen,
-           kAny, needed},
+  v.value({"markers_mm", "at least 3 markers in T; the tool is recognised by them", "[VHMR 3.2]", chosen},
           &t.markers);
   v.value({"tip_mm", "centre of the tip's sphere in T", "[VHMR 3.2]", chosen, kAny, needed}, &t.tip);
   v.value({"tip_radius_mm", "radius of the tip; 0: a point", kAuthor, chosen, kNotNegative}, &t.tip_radius);
@@ -116,6 +118,9 @@ void describe(Visitor& v, FollowSpec& f) {
           &f.pause);
   v.value({"resume_mm", "and is followed again when nearer than this", "fidelity 5", assumed, kPositive},
           &f.resume);
+  v.value({"hysteresis_mm", "another object must be nearer by this to take over", "[VisHap 3]", assumed,
+           kNotNegative},
+          &f.hysteresis);
 }
 
 void describe_presses(Visitor& v, UserSpec& u) {
@@ -269,6 +274,15 @@ void describe(Visitor& v, SceneSpec& s) {
            true},
           &s.format);
   v.value({"title", "what the experiment is, in a line", kAuthor, chosen}, &s.title);
+  v.value({"rig",
+           "that it is made for, in models/rigs; --rig says otherwise",
+           kAuthor,
+           chosen,
+           kAny,
+           defaulted,
+           {},
+           true},
+          &s.rig);
   list(v, "object", s.objects, [&](ObjectSpec& o) { describe(v, o); });
   list(v, "tool", s.tools, [&](ToolSpec& t) { describe(v, t); });
   table(v, "follow", [&] { describe(v, s.follow); });
@@ -276,6 +290,8 @@ void describe(Visitor& v, SceneSpec& s) {
     v.value({"kind", "which machine carries the haptic-tip", "[VHMR 2]", chosen, kAny, defaulted, kMachines},
             &m.kind);
   });
+  part(v, "arm", s.arm, [](ArmSpec&) {});
+  part(v, "prop", s.prop, [&](PropSpec& p) { describe(v, p); });
   part(v, "force", s.force, [](ForceSpec&) {});
   part(v, "tracker", s.tracker, [](TrackerSpec&) {});
   part(v, "display", s.display, [](DisplaySpec&) {});
@@ -361,7 +377,10 @@ void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
   v.value({"tangential_stiffness_N_per_mm", "of the sideways spring", "behaviours.toml", chosen, kPositive,
            sideways},
           &b.tangential_stiffness);
-  if (with_curves) table(v, "curves", [&] { describe(v, b.curves); });
+  const bool arm = b.interaction.kind != Interaction::press;
+  if (!table_if(v, "interaction", arm, [&] { describe(v, b.interaction); }))
+    b.interaction = InteractionSpec{};
+  if (with_curves && !arm) table(v, "curves", [&] { describe(v, b.curves); });
 }
 
 void describe_behaviours(Visitor& v, std::vector<BehaviourSpec>& behaviours, bool with_curves) {

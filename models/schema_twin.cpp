@@ -270,6 +270,7 @@ void describe(Visitor& v, sim::TwinSpec& t) {
   });
   table(v, "hexapod", [&] { describe(v, t.hexapod); });
   table(v, "structure", [&] { describe(v, t.structure); });
+  t.arm.there = table_if(v, "arm", t.arm.there, [&] { describe(v, t.arm); });
   table(v, "gripper", [&] { describe(v, t.gripper); });
   table(v, "force", [&] { describe(v, t.force); });
   table(v, "tracker", [&] { describe(v, t.tracker); });

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/rig.h"
+#include "sim/arm_model.h"
+#include "sim/arm_plant.h"
 #include "sim/ball_contact.h"
 #include "sim/display_plant.h"
 #include "sim/force_plant.h"
@@ -59,7 +61,8 @@ class World {
   [[nodiscard]] std::vector<std::byte> save() const;
   void restore(const std::vector<std::byte>& saved);
 
-  HexapodPlant machine;
+  std::optional<HexapodPlant> machine;  // there if the scene has no arm
+  std::optional<ArmPlant> arm;
   std::optional<ForcePlant> force;
   std::optional<TrackerPlant> tracker;
   std::optional<DisplayPlant> display;
@@ -72,21 +75,31 @@ class World {
   void physics_step(double t);
   void find_tools(const SceneSpec& scene);
   void hold_tools(double t, double h);
+  static Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth);  // world_hexapod.cpp
+  void set_up_hexapod(const WorldSpec& spec);
+  void move_machine(double t, double h);
   void place_machine(const Pose<'R', 'H'>& from);  // where it was; its state says how it moves
   [[nodiscard]] LegMotion leg_motion() const;      // that the servo wants
   void observe_machine();
   [[nodiscard]] Pose<'W', 'H'> true_tip() const;
-  void observe(Time t);
-  [[nodiscard]] Pose<'W', 'T'> held_tool_pose(double t) const;  // s; as its markers stand
-  void sense(Time t);
+  void measure_force(Time t);
   void press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h);
   void push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h);
   void apply(const Vec<'W'>& force, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
              const Point<'W'>& to);
+  static Pose<'W', 'R'> arm_base(const ArmTruth& truth);  // world_arm.cpp
+  void set_up_arm(const WorldSpec& spec);
+  void face_prop(double h);
+  void drive_arm(double h);
+  void observe_arm();
+  void observe(Time t);
+  [[nodiscard]] Pose<'W', 'T'> held_tool_pose(double t) const;  // s; as its markers stand
+  void sense(Time t);
   [[nodiscard]] bool by_own_law() const { return ball || pusher; }  // no contact of MuJoCo's
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
 
   TwinSpec twin_;
+  const Scene& prepared_;
   double dt_;
   int steps_per_tick_;
   std::int32_t clamped_ = -1;  // tool in the gripper
@@ -96,6 +109,7 @@ class World {
   Pose<'H', 'T'> X_HT_;  // how the clamped tool stands
   std::optional<User> user_;
   Physics physics_;
+  std::optional<ArmBody> arm_body_;
   // A tool of the user's: its body, and what of it the tracker and the truth need.
   struct Held {
     std::int32_t index = -1;  // in the scene
