@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/step.h"
+#include "core/stages.h"
 
 namespace enc {
 namespace {
@@ -89,6 +89,13 @@ void slide(const Mover& mover, const Vec3& force, std::span<const Moved> moved, 
 }
 
 }  // namespace
+
+// Time stands still in a hold, here too.
+void stages::push(Walk& walk, State& state) noexcept {
+  if (walk.scene.movers.empty() || holding(walk)) return;
+  const FingerPress press{state.object, -walk.gap, walk.normal, walk.tool_tip, walk.tool_radius};
+  move(walk.scene.movers, press, walk.scene.dt, state.moved);
+}
 
 void move(std::span<const Mover> movers, const FingerPress& press, double dt,
           std::span<Moved> moved) noexcept {
