@@ -50,6 +50,9 @@ struct UserSpec {
   std::vector<double> approach{0.02};  // speed of the tool when it touches, m/s; one press for each entry
   double approach_from = 0.060;        // m, distance of the start from the touched point
   double approach_tilt = 0.5;          // rad, of the approach from the surface normal
+  // While it holds: there and back along x of the surface's frame, m; at its fastest, m/s. A hold takes as
+  // long as that does.
+  double slide = 0.0, slide_speed = 0.030;
   std::int64_t repeats = 1;            // of the whole list
   TremorForm tremor = TremorForm::sine;
   std::optional<SessionSpec> session;  // with kind "session", instead of the presses above

@@ -144,6 +144,9 @@ void describe_presses(Visitor& v, UserSpec& u) {
           &u.approach_from);
   v.value({"approach_tilt_deg", "of the approach from the surface normal", kAuthor, chosen, {0.0, 80.0}},
           &u.approach_tilt);
+  v.value({"slide_mm", "there and back along the surface while it is held", kAuthor, chosen, kNotNegative},
+          &u.slide);
+  v.value({"slide_mm_s", "of that, at its fastest", kAuthor, chosen, kPositive}, &u.slide_speed);
   v.value({"repeats", "of the whole list of presses", kAuthor, chosen, {1.0, 1e6}}, &u.repeats);
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/rotation.h"
 #include "sim/minimum_jerk.h"
 
 namespace enc::sim {
@@ -15,8 +16,7 @@ constexpr double kClear = 0.002;   // m above the surface where a release ends
 constexpr double kSettle = 0.020;  // s in which the person takes the approach speed out after the touch
 constexpr double kSpeedUp = 0.3;   // s to reach approach speed
 constexpr double kRetreat = 0.8;   // s to go back to the start
-constexpr double kExpected =
-    1900.0;  // N/m: the stiffness that the person has learned to expect (mean of the ball's press curve)
+constexpr double kBall = 1900.0;   // N/m: mean of the ball's press curve
 constexpr std::size_t kSines = 4;  // of a band of tremor, for each axis
 
 std::int32_t held_tool(const SceneSpec& scene) {
@@ -24,6 +24,20 @@ std::int32_t held_tool(const SceneSpec& scene) {
                                   [&](const ToolSpec& t) { return t.name == scene.user->tool; });
   return named == scene.tools.end() ? 0 : static_cast<std::int32_t>(named - scene.tools.begin());
 }
+
+// The stiffness that the person has learned to expect: the ball's, or that of what an arm renders. Of a real
+// thing they expect nothing.
+double expected_stiffness(const SceneSpec& scene, const Scene& prepared) {
+  if (!prepared.has_arm) return kBall;
+  const auto named = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                  [&](const ObjectSpec& o) { return o.name == scene.user->object; });
+  const auto index = named == scene.objects.end() ? 0 : named - scene.objects.begin();
+  const double stiffness = prepared.objects[static_cast<std::size_t>(index)].stiffness;
+  return std::isnan(stiffness) ? 0.0 : stiffness;
+}
+
+// Of one way of the slide, s: a minimum-jerk reach is 1.875 times as fast at its fastest as on average.
+double slide_time(const UserSpec& spec) { return 1.875 * spec.slide / spec.slide_speed; }
 
 // Each sine has a quarter of the band to itself, so that they beat and none is drawn twice.
 void draw_band(const HandTruth& hand, Stream draws, User::State& state) {
@@ -46,6 +60,7 @@ User::User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand,
   away_ = std::cos(spec_.approach_tilt) * n + std::sin(spec_.approach_tilt) * across;
   touch_ = press_.point + prepared.tools[static_cast<std::size_t>(tool_)].tip.radius * press_.normal;
   start_ = touch_ + Vec<'W'>(Vec3(spec_.approach_from * away_));
+  expected_ = expected_stiffness(scene, prepared);
   if (spec_.kind == "session") {
     session_.emplace(scene, prepared, hand);
     state_.session = session_->begin(seed);
@@ -85,7 +100,7 @@ double User::phase_time(Phase phase) const {
     case Phase::press:
       return spec_.press_time;
     case Phase::hold:
-      return spec_.hold_time;
+      return std::max(spec_.hold_time, 2.0 * slide_time(spec_));
     case Phase::release:
       return spec_.release_time;
     case Phase::retreat:
@@ -121,6 +136,14 @@ HandPlan User::approach(double since) const {
   return {start_.e() - away_ * way, -away_ * speed, -away_ * gain, 0.0};
 }
 
+// There and back.
+void User::slide(double since, HandPlan& plan) const {
+  const Vec<'W'> way(Vec3(spec_.slide * (rotation_z_to(press_.normal.e()) * Vec3::UnitX())));
+  const double time = slide_time(spec_);
+  Submovement{0.0, time, way}.add_to(plan, since);
+  if (since > time) Submovement{time, time, -way}.add_to(plan, since);
+}
+
 HandPlan User::plan(double since) const {
   const Vec3 n = press_.normal.e();
   const auto along_normal = [&](double from, double to, double time, double at) {
@@ -143,8 +166,11 @@ HandPlan User::plan(double since) const {
       p.acceleration += away_ * (approach_speed() * left / kSettle);
       return p;
     }
-    case Phase::hold:
-      return along_normal(depth, depth, 1.0, since);
+    case Phase::hold: {
+      HandPlan p = along_normal(depth, depth, 1.0, since);
+      if (spec_.slide > 0.0) slide(since, p);
+      return p;
+    }
     case Phase::release:
       return along_normal(depth, -kClear, spec_.release_time, since);
     case Phase::retreat: {
@@ -222,7 +248,7 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
   else
     state_.integral *= std::exp(-h / hand_.integral_time);
   const double series = hand_.stiffness * hand_.grip_stiffness / (hand_.stiffness + hand_.grip_stiffness);
-  const double expected = pressing ? p.load * std::max(0.0, p.depth) * kExpected / series : 0.0;
+  const double expected = pressing ? p.load * std::max(0.0, p.depth) * expected_ / series : 0.0;
   const Vec3 intent = p.position + unsteadiness(t, h) - n * (expected + state_.integral);
 
   const Vec3 grip = hand_.grip_stiffness * (state_.hand - tool_tip).e() +

@@ -65,6 +65,7 @@ class User {
   [[nodiscard]] HandPlan planned(double t);  // also goes on to the next phase
   [[nodiscard]] HandPlan plan(double since) const;
   [[nodiscard]] HandPlan approach(double since) const;
+  void slide(double since, HandPlan& plan) const;
   [[nodiscard]] Vec3 tremor(double t, double h);
   void next_phase(double t);
   Vec3 unsteadiness(double t, double h);
@@ -76,6 +77,7 @@ class User {
   Vec3 away_;         // unit, from the touched point to the start
   Point<'W'> touch_;  // tip centre when it touches
   Point<'W'> start_;
+  double expected_;  // N/m, of what is pressed: what the person has learned
   std::optional<SessionPlan> session_;
   State state_;
 };

@@ -44,12 +44,17 @@ Pose<'H', 'T'> clamped_pose(const ToolSpec* tool) {
   return {q, Vec3(-(q * tool->tip))};
 }
 
-SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, std::int32_t other, const Quat& q_WT,
-                 const Pose<'W', 'R'>& X_WR) {
+SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const std::optional<User>& user,
+                 const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
   const ToolSpec* clamped = clamped_tool(spec.scene);
+  const std::int32_t other = user ? user->other_tool() : -1;
+  // A finger points to where it comes from.
+  const Vec3 finger =
+      user ? (user->start() - enc::press_point(spec.scene, *spec.scene.user).point).e().normalized()
+           : Vec3(Vec3::UnitZ());
   return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, clamped, clamped_pose(clamped), X_WR,
                       spec.mjcf_dir, spec.draw_all,
-                      other < 0 ? nullptr : &spec.scene.tools[static_cast<std::size_t>(other)]});
+                      other < 0 ? nullptr : &spec.scene.tools[static_cast<std::size_t>(other)], finger});
 }
 
 int whole_steps(const WorldSpec& spec) {
@@ -76,7 +81,7 @@ World::World(const WorldSpec& spec)
                                    enc::press_point(spec.scene, *spec.scene.user).normal.e())),
       X_HT_(clamped_pose(clamped_tool(spec.scene))),
       user_(make_user(spec, held_tool(spec.scene))),
-      physics_(model_of(spec, held_tool(spec.scene), user_ ? user_->other_tool() : -1, q_WT_, X_WR_)) {
+      physics_(model_of(spec, held_tool(spec.scene), user_, q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
   if (spec.scene.tracker)
     tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);

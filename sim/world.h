@@ -22,18 +22,9 @@
 #include "sim/tracker_plant.h"
 #include "sim/truth.h"
 #include "sim/user.h"
+#include "sim/world_spec.h"
 
 namespace enc::sim {
-
-struct WorldSpec {
-  const SceneSpec& scene;
-  const RigSpec& rig;
-  const TwinSpec& twin;
-  const Scene& prepared;  // must outlive the world: the display draws its surfaces
-  std::string mjcf_dir;
-  std::uint64_t seed = 1;
-  bool draw_all = false;
-};
 
 class World {
  public:
@@ -75,8 +66,7 @@ class World {
   void physics_step(double t);
   void find_tools(const SceneSpec& scene);
   void hold_tools(double t, double h);
-  static Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth);  // world_hexapod.cpp
-  void set_up_hexapod(const WorldSpec& spec);
+  void set_up_hexapod(const WorldSpec& spec);  // world_hexapod.cpp
   void move_machine(double t, double h);
   void place_machine(const Pose<'R', 'H'>& from);  // where it was; its state says how it moves
   [[nodiscard]] LegMotion leg_motion() const;      // that the servo wants
@@ -87,8 +77,7 @@ class World {
   void push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h);
   void apply(const Vec<'W'>& force, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
              const Point<'W'>& to);
-  static Pose<'W', 'R'> arm_base(const ArmTruth& truth);  // world_arm.cpp
-  void set_up_arm(const WorldSpec& spec);
+  void set_up_arm(const WorldSpec& spec);  // world_arm.cpp
   void face_prop(double h);
   void drive_arm(double h);
   void observe_arm();
@@ -119,8 +108,7 @@ class World {
   };
   std::vector<Held> tools_;        // the one that it begins with, and the one that it changes to
   const Held* in_hand_ = nullptr;  // of these; none: the hand is empty
-  int tip_geom_ = -1, tip_body_ = -1;
-  int platform_qpos_ = 0, platform_qvel_ = 0;
+  int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;
   double programme_time_ = 10.0;  // s
   double mass_behind_ = 0.0;      // the sensor, kg
   Tick next_;

@@ -1,5 +1,6 @@
 // What of the world concerns an arm: its torques, its prop and what is seen of both.
 #include <cmath>
+#include <limits>
 
 #include "sim/world.h"
 
@@ -28,8 +29,7 @@ Faced nearest_surface(const Scene& scene, const Point<'W'>& p) {
 
 }  // namespace
 
-// Built so that H would be W at q = 0, then put wrong: about W.
-Pose<'W', 'R'> World::arm_base(const ArmTruth& truth) {
+Pose<'W', 'R'> arm_base(const ArmTruth& truth) {
   const Quat turned = rotation_xyz(truth.turned);
   return {turned, Vec3(truth.misplaced - turned * Arm(true_machine(truth)).tip({}).e())};
 }
@@ -42,6 +42,7 @@ void World::set_up_arm(const WorldSpec& spec) {
   truth_.tip_radius = 0.0;  // its front is flat
   mj_kinematics(physics_.model(), physics_.data());
   truth_.tip = arm_body_->tip(physics_.data());
+  if (user_) truth_.tool_tip = user_->start();
   face_prop(0.0);
 }
 

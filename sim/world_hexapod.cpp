@@ -24,9 +24,7 @@ BallContact probed_ball(const WorldSpec& spec) {
 
 }  // namespace
 
-// Built so that H would be W at the machine's zero, then put wrong: about W, so that a turn alone moves
-// nothing there.
-Pose<'W', 'R'> World::hexapod_base(const HexapodTruth& truth) {
+Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth) {
   const Hexapod hexapod(truth.geometry);
   const Quat turned = rotation_xyz(truth.turned);
   return {turned, Vec3(truth.misplaced - turned * hexapod.zero().p())};
