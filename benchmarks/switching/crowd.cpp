@@ -73,4 +73,24 @@ Nearby brute_force(const Scene& scene, const Point<'W'>& p) {
   return best;
 }
 
+std::int32_t nearest_for_a_finger(const Scene& scene, const Point<'W'>& p, double radius) {
+  std::int32_t touched = -1;
+  double least = radius;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const Nearest at = object.surface.nearest(object.X_WO.inverse() * p);
+    const bool button = std::holds_alternative<Button>(object.surface.shape());
+    if (at.distance > least || (button && at.feature == kButtonSide)) continue;
+    if (touched >= 0 && at.distance == least) continue;  // of equals the first
+    least = at.distance;
+    touched = static_cast<std::int32_t>(i);
+  }
+  return touched >= 0 ? touched : brute_force(scene, p).object;
+}
+
+double distance_to(const Scene& scene, std::int32_t index, const Point<'W'>& p) {
+  const Object& object = scene.objects[static_cast<std::size_t>(index)];
+  return object.surface.nearest(object.X_WO.inverse() * p).distance;
+}
+
 }  // namespace enc::bench

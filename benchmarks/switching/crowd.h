@@ -21,4 +21,9 @@ struct Nearby {
 };
 [[nodiscard]] Nearby brute_force(const Scene& scene, const Point<'W'>& p);
 
+// The same as an arm's finger of this radius takes it: first of all those that it touches, a button on its
+// face alone.
+[[nodiscard]] std::int32_t nearest_for_a_finger(const Scene& scene, const Point<'W'>& p, double radius);
+[[nodiscard]] double distance_to(const Scene& scene, std::int32_t object, const Point<'W'>& p);  // m
+
 }  // namespace enc::bench
