@@ -102,6 +102,7 @@ BenchResult run_response(const BenchContext& context);  // minor loops, tremor, 
 BenchResult run_mesh(const BenchContext& context);      // a million triangles: load, tick
 BenchResult run_nearest(const BenchContext& context);   // nearest point on a mesh against Embree
 BenchResult run_synchrony(const BenchContext& context);  // what the eye sees against what is felt (Fig 13)
+BenchResult run_switching(const BenchContext& context);  // nearest of many objects; keys, ball, tiles, drum
 BenchResult run_tracking(const BenchContext& context);   // Table 1 of VHMR: the tracker against the machine
 BenchResult run_speed(const BenchContext& context);      // step(), times real time, wrapper over raw mj_step
 

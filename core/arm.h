@@ -97,8 +97,8 @@ class Arm {
   // 1 where the tip moves equally well along every way that the machine has, 0 at a singular pose: least over
   // largest singular value of the Jacobian, of those that belong to its joints. 1 rad counts as 1 m.
   [[nodiscard]] double dexterity(const Mat3& jacobian) const noexcept;
-  // Joints at which the tip is at p, within limits; false, and q as it was, where there are none. A chain
-  // looks for them from q on.
+  // Joints at which the tip is at p (with fewer than three: nearest to it), within limits; false, and q as it
+  // was, where there are none. A chain looks for them from q on.
   [[nodiscard]] bool inverse(const Point<'R'>& p, PerJoint& q) const noexcept;
   [[nodiscard]] bool within_limits(const PerJoint& q) const noexcept;
 

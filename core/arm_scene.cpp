@@ -81,7 +81,7 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
     const Point<'W'> home(0, 0, 0);
     const Nearest near = object.surface.nearest(object.X_WO.inverse() * home);
     const Point<'W'> at = middle ? object.X_WO.origin() : object.X_WO * near.point;
-    PerJoint q;
+    PerJoint q{};
     const Impedance& law = *scene.impedance;
     if (law.arm.inverse(scene.X_WR.inverse() * at, q) &&
         law.arm.dexterity(law.arm.jacobian(q)) >= law.rig.least_dexterity)
@@ -142,6 +142,7 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   scene.tip_radius = 0.0;  // a prop has a front
   if (!scene.has_tracker) throw Error("an arm needs [tracker]: it goes where the finger is", "arm");
   for (const ObjectSpec& object : spec.objects) scene.objects.push_back(arm_object(spec, object));
+  scene.movers = make_movers(spec.objects, scene.objects);
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
   check_reach(spec, scene);
   return scene;

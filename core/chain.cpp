@@ -66,6 +66,8 @@ bool search(const ArmMachine& machine, const Vec3& p, PerJoint& q) {
     if (!std::isfinite(apart.squaredNorm())) return false;
     if (apart.norm() < kThere) return true;
     const Mat3 J = moves(machine, placed, placed.count - 1, at);
+    // A machine with fewer joints than ways goes to where it is nearest.
+    if (placed.count < kMostJoints && (J.transpose() * apart).norm() < kThere) return true;
     Mat3 gram = J.transpose() * J;
     gram.diagonal().array() += apart.squaredNorm() + 1e-12;
     const Vec3 change = gram.inverse() * (J.transpose() * apart);

@@ -24,9 +24,11 @@ Surface surface_of(const ObjectSpec& spec) {
   if (spec.shape == ShapeKind::mesh)
     return Surface(MeshSurface{std::make_shared<const MeshTree>(scaled_mesh(spec))});
   if (spec.shape == ShapeKind::button) {
-    if (!(spec.width > 0.0) || !(spec.height > 0.0))
-      throw Error("a button has a width and a height", "object." + spec.name + ".width");
-    return Surface(Button{spec.width, spec.height});
+    if (!(spec.width > 0.0) || !(spec.height > 0.0) || !(spec.thickness > 0.0))
+      throw Error("a button has a width, a height and a thickness",
+                  "object." + spec.name +
+                      (spec.width > 0.0 ? spec.height > 0.0 ? ".thickness" : ".height" : ".width"));
+    return Surface(Button{spec.width, spec.height, spec.thickness});
   }
   if (!(spec.radius > 0.0)) throw Error("a sphere needs a radius", "object." + spec.name + ".radius");
   return Surface(Sphere{spec.radius});
@@ -37,7 +39,7 @@ Pose<'W', 'O'> place_of(const ObjectSpec& spec) {
   if (spec.shape == ShapeKind::mesh) return {rotation_xyz(spec.rotation), spec.position};
   const double size = spec.normal.norm();
   if (!(std::abs(size - 1.0) <= 1e-3))
-    throw Error("the normal of a plane is a unit vector", "object." + spec.name + ".normal");
+    throw Error("the normal of a plane or a button is a unit vector", "object." + spec.name + ".normal");
   return {rotation_z_to(spec.normal / size), spec.position};
 }
 

@@ -30,6 +30,11 @@ struct Object {
 
   [[nodiscard]] double limit_at(std::int32_t contact) const { return limits.at(contact, limit); }  // m
 
+  // At which a driven prop's surface runs along `way`, m/s.
+  [[nodiscard]] double prop_speed() const {
+    return interaction.kind == Interaction::spin ? interaction.speed : 0.0;
+  }
+
   // No surface point of the object is nearer to p than this, m; negative where p may be inside.
   [[nodiscard]] double least_distance(const Point<'W'>& p) const { return (p - centre).norm() - radius; }
 };

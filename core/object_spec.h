@@ -40,6 +40,7 @@ struct ObjectSpec {
   Vec3 position{0, 0, 0};                  // of O in W
   Vec3 normal{0, 0, 1};                    // plane, button: outward, unit, in W
   double width = kUnset, height = kUnset;  // button: of its face, m [VisHap 2.2]
+  double thickness = 0.050;                // button: of the solid behind its face, m
   std::string behaviour;                   // by name; empty: a real thing, for [probe] alone
   double limit = kUnset;                   // deflection limit, m; unset: the behaviour's
   // Instead, m: the k-th contact of the experiment takes the k-th, the last one stays (contact_limits.h).

@@ -38,9 +38,17 @@ struct Goal {
   Vec<'W'> velocity = Vec<'W'>::zero();
 };
 
-// The finger's projection on the surface, which goes along with it; of a button, the middle of its face.
+// A real thing stands where it is, and so does what stands for it; of a button the middle of its face is
+// pressed.
+bool in_its_middle(const Object& object) {
+  const bool button = std::holds_alternative<Button>(object.surface.shape());
+  return object.interaction.kind == Interaction::click ||
+         (button && object.interaction.kind == Interaction::passive);
+}
+
+// The finger's projection on the surface, which goes along with it and with what moves.
 Goal goal_of(const Walk& walk, const State& state, const Object& object) {
-  if (object.interaction.kind == Interaction::click) return {object.X_WO.origin()};
+  if (in_its_middle(object)) return {object.X_WO.origin()};
   Goal goal{walk.surface_point};
   const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
   if (predicted && walk.tool_fresh && state.tip_motion.velocity.finite()) {
@@ -48,6 +56,8 @@ Goal goal_of(const Walk& walk, const State& state, const Object& object) {
     const Vec3 n = walk.normal.e();
     goal.velocity = Vec<'W'>(Vec3(v - n.dot(v) * n));
   }
+  const bool shifts = object.moving >= 0 && object.interaction.kind != Interaction::spin;
+  if (shifts) goal.velocity = goal.velocity + state.moved[static_cast<std::size_t>(object.moving)].velocity;
   return goal;
 }
 
@@ -87,6 +97,8 @@ void change_gain(const Walk& walk, const State& state, const Object* object, Rea
   const InteractionSpec& does = object->interaction;
   if (state.mode == Mode::contact && object->stiffness > 0.0)
     felt = felt_at(does, object->stiffness, free, std::max(0.0, -walk.gap));
+  if (object->moving >= 0 && state.mode == Mode::contact)
+    felt.stiffness *= state.moved[static_cast<std::size_t>(object->moving)].firmness;
   const double whole = std::max({free, object->stiffness, std::isnan(does.floor) ? 0.0 : does.floor}) / free;
   const double share = does.gradual_time > 0.0 ? walk.scene.dt / does.gradual_time : 1e9;
   const auto towards = [](double from, double to, double most) {
@@ -135,9 +147,12 @@ void encounter(Walk& walk, State& state) noexcept {
   if (state.mode == Mode::away || object == nullptr) {
     move_target(walk, {now.target}, now);
   } else {
-    const Goal goal = goal_of(walk, state, *object);
-    PerJoint q;
-    if (walk.scene.impedance->arm.inverse(walk.scene.X_WR.inverse() * goal.point, q)) {
+    Goal goal = goal_of(walk, state, *object);
+    const Arm& arm = walk.scene.impedance->arm;
+    PerJoint q = walk.in.arm.value.joints;
+    if (arm.inverse(walk.scene.X_WR.inverse() * goal.point, q)) {
+      // A machine with fewer joints than ways goes to where it is nearest.
+      if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
       move_target(walk, goal, now);
     } else {
       walk.why |= kUnreachable;
@@ -165,8 +180,12 @@ void impede(Walk& walk, State& state) noexcept {
     now.error.xyz[i] = low_pass(a, error(axis), now.error.xyz[i]);
     now.error_rate.xyz[i] = low_pass(a, rate(axis), now.error_rate.xyz[i]);
   }
+  // A real thing is held where it stands, sideways as well.
+  const Object* object = nearest_object(walk, state);
+  const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
+  const double across = real ? now.gain : 1.0;
   const Vec3 f = law.rig.stiffness * now.error.e() + law.rig.damping * now.error_rate.e();  // [eq. 2]
-  const Vec3 pushed = guarded(walk, gain_matrix(normal, 1.0, now.gain) * f);                // [eq. 7]
+  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);             // [eq. 7]
   walk.felt = Vec<'W'>(Vec3(-pushed));
   state.force = walk.felt;
   walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]

@@ -10,6 +10,7 @@
 #include "core/frames.h"
 #include "core/impedance.h"
 #include "core/loop_model.h"
+#include "core/moving.h"
 #include "core/object.h"
 #include "core/probe.h"
 #include "core/reach.h"
@@ -29,6 +30,7 @@ struct Tool {
 struct Scene {
   std::vector<Object> objects;
   std::vector<Tool> tools;
+  std::vector<Mover> movers;  // objects that move, in the order of State::moved
   bool has_arm = false, has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
 
   std::int32_t clamped_tool = -1;  // held by the gripper; -1: there is none

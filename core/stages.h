@@ -46,6 +46,7 @@ void target(Walk& walk, State& state) noexcept;
 void probe(Walk& walk, State& state) noexcept;
 void travel(Walk& walk, State& state) noexcept;
 // And of an arm, which takes a force: where its prop shall be, and with which force it is sent there.
+void push(Walk& walk, State& state) noexcept;
 void encounter(Walk& walk, State& state) noexcept;
 void impede(Walk& walk, State& state) noexcept;
 // Inside the object, inside the seen surface, finite, reachable, slow enough. Writes the set-point into

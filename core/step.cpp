@@ -15,6 +15,8 @@ void report_arm(const stages::Walk& walk, const State& state, Outputs& out) {
   out.arm_force = walk.arm_force;
   out.wanted = state.reaching.target;
   out.gain = state.reaching.gain;
+  const bool near = state.object >= 0 && (state.mode == Mode::follow || state.mode == Mode::contact);
+  out.prop_speed = near ? walk.scene.objects[static_cast<std::size_t>(state.object)].prop_speed() : 0.0;
   const bool touched = state.mode == Mode::contact && walk.gap < 0.0;
   out.deflection = touched ? -walk.gap : 0.0;
 }
@@ -55,6 +57,7 @@ void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, 
   stages::grip(walk);          // does the gripper hold its tool
   stages::sense(walk, state);  // what force is on the tip
   if (scene.impedance) {
+    stages::push(walk, state);       // what does the finger move
     stages::encounter(walk, state);  // away, follow, contact; and where the prop should be
     stages::impede(walk, state);     // depth in, force out
     return report(walk, state, out);

@@ -52,9 +52,12 @@ struct Reaching {
   bool triggered = false;
 };
 
-// How far an object that moves has got (moving.h).
+// How far an object that moves has got, and what its finger does (moving.h).
 struct Moved {
   Vec<'W'> shift = Vec<'W'>::zero(), velocity = Vec<'W'>::zero();
+  double depth = kUnset;  // of the finger in it, m, at the last tick; unset: another object was nearest
+  double approach = 0.0;  // m/s, at which the two met; 0: they are apart
+  double firmness = 1.0;  // share of its stiffness that is felt now
 };
 
 // Which part of which object was nearest: makes the next search faster, and changes no result (surface.h).

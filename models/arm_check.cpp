@@ -1,5 +1,8 @@
 // What one key alone does not show, of a scene with an arm.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -56,6 +59,42 @@ void check_interaction(const Setup& setup, const BehaviourSpec& b) {
                      quoted(b.name)));
   if (does.kind == Interaction::shift || does.kind == Interaction::spin)
     check_unit(setup, path + ".interaction.way", does.way);
+}
+
+// A normal of another length than 1 still says which way is outward.
+void mend_normals(Setup& setup) {
+  constexpr double kNoWay = 1e-6;
+  for (ObjectSpec& o : setup.scene.objects) {
+    if (o.shape != ShapeKind::plane && o.shape != ShapeKind::button) continue;
+    const double length = o.normal.norm();
+    if (std::abs(length - 1.0) < 1e-6 || !(length > kNoWay) || !std::isfinite(length)) continue;
+    o.normal /= length;
+    const std::string key = fmt::format("object.{}.normal", o.name);
+    setup.notes.push_back(
+        fmt::format("{}: note: 'normal' has length {:.6g}; taken as [{:.6g}, {:.6g}, {:.6g}]",
+                    place_of(setup, key), length, o.normal.x(), o.normal.y(), o.normal.z()));
+  }
+}
+
+// The prop is what is really felt [VisHap 2.2].
+void note_props(Setup& setup) {
+  constexpr std::array<std::string_view, 3> kNames{"plate", "key", "drum"};
+  const SceneSpec& s = setup.scene;
+  if (!s.prop) return;
+  for (const ObjectSpec& o : s.objects) {
+    const auto b = std::find_if(s.behaviours.begin(), s.behaviours.end(),
+                                [&](const BehaviourSpec& item) { return item.name == o.behaviour; });
+    if (b == s.behaviours.end() || b->interaction.prop < 0) continue;
+    const auto wanted = static_cast<std::size_t>(b->interaction.prop),
+               mounted = static_cast<std::size_t>(s.prop->kind);
+    if (wanted == mounted) continue;
+    setup.notes.push_back(
+        fmt::format("{}: warning: object {} shall feel like a {} and the arm carries a {}; mount another "
+                    "prop, or name another "
+                    "behaviour",
+                    place_of(setup, fmt::format("object.{}.behaviour", o.name)), quoted(o.name),
+                    kNames[wanted], kNames[mounted]));
+  }
 }
 
 void check_arm(const Setup& setup) {

@@ -79,14 +79,14 @@ void check_limits(const Setup& setup, const ObjectSpec& o, double most, const st
 
 void check_object(const Setup& setup, const ObjectSpec& o) {
   const std::string path = "object." + o.name;
-  if (o.shape == ShapeKind::plane) {
-    const double length = o.normal.norm();
-    if (!(std::abs(length - 1.0) < 1e-6)) {
-      const Vec3 n = length > 0 ? Vec3(o.normal / length) : Vec3(0, 0, 1);
+  if (o.shape == ShapeKind::plane || o.shape == ShapeKind::button) {
+    // Any other length has been mended by mend_normals().
+    if (!(std::abs(o.normal.norm() - 1.0) < 1e-6))
       fail(setup, path + ".normal",
-           fmt::format("'normal' has length {:.6g}; expected length 1; write it like 'normal = [{}, {}, {}]'",
-                       length, n.x(), n.y(), n.z()));
-    }
+           fmt::format(
+               "'normal' has length {:.6g} and no direction; expected length 1; write it like 'normal = "
+               "[0, 0, 1]'",
+               o.normal.norm()));
   } else if (o.shape == ShapeKind::sphere && o.limit >= o.radius) {
     fail(setup, path + ".limit_mm",
          fmt::format("'limit_mm' is {}; expected less than the radius, {} mm; lower it", mm(o.limit),

@@ -264,7 +264,9 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   for (const std::string& text : overrides) {
     if (of_behaviour(text)) set(setup, text);
   }
+  mend_normals(setup);
   check(setup);
+  note_props(setup);
   fill_curves(setup, models_dir(scene_path));
   fill_meshes(setup, models_dir(scene_path));
   check_form(setup, models_dir(scene_path));

@@ -22,7 +22,7 @@ struct Setup {
   sim::TwinSpec twin;
   std::string scene_path, rig_path;
   Places places;                   // of each key that a file or --set gives, under the name that --set takes
-  std::vector<std::string> notes;  // what was repaired in a mesh, one line each
+  std::vector<std::string> notes;  // what was repaired, and what is doubtful, one line each
 };
 
 // rig: "sim", or another file in models/rigs without ".toml", or a path; empty: the one that the scene is
@@ -65,6 +65,8 @@ void fill_curves(Setup& setup, const std::string& models_dir);
 // Finds, loads and checks the meshes of the objects: beside the scene or in models_dir/meshes, never
 // elsewhere.
 void fill_meshes(Setup& setup, const std::string& models_dir);
+void mend_normals(Setup& setup);  // to length 1; says so in the notes
+void note_props(Setup& setup);    // objects that want another prop than is mounted
 void check(const Setup& setup);  // what one key alone does not show; throws
 void round_to_text(
     Setup& setup);  // to the numbers that resolved() shows, so that a record repeats a run to the bit

@@ -191,15 +191,26 @@ void describe(Visitor& v, InteractionSpec& i) {
   }
   if (i.kind == Interaction::hit || i.kind == Interaction::shift)
     v.value({"mass_kg", "of what moves", "docs/objects.md", chosen, kPositive}, &i.mass);
-  if (i.kind == Interaction::hit)
-    v.value({"restitution", "of a hit", "docs/objects.md", chosen, {0.0, 1.0}}, &i.restitution);
-  if (i.kind == Interaction::shift || i.kind == Interaction::spin)
-    v.value({"way", "of length 1, along which it moves, in O", "docs/objects.md", chosen, {-1.0, 1.0}},
-            &i.way);
-  if (i.kind == Interaction::shift) {
-    v.value({"friction_N", "that stops it", "docs/objects.md", chosen, kNotNegative}, &i.friction);
-    v.value({"travel_mm", "to its end", "docs/objects.md", chosen, kPositive}, &i.travel);
+  if (i.kind == Interaction::hit || i.kind == Interaction::shift) {
+    v.value({"restitution",
+             "speed at which finger and object part, over that at which they met",
+             "docs/objects.md",
+             chosen,
+             {0.05, 1.0}},
+            &i.restitution);
+    v.value({"travel_mm", "of a tile to its end; of a ball until it is put back", "docs/objects.md", chosen,
+             kPositive},
+            &i.travel);
   }
+  if (i.kind == Interaction::shift || i.kind == Interaction::spin)
+    v.value({"way",
+             "of length 1, along which it moves, in O; z is outward",
+             "docs/objects.md",
+             chosen,
+             {-1.0, 1.0}},
+            &i.way);
+  if (i.kind == Interaction::shift)
+    v.value({"friction_N", "that stops it", "docs/objects.md", chosen, kNotNegative}, &i.friction);
   if (i.kind == Interaction::spin)
     v.value({"speed_mm_s", "of its surface", "docs/objects.md", chosen}, &i.speed);
 }

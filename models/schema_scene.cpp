@@ -70,6 +70,8 @@ void describe(Visitor& v, ObjectSpec& o) {
   if (o.shape == ShapeKind::button) {
     v.value({"width_mm", "of its face", "[VisHap 2.2]", chosen, kPositive, needed}, &o.width);
     v.value({"height_mm", "of its face", "[VisHap 2.2]", chosen, kPositive, needed}, &o.height);
+    v.value({"thickness_mm", "of the solid behind its face", "docs/objects.md", chosen, kPositive},
+            &o.thickness);
   }
   v.value({"behaviour",
            "how it pushes back: an entry of models/behaviours.toml; empty: a real thing, for [probe] alone",

@@ -101,9 +101,9 @@ TEST(Schema, describes_every_member) {
   describe_all(levels, s.scene, s.rig, s.twin);
   auto& n = levels.found;
   EXPECT_EQ(n[""], members<SceneSpec>() + 2);              // rig and truth
-  EXPECT_EQ(n["object.ball"], members<ObjectSpec>() - 6);  // no normal, and nothing of a mesh
-  EXPECT_EQ(n["object.wall"], members<ObjectSpec>() - 6);  // no radius, and nothing of a mesh
-  EXPECT_EQ(n["object.hare"], members<ObjectSpec>() - 3);  // no radius, no normal; its triangles are data
+  EXPECT_EQ(n["object.ball"], members<ObjectSpec>() - 9);  // no normal, and nothing of a mesh or a button
+  EXPECT_EQ(n["object.wall"], members<ObjectSpec>() - 9);  // no radius, likewise
+  EXPECT_EQ(n["object.hare"], members<ObjectSpec>() - 6);  // nothing of others; its triangles are data
   EXPECT_EQ(n["tool.stylus"], members<ToolSpec>() - 3);    // a sphere has no axis, angle or edge
   EXPECT_EQ(n["follow"], members<FollowSpec>());
   EXPECT_EQ(n["user"], members<UserSpec>());
