@@ -52,7 +52,7 @@ std::vector<Point<'W'>> places_in_view(const Arm& arm, double least_dexterity, c
   std::vector<Point<'W'>> places;
   const auto joint = [&](std::size_t j, int step) {
     const ArmDrive& drive = arm.machine().drives[j];
-    return drive.low + (drive.high - drive.low) * step / (kJointSteps - 1.0);
+    return drive.low + (drive.high - drive.low) * (step + 0.5) / kJointSteps;  // never at a stop
   };
   const auto steps = [&](std::size_t j) { return j < arm.joints() ? kJointSteps : 1; };
   for (int a = 0; a < steps(0); ++a)

@@ -56,7 +56,7 @@ models::Interval mean_of(const std::vector<double>& values) {
 
 void leave_one_out(const std::vector<PointPair>& pairs, PointStudy& study) {
   std::array<std::vector<double>, 3> position, turn, error;
-  std::vector<double> sizes;
+  std::vector<double> sizes, scale;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::optional<Registration> one = without(pairs, k);
     if (!one) continue;
@@ -70,12 +70,14 @@ void leave_one_out(const std::vector<PointPair>& pairs, PointStudy& study) {
     }
     if (!(off.norm() <= study.worst_error)) study.worst = k, study.worst_error = off.norm();
     sizes.push_back(off.norm());
+    scale.push_back(one->scale);
   }
   for (std::size_t a = 0; a < 3; ++a) {
     study.position[a] = {study.found.X_WC.p()(static_cast<Eigen::Index>(a)), jackknife(position[a])};
     study.turn[a] = {0.0, jackknife(turn[a])};
     study.left_out[a] = mean_of(error[a]);
   }
+  study.scale = {study.found.scale, jackknife(scale)};
   study.usual_error = median(sizes);
 }
 

@@ -27,6 +27,7 @@ struct PointStudy {
   Registration found;
   std::array<models::Interval, 3> position;  // of X_WC, m
   std::array<models::Interval, 3> turn;      // about W's axes, rad: value 0, only the half is of use
+  models::Interval scale;                    // 1 for rigid frames
   // Mean |error| of each pair by the registration of all the others: what a point that was not used would
   // show.
   std::array<models::Interval, 3> left_out;

@@ -9,7 +9,6 @@
 
 #include "benchmarks/report/reference.h"
 #include "benchmarks/statistics.h"
-#include "core/rotation.h"
 
 namespace enc::bench {
 namespace {
@@ -198,14 +197,6 @@ std::vector<double> worst_axis(const std::vector<Vec3>& errors) {
   worst.reserve(errors.size());
   for (const Vec3& e : errors) worst.push_back(e.maxCoeff());
   return worst;
-}
-
-RegistrationRig registration_rig(const models::Setup& setup) {
-  RegistrationRig rig;
-  rig.camera = setup.twin.camera;
-  // 0.6 m from the middle of the arm's volume, before it to its right and above, looking at it.
-  rig.X_WC = {rotation_xyz(Vec3(-125.0, 0.0, 30.0) * M_PI / 180.0), Vec3(0.236, -0.426, 0.457)};
-  return rig;
 }
 
 BenchResult run_registration(const BenchContext& context) {
