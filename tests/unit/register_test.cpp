@@ -31,7 +31,7 @@ const std::vector<Vec3> kCorner{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}
 
 std::string refusal(const std::vector<PointPair>& pairs) {
   try {
-    register_points(pairs);
+    (void)register_points(pairs);
   } catch (const Error& error) {
     return error.what();
   }
