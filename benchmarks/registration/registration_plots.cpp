@@ -1,5 +1,5 @@
-#include <array>
-#include <cmath>
+#include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -121,9 +121,8 @@ void add_registration_plots(const std::vector<Accuracy>& all, const std::vector<
                   "time of the experiment (s)", all, paper, [](const Accuracy& one) { return one.seconds; });
   time.log_x = true;
   time.caption =
-      "Points of a line: 4, 5, 6, 8, 12, 16, 20 pairs. Within a given time, some frames at more places are "
-      "better than many "
-      "at few.";
+      "Points of a line: 4, 5, 6, 8, 12, 16, 20 pairs. Within the same time, 20 frames at many places beat "
+      "100 at few.";
   result.plots.push_back(std::move(time));
   Plot cpu = frames_plot("registration_cpu", "Registration: error against run time", "CPU time (us)", all,
                          paper, [&](const Accuracy& one) {
