@@ -55,24 +55,27 @@ Plot axes_plot(const std::vector<Accuracy>& all, double paper) {
   return plot;
 }
 
-// Of the registration all over the volume, over what the axis says.
+// Of the registration all over the volume. With bands, lines stand a little aside of each other.
 Plot frames_plot(const char* id, const char* title, const char* x_label, const std::vector<Accuracy>& all,
-                 double paper, const std::function<double(const Accuracy&)>& x) {
-  Plot plot{id, title, x_label, "mean |error| elsewhere, worst axis (mm)", false, false, {}};
-  double from = 1e300, to = 0.0;
+                 double paper, bool bands, const std::function<double(const Accuracy&)>& x) {
+  Plot plot{id, title, x_label, "mean |error| elsewhere, worst axis (mm)", false, true, {}};
+  double from = 1e300, to = 0.0, aside = bands ? -0.15 : 0.0;
   for (const std::size_t frames : {1UL, 5UL, 20UL, 100UL}) {
     Series series{fmt::format("{} frame{} of each", frames, frames == 1 ? "" : "s"), {}, {}};
     series.mark = Mark::both;
     for (const Accuracy& one : all) {
       if (one.frames != frames) continue;
-      add_point(series, x(one), worst_axis(one.held_out));
+      add_point(series, x(one) + aside, worst_axis(one.held_out));
       from = std::min(from, series.x.back());
       to = std::max(to, series.x.back());
     }
+    if (bands)
+      aside += 0.1;
+    else
+      series.low.clear(), series.high.clear();
     plot.series.push_back(std::move(series));
   }
   plot.series.push_back(bound(paper, from, to));
-  plot.log_y = true;
   return plot;
 }
 
@@ -108,24 +111,25 @@ Plot distance_plot(const std::vector<Accuracy>& all, const RegistrationPlaces& p
 void add_registration_plots(const std::vector<Accuracy>& all, const std::vector<RegistrationCost>& costs,
                             const RegistrationPlaces& places, double paper, BenchResult& result) {
   result.plots.push_back(axes_plot(all, paper));
-  Plot pairs = frames_plot("registration_pairs", "Registration: how many pairs, how many frames", "pairs",
-                           all, paper, [](const Accuracy& one) { return static_cast<double>(one.pairs); });
+  Plot pairs =
+      frames_plot("registration_pairs", "Registration: how many pairs, how many frames", "pairs", all, paper,
+                  true, [](const Accuracy& one) { return static_cast<double>(one.pairs); });
   pairs.caption =
       "Median and 95 % band over seeds. Averaging helps until what stays while nothing moves is all that is "
       "left; then "
       "only more places do.";
   result.plots.push_back(std::move(pairs));
   result.plots.push_back(distance_plot(all, places));
-  Plot time =
-      frames_plot("registration_time", "Registration: error against time of the experiment",
-                  "time of the experiment (s)", all, paper, [](const Accuracy& one) { return one.seconds; });
+  Plot time = frames_plot("registration_time", "Registration: error against time of the experiment",
+                          "time of the experiment (s)", all, paper, false,
+                          [](const Accuracy& one) { return one.seconds; });
   time.log_x = true;
   time.caption =
       "Points of a line: 4, 5, 6, 8, 12, 16, 20 pairs. Within the same time, 20 frames at many places beat "
       "100 at few.";
   result.plots.push_back(std::move(time));
   Plot cpu = frames_plot("registration_cpu", "Registration: error against run time", "CPU time (us)", all,
-                         paper, [&](const Accuracy& one) {
+                         paper, false, [&](const Accuracy& one) {
                            for (const RegistrationCost& cost : costs)
                              if (cost.pairs == one.pairs && cost.frames == one.frames) return cost.cpu * 1e6;
                            return kUnset;
