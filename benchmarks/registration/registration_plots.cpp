@@ -134,7 +134,6 @@ void add_registration_plots(const std::vector<Accuracy>& all, const std::vector<
                              if (cost.pairs == one.pairs && cost.frames == one.frames) return cost.cpu * 1e6;
                            return kUnset;
                          });
-  cpu.log_x = true;
   cpu.caption = "Averaging the frames and one closed form: run time is never what limits it.";
   result.plots.push_back(std::move(cpu));
 }
