@@ -172,8 +172,8 @@ int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
 }
 
 int calibrate_rig(const CalibrateOptions& options) {
-  const bench::RegistrationRig rig =
-      bench::registration_rig(models::load_rig_setup(options.log, options.set));
+  const models::Setup setup = models::load_rig_setup(options.log, options.set);
+  const bench::RegistrationRig rig = bench::registration_rig(setup);
   const bench::RegistrationPlaces places = bench::places_of(rig, options.pairs);
   bench::KinematicArm arm(rig.believed, rig.arm);
   const bench::GuidedRun run =
@@ -182,7 +182,7 @@ int calibrate_rig(const CalibrateOptions& options) {
     throw Error(fmt::format(
         "{}: {} places of the arm were seen and {} are wanted; expected the camera to look at the "
         "arm; see truth.frames.W_C, or ask for fewer --pairs",
-        options.log, run.points.size(), options.pairs));
+        models::place_of(setup, "truth.frames.W_C"), run.points.size(), options.pairs));
   if (!options.out.empty()) write_points(run.points, options.out);
   const PointStudy study = bench::study_points(run.points, options.seed);
   Vec3 error = Vec3::Zero();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -205,8 +206,9 @@ BenchResult run_registration(const BenchContext& context) {
     const Reference reference = Reference::load(context.models, "registration.csv");
     return reference.number(reference.row({{"quantity", "mean_error_mm"}}), "value");
   }();
-  const RegistrationRig rig =
-      registration_rig(models::load_rig_setup(context.models + "/rigs/sim.toml", context.set));
+  std::string file = context.models + "/rigs/vishap.toml";
+  if (!std::filesystem::exists(file)) file = context.models + "/rigs/sim.toml";
+  const RegistrationRig rig = registration_rig(models::load_rig_setup(file, context.set));
   const RegistrationPlaces places = places_of(rig, kPairCounts.back());
   AccuracyStudy study{kPairCounts, kFrameCounts,
                       context.quick  ? 60UL
