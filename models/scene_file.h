@@ -55,6 +55,8 @@ std::string models_dir(const std::string& scene_path);
 ResponseSpec load_response(const std::string& path);
 // The rig alone: a name in models/rigs beside the program, or a path.
 RigSpec load_rig(const std::string& rig);
+// The rig with the simulator's truth, and no scene. overrides: as for load(), of rig and truth alone.
+Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& overrides = {});
 // The files of a folder ("scenes", "rigs", "responses") of models_dir, without ".toml", in order.
 std::vector<std::string> files_in(const std::string& models_dir, const std::string& folder);
 

@@ -96,6 +96,7 @@ struct TwinSpec {
   GripperTruth gripper;
   ForceTruth force;
   TrackerTruth tracker;
+  CameraTruth camera;
   DisplayTruth display;
   ContactTruth contact;
   HandTruth hand;
