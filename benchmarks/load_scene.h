@@ -9,8 +9,8 @@
 
 namespace enc::bench {
 
-// models/scenes/<name>.toml on the simulated rig that it names. Of two settings the later one wins: `own` are the
-// benchmark's, then come the user's, then those that a comparison must hold.
+// models/scenes/<name>.toml on the simulated rig that it names. Of two settings the later one wins: `own` are
+// the benchmark's, then come the user's, then those that a comparison must hold.
 [[nodiscard]] inline models::Setup load_scene(const BenchContext& context, const std::string& name,
                                               std::vector<std::string> own = {},
                                               const std::vector<std::string>& held = {}) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/record.h"
+#include "core/record/record.h"
 #include "core/rig_spec.h"
 #include "core/scene_spec.h"
 #include "models/response_file.h"
@@ -69,7 +69,7 @@ void fill_curves(Setup& setup, const std::string& models_dir);
 void fill_meshes(Setup& setup, const std::string& models_dir);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_props(Setup& setup);    // objects that want another prop than is mounted
-void check(const Setup& setup);  // what one key alone does not show; throws
+void check(const Setup& setup);   // what one key alone does not show; throws
 void round_to_text(
     Setup& setup);  // to the numbers that resolved() shows, so that a record repeats a run to the bit
 

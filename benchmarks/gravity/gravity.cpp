@@ -7,7 +7,7 @@
 
 #include "benchmarks/load_scene.h"
 #include "benchmarks/statistics.h"
-#include "sim/arm_spec.h"
+#include "sim/arm/arm_spec.h"
 
 namespace enc::bench {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "benchmarks/bench.h"
-#include "core/arm.h"
+#include "core/arm/arm.h"
 #include "models/scene_file.h"
 
 namespace enc::bench {

@@ -11,7 +11,7 @@
 
 #include "benchmarks/gravity/gravity.h"
 #include "benchmarks/statistics.h"
-#include "sim/arm_model.h"
+#include "sim/arm/arm_model.h"
 
 namespace enc::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "benchmarks/registration/point_set.h"
-#include "core/arm.h"
-#include "sim/arm_spec.h"
+#include "core/arm/arm.h"
+#include "sim/arm/arm_spec.h"
 #include "sim/stereo_noise.h"
 
 namespace enc::bench {

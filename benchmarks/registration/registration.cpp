@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -206,8 +205,7 @@ BenchResult run_registration(const BenchContext& context) {
     const Reference reference = Reference::load(context.models, "registration.csv");
     return reference.number(reference.row({{"quantity", "mean_error_mm"}}), "value");
   }();
-  std::string file = context.models + "/rigs/vishap.toml";
-  if (!std::filesystem::exists(file)) file = context.models + "/rigs/sim.toml";
+  const std::string file = context.models + "/rigs/vishap.toml";
   const RegistrationRig rig = registration_rig(models::load_rig_setup(file, context.set));
   const RegistrationPlaces places = places_of(rig, kPairCounts.back());
   AccuracyStudy study{kPairCounts, kFrameCounts,

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-#include "sim/arm_model.h"
+#include "sim/arm/arm_model.h"
 #include "sim/random.h"
 
 namespace enc::sim {

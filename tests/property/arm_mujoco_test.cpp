@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/arm.h"
+#include "core/arm/arm.h"
 #include "core/scene_spec.h"
-#include "sim/arm_model.h"
+#include "sim/arm/arm_model.h"
 #include "sim/mujoco.h"
 
 namespace enc::sim {

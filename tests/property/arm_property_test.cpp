@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "core/arm.h"
+#include "core/arm/arm.h"
 
 namespace enc {
 namespace {

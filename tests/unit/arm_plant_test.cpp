@@ -1,5 +1,5 @@
 // The arm's electronics, worked by hand: what encoders see, what motors can, when they stop.
-#include "sim/arm_plant.h"
+#include "sim/arm/arm_plant.h"
 
 #include <cmath>
 #include <numbers>

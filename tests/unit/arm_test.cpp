@@ -1,5 +1,5 @@
 // The arm against numbers worked by hand and those printed in parameters.md 1.4 and 1.5.
-#include "core/arm.h"
+#include "core/arm/arm.h"
 
 #include <array>
 #include <cmath>

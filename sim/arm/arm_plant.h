@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/sample.h"
-#include "sim/arm_spec.h"
+#include "sim/arm/arm_spec.h"
 
 namespace enc::sim {
 

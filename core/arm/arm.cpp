@@ -1,4 +1,4 @@
-#include "core/arm.h"
+#include "core/arm/arm.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "core/chain.h"
+#include "core/arm/chain.h"
+#include "core/arm/phantom.h"
 #include "core/error.h"
-#include "core/phantom.h"
 
 namespace enc {
 namespace {

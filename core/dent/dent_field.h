@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/dent.h"
+#include "core/dent/dent.h"
 
 namespace enc::detail {
 

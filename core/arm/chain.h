@@ -2,7 +2,7 @@
 // PHANToM. Reads ArmMachine::links, of which there are 1 to kMostJoints with unit axes (Arm sees to it).
 #pragma once
 
-#include "core/arm.h"
+#include "core/arm/arm.h"
 
 namespace enc::chain {
 

@@ -1,4 +1,4 @@
-#include "core/chain.h"
+#include "core/arm/chain.h"
 
 #include <algorithm>
 #include <cmath>

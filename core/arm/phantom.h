@@ -2,7 +2,7 @@
 // Feygin and Tendick (2002). Angles, lengths and bodies are those of PhantomGeometry.
 #pragma once
 
-#include "core/arm.h"
+#include "core/arm/arm.h"
 
 namespace enc::phantom {
 

@@ -1,4 +1,4 @@
-#include "core/arm_scene.h"
+#include "core/arm/arm_scene.h"
 
 #include <algorithm>
 #include <array>

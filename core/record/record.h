@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fields.h"
+#include "core/record/fields.h"
 
 namespace enc {
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "core/scene.h"
-#include "sim/hand_plan.h"
+#include "sim/hand/hand_plan.h"
 #include "sim/random.h"
 #include "sim/truth.h"
 #include "sim/twin_spec.h"

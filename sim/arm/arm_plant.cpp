@@ -1,4 +1,4 @@
-#include "sim/arm_plant.h"
+#include "sim/arm/arm_plant.h"
 
 #include <algorithm>
 #include <cmath>

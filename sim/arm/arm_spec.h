@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/arm.h"
+#include "core/arm/arm.h"
 
 namespace enc::sim {
 
@@ -15,15 +15,16 @@ enum class ArmFriction : std::uint8_t {
 };
 
 struct ArmTruth {
-  bool there = false;       // the file has it
-  double timestep = 0.001;  // s, of MuJoCo. First-order integrators move a wall's stability boundary (fidelity 4)
+  bool there = false;  // the file has it
+  double timestep =
+      0.001;  // s, of MuJoCo. First-order integrators move a wall's stability boundary (fidelity 4)
   std::string integrator = "rk4";
   ArmMachine machine;
   double mass_scale = 1.0;  // of all masses and inertias against the machine's: what the rig does not know
   std::array<double, kMostJoints> counts{4096.0, 4096.0,
-                                         4096.0};              // of an encoder, for each turn of its motor
+                                         4096.0};  // of an encoder, for each turn of its motor
   ArmFriction friction_form = ArmFriction::dry;
-  std::array<double, kMostJoints> friction{0.01, 0.01, 0.01};  // Coulomb, at the joint, N m or N
+  std::array<double, kMostJoints> friction{0.01, 0.01, 0.01};        // Coulomb, at the joint, N m or N
   std::array<double, kMostJoints> viscous{0.0005, 0.0005, 0.0005};   // N m s/rad or N s/m
   std::array<double, kMostJoints> peak_torque{0.129, 0.129, 0.129};  // of the motor, N m
   std::array<double, kMostJoints> continuous_torque{0.0286, 0.0286, 0.0286};

@@ -1,4 +1,4 @@
-#include "core/moving.h"
+#include "core/arm/moving.h"
 
 #include <algorithm>
 #include <cmath>

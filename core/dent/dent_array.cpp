@@ -1,7 +1,7 @@
 // The dent over arrays of floats: a renderer's whole mesh at once.
 #include <algorithm>
 
-#include "core/dent_field.h"
+#include "core/dent/dent_field.h"
 
 namespace enc {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/arm_model.h"
+#include "sim/arm/arm_model.h"
 
 #include <algorithm>
 #include <cmath>

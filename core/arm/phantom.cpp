@@ -1,4 +1,4 @@
-#include "core/phantom.h"
+#include "core/arm/phantom.h"
 
 #include <cmath>
 

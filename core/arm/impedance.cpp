@@ -1,4 +1,4 @@
-#include "core/impedance.h"
+#include "core/arm/impedance.h"
 
 #include <algorithm>
 #include <cmath>

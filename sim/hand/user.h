@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "core/scene.h"
-#include "sim/hand_plan.h"
+#include "sim/hand/hand_plan.h"
+#include "sim/hand/session_plan.h"
 #include "sim/random.h"
-#include "sim/session_plan.h"
 #include "sim/truth.h"
 #include "sim/twin_spec.h"
 

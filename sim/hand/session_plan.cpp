@@ -1,4 +1,4 @@
-#include "sim/session_plan.h"
+#include "sim/hand/session_plan.h"
 
 #include <algorithm>
 #include <cmath>

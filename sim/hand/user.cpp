@@ -1,4 +1,4 @@
-#include "sim/user.h"
+#include "sim/hand/user.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/rotation.h"
-#include "sim/minimum_jerk.h"
+#include "sim/hand/minimum_jerk.h"
 
 namespace enc::sim {
 namespace {

@@ -7,7 +7,7 @@
 // Where lambda_z is constant that is a spring of lambda_z K_p along the normal.
 #pragma once
 
-#include "core/arm_rig.h"
+#include "core/arm/arm_rig.h"
 #include "core/interaction.h"
 
 namespace enc {

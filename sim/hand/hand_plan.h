@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/frames.h"
-#include "sim/minimum_jerk.h"
+#include "sim/hand/minimum_jerk.h"
 
 namespace enc::sim {
 

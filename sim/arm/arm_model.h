@@ -5,9 +5,9 @@
 #include <array>
 #include <optional>
 
-#include "core/arm.h"
+#include "core/arm/arm.h"
 #include "core/scene_spec.h"
-#include "sim/arm_spec.h"
+#include "sim/arm/arm_spec.h"
 #include "sim/mujoco.h"
 
 namespace enc::sim {

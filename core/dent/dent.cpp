@@ -1,11 +1,11 @@
-#include "core/dent.h"
+#include "core/dent/dent.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "core/dent_field.h"
+#include "core/dent/dent_field.h"
 
 namespace enc {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/record.h"
+#include "core/record/record.h"
 #include "core/scene.h"
 
 namespace enc {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/arm.h"
+#include "core/arm/arm.h"
 
 namespace enc {
 
