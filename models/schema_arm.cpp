@@ -141,6 +141,14 @@ void describe(Visitor& v, sim::ArmTruth& a) {
        a.continuous_torque);
   v.value({"winding_time_s", "thermal, of each motor's winding", "parameters 1.3", published, kPositive},
           &a.winding_time);
+  v.value({"housing_time_s", "thermal, of each motor's housing", "parameters 1.3", published, kPositive},
+          &a.housing_time);
+  v.value({"winding_share",
+           "of a winding's rise over the room that is over its housing: 3.1 of 17.1 K/W",
+           "parameters 1.3",
+           published,
+           {0.0, 1.0}},
+          &a.winding_share);
   v.value({"velocity_window_ms", "over which the device differences its encoders", "docs/phantom_twin.md",
            assumed, kPositive},
           &a.velocity_window);

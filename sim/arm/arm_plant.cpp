@@ -54,16 +54,20 @@ void ArmPlant::drive_surface(double speed) noexcept {
 }
 
 // Beyond its peak a motor does not push. A winding at the temperature that the continuous torque would bring
-// it to gets no more than that torque until it is cooler. The temperature follows the square of the torque,
-// with one time constant.
+// it to gets no more than that torque until it is cooler. Heat is the square of the torque; it warms the
+// winding, which warms its housing.
 double ArmPlant::limited(std::size_t i, double torque) noexcept {
   const double ratio = truth_.machine.drives[i].ratio;
-  const double most = state_.warmth[i] < 1.0 ? truth_.peak_torque[i]
-                                             : std::min(truth_.peak_torque[i], truth_.continuous_torque[i]);
+  const double most =
+      warmth(i) < 1.0 ? truth_.peak_torque[i] : std::min(truth_.peak_torque[i], truth_.continuous_torque[i]);
   const double given = std::clamp(torque / ratio, -most, most);
   state_.clipped = state_.clipped || given * ratio != torque;
   const double load = given / truth_.continuous_torque[i];
-  state_.warmth[i] += (1.0 - std::exp(-dt_ / truth_.winding_time)) * (load * load - state_.warmth[i]);
+  const double share = truth_.winding_share;
+  const double heat = load * load;
+  state_.winding[i] += (1.0 - std::exp(-dt_ / truth_.winding_time)) * (share * heat - state_.winding[i]);
+  state_.housing[i] +=
+      (1.0 - std::exp(-dt_ / truth_.housing_time)) * ((1.0 - share) * heat - state_.housing[i]);
   return given * ratio;
 }
 

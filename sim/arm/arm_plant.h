@@ -21,9 +21,11 @@ class ArmPlant {
     Vec<'R'> wanted = Vec<'R'>::zero();  // last command
     double silent = 0.0;                 // s since then
     bool commanded = false;
-    PerJoint torque{};     // at the joints, for the present period
-    PerJoint warmth{};     // of each winding: its rise over the room, as a share of what it may have for ever
-    bool clipped = false;  // a motor could not do what was asked
+    PerJoint torque{};  // at the joints, for the present period
+    // Rise of each winding over its housing and of that over the room, as shares of what the winding may have
+    // over the room for ever.
+    PerJoint winding{}, housing{};
+    bool clipped = false;                              // a motor could not do what was asked
     std::array<double, 4> facing{0, 0, 0, 1};          // of the prop's front, q_WN, xyzw
     double surface_wanted = 0.0, surface_speed = 0.0;  // of a driven front, m/s
   };
@@ -38,6 +40,10 @@ class ArmPlant {
     return {state_.facing[3], state_.facing[0], state_.facing[1], state_.facing[2]};
   }
 
+  // Of a winding over the room, as a share of what it may have for ever.
+  [[nodiscard]] double warmth(std::size_t joint) const {
+    return state_.winding[joint] + state_.housing[joint];
+  }
   // Once a tick: encoders are read at the true joints.
   void measure(Time t, const PerJoint& joints) noexcept;
   // Stays until the next one, or until the watchdog takes it away. Not finite: refused (health fault).

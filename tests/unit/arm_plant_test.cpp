@@ -70,19 +70,26 @@ TEST(ArmPlant, ClipsAtTheMotorsPeak) {
   EXPECT_EQ(b.plant.motor_torque()[0], 0.0);
 }
 
-// From cold, stall torque brings a winding to its rated heat after T ln(i^2 / (i^2 - 1)), i = 0.129 / 0.0286.
+// From cold, stall torque brings a winding to its rated heat where
+// i^2 (s (1 - e^(-t/12)) + (1 - s)(1 - e^(-t/612))) = 1, i = 0.129 / 0.0286, s = 3.1 / 17.1: after 3.4 s.
 TEST(ArmPlant, AWarmWindingGetsNoMoreThanItsContinuousTorque) {
   Bench b;
   const double i2 = std::pow(0.129 / 0.0286, 2);
-  const int ticks = static_cast<int>(std::ceil(12.0 * std::log(i2 / (i2 - 1.0)) / kTick));
+  const double share = 3.1 / 17.1;
+  int ticks = 0;
+  while (i2 * (share * -std::expm1(-ticks * kTick / 12.0) +
+               (1.0 - share) * -std::expm1(-ticks * kTick / 612.0)) <
+         1.0)
+    ++ticks;
+  EXPECT_NEAR(ticks * kTick, 3.4, 0.2);
   b.push({0, 0, 20}, ticks - 1);
   EXPECT_NEAR(b.plant.motor_torque()[1], 0.129, 1e-12);
-  EXPECT_NEAR(b.plant.state().warmth[1], 1.0, 2e-3);
-  b.push({0, 0, 20}, 3);
+  EXPECT_NEAR(b.plant.warmth(1), 1.0, 2e-3);
+  b.push({0, 0, 20}, 4);
   EXPECT_NEAR(b.plant.motor_torque()[1], 0.0286, 1e-12);
   b.push({0, 0, 20}, 2000);
-  EXPECT_LE(b.plant.state().warmth[1], 1.01);
-  EXPECT_EQ(b.plant.state().warmth[0], 0.0);
+  EXPECT_LE(b.plant.warmth(1), 1.01);
+  EXPECT_EQ(b.plant.warmth(0), 0.0);
 }
 
 TEST(ArmPlant, TheWatchdogTakesTheForceAway) {
