@@ -89,6 +89,7 @@ struct Benchmark {
 BenchResult run_deformation(const BenchContext& context);  // the seen ball against a pressed one (Fig 11)
 BenchResult run_dent(const BenchContext& context);         // the seen surface: speed, contact vertex, volume
 BenchResult run_encounter(const BenchContext& context);    // miss at first touch over approach speed
+BenchResult run_gravity(const BenchContext& context);      // the arm's statics, against KDL (VisHap eq. 5)
 BenchResult run_indentation(const BenchContext& context);  // a hand on the virtual ball (Table 2, Figs 8, 10)
 BenchResult run_press(const BenchContext& context);        // one contact a press, limit held, tip inside
 BenchResult run_session(const BenchContext& context);      // a user's two minutes, a change of tools (4.4)
@@ -97,6 +98,7 @@ BenchResult run_stiffness(
 BenchResult run_structure(const BenchContext& context);       // the hexapod's legs: sag, modes, order, cost
 BenchResult run_workspace(const BenchContext& context);       // reach, tracked volume, directions of a press
 BenchResult run_identification(const BenchContext& context);  // the ball's numbers out of a rig's loops
+BenchResult run_registration(const BenchContext& context);    // camera and arm (VisHap 2.2)
 BenchResult run_response(const BenchContext& context);  // minor loops, tremor, energy of both response models
 BenchResult run_mesh(const BenchContext& context);      // a million triangles: load, tick
 BenchResult run_nearest(const BenchContext& context);   // nearest point on a mesh against Embree

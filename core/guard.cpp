@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/braking.h"
-#include "core/dent.h"
+#include "core/dent/dent.h"
 #include "core/stages.h"
 
 namespace enc::stages {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/arm_rig.h"
+#include "core/arm/arm_rig.h"
 #include "core/damping.h"
 #include "core/display_rig.h"
 #include "core/frames.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/arm.h"
+#include "core/arm/arm.h"
 #include "core/frames.h"
 #include "core/time.h"
 #include "core/tip.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/arm_scene.h"
+#include "core/arm/arm_scene.h"
 #include "core/error.h"
 #include "core/press_check.h"
 #include "core/stages.h"

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/arm/impedance.h"
+#include "core/arm/moving.h"
 #include "core/damping.h"
 #include "core/frames.h"
-#include "core/impedance.h"
 #include "core/loop_model.h"
-#include "core/moving.h"
 #include "core/object.h"
 #include "core/probe.h"
 #include "core/reach.h"

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include "core/impedance.h"
+#include "core/arm/impedance.h"
 #include "core/predict.h"
 #include "core/response.h"
 #include "core/scene.h"

@@ -53,7 +53,7 @@ struct UserSpec {
   // While it holds: there and back along x of the surface's frame, m; at its fastest, m/s. A hold takes as
   // long as that does.
   double slide = 0.0, slide_speed = 0.030;
-  std::int64_t repeats = 1;            // of the whole list
+  std::int64_t repeats = 1;  // of the whole list
   TremorForm tremor = TremorForm::sine;
   std::optional<SessionSpec> session;  // with kind "session", instead of the presses above
 };

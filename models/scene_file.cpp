@@ -231,10 +231,13 @@ void fill_curves(Setup& setup, const std::string& models_dir) {
   }
 }
 
-RigSpec load_rig(const std::string& rig) {
+RigSpec load_rig(const std::string& rig) { return load_rig_setup(rig).rig; }
+
+Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& overrides) {
   Setup setup;
   read_rig(setup, rig);
-  return setup.rig;
+  for (const std::string& text : overrides) set(setup, text);
+  return setup;
 }
 
 std::string place_of(const Setup& setup, std::string_view key) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/record.h"
+#include "core/record/record.h"
 #include "core/rig_spec.h"
 #include "core/scene_spec.h"
 #include "models/response_file.h"
@@ -55,6 +55,8 @@ std::string models_dir(const std::string& scene_path);
 ResponseSpec load_response(const std::string& path);
 // The rig alone: a name in models/rigs beside the program, or a path.
 RigSpec load_rig(const std::string& rig);
+// The rig with the simulator's truth, and no scene. overrides: as for load(), of rig and truth alone.
+Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& overrides = {});
 // The files of a folder ("scenes", "rigs", "responses") of models_dir, without ".toml", in order.
 std::vector<std::string> files_in(const std::string& models_dir, const std::string& folder);
 
@@ -67,7 +69,7 @@ void fill_curves(Setup& setup, const std::string& models_dir);
 void fill_meshes(Setup& setup, const std::string& models_dir);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_props(Setup& setup);    // objects that want another prop than is mounted
-void check(const Setup& setup);  // what one key alone does not show; throws
+void check(const Setup& setup);   // what one key alone does not show; throws
 void round_to_text(
     Setup& setup);  // to the numbers that resolved() shows, so that a record repeats a run to the bit
 

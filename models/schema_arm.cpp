@@ -31,8 +31,8 @@ void describe(Visitor& v, PhantomGeometry& p) {
   v.value({"m_df_kg", "crank with motor", kSet, derived, kPositive}, &p.m_df);
   v.value({"I_a_kgm2", "forearm about its centre of mass", kSet, derived, kPositive}, &p.I_a);
   v.value({"I_c_kgm2", "parallelogram link, likewise", kSet, derived, kPositive}, &p.I_c);
-  v.value({"I_be_kgm2", "upper arm with motor, likewise", kSet, derived, kPositive}, &p.I_be);
-  v.value({"I_df_kgm2", "crank with motor, likewise", kSet, derived, kPositive}, &p.I_df);
+  v.value({"I_be_kgm2", "upper arm with motor, about the origin of R", kSet, derived, kPositive}, &p.I_be);
+  v.value({"I_df_kgm2", "crank with motor, about the origin of R", kSet, derived, kPositive}, &p.I_df);
   v.value({"I_base_kgm2", "turret about its axis", kSet, derived, kPositive}, &p.I_base);
   v.value({"coupled_low_deg", "least q2 - q3", "parameters 1.3", published, {-180.0, 0.0}}, &p.coupled_low);
   v.value({"coupled_high_deg", "greatest q2 - q3", "parameters 1.3", published, {0.0, 180.0}},
@@ -141,6 +141,14 @@ void describe(Visitor& v, sim::ArmTruth& a) {
        a.continuous_torque);
   v.value({"winding_time_s", "thermal, of each motor's winding", "parameters 1.3", published, kPositive},
           &a.winding_time);
+  v.value({"housing_time_s", "thermal, of each motor's housing", "parameters 1.3", published, kPositive},
+          &a.housing_time);
+  v.value({"winding_share",
+           "of a winding's rise over the room that is over its housing: 3.1 of 17.1 K/W",
+           "parameters 1.3",
+           published,
+           {0.0, 1.0}},
+          &a.winding_share);
   v.value({"velocity_window_ms", "over which the device differences its encoders", "docs/phantom_twin.md",
            assumed, kPositive},
           &a.velocity_window);

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/error.h"
-#include "sim/arm_model.h"
+#include "sim/arm/arm_model.h"
 #include "sim/legs.h"
 #include "sim/seen_surface.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/rig_spec.h"
-#include "sim/arm_spec.h"
+#include "sim/arm/arm_spec.h"
 #include "sim/machine_spec.h"
 #include "sim/sensor_spec.h"
 
@@ -96,6 +96,7 @@ struct TwinSpec {
   GripperTruth gripper;
   ForceTruth force;
   TrackerTruth tracker;
+  CameraTruth camera;
   DisplayTruth display;
   ContactTruth contact;
   HandTruth hand;

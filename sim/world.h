@@ -9,19 +9,19 @@
 #include <vector>
 
 #include "core/rig.h"
-#include "sim/arm_model.h"
-#include "sim/arm_plant.h"
+#include "sim/arm/arm_model.h"
+#include "sim/arm/arm_plant.h"
 #include "sim/ball_contact.h"
 #include "sim/display_plant.h"
 #include "sim/force_plant.h"
 #include "sim/gripper_plant.h"
+#include "sim/hand/user.h"
 #include "sim/hexapod_plant.h"
 #include "sim/legs.h"
 #include "sim/mujoco.h"
 #include "sim/pusher.h"
 #include "sim/tracker_plant.h"
 #include "sim/truth.h"
-#include "sim/user.h"
 #include "sim/world_spec.h"
 
 namespace enc::sim {

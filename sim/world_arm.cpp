@@ -80,7 +80,7 @@ void World::observe_arm() {
   truth_.tip_velocity = arm_body_->tip_velocity(m, d);
   truth_.joints = arm_body_->joints(d);
   truth_.motor_torque = arm->motor_torque();
-  truth_.warmth = arm->state().warmth;
+  for (std::size_t i = 0; i < kMostJoints; ++i) truth_.warmth[i] = arm->warmth(i);
 }
 
 }  // namespace enc::sim

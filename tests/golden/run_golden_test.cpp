@@ -13,7 +13,7 @@
 
 #include "benchmarks/trial.h"
 #include "core/error.h"
-#include "core/replay.h"
+#include "core/record/replay.h"
 #include "models/scene_file.h"
 
 namespace enc {

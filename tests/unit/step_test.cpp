@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dent.h"
+#include "core/dent/dent.h"
 #include "tests/support/scenes.h"
 
 // This test program counts its allocations.
