@@ -56,7 +56,7 @@ struct Reaching {
 struct Moved {
   Vec<'W'> shift = Vec<'W'>::zero(), velocity = Vec<'W'>::zero();
   double depth = kUnset;  // of the finger in it, m, at the last tick; unset: another object was nearest
-  double approach = 0.0;  // m/s, at which the two met; 0: they are apart
+  double deepest = 0.0;   // that of this touch, m; 0: they are apart
   double firmness = 1.0;  // share of its stiffness that is felt now
 };
 

@@ -11,7 +11,6 @@
 namespace enc {
 namespace {
 
-constexpr double kSlowest = 0.02;  // m/s: a meeting slower than this is not told from the finger's tremor
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // What the law says of the finger in this object, and what it remembers for the next tick. Gives the force,
@@ -21,11 +20,11 @@ double pressed(const Mover& mover, double depth, double dt, Moved& now) {
   now.depth = depth;
   now.firmness = 1.0;
   if (!(depth > 0.0)) {
-    now.approach = 0.0;
+    now.deepest = 0.0;
     return 0.0;
   }
-  if (now.approach == 0.0) now.approach = std::max(rate, kSlowest);
-  now.firmness = std::clamp(1.0 + mover.bounce * rate / now.approach, 0.0, 1.0);
+  now.deepest = std::max(now.deepest, depth);
+  if (rate < 0.0) now.firmness = std::max(0.0, 1.0 + mover.bounce * rate / now.deepest);
   return mover.stiffness * now.firmness * depth;
 }
 
@@ -107,7 +106,7 @@ void move(std::span<const Mover> movers, const FingerPress& press, double dt,
       force = -pressed(mover, press.depth, dt, now) * press.normal.e();
     } else {
       now.depth = kUnset;
-      now.approach = 0.0;
+      now.deepest = 0.0;
       now.firmness = 1.0;
     }
     if (mover.kind == Interaction::hit) fly(mover, force, press, dt, now);
@@ -120,9 +119,9 @@ void move(std::span<const Mover> movers, const FingerPress& press, double dt,
   }
 }
 
-// The way in is a quarter of an oscillation to d = v0 sqrt(m / k). On the way back m dv/dt = -k d (1 - c |v|
-// / v0); parted in v and d and summed from v = 0 there to e v0 at d = 0 that is -ln(1 - c e) - c e = c^2 / 2,
-// 0 < c < 1/e.
+// On the way back from d1, where all energy is in the spring, m dv/dt = -k d (1 - c |v| / v1) with v1 = d1
+// sqrt(k/m): parted in v and d and summed from v = 0 there to e v1 at d = 0 that is -ln(1 - c e) - c e = c^2
+// / 2, 0 < c < 1/e.
 double bounce_of(double restitution) {
   const double e = restitution;
   if (e > 0.999) return 1.5 * (1.0 - e * e) / (e * e * e);  // the first terms of the series
@@ -183,7 +182,8 @@ Mover make_mover(const ObjectSpec& spec, const Object& object) {
   Mover mover;
   mover.kind = does.kind;
   mover.stiffness = object.stiffness;
-  mover.bounce = does.kind == Interaction::spin ? 0.0 : bounce_of(does.restitution);
+  if (does.kind != Interaction::spin)
+    mover.bounce = bounce_of(does.restitution) * std::sqrt(does.mass / object.stiffness);
   mover.mass = does.mass;
   mover.friction = does.friction;
   mover.way = object.X_WO * Vec<'O'>(Vec3(does.way.normalized()));

@@ -2,10 +2,11 @@
 // way, a surface that runs like that of a drum. Made ready, and their law of motion.
 //
 // A finger at depth d presses with F = k d while d grows, k being the stiffness of the behaviour, and with
-// F = k d (1 - c |v| / v0) while it falls at the rate v; v0 is the rate at which the two met. A free mass
-// then parts from the finger with e times v0, whatever its mass, k and v0. F begins and ends with 0, never
-// leaps and never pulls, and is never stiffer than k. A damping that grows with depth is Hunt's and
-// Crossley's (1975); that it acts on the way back alone is ours.
+// F = k d (1 - c |v| / v1) while it falls at the rate v; v1 = d1 sqrt(k / m) is the speed that a free mass
+// would get back from the deepest d of this touch, d1. It gets e times that, and so parts from a finger that
+// goes on evenly with e times the speed at which they met, whatever speed, mass and k. F begins and ends with
+// 0, never leaps and never pulls, is never stiffer than k, and gives back no more than was put in. A damping
+// that grows with depth is Hunt's and Crossley's (1975); that it acts on the way back alone is ours.
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@ struct Mover {
   std::int32_t object = -1;
   Interaction kind = Interaction::shift;
   double stiffness = kUnset;            // k, N/m
-  double bounce = 0.0;                  // c
+  double bounce = 0.0;                  // c sqrt(m / k), s
   double mass = kUnset;                 // kg
   double friction = 0.0;                // N, of a tile
   Vec<'W'> way;                         // unit: of a tile, and of a surface that runs

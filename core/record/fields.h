@@ -184,7 +184,7 @@ void fields(F& f, Moved& m) {
   fields(f, "shift_W", m.shift);
   fields(f, "shift_velocity_W", m.velocity);
   f("moved_depth", m.depth);
-  f("moved_approach", m.approach);
+  f("moved_deepest", m.deepest);
   f("moved_firmness", m.firmness);
 }
 template <class F>
