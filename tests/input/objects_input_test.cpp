@@ -115,10 +115,10 @@ TEST(ObjectsInput, EachEntryIsItsObjectsAlone) {
   };
   const Scene before = room();
   std::string text = text_of(file);
-  const std::string entry = "name = \"passive_key\"\nstiffness_N_per_mm = 0.6";
-  const auto at = text.find(entry);
+  const std::string old = "stiffness_N_per_mm = 0.6";
+  const auto at = text.find(old, text.find("name = \"passive_key\""));
   ASSERT_NE(at, std::string::npos);
-  std::ofstream(file) << text.replace(at, entry.size(), "name = \"passive_key\"\nstiffness_N_per_mm = 0.4");
+  std::ofstream(file) << text.replace(at, old.size(), "stiffness_N_per_mm = 0.4");
   const Scene after = room();
   EXPECT_EQ(before.objects[0].stiffness, 600.0);
   EXPECT_EQ(after.objects[0].stiffness, 400.0);
