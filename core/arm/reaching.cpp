@@ -38,17 +38,9 @@ struct Goal {
   Vec<'W'> velocity = Vec<'W'>::zero();
 };
 
-// A real thing stands where it is, and so does what stands for it; of a button the middle of its face is
-// pressed.
-bool in_its_middle(const Object& object) {
-  const bool button = std::holds_alternative<Button>(object.surface.shape());
-  return object.interaction.kind == Interaction::click ||
-         (button && object.interaction.kind == Interaction::passive);
-}
-
 // The finger's projection on the surface, which goes along with it and with what moves.
 Goal goal_of(const Walk& walk, const State& state, const Object& object) {
-  if (in_its_middle(object)) return {object.X_WO.origin()};
+  if (object.met_in_its_middle()) return {object.X_WO.origin()};
   Goal goal{walk.surface_point};
   const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
   if (predicted && walk.tool_fresh && state.tip_motion.velocity.finite()) {
