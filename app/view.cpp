@@ -1,6 +1,7 @@
 #include "app/view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -62,6 +63,10 @@ bool touching(const Moment& m) {
 
 // Each leg as a rod in a jacket, from its base joint to its platform joint.
 void add_legs(const Moment& m, sim::ViewRequest& request) {
+  if (!m.world.machine) {
+    request.floor = (m.world.X_WR() * Point<'R'>(0, 0, -0.200)).xyz[2];
+    return;
+  }
   const Hexapod& machine = m.world.machine->machine();
   const Pose<'W', 'R'>& X_WR = m.world.X_WR();
   const Pose<'W', 'H'> X_WH = X_WR * m.world.machine->state().pose;
@@ -146,8 +151,24 @@ Point<'W'> flank(const Moment& m, std::size_t object) {
                                          : X_WO * Point<'O'>(0.07, -0.07, 0);
 }
 
+// An arm, its prop and the finger that meets it.
+void add_arm_labels(const Moment& m, sim::ViewRequest& request) {
+  const sim::Truth& truth = m.world.truth();
+  constexpr std::array<const char*, 3> kProps{"plate", "key", "drum"};
+  request.labels.push_back(
+      {fmt::format("prop ({})", kProps[static_cast<std::size_t>(m.scene.impedance->prop)]), truth.tip,
+       false});
+  for (std::size_t i = 0; i < std::min<std::size_t>(m.scene.objects.size(), 4); ++i)
+    request.labels.push_back(
+        {fmt::format("{} (virtual)", m.setup.scene.objects[i].name), flank(m, i), false});
+  if (truth.tool_tip.finite()) request.labels.push_back({"finger", truth.tool_tip, true});
+  if (!request.title.empty())
+    request.labels.push_back({"arm", m.world.X_WR() * Point<'R'>(0.02, 0, 0.02), true});
+}
+
 void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
   const sim::Truth& truth = m.world.truth();
+  if (!m.world.machine) return add_arm_labels(m, request);
   const auto in_H = [&](double x, double y, double z) {
     return m.world.X_WR() * m.world.machine->state().pose * Point<'H'>(x, y, z);
   };
@@ -174,6 +195,13 @@ sim::Camera camera_for(const Moment& m, bool close_up) {
   camera.azimuth = 1.75;                        // from the front and a little from the right
   camera.elevation = close_up ? -0.38 : -0.22;  // down into the dent
   camera.distance = close_up ? 0.22 : 1.18;
+  if (!m.world.machine) {  // an arm is smaller, and stands behind its tip
+    camera.azimuth = 2.2;
+    camera.distance = close_up ? 0.22 : 0.75;
+    camera.opening = 0.52;
+    camera.look_at = m.world.truth().tip + Vec<'W'>(close_up ? 0.0 : -0.06, 0, close_up ? 0.0 : 0.05);
+    return camera;
+  }
   camera.opening = 0.52;
   camera.look_at = close_up ? m.world.truth().tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.090);
   return camera;

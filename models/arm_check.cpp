@@ -76,24 +76,26 @@ void mend_normals(Setup& setup) {
   }
 }
 
-// The prop is what is really felt [VisHap 2.2].
+// The prop is what is really felt [VisHap 2.2]. One line for each entry that wants another one.
 void note_props(Setup& setup) {
   constexpr std::array<std::string_view, 3> kNames{"plate", "key", "drum"};
   const SceneSpec& s = setup.scene;
   if (!s.prop) return;
-  for (const ObjectSpec& o : s.objects) {
-    const auto b = std::find_if(s.behaviours.begin(), s.behaviours.end(),
-                                [&](const BehaviourSpec& item) { return item.name == o.behaviour; });
-    if (b == s.behaviours.end() || b->interaction.prop < 0) continue;
-    const auto wanted = static_cast<std::size_t>(b->interaction.prop),
-               mounted = static_cast<std::size_t>(s.prop->kind);
-    if (wanted == mounted) continue;
+  const auto mounted = static_cast<std::int32_t>(s.prop->kind);
+  for (const BehaviourSpec& b : s.behaviours) {
+    const std::int32_t wanted = b.interaction.prop;
+    if (wanted < 0 || wanted == mounted) continue;
+    const auto wants = [&](const ObjectSpec& o) { return o.behaviour == b.name; };
+    const auto first = std::find_if(s.objects.begin(), s.objects.end(), wants);
+    if (first == s.objects.end()) continue;
+    const auto others = std::count_if(s.objects.begin(), s.objects.end(), wants) - 1;
     setup.notes.push_back(
-        fmt::format("{}: warning: object {} shall feel like a {} and the arm carries a {}; mount another "
+        fmt::format("{}: warning: object {}{} shall feel like a {} and the arm carries a {}; mount another "
                     "prop, or name another "
                     "behaviour",
-                    place_of(setup, fmt::format("object.{}.behaviour", o.name)), quoted(o.name),
-                    kNames[wanted], kNames[mounted]));
+                    place_of(setup, fmt::format("object.{}.behaviour", first->name)), quoted(first->name),
+                    others > 0 ? fmt::format(" and {} more", others) : "",
+                    kNames[static_cast<std::size_t>(wanted)], kNames[static_cast<std::size_t>(mounted)]));
   }
 }
 

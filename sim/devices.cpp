@@ -35,6 +35,7 @@ class SimArm final : public HapticArm {
   explicit SimArm(World& world) : world_(world) {}
   Stamped<ArmSample> read() noexcept override { return world_.arm->state().sample; }
   void command(const Vec<'R'>& force) noexcept override { world_.arm->command(force); }
+  void drive(double speed) noexcept override { world_.arm->drive_surface(speed); }
 
  private:
   World& world_;

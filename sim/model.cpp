@@ -213,7 +213,7 @@ SpecPtr build_model(const ModelParts& parts) {
   // Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds.
   spec->option.cone = mjCONE_ELLIPTIC;
   spec->option.impratio = 20.0;
-  spec->option.noslip_iterations = 4;
+  spec->option.noslip_iterations = parts.scene.arm ? 0 : 4;  // a prop goes where its finger goes
   if (parts.scene.arm)
     add_arm(spec.get(), parts);
   else

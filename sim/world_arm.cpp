@@ -70,11 +70,14 @@ void World::drive_arm(double h) {
   arm_body_->drive(d, torque);
 }
 
-// What a step leaves behind belongs to its last stage, so all is evaluated once more at this very time.
+// Forces are those of the step's last stage, which is as good as at this very time; places and velocities are
+// evaluated once more.
 void World::observe_arm() {
   const mjModel* m = physics_.model();
   mjData* d = physics_.data();
-  mj_forward(m, d);
+  mj_kinematics(m, d);
+  mj_comPos(m, d);
+  mj_comVel(m, d);
   truth_.contact_force = contact_force(truth_.touching);
   truth_.tip = arm_body_->tip(d);
   truth_.tip_velocity = arm_body_->tip_velocity(m, d);

@@ -100,8 +100,13 @@ void hit_balls(const BenchContext& context, BenchResult& result, const Adder& ad
   in_parallel(hits.size(), [&](std::size_t i) {
     hits[i] = hit_once(context, speeds[i % speeds.size()], set[i / speeds.size()]);
   });
-  Plot plot{"switching_restitution", "A ball that is hit in the twin", "restitution that is set",
-            "restitution measured"};
+  Plot plot{"switching_restitution",
+            "A ball that is hit in the twin",
+            "restitution that is set",
+            "restitution measured",
+            false,
+            false,
+            {}};
   Table table{"switching_hits",
               "Hits in the twin",
               {"set", "wanted approach (m/s)", "at the touch (m/s)", "measured",
@@ -109,7 +114,7 @@ void hit_balls(const BenchContext& context, BenchResult& result, const Adder& ad
               {}};
   double worst = 0.0;
   for (std::size_t k = 0; k < speeds.size(); ++k) {
-    Series series{fmt::format("{:g} m/s", speeds[k])};
+    Series series{fmt::format("{:g} m/s", speeds[k]), {}, {}};
     series.mark = Mark::both;
     for (std::size_t i = 0; i < set.size(); ++i) {
       const Bounce& hit = hits[i * speeds.size() + k];

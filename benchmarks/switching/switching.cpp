@@ -105,10 +105,15 @@ void chatter(const BenchContext& context, BenchResult& result, const Adder& add)
   add("chatter.facing_12mm", cases[0].per_second[12], "1/s",
       "with the 12 mm of room.toml, six sigma of the difference", kUnset, 0.0);
   add("chatter.keys_3mm", cases[1].per_second[3], "1/s", "with the 3 mm of keypad.toml", kUnset, 0.0);
-  Plot plot{"switching_chatter", "Changes of the nearest object on the mid-line", "hysteresis (mm)",
-            "changes (1/s)"};
+  Plot plot{"switching_chatter",
+            "Changes of the nearest object on the mid-line",
+            "hysteresis (mm)",
+            "changes (1/s)",
+            false,
+            false,
+            {}};
   for (const Chatter& one : cases) {
-    Series series{one.name};
+    Series series{one.name, {}, {}};
     for (std::size_t i = 0; i < hysteresis.size(); ++i) {
       series.x.push_back(1e3 * hysteresis[i]);
       series.y.push_back(one.per_second[i]);
@@ -126,7 +131,8 @@ void chatter(const BenchContext& context, BenchResult& result, const Adder& add)
 void timing(const BenchContext& context, BenchResult& result, const Adder& add) {
   const std::vector<std::size_t> counts{1, 3, 10, 30, 100, 300, 1000};
   const int ticks = context.quick ? 4000 : 20000;
-  Series ours{"step(), median"}, worst{"step(), p99.9"}, brute{"asking every object, without bounds"};
+  Series ours{"step(), median", {}, {}}, worst{"step(), p99.9", {}, {}},
+      brute{"asking every object, without bounds", {}, {}};
   double wrong = 0.0, ratio = kUnset;
   for (const std::size_t count : counts) {
     Scene scene = bare_scene(context);
@@ -161,7 +167,7 @@ void timing(const BenchContext& context, BenchResult& result, const Adder& add) 
       kUnset, 1e3 * (bare_scene(context).follow.hysteresis + 0.008));
   for (Series* s : {&ours, &worst, &brute}) s->mark = Mark::both;
   Plot plot{
-      "switching_time", "Time of a tick over the number of objects", "objects", "time (us)", true, true};
+      "switching_time", "Time of a tick over the number of objects", "objects", "time (us)", true, true, {}};
   plot.series = {ours, worst, brute};
   plot.caption =
       "The answers are the same, so the run time alone is left of an error-against-run-time diagram. Objects "

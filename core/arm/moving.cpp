@@ -32,7 +32,7 @@ double pressed(const Mover& mover, double depth, double dt, Moved& now) {
 void fly(const Mover& mover, const Vec3& force, const FingerPress& press, double dt, Moved& now) {
   const Vec3 velocity = now.velocity.e() + force * (dt / mover.mass);
   const Vec3 shift = now.shift.e() + velocity * dt;
-  const bool gone = shift.norm() >= mover.travel;
+  const bool gone = shift.norm() >= mover.travel * (1.0 - 1e-9);
   now.velocity = gone ? Vec<'W'>::zero() : Vec<'W'>(velocity);
   now.shift = gone ? Vec<'W'>(Vec3(shift * (mover.travel / shift.norm()))) : Vec<'W'>(shift);
   const bool clear =

@@ -163,17 +163,20 @@ TEST(ArmWorld, GoesOnFromWhereItWasSaved) {
   EXPECT_EQ(room.world->save().size(), saved.size());
 }
 
-// A driven front drags the finger along at its speed; one that stands does not.
+// A driven front drags the finger along: on average the tip feels it backwards.
 TEST(ArmWorld, ADrumRunsUnderTheFinger) {
   Room room({}, true);
   room.prepared.objects[0].interaction.way = Vec3::UnitY();
   room.world->arm->drive_surface(0.05);
   double sideways = 0.0;
+  int ticks = 0;
   while (!room.world->user_done()) {
     room.hold();
-    if (room.world->truth().phase == Phase::hold) sideways = room.world->truth().contact_force.xyz[1];
+    if (room.world->truth().phase != Phase::hold) continue;
+    sideways += room.world->truth().contact_force.xyz[1];
+    ++ticks;
   }
-  EXPECT_LT(sideways, -0.1);  // on the tip: backwards
+  EXPECT_LT(sideways / ticks, -0.1);
 }
 
 TEST(ArmWorld, ASlideAndAHingeAreAChain) {
