@@ -35,7 +35,7 @@ double carried_on(const TrackerRig& rig, double old) {
 
 // The state and its covariance h s later. White noise drives the acceleration (constant velocity) or the jerk
 // (constant acceleration) [Bar-Shalom, Estimation with Applications, 6.2].
-void propagate(const TrackerRig& rig, double h, TipMotion& m) {
+void propagate(const TrackerRig& rig, double h, double liveliness, TipMotion& m) {
   m.position.e() += h * m.velocity.e() + 0.5 * h * h * m.acceleration.e();
   m.velocity.e() += h * m.acceleration.e();
   // P <- F P F', F = [1 h h^2/2; 0 1 h; 0 0 1], row by row.
@@ -51,12 +51,12 @@ void propagate(const TrackerRig& rig, double h, TipMotion& m) {
   m.vv = vv + h * va;
   m.va = va;
   if (rig.prediction == Prediction::constant_velocity) {
-    const double q = square(rig.acceleration_noise);
+    const double q = square(liveliness * rig.acceleration_noise);
     m.xx += q * h * h * h / 3.0;
     m.xv += q * h * h / 2.0;
     m.vv += q * h;
   } else {
-    const double q = square(rig.jerk_noise);
+    const double q = square(liveliness * rig.jerk_noise);
     m.xx += q * h * h * h * h * h / 20.0;
     m.xv += q * h * h * h * h / 8.0;
     m.xa += q * h * h * h / 6.0;
@@ -85,7 +85,7 @@ void correct(const TrackerRig& rig, const Vec3& innovation, TipMotion& m) {
 }  // namespace
 
 void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, Time now,
-             TipMotion& motion) noexcept {
+             TipMotion& motion, double liveliness) noexcept {
   if (rig.prediction == Prediction::hold || motion.tool != tool) return begin(rig, tool, t, tip, motion);
   const double h = age(t, motion.t);
   const Point<'W'> shown = predict(rig, motion, now) - motion.behind;
@@ -95,7 +95,7 @@ void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>&
     begin(rig, tool, t, tip, motion);
   } else {
     TipMotion next = motion;
-    propagate(rig, h, next);
+    propagate(rig, h, liveliness, next);
     const Vec3 innovation = (tip - next.position).e();
     if (innovation.norm() > kLeap + kFastest * h) return begin(rig, tool, t, tip, motion);
     correct(rig, innovation, next);
