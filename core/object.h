@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/contact_limits.h"
@@ -29,6 +30,13 @@ struct Object {
   std::int32_t moving = -1;   // place in State::moved; -1: it stands
 
   [[nodiscard]] double limit_at(std::int32_t contact) const { return limits.at(contact, limit); }  // m
+
+  // A real thing stands where it is, and so does what stands for it; of a button the middle of its face is
+  // met.
+  [[nodiscard]] bool met_in_its_middle() const {
+    const bool button = std::holds_alternative<Button>(surface.shape());
+    return interaction.kind == Interaction::click || (button && interaction.kind == Interaction::passive);
+  }
 
   // At which a driven prop's surface runs along `way`, m/s.
   [[nodiscard]] double prop_speed() const {

@@ -31,8 +31,10 @@ void take_in(const Walk& walk, State& state) {
   if (rig.prediction == Prediction::hold) return;
   const TrackedTool& pose = state.tool.value;
   const Point<'T'>& tip = walk.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
+  // A finger that rests on a prop moves as slowly as it presses or slides.
+  const bool pressing = walk.scene.impedance && state.mode == Mode::contact;
   observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip), walk.tick.t,
-          state.tip_motion);
+          state.tip_motion, pressing);
   // Nobody follows a tool that was away, so nothing has to be caught up.
   if (state.mode == Mode::away) state.tip_motion.behind = Vec<'W'>::zero();
 }

@@ -205,6 +205,7 @@ void check_user(const Setup& setup) {
   check_named(setup, setup.scene.objects, setup.scene.user->object, "object");
   check_named(setup, setup.scene.tools, setup.scene.user->tool, "tool");
   check_session(setup);
+  check_reaches(setup);
 }
 
 // What the simulated ball is good for (sim/ball_plant.h). A real machine may press other things.

@@ -21,6 +21,7 @@ template <class T>
 }
 
 void check_session(const Setup& setup);  // [user.session]
+void check_reaches(const Setup& setup);  // [user.reaches]
 // arm_check.cpp
 void check_arm(const Setup& setup);
 void check_finger(const Setup& setup, const ToolSpec& tool);

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ish
 constexpr std::array<std::string_view, 2> kWays{"one_way", "both_ways"};
 constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
 constexpr std::array<std::string_view, 2> kTremors{"sine", "band"};
-constexpr std::array<std::string_view, 2> kUsers{"press_release", "session"};
+constexpr std::array<std::string_view, 3> kUsers{"press_release", "session", "reaches"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
 
 Key name_key(std::string_view meaning) { return {"name", meaning, kAuthor, chosen, kAny, needed, {}, true}; }
@@ -151,6 +151,25 @@ void describe_presses(Visitor& v, UserSpec& u) {
 }
 
 // A pair is the least and the most of what is drawn.
+void describe_ranges(Visitor& v, ReachRanges& r) {
+  v.value({"tilt_deg", "of a reach from the surface normal: least, most", kAuthor, assumed, {0.0, 60.0}},
+          &r.tilt);
+  v.value({"reach_mm", "from where a reach begins to the touched point: least, most", kAuthor, assumed,
+           kPositive},
+          &r.reach);
+  v.value({"peak_mm_s", "of the first, ballistic part of a reach: least, most", "parameters 5.2", published,
+           kPositive},
+          &r.peak_speed);
+  v.value({"touch_mm_s", "wanted at the surface: least, most", "parameters 5.2", assumed, kPositive},
+          &r.touch_speed);
+  v.value({"depth_mm", "wanted deflection: least, most", "[VHMR 4.2]", assumed, kPositive}, &r.depth);
+  v.value(
+      {"press_mm_s", "mean, of pressing and of releasing: least, most", "parameters 5.2", assumed, kPositive},
+      &r.press_speed);
+  v.value({"hold_s", "at depth: least, most", kAuthor, assumed, kNotNegative}, &r.hold);
+  v.value({"rest_s", "over the next place: least, most", kAuthor, assumed, kNotNegative}, &r.rest);
+}
+
 void describe(Visitor& v, SessionSpec& s) {
   v.value({"duration_s", "of the session", "[VHMR 4.4]", published, kPositive}, &s.duration);
   v.value({"polar_max_deg",
@@ -159,22 +178,7 @@ void describe(Visitor& v, SessionSpec& s) {
            assumed,
            {0.0, 85.0}},
           &s.polar_most);
-  v.value({"tilt_deg", "of a reach from the surface normal: least, most", kAuthor, assumed, {0.0, 60.0}},
-          &s.tilt);
-  v.value({"reach_mm", "from where a reach begins to the touched point: least, most", kAuthor, assumed,
-           kPositive},
-          &s.reach);
-  v.value({"peak_mm_s", "of the first, ballistic part of a reach: least, most", "parameters 5.2", published,
-           kPositive},
-          &s.peak_speed);
-  v.value({"touch_mm_s", "wanted at the surface: least, most", "parameters 5.2", assumed, kPositive},
-          &s.touch_speed);
-  v.value({"depth_mm", "wanted deflection: least, most", "[VHMR 4.2]", assumed, kPositive}, &s.depth);
-  v.value(
-      {"press_mm_s", "mean, of pressing and of releasing: least, most", "parameters 5.2", assumed, kPositive},
-      &s.press_speed);
-  v.value({"hold_s", "at depth: least, most", kAuthor, assumed, kNotNegative}, &s.hold);
-  v.value({"rest_s", "over the next place: least, most", kAuthor, assumed, kNotNegative}, &s.rest);
+  describe_ranges(v, s);
   v.value({"other_tool", "that the user changes to, by name; empty: no change", "[VHMR 4.4]", chosen},
           &s.other_tool);
   v.value({"change_share",
@@ -188,6 +192,20 @@ void describe(Visitor& v, SessionSpec& s) {
            "along y",
            kAuthor, chosen},
           &s.tray);
+}
+
+void describe(Visitor& v, ReachesSpec& r) {
+  v.value({"count", "reaches", "docs/reaching.md", chosen, {1.0, 1e6}}, &r.count);
+  v.value({"spread_mm", "of a plane, places are even over this around the point of it that is named",
+           "docs/reaching.md", chosen, kPositive},
+          &r.spread);
+  v.value({"polar_max_deg",
+           "of a sphere, places are even over the directions up to here from +z of W",
+           "docs/reaching.md",
+           assumed,
+           {0.0, 85.0}},
+          &r.polar_most);
+  describe_ranges(v, r);
 }
 
 void describe(Visitor& v, UserSpec& u) {
@@ -205,6 +223,7 @@ void describe(Visitor& v, UserSpec& u) {
       {"tremor", "one sine for each axis, or a band of several that wax and wane", "parameters 5.2", assumed},
       kTremors, u.tremor);
   part(v, "session", u.session, [&](SessionSpec& session) { describe(v, session); });
+  part(v, "reaches", u.reaches, [&](ReachesSpec& reaches) { describe(v, reaches); });
 }
 
 void describe(Visitor& v, ProbeSpec& p) {

@@ -213,7 +213,9 @@ SpecPtr build_model(const ModelParts& parts) {
   // Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds.
   spec->option.cone = mjCONE_ELLIPTIC;
   spec->option.impratio = 20.0;
-  spec->option.noslip_iterations = parts.scene.arm ? 0 : 4;  // a prop goes where its finger goes
+  // Not with an arm: that pass changes the dry friction of its joints after the contact forces are found, and
+  // a pressed finger is let go for a tick whenever the arm begins to slip.
+  spec->option.noslip_iterations = parts.scene.arm ? 0 : 4;
   if (parts.scene.arm)
     add_arm(spec.get(), parts);
   else

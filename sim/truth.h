@@ -40,6 +40,7 @@ struct Truth {
   double tool_radius = kUnset, tip_radius = kUnset;
   // What the person is at: which press, and which part of it.
   std::int32_t press = -1;
+  std::int32_t aim = -1;  // the object that is pressed, index in the scene
   Phase phase = Phase::wait;
   double approach_speed = kUnset;  // of this press, m/s, as planned
   bool aborted = false;            // this reach turns back before the touch

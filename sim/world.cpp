@@ -175,6 +175,7 @@ void World::observe(Time t) {
   if (!user_) return;
   truth_.press = user_->press();
   truth_.phase = user_->phase();
+  truth_.aim = user_->object();
   truth_.approach_speed = user_->approach_speed();
   truth_.aborted = user_->aborted();
   truth_.tool = user_->tool();

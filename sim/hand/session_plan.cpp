@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/press_check.h"
 
 namespace enc::sim {
 namespace {
 
 constexpr double kWait = 0.8;     // s before the first reach, at least: the force zero is found meanwhile
+constexpr double kAfter = 0.5;    // s after the last reach
 constexpr double kClear = 0.002;  // m above the surface where a release ends
 constexpr double kTakeUp = 0.15;  // s until the person has answered the touch with force [parameters 5.2]
 constexpr double kCarry = 1.2;    // s, of a tool to the tray or from it
@@ -37,12 +37,6 @@ std::int32_t index_of(const SceneSpec& scene, const std::string& name) {
   return name.empty() ? 0 : -1;
 }
 
-std::size_t object_of(const SceneSpec& scene) {
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (scene.objects[i].name == scene.user->object) return i;
-  return 0;
-}
-
 // Unit, at an angle from an axis, to an even side.
 Vec3 beside(const Vec3& axis, double angle, Stream& draws) {
   const Vec3 x = axis.unitOrthogonal();
@@ -54,39 +48,36 @@ Vec3 beside(const Vec3& axis, double angle, Stream& draws) {
 }  // namespace
 
 SessionPlan::SessionPlan(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand)
-    : spec_(*scene.user->session), hand_(hand), scene_(prepared) {
-  const std::size_t object = object_of(scene);
-  centre_ = Point<'W'>(scene.objects[object].position);
-  radius_ = scene.objects[object].radius;
-  limit_ = prepared.objects[object].limit;
+    : session_(scene.user->session),
+      reaches_(scene.user->reaches),
+      hand_(hand),
+      scene_(prepared),
+      places_(scene, prepared) {
+  ranges_ = session_ ? static_cast<const ReachRanges&>(*session_) : *reaches_;
   tools_[0] = index_of(scene, scene.user->tool);
-  if (!spec_.other_tool.empty()) tools_[1] = index_of(scene, spec_.other_tool);
+  if (session_ && !session_->other_tool.empty()) tools_[1] = index_of(scene, session_->other_tool);
 }
 
 std::int32_t SessionPlan::tool(const State& state) const { return state.held < 0 ? -1 : tools_[state.held]; }
 
 Point<'W'> SessionPlan::spot(std::int32_t which) const {
-  return Point<'W'>(Vec3(spec_.tray + kBeside * which * Vec3::UnitY()));
+  return Point<'W'>(Vec3(session_->tray + kBeside * which * Vec3::UnitY()));
 }
 
-bool SessionPlan::pressable(const PressPoint& place, const Tool& tool) const {
-  return in_the_way(scene_, place.normal, tool) == Obstacle::none && carried_to(scene_, place, 0.0) &&
-         carried_to(scene_, place, limit_);
-}
-
-// Even over the cap, less what the machine cannot press.
-PressPoint SessionPlan::draw_place(Stream& draws, const Tool& tool) const {
-  const double lowest = std::cos(spec_.polar_most);
+// A bare finger comes from where no object is near.
+void SessionPlan::draw_start(Stream& draws, const Tool& tool, Press& press) const {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
-    const double up = 1.0 - (1.0 - lowest) * draws.uniform();
-    const double turn = 2.0 * std::numbers::pi * draws.uniform();
-    const double out = std::sqrt(std::max(0.0, 1.0 - up * up));
-    const Vec<'W'> normal(out * std::cos(turn), out * std::sin(turn), up);
-    const PressPoint place{centre_ + radius_ * normal, normal};
-    if (pressable(place, tool)) return place;
+    const Place place = places_.draw(draws, tool);
+    press.object = place.object;
+    press.at = place.at;
+    press.touch = press.at.point + tool.tip.radius * press.at.normal;
+    const Vec3 away = beside(press.at.normal.e(), draw(draws, ranges_.tilt), draws);
+    press.start = press.touch + Vec<'W'>(Vec3(draw(draws, ranges_.reach) * away));
+    if (session_ || places_.gap(press.start, tool) > scene_.follow.pause) return;
   }
-  throw Error("the machine can press the ball nowhere within polar_max_deg", "user.session.polar_max");
+  throw Error("a reach begins nowhere farther than follow.pause from every object; lower tilt or raise reach",
+              "user.reaches.reach");
 }
 
 void SessionPlan::draw_reach(Stream& draws, Press& press) const {
@@ -99,9 +90,9 @@ void SessionPlan::draw_reach(Stream& draws, Press& press) const {
   const double y = draw_bounded(draws);
   const Vec3 aside = x * across + y * Vec3(along.cross(across));
   const Vec3 primary = gain * way + hand_.aside_scatter * distance * aside;
-  const double peak = draw(draws, spec_.peak_speed);
+  const double peak = draw(draws, ranges_.peak_speed);
   press.primary = {0.0, 1.875 * primary.norm() / peak, Vec<'W'>(primary)};
-  press.touch_speed = draw(draws, spec_.touch_speed);
+  press.touch_speed = draw(draws, ranges_.touch_speed);
   press.aborted = draws.uniform() < hand_.aborted;
   const double onset = draws.uniform();
   if (press.aborted) {
@@ -125,25 +116,21 @@ void SessionPlan::draw_press(State& state, std::int32_t which) const {
   Press& press = state.press;
   Stream& draws = state.draws;
   const Tool& tool = scene_.tools[static_cast<std::size_t>(tools_[which])];
-  press.at = draw_place(draws, tool);
-  press.touch = press.at.point + tool.tip.radius * press.at.normal;
-  const Vec3 away = beside(press.at.normal.e(), draw(draws, spec_.tilt), draws);
-  press.start = press.touch + Vec<'W'>(Vec3(draw(draws, spec_.reach) * away));
+  draw_start(draws, tool, press);
   draw_reach(draws, press);
-  press.depth = std::fmax(draw(draws, spec_.depth), press.reached);
-  press.press_time = press.depth / draw(draws, spec_.press_speed);
-  press.hold_time = draw(draws, spec_.hold);
-  press.release_time = (press.depth + kClear) / draw(draws, spec_.press_speed);
+  press.depth = std::fmax(draw(draws, ranges_.depth), press.reached);
+  press.press_time = press.depth / draw(draws, ranges_.press_speed);
+  press.hold_time = draw(draws, ranges_.hold);
+  press.release_time = (press.depth + kClear) / draw(draws, ranges_.press_speed);
   press.transit = std::max(0.3, 1.875 * (press.start - state.from).norm() / press.primary.peak_speed());
-  press.rest = draw(draws, spec_.rest);
+  press.rest = draw(draws, ranges_.rest);
 }
 
 SessionPlan::State SessionPlan::begin(std::uint64_t seed) const {
   State state;
   state.draws = Stream(seed, "session");
-  state.change_at = tools_[1] >= 0 ? draw(state.draws, spec_.change) * spec_.duration : kUnset;
-  state.from = centre_;  // it begins over the first place: no way to go
-  draw_press(state, 0);
+  state.change_at = tools_[1] >= 0 ? draw(state.draws, session_->change) * session_->duration : kUnset;
+  draw_press(state, 0);  // it begins over the first place: no way to go
   state.from = state.press.start;
   state.from_normal = state.press.at.normal;
   state.press.transit = 0.0;
@@ -182,7 +169,8 @@ void SessionPlan::next_press(State& state) const {
       p.reach_time + (p.aborted ? 0.0 : p.press_time + p.hold_time + p.release_time + p.primary.time);
   const double begin = change ? 2.0 * kCarry + kSwap : p.transit;
   state.phase = change ? Phase::change : Phase::wait;
-  if (state.phase_start + begin + p.rest + rest > spec_.duration) {
+  if (session_ ? state.phase_start + begin + p.rest + rest > session_->duration
+               : state.count + 1 >= reaches_->count) {
     state.finished = true;
     state.phase = Phase::wait;
   }
@@ -218,6 +206,13 @@ Vec<'W'> SessionPlan::shaft(double t, const State& state) const {
   const bool on_the_way = (state.phase == Phase::wait || state.phase == Phase::change) && time > 0.0;
   const double share = on_the_way ? MinimumJerk((t - state.phase_start) / time).x : 1.0;
   return Vec<'W'>(Vec3(((1.0 - share) * state.from_normal.e() + share * press.at.normal.e()).normalized()));
+}
+
+double SessionPlan::duration(const State& begun) const {
+  if (session_) return session_->duration;
+  State state = begun;
+  while (!state.finished) next(state);
+  return state.phase_start + state.press.transit + kAfter;
 }
 
 HandPlan SessionPlan::at(double t, const State& state) const {

@@ -1,6 +1,6 @@
-// What a person wants in two minutes with the ball [VHMR 4.4]: hover over a place, reach for it in two
-// submovements, press, hold, release, go on to the next; some reaches turn back, and once the tool is
-// changed. All of it is drawn from one stream of the seed.
+// What a person wants in two minutes with the ball [VHMR 4.4], or who reaches with a finger for what is there
+// [VisHap 2.2]: hover over a place, reach for it in two submovements, press, hold, release, go on to the
+// next; some reaches turn back, and once the tool is changed. All is drawn from one stream of the seed.
 //
 // Reach [Woodworth 1899; Meyer et al. 1988]: a primary submovement falls short of the surface or shoots over
 // it, as its gain is drawn; where it falls short a second one goes on, aims a little beyond the surface and
@@ -9,10 +9,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/scene.h"
 #include "sim/hand/hand_plan.h"
+#include "sim/hand/places.h"
 #include "sim/random.h"
 #include "sim/truth.h"
 #include "sim/twin_spec.h"
@@ -23,6 +25,7 @@ class SessionPlan {
  public:
   // One reach and the press after it, as drawn.
   struct Press {
+    std::int32_t object = -1;  // index in the scene
     PressPoint at;
     Point<'W'> touch, start;      // of the tool tip's centre: where it touches, where the reach begins
     Submovement primary, second;  // the second corrects, or takes back
@@ -57,23 +60,23 @@ class SessionPlan {
   [[nodiscard]] std::int32_t other_tool() const { return tools_[1]; }  // -1: there is none
   [[nodiscard]] Point<'W'> spot(
       std::int32_t which) const;  // where the tip of a tool lies: 0 the first, 1 the other
-  [[nodiscard]] double duration() const { return spec_.duration; }
+  [[nodiscard]] double duration(const State& begun) const;  // s
 
  private:
   [[nodiscard]] double phase_time(const State& state) const;
   void next(State& state) const;
   void next_press(State& state) const;
   void draw_press(State& state, std::int32_t which) const;
+  void draw_start(Stream& draws, const Tool& tool, Press& press) const;
   void draw_reach(Stream& draws, Press& press) const;
-  [[nodiscard]] PressPoint draw_place(Stream& draws, const Tool& tool) const;
-  [[nodiscard]] bool pressable(const PressPoint& place, const Tool& tool) const;
 
-  SessionSpec spec_;
+  std::optional<SessionSpec> session_;  // one of these two
+  std::optional<ReachesSpec> reaches_;
+  ReachRanges ranges_;
   HandTruth hand_;
   const Scene& scene_;  // prepared
   std::int32_t tools_[2] = {-1, -1};
-  Point<'W'> centre_;      // of the ball
-  double radius_, limit_;  // m
+  Places places_;
 };
 
 }  // namespace enc::sim

@@ -27,13 +27,11 @@ std::int32_t held_tool(const SceneSpec& scene) {
 
 // The stiffness that the person has learned to expect: the ball's, or that of what an arm renders. Of a real
 // thing they expect nothing.
-double expected_stiffness(const SceneSpec& scene, const Scene& prepared) {
-  if (!prepared.has_arm) return kBall;
-  const auto named = std::find_if(scene.objects.begin(), scene.objects.end(),
-                                  [&](const ObjectSpec& o) { return o.name == scene.user->object; });
-  const auto index = named == scene.objects.end() ? 0 : named - scene.objects.begin();
-  const double stiffness = prepared.objects[static_cast<std::size_t>(index)].stiffness;
-  return std::isnan(stiffness) ? 0.0 : stiffness;
+std::vector<double> expected_stiffness(const Scene& prepared) {
+  std::vector<double> expected;
+  for (const Object& object : prepared.objects)
+    expected.push_back(!prepared.has_arm ? kBall : std::isnan(object.stiffness) ? 0.0 : object.stiffness);
+  return expected;
 }
 
 // Of one way of the slide, s: a minimum-jerk reach is 1.875 times as fast at its fastest as on average.
@@ -52,16 +50,19 @@ void draw_band(const HandTruth& hand, Stream draws, User::State& state) {
 
 User::User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand, std::uint64_t seed)
     : spec_(*scene.user), hand_(hand), tool_(held_tool(scene)), press_(enc::press_point(scene, spec_)) {
-  if (spec_.kind != "press_release" && spec_.kind != "session")
-    throw Error("unknown user '" + spec_.kind + "'; expected \"press_release\" or \"session\"", "user.kind");
+  const bool drawn = spec_.kind == "session" || spec_.kind == "reaches";
+  if (spec_.kind != "press_release" && !drawn)
+    throw Error("unknown user '" + spec_.kind + "'; expected \"press_release\", \"session\" or \"reaches\"",
+                "user.kind");
   const Vec3 n = press_.normal.e();
   const Vec3 side = Vec3::UnitX() - n * n.x();
   const Vec3 across = side.norm() > 1e-6 ? Vec3(side.normalized()) : n.unitOrthogonal();
   away_ = std::cos(spec_.approach_tilt) * n + std::sin(spec_.approach_tilt) * across;
   touch_ = press_.point + prepared.tools[static_cast<std::size_t>(tool_)].tip.radius * press_.normal;
   start_ = touch_ + Vec<'W'>(Vec3(spec_.approach_from * away_));
-  expected_ = expected_stiffness(scene, prepared);
-  if (spec_.kind == "session") {
+  object_ = static_cast<std::int32_t>(pressed_object(scene.objects, spec_.object, "user"));
+  expected_ = expected_stiffness(prepared);
+  if (drawn) {
     session_.emplace(scene, prepared, hand);
     state_.session = session_->begin(seed);
     start_ = state_.session.press.start;
@@ -106,13 +107,13 @@ double User::phase_time(Phase phase) const {
     case Phase::retreat:
       return kRetreat;
     case Phase::change:
-      break;  // of a session only
+      break;  // of what is drawn only
   }
   return 0.0;
 }
 
 double User::duration() const {
-  if (session_) return session_->duration();
+  if (session_) return session_->duration(state_.session);
   double total = 1.5;
   User probe(*this);
   for (probe.state_.press = 0; !probe.done(); ++probe.state_.press)
@@ -248,7 +249,8 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
   else
     state_.integral *= std::exp(-h / hand_.integral_time);
   const double series = hand_.stiffness * hand_.grip_stiffness / (hand_.stiffness + hand_.grip_stiffness);
-  const double expected = pressing ? p.load * std::max(0.0, p.depth) * expected_ / series : 0.0;
+  const double stiffness = expected_[static_cast<std::size_t>(object())];
+  const double expected = pressing ? p.load * std::max(0.0, p.depth) * stiffness / series : 0.0;
   const Vec3 intent = p.position + unsteadiness(t, h) - n * (expected + state_.integral);
 
   const Vec3 grip = hand_.grip_stiffness * (state_.hand - tool_tip).e() +

@@ -1,11 +1,13 @@
 // The person who holds the tool: plans a press, moves the arm (impedance and its own mass) and, through the
 // grip, the tool. While pressing, the person closes a slow loop on depth (decisions 6). Tremor and drift ride
-// on the plan. [parameters 5] What is pressed is a list of presses at one place, planned here, or a session.
+// on the plan. [parameters 5] What is pressed is a list of presses at one place, planned here, or drawn
+// (session_plan.h).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/scene.h"
 #include "sim/hand/hand_plan.h"
@@ -39,6 +41,7 @@ class User {
   [[nodiscard]] Point<'W'> start() const { return start_; }  // where the tool's tip begins
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] std::int32_t press() const { return session_ ? state_.session.count : state_.press; }
+  [[nodiscard]] std::int32_t object() const { return session_ ? state_.session.press.object : object_; }
   [[nodiscard]] Phase phase() const { return session_ ? state_.session.phase : state_.phase; }
   [[nodiscard]] bool aborted() const { return session_ && state_.session.press.aborted; }
   // The tool in the hand, index in the scene; -1: none. The tool that it may change to, -1: none, and where
@@ -77,7 +80,8 @@ class User {
   Vec3 away_;         // unit, from the touched point to the start
   Point<'W'> touch_;  // tip centre when it touches
   Point<'W'> start_;
-  double expected_;  // N/m, of what is pressed: what the person has learned
+  std::int32_t object_;           // pressed, index in the scene
+  std::vector<double> expected_;  // N/m, of each object: what the person has learned
   std::optional<SessionPlan> session_;
   State state_;
 };
