@@ -98,7 +98,8 @@ BenchResult run_stiffness(
 BenchResult run_structure(const BenchContext& context);       // the hexapod's legs: sag, modes, order, cost
 BenchResult run_workspace(const BenchContext& context);       // reach, tracked volume, directions of a press
 BenchResult run_identification(const BenchContext& context);  // the ball's numbers out of a rig's loops
-BenchResult run_reaching(const BenchContext& context);      // whether the prop is there first (VisHap 2.2)
+BenchResult run_reaching(const BenchContext& context);        // whether the prop is there first (VisHap 2.2)
+BenchResult run_plane_button(const BenchContext& context);    // force over distance (VisHap Figs 4, 5)
 BenchResult run_registration(const BenchContext& context);    // camera and arm (VisHap 2.2)
 BenchResult run_response(const BenchContext& context);  // minor loops, tremor, energy of both response models
 BenchResult run_mesh(const BenchContext& context);      // a million triangles: load, tick
