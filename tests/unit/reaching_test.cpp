@@ -73,8 +73,9 @@ TEST(Reaching, TheTargetGoesToTheProjectionWithinItsLimits) {
     const Vec3 now = bench.at(-0.050, 1, 0.030).wanted.e();
     const Vec3 velocity = (now - before) / dt;
     EXPECT_LE(velocity.norm(), rig.speed * 1.001);
-    if (!bench.loop.state.reaching.caught_up)
+    if (!bench.loop.state.reaching.caught_up) {
       EXPECT_LE((velocity - speed).norm() / dt, rig.acceleration * 1.001);
+    }
     before = now;
     speed = velocity;
   }
@@ -148,9 +149,7 @@ TEST(Reaching, AHoldLeavesGravityAloneAndRecovers) {
   bench.loop.in.arm.value = good;
   EXPECT_EQ(bench.at(0.005).mode, Mode::contact);
   EXPECT_TRUE(bench.loop.out.arm_force.finite());
-  EXPECT_LT(std::abs(bench.pushed()), before);  // from nothing upwards: no kick
-  bench.at(0.005, 1000);
-  EXPECT_NEAR(bench.pushed(), before, 0.05);
+  EXPECT_NEAR(bench.pushed(), before, 0.05);  // one bad sample is a tick without news, no kick
 }
 
 TEST(Reaching, AFingerLostPushesNoLonger) {
