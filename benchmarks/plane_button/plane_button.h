@@ -38,7 +38,8 @@ struct Law {
 [[nodiscard]] PressTrace press_trace(const BenchContext& context, const std::string& scene,
                                      std::vector<std::string> own, double seconds = kUnset);
 
-// A finger that is tracked each tick, without noise: what is left is the display's.
+// A finger that is tracked each tick, without noise: what is left is the display's. No picture leaps, so the
+// target need not take long to settle.
 [[nodiscard]] std::vector<std::string> live(std::vector<std::string> more);
 
 // Straight line through what was felt in a phase, over a depth from `low` to `high`.
@@ -63,6 +64,8 @@ struct Curve {
 [[nodiscard]] Curve mean_curve(const PressTrace& trace, double low, double high, double width);
 [[nodiscard]] Curve curve_of(const PressTrace& trace, sim::Phase phase, double low, double high,
                              double width);
+
+[[nodiscard]] Line line_of(const Curve& curve);
 
 // Three straight lines; between two of them the force goes over smoothly (3 s^2 - 2 s^3) within `gradual`.
 // Where, how steep and how gradual: all nine are found from the curve alone.

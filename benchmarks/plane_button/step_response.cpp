@@ -45,7 +45,8 @@ struct Leap {
 
 Leap leap(const BenchContext& context, const std::vector<std::string>& more) {
   std::vector<std::string> own = live(more);
-  own.insert(own.end(), {"user.approach_mm_s=[1]", "user.approach_from_mm=40", "user.approach_tilt_deg=0"});
+  own.insert(own.end(), {"user.approach_mm_s=[1]", "user.approach_from_mm=40", "user.approach_tilt_deg=0",
+                         "rig.arm.settle_ms=20"});
   models::Setup setup = load_scene(context, "wall", own);
   const Pose<'C', 'W'> X_CW = pose_of<'W', 'C'>(setup.rig.frames.W_C).inverse();
   TrialOptions options;

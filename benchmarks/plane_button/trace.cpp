@@ -9,9 +9,9 @@
 namespace enc::bench {
 
 std::vector<std::string> live(std::vector<std::string> more) {
-  std::vector<std::string> all{"truth.tracker.rate_hz=1000", "truth.tracker.latency_ms=0",
+  std::vector<std::string> all{"truth.tracker.rate_hz=1000",     "truth.tracker.latency_ms=0",
                                "truth.tracker.noise_mm=[0,0,0]", "rig.tracker.prediction=\"hold\"",
-                               "rig.tracker.usual_age_ms=2"};
+                               "rig.tracker.usual_age_ms=2",     "rig.arm.settle_ms=5"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -138,6 +138,12 @@ Curve mean_curve(const PressTrace& trace, double low, double high, double width)
     mean.force.push_back(force);
   }
   return mean;
+}
+
+Line line_of(const Curve& curve) {
+  LineFit fit;
+  for (std::size_t i = 0; i < curve.depth.size(); ++i) fit.add(curve.depth[i], curve.force[i]);
+  return {fit.slope(), fit.r2(), fit.n};
 }
 
 void Report::figure(const std::string& id, double value, const char* unit, const std::string& note,

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/load_scene.h"
 #include "benchmarks/parallel.h"
 #include "benchmarks/plane_button/plane_button.h"
 #include "benchmarks/statistics.h"
-#include "core/step.h"
 
 namespace enc::bench {
 namespace {
@@ -83,9 +83,23 @@ void live_figures(const Runs& runs, double law, const Report& report) {
   if (runs.slide.size() > 0)
     report.figure("wall.tangential", side_share(runs.slide), "%",
                   "of the normal force, while the finger slides 30 mm at up to 60 mm/s", 0.0, 5.0);
-  report.figure("arm.times_real_time", trace.run.simulated / trace.cpu, "x",
-                "CPU time of a thread, RK4 at 1 ms, with what this benchmark looks at", 60.0);
-  std::vector<double> ns(trace.run.step_ns.begin(), trace.run.step_ns.end());
+}
+
+// Nothing else runs meanwhile, and nobody looks on.
+void speed_figures(const BenchContext& context, const Report& report) {
+  constexpr int kRepeats = 3;
+  std::vector<double> times, ns;
+  for (int i = 0; i < kRepeats; ++i) {
+    TrialOptions options;
+    options.seed = context.seed;
+    options.seconds = context.quick ? 1.0 : 6.0;
+    Trial trial(load_scene(context, "wall", {"user.approach_mm_s=[200]"}), std::move(options));
+    const double start = thread_seconds();
+    const TrialResult run = trial.run();
+    times.push_back(run.simulated / (thread_seconds() - start));
+    ns.insert(ns.end(), run.step_ns.begin(), run.step_ns.end());
+  }
+  report.figure("arm.times_real_time", median(times), "x", "CPU time of the thread, RK4 at 1 ms", 60.0);
   report.figure("arm.step.p99_9", 1e-3 * percentile(ns, 0.999), "us", "step(), wall clock", 0.0, 20.0);
 }
 
@@ -150,6 +164,7 @@ void plots(const Runs& runs, double law, const Report& report) {
 void measure_wall(const BenchContext& context, const Report& report) {
   const Runs runs = all_runs(context);
   const double law = law_of(context, "wall").stiffness;
+  speed_figures(context, report);
   live_figures(runs, law, report);
   late_figures(runs, law, report);
   plots(runs, law, report);

@@ -18,6 +18,7 @@ const Object* nearest_object(const Walk& walk, const State& state) {
 void lie_on_prop(Walk& walk, const State& state) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
+  if (!state.reaching.caught_up) return;  // the prop is on its way to another place
   const Interaction kind = object->interaction.kind;
   if (kind != Interaction::slide && kind != Interaction::click) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
