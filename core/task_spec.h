@@ -40,7 +40,7 @@ struct SessionSpec : ReachRanges {
 struct ReachesSpec : ReachRanges {
   ReachesSpec()
       : ReachRanges{{0.0, 0.7},     {0.16, 0.20},   {0.3, 0.8}, {0.05, 0.2},
-                    {0.002, 0.005}, {0.010, 0.040}, {0.0, 0.1}, {0.2, 0.5}} {}
+                    {0.002, 0.005}, {0.010, 0.040}, {0.0, 0.1}, {0.6, 1.0}} {}
   std::int64_t count = 20;  // reaches
   double spread = 0.030;    // m: of a plane, places are even over this around the point of it that is named
   double polar_most = 0.8;  // rad: of a sphere, over the directions up to here from +z of W

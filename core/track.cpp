@@ -31,8 +31,11 @@ void take_in(const Walk& walk, State& state) {
   if (rig.prediction == Prediction::hold) return;
   const TrackedTool& pose = state.tool.value;
   const Point<'T'>& tip = walk.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
-  // A finger that rests on a prop moves as slowly as it presses or slides.
-  const bool pressing = walk.scene.impedance && state.mode == Mode::contact;
+  // A finger that rests on a prop moves as slowly as it presses or slides. It does when the arm is pushed
+  // back; that it has come to the surface is only what is foreseen, before it has slowed down.
+  constexpr double kFelt = 0.2;  // N
+  const bool pressing = walk.scene.impedance && state.mode == Mode::contact &&
+                        -dot(state.force, state.contact.X_WN * Vec<'N'>(0, 0, 1)) > kFelt;
   observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip), walk.tick.t,
           state.tip_motion, pressing);
   // Nobody follows a tool that was away, so nothing has to be caught up.

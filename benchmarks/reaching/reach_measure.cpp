@@ -9,7 +9,7 @@ namespace enc::bench {
 namespace {
 
 constexpr double kThere = 2e-3;    // m
-constexpr double kSettled = 0.5;   // s after which an arm that nobody needs shall stand
+constexpr double kSettled = 1.0;   // s after which an arm that nobody needs shall stand
 constexpr double kImpact = 0.050;  // s
 
 double along_surface(const Wanted& at, const Point<'W'>& tip) {

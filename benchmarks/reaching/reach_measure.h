@@ -34,7 +34,7 @@ class ReachMeasure {
  public:
   void see(const Glance& glance);
   [[nodiscard]] std::vector<Reach> reaches() const;
-  // Of the tip, at most, from half a second after a finger went away, m/s.
+  // Of the tip, at most, from a second after a finger went away, m/s.
   [[nodiscard]] double far_speed() const { return far_speed_; }
 
  private:

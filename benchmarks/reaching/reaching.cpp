@@ -103,7 +103,7 @@ void random_part(const BenchContext& context, BenchResult& result, const Adder& 
     result.plots.push_back(std::move(plot));
   }
   add("far_speed_mm_s", 1e3 * far, "mm/s", kUnset, 0.1,
-      "of the tip, at most, while the finger is far, from half a second after it went away");
+      "of the tip, at most, while the finger is far, from a second after it went away");
 }
 
 struct Speeds {

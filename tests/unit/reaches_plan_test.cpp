@@ -137,11 +137,14 @@ TEST(ReachesPlan, RefusesAStartThatIsNeverFar) {
   EXPECT_THROW((void)reaching.plan.begin(1), Error);
 }
 
-// With the arm in the loop: each reach is one contact, of the object that was meant, and in between the arm
-// stands.
+// With the arm in the loop and a finger that is seen live: each reach is one contact, of the object that was
+// meant, and in between the arm stands.
 TEST(ReachesWorld, EachReachIsOneContact) {
-  const models::Setup setup =
-      models::load(scene_file("reaching"), "", {"user.reaches.count=3", "truth.hand.aborted=0"});
+  const models::Setup setup = models::load(
+      scene_file("reaching"), "",
+      {"user.reaches.count=3", "truth.hand.aborted=0", "truth.tracker.rate_hz=1000",
+       "truth.tracker.latency_ms=1", "truth.tracker.noise_mm=[0,0,0]",
+       "rig.tracker.measurement_noise_mm=0.01", "rig.tracker.acceleration_noise_m_s2_per_sqrt_hz=1"});
   bench::TrialOptions options;
   int touched = 0, right = 0;
   bool before = false;
