@@ -22,9 +22,7 @@ struct Runs {
 
 // Slowly: the damping of the law adds to the spring while the finger moves.
 Runs all_runs(const BenchContext& context) {
-  const std::string slow = context.quick ? "2" : "5";
-  const std::vector<std::string> press{"user.approach_mm_s=[50]", "user.press_s=" + slow,
-                                       "user.release_s=" + slow};
+  const std::vector<std::string> press{"user.approach_mm_s=[50]", "user.press_s=5", "user.release_s=5"};
   std::vector<std::string> sliding = press;
   sliding.insert(sliding.end(), {"user.press_s=2", "user.release_s=1", "user.depth_mm=8", "user.slide_mm=30",
                                  "user.slide_mm_s=60"});
