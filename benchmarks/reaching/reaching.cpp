@@ -29,7 +29,7 @@ const std::array<std::string, 2> kScenes{"wall", "keypad"};
 // Reaches for random places of both scenes in turn, by several people at once.
 std::vector<ReachRan> random_runs(const BenchContext& context, Seen how) {
   const int people = context.quick ? 1 : context.full ? 50 : 5;
-  const std::int64_t each = context.quick ? 8 : context.full ? 10 : 20;
+  const std::int64_t each = context.quick ? 8 : context.full ? 10 : 12;
   std::vector<ReachRun> runs;
   for (int i = 0; i < people; ++i)
     for (const std::string& scene : kScenes)
