@@ -33,7 +33,7 @@ struct Figure {
 enum class Mark : std::uint8_t { line, points, both, bars, band, crosses };
 struct Series {
   std::string name;
-  std::vector<double> x, y;
+  std::vector<double> x{}, y{};
   std::vector<double> low{}, high{};
   Mark mark = Mark::line;
   bool paper = false;  // the paper's own values: drawn alike in every plot
@@ -42,7 +42,7 @@ struct Plot {
   std::string id;                       // file name without ".svg"; begins with the benchmark's name
   std::string title, x_label, y_label;  // labels with their unit
   bool log_x = false, log_y = false;
-  std::vector<Series> series;
+  std::vector<Series> series{};
   std::string caption{};               // what to see in it
   std::vector<std::string> x_names{};  // under x = 0, 1, 2, ... in place of numbers
   bool equal = false;                  // one unit of x is as long as one of y (maps)
@@ -52,7 +52,7 @@ struct Table {
   std::string id;  // file name without ".csv"; begins with the benchmark's name
   std::string title;
   std::vector<std::string> columns;  // with their unit
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<std::string>> rows{};
   std::string note{};
   std::string source{};  // of a data file: lines about it, which begin its CSV; the report leaves it out
 };

@@ -17,7 +17,8 @@ Places::Places(const SceneSpec& scene, const Scene& prepared)
       lowest_(std::cos(everywhere_ ? scene.user->reaches->polar_most : scene.user->session->polar_most)),
       spread_(everywhere_ ? scene.user->reaches->spread : 0.0) {}
 
-// Of a plane round about its origin, of a button on its face, of a ball on its cap.
+// Of a plane round about its origin, of a button on the middle half of its face, at which people aim, of a
+// ball on its cap.
 PressPoint Places::on(const Object& object, Stream& draws) const {
   const Vec<'O'> up(0, 0, 1);
   if (const auto* sphere = std::get_if<Sphere>(&object.surface.shape())) {
@@ -29,7 +30,7 @@ PressPoint Places::on(const Object& object, Stream& draws) const {
   }
   const auto* button = std::get_if<Button>(&object.surface.shape());
   const double x = draws.uniform() - 0.5, y = draws.uniform() - 0.5;
-  const Point<'O'> at = button != nullptr ? Point<'O'>(x * button->width, y * button->height, 0.0)
+  const Point<'O'> at = button != nullptr ? Point<'O'>(0.5 * x * button->width, 0.5 * y * button->height, 0.0)
                                           : Point<'O'>(2.0 * x * spread_, 2.0 * y * spread_, 0.0);
   return {object.X_WO * at, object.X_WO * up};
 }
