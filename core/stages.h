@@ -31,8 +31,9 @@ struct Walk {
   Vec<'W'> felt;                 // the same before the low-pass
   Point<'W'> target;             // target: wanted tip centre
   Mat3 jacobian = Mat3::Zero();  // track: of an arm; and
-  Vec<'W'> tip_velocity;         // of its tip
-  Vec<'R'> arm_force;            // impede: what an arm is told
+  Vec3 target_acceleration = Vec3::Zero();  // encounter: of its target
+  Vec<'W'> tip_velocity;                    // of its tip
+  Vec<'R'> arm_force;                       // impede: what an arm is told
 };
 
 void track(Walk& walk, State& state) noexcept;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/arm/arm_scene.h"
 #include "core/braking.h"
 #include "core/stages.h"
 
@@ -70,7 +71,7 @@ Goal goal_of(const Walk& walk, const State& state, const Object& object) {
 
 // On its way the target keeps within speed and acceleration; once there it goes with the goal, whose leaps
 // (each new picture of the finger is one) it takes out within `settle`.
-void move_target(const Walk& walk, const Goal& goal, Reaching& now) {
+void move_target(Walk& walk, const Goal& goal, Reaching& now) {
   constexpr double kThere = 0.2e-3;  // m
   constexpr double kLeap = 10e-3;    // m: another object, or another part of it
   const ArmRig& rig = walk.scene.impedance->rig;
@@ -86,6 +87,7 @@ void move_target(const Walk& walk, const Goal& goal, Reaching& now) {
     if (far > 0.0) velocity = goal.velocity.e() + way * (speed / far);
     const Vec3 change = velocity - now.velocity.e();
     if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
+    walk.target_acceleration = (velocity - now.velocity.e()) / dt;
     now.caught_up = far < kThere && change.norm() <= 2.0 * most;
   }
   now.velocity = Vec<'W'>(velocity);
@@ -138,6 +140,23 @@ Vec3 guarded(Walk& walk, const Vec3& force) {
   return force * (most / force.norm());
 }
 
+// While the finger is far the arm is motionless [VisHap 2]: what pushes it stays as it is, and friction holds
+// it. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
+// the tip dithering.
+bool resting(const State& state, const Vec3& error, const Vec3& velocity) {
+  constexpr double kNear = 0.2e-3;   // m
+  constexpr double kCounts = 20e-3;  // m/s
+  return state.mode == Mode::away && error.norm() < kNear && velocity.norm() < kCounts &&
+         state.reaching.velocity.norm() < 1e-3;
+}
+
+// Of the second derivative of e [eq. 2] only the target's own is known: what it takes to go along with it.
+Vec3 sped_up(const Walk& walk) {
+  if (walk.target_acceleration.isZero()) return Vec3::Zero();
+  const Impedance& law = *walk.scene.impedance;
+  return mass_at_tip(law.arm, walk.in.arm.value.joints, law.prop_mass) * walk.target_acceleration;
+}
+
 }  // namespace
 
 void encounter(Walk& walk, State& state) noexcept {
@@ -182,18 +201,20 @@ void impede(Walk& walk, State& state) noexcept {
   const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
   const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
   const Vec3 rate = (now.velocity - walk.tip_velocity).e();
+  const bool rests = resting(state, error, walk.tip_velocity.e());
   const double a = law.filter_gain;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    now.error.xyz[i] = low_pass(a, error(axis), now.error.xyz[i]);
-    now.error_rate.xyz[i] = low_pass(a, rate(axis), now.error_rate.xyz[i]);
+    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis), now.error.xyz[i]);
+    now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
   }
   // A real thing is held where it stands, sideways as well.
   const Object* object = nearest_object(walk, state);
   const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
   const double across = real ? now.gain : 1.0;
-  const Vec3 f = law.rig.stiffness * now.error.e() + law.rig.damping * now.error_rate.e();  // [eq. 2]
-  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);             // [eq. 7]
+  const Vec3 f =
+      law.rig.stiffness * now.error.e() + law.rig.damping * now.error_rate.e() + sped_up(walk);  // [eq. 2]
+  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);                  // [eq. 7]
   walk.felt = Vec<'W'>(Vec3(-pushed));
   state.force = walk.felt;
   walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]

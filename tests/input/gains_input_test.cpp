@@ -13,8 +13,7 @@ using ::testing::HasSubstr;
 
 std::string said(const std::string& set) {
   try {
-    (void)bench::prepare_setup(
-        models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/wall.toml", {}, {set}));
+    (void)bench::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", {set}));
   } catch (const Error& e) {
     return e.what();
   }

@@ -1,4 +1,5 @@
 // An arm's loop, step by step: the core alone under a finger and an arm that are where a test puts them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "benchmarks/switching/finger_loop.h"
@@ -11,7 +12,7 @@ Scene scene_of(const std::string& name, const std::vector<std::string>& more = {
   std::vector<std::string> set{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
   set.insert(set.end(), more.begin(), more.end());
   return bench::prepare_setup(
-      models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + name + ".toml", {}, set));
+      models::load(fmt::format("{}/models/scenes/{}.toml", ENCOUNTER_SOURCE_DIR, name), "", set));
 }
 
 // A finger of 8 mm radius; `depth` of its lowest point under z = 0, negative: the gap. The tip goes there,

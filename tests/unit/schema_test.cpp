@@ -30,9 +30,18 @@ models::Setup full() {
   models::Setup s = plane();
   s.scene.title = "A \"title\" with \\ and\nlines, caf\xC3\xA9";
   s.scene.objects[0].limit = 0.003;
-  s.scene.objects.push_back({"ball", ShapeKind::sphere, 0.033, {0, 0, -0.02}, {0, 0, 1}, "wall", kUnset});
-  s.scene.objects.push_back(
-      {"hare", ShapeKind::mesh, kUnset, {0, 0, 0}, {0, 0, 1}, "wall", kUnset, {}, "hare.glb"});
+  ObjectSpec ball;
+  ball.name = "ball";
+  ball.radius = 0.033;
+  ball.position = {0, 0, -0.02};
+  ball.behaviour = "wall";
+  s.scene.objects.push_back(ball);
+  ObjectSpec hare;
+  hare.name = "hare";
+  hare.shape = ShapeKind::mesh;
+  hare.behaviour = "wall";
+  hare.mesh = "hare.glb";
+  s.scene.objects.push_back(hare);
   s.scene.display.emplace();
   s.scene.questionnaire = QuestionnaireSpec{"vhmr_2020"};
   s.scene.user->approach = {0.01, 0.02, 0.05};
