@@ -58,7 +58,7 @@ Mat3 turns(const ArmMachine& machine, const Placed& placed, std::size_t last) {
 // Levenberg-Marquardt whose damping is the squared distance [Sugihara 2011]: far away it is careful, near
 // the end it is Newton's. Kept within the limits.
 bool search(const ArmMachine& machine, const Vec3& p, PerJoint& q) {
-  constexpr double kThere = 1e-9;  // m
+  constexpr double kThere = 1e-10;  // m
   for (int step = 0; step < 60; ++step) {
     const Placed placed = place(machine, q);
     const Vec3 at = placed.point(placed.count - 1, machine.tip);
@@ -67,7 +67,7 @@ bool search(const ArmMachine& machine, const Vec3& p, PerJoint& q) {
     if (apart.norm() < kThere) return true;
     const Mat3 J = moves(machine, placed, placed.count - 1, at);
     // A machine with fewer joints than ways goes to where it is nearest.
-    if (placed.count < kMostJoints && (J.transpose() * apart).norm() < kThere) return true;
+    if (placed.count < kMostJoints && (J.transpose() * apart).norm() < 1e-2 * kThere) return true;
     Mat3 gram = J.transpose() * J;
     gram.diagonal().array() += apart.squaredNorm() + 1e-12;
     const Vec3 change = gram.inverse() * (J.transpose() * apart);

@@ -150,7 +150,7 @@ bool resting(const State& state, const Vec3& error, const Vec3& velocity) {
          state.reaching.velocity.norm() < 1e-3;
 }
 
-// Of the second derivative of e [eq. 2] only the target's own is known: what it takes to go along with it.
+// Of the second derivative of e [eq. 2] only the target's own is known: the force that it takes to go along.
 Vec3 sped_up(const Walk& walk) {
   if (walk.target_acceleration.isZero()) return Vec3::Zero();
   const Impedance& law = *walk.scene.impedance;
@@ -202,19 +202,19 @@ void impede(Walk& walk, State& state) noexcept {
   const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
   const Vec3 rate = (now.velocity - walk.tip_velocity).e();
   const bool rests = resting(state, error, walk.tip_velocity.e());
+  const Vec3 ahead = sped_up(walk) / law.rig.stiffness;
   const double a = law.filter_gain;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis), now.error.xyz[i]);
+    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis) + ahead(axis), now.error.xyz[i]);
     now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
   }
   // A real thing is held where it stands, sideways as well.
   const Object* object = nearest_object(walk, state);
   const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
   const double across = real ? now.gain : 1.0;
-  const Vec3 f =
-      law.rig.stiffness * now.error.e() + law.rig.damping * now.error_rate.e() + sped_up(walk);  // [eq. 2]
-  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);                  // [eq. 7]
+  const Vec3 f = law.rig.stiffness * now.error.e() + law.rig.damping * now.error_rate.e();  // [eq. 2]
+  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);             // [eq. 7]
   walk.felt = Vec<'W'>(Vec3(-pushed));
   state.force = walk.felt;
   walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]

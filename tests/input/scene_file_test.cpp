@@ -235,7 +235,7 @@ TEST_F(SceneFile, number_that_is_not_finite_or_out_of_range) {
 
 TEST_F(SceneFile, unknown_word_or_version) {
   EXPECT_EQ(scene_said("\"sphere\"", "\"spere\""),
-            "scenes/ball.toml:5:9: 'shape' is 'spere'; expected 'plane' or 'sphere' or 'mesh' (its "
+            "scenes/ball.toml:5:9: 'shape' is 'spere'; expected 'plane' or 'sphere' or 'mesh' or 'button' (its "
             "undeformed surface); did you mean 'sphere'?");
   EXPECT_THAT(scene_said("format = 1", "format = 2"),
               StartsWith("scenes/ball.toml:1:10: 'format' is 2; expected a whole number that is 1 (version "
@@ -432,7 +432,7 @@ TEST(Scenes, all_load) {
   const bool curves = fs::exists(models + "/responses/tennis_ball.toml");
   for (const std::string& name : files_in(models, "scenes")) {
     if (!curves && name != "plane") continue;
-    EXPECT_NO_THROW(load(models + "/scenes/" + name + ".toml", "sim")) << name;
+    EXPECT_NO_THROW(load(models + "/scenes/" + name + ".toml", "")) << name;
   }
 }
 

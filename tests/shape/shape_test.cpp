@@ -163,7 +163,7 @@ TEST(Shape, FoldersAreSmall) {
   // core/ is one folder of several subsystems [architecture B2]: data and frames, the stages, models, specs
   // and record.
   const std::map<std::string, std::size_t> limits{
-      {"core", 60}, {"models", 52}, {"sim", 44}, {"app", 28}, {"benchmarks", 40}};
+      {"core", 60}, {"models", 54}, {"sim", 44}, {"app", 28}, {"benchmarks", 40}};
   std::map<std::string, std::size_t> files;
   for (const Source& source : sources()) ++files[fs::path(source.name).parent_path().generic_string()];
   for (const auto& [folder, count] : files) {
