@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -92,8 +93,12 @@ Mat3 jacobian(const ArmMachine& machine, const PerJoint& q) noexcept {
 
 bool inverse(const ArmMachine& machine, const Vec3& p, PerJoint& q) noexcept {
   const std::size_t joints = std::min(machine.links.size(), kMostJoints);
-  // From where the caller is; then from the quarters of the limits, one for each way to fold.
-  for (std::size_t start = 0; start <= std::size_t{1} << joints; ++start) {
+  // From where the caller is; then from the quarters of the limits, one for each way to fold. The nearest of
+  // what is found counts: a machine with few joints may end where it is only nearer than round about.
+  constexpr double kThere = 1e-9;  // m
+  double least = std::numeric_limits<double>::infinity();
+  PerJoint best = q;
+  for (std::size_t start = 0; start <= std::size_t{1} << joints && least > kThere; ++start) {
     PerJoint trial = q;
     for (std::size_t i = 0; i < joints; ++i) {
       const ArmDrive& drive = machine.drives[i];
@@ -103,10 +108,14 @@ bool inverse(const ArmMachine& machine, const Vec3& p, PerJoint& q) noexcept {
       trial[i] = std::clamp(from, drive.low, drive.high);
     }
     if (!search(machine, p, trial)) continue;
-    q = trial;
-    return true;
+    const double apart = (tip(machine, trial) - p).norm();
+    if (apart >= least) continue;
+    least = apart;
+    best = trial;
   }
-  return false;
+  if (!std::isfinite(least)) return false;
+  q = best;
+  return true;
 }
 
 PerJoint gravity(const ArmMachine& machine, const PerJoint& q, double payload) noexcept {
