@@ -1,6 +1,7 @@
 #include "app/built.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -35,6 +36,17 @@ class Dry final : public Manipulator {
   std::unique_ptr<Manipulator> machine_;
 };
 
+// Likewise a real arm.
+class DryArm final : public HapticArm {
+ public:
+  explicit DryArm(std::unique_ptr<HapticArm> arm) : arm_(std::move(arm)) {}
+  Stamped<ArmSample> read() noexcept override { return arm_->read(); }
+  void command(const Vec<'R'>&) noexcept override {}
+
+ private:
+  std::unique_ptr<HapticArm> arm_;
+};
+
 // Likewise a real gripper.
 class DryGripper final : public Gripper {
  public:
@@ -45,6 +57,17 @@ class DryGripper final : public Gripper {
  private:
   std::unique_ptr<Gripper> gripper_;
 };
+
+std::string arm_name(const models::Setup& setup) {
+  const ArmMachine& machine = setup.rig.arm.machine;
+  return machine.kind == ArmKind::phantom ? "PHANToM" : fmt::format("{} joints", machine.links.size());
+}
+
+std::string prop_name(const PropSpec& prop) {
+  constexpr std::array<const char*, 3> kNames{"plate", "key", "drum"};
+  return fmt::format("{}, {:g} g", kNames[static_cast<std::size_t>(prop.kind)],
+                     std::round(prop.mass * 1e6) * 1e-3);
+}
 
 }  // namespace
 
@@ -81,7 +104,8 @@ std::vector<Part> parts_of(const models::Setup& setup) {
            : fmt::format("{} of {:g} mm at {:g} mm/s", scene.travel->axes,
                          millimetres(scene.travel->stops.empty() ? 0.0 : scene.travel->stops.back()),
                          millimetres(scene.travel->speed)));
-  part("arm", false, "");
+  part("arm", scene.arm.has_value(), fmt::format("{}, {}", arm_name(setup), driver(setup.rig.arm.driver)));
+  part("prop", scene.prop.has_value(), !scene.prop ? "" : prop_name(*scene.prop));
   part("gripper", scene.gripper.has_value(),
        fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));
   // Roles of the design that this version builds nothing of.
@@ -135,6 +159,13 @@ void fit_out(Rig& rig, const models::Setup& setup, bool armed) {
       rig.manipulator = std::move(machine);
     else
       rig.manipulator = std::make_unique<Dry>(std::move(machine));
+  }
+  if (rig.arm && setup.rig.arm.driver != "sim") {
+    auto arm = maker(setup.rig.arm.driver, "arm", &DriverModule::arm)();
+    if (armed)
+      rig.arm = std::move(arm);
+    else
+      rig.arm = std::make_unique<DryArm>(std::move(arm));
   }
   if (rig.force && setup.rig.force.driver != "sim")
     rig.force = maker(setup.rig.force.driver, "force sensor", &DriverModule::force)();

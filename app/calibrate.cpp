@@ -1,5 +1,5 @@
 // `encounter calibrate LOG.csv`: how far off, how noisy and how late a tracker is, out of any log of a tool
-// that the machine carries past it.
+// that the machine carries past it. Points and rigs go to calibrate_points.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/options.h"
+#include "benchmarks/registration/point_set.h"
 #include "core/error.h"
 #include "models/csv_reader.h"
 #include "models/latency_fit.h"
@@ -169,9 +170,13 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
 int calibrate(const CalibrateOptions& options) {
   if (options.rate && !(*options.rate > 0.0))
     throw Error("--rate-Hz: expected a positive number of rows a second");
+  // Names of rigs have neither dot nor slash, and their files are TOML; all else is a table.
+  if (options.log.find_first_of("./") == std::string::npos || options.log.ends_with(".toml"))
+    return calibrate_rig(options);
   const std::string csv =
       models::csv_text(options.log, "log",
                        "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes");
+  if (bench::is_point_set(csv)) return calibrate_points(csv, options);
   const TrackerLog log = models::parse_tracker_log(csv, options.log, options.rate.value_or(kUnset));
   const LatencyFit fit = models::fit_latency(log);
   if (options.json) {

@@ -131,14 +131,30 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   fit_command->callback([&] { code = fit_options.ball ? fit_ball(fit_options) : fit(fit_options); });
 
   CalibrateOptions calibrate_options;
-  CLI::App* calibrate_command = app.add_subcommand(
-      "calibrate", "bias, noise and latency of a tracker out of a log of a tool that the machine carries");
+  CLI::App* calibrate_command =
+      app.add_subcommand("calibrate",
+                         "a tracker's bias, noise and latency out of a log; the camera's pose out of pairs "
+                         "of points, or guided on a rig");
   calibrate_command
-      ->add_option("log", calibrate_options.log, "CSV as export writes: time_s, tip_x_mm.., tool_x_mm..")
+      ->add_option(
+          "what", calibrate_options.log,
+          "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; CSV with camera_x_m.., device_x_m.., "
+          "pair; or a rig with an arm")
       ->required();
   calibrate_command->add_option("--rate-Hz", calibrate_options.rate,
-                                "rows a second that the log shall have; default: any");
+                                "of a log: rows a second that it shall have; default: any");
   calibrate_command->add_flag("--json", calibrate_options.json, "one JSON object instead of text");
+  calibrate_command->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to");
+  calibrate_command->add_option("--pairs", calibrate_options.pairs, "of a rig: places of the tip")
+      ->check(CLI::Range(4, 1000))
+      ->capture_default_str();
+  calibrate_command->add_option("--frames", calibrate_options.frames, "of a rig: averaged at each place")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  calibrate_command->add_option("--seed", calibrate_options.seed, "of the camera's noise")
+      ->capture_default_str()
+      ->check(bad_seed);
+  calibrate_command->add_option("--set", calibrate_options.set, "of a rig: override, as for run");
   calibrate_command->callback([&] { code = calibrate(calibrate_options); });
 
   NearestOptions nearest_options;

@@ -13,7 +13,7 @@ namespace enc::app {
 
 struct SceneOptions {
   std::string scene;
-  std::string rig = "sim";
+  std::string rig;               // empty: the scene's own
   std::vector<std::string> set;  // "name=value"
   std::uint64_t seed = 1;
 };
@@ -60,9 +60,14 @@ struct FitOptions {
   std::vector<std::string> hold, free;  // "wall_mm=3.4", "wall_mm"
 };
 struct CalibrateOptions {
-  std::string log;
+  std::string log;             // a tracker's log, a set of points, or a rig with an arm
   std::optional<double> rate;  // Hz, of the rows, as expected
   bool json = false;
+  // Of a rig: the guided procedure.
+  std::string out;
+  std::size_t pairs = 8, frames = 20;
+  std::uint64_t seed = 1;
+  std::vector<std::string> set;
 };
 struct NearestOptions {
   std::string what;  // a mesh file, or SCENE#object
@@ -89,6 +94,8 @@ int view(const ViewOptions& options);
 int fit(const FitOptions& options);
 int fit_ball(const FitOptions& options);
 int calibrate(const CalibrateOptions& options);
+int calibrate_points(const std::string& csv, const CalibrateOptions& options);
+int calibrate_rig(const CalibrateOptions& options);
 int nearest(const NearestOptions& options);
 int mesh(const MeshOptions& options);
 int questionnaire(const QuestionnaireOptions& options);

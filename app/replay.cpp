@@ -1,4 +1,4 @@
-#include "core/replay.h"
+#include "core/record/replay.h"
 
 #include <fmt/format.h>
 

@@ -29,9 +29,17 @@ double pace_of(const std::string& text) {
   return factor;
 }
 
-bool all_simulated(const RigSpec& rig) {
-  return rig.manipulator.driver == "sim" && rig.force.driver == "sim" && rig.tracker.driver == "sim" &&
-         rig.display.driver == "sim" && (rig.gripper.driver == "sim" || rig.gripper.driver == "none");
+// Of the devices that the scene names.
+bool all_simulated(const models::Setup& setup) {
+  const SceneSpec& scene = setup.scene;
+  const RigSpec& rig = setup.rig;
+  const auto simulated = [](bool named, const std::string& driver) { return !named || driver == "sim"; };
+  return simulated(scene.manipulator.has_value(), rig.manipulator.driver) &&
+         simulated(scene.arm.has_value(), rig.arm.driver) &&
+         simulated(scene.force.has_value(), rig.force.driver) &&
+         simulated(scene.tracker.has_value(), rig.tracker.driver) &&
+         simulated(scene.display.has_value(), rig.display.driver) &&
+         simulated(scene.gripper.has_value(), rig.gripper.driver);
 }
 
 void show_progress(double share) {
@@ -44,7 +52,7 @@ std::unique_ptr<RecordWriter> record_for(const RunOptions& options, const models
   if (options.record.empty()) return nullptr;
   RecordTexts texts = models::record_texts(setup);
   texts["scene"] = options.scene;
-  texts["rig"] = options.rig;
+  texts["rig"] = setup.rig_path;
   texts["seed"] = std::to_string(options.seed);
   texts["version"] = ENCOUNTER_VERSION;
   return std::make_unique<RecordWriter>(options.record, texts);
@@ -59,12 +67,13 @@ int run(const RunOptions& options) {
     throw Error("--for-s: expected a positive number of seconds below a million");
   bench::PressMeasure presses(setup);
   bench::ProbeMeasure pushes;
+  bench::FingerMeasure fingers;
   bench::TrialOptions trial_options;
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
   trial_options.pace = pace_of(options.pace);
   // Real devices live in wall time (decisions 9), and the simulated ones then follow.
-  if (!all_simulated(setup.rig) && trial_options.pace != 1.0) {
+  if (!all_simulated(setup) && trial_options.pace != 1.0) {
     if (options.pace != "free") throw Error("--pace: a rig with real devices runs at wall pace only");
     trial_options.pace = 1.0;
   }
@@ -72,6 +81,7 @@ int run(const RunOptions& options) {
   trial_options.watch = [&](const bench::Glance& glance) {
     presses.see(glance);
     pushes.see(glance);
+    fingers.see(glance);
   };
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) trial_options.progress = show_progress;
@@ -84,7 +94,7 @@ int run(const RunOptions& options) {
   if (record) record->close();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const RunReport report{setup, trial.scene(), result, presses, pushes, started};
+  const RunReport report{setup, trial.scene(), result, presses, pushes, fingers, started};
   fmt::print("{}", options.json ? run_json(report) : run_text(report));
   if (record && record->full()) throw Error(record->error());
   if (result.diverged_at >= 0)

@@ -12,6 +12,21 @@ using Json = nlohmann::ordered_json;
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
+Json meetings_json(const bench::FingerMeasure& measure) {
+  Json all = Json::array();
+  for (const bench::Meeting& m : measure.meetings())
+    all.push_back({{"object", m.object},
+                   {"prepared_s", number(m.prepared)},
+                   {"arrived_s", number(m.arrived)},
+                   {"touched_s", number(m.touched)},
+                   {"approach_mm_s", number(m.approach_speed * 1e3)},
+                   {"miss_mm", number(m.miss * 1e3)},
+                   {"peak_N", m.peak_force},
+                   {"depth_mm", m.peak_depth * 1e3},
+                   {"step_N", m.greatest_step}});
+  return all;
+}
+
 Json presses_json(const bench::PressMeasure& measure) {
   Json list = Json::array();
   for (const bench::PressFigures& p : measure.presses()) {
@@ -61,6 +76,7 @@ std::string run_json(const RunReport& r) {
     json["repeats_within_N"] = number(r.pushes.spread());
     json["force_error_N"] = number(r.pushes.force_error());
   }
+  if (r.scene.impedance) json["meetings"] = meetings_json(r.fingers);
   json["rmse_press_N"] = number(r.presses.rmse_press());
   json["rmse_release_N"] = number(r.presses.rmse_release());
   json["energy_in_mJ"] = r.presses.energy_in() * 1e3;

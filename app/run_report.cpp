@@ -51,6 +51,7 @@ std::string range_text(const std::vector<bench::PressFigures>& presses) {
 }
 
 std::string press_lines(const RunReport& r) {
+  if (r.scene.impedance) return "";
   const auto& presses = r.presses.presses();
   const auto met = [](const bench::PressFigures& p) { return !std::isnan(p.miss); };
   if (std::none_of(presses.begin(), presses.end(), met)) return "";
@@ -122,6 +123,54 @@ std::string push_lines(const RunReport& r) {
   return text;
 }
 
+// One entry for each time that the arm was told to prepare.
+template <class F>
+std::string each_meeting(const std::vector<bench::Meeting>& meetings, const F& figure) {
+  std::string text;
+  for (const bench::Meeting& meeting : meetings) {
+    if (std::isnan(meeting.touched)) continue;
+    text += (text.empty() ? "" : " / ") + figure(meeting);
+  }
+  return text;
+}
+
+// An arm that meets a bare finger [VisHap 3].
+std::string finger_lines(const RunReport& r) {
+  if (!r.scene.impedance) return "";
+  const auto& meetings = r.fingers.meetings();
+  std::string text = fmt::format("far         tip speed at most {:.3f} mm/s\n", r.fingers.far_speed() * 1e3);
+  text += fmt::format("prepare     {} times\n", meetings.size());
+  if (std::none_of(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); }))
+    return text;
+  using bench::Meeting;
+  text += fmt::format("approach    {} mm/s\n", each_meeting(meetings, [](const Meeting& m) {
+                        return fmt::format("{:.0f}", m.approach_speed * 1e3);
+                      }));
+  text += fmt::format("  there     {} ms before the touch\n", each_meeting(meetings, [](const Meeting& m) {
+                        return fmt::format("{:.0f}", (m.touched - m.arrived) * 1e3);
+                      }));
+  text += fmt::format(
+      "  miss      {} mm (along the surface, true finger to the middle of the prop, at the touch)\n",
+      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.miss * 1e3); }));
+  text += fmt::format("  peak      {} N\n", each_meeting(meetings, [](const Meeting& m) {
+                        return fmt::format("{:.2f}", m.peak_force);
+                      }));
+  text += fmt::format("  depth     {} mm (true)\n", each_meeting(meetings, [](const Meeting& m) {
+                        return fmt::format("{:.2f}", m.peak_depth * 1e3);
+                      }));
+  text += fmt::format(
+      "  step      {} N, greatest from one cycle to the next\n",
+      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.greatest_step); }));
+  if (r.scene.objects.front().interaction.kind == Interaction::slide)
+    text += fmt::format(
+        "spring      {:.1f} N/m, R2 {:.5f} (true contact force over true depth, 2 to 10 mm); wanted {:.1f} "
+        "N/m; R2 {:.5f} over the depth that the core believed\n",
+        r.fingers.fit().slope(), r.fingers.fit().r2(), r.scene.objects.front().stiffness,
+        r.fingers.believed().r2());
+  return text +
+         fmt::format("sideways    {:.1f} % of the normal force\n", 100.0 * r.fingers.tangential_share());
+}
+
 // What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
 std::string pushed_lines(const RunReport& r) {
   if (!r.setup.scene.pusher) return "";
@@ -149,6 +198,7 @@ std::string run_text(const RunReport& r) {
   }
   text += weak_text(r.setup, r.scene);
   text += press_lines(r) + push_lines(r) + pushed_lines(r);
+  text += finger_lines(r);
   if (r.result.contacts == 0 && r.setup.scene.user)
     text += fmt::format("note        the user never touched anything; last notice of the core: {}\n",
                         r.result.last_why == 0 ? "none" : why_text(r.result.last_why));

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "benchmarks/finger_measure.h"
 #include "benchmarks/press_measure.h"
 #include "benchmarks/probe_measure.h"
 #include "benchmarks/trial.h"
@@ -15,6 +16,7 @@ struct RunReport {
   const bench::TrialResult& result;
   const bench::PressMeasure& presses;
   const bench::ProbeMeasure& pushes;
+  const bench::FingerMeasure& fingers;
   double started = 0.0;  // CPU s from the start of the process to the first tick
 };
 

@@ -1,6 +1,7 @@
 #include "app/view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -62,9 +63,13 @@ bool touching(const Moment& m) {
 
 // Each leg as a rod in a jacket, from its base joint to its platform joint.
 void add_legs(const Moment& m, sim::ViewRequest& request) {
-  const Hexapod& machine = m.world.machine.machine();
+  if (!m.world.machine) {
+    request.floor = (m.world.X_WR() * Point<'R'>(0, 0, -0.200)).xyz[2];
+    return;
+  }
+  const Hexapod& machine = m.world.machine->machine();
   const Pose<'W', 'R'>& X_WR = m.world.X_WR();
-  const Pose<'W', 'H'> X_WH = X_WR * m.world.machine.state().pose;
+  const Pose<'W', 'H'> X_WH = X_WR * m.world.machine->state().pose;
   for (int leg = 0; leg < 6; ++leg) {
     const Point<'W'> from = X_WR * Point<'R'>(machine.base_joint(leg));
     const Point<'W'> to = X_WH * Point<'H'>(machine.platform_joint(leg));
@@ -146,10 +151,26 @@ Point<'W'> flank(const Moment& m, std::size_t object) {
                                          : X_WO * Point<'O'>(0.07, -0.07, 0);
 }
 
+// An arm, its prop and the finger that meets it.
+void add_arm_labels(const Moment& m, sim::ViewRequest& request) {
+  const sim::Truth& truth = m.world.truth();
+  constexpr std::array<const char*, 3> kProps{"plate", "key", "drum"};
+  request.labels.push_back(
+      {fmt::format("prop ({})", kProps[static_cast<std::size_t>(m.scene.impedance->prop)]), truth.tip,
+       false});
+  for (std::size_t i = 0; i < std::min<std::size_t>(m.scene.objects.size(), 4); ++i)
+    request.labels.push_back(
+        {fmt::format("{} (virtual)", m.setup.scene.objects[i].name), flank(m, i), false});
+  if (truth.tool_tip.finite()) request.labels.push_back({"finger", truth.tool_tip, true});
+  if (!request.title.empty())
+    request.labels.push_back({"arm", m.world.X_WR() * Point<'R'>(0.02, 0, 0.02), true});
+}
+
 void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
   const sim::Truth& truth = m.world.truth();
+  if (!m.world.machine) return add_arm_labels(m, request);
   const auto in_H = [&](double x, double y, double z) {
-    return m.world.X_WR() * m.world.machine.state().pose * Point<'H'>(x, y, z);
+    return m.world.X_WR() * m.world.machine->state().pose * Point<'H'>(x, y, z);
   };
   request.labels.push_back({m.scene.probe ? "probe" : "haptic-tip", truth.tip, false});
   for (std::size_t i = 0; i < m.setup.scene.objects.size(); ++i)
@@ -163,7 +184,7 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
   request.labels.push_back({"gripper", in_H(0.02, -0.022, -0.09), true});
   request.labels.push_back({"force sensor", in_H(0.03, -0.025, -0.1437), false});
   request.labels.push_back({"platform", in_H(-0.09, -0.07, -0.186), true});
-  const Hexapod& machine = m.world.machine.machine();
+  const Hexapod& machine = m.world.machine->machine();
   const Vec3 base = machine.base_joint(0);
   const Point<'W'> leg = m.world.X_WR() * Point<'R'>(base);
   request.labels.push_back({"six legs (hexapod)", leg + 0.4 * (in_H(0, 0, -0.19) - leg), false});
@@ -174,6 +195,13 @@ sim::Camera camera_for(const Moment& m, bool close_up) {
   camera.azimuth = 1.75;                        // from the front and a little from the right
   camera.elevation = close_up ? -0.38 : -0.22;  // down into the dent
   camera.distance = close_up ? 0.22 : 1.18;
+  if (!m.world.machine) {  // an arm is smaller, and stands behind its tip
+    camera.azimuth = 2.2;
+    camera.distance = close_up ? 0.22 : 0.75;
+    camera.opening = 0.52;
+    camera.look_at = m.world.truth().tip + Vec<'W'>(close_up ? 0.0 : -0.06, 0, close_up ? 0.0 : 0.05);
+    return camera;
+  }
   camera.opening = 0.52;
   camera.look_at = close_up ? m.world.truth().tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.090);
   return camera;

@@ -33,7 +33,7 @@ struct Figure {
 enum class Mark : std::uint8_t { line, points, both, bars, band, crosses };
 struct Series {
   std::string name;
-  std::vector<double> x, y;
+  std::vector<double> x{}, y{};
   std::vector<double> low{}, high{};
   Mark mark = Mark::line;
   bool paper = false;  // the paper's own values: drawn alike in every plot
@@ -42,7 +42,7 @@ struct Plot {
   std::string id;                       // file name without ".svg"; begins with the benchmark's name
   std::string title, x_label, y_label;  // labels with their unit
   bool log_x = false, log_y = false;
-  std::vector<Series> series;
+  std::vector<Series> series{};
   std::string caption{};               // what to see in it
   std::vector<std::string> x_names{};  // under x = 0, 1, 2, ... in place of numbers
   bool equal = false;                  // one unit of x is as long as one of y (maps)
@@ -52,7 +52,7 @@ struct Table {
   std::string id;  // file name without ".csv"; begins with the benchmark's name
   std::string title;
   std::vector<std::string> columns;  // with their unit
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<std::string>> rows{};
   std::string note{};
   std::string source{};  // of a data file: lines about it, which begin its CSV; the report leaves it out
 };
@@ -89,6 +89,7 @@ struct Benchmark {
 BenchResult run_deformation(const BenchContext& context);  // the seen ball against a pressed one (Fig 11)
 BenchResult run_dent(const BenchContext& context);         // the seen surface: speed, contact vertex, volume
 BenchResult run_encounter(const BenchContext& context);    // miss at first touch over approach speed
+BenchResult run_gravity(const BenchContext& context);      // the arm's statics, against KDL (VisHap eq. 5)
 BenchResult run_indentation(const BenchContext& context);  // a hand on the virtual ball (Table 2, Figs 8, 10)
 BenchResult run_press(const BenchContext& context);        // one contact a press, limit held, tip inside
 BenchResult run_session(const BenchContext& context);      // a user's two minutes, a change of tools (4.4)
@@ -97,10 +98,14 @@ BenchResult run_stiffness(
 BenchResult run_structure(const BenchContext& context);       // the hexapod's legs: sag, modes, order, cost
 BenchResult run_workspace(const BenchContext& context);       // reach, tracked volume, directions of a press
 BenchResult run_identification(const BenchContext& context);  // the ball's numbers out of a rig's loops
+BenchResult run_reaching(const BenchContext& context);        // whether the prop is there first (VisHap 2.2)
+BenchResult run_plane_button(const BenchContext& context);    // force over distance (VisHap Figs 4, 5)
+BenchResult run_registration(const BenchContext& context);    // camera and arm (VisHap 2.2)
 BenchResult run_response(const BenchContext& context);  // minor loops, tremor, energy of both response models
 BenchResult run_mesh(const BenchContext& context);      // a million triangles: load, tick
 BenchResult run_nearest(const BenchContext& context);   // nearest point on a mesh against Embree
 BenchResult run_synchrony(const BenchContext& context);  // what the eye sees against what is felt (Fig 13)
+BenchResult run_switching(const BenchContext& context);  // nearest of many objects; keys, ball, tiles, drum
 BenchResult run_tracking(const BenchContext& context);   // Table 1 of VHMR: the tracker against the machine
 BenchResult run_speed(const BenchContext& context);      // step(), times real time, wrapper over raw mj_step
 

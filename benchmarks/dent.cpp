@@ -1,6 +1,6 @@
 // What the eye sees, measured: where the vertex under the tool goes, how much volume the dent takes, and how
 // long a mesh of 10,242 vertices takes, against a straight double loop with face-accumulated normals.
-#include "core/dent.h"
+#include "core/dent/dent.h"
 
 #include <algorithm>
 #include <cmath>

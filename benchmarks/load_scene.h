@@ -9,14 +9,14 @@
 
 namespace enc::bench {
 
-// models/scenes/<name>.toml on the simulated rig. Of two settings the later one wins: `own` are the
-// benchmark's, then come the user's, then those that a comparison must hold.
+// models/scenes/<name>.toml on the simulated rig that it names. Of two settings the later one wins: `own` are
+// the benchmark's, then come the user's, then those that a comparison must hold.
 [[nodiscard]] inline models::Setup load_scene(const BenchContext& context, const std::string& name,
                                               std::vector<std::string> own = {},
                                               const std::vector<std::string>& held = {}) {
   own.insert(own.end(), context.set.begin(), context.set.end());
   own.insert(own.end(), held.begin(), held.end());
-  return models::load(context.models + "/scenes/" + name + ".toml", "sim", own);
+  return models::load(context.models + "/scenes/" + name + ".toml", {}, own);
 }
 
 }  // namespace enc::bench

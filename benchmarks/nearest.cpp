@@ -182,8 +182,10 @@ BenchResult run_nearest(const BenchContext& context) {
   const Mesh ball = geodesic_ball(71);
   const MeshTree tree(ball);
   std::unique_ptr<NearestPeer> embree;
-  if (const ModuleInfo* module = context.module ? context.module("peers") : nullptr)
-    embree = static_cast<const PeersModule*>(module->peers)->embree(ball);
+  const ModuleInfo* module = context.module ? context.module("peers") : nullptr;
+  const auto* peers = module != nullptr ? static_cast<const PeersModule*>(module->peers) : nullptr;
+  if (peers != nullptr && peers->embree != nullptr)
+    embree = peers->embree(ball);
   else
     result.note = "no race: Embree was not there when this was built (./encounter bench installs it)";
   const Race raced = race(tree, embree.get(), laps, context);

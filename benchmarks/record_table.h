@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/record.h"
+#include "core/record/record.h"
 #include "models/scene_file.h"
 
 namespace enc::bench {

@@ -209,8 +209,8 @@ struct Machine {
                                                         context.models + "/mjcf", context.seed, false});
   }
   const sim::Truth& go(const Vec3& from_zero, int ticks) {
-    const Vec3 there = world->machine.machine().zero().p() + from_zero;
-    world->machine.command(Pose<'R', 'H'>(Quat::Identity(), there));
+    const Vec3 there = world->machine->machine().zero().p() + from_zero;
+    world->machine->command(Pose<'R', 'H'>(Quat::Identity(), there));
     for (int i = 0; i < ticks; ++i) {
       world->advance();
       simulated += scene.dt;

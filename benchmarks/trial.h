@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/record.h"
+#include "core/record/record.h"
 #include "core/rig.h"
 #include "models/scene_file.h"
 #include "sim/world.h"

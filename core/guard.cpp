@@ -5,7 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/dent.h"
+#include "core/braking.h"
+#include "core/dent/dent.h"
 #include "core/stages.h"
 
 namespace enc::stages {
@@ -62,12 +63,6 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
   state.outside_dent =
       maybe && dented_distance(object.surface, state.dent.value, outer, walk.at_tip.feature) > margin;
   if (state.outside_dent) walk.why |= kOutsideDent;
-}
-
-// Largest speed from which the machine still stops within `distance`, in steps of dt.
-double braking_speed(double distance, double acceleration, double dt) {
-  const double unit = acceleration * dt;
-  return unit * (std::sqrt(0.25 + 2.0 * distance / (unit * dt)) - 0.5);
 }
 
 // The part of the way to the target that the machine can reach.

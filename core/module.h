@@ -23,6 +23,7 @@ struct DriverModule {
   std::unique_ptr<PoseTracker> (*tracker)() = nullptr;
   std::unique_ptr<Display> (*display)() = nullptr;
   std::unique_ptr<Gripper> (*gripper)() = nullptr;
+  std::unique_ptr<HapticArm> (*arm)() = nullptr;
 };
 
 struct ModuleInfo {

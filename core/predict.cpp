@@ -1,6 +1,7 @@
 #include "core/predict.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace enc {
 namespace {
@@ -34,8 +35,8 @@ double carried_on(const TrackerRig& rig, double old) {
 }
 
 // The state and its covariance h s later. White noise drives the acceleration (constant velocity) or the jerk
-// (constant acceleration) [Bar-Shalom, Estimation with Applications, 6.2].
-void propagate(const TrackerRig& rig, double h, TipMotion& m) {
+// (constant acceleration) [Bar-Shalom, Estimation with Applications, 6.2]; `noise` is its density.
+void propagate(const TrackerRig& rig, double h, double noise, TipMotion& m) {
   m.position.e() += h * m.velocity.e() + 0.5 * h * h * m.acceleration.e();
   m.velocity.e() += h * m.acceleration.e();
   // P <- F P F', F = [1 h h^2/2; 0 1 h; 0 0 1], row by row.
@@ -51,12 +52,12 @@ void propagate(const TrackerRig& rig, double h, TipMotion& m) {
   m.vv = vv + h * va;
   m.va = va;
   if (rig.prediction == Prediction::constant_velocity) {
-    const double q = square(rig.acceleration_noise);
+    const double q = square(noise);
     m.xx += q * h * h * h / 3.0;
     m.xv += q * h * h / 2.0;
     m.vv += q * h;
   } else {
-    const double q = square(rig.jerk_noise);
+    const double q = square(noise);
     m.xx += q * h * h * h * h * h / 20.0;
     m.xv += q * h * h * h * h / 8.0;
     m.xa += q * h * h * h / 6.0;
@@ -64,6 +65,17 @@ void propagate(const TrackerRig& rig, double h, TipMotion& m) {
     m.va += q * h * h / 2.0;
     m.aa += q * h;
   }
+}
+
+// A hand keeps its speed for long and then changes it at once: a pose that is farther off than three sigma is
+// explained by as much acceleration as it takes, and not by noise [Bar-Shalom 11.2].
+double surprised(const TrackerRig& rig, double h, const Vec3& innovation, const TipMotion& m) {
+  constexpr double kSigmas = 3.0;
+  const double s = m.xx + square(rig.measurement_noise);  // of each axis
+  const double found = innovation.squaredNorm();
+  if (rig.surprise_noise <= rig.acceleration_noise || found <= square(kSigmas) * s) return 0.0;
+  const double needed = (found / 3.0 - s) * 3.0 / (h * h * h);  // q h^3 / 3 more makes s what was found
+  return std::min(rig.surprise_noise, std::sqrt(square(rig.acceleration_noise) + needed));
 }
 
 void correct(const TrackerRig& rig, const Vec3& innovation, TipMotion& m) {
@@ -85,7 +97,7 @@ void correct(const TrackerRig& rig, const Vec3& innovation, TipMotion& m) {
 }  // namespace
 
 void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, Time now,
-             TipMotion& motion) noexcept {
+             TipMotion& motion, bool calm) noexcept {
   if (rig.prediction == Prediction::hold || motion.tool != tool) return begin(rig, tool, t, tip, motion);
   const double h = age(t, motion.t);
   const Point<'W'> shown = predict(rig, motion, now) - motion.behind;
@@ -95,7 +107,15 @@ void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>&
     begin(rig, tool, t, tip, motion);
   } else {
     TipMotion next = motion;
-    propagate(rig, h, next);
+    const bool velocity = rig.prediction == Prediction::constant_velocity;
+    propagate(rig, h, velocity ? rig.acceleration_noise : rig.jerk_noise, next);
+    if (velocity && !calm) {
+      const double noise = surprised(rig, h, (tip - next.position).e(), next);
+      if (noise > rig.acceleration_noise) {
+        next = motion;
+        propagate(rig, h, noise, next);
+      }
+    }
     const Vec3 innovation = (tip - next.position).e();
     if (innovation.norm() > kLeap + kFastest * h) return begin(rig, tool, t, tip, motion);
     correct(rig, innovation, next);

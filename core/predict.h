@@ -28,9 +28,10 @@ struct TipMotion {
 }
 
 // Takes in the tip's position, exposed at `t`, which is later than any before. `now` is the tick on which it
-// came: after a drop-out the prediction does not leap to the new data but catches up with it.
+// came: after a drop-out the prediction does not leap to the new data but catches up with it. `calm`: the tip
+// lies on something, so that what looks like a surprise is noise.
 void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, Time now,
-             TipMotion& motion) noexcept;
+             TipMotion& motion, bool calm = false) noexcept;
 
 // Where the tip is `now`. What is left to catch up is not in it.
 [[nodiscard]] Point<'W'> predict(const TrackerRig& rig, const TipMotion& motion, Time now) noexcept;

@@ -8,6 +8,7 @@
 #include "core/devices/display.h"
 #include "core/devices/force_sensor.h"
 #include "core/devices/gripper.h"
+#include "core/devices/haptic_arm.h"
 #include "core/devices/manipulator.h"
 #include "core/devices/pose_tracker.h"
 #include "core/step.h"
@@ -17,6 +18,7 @@ namespace enc {
 struct Rig {
   std::unique_ptr<Clock> clock;
   std::unique_ptr<Manipulator> manipulator;
+  std::unique_ptr<HapticArm> arm;
   std::unique_ptr<ForceSensor> force;
   std::unique_ptr<PoseTracker> tracker;
   std::unique_ptr<Display> display;
@@ -25,6 +27,7 @@ struct Rig {
   void read(Inputs& in) noexcept {
     in.missed = clock->missed();
     if (manipulator) in.tip = manipulator->read();
+    if (arm) in.arm = arm->read();
     if (force) in.wrench = force->read();
     if (tracker) tracker->poll(in.tool);
     if (display) display->poll(in.dent);
@@ -32,6 +35,10 @@ struct Rig {
   }
   void write(const Outputs& out) noexcept {
     if (manipulator && out.tip.valid()) manipulator->command(out.tip);
+    if (arm && out.arm_force.finite()) {
+      arm->command(out.arm_force);
+      arm->drive(out.prop_speed);
+    }
     if (display) display->show(out.view);
     if (gripper) gripper->command(out.grip);
   }

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <string>
 
+#include "core/arm/arm_rig.h"
 #include "core/damping.h"
+#include "core/display_rig.h"
 #include "core/frames.h"
 #include "core/hexapod.h"
 #include "core/tracker_rig.h"
@@ -68,24 +70,6 @@ struct ForceRig {
   double stale = 0.005;           // s
 };
 
-// Which tip dents the seen surface (fuse.h).
-enum class SeenTip : std::uint8_t {
-  tracked,    // of the newest pose, old as it is, as the paper's does [VHMR 3.5]
-  predicted,  // where the haptic loop believes the tool to be (TrackerRig::prediction)
-  fused       // predicted; while it presses, where the haptic-tip holds it
-};
-
-struct DisplayRig {
-  std::string driver = "sim";
-  SeenTip tip = SeenTip::predicted;
-  // Of `fused`: ahead of now by what a surface is old, in the middle, while it is seen, s; and by how much
-  // tool and haptic-tip are believed to give where they touch, m/N.
-  double lead = 0.0, compliance = 0.0;
-  double overdue = 0.200;       // s: older surfaces mean "hold"
-  double margin = 0.0008;       // m: tracker and drawing error allowed between the seen and the felt surface
-  double margin_speed = 0.050;  // m/s: how fast that margin grows with the surface's age
-};
-
 struct GripperRig {
   std::string driver = "sim";
   double force = 100.0;  // N, to clamp with
@@ -108,6 +92,7 @@ struct RigSpec {
   LoopRig loop;
   FramesRig frames;
   ManipulatorRig manipulator;
+  ArmRig arm;
   ForceRig force;
   TrackerRig tracker;
   DisplayRig display;

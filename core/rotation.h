@@ -1,4 +1,5 @@
-// Rotations made from what files and surfaces give: angles, a normal.
+// Rotations made from what files and surfaces give: angles, a normal. Not inline: what Eigen instantiates for
+// the least rotation between two vectors would cost every file that includes this four seconds.
 #pragma once
 
 #include "core/frames.h"
@@ -6,12 +7,13 @@
 namespace enc {
 
 // A rotation whose z axis is n (unit length), turned least from the reference axes. Continuous but at n = -z.
-inline Quat rotation_z_to(const Vec3& n) { return Quat::FromTwoVectors(Vec3::UnitZ(), n); }
+[[nodiscard]] Quat rotation_z_to(const Vec3& n);
 
 // Rotation about the fixed x, then y, then z axis, rad: how files write a rotation.
-inline Quat rotation_xyz(const Vec3& angles) {
-  return Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
-         Eigen::AngleAxisd(angles.x(), Vec3::UnitX());
-}
+[[nodiscard]] Quat rotation_xyz(const Vec3& angles);
+
+// And back: x and z within +-180 deg, y within +-90. Where y is +-90 only the sum or the difference of the
+// others counts: z is then 0.
+[[nodiscard]] Vec3 angles_xyz(const Quat& rotation);
 
 }  // namespace enc

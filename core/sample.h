@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/arm/arm.h"
 #include "core/frames.h"
 #include "core/time.h"
 #include "core/tip.h"
@@ -53,6 +54,13 @@ struct GripSample {
   double opening = kUnset;  // between the jaws, m
   double force = 0.0;       // on what is clamped, N
   bool holding = false;     // closed, with something between the jaws
+};
+
+// Where an arm's encoders say that its joints are, and its tip by its own kinematics.
+struct ArmSample {
+  PerJoint joints{}, joint_velocities{};  // rad or m, and per s
+  Point<'R'> tip;
+  Vec<'R'> velocity;  // of the tip, m/s
 };
 
 // The deformed visual surface, as the renderer reports it [VHMR 3.5]: which object is dented, by what tip in

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 
+#include "core/arm/arm_scene.h"
 #include "core/error.h"
-#include "core/mesh/mesh_tree.h"
 #include "core/press_check.h"
 #include "core/stages.h"
 
@@ -15,42 +14,6 @@ namespace enc {
 namespace {
 
 constexpr double kGravity = 9.80665;  // m/s^2
-
-Mesh scaled_mesh(const ObjectSpec& spec) {
-  if (!spec.surface || spec.surface->triangles.empty())
-    throw Error("no mesh was loaded for this object", "object." + spec.name + ".mesh");
-  if (!(spec.scale > 0.0)) throw Error("a mesh needs a positive scale", "object." + spec.name + ".scale");
-  Mesh mesh = *spec.surface;
-  for (auto& vertex : mesh.vertices)
-    for (double& x : vertex) x *= spec.scale;
-  return mesh;
-}
-
-Surface surface_of(const ObjectSpec& spec) {
-  if (spec.shape == ShapeKind::plane) return Surface(Plane{});
-  if (spec.shape == ShapeKind::mesh)
-    return Surface(MeshSurface{std::make_shared<const MeshTree>(scaled_mesh(spec))});
-  if (!(spec.radius > 0.0)) throw Error("a sphere needs a radius", "object." + spec.name + ".radius");
-  return Surface(Sphere{spec.radius});
-}
-
-Pose<'W', 'O'> place_of(const ObjectSpec& spec) {
-  if (spec.shape == ShapeKind::sphere) return {Quat::Identity(), spec.position};
-  if (spec.shape == ShapeKind::mesh) return {rotation_xyz(spec.rotation), spec.position};
-  const double size = spec.normal.norm();
-  if (!(std::abs(size - 1.0) <= 1e-3))
-    throw Error("the normal of a plane is a unit vector", "object." + spec.name + ".normal");
-  return {rotation_z_to(spec.normal / size), spec.position};
-}
-
-const BehaviourSpec& behaviour_of(const SceneSpec& scene, const ObjectSpec& object) {
-  const auto found = std::find_if(scene.behaviours.begin(), scene.behaviours.end(),
-                                  [&](const BehaviourSpec& b) { return b.name == object.behaviour; });
-  if (found == scene.behaviours.end())
-    throw Error("no behaviour '" + object.behaviour + "' in the database",
-                "object." + object.name + ".behaviour");
-  return *found;
-}
 
 Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, double lowest_slope) {
   try {
@@ -85,7 +48,7 @@ double carried(const Response& response, double wanted, double strength) {
 Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest_slope, double strength) {
   if (spec.behaviour.empty() && scene.probe && &spec == &probed_object(scene))
     return {surface_of(spec), place_of(spec), {}, kUnset, kUnset, Tangential::stick, kUnset};
-  const BehaviourSpec& behaviour = behaviour_of(scene, spec);
+  const BehaviourSpec& behaviour = behaviour_of(scene.behaviours, spec);
   if (behaviour.tangential == Tangential::spring && !(behaviour.tangential_stiffness > 0.0))
     throw Error("behaviour '" + behaviour.name + "': tangential = \"spring\" needs a tangential stiffness",
                 "object." + spec.name + ".behaviour");
@@ -135,21 +98,13 @@ double length_of(const ToolSpec& tool) {
   return (middle - tool.tip).norm();
 }
 
-// Which object is pressed by `who` ("user", "pusher"): the named one, or the first.
-std::size_t pressed_object(const SceneSpec& spec, const std::string& name, const std::string& who) {
-  if (spec.objects.empty()) throw Error("a " + who + " needs an object to press", who + ".object");
-  if (name.empty()) return 0;
-  const auto named = std::find_if(spec.objects.begin(), spec.objects.end(),
-                                  [&](const ObjectSpec& o) { return o.name == name; });
-  if (named == spec.objects.end()) throw Error("no object '" + name + "' in the scene", who + ".object");
-  return static_cast<std::size_t>(named - spec.objects.begin());
-}
-
 }  // namespace
+
+Tool made_tool(const ToolSpec& spec) { return {tip_of(spec), length_of(spec)}; }
 
 PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
   const PusherSpec& pusher = *spec.pusher;
-  const std::size_t index = pressed_object(spec, pusher.object, "pusher");
+  const std::size_t index = pressed_object(spec.objects, pusher.object, "pusher");
   const Object& object = scene.objects[index];
   if (pusher.depth > object.wanted * (1.0 + 1e-9))
     throw Error("the push is deeper than the deflection limit of object '" + spec.objects[index].name +
@@ -196,7 +151,7 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
   }
   if (!spec.user) return;
   const PressPoint press = press_point(spec, *spec.user);
-  const double depth = scene.objects[pressed_object(spec, spec.user->object, "user")].limit;
+  const double depth = scene.objects[pressed_object(spec.objects, spec.user->object, "user")].limit;
   if (!carried_to(scene, press, 0.0) || !carried_to(scene, press, depth))
     throw Error("the user presses where the machine does not reach" + advice, "user.polar");
   const Tool* tool = used_tool(spec, scene);
@@ -286,7 +241,7 @@ std::pair<Point<'O'>, Vec<'O'>> first_met(const Mesh& mesh, const Vec3& through,
 }  // namespace
 
 PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
-  const ObjectSpec& object = spec.objects[pressed_object(spec, user.object, "user")];
+  const ObjectSpec& object = spec.objects[pressed_object(spec.objects, user.object, "user")];
   const Vec3 axis(std::sin(user.polar) * std::cos(user.azimuth),
                   std::sin(user.polar) * std::sin(user.azimuth), std::cos(user.polar));
   const Vec3 side = axis.unitOrthogonal();
@@ -303,6 +258,7 @@ PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
 }
 
 Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
+  if (spec.arm) return prepare_arm(spec, rig);
   Scene scene;
   scene.reach = reach_of(rig);
   scene.X_WR = Pose<'W', 'H'>::identity() * scene.reach.machine.zero().inverse();
@@ -341,15 +297,26 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
                 "rig.manipulator.payload");
   for (const ObjectSpec& object : spec.objects)
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
-  for (const ToolSpec& tool : spec.tools) scene.tools.push_back({tip_of(tool), length_of(tool)});
+  for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
   if (spec.probe) scene.probe = make_probe(spec, scene);
   if (spec.travel) scene.travel = make_travel(spec, scene);
   check_reach(spec, scene);
   return scene;
 }
 
+namespace {
+
+// H in the machine's base at its zero.
+Pose<'R', 'H'> home_of(const Scene& scene) {
+  if (!scene.impedance) return scene.reach.machine.zero();
+  const Arm& arm = scene.impedance->arm;
+  return {Quat::Identity(), arm.tip(arm.zero())};
+}
+
+}  // namespace
+
 double chain_residual(const Scene& scene) {
-  const Pose<'W', 'H'> X_WH = scene.X_WR * scene.reach.machine.zero();
+  const Pose<'W', 'H'> X_WH = scene.X_WR * home_of(scene);
   // As seen from W; the letter does not matter for the sum.
   const auto from_W = [](const auto& X) { return Pose<'W', 'N'>(Quat(X.q()), Vec3(X.p())); };
   std::vector<Pose<'W', 'N'>> seen{from_W(scene.X_WR), from_W(X_WH), from_W(X_WH * scene.X_HF),

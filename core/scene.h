@@ -6,40 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "core/contact_limits.h"
+#include "core/arm/impedance.h"
+#include "core/arm/moving.h"
 #include "core/damping.h"
 #include "core/frames.h"
 #include "core/loop_model.h"
+#include "core/object.h"
 #include "core/probe.h"
 #include "core/reach.h"
-#include "core/response.h"
 #include "core/rig_spec.h"
 #include "core/rotation.h"
 #include "core/scene_spec.h"
-#include "core/surface.h"
 #include "core/tip.h"
 #include "core/travel.h"
 
 namespace enc {
-
-struct Object {
-  Surface surface;
-  Pose<'W', 'O'> X_WO;
-  Response response;      // none where the object is real: then only a probe touches it
-  double limit = kUnset;  // deflection, m: what is rendered; with `limits` the largest of them
-  double wanted =
-      kUnset;  // what object, behaviour and response ask for; more only where the machine is too weak
-  Tangential tangential = Tangential::stick;
-  double tangential_stiffness = kUnset;               // N/m
-  Point<'W'> centre = X_WO * surface.bound().centre;  // of a ball that holds the object
-  double radius = surface.bound().radius;             // m; infinite for a half space
-  ContactLimits limits{};                             // of contacts that have their own
-
-  [[nodiscard]] double limit_at(std::int32_t contact) const { return limits.at(contact, limit); }  // m
-
-  // No surface point of the object is nearer to p than this, m; negative where p may be inside.
-  [[nodiscard]] double least_distance(const Point<'W'>& p) const { return (p - centre).norm() - radius; }
-};
 
 struct Tool {
   Tip<'T'> tip;
@@ -49,7 +30,8 @@ struct Tool {
 struct Scene {
   std::vector<Object> objects;
   std::vector<Tool> tools;
-  bool has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
+  std::vector<Mover> movers;  // objects that move, in the order of State::moved
+  bool has_arm = false, has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
 
   std::int32_t clamped_tool = -1;  // held by the gripper; -1: there is none
   double grip_force = kUnset;      // N
@@ -67,19 +49,22 @@ struct Scene {
   DisplayRig display;
   ContactRig contact;
   LoopRig loop;
-  std::optional<DampingLaw> damping;  // where the rig wants the object damped
-  std::optional<Probe> probe;         // then the machine presses, and nothing is rendered
-  std::optional<Travel> travel;       // then it carries a tool around, and nothing is rendered
-  double tip_radius = kUnset;         // of the haptic-tip or the probe, m
-  double dt = kUnset;                 // s, one tick
-  double filter_gain = kUnset;        // of the force low-pass, per tick
-  double lowest_slope = kUnset;       // N/m: softest object that is accepted (loop_model.h)
-  double strength = kUnset;           // N: pressing force that the machine carries beside its own load
+  std::optional<DampingLaw> damping;   // where the rig wants the object damped
+  std::optional<Impedance> impedance;  // of a scene with an arm
+  std::optional<Probe> probe;          // then the machine presses, and nothing is rendered
+  std::optional<Travel> travel;        // then it carries a tool around, and nothing is rendered
+  double tip_radius = kUnset;          // of the haptic-tip or the probe, m
+  double dt = kUnset;                  // s, one tick
+  double filter_gain = kUnset;         // of the force low-pass, per tick
+  double lowest_slope = kUnset;        // N/m: softest object that is accepted (loop_model.h)
+  double strength = kUnset;            // N: pressing force that the machine carries beside its own load
 };
 
 // Throws Error (key = the file key without its unit) where the scene cannot be rendered by this rig: an
 // object or a press out of reach, a response that is not monotone or too soft, a role that is missing.
 [[nodiscard]] Scene prepare(const SceneSpec& spec, const RigSpec& rig);
+
+[[nodiscard]] Tool made_tool(const ToolSpec& spec);
 
 // The loop of hand, filter, machine and dead time that a rig file promises (loop_model.h).
 [[nodiscard]] LoopModel loop_of(const RigSpec& rig);

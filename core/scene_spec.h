@@ -5,55 +5,16 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/frames.h"
-#include "core/mesh/mesh.h"
-#include "core/response.h"
+#include "core/object_spec.h"
 #include "core/task_spec.h"
 #include "core/tip.h"
 
 namespace enc {
-
-enum class ShapeKind : std::uint8_t { plane, sphere, mesh };
-enum class Tangential : std::uint8_t {
-  stick,  // the tip stays over its contact point, whatever the sideways force (default)
-  spring  // the contact point gives sideways by force / tangential_stiffness
-};
-
-// An entry of models/behaviours.toml: how a surface answers. Objects name it.
-struct BehaviourSpec {
-  std::string name;
-  std::string response;                       // file in models/responses without ".toml"; or empty and then
-  double stiffness = kUnset;                  // N/m: a linear spring, press and release alike
-  double limit = kUnset;                      // deflection limit, m; unset: that of the response file
-  Reversal reversal = Reversal::energy_stop;  // which of the file's models is felt
-  Tangential tangential = Tangential::stick;
-  double tangential_stiffness = kUnset;  // N/m, with Tangential::spring
-  ResponseSpec curves;                   // filled by the loader from the response file or the stiffness
-};
-
-struct ObjectSpec {
-  std::string name;
-  ShapeKind shape = ShapeKind::sphere;
-  double radius = kUnset;  // sphere
-  Vec3 position{0, 0, 0};  // of O in W
-  Vec3 normal{0, 0, 1};    // plane: outward, unit, in W
-  std::string behaviour;   // by name; empty: a real thing, for [probe] alone
-  double limit = kUnset;   // deflection limit, m; unset: the behaviour's
-  // Instead, m: the k-th contact of the experiment takes the k-th, the last one stays (contact_limits.h).
-  std::vector<double> limits{};
-
-  // mesh
-  std::string mesh{};                     // file
-  std::string mesh_hash{};                // of its content, 16 hex digits; empty: not known
-  double scale = 1.0;                     // of the file's metres
-  Vec3 rotation{0, 0, 0};                 // of O in W, about the fixed x, then y, then z axis, rad
-  std::shared_ptr<const Mesh> surface{};  // filled by the loader; unscaled, closed, outward
-};
 
 struct ToolSpec {
   std::string name;
@@ -68,13 +29,21 @@ struct ToolSpec {
 };
 
 struct FollowSpec {
-  double inset = 0.0005;  // how far inside the surface the tip waits, m
-  double pause = 0.100;   // tool farther than this: do not travel [VHMR 3.3]
-  double resume = 0.090;  // and travel again below this
+  double inset = 0.0005;      // how far inside the surface the tip waits, m
+  double pause = 0.100;       // tool farther than this: do not travel [VHMR 3.3]
+  double resume = 0.090;      // and travel again below this
+  double hysteresis = 0.001;  // another object must be nearer by this to take over, m
 };
 
 struct ManipulatorSpec {
   std::string kind = "hexapod";
+};
+struct ArmSpec {};  // which one, the rig says
+// What the arm carries at its tip [VisHap 2]: a thing with a front that the finger touches.
+struct PropSpec {
+  PropKind kind = PropKind::plate;
+  double mass = 0.020;           // kg
+  Vec3 size{0.03, 0.03, 0.002};  // along x and y of its front, and behind it, m
 };
 struct ForceSpec {};
 struct TrackerSpec {};
@@ -91,10 +60,13 @@ struct QuestionnaireSpec {
 struct SceneSpec {
   std::int64_t format = 1;
   std::string title;
+  std::string rig;  // in models/rigs, that it is made for; empty: "sim"
   std::vector<ObjectSpec> objects;
   std::vector<ToolSpec> tools;
   FollowSpec follow;
   std::optional<ManipulatorSpec> manipulator;
+  std::optional<ArmSpec> arm;
+  std::optional<PropSpec> prop;
   std::optional<ForceSpec> force;
   std::optional<TrackerSpec> tracker;
   std::optional<DisplaySpec> display;

@@ -23,13 +23,17 @@ struct Walk {
   double tool_radius = 0.0;
   Pose<'W', 'H'> X_WH;  // track: where the machine says the tip is
 
-  Point<'W'> surface_point;  // touch: nearest to the tool; without a tracker, to the tip
-  Vec<'W'> normal;           // outward
-  double gap = kUnset;       // m
-  Nearest at_tip;            // check_tip: nearest to the tip's centre, in the frame of state.object
-  Vec<'W'> force;            // sense: on the tip, N
-  Vec<'W'> felt;             // the same before the low-pass
-  Point<'W'> target;         // target: wanted tip centre
+  Point<'W'> surface_point;      // touch: nearest to the tool; without a tracker, to the tip
+  Vec<'W'> normal;               // outward
+  double gap = kUnset;           // m
+  Nearest at_tip;                // check_tip: nearest to the tip's centre, in the frame of state.object
+  Vec<'W'> force;                // sense: on the tip, N
+  Vec<'W'> felt;                 // the same before the low-pass
+  Point<'W'> target;             // target: wanted tip centre
+  Mat3 jacobian = Mat3::Zero();  // track: of an arm; and
+  Vec3 target_acceleration = Vec3::Zero();  // encounter: of its target
+  Vec<'W'> tip_velocity;                    // of its tip
+  Vec<'R'> arm_force;                       // impede: what an arm is told
 };
 
 void track(Walk& walk, State& state) noexcept;
@@ -42,6 +46,10 @@ void target(Walk& walk, State& state) noexcept;
 // In place of the three above: where the machine presses a real object, and where it carries a tool around.
 void probe(Walk& walk, State& state) noexcept;
 void travel(Walk& walk, State& state) noexcept;
+// And of an arm, which takes a force: where its prop shall be, and with which force it is sent there.
+void push(Walk& walk, State& state) noexcept;
+void encounter(Walk& walk, State& state) noexcept;
+void impede(Walk& walk, State& state) noexcept;
 // Inside the object, inside the seen surface, finite, reachable, slow enough. Writes the set-point into
 // state.command.
 void check_tip(Walk& walk, State& state) noexcept;

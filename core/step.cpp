@@ -9,6 +9,18 @@
 namespace enc {
 namespace {
 
+// No force is measured: what the finger feels is what the arm is told beyond gravity.
+void report_arm(const stages::Walk& walk, const State& state, Outputs& out) {
+  out.tip = Pose<'R', 'H'>();
+  out.arm_force = walk.arm_force;
+  out.wanted = state.reaching.target;
+  out.gain = state.reaching.gain;
+  const bool near = state.object >= 0 && (state.mode == Mode::follow || state.mode == Mode::contact);
+  out.prop_speed = near ? walk.scene.objects[static_cast<std::size_t>(state.object)].prop_speed() : 0.0;
+  const bool touched = state.mode == Mode::contact && walk.gap < 0.0;
+  out.deflection = touched ? -walk.gap : 0.0;
+}
+
 void report(const stages::Walk& walk, const State& state, Outputs& out) {
   const bool engaged = state.mode == Mode::contact || state.mode == Mode::restore;
   const Pose<'N', 'W'> X_NW =
@@ -29,6 +41,7 @@ void report(const stages::Walk& walk, const State& state, Outputs& out) {
                                     : std::max(0.0, -state.contact.displacement.xyz[2]);
   out.first_touch =
       engaged ? state.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - stages::kSkin) : Point<'W'>();
+  if (walk.scene.impedance) report_arm(walk, state, out);
   const SeenTool seen = seen_tool(walk, state);
   out.view = {walk.tick.t, walk.tool_known ? state.tool.value.tool : -1, state.object, seen.X_WT, seen.tip,
               out.mode};
@@ -43,6 +56,12 @@ void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, 
   stages::touch(walk, state);  // which surface point is nearest, and how far
   stages::grip(walk);          // does the gripper hold its tool
   stages::sense(walk, state);  // what force is on the tip
+  if (scene.impedance) {
+    stages::push(walk, state);       // what does the finger move
+    stages::encounter(walk, state);  // away, follow, contact; and where the prop should be
+    stages::impede(walk, state);     // depth in, force out
+    return report(walk, state, out);
+  }
   stages::check_tip(walk, state);
   if (!stages::holding(walk)) {
     if (scene.probe) {

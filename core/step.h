@@ -4,39 +4,13 @@
 
 #include <type_traits>
 
-#include "core/mode.h"
+#include "core/arm/impedance.h"
 #include "core/predict.h"
 #include "core/response.h"
-#include "core/sample.h"
 #include "core/scene.h"
-#include "core/view.h"
+#include "core/signals.h"
 
 namespace enc {
-
-// The newest sample of each device that exists; the others stay absent.
-struct Inputs {
-  Stamped<TrackedTool> tool;
-  Stamped<Wrench> wrench;
-  Stamped<TipSample> tip;
-  Stamped<DentSample> dent;
-  Stamped<GripSample> grip;
-  std::int64_t missed = 0;  // cycles the clock lost before this tick
-};
-
-struct Outputs {
-  Pose<'R', 'H'> tip;  // set-point for the coming period
-  Mode mode = Mode::away;
-  std::uint32_t why = 0;      // bits of Why
-  std::int32_t object = -1;   // nearest object, or the one in contact
-  std::int32_t contacts = 0;  // contacts since the start
-  double gap = kUnset;        // of the tracked tool's tip to the surface, m; negative inside
-  Vec<'N'> force;             // on the tip, N, filtered; z along the outward normal
-  Vec<'W'> felt;              // the same force before the low-pass, N
-  double deflection = 0.0;    // along -z of N, m: wanted; of a probe: measured, negative before it touches
-  Point<'W'> first_touch;     // buffered point of the current or last contact, tip centre
-  View view;
-  Grip grip;
-};
 
 // The anchor of a contact [VHMR 3.4]: surface frame and how the object answers from there.
 struct Contact {
@@ -65,6 +39,25 @@ struct Travelling {
   TravelPhase phase = TravelPhase::wait;
   double elapsed = 0.0;  // s of this phase
   std::int32_t leg = 0;  // of the programme
+};
+
+// What the control law of an arm remembers (impedance.h).
+struct Reaching {
+  Point<'W'> target;  // X_d: where the tip shall be
+  Vec<'W'> velocity = Vec<'W'>::zero();
+  Vec<'W'> error = Vec<'W'>::zero(), error_rate = Vec<'W'>::zero();  // low-passed [eq. 3]
+  double gain = 1.0;                                                 // lambda_z
+  double sunk = 0.0;       // m: how far the target is behind the surface, in a button
+  bool caught_up = false;  // the target is where the finger's projection is
+  bool triggered = false;
+};
+
+// How far an object that moves has got, and what its finger does (moving.h).
+struct Moved {
+  Vec<'W'> shift = Vec<'W'>::zero(), velocity = Vec<'W'>::zero();
+  double depth = kUnset;  // of the finger in it, m, at the last tick; unset: another object was nearest
+  double deepest = 0.0;   // that of this touch, m; 0: they are apart
+  double firmness = 1.0;  // share of its stiffness that is felt now
 };
 
 // Which part of which object was nearest: makes the next search faster, and changes no result (surface.h).
@@ -96,6 +89,8 @@ struct State {
   Contact contact;
   Probing probing;
   Travelling travelling;
+  Reaching reaching;
+  std::array<Moved, kMostMoving> moved;
   Point<'R'> command;  // last set-point
   Vec<'R'> command_velocity = Vec<'R'>::zero();
   Point<'W'> last_query, last_point;  // of the last tick: the tracked tool's tip and the surface under it

@@ -17,6 +17,15 @@ struct Sphere {
   double radius = kUnset;
 };
 
+// Box whose face is at z = 0 of O: a button of [VisHap 2.2], a key, a tile. It is pressed on its face alone:
+// from inside, that is what is nearest, however deep; never a side.
+struct Button {
+  double width = kUnset, height = kUnset;  // of the face, along x and y of O, m
+  double thickness = 0.050;                // of the solid behind it, m
+};
+// What of a button is nearest: Nearest::feature.
+inline constexpr std::int32_t kButtonFace = 0, kButtonSide = 1;
+
 class MeshTree;
 // Closed triangle mesh; the tree (core/mesh/mesh_tree.h) is shared and constant.
 struct MeshSurface {
@@ -39,7 +48,7 @@ struct Nearest {
 
 class Surface {
  public:
-  using Shape = std::variant<Plane, Sphere, MeshSurface>;
+  using Shape = std::variant<Plane, Sphere, MeshSurface, Button>;
   explicit Surface(Shape shape) : shape_(std::move(shape)) {}
 
   [[nodiscard]] const Shape& shape() const { return shape_; }
@@ -48,6 +57,9 @@ class Surface {
   // sphere, the triangle of lowest index on a mesh. `hint`: the feature of a nearby query; it makes the
   // search faster and changes nothing else.
   [[nodiscard]] Nearest nearest(const Point<'O'>& p, std::int32_t hint = -1) const noexcept;
+  // The point over the face that is nearest to p, if it is no farther than `margin`; else p. Of a button; of
+  // what has no face of its own p itself.
+  [[nodiscard]] Point<'O'> over_face(const Point<'O'>& p, double margin) const noexcept;
 
  private:
   Shape shape_;

@@ -12,12 +12,9 @@
 
 namespace enc {
 
-// Random radial presses of a ball, with one change of the tool [VHMR 4.4]. A pair is the least and the most
-// of what is drawn evenly between them, anew for each press.
-struct SessionSpec {
-  double duration = 120.0;  // s; a press that would not end in time is not begun
-  double polar_most = 0.8;  // rad from +z of W; places are even over the directions up to here that can be
-                            // pressed (press_check.h)
+// How a person reaches for a surface and presses it. A pair is the least and the most of what is drawn evenly
+// between them, anew for each press.
+struct ReachRanges {
   std::vector<double> tilt{0.0, 0.35};                 // rad, of a reach from the surface normal
   std::vector<double> reach{0.060, 0.090};             // m, distance of its start from the touched point
   std::vector<double> peak_speed{0.2, 0.5};            // m/s, of its first, ballistic part
@@ -25,10 +22,28 @@ struct SessionSpec {
   std::vector<double> depth{0.003, 0.0065};            // m, wanted deflection
   std::vector<double> press_speed{0.002, 0.020};       // m/s, mean, down to the depth and back up
   std::vector<double> hold{0.2, 1.0}, rest{0.5, 2.0};  // s; rest: over the next place, before each reach
-  std::string other_tool;                              // taken at the change; empty: there is none
+};
+
+// Random radial presses of a ball, with one change of the tool [VHMR 4.4].
+struct SessionSpec : ReachRanges {
+  double duration = 120.0;  // s; a press that would not end in time is not begun
+  double polar_most = 0.8;  // rad from +z of W; places are even over the directions up to here that can be
+                            // pressed (press_check.h)
+  std::string other_tool;   // taken at the change; empty: there is none
   std::vector<double> change{0.4, 0.6};  // of the duration: after which the next pause is the change
   Vec3 tray{-0.150, 0.0, 0.060};         // in W, m: where the tip of the first tool lies while it is not
                                          // held; the other lies beside it (session_plan.h)
+};
+
+// Reaches of a bare finger from far away to random places of the objects of a scene, each object as often
+// [VisHap 2.2]. Planes, buttons, spheres.
+struct ReachesSpec : ReachRanges {
+  ReachesSpec()
+      : ReachRanges{{0.0, 0.7},     {0.16, 0.20},   {0.3, 0.8}, {0.05, 0.2},
+                    {0.002, 0.005}, {0.010, 0.040}, {0.0, 0.1}, {0.6, 1.0}} {}
+  std::int64_t count = 20;  // reaches
+  double spread = 0.030;    // m: of a plane, places are even over this around the point of it that is named
+  double polar_most = 0.8;  // rad: of a sphere, over the directions up to here from +z of W
 };
 
 // How a held tool trembles: one sine for each axis, or several between 8 and 12 Hz that wax and wane.
@@ -50,9 +65,13 @@ struct UserSpec {
   std::vector<double> approach{0.02};  // speed of the tool when it touches, m/s; one press for each entry
   double approach_from = 0.060;        // m, distance of the start from the touched point
   double approach_tilt = 0.5;          // rad, of the approach from the surface normal
-  std::int64_t repeats = 1;            // of the whole list
+  // While it holds: there and back along x of the surface's frame, m; at its fastest, m/s. A hold takes as
+  // long as that does.
+  double slide = 0.0, slide_speed = 0.030;
+  std::int64_t repeats = 1;  // of the whole list
   TremorForm tremor = TremorForm::sine;
   std::optional<SessionSpec> session;  // with kind "session", instead of the presses above
+  std::optional<ReachesSpec> reaches;  // with kind "reaches"
 };
 
 // The test rig of [VHMR 4.2, Fig 7]: the machine itself pushes a sphere into a real object and measures it.

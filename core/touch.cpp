@@ -1,4 +1,6 @@
 // The surface point nearest to the tool, its outward normal (the N frame) and the gap [VHMR 3.3].
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -22,8 +24,27 @@ NearestInWorld nearest(const Scene& scene, std::int32_t index, const Point<'W'>&
 
 namespace {
 
-// Another object must be nearer by this much to take over, so that a tool between two does not flicker.
-constexpr double kHysteresis = 1e-3;  // m
+// What is asked of the objects in this tick: of the finger or the tool, or of the tip.
+struct Query {
+  const Scene& scene;
+  const std::array<Moved, kMostMoving>& moved;
+  Point<'W'> p;
+  double radius = 0.0;  // of what asks, m
+};
+
+// The surface where it stands now.
+NearestInWorld nearest(const Query& query, std::int32_t index, ObjectHint& hint) noexcept {
+  const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
+  if (object.moving < 0) return stages::nearest(query.scene, index, query.p, hint);
+  const Vec<'W'> shift = shift_of(object, query.moved);
+  NearestInWorld found = stages::nearest(query.scene, index, query.p - shift, hint);
+  found.point = found.point + shift;
+  return found;
+}
+
+double least_distance(const Query& query, const Object& object) {
+  return object.least_distance(object.moving < 0 ? query.p : query.p - shift_of(object, query.moved));
+}
 
 struct Candidate {
   NearestInWorld at;
@@ -31,32 +52,64 @@ struct Candidate {
   ObjectHint hint;
 };
 
+bool is_button(const Query& query, std::int32_t index) {
+  const Surface& surface = query.scene.objects[static_cast<std::size_t>(index)].surface;
+  return std::holds_alternative<Button>(surface.shape());
+}
+// A button is touched on its face alone: beside it the gap is the way to its edge.
+bool beside(const Query& query, const ObjectHint& at) {
+  return at.feature == kButtonSide && is_button(query, at.object);
+}
+
+// The less, the sooner an object is taken. Another one must be nearer than that of last time by
+// follow.hysteresis, so that a tool between two does not flicker. But an arm renders what is touched: there
+// any object that is touched comes before all that are not.
+constexpr double kTouched = 10.0;  // m
+double score_of(const Query& query, const Candidate& found, double favour) {
+  const bool first = query.scene.has_arm && found.at.distance <= query.radius && !beside(query, found.hint);
+  return found.at.distance - favour - (first ? kTouched : 0.0);
+}
+double least_score(const Query& query, const Object& object) {
+  const double least = least_distance(query, object);
+  return query.scene.has_arm && least <= query.radius ? least - kTouched : least;
+}
+
 // The nearest object. Objects whose ball is farther than the best so far are not asked; the one of last time
 // is asked first, so that these are many.
-Candidate nearest_object(const Scene& scene, const Point<'W'>& query, std::int32_t last, Hints& hints) {
+Candidate nearest_object(const Query& query, std::int32_t last, Hints& hints) {
+  const std::vector<Object>& objects = query.scene.objects;
   Candidate best;
   Candidate second;
   const auto ask = [&](std::int32_t index) {
-    const double favour = index == last ? kHysteresis : 0.0;
     constexpr double kRounding = 1e-12;  // m
-    if (scene.objects[static_cast<std::size_t>(index)].least_distance(query) - favour - kRounding >
-        best.score)
-      return;
+    if (least_score(query, objects[static_cast<std::size_t>(index)]) - kRounding > best.score) return;
     Candidate found;
     for (const ObjectHint& hint : hints.tool)
       if (hint.object == index) found.hint = hint;
-    found.at = nearest(scene, index, query, found.hint);
-    found.score = found.at.distance - favour;
+    found.at = nearest(query, index, found.hint);
+    found.score = score_of(query, found, index == last ? query.scene.follow.hysteresis : 0.0);
     const bool tie = found.score == best.score;
     if (tie ? index < best.hint.object : !(found.score >= best.score)) std::swap(found, best);
     if (found.hint.object >= 0 && (found.score < second.score || second.hint.object < 0)) second = found;
   };
   if (last >= 0) ask(last);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  for (std::size_t i = 0; i < objects.size(); ++i)
     if (static_cast<std::int32_t>(i) != last) ask(static_cast<std::int32_t>(i));
   if (second.hint.object < 0) second.hint = hints.tool[hints.tool[0].object == best.hint.object ? 1 : 0];
   hints.tool = {best.hint, second.hint};
   return best;
+}
+
+// Of the object in contact. A finger at the rim of a button presses it until it is clearly beside it.
+NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHint& hint) {
+  const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
+  Query over = query;
+  if (is_button(query, index)) {
+    const Vec<'W'> shift = shift_of(object, query.moved);
+    const Point<'O'> p = object.X_WO.inverse() * (query.p - shift);
+    over.p = object.X_WO * object.surface.over_face(p, query.scene.contact.leave_gap) + shift;
+  }
+  return nearest(over, index, hint);
 }
 
 // The point under the tool moves no faster than the tool where the object bulges, and hardly faster where it
@@ -75,7 +128,7 @@ void touch_probed(Walk& walk, State& state) noexcept {
   state.object = walk.scene.probe->object;
   if (!walk.X_WH.valid()) return;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
-  const NearestInWorld found = nearest(object, walk.X_WH.origin());
+  const NearestInWorld found = stages::nearest(object, walk.X_WH.origin());
   walk.surface_point = found.point;
   walk.normal = found.normal;
   walk.gap = found.distance - walk.scene.tip_radius;
@@ -91,24 +144,25 @@ void touch(Walk& walk, State& state) noexcept {
   const bool by_tool = walk.scene.has_tracker;
   const Point<'W'> last_query = std::exchange(state.last_query, Point<'W'>());
   if (by_tool && !walk.tool_known) return;
-  const Point<'W'> query = by_tool ? walk.tool_tip : walk.X_WH.origin();
-  if (!query.finite()) return;
+  const Query query{walk.scene, state.moved, by_tool ? walk.tool_tip : walk.X_WH.origin(), walk.tool_radius};
+  if (!query.p.finite()) return;
   const bool engaged = state.mode == Mode::contact || state.mode == Mode::restore;
   Candidate best;
   if (engaged) {
     best.hint = state.hints.tool[0];
-    best.at = nearest(walk.scene, state.contact.object, query, best.hint);
+    best.at = pressed_surface(query, state.contact.object, best.hint);
     state.hints.tool[0] = best.hint;
   } else if (!walk.scene.objects.empty()) {
-    best = nearest_object(walk.scene, query, state.object, state.hints);
+    best = nearest_object(query, state.object, state.hints);
   }
   if (best.hint.object != state.object) state.entered = false;
   state.object = best.hint.object;
   walk.surface_point = best.at.point;
   walk.normal = best.at.normal;
   if (!by_tool) return;
-  walk.gap = best.at.distance - walk.tool_radius;
-  report_jump(walk, state, last_query, query);
+  walk.gap = best.hint.object >= 0 && beside(query, best.hint) ? best.at.distance
+                                                               : best.at.distance - walk.tool_radius;
+  report_jump(walk, state, last_query, query.p);
 }
 
 }  // namespace enc::stages

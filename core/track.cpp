@@ -31,8 +31,13 @@ void take_in(const Walk& walk, State& state) {
   if (rig.prediction == Prediction::hold) return;
   const TrackedTool& pose = state.tool.value;
   const Point<'T'>& tip = walk.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
+  // A finger that rests on a prop moves as slowly as it presses or slides. It does when the arm is pushed
+  // back; that it has come to the surface is only what is foreseen, before it has slowed down.
+  constexpr double kFelt = 0.2;  // N
+  const bool pressing = walk.scene.impedance && state.mode == Mode::contact &&
+                        -dot(state.force, state.contact.X_WN * Vec<'N'>(0, 0, 1)) > kFelt;
   observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip), walk.tick.t,
-          state.tip_motion);
+          state.tip_motion, pressing);
   // Nobody follows a tool that was away, so nothing has to be caught up.
   if (state.mode == Mode::away) state.tip_motion.behind = Vec<'W'>::zero();
 }
@@ -41,7 +46,7 @@ void take_in(const Walk& walk, State& state) {
 // touch before the poses show it, and would see the tool go on right through the machine.
 Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>& from,
                           const Point<'W'>& to) {
-  if (!walk.X_WH.valid()) return to;
+  if (!walk.X_WH.valid() || walk.scene.impedance) return to;
   const double apart = tool_radius + walk.scene.tip_radius;
   const Vec3 c = (from - walk.X_WH.origin()).e();
   const Vec3 way = (to - from).e();
@@ -136,7 +141,35 @@ void grip(Walk& walk) noexcept {
     walk.why |= kToolNotHeld;
 }
 
+namespace {
+
+// An arm's tip turns with its joints; what is felt is its place alone, so H keeps the axes of R.
+void track_arm(Walk& walk, State& state) {
+  const Stamped<ArmSample>& sample = walk.in.arm;
+  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.impedance->rig.stale) {
+    walk.why |= kTipLost;
+    return;
+  }
+  constexpr double kFastest = 20.0;  // m/s
+  const ArmSample& arm = sample.value;
+  bool usable = sample.health == Health::ok && arm.tip.finite() && arm.tip.e().norm() < 10.0 &&
+                arm.velocity.finite() && arm.velocity.norm() < kFastest &&
+                sample.t <= walk.tick.t + walk.tick.dt;
+  for (const double q : arm.joints) usable = usable && std::abs(q) < 100.0;  // false for NaN
+  if (!usable) {
+    walk.why |= kTipInvalid;
+    return;
+  }
+  walk.X_WH = walk.scene.X_WR * Pose<'R', 'H'>(Quat::Identity(), arm.tip);
+  walk.tip_velocity = walk.scene.X_WR * arm.velocity;
+  walk.jacobian = walk.scene.impedance->arm.jacobian(arm.joints);
+  state.started = true;
+}
+
+}  // namespace
+
 void track(Walk& walk, State& state) noexcept {
+  if (walk.scene.impedance) track_arm(walk, state);
   if (walk.scene.has_manipulator) track_tip(walk, state);
   if (walk.scene.has_tracker) track_tool(walk, state);
 }

@@ -17,6 +17,8 @@ struct TrackerRig {
   double measurement_noise =
       0.015e-3;  // m rms of a pose, along an axis; without what is the same in every pose
   double acceleration_noise = 0.055;  // m/s^2/sqrt(Hz): what the hand does, to constant_velocity,
+  // Up to here a pose that surprises raises the former, because the hand has changed its speed; 0: none does.
+  double surprise_noise = 0.0;
   double jerk_noise = 1.4;            // m/s^3/sqrt(Hz): and to constant_acceleration (fidelity 2)
   double longest_prediction = 0.100;  // s, then it slows down and stops (decisions 8)
   double stamp_late = 0.0;            // s: stamps are this much later than the exposure

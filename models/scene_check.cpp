@@ -79,14 +79,14 @@ void check_limits(const Setup& setup, const ObjectSpec& o, double most, const st
 
 void check_object(const Setup& setup, const ObjectSpec& o) {
   const std::string path = "object." + o.name;
-  if (o.shape == ShapeKind::plane) {
-    const double length = o.normal.norm();
-    if (!(std::abs(length - 1.0) < 1e-6)) {
-      const Vec3 n = length > 0 ? Vec3(o.normal / length) : Vec3(0, 0, 1);
+  if (o.shape == ShapeKind::plane || o.shape == ShapeKind::button) {
+    // Any other length has been mended by mend_normals().
+    if (!(std::abs(o.normal.norm() - 1.0) < 1e-6))
       fail(setup, path + ".normal",
-           fmt::format("'normal' has length {:.6g}; expected length 1; write it like 'normal = [{}, {}, {}]'",
-                       length, n.x(), n.y(), n.z()));
-    }
+           fmt::format(
+               "'normal' has length {:.6g} and no direction; expected length 1; write it like 'normal = "
+               "[0, 0, 1]'",
+               o.normal.norm()));
   } else if (o.shape == ShapeKind::sphere && o.limit >= o.radius) {
     fail(setup, path + ".limit_mm",
          fmt::format("'limit_mm' is {}; expected less than the radius, {} mm; lower it", mm(o.limit),
@@ -111,6 +111,7 @@ void check_object(const Setup& setup, const ObjectSpec& o) {
 
 // Called before and after the curves are there.
 void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
+  if (b.interaction.kind != Interaction::press) return check_interaction(setup, b);
   const std::string path = "behaviour." + b.name;
   const bool linear = !std::isnan(b.stiffness);
   if (linear && !b.response.empty()) {
@@ -167,6 +168,7 @@ void check_tip(const Setup& setup, const ToolSpec& tool) {
 }
 
 void check_tool(const Setup& setup, const ToolSpec& tool) {
+  if (setup.scene.arm) return check_finger(setup, tool);
   check_tip(setup, tool);
   const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
   if (tool.markers.size() < 3) {
@@ -203,6 +205,7 @@ void check_user(const Setup& setup) {
   check_named(setup, setup.scene.objects, setup.scene.user->object, "object");
   check_named(setup, setup.scene.tools, setup.scene.user->tool, "tool");
   check_session(setup);
+  check_reaches(setup);
 }
 
 // What the simulated ball is good for (sim/ball_plant.h). A real machine may press other things.
@@ -295,6 +298,7 @@ void check_rig(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   const RigSpec& r = setup.rig;
   check_driver(setup, s.manipulator.has_value(), "manipulator", r.manipulator.driver);
+  check_driver(setup, s.arm.has_value(), "arm", r.arm.driver);
   check_driver(setup, s.force.has_value(), "force", r.force.driver);
   check_driver(setup, s.tracker.has_value(), "tracker", r.tracker.driver);
   check_driver(setup, s.display.has_value(), "display", r.display.driver);
@@ -332,9 +336,11 @@ void check(const Setup& setup) {
   check_probe(setup);
   check_pusher(setup);
   check_gripper(setup);
+  check_arm(setup);
   check_rig(setup);
-  if (setup.twin.steps_per_tick(setup.rig.loop.rate) == 0) {
-    fail(setup, setup.twin.structural() ? "truth.structure.timestep_us" : "truth.world.timestep_us",
+  const sim::Stepping stepping = setup.twin.stepping(s.arm.has_value());
+  if (stepping.steps_per_tick(setup.rig.loop.rate) == 0) {
+    fail(setup, stepping.table + ".timestep_us",
          fmt::format(
              "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "
              "as 'timestep_us = {:g}'",

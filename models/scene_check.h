@@ -21,5 +21,10 @@ template <class T>
 }
 
 void check_session(const Setup& setup);  // [user.session]
+void check_reaches(const Setup& setup);  // [user.reaches]
+// arm_check.cpp
+void check_arm(const Setup& setup);
+void check_finger(const Setup& setup, const ToolSpec& tool);
+void check_interaction(const Setup& setup, const BehaviourSpec& behaviour);
 
 }  // namespace enc::models

@@ -81,6 +81,7 @@ void clear_absent_drivers(Setup& setup) {
   clear("rig.tracker", setup.rig.tracker.driver);
   clear("rig.display", setup.rig.display.driver);
   clear("rig.gripper", setup.rig.gripper.driver);
+  clear("rig.arm", setup.rig.arm.driver);
 }
 
 void read_rig(Setup& setup, const std::string& rig) {
@@ -204,6 +205,7 @@ ResponseSpec mixed_response(const Setup& setup, const BehaviourSpec& b, const st
 
 void fill_curves(Setup& setup, const std::string& models_dir) {
   for (BehaviourSpec& b : setup.scene.behaviours) {
+    if (b.interaction.kind != Interaction::press) continue;  // rendered from its stiffness alone
     if (b.response.empty()) {
       b.curves = {{b.stiffness, 0, 0, 0}, {b.stiffness, 0, 0, 0}, b.limit};
       continue;
@@ -229,10 +231,13 @@ void fill_curves(Setup& setup, const std::string& models_dir) {
   }
 }
 
-RigSpec load_rig(const std::string& rig) {
+RigSpec load_rig(const std::string& rig) { return load_rig_setup(rig).rig; }
+
+Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& overrides) {
   Setup setup;
   read_rig(setup, rig);
-  return setup.rig;
+  for (const std::string& text : overrides) set(setup, text);
+  return setup;
 }
 
 std::string place_of(const Setup& setup, std::string_view key) {
@@ -252,7 +257,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   Setup setup;
   setup.scene_path = scene_path;
   read_scene(setup);
-  read_rig(setup, rig);
+  read_rig(setup, !rig.empty() ? rig : setup.scene.rig.empty() ? "sim" : setup.scene.rig);
   // Behaviours come second, because --set may name another one for an object.
   const auto of_behaviour = [](const std::string& text) { return text.starts_with("behaviour."); };
   for (const std::string& text : overrides) {
@@ -262,7 +267,9 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   for (const std::string& text : overrides) {
     if (of_behaviour(text)) set(setup, text);
   }
+  mend_normals(setup);
   check(setup);
+  note_props(setup);
   fill_curves(setup, models_dir(scene_path));
   fill_meshes(setup, models_dir(scene_path));
   check_form(setup, models_dir(scene_path));

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/record.h"
+#include "core/record/record.h"
 #include "core/rig_spec.h"
 #include "core/scene_spec.h"
 #include "models/response_file.h"
@@ -22,11 +22,12 @@ struct Setup {
   sim::TwinSpec twin;
   std::string scene_path, rig_path;
   Places places;                   // of each key that a file or --set gives, under the name that --set takes
-  std::vector<std::string> notes;  // what was repaired in a mesh, one line each
+  std::vector<std::string> notes;  // what was repaired, and what is doubtful, one line each
 };
 
-// rig: "sim", or another file in models/rigs without ".toml", or a path. overrides:
-// "object.ball.radius_mm=30", "rig.force.filter_hz=20", "truth.tracker.bias_mm=[0,0,0]".
+// rig: "sim", or another file in models/rigs without ".toml", or a path; empty: the one that the scene is
+// made for, or "sim". overrides: "object.ball.radius_mm=30", "rig.force.filter_hz=20",
+// "truth.tracker.bias_mm=[0,0,0]".
 Setup load(const std::string& scene_path, const std::string& rig,
            const std::vector<std::string>& overrides = {});
 
@@ -54,6 +55,8 @@ std::string models_dir(const std::string& scene_path);
 ResponseSpec load_response(const std::string& path);
 // The rig alone: a name in models/rigs beside the program, or a path.
 RigSpec load_rig(const std::string& rig);
+// The rig with the simulator's truth, and no scene. overrides: as for load(), of rig and truth alone.
+Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& overrides = {});
 // The files of a folder ("scenes", "rigs", "responses") of models_dir, without ".toml", in order.
 std::vector<std::string> files_in(const std::string& models_dir, const std::string& folder);
 
@@ -64,7 +67,9 @@ void fill_curves(Setup& setup, const std::string& models_dir);
 // Finds, loads and checks the meshes of the objects: beside the scene or in models_dir/meshes, never
 // elsewhere.
 void fill_meshes(Setup& setup, const std::string& models_dir);
-void check(const Setup& setup);  // what one key alone does not show; throws
+void mend_normals(Setup& setup);  // to length 1; says so in the notes
+void note_props(Setup& setup);    // objects that want another prop than is mounted
+void check(const Setup& setup);   // what one key alone does not show; throws
 void round_to_text(
     Setup& setup);  // to the numbers that resolved() shows, so that a record repeats a run to the bit
 

@@ -20,12 +20,8 @@
 
 namespace enc::models {
 
-enum class Confidence : std::uint8_t {
-  published,
-  derived,
-  assumed,
-  chosen
-};                                                                   // chosen: by who writes the file
+// `chosen`: by who writes the file.
+enum class Confidence : std::uint8_t { published, derived, assumed, chosen };
 enum class Presence : std::uint8_t { defaulted, needed, optional };  // optional: may also be unset
 
 // In the file's unit; holds for every number of an array.
@@ -78,18 +74,40 @@ void describe(Visitor&, ResponseSpec&);
 void describe(Visitor&, ResponseFile&);
 void describe(Visitor&, RigSpec&);
 void describe(Visitor&, HexapodGeometry&);
+void describe(Visitor&, ArmRig&);
+void describe(Visitor&, PropSpec&);
+void describe(Visitor&, UserSpec&);
+void describe(Visitor&, InteractionSpec&);
+void describe(Visitor&, sim::ArmTruth&);
 void describe(Visitor&, std::string_view table, PoseSpec&);
 void describe(Visitor&, sim::TwinSpec&);
 // Everything, under the names that --set takes: the scene at the root, then behaviour, rig and truth.
 void describe_all(Visitor&, SceneSpec&, RigSpec&, sim::TwinSpec&);
 
 // For schema_*.cpp.
-// -----------------------------------------------------------------------------------------------------
 template <class Walk>
 void table(Visitor& visitor, std::string_view name, Walk walk) {
   if (!visitor.open(name, true)) return;
   walk();
   visitor.close();
+}
+
+// A table that is there only if it is named. Says whether it is.
+template <class Walk>
+bool table_if(Visitor& visitor, std::string_view name, bool there, Walk walk) {
+  if (!visitor.open(name, there)) return false;
+  walk();
+  visitor.close();
+  return true;
+}
+
+// A part that is there only if the scene names it.
+template <class T, class Walk>
+void part(Visitor& v, std::string_view name, std::optional<T>& item, Walk walk) {
+  if (!v.open(name, item.has_value())) return item.reset();
+  if (!item) item.emplace();
+  walk(*item);
+  v.close();
 }
 
 template <class Enum>

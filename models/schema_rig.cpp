@@ -74,6 +74,10 @@ void describe(Visitor& v, TrackerRig& t) {
   v.value({"acceleration_noise_m_s2_per_sqrt_hz", "what drives the tip, to constant_velocity", "fidelity 2",
            derived, kPositive},
           &t.acceleration_noise);
+  v.value({"surprise_noise_m_s2_per_sqrt_hz",
+           "a pose three sigma off raises the noise to constant_velocity, up to this; 0: it does not",
+           "docs/reaching.md", chosen, kNotNegative},
+          &t.surprise_noise);
   v.value({"jerk_noise_m_s3_per_sqrt_hz", "what drives the tip, to constant_acceleration", "fidelity 2",
            derived, kPositive},
           &t.jerk_noise);
@@ -216,6 +220,7 @@ void describe(Visitor& v, RigSpec& r) {
     describe(v, "H_F", r.frames.H_F);
   });
   table(v, "manipulator", [&] { describe(v, r.manipulator); });
+  if (!table_if(v, "arm", r.arm.driver != "none", [&] { describe(v, r.arm); })) r.arm.driver = "none";
   table(v, "force", [&] { describe(v, r.force); });
   table(v, "tracker", [&] { describe(v, r.tracker); });
   table(v, "display", [&] { describe(v, r.display); });

@@ -8,13 +8,11 @@ using enum Confidence;
 using enum Presence;
 
 constexpr std::array<std::string_view, 3> kTips{"sphere", "cone", "edge"};
-constexpr std::array<std::string_view, 3> kShapes{"plane", "sphere", "mesh"};
+constexpr std::array<std::string_view, 4> kShapes{"plane", "sphere", "mesh", "button"};
 constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
 constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ishlinskii"};
 constexpr std::array<std::string_view, 2> kWays{"one_way", "both_ways"};
 constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
-constexpr std::array<std::string_view, 2> kTremors{"sine", "band"};
-constexpr std::array<std::string_view, 2> kUsers{"press_release", "session"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
 
 Key name_key(std::string_view meaning) { return {"name", meaning, kAuthor, chosen, kAny, needed, {}, true}; }
@@ -27,15 +25,6 @@ void list(Visitor& v, std::string_view name, std::vector<T>& items, Walk walk) {
     walk(items[i]);
     v.close();
   }
-}
-
-// A part of the machine that is there only if the scene names it.
-template <class T, class Walk>
-void part(Visitor& v, std::string_view name, std::optional<T>& item, Walk walk) {
-  if (!v.open(name, item.has_value())) return item.reset();
-  if (!item) item.emplace();
-  walk(*item);
-  v.close();
 }
 
 void describe_mesh(Visitor& v, ObjectSpec& o) {
@@ -65,8 +54,13 @@ void describe(Visitor& v, ObjectSpec& o) {
   }
   if (o.shape == ShapeKind::mesh) describe_mesh(v, o);
   v.value({"position_mm", "where its origin O is in W", kAuthor, chosen, kAny, needed}, &o.position);
-  if (o.shape == ShapeKind::plane) {
-    v.value({"normal", "outward, of length 1, in W", kAuthor, chosen, {-1.0, 1.0}}, &o.normal);
+  if (o.shape == ShapeKind::plane || o.shape == ShapeKind::button)
+    v.value({"normal", "outward, of length 1, in W", kAuthor, chosen}, &o.normal);
+  if (o.shape == ShapeKind::button) {
+    v.value({"width_mm", "of its face", "[VisHap 2.2]", chosen, kPositive, needed}, &o.width);
+    v.value({"height_mm", "of its face", "[VisHap 2.2]", chosen, kPositive, needed}, &o.height);
+    v.value({"thickness_mm", "of the solid behind its face", "docs/objects.md", chosen, kPositive},
+            &o.thickness);
   }
   v.value({"behaviour",
            "how it pushes back: an entry of models/behaviours.toml; empty: a real thing, for [probe] alone",
@@ -82,8 +76,7 @@ void describe(Visitor& v, ObjectSpec& o) {
 
 void describe(Visitor& v, ToolSpec& t) {
   v.value(name_key("what --set, the user and the report call it"), &t.name);
-  v.value({"markers_mm", "at least 3 markers in T; the tool is recognised by them", "[VHMR 3.2]", chosen,
-           kAny, needed},
+  v.value({"markers_mm", "at least 3 markers in T; the tool is recognised by them", "[VHMR 3.2]", chosen},
           &t.markers);
   v.value({"tip_mm", "centre of the tip's sphere in T", "[VHMR 3.2]", chosen, kAny, needed}, &t.tip);
   v.value({"tip_radius_mm", "radius of the tip; 0: a point", kAuthor, chosen, kNotNegative}, &t.tip_radius);
@@ -116,85 +109,9 @@ void describe(Visitor& v, FollowSpec& f) {
           &f.pause);
   v.value({"resume_mm", "and is followed again when nearer than this", "fidelity 5", assumed, kPositive},
           &f.resume);
-}
-
-void describe_presses(Visitor& v, UserSpec& u) {
-  v.value({"depth_mm", "deflection that the user wants to see", "[VHMR 4.2]", chosen, kPositive}, &u.depth);
-  v.value({"depths_mm", "instead: of the first, second, ... press; the last stays; unset: all alike",
-           "[VHMR 4.3]", chosen, kPositive, optional},
-          &u.depths);
-  v.value(
-      {"push_N", "push with this force instead, whatever the depth", kAuthor, chosen, kPositive, optional},
-      &u.push);
-  v.value({"press_s", "from touch to depth", "decisions 1", chosen, kPositive}, &u.press_time);
-  v.value({"hold_s", "at depth", kAuthor, chosen, kNotNegative}, &u.hold_time);
-  v.value({"release_s", "from depth to touch", "decisions 1", chosen, kPositive}, &u.release_time);
-  v.value({"rest_s", "between two presses", kAuthor, chosen, kNotNegative}, &u.rest_time);
-  v.value({"approach_mm_s", "speeds of the tool at the touch; one press for each", "parameters 5.2", chosen,
-           kPositive},
-          &u.approach);
-  v.value({"approach_from_mm", "distance of the start from the touched point", kAuthor, chosen, kPositive},
-          &u.approach_from);
-  v.value({"approach_tilt_deg", "of the approach from the surface normal", kAuthor, chosen, {0.0, 80.0}},
-          &u.approach_tilt);
-  v.value({"repeats", "of the whole list of presses", kAuthor, chosen, {1.0, 1e6}}, &u.repeats);
-}
-
-// A pair is the least and the most of what is drawn.
-void describe(Visitor& v, SessionSpec& s) {
-  v.value({"duration_s", "of the session", "[VHMR 4.4]", published, kPositive}, &s.duration);
-  v.value({"polar_max_deg",
-           "places are even over the directions up to here from +z of W that can be pressed",
-           "[VHMR 4.4]",
-           assumed,
-           {0.0, 85.0}},
-          &s.polar_most);
-  v.value({"tilt_deg", "of a reach from the surface normal: least, most", kAuthor, assumed, {0.0, 60.0}},
-          &s.tilt);
-  v.value({"reach_mm", "from where a reach begins to the touched point: least, most", kAuthor, assumed,
-           kPositive},
-          &s.reach);
-  v.value({"peak_mm_s", "of the first, ballistic part of a reach: least, most", "parameters 5.2", published,
-           kPositive},
-          &s.peak_speed);
-  v.value({"touch_mm_s", "wanted at the surface: least, most", "parameters 5.2", assumed, kPositive},
-          &s.touch_speed);
-  v.value({"depth_mm", "wanted deflection: least, most", "[VHMR 4.2]", assumed, kPositive}, &s.depth);
-  v.value(
-      {"press_mm_s", "mean, of pressing and of releasing: least, most", "parameters 5.2", assumed, kPositive},
-      &s.press_speed);
-  v.value({"hold_s", "at depth: least, most", kAuthor, assumed, kNotNegative}, &s.hold);
-  v.value({"rest_s", "over the next place: least, most", kAuthor, assumed, kNotNegative}, &s.rest);
-  v.value({"other_tool", "that the user changes to, by name; empty: no change", "[VHMR 4.4]", chosen},
-          &s.other_tool);
-  v.value({"change_share",
-           "of the duration, after which the next pause is the change: least, most",
-           "[VHMR 4.4]",
-           assumed,
-           {0.0, 1.0}},
-          &s.change);
-  v.value({"tray_mm",
-           "in W: where the first tool's tip lies when it is not held; the other's 80 mm further "
-           "along y",
-           kAuthor, chosen},
-          &s.tray);
-}
-
-void describe(Visitor& v, UserSpec& u) {
-  v.value({"kind", "what the user does", kAuthor, chosen, kAny, defaulted, kUsers}, &u.kind);
-  v.value({"object", "pressed object, by name; empty: the first", kAuthor, chosen}, &u.object);
-  v.value({"tool", "held tool, by name; empty: the first", kAuthor, chosen}, &u.tool);
-  v.value({"azimuth_deg", "where on the object, from +x towards +y of W", kAuthor, chosen, {-360.0, 360.0}},
-          &u.azimuth);
-  v.value({"polar_deg", "where on the object, from +z of W; 0: from above", kAuthor, chosen, {0.0, 180.0}},
-          &u.polar);
-  v.value({"offset_mm", "sideways of the axis (indentation B)", "[VHMR 4.2]", chosen}, &u.offset);
-  describe_presses(v, u);
-  choice(
-      v,
-      {"tremor", "one sine for each axis, or a band of several that wax and wane", "parameters 5.2", assumed},
-      kTremors, u.tremor);
-  part(v, "session", u.session, [&](SessionSpec& session) { describe(v, session); });
+  v.value({"hysteresis_mm", "another object must be nearer by this to take over", "[VisHap 3]", assumed,
+           kNotNegative},
+          &f.hysteresis);
 }
 
 void describe(Visitor& v, ProbeSpec& p) {
@@ -269,6 +186,15 @@ void describe(Visitor& v, SceneSpec& s) {
            true},
           &s.format);
   v.value({"title", "what the experiment is, in a line", kAuthor, chosen}, &s.title);
+  v.value({"made_for",
+           "rig in models/rigs that it is made for; --rig says otherwise",
+           kAuthor,
+           chosen,
+           kAny,
+           defaulted,
+           {},
+           true},
+          &s.rig);
   list(v, "object", s.objects, [&](ObjectSpec& o) { describe(v, o); });
   list(v, "tool", s.tools, [&](ToolSpec& t) { describe(v, t); });
   table(v, "follow", [&] { describe(v, s.follow); });
@@ -276,6 +202,8 @@ void describe(Visitor& v, SceneSpec& s) {
     v.value({"kind", "which machine carries the haptic-tip", "[VHMR 2]", chosen, kAny, defaulted, kMachines},
             &m.kind);
   });
+  part(v, "arm", s.arm, [](ArmSpec&) {});
+  part(v, "prop", s.prop, [&](PropSpec& p) { describe(v, p); });
   part(v, "force", s.force, [](ForceSpec&) {});
   part(v, "tracker", s.tracker, [](TrackerSpec&) {});
   part(v, "display", s.display, [](DisplaySpec&) {});
@@ -361,7 +289,10 @@ void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
   v.value({"tangential_stiffness_N_per_mm", "of the sideways spring", "behaviours.toml", chosen, kPositive,
            sideways},
           &b.tangential_stiffness);
-  if (with_curves) table(v, "curves", [&] { describe(v, b.curves); });
+  const bool arm = b.interaction.kind != Interaction::press;
+  if (!table_if(v, "interaction", arm, [&] { describe(v, b.interaction); }))
+    b.interaction = InteractionSpec{};
+  if (with_curves && !arm) table(v, "curves", [&] { describe(v, b.curves); });
 }
 
 void describe_behaviours(Visitor& v, std::vector<BehaviourSpec>& behaviours, bool with_curves) {

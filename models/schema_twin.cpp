@@ -157,6 +157,26 @@ void describe(Visitor& v, sim::TrackerTruth& t) {
   v.value({"blackout_for_s", "and lasts this long", "injected", chosen, kNotNegative}, &t.blackout_for);
 }
 
+void describe(Visitor& v, sim::CameraTruth& c) {
+  v.value({"baseline_mm", "from the left camera to the right one", "parameters 7", published, kPositive},
+          &c.baseline);
+  v.value({"focal_px", "of both, 7.5 mm lenses at 640 x 480", "parameters 7", derived, kPositive}, &c.focal);
+  v.value({"width_px", "of an image", "parameters 7", assumed, {1.0, 10000.0}}, &c.width);
+  v.value({"height_px", "of an image", "parameters 7", assumed, {1.0, 10000.0}}, &c.height);
+  v.value({"rate_hz", "frames", "[VisHap 2.3.1]", published, kPositive}, &c.rate);
+  v.value({"matching_px", "rms of a frame, of the disparity", "parameters 7", assumed, kNotNegative},
+          &c.matching);
+  v.value({"pointing_px", "rms of a frame, of the place in the left image", "docs/registration.md", assumed,
+           kNotNegative},
+          &c.pointing);
+  v.value({"standing_px", "rms of the part that stays while nothing moves, of place and disparity",
+           "parameters 7", assumed, kNotNegative},
+          &c.standing);
+  v.value({"disparity_step_px", "smallest change of a disparity; 0: none", "parameters 7", published,
+           kNotNegative},
+          &c.disparity_step);
+}
+
 void describe(Visitor& v, sim::DisplayTruth& d) {
   v.value({"rate_hz", "frames", "parameters 6.1", assumed, kPositive}, &d.rate);
   v.value({"latency_ms", "from a frame to its surface at the core", "parameters 6.1", assumed, kNotNegative},
@@ -270,9 +290,11 @@ void describe(Visitor& v, sim::TwinSpec& t) {
   });
   table(v, "hexapod", [&] { describe(v, t.hexapod); });
   table(v, "structure", [&] { describe(v, t.structure); });
+  t.arm.there = table_if(v, "arm", t.arm.there, [&] { describe(v, t.arm); });
   table(v, "gripper", [&] { describe(v, t.gripper); });
   table(v, "force", [&] { describe(v, t.force); });
   table(v, "tracker", [&] { describe(v, t.tracker); });
+  table(v, "camera", [&] { describe(v, t.camera); });
   table(v, "display", [&] { describe(v, t.display); });
   table(v, "contact", [&] { describe(v, t.contact); });
   table(v, "hand", [&] { describe(v, t.hand); });

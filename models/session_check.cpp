@@ -9,36 +9,69 @@
 namespace enc::models {
 namespace {
 
-void check_pair(const Setup& setup, const std::string& key, const std::vector<double>& pair) {
+void check_pair(const Setup& setup, const std::string& table, const std::string& key,
+                const std::vector<double>& pair) {
   if (pair.size() == 2 && pair[0] <= pair[1]) return;
-  fail(setup, "user.session." + key,
+  fail(setup, table + "." + key,
        fmt::format(
            "'{}' has {}; expected the least and the most; write it like '{} = [1, 2]'", key,
            pair.size() == 2 ? "its first number above its second" : fmt::format("{} numbers", pair.size()),
            key));
 }
 
+void check_ranges(const Setup& setup, const std::string& table, const ReachRanges& r) {
+  for (const auto& [key, pair] : {std::pair{"tilt_deg", &r.tilt},
+                                  {"reach_mm", &r.reach},
+                                  {"peak_mm_s", &r.peak_speed},
+                                  {"touch_mm_s", &r.touch_speed},
+                                  {"depth_mm", &r.depth},
+                                  {"press_mm_s", &r.press_speed},
+                                  {"hold_s", &r.hold},
+                                  {"rest_s", &r.rest}})
+    check_pair(setup, table, key, *pair);
+}
+
+// A kind of user that is drawn has a table of its own name; then it presses to a depth.
+bool has_table(const Setup& setup, const std::string& kind, bool there) {
+  const UserSpec& user = *setup.scene.user;
+  if (there != (user.kind == kind))
+    fail(setup, there ? "user." + kind : "user.kind",
+         fmt::format(
+             "'kind' is {} and there is {} [user.{}]; expected both or none; {}", quoted(user.kind),
+             there ? "a" : "no", kind,
+             there ? fmt::format("write 'kind = \"{}\"' or remove the table", kind) : "add the table"));
+  if (there && !std::isnan(user.push))
+    fail(setup, "user.push_N",
+         fmt::format("a user of kind {} presses to a depth; expected no 'push_N'; remove it", quoted(kind)));
+  return there;
+}
+
 }  // namespace
+
+void check_reaches(const Setup& setup) {
+  const UserSpec& user = *setup.scene.user;
+  if (!has_table(setup, "reaches", user.reaches.has_value())) return;
+  check_ranges(setup, "user.reaches", *user.reaches);
+  for (const ObjectSpec& object : setup.scene.objects)
+    if (object.shape == ShapeKind::mesh)
+      fail(setup, fmt::format("object.{}.shape", object.name),
+           fmt::format("a user of kind \"reaches\" reaches for every object and {} is a mesh; expected "
+                       "planes, buttons and spheres; write 'kind = \"press_release\"' for one object",
+                       quoted(object.name)));
+  const double farthest = user.reaches->reach[1];
+  if (!(farthest > setup.scene.follow.pause))
+    fail(setup, "user.reaches.reach_mm",
+         fmt::format("a reach begins {} mm from its place at most; expected more than 'follow.pause_mm', {} "
+                     "mm, so that the finger is away before; raise it",
+                     mm(farthest), mm(setup.scene.follow.pause)));
+}
 
 void check_session(const Setup& setup) {
   const UserSpec& user = *setup.scene.user;
-  if (user.session.has_value() != (user.kind == "session"))
-    fail(setup, user.session ? "user.session" : "user.kind",
-         fmt::format("'kind' is {} and there is {} [user.session]; expected both or none; {}",
-                     quoted(user.kind), user.session ? "a" : "no",
-                     user.session ? "write 'kind = \"session\"' or remove the table" : "add the table"));
-  if (!user.session) return;
+  if (!has_table(setup, "session", user.session.has_value())) return;
   const SessionSpec& s = *user.session;
-  for (const auto& [key, pair] : {std::pair{"tilt_deg", &s.tilt},
-                                  {"reach_mm", &s.reach},
-                                  {"peak_mm_s", &s.peak_speed},
-                                  {"touch_mm_s", &s.touch_speed},
-                                  {"depth_mm", &s.depth},
-                                  {"press_mm_s", &s.press_speed},
-                                  {"hold_s", &s.hold},
-                                  {"rest_s", &s.rest},
-                                  {"change_share", &s.change}})
-    check_pair(setup, key, *pair);
+  check_ranges(setup, "user.session", s);
+  check_pair(setup, "user.session", "change_share", s.change);
   const auto first = [](const auto& items, const std::string& name) -> const auto& {
     const auto named =
         std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.name == name; });
@@ -51,8 +84,6 @@ void check_session(const Setup& setup) {
         fmt::format("a session presses a ball and {} is none; expected a sphere; name one, or write 'shape = "
                     "\"sphere\"'",
                     quoted(object.name)));
-  if (!std::isnan(user.push))
-    fail(setup, "user.push_N", "a session presses to a depth; expected no 'push_N'; remove it");
   if (s.other_tool.empty()) return;
   const std::vector<std::string> tools = names_of(setup.scene.tools);
   if (std::find(tools.begin(), tools.end(), s.other_tool) == tools.end())

@@ -31,6 +31,7 @@ constexpr auto kUnits = std::to_array<Unit>({{"_m_s2_per_sqrt_hz", "m/s^2/sqrt(H
                                              {"_kPa", "kPa", 3},
                                              {"_mm", "mm", -3},
                                              {"_um", "um", -6},
+                                             {"_px", "px"},
                                              {"_ms", "ms", -3},
                                              {"_us", "us", -6},
                                              {"_hz", "Hz"},

@@ -17,17 +17,28 @@ class SimManipulator final : public Manipulator {
  public:
   SimManipulator(World& world, const HexapodTruth& truth) : world_(world), truth_(truth) {}
   [[nodiscard]] Reach reach() const override {
-    return {truth_.speed, truth_.acceleration, world_.machine.machine()};
+    return {truth_.speed, truth_.acceleration, world_.machine->machine()};
   }
   Stamped<TipSample> read() noexcept override {
-    const HexapodPlant::State& s = world_.machine.state();
+    const HexapodPlant::State& s = world_.machine->state();
     return {{s.pose, s.velocity, s.acceleration}, world_.truth().t, s.health};
   }
-  void command(const Pose<'R', 'H'>& X_RH) noexcept override { world_.machine.command(X_RH); }
+  void command(const Pose<'R', 'H'>& X_RH) noexcept override { world_.machine->command(X_RH); }
 
  private:
   World& world_;
   HexapodTruth truth_;
+};
+
+class SimArm final : public HapticArm {
+ public:
+  explicit SimArm(World& world) : world_(world) {}
+  Stamped<ArmSample> read() noexcept override { return world_.arm->state().sample; }
+  void command(const Vec<'R'>& force) noexcept override { world_.arm->command(force); }
+  void drive(double speed) noexcept override { world_.arm->drive_surface(speed); }
+
+ private:
+  World& world_;
 };
 
 class SimForceSensor final : public ForceSensor {
@@ -73,7 +84,8 @@ class SimGripper final : public Gripper {
 Rig World::rig() {
   Rig rig;
   rig.clock = std::make_unique<SimClock>(*this);
-  rig.manipulator = std::make_unique<SimManipulator>(*this, twin_.hexapod);
+  if (arm) rig.arm = std::make_unique<SimArm>(*this);
+  if (machine) rig.manipulator = std::make_unique<SimManipulator>(*this, twin_.hexapod);
   if (force) rig.force = std::make_unique<SimForceSensor>(*this);
   if (tracker) rig.tracker = std::make_unique<SimTracker>(*this);
   if (display) rig.display = std::make_unique<SimDisplay>(*this);

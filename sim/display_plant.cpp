@@ -1,6 +1,6 @@
 #include "sim/display_plant.h"
 
-#include "core/dent.h"
+#include "core/dent/dent.h"
 #include "core/error.h"
 
 namespace enc::sim {

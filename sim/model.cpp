@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/error.h"
+#include "sim/arm/arm_model.h"
 #include "sim/legs.h"
 #include "sim/seen_surface.h"
 
@@ -55,9 +56,22 @@ void draw_tool(mjsBody* body, const ToolSpec& tool, const Quat& q, const Vec3& t
     drawn(body, mjGEOM_SPHERE, placed(marker), {0.006, 0, 0}, {0.8F, 0.8F, 0.85F, 1});
     middle += placed(marker) / static_cast<double>(tool.markers.size());
   }
+  if (tool.markers.empty()) return;
   mjsGeom* shaft = drawn(body, mjGEOM_CAPSULE, Vec3::Zero(), {0.003, 0, 0}, {0.2F, 0.4F, 0.7F, 1});
   set3(shaft->fromto, tip);
   set3(shaft->fromto + 3, middle);
+}
+
+// A fingertip is a tool without markers. Its last two joints, slightly bent.
+void draw_finger(mjsBody* body, const Vec3& to_hand, double radius) {
+  constexpr std::array<float, 4> kSkin{0.87F, 0.66F, 0.54F, 1};
+  const Vec3 bent = (to_hand + 0.4 * to_hand.unitOrthogonal()).normalized();
+  const Vec3 joint = 0.024 * to_hand;
+  for (const auto& [from, to] : {std::pair<Vec3, Vec3>{Vec3::Zero(), joint}, {joint, joint + 0.03 * bent}}) {
+    mjsGeom* bone = drawn(body, mjGEOM_CAPSULE, Vec3::Zero(), {0.95 * radius, 0, 0}, kSkin);
+    set3(bone->fromto, from);
+    set3(bone->fromto + 3, to);
+  }
 }
 
 // A child of the tip's body: a weld to it would err by 128 um at 40 mm/s (decisions 24). It touches nothing.
@@ -104,6 +118,13 @@ void add_machine(mjSpec* spec, const ModelParts& parts) {
   Legs::build(spec, Hexapod(parts.twin.hexapod.geometry), parts.twin.structure, moved);
 }
 
+void add_arm(mjSpec* spec, const ModelParts& parts) {
+  const ArmMachine machine = true_machine(parts.twin.arm);
+  build_arm(spec, {machine, parts.twin.arm, parts.scene.prop ? &*parts.scene.prop : nullptr, parts.X_WR,
+                   parts.draw_all});
+  spec->option.disableflags |= mjDSBL_MIDPHASE;  // its boxes do not follow a prop that turns on its body
+}
+
 void add_sensor(mjSpec* spec, mjtSensor type, const char* text) {
   mjsSensor* sensor = mjs_addSensor(spec);
   sensor->type = type;
@@ -132,9 +153,13 @@ void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const
   colour(tip, {0.85F, 0.85F, 0.20F, 1});
   hard_contact(tip, parts.twin.world);
   draw_tool(body, tool, parts.q_WT, Vec3::Zero());
+  if (tool.markers.empty()) draw_finger(body, parts.finger, tip->size[0]);
 }
 
 mjsGeom* draw_object(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
+  if (object.shape == ShapeKind::button)  // its face is at z = 0 of O
+    return drawn(mjs_findBody(spec, "world"), mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.002),
+                 {0.5 * object.width, 0.5 * object.height, 0.002}, {0.85F, 0.35F, 0.30F, 0.55F});
   if (object.shape == ShapeKind::plane)
     return drawn(mjs_findBody(spec, "world"), mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.001),
                  {0.08, 0.08, 0.001}, {0.4F, 0.6F, 0.9F, 0.4F});
@@ -159,20 +184,20 @@ void add_pictures(mjSpec* spec, const ModelParts& parts) {
   }
 }
 
-mjtIntegrator integrator_of(const TwinSpec& twin) {
+mjtIntegrator integrator_of(const Stepping& stepping) {
   constexpr std::array<std::pair<std::string_view, mjtIntegrator>, 5> kIntegrators{
       {{"euler", mjINT_EULER},
        {"rk4", mjINT_RK4},
        {"implicit", mjINT_IMPLICIT},
        {"implicitfast", mjINT_IMPLICITFAST},
        {"discrete", mjINT_DISCRETE}}};
-  const std::string& wanted = twin.structural() ? twin.structure.integrator : twin.world.integrator;
+  const std::string& wanted = stepping.integrator;
   const auto* found = std::find_if(kIntegrators.begin(), kIntegrators.end(),
                                    [&](const auto& i) { return wanted == i.first; });
   if (found == kIntegrators.end())
     throw Error(
         "unknown integrator '" + wanted + "'; expected euler, rk4, implicit, implicitfast or discrete",
-        twin.structural() ? "truth.structure.integrator" : "truth.world.integrator");
+        stepping.table + ".integrator");
   return found->second;
 }
 
@@ -181,22 +206,30 @@ mjtIntegrator integrator_of(const TwinSpec& twin) {
 SpecPtr build_model(const ModelParts& parts) {
   install_mujoco_handlers();  // attaching warns on standard output otherwise
   SpecPtr spec(mj_makeSpec());
-  spec->option.timestep = parts.twin.timestep();
+  const Stepping stepping = parts.twin.stepping(parts.scene.arm.has_value());
+  spec->option.timestep = stepping.timestep;
   set3(spec->option.gravity, {0, 0, -9.80665});
-  spec->option.integrator = integrator_of(parts.twin);
+  spec->option.integrator = integrator_of(stepping);
   // Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds.
   spec->option.cone = mjCONE_ELLIPTIC;
   spec->option.impratio = 20.0;
-  spec->option.noslip_iterations = 4;
-  add_machine(spec.get(), parts);
+  // Not with an arm: that pass changes the dry friction of its joints after the contact forces are found, and
+  // a pressed finger is let go for a tick whenever the arm begins to slip.
+  spec->option.noslip_iterations = parts.scene.arm ? 0 : 4;
+  // All its parts hang together: islands would only be looked for (8 % of the run time).
+  if (parts.scene.arm) spec->option.disableflags |= mjDSBL_ISLAND;
+  if (parts.scene.arm)
+    add_arm(spec.get(), parts);
+  else
+    add_machine(spec.get(), parts);
   if (parts.scene.force) {
     add_sensor(spec.get(), mjSENS_FORCE, "force");
     add_sensor(spec.get(), mjSENS_TORQUE, "torque");
   }
   if (parts.tool != nullptr)
     add_tool(spec.get(), parts, *parts.tool, "tool");
-  else
-    spec->option.disableflags |= mjDSBL_CONTACT | mjDSBL_CONSTRAINT;  // nothing can touch
+  else  // nothing can touch, and a hexapod has no other constraint
+    spec->option.disableflags |= mjDSBL_CONTACT | (parts.scene.arm ? 0 : mjDSBL_CONSTRAINT);
   if (parts.other != nullptr) add_tool(spec.get(), parts, *parts.other, "other_tool");
   if (parts.draw_all) add_pictures(spec.get(), parts);
   return spec;

@@ -21,6 +21,7 @@ struct ModelParts {
   std::string mjcf_dir;               // models/mjcf
   bool draw_all = false;              // also legs, objects and lights, for a picture
   const ToolSpec* other = nullptr;    // that the user changes to
+  Vec3 finger{0, 0, 1};               // of a tool without markers: from its tip to the hand, unit
 };
 
 [[nodiscard]] SpecPtr build_model(const ModelParts& parts);

@@ -60,7 +60,8 @@ std::vector<std::byte> World::save() const {
   Saver saver;
   const std::vector<double> physics = physics_.save();
   saver.put_bytes(physics.data(), physics.size() * sizeof(double));
-  saver.put(machine.state());
+  if (machine) saver.put(machine->state());
+  if (arm) saver.put(arm->state());
   if (force) saver.put(force->state());
   if (tracker) saver.put(tracker->state());
   if (display) saver.put(display->state());
@@ -78,7 +79,8 @@ void World::restore(const std::vector<std::byte>& saved) {
   Restorer from(saved);
   std::vector<double> physics = physics_.save();
   from.take_bytes(physics.data(), physics.size() * sizeof(double));
-  machine.restore(from.take<HexapodPlant::State>());
+  if (machine) machine->restore(from.take<HexapodPlant::State>());
+  if (arm) arm->restore(from.take<ArmPlant::State>());
   if (force) force->restore(from.take<ForcePlant::State>());
   if (tracker) tracker->restore(from.take<TrackerPlant::State>());
   if (display) display->restore(from.take<DisplayPlant::State>());

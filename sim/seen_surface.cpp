@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/dent.h"
+#include "core/dent/dent.h"
 #include "core/error.h"
 
 namespace enc::sim {

@@ -1,4 +1,5 @@
-// What sensors and display really do: [truth.force], [truth.tracker], [truth.display]. A part of twin_spec.h.
+// What sensors and display really do: [truth.force], [truth.tracker], [truth.camera], [truth.display]. A part
+// of twin_spec.h.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +48,21 @@ struct TrackerTruth {
   double loss = 0.0;                            // share of packets lost
   double blackout_at = kUnset;                  // s: one drop-out from here
   double blackout_for = 0.0;                    // s long
+};
+
+// The stereo head of [VisHap 2], as far as it decides where a point is believed to be: a rectified pair of
+// pinholes. Its left camera is C: x along the image's rows, y down its columns, z into the scene. STH-MDCS
+// with 7.5 mm lenses, 1280 x 960 binned to 640 x 480 (parameters 7).
+struct CameraTruth {
+  double baseline = 0.090;             // m, from the left camera to the right one
+  double focal = 721.0;                // px
+  std::int64_t width = 640;            // px
+  std::int64_t height = 480;           // px
+  double rate = 20.0;                  // Hz, frames
+  double matching = 0.20;              // px rms, each frame, of the disparity
+  double pointing = 0.15;              // px rms, each frame, of the place in the left image
+  double standing = 0.05;              // px rms, of all three: stays for as long as what is seen stands still
+  double disparity_step = 1.0 / 16.0;  // px
 };
 
 struct DisplayTruth {

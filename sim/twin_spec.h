@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/rig_spec.h"
+#include "sim/arm/arm_spec.h"
 #include "sim/machine_spec.h"
 #include "sim/sensor_spec.h"
 
@@ -73,14 +74,29 @@ struct BallTruth {
   Vec3 misplaced{0, 0, 0};         // of the ball against where the scene says it is, m
 };
 
+struct Stepping {
+  double timestep;  // s
+  std::string integrator;
+  std::string table;  // of the file, that has both
+
+  // Physics steps in a haptic period (rate in Hz); 0 where the time step does not divide it.
+  [[nodiscard]] int steps_per_tick(double rate) const {
+    const double steps = 1.0 / (rate * timestep);
+    const double whole = std::round(steps);
+    return whole >= 1.0 && std::abs(steps - whole) <= 1e-6 ? static_cast<int>(whole) : 0;
+  }
+};
+
 struct TwinSpec {
   WorldTruth world;
   FramesTruth frames;
   HexapodTruth hexapod;
   StructureTruth structure;
+  ArmTruth arm;
   GripperTruth gripper;
   ForceTruth force;
   TrackerTruth tracker;
+  CameraTruth camera;
   DisplayTruth display;
   ContactTruth contact;
   HandTruth hand;
@@ -88,12 +104,11 @@ struct TwinSpec {
   PusherTruth pusher;
 
   [[nodiscard]] bool structural() const { return hexapod.form == HexapodForm::structural; }
-  [[nodiscard]] double timestep() const { return structural() ? structure.timestep : world.timestep; }  // s
-  // Physics steps in a haptic period (rate in Hz); 0 where the time step does not divide it.
-  [[nodiscard]] int steps_per_tick(double rate) const {
-    const double steps = 1.0 / (rate * timestep());
-    const double whole = std::round(steps);
-    return whole >= 1.0 && std::abs(steps - whole) <= 1e-6 ? static_cast<int>(whole) : 0;
+  // How the physics steps: an arm, a structural hexapod and all other worlds have keys of their own.
+  [[nodiscard]] Stepping stepping(bool has_arm) const {
+    if (has_arm) return {arm.timestep, arm.integrator, "truth.arm"};
+    if (structural()) return {structure.timestep, structure.integrator, "truth.structure"};
+    return {world.timestep, world.integrator, "truth.world"};
   }
 };
 

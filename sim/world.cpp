@@ -37,14 +37,6 @@ std::optional<User> make_user(const WorldSpec& spec, const ToolSpec* tool) {
   return User(spec.scene, spec.prepared, spec.twin.hand, spec.seed);
 }
 
-// Built so that H would be W at the machine's zero, then put wrong: about W, so that a turn alone moves
-// nothing there.
-Pose<'W', 'R'> true_base(const WorldSpec& spec) {
-  const Hexapod machine(spec.twin.hexapod.geometry);
-  const Quat turned = rotation_xyz(spec.twin.hexapod.turned);
-  return {turned, Vec3(spec.twin.hexapod.misplaced - turned * machine.zero().p())};
-}
-
 // A clamped tool stands on the haptic-tip: its tip at H, its shaft along z.
 Pose<'H', 'T'> clamped_pose(const ToolSpec* tool) {
   if (tool == nullptr) return Pose<'H', 'T'>::identity();
@@ -52,42 +44,36 @@ Pose<'H', 'T'> clamped_pose(const ToolSpec* tool) {
   return {q, Vec3(-(q * tool->tip))};
 }
 
-BallContact probed_ball(const WorldSpec& spec) {
-  const ObjectSpec& object = probed_object(spec.scene);
-  if (object.shape != ShapeKind::sphere)
-    throw Error("the simulated rig has a real ball and nothing else to press; expected shape = \"sphere\"",
-                "object." + object.name + ".shape");
-  constexpr double kDeepest = 8e-3;  // m: the end of the plant's table
-  if (spec.prepared.probe->depth > kDeepest)
-    throw Error("the law of the simulated ball ends at 8 mm; lower depth_mm", "probe.depth");
-  return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
-}
-
-SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, std::int32_t other, const Quat& q_WT,
-                 const Pose<'W', 'R'>& X_WR) {
+SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const std::optional<User>& user,
+                 const Quat& q_WT, const Pose<'W', 'R'>& X_WR) {
   const ToolSpec* clamped = clamped_tool(spec.scene);
+  const std::int32_t other = user ? user->other_tool() : -1;
+  // A finger points to where it comes from.
+  const Vec3 finger =
+      user ? (user->start() - enc::press_point(spec.scene, *spec.scene.user).point).e().normalized()
+           : Vec3(Vec3::UnitZ());
   return build_model({spec.scene, spec.prepared, spec.twin, tool, q_WT, clamped, clamped_pose(clamped), X_WR,
                       spec.mjcf_dir, spec.draw_all,
-                      other < 0 ? nullptr : &spec.scene.tools[static_cast<std::size_t>(other)]});
+                      other < 0 ? nullptr : &spec.scene.tools[static_cast<std::size_t>(other)], finger});
 }
 
 int whole_steps(const WorldSpec& spec) {
-  const int steps = spec.twin.steps_per_tick(spec.rig.loop.rate);
+  const Stepping stepping = spec.twin.stepping(spec.scene.arm.has_value());
+  const int steps = stepping.steps_per_tick(spec.rig.loop.rate);
   if (steps == 0)
-    throw Error("the physics time step must divide the haptic period",
-                spec.twin.structural() ? "truth.structure.timestep" : "truth.world.timestep");
+    throw Error("the physics time step must divide the haptic period", stepping.table + ".timestep");
   return steps;
 }
 
 }  // namespace
 
 World::World(const WorldSpec& spec)
-    : machine(spec.twin.hexapod, spec.seed),
-      twin_(spec.twin),
+    : twin_(spec.twin),
+      prepared_(spec.prepared),
       dt_(1.0 / spec.rig.loop.rate),
       steps_per_tick_(whole_steps(spec)),
       clamped_(spec.prepared.clamped_tool),
-      X_WR_(true_base(spec)),
+      X_WR_(spec.scene.arm ? arm_base(spec.twin.arm) : hexapod_base(spec.twin.hexapod)),
       X_HF_(pose_of<'H', 'F'>(spec.twin.frames.H_F)),
       q_WT_(held_tool(spec.scene) == nullptr
                 ? Quat::Identity()
@@ -95,38 +81,16 @@ World::World(const WorldSpec& spec)
                                    enc::press_point(spec.scene, *spec.scene.user).normal.e())),
       X_HT_(clamped_pose(clamped_tool(spec.scene))),
       user_(make_user(spec, held_tool(spec.scene))),
-      physics_(model_of(spec, held_tool(spec.scene), user_ ? user_->other_tool() : -1, q_WT_, X_WR_)) {
+      physics_(model_of(spec, held_tool(spec.scene), user_, q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
   if (spec.scene.tracker)
     tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);
   if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
-  if (spec.prepared.probe) ball.emplace(probed_ball(spec));
-  if (spec.scene.pusher)
-    pusher.emplace(*spec.scene.pusher, spec.twin.pusher, pushed_point(spec.scene, spec.prepared),
-                   spec.prepared.tip_radius, spec.seed);
   if (user_) programme_time_ = user_->duration();
-  if (pusher) programme_time_ = pusher->duration();
-  if (ball) programme_time_ = enc::programme_time(spec.prepared);
-  if (spec.prepared.travel) programme_time_ = spec.prepared.travel->duration();
   if (spec.scene.gripper) gripper.emplace(spec.twin.gripper, spec.seed);
-  const mjModel* m = physics_.model();
-  const int platform = physics_.id(mjOBJ_JOINT, "platform");
-  platform_qpos_ = m->jnt_qposadr[platform];
-  platform_qvel_ = m->jnt_dofadr[platform];
-  const int platform_body = physics_.id(mjOBJ_BODY, "platform");
-  if (spec.twin.structural())
-    legs.emplace(spec.twin.structure, machine.machine(), physics_, X_WR_);
-  else
-    physics_.data()->xfrc_applied[6 * platform_body + 2] =
-        kGravity * m->body_subtreemass[platform_body];  // it floats
-  tip_geom_ = physics_.id(mjOBJ_GEOM, "haptic_tip");
-  tip_body_ = m->geom_bodyid[tip_geom_];
-  mass_behind_ = m->body_subtreemass[physics_.id(mjOBJ_BODY, "behind_sensor")];
   next_.dt = from_seconds(dt_);
-  truth_.tip_radius = m->geom_size[3 * tip_geom_];
   if (user_) find_tools(spec.scene);
-  place_machine(machine.true_pose());
-  if (legs) legs->drive(physics_.data(), leg_motion(), leg_motion(), dt_);
+  spec.scene.arm ? set_up_arm(spec) : set_up_hexapod(spec);
   mj_forward(physics_.model(), physics_.data());
   observe(next_.t);
 }
@@ -146,46 +110,10 @@ void World::find_tools(const SceneSpec& scene) {
   truth_.tool_radius = tools_.front().radius;
 }
 
-// The platform's pose and velocity are prescribed. Not a mocap body: that has no velocity, so a contact with
-// a tip that moves away at 1 mm/s was damped as if the tip stood still, and was lost for single steps.
-void World::place_machine(const Pose<'R', 'H'>& from) {
-  const HexapodPlant::State& to = machine.state();
-  const Pose<'W', 'H'> X_WH = X_WR_ * from;
-  mjData* d = physics_.data();
-  std::copy_n(X_WH.xyz.begin(), 3, d->qpos + platform_qpos_);
-  double* q = d->qpos + platform_qpos_ + 3;
-  q[0] = X_WH.xyzw[3];
-  std::copy_n(X_WH.xyzw.begin(), 3, q + 1);
-  const Vec3 velocity = X_WR_.q() * to.velocity.e();
-  const Vec3 turning = from.q().conjugate() * to.turning.e();  // MuJoCo wants it in the body's axes
-  std::copy_n(velocity.data(), 3, d->qvel + platform_qvel_);
-  std::copy_n(turning.data(), 3, d->qvel + platform_qvel_ + 3);
-}
-
-LegMotion World::leg_motion() const {
-  return legs->at(machine.true_pose(), machine.state().velocity, machine.state().turning);
-}
-
 void World::physics_step(double t) {
   const double h = physics_.model()->opt.timestep;
-  mjData* d = physics_.data();
   if (user_) hold_tools(t, h);
-  const Pose<'W', 'H'> from = true_tip();
-  if (legs) {
-    const LegMotion wanted = leg_motion();
-    machine.move(h);
-    legs->drive(d, wanted, leg_motion(), h);
-  } else {
-    const Pose<'R', 'H'> placed = machine.true_pose();
-    machine.move(h);
-    place_machine(placed);
-  }
-  // Placed, the probe gets to the machine's new pose in this step; carried by legs it is where physics has
-  // it.
-  if (by_own_law()) {
-    const Point<'W'> to = legs ? from.origin() : X_WR_ * machine.true_pose().origin();
-    ball ? press_ball(from, to, h) : push_tip(from, to, t, h);
-  }
+  arm ? drive_arm(h) : move_machine(t, h);
   try {
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
@@ -218,38 +146,6 @@ void World::hold_tools(double t, double h) {
   }
 }
 
-// The ball pushes where the probe gets to in this step, so that force and pose of a tick belong together.
-void World::press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h) {
-  ball->move(to, h);
-  const BallContact::State& pressed = ball->state();
-  apply(pressed.force, pressed.touched, X_WH, to);
-  truth_.penetration = pressed.penetration;
-}
-
-// Likewise what pushes from outside.
-void World::push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h) {
-  if (force && pusher->near(t, h, twin_.force.drift_ahead)) force->begin_push();
-  const Vec<'W'> velocity(Vec3(Eigen::Map<const Vec3>(physics_.data()->qvel + platform_qvel_)));
-  const Vec<'W'> pushed = pusher->act(t, h, to, velocity);
-  apply(pushed, to + truth_.tip_radius * pusher->normal(), X_WH, to);
-}
-
-// A force on the haptic-tip, whose centre gets to `to` in this step.
-void World::apply(const Vec<'W'>& pushed, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
-                  const Point<'W'>& to) {
-  const mjModel* m = physics_.model();
-  // MuJoCo wants force and torque at the body's centre of mass, which in this step is still where it was.
-  const double* middle = m->body_ipos + 3 * tip_body_;
-  const Point<'W'> centre = X_WH * Point<'H'>(middle[0], middle[1], middle[2]);
-  const Vec3 shift = (to - X_WH.origin()).e();
-  const Vec3 torque = ((touched - centre).e() - shift).cross(pushed.e());
-  double* applied = physics_.data()->xfrc_applied + 6 * tip_body_;
-  std::copy_n(pushed.xyz.begin(), 3, applied);
-  std::copy_n(torque.data(), 3, applied + 3);
-  truth_.contact_force = pushed;
-  truth_.touching = pushed.norm() > 0.0;
-}
-
 Vec<'W'> World::contact_force(bool& touching) const {
   const mjModel* m = physics_.model();
   const mjData* d = physics_.data();
@@ -269,34 +165,9 @@ Vec<'W'> World::contact_force(bool& touching) const {
   return Vec<'W'>(total);
 }
 
-// Control form: where the servo put it. Structural form: where the physics has it; what a step leaves behind
-// belongs to its last stage, so all is evaluated once more at this very time.
-void World::observe_machine() {
-  if (!legs) {
-    truth_.tip = X_WR_ * machine.true_pose().origin();
-    truth_.tip_velocity = X_WR_ * machine.state().velocity;
-    truth_.tip_acceleration = X_WR_ * machine.state().acceleration;
-    return;
-  }
-  mjData* d = physics_.data();
-  mj_forward(physics_.model(), d);
-  if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
-  truth_.tip = Point<'W'>(Vec3(Eigen::Map<const Vec3>(d->qpos + platform_qpos_)));
-  truth_.tip_velocity = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qvel + platform_qvel_)));
-  truth_.tip_acceleration = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qacc + platform_qvel_)));
-  const Hexapod::Lengths forces = legs->forces(d);
-  std::copy_n(forces.data(), 6, truth_.leg_force.begin());
-}
-
-Pose<'W', 'H'> World::true_tip() const {
-  if (!legs) return X_WR_ * machine.true_pose();
-  const double* q = physics_.data()->qpos + platform_qpos_;
-  return {Quat(q[3], q[4], q[5], q[6]), Vec3(q[0], q[1], q[2])};
-}
-
 void World::observe(Time t) {
   truth_.t = t;
-  observe_machine();
+  arm ? observe_arm() : observe_machine();
   if (pusher) {
     truth_.press = pusher->state().push;
     truth_.phase = pusher->state().phase;
@@ -304,6 +175,7 @@ void World::observe(Time t) {
   if (!user_) return;
   truth_.press = user_->press();
   truth_.phase = user_->phase();
+  truth_.aim = user_->object();
   truth_.approach_speed = user_->approach_speed();
   truth_.aborted = user_->aborted();
   truth_.tool = user_->tool();
@@ -334,18 +206,8 @@ Pose<'W', 'T'> World::held_tool_pose(double t) const {
 }
 
 void World::sense(Time t) {
-  const mjData* d = physics_.data();
-  if (force) {
-    // MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on
-    // the sensor: contact plus weight. In the control form inertia is missing, because the platform is placed
-    // and not accelerated.
-    const Pose<'R', 'F'> X_RF = machine.true_pose() * X_HF_;
-    const Vec<'F'> inertia =
-        legs ? Vec<'F'>::zero() : X_RF.inverse() * (mass_behind_ * machine.state().acceleration);
-    const Wrench raw{Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
-                     Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
-    force->measure(t, dt_, raw, inertia);
-  }
+  if (arm) arm->measure(t, arm_body_->joints(physics_.data()));
+  if (force) measure_force(t);
   if (tracker && user_) {
     tracker->advance(t, truth_.tool, held_tool_pose(seconds(t.time_since_epoch())));
   } else if (tracker && clamped_ >= 0) {
@@ -358,7 +220,7 @@ void World::sense(Time t) {
 Tick World::advance() {
   const Tick tick = next_;
   if (tick.index > 0) {
-    machine.begin_cycle();
+    arm ? arm->begin_cycle() : machine->begin_cycle();
     const double from = seconds((tick.t - tick.dt).time_since_epoch());
     for (int i = 0; i < steps_per_tick_; ++i) physics_step(from + i * physics_.model()->opt.timestep);
   }

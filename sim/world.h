@@ -9,29 +9,22 @@
 #include <vector>
 
 #include "core/rig.h"
+#include "sim/arm/arm_model.h"
+#include "sim/arm/arm_plant.h"
 #include "sim/ball_contact.h"
 #include "sim/display_plant.h"
 #include "sim/force_plant.h"
 #include "sim/gripper_plant.h"
+#include "sim/hand/user.h"
 #include "sim/hexapod_plant.h"
 #include "sim/legs.h"
 #include "sim/mujoco.h"
 #include "sim/pusher.h"
 #include "sim/tracker_plant.h"
 #include "sim/truth.h"
-#include "sim/user.h"
+#include "sim/world_spec.h"
 
 namespace enc::sim {
-
-struct WorldSpec {
-  const SceneSpec& scene;
-  const RigSpec& rig;
-  const TwinSpec& twin;
-  const Scene& prepared;  // must outlive the world: the display draws its surfaces
-  std::string mjcf_dir;
-  std::uint64_t seed = 1;
-  bool draw_all = false;
-};
 
 class World {
  public:
@@ -59,7 +52,8 @@ class World {
   [[nodiscard]] std::vector<std::byte> save() const;
   void restore(const std::vector<std::byte>& saved);
 
-  HexapodPlant machine;
+  std::optional<HexapodPlant> machine;  // there if the scene has no arm
+  std::optional<ArmPlant> arm;
   std::optional<ForcePlant> force;
   std::optional<TrackerPlant> tracker;
   std::optional<DisplayPlant> display;
@@ -72,21 +66,29 @@ class World {
   void physics_step(double t);
   void find_tools(const SceneSpec& scene);
   void hold_tools(double t, double h);
+  void set_up_hexapod(const WorldSpec& spec);  // world_hexapod.cpp
+  void move_machine(double t, double h);
   void place_machine(const Pose<'R', 'H'>& from);  // where it was; its state says how it moves
   [[nodiscard]] LegMotion leg_motion() const;      // that the servo wants
   void observe_machine();
   [[nodiscard]] Pose<'W', 'H'> true_tip() const;
-  void observe(Time t);
-  [[nodiscard]] Pose<'W', 'T'> held_tool_pose(double t) const;  // s; as its markers stand
-  void sense(Time t);
+  void measure_force(Time t);
   void press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h);
   void push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h);
   void apply(const Vec<'W'>& force, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
              const Point<'W'>& to);
+  void set_up_arm(const WorldSpec& spec);  // world_arm.cpp
+  void face_prop(double h);
+  void drive_arm(double h);
+  void observe_arm();
+  void observe(Time t);
+  [[nodiscard]] Pose<'W', 'T'> held_tool_pose(double t) const;  // s; as its markers stand
+  void sense(Time t);
   [[nodiscard]] bool by_own_law() const { return ball || pusher; }  // no contact of MuJoCo's
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
 
   TwinSpec twin_;
+  const Scene& prepared_;
   double dt_;
   int steps_per_tick_;
   std::int32_t clamped_ = -1;  // tool in the gripper
@@ -96,6 +98,7 @@ class World {
   Pose<'H', 'T'> X_HT_;  // how the clamped tool stands
   std::optional<User> user_;
   Physics physics_;
+  std::optional<ArmBody> arm_body_;
   // A tool of the user's: its body, and what of it the tracker and the truth need.
   struct Held {
     std::int32_t index = -1;  // in the scene
@@ -105,8 +108,7 @@ class World {
   };
   std::vector<Held> tools_;        // the one that it begins with, and the one that it changes to
   const Held* in_hand_ = nullptr;  // of these; none: the hand is empty
-  int tip_geom_ = -1, tip_body_ = -1;
-  int platform_qpos_ = 0, platform_qvel_ = 0;
+  int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;
   double programme_time_ = 10.0;  // s
   double mass_behind_ = 0.0;      // the sensor, kg
   Tick next_;

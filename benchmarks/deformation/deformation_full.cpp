@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/parallel.h"
-#include "core/dent.h"
+#include "core/dent/dent.h"
 #include "core/error.h"
 
 namespace enc::bench {

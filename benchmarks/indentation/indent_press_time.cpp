@@ -8,7 +8,7 @@
 
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/parallel.h"
-#include "sim/minimum_jerk.h"
+#include "sim/hand/minimum_jerk.h"
 
 namespace enc::bench {
 namespace {

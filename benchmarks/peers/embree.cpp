@@ -9,8 +9,6 @@
 
 #include "benchmarks/peers/peers.h"
 #include "core/error.h"
-#include "core/module.h"
-#include "encounter_version.h"
 
 namespace enc::bench {
 namespace {
@@ -116,14 +114,8 @@ class Embree final : public NearestPeer {
   unsigned* triangles_ = nullptr;
 };
 
-std::unique_ptr<NearestPeer> make(const Mesh& mesh) { return std::make_unique<Embree>(mesh); }
-
 }  // namespace
-}  // namespace enc::bench
 
-extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
-  static const enc::bench::PeersModule kPeers{enc::bench::make};
-  static const enc::ModuleInfo kInfo{
-      enc::kModuleInterface, ENCOUNTER_VERSION, "peers", nullptr, nullptr, &kPeers};
-  return &kInfo;
-}
+std::unique_ptr<NearestPeer> make_embree(const Mesh& mesh) { return std::make_unique<Embree>(mesh); }
+
+}  // namespace enc::bench

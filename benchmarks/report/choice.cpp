@@ -46,6 +46,9 @@ std::span<const Group> groups() {
       {"paper-2020",
        "what VHMR (2020) measured, in the paper's order",
        {"tracking", "stiffness", "indentation", "deformation", "synchrony", "session", "workspace"}},
+      {"paper-2003",
+       "what VisHap (2003) measured, and what it needs",
+       {"plane_button", "reaching", "switching", "registration", "gravity"}},
   };
   return kAll;
 }

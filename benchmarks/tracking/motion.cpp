@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sim/minimum_jerk.h"
+#include "sim/hand/minimum_jerk.h"
 #include "sim/random.h"
 
 namespace enc::bench {

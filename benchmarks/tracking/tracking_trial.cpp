@@ -118,7 +118,7 @@ MovesSpec moves_of(const models::Setup& setup) {
           machine.servo,
           machine.damping,
           machine.speed,
-          setup.twin.timestep()};
+          setup.twin.stepping(setup.scene.arm.has_value()).timestep};
 }
 
 }  // namespace enc::bench

@@ -124,5 +124,41 @@ TEST_F(Calibrate, RefusesBadLogsInOneLine) {
   EXPECT_THAT(line({"calibrate", path("l.csv"), "--rate-Hz", "-1"}), HasSubstr("--rate-Hz"));
 }
 
+// Four and more places seen without noise by a camera that is turned by 90 deg about z and stands at (1, 2,
+// 3) m.
+const std::string kPointHeader = "camera_x_m,camera_y_m,camera_z_m,device_x_m,device_y_m,device_z_m\n";
+const std::string kPoints =
+    "0,0,0,1,2,3\n0.1,0,0,1,2.1,3\n0,0.1,0,0.9,2,3\n0,0,0.1,1,2,3.1\n0.1,0.1,0.1,0.9,2.1,3.1\n";
+
+TEST_F(Calibrate, TellsTheCamerasPoseOutOfPoints) {
+  const Result r = run_program({"calibrate", write("p.csv", kPointHeader + kPoints)});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out,
+              AllOf(HasSubstr("5 pairs, 1 frame of each"), HasSubstr("[frames.W_C]\n"),
+                    HasSubstr("position_mm = [1000.0000, 2000.0000, 3000.0000]"),
+                    HasSubstr("90.00000]  # turns"), HasSubstr("give rows of one place the same `pair`")));
+  const Result json = run_program({"calibrate", path("p.csv"), "--json"});
+  const auto told = nlohmann::json::parse(json.out);
+  EXPECT_NEAR(told["position_mm"][1].get<double>(), 2000.0, 1e-6);
+  EXPECT_NEAR(told["rotation_deg"][2].get<double>(), 90.0, 1e-6);
+  EXPECT_LT(told["mean_error_mm"][0].get<double>(), 1e-9);
+}
+
+TEST_F(Calibrate, RefusesBadPointsInOneLine) {
+  const auto refused = [&](const std::string& rows) { return line({"calibrate", write("p.csv", rows)}); };
+  EXPECT_THAT(refused(kPointHeader + kPoints.substr(0, kPoints.find("0,0,0.1"))),
+              HasSubstr("p.csv:4:1: there are 3 pairs of points; expected at least 4"));
+  EXPECT_THAT(refused(kPointHeader + kPoints + "0,nan,0,1,2,3\n"),
+              HasSubstr("p.csv:7:3: 'camera_y_m' is 'nan'"));
+  EXPECT_THAT(refused(kPointHeader + kPoints + "0,0,0,1,2\n"),
+              HasSubstr("p.csv:7:9: this row has 5 columns"));
+  EXPECT_THAT(refused("camera_x,camera_y,camera_z,device_x,device_y,device_z\n" + kPoints),
+              HasSubstr("p.csv:1:1: there is no column 'camera_x_m'"));
+  EXPECT_THAT(refused(kPointHeader + "0,0,0,1,2,3\n0.1,0,0,1,2.1,3\n0.2,0,0,1,2.2,3\n0.4,0,0,1,2.4,3\n"),
+              HasSubstr("p.csv:1:1: the camera's points lie on one line"));
+  EXPECT_THAT(refused(kPointHeader + "0,0,0,1,2,3\n0,0,0,1,2,3\n0,0,0,1,2,3\n0,0,0,1,2,3\n"),
+              HasSubstr("p.csv:1:1: the camera's points are all in one place"));
+}
+
 }  // namespace
 }  // namespace enc::tests

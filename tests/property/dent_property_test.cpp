@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dent.h"
+#include "core/dent/dent.h"
 
 namespace enc {
 namespace {

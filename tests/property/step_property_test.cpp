@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/dent.h"
+#include "core/dent/dent.h"
 #include "core/step.h"
 #include "tests/support/scenes.h"
 

@@ -6,7 +6,7 @@
 #include "benchmarks/synchrony/lag.h"
 #include "benchmarks/synchrony/sync_trial.h"
 #include "benchmarks/trial.h"
-#include "sim/minimum_jerk.h"
+#include "sim/hand/minimum_jerk.h"
 #include "sim/random.h"
 #include "tests/conformance/bench_world.h"
 

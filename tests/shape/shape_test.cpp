@@ -118,6 +118,7 @@ TEST(Shape, LibrariesStayInTheirFiles) {
           (!starts(name, "toml++") || source.name == "models/toml_reader.cpp") &&
           (!starts(name, "tiny_gltf") || source.name == "models/mesh_gltf.cpp") &&
           (!starts(name, "embree3/") || source.name == "benchmarks/peers/embree.cpp") &&
+          (!starts(name, "kdl/") || source.name == "benchmarks/peers/kdl.cpp") &&
           (!starts(name, "opencv2") || source.name.find("vision/") != std::string::npos) &&
           ((!starts(name, "GL") && !starts(name, "EGL")) || starts(source.name, "sim/view/"));
       EXPECT_TRUE(good) << source.name << " includes " << name;
@@ -153,7 +154,7 @@ TEST(Shape, FilesAreShort) {
   for (const Source& source : sources()) {
     const std::size_t most = source.name.ends_with(".h") ? 120 : 400;
     // What walks through a tick is named in one place.
-    if (source.name == "core/fields.h") continue;
+    if (source.name == "core/record/fields.h") continue;
     EXPECT_LE(source.lines.size(), most) << source.name;
   }
 }
@@ -162,7 +163,7 @@ TEST(Shape, FoldersAreSmall) {
   // core/ is one folder of several subsystems [architecture B2]: data and frames, the stages, models, specs
   // and record.
   const std::map<std::string, std::size_t> limits{
-      {"core", 60}, {"models", 52}, {"sim", 44}, {"app", 28}, {"benchmarks", 40}};
+      {"core", 60}, {"models", 54}, {"sim", 44}, {"app", 28}, {"benchmarks", 40}};
   std::map<std::string, std::size_t> files;
   for (const Source& source : sources()) ++files[fs::path(source.name).parent_path().generic_string()];
   for (const auto& [folder, count] : files) {

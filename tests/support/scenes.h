@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "core/fields.h"
+#include "core/record/fields.h"
 #include "core/rig_spec.h"
 #include "core/scene.h"
 #include "core/scene_spec.h"

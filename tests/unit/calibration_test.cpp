@@ -68,9 +68,9 @@ TEST(Calibration, AMachineThatIsTurnedGoesAlongItsOwnAxes) {
   bench::Trial trial(setup, {});
   sim::World& world = trial.world();
   EXPECT_LT(world.truth().tip.e().norm(), 1e-12);
-  const Vec3 zero = world.machine.machine().zero().p();
+  const Vec3 zero = world.machine->machine().zero().p();
   for (int i = 0; i < 2000; ++i) {
-    world.machine.command(Pose<'R', 'H'>(Quat::Identity(), Vec3(zero + Vec3(0.010, 0, 0))));
+    world.machine->command(Pose<'R', 'H'>(Quat::Identity(), Vec3(zero + Vec3(0.010, 0, 0))));
     world.advance();
   }
   const Vec3 expected(0.010 * std::cos(0.02), 0.010 * std::sin(0.02), 0.0);

@@ -1,4 +1,4 @@
-#include "core/dent.h"
+#include "core/dent/dent.h"
 
 #include <array>
 #include <cmath>

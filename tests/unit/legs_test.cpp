@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/fields.h"
+#include "core/record/fields.h"
 #include "tests/conformance/bench_world.h"
 
 namespace enc::test {
@@ -31,7 +31,7 @@ models::Setup bare(const std::vector<std::string>& more = {}) {
   return setup;
 }
 void go(Twin& twin, const Vec3& from_zero, int ticks) {
-  const Vec3 there = twin.world->machine.machine().zero().p() + from_zero;
+  const Vec3 there = twin.world->machine->machine().zero().p() + from_zero;
   twin.rig.manipulator->command(Pose<'R', 'H'>(Quat::Identity(), there));
   for (int i = 0; i < ticks; ++i) twin.rig.clock->next();
 }
@@ -55,7 +55,7 @@ TEST(Legs, TheWeightIsCalibratedOutAtZero) {
 TEST(Legs, CarryTheWeight) {
   Twin twin(1, bare());
   go(twin, Vec3::Zero(), 500);
-  const Hexapod& machine = twin.world->machine.machine();
+  const Hexapod& machine = twin.world->machine->machine();
   const double tilt = std::acos(machine.geometry().height / machine.zero_length());
   for (int leg = 0; leg < 6; ++leg)
     EXPECT_NEAR(leg_forces(twin)(leg), kMoved * kGravity / 6.0 / std::cos(tilt), 1e-6);
@@ -65,7 +65,7 @@ TEST(Legs, SagAsTheirStiffnessSays) {
   Twin twin(1, bare());
   const double kz = twin.world->legs->stiffness()(2, 2);
   // Six legs, each with the square of its cosine.
-  const Hexapod& machine = twin.world->machine.machine();
+  const Hexapod& machine = twin.world->machine->machine();
   const double cosine = machine.geometry().height / machine.zero_length();
   EXPECT_NEAR(kz, 6.0 * 2e6 * cosine * cosine, 1.0);
   push(twin, Vec3(0, 0, -50));
@@ -83,10 +83,10 @@ TEST(Legs, SagAsTheirStiffnessSays) {
 // weight W the machine is off by (J^T K J)^-1 (W + J^T f): some micrometres, mostly by its tilt.
 TEST(Legs, AwayFromZeroTheCalibrationIsOffByWhatTheLeanSays) {
   Twin twin(1, bare());
-  const Hexapod& machine = twin.world->machine.machine();
+  const Hexapod& machine = twin.world->machine->machine();
   const double each = kMoved * kGravity / 6.0 * machine.zero_length() / machine.geometry().height;
   go(twin, Vec3(0.03, -0.02, 0.01), 4000);
-  const Pose<'R', 'H'> servo = twin.world->machine.state().pose;
+  const Pose<'R', 'H'> servo = twin.world->machine->state().pose;
   const Eigen::Matrix<double, 6, 6> J = machine.jacobian(servo);
   Eigen::Matrix<double, 6, 1> wrench = J.transpose() * Hexapod::Lengths::Constant(each);
   wrench(2) -= kMoved * kGravity;
@@ -100,13 +100,13 @@ TEST(Legs, AwayFromZeroTheCalibrationIsOffByWhatTheLeanSays) {
 // would lag by half a step, 20 mm/s * 0.25 ms = 5 um; a damper to the ground would add c v / k = 1.1 um.
 TEST(Legs, DoNotLagBehindTheServo) {
   Twin twin(1, bare({"truth.hexapod.step_um=0"}));
-  const Vec3 zero = twin.world->machine.machine().zero().p();
+  const Vec3 zero = twin.world->machine->machine().zero().p();
   double worst = 0.0;
   for (int i = 0; i < 800; ++i) {
     twin.rig.manipulator->command(Pose<'R', 'H'>(Quat::Identity(), Vec3(zero + Vec3(0, 0, 20e-6 * i))));
     twin.rig.clock->next();
     if (i < 500) continue;
-    const Vec3 servo = twin.world->machine.state().pose.p() - zero;
+    const Vec3 servo = twin.world->machine->state().pose.p() - zero;
     worst = std::max(worst, (twin.world->truth().tip.e() - servo).norm());
   }
   EXPECT_NEAR(twin.world->truth().tip_velocity.xyz[2], 0.020, 1e-4);
@@ -176,7 +176,7 @@ TEST(Legs, ATurnedBaseStandsAndHangsJustTheSame) {
   Twin twin(1, bare({"truth.hexapod.turned_deg=[3,-2,4]"}));
   go(twin, Vec3::Zero(), 500);
   EXPECT_LT(twin.world->truth().tip.e().norm(), 1e-9);
-  const Hexapod& machine = twin.world->machine.machine();
+  const Hexapod& machine = twin.world->machine->machine();
   const Eigen::Matrix<double, 6, 6> J = machine.jacobian(machine.zero());
   const Eigen::Matrix<double, 6, 1> wrench = J.transpose() * leg_forces(twin);
   EXPECT_NEAR(wrench.head<3>().norm(), kMoved * kGravity, 1e-4);
@@ -257,7 +257,7 @@ TEST(Legs, ArrivalsRepeatToHalfAMicrometre) {
       go(twin, Vec3::Zero(), 300);
       sum += twin.world->truth().tip.e().squaredNorm();
       const Vec3 said = twin.rig.manipulator->read().value.X_RH.p();
-      EXPECT_LT((said - twin.world->machine.machine().zero().p()).norm(), 1e-8);
+      EXPECT_LT((said - twin.world->machine->machine().zero().p()).norm(), 1e-8);
     }
     EXPECT_NEAR(std::sqrt(sum / (3 * kArrivals)), 0.5e-6, 4.0 * 0.5e-6 / std::sqrt(6.0 * kArrivals)) << form;
   }

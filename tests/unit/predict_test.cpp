@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/fields.h"
+#include "core/record/fields.h"
 #include "tests/support/scenes.h"
 
 namespace enc {
@@ -96,6 +96,59 @@ TEST(Predict, IsTheKalmanFilterThatMatricesGive) {
       EXPECT_NEAR(motion.xv / other.P(0, 1), 1.0, 1e-9);
       EXPECT_NEAR(motion.vv / other.P(1, 1), 1.0, 1e-9);
     }
+  }
+}
+
+// As a hand is seen at 20 Hz with 0.5 mm.
+TrackerRig seen_hand(double surprise) {
+  TrackerRig rig = kVelocity;
+  rig.measurement_noise = 0.5e-3;
+  rig.acceleration_noise = 0.02;
+  rig.surprise_noise = surprise;
+  rig.longest_prediction = 0.2;
+  rig.usual_age = 0.11;
+  return rig;
+}
+TipMotion stopped(const TrackerRig& rig, bool calm) {
+  TipMotion motion;
+  for (int ms = 0; ms <= 1050; ms += 50)  // 200 mm/s for a second, then no more
+    observe(rig, 0, at_ms(ms), Point<'W'>(0.2e-3 * std::min(ms, 1000), 0, 0), at_ms(ms), motion, calm);
+  return motion;
+}
+
+TEST(Predict, ASurpriseMakesUpForASpeedThatChanges) {
+  const double without = stopped(seen_hand(0.0), false).velocity.xyz[0];
+  const double with = stopped(seen_hand(1.0), false).velocity.xyz[0];
+  EXPECT_GT(without, 0.10);  // believes in its 200 mm/s
+  EXPECT_LT(with, 0.05);     // 10 mm off where 0.5 mm is usual: the hand has stopped
+  EXPECT_EQ(stopped(seen_hand(1.0), true).velocity.xyz[0], without);  // on a prop nothing surprises
+}
+
+// 10 mm off, S = xx + r^2 before: the noise is raised by what makes S a third of the square of 10 mm (three
+// axes), so that the velocity's variance grows by q h and its gain with it.
+TEST(Predict, ASurpriseRaisesTheNoiseByWhatExplainsIt) {
+  const TrackerRig rig = seen_hand(100.0);
+  TipMotion motion;
+  for (int ms = 0; ms <= 1000; ms += 50) observe(rig, 0, at_ms(ms), Point<'W'>(0, 0, 0), at_ms(ms), motion);
+  const double h = 0.05, q0 = 0.02 * 0.02, r2 = 0.25e-6, found = 1e-4;
+  const double xx = motion.xx + 2.0 * h * motion.xv + h * h * motion.vv;
+  const double xv = motion.xv + h * motion.vv;
+  const double s = xx + q0 * h * h * h / 3.0 + r2;
+  ASSERT_GT(found, 9.0 * s);
+  const double q = q0 + (found / 3.0 - s) * 3.0 / (h * h * h);
+  const double gain = (xv + q * h * h / 2.0) / (found / 3.0);
+  observe(rig, 0, at_ms(1050), Point<'W'>(0.01, 0, 0), at_ms(1050), motion);
+  EXPECT_NEAR(motion.velocity.xyz[0], gain * 0.01, 1e-9);
+}
+
+TEST(Predict, WhatIsUsualIsNoSurprise) {
+  TipMotion with, without;
+  for (int ms = 0; ms <= 2000; ms += 50) {
+    const Point<'W'> seen(0.5e-3 * std::sin(0.3 * ms), 0.5e-3 * std::cos(0.4 * ms), 0.1e-3 * ms);
+    observe(seen_hand(1.0), 0, at_ms(ms), seen, at_ms(ms), with);
+    observe(seen_hand(0.0), 0, at_ms(ms), seen, at_ms(ms), without);
+    EXPECT_EQ(with.position.xyz, without.position.xyz);
+    EXPECT_EQ(with.velocity.xyz, without.velocity.xyz);
   }
 }
 

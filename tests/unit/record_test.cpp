@@ -1,5 +1,5 @@
 // The record: what is written is read, whatever is damaged is named, and a replay gives the same bits.
-#include "core/record.h"
+#include "core/record/record.h"
 
 #include <algorithm>
 #include <csignal>
@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
-#include "core/replay.h"
+#include "core/record/replay.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/probe_measure.h"
-#include "core/fields.h"
-#include "core/replay.h"
+#include "core/record/fields.h"
+#include "core/record/replay.h"
 #include "tests/conformance/bench_world.h"
 
 namespace enc::test {

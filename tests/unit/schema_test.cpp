@@ -30,9 +30,18 @@ models::Setup full() {
   models::Setup s = plane();
   s.scene.title = "A \"title\" with \\ and\nlines, caf\xC3\xA9";
   s.scene.objects[0].limit = 0.003;
-  s.scene.objects.push_back({"ball", ShapeKind::sphere, 0.033, {0, 0, -0.02}, {0, 0, 1}, "wall", kUnset});
-  s.scene.objects.push_back(
-      {"hare", ShapeKind::mesh, kUnset, {0, 0, 0}, {0, 0, 1}, "wall", kUnset, {}, "hare.glb"});
+  ObjectSpec ball;
+  ball.name = "ball";
+  ball.radius = 0.033;
+  ball.position = {0, 0, -0.02};
+  ball.behaviour = "wall";
+  s.scene.objects.push_back(ball);
+  ObjectSpec hare;
+  hare.name = "hare";
+  hare.shape = ShapeKind::mesh;
+  hare.behaviour = "wall";
+  hare.mesh = "hare.glb";
+  s.scene.objects.push_back(hare);
   s.scene.display.emplace();
   s.scene.questionnaire = QuestionnaireSpec{"vhmr_2020"};
   s.scene.user->approach = {0.01, 0.02, 0.05};
@@ -101,9 +110,9 @@ TEST(Schema, describes_every_member) {
   describe_all(levels, s.scene, s.rig, s.twin);
   auto& n = levels.found;
   EXPECT_EQ(n[""], members<SceneSpec>() + 2);              // rig and truth
-  EXPECT_EQ(n["object.ball"], members<ObjectSpec>() - 6);  // no normal, and nothing of a mesh
-  EXPECT_EQ(n["object.wall"], members<ObjectSpec>() - 6);  // no radius, and nothing of a mesh
-  EXPECT_EQ(n["object.hare"], members<ObjectSpec>() - 3);  // no radius, no normal; its triangles are data
+  EXPECT_EQ(n["object.ball"], members<ObjectSpec>() - 9);  // no normal, and nothing of a mesh or a button
+  EXPECT_EQ(n["object.wall"], members<ObjectSpec>() - 9);  // no radius, likewise
+  EXPECT_EQ(n["object.hare"], members<ObjectSpec>() - 6);  // nothing of others; its triangles are data
   EXPECT_EQ(n["tool.stylus"], members<ToolSpec>() - 3);    // a sphere has no axis, angle or edge
   EXPECT_EQ(n["follow"], members<FollowSpec>());
   EXPECT_EQ(n["user"], members<UserSpec>());

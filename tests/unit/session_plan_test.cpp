@@ -1,6 +1,6 @@
 // What the person of a session wants: reaches out of submovements, places that can be pressed, one change of
 // the tool.
-#include "sim/session_plan.h"
+#include "sim/hand/session_plan.h"
 
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@
 
 #include "benchmarks/trial.h"
 #include "core/press_check.h"
-#include "sim/user.h"
+#include "sim/hand/user.h"
 #include "tests/conformance/bench_world.h"
 
 namespace enc::test {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dent.h"
+#include "core/dent/dent.h"
 #include "tests/support/scenes.h"
 
 // This test program counts its allocations.
@@ -448,8 +448,9 @@ TEST(Hold, WithTheRightReasonForNanInfAndAbsurdInEveryNumber) {
       SetLeaf find{i, bad, 0, {}};
       fields(find, probe);
       if (find.name.empty()) break;
-      ++leaves;
       const auto starts = [&](const char* text) { return find.name.rfind(text, 0) == 0; };
+      if (starts("joint") || starts("arm_")) continue;  // this scene has no arm
+      ++leaves;
       const std::uint32_t why = starts("X_CT")                        ? kToolInvalid
                                 : starts("force") || starts("torque") ? kForceInvalid
                                 : starts("dent")                      ? kDentWrong

@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/press_measure.h"
-#include "core/fields.h"
+#include "core/record/fields.h"
 #include "models/scene_file.h"
 
 namespace enc::bench {

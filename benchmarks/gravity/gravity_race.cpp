@@ -1,0 +1,158 @@
+// Kinematics, Jacobian, gravity and J^T f of one pose: closed form and chain against Orocos KDL. Same poses,
+// one run, chunks interleaved; ours takes part twice.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "benchmarks/gravity/gravity.h"
+#include "benchmarks/peers/peers.h"
+#include "benchmarks/statistics.h"
+#include "core/module.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr std::size_t kPoses = 10'000, kChunk = 250;
+
+// A PHANToM as KDL takes it: three hinges in a row, each with its angle against the one before. The links of
+// the parallelogram are left out, to the peer's advantage.
+ArmMachine in_a_row(const ArmMachine& machine, double payload) {
+  const PhantomGeometry& g = machine.phantom;
+  ArmMachine row = machine;
+  row.kind = ArmKind::chain;
+  row.links = {{"turret", JointKind::hinge, {0, 0, 1}, {0, 0, 0}, 0.0, {0, 0, 0}, Vec3::Constant(g.I_base)},
+               {"upper arm", JointKind::hinge, {0, -1, 0}, {0, 0, 0}, g.m_be, {g.l5, 0, 0}, g.I_be},
+               {"forearm", JointKind::hinge, {0, -1, 0}, {g.l1, 0, 0}, g.m_a, {0, 0, -0.5 * g.l2}, g.I_a}};
+  row.tip = {0, 0, -g.l2};
+  // The prop, at the tip, is a part of the last link.
+  ChainLink& last = row.links.back();
+  last.centre = (last.mass * last.centre + payload * row.tip) / (last.mass + payload);
+  last.mass += payload;
+  return row;
+}
+PerJoint relative(const PerJoint& q) { return {q[0], q[1], q[2] - q[1]}; }
+
+struct Question {
+  PerJoint q, relative;
+  Vec<'R'> force;
+};
+std::vector<Question> questions(const Arm& arm, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::vector<Question> all;
+  while (all.size() < kPoses) {
+    PerJoint q{};
+    for (std::size_t i = 0; i < arm.joints(); ++i)
+      q[i] = uniform(arm.machine().drives[i].low, arm.machine().drives[i].high);
+    if (!arm.within_limits(q)) continue;
+    all.push_back({q, relative(q), Vec<'R'>(uniform(-8, 8), uniform(-8, 8), uniform(-8, 8))});
+  }
+  return all;
+}
+
+ArmAnswer answer(const Arm& arm, const PerJoint& q, const Vec<'R'>& force, double payload) {
+  const Mat3 J = arm.jacobian(q);
+  ArmAnswer answer{arm.tip(q).e(), arm.gravity(q, payload, Payload::exact)};
+  const PerJoint push = arm.torque(J, force);
+  for (std::size_t i = 0; i < kMostJoints; ++i) answer.torque[i] += push[i];
+  return answer;
+}
+
+struct Runner {
+  std::vector<double> seconds;
+  std::vector<ArmAnswer> answers = std::vector<ArmAnswer>(kPoses);
+
+  template <class Ask>
+  void chunk(const std::vector<Question>& all, std::size_t first, const Ask& ask) {
+    const double start = thread_seconds();
+    for (std::size_t i = first; i < first + kChunk; ++i) answers[i] = ask(all[i]);
+    seconds.push_back(thread_seconds() - start);
+  }
+  [[nodiscard]] double nanoseconds() const { return median(seconds) / kChunk * 1e9; }
+};
+double median_ratio(const Runner& a, const Runner& b) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < a.seconds.size(); ++i) ratios.push_back(a.seconds[i] / b.seconds[i]);
+  return median(ratios);
+}
+
+struct Race {
+  Runner ours, again, chain, theirs;
+};
+Race race(const Arm& arm, const Arm& row, ArmPeer* peer, double payload, const BenchContext& context) {
+  const std::vector<Question> all = questions(arm, context.seed);
+  const int laps = context.repeats > 0 ? static_cast<int>(context.repeats) : (context.quick ? 2 : 10);
+  const auto closed = [&](const Question& x) { return answer(arm, x.q, x.force, payload); };
+  const auto serial = [&](const Question& x) { return answer(row, x.relative, x.force, 0.0); };
+  const auto kdl = [&](const Question& x) { return peer->answer(x.relative, x.force.e()); };
+  std::mt19937_64 random(context.seed);
+  Race result;
+  for (int lap = -1; lap < laps; ++lap) {
+    if (lap == 0)  // the first was to warm up
+      for (Runner* r : {&result.ours, &result.again, &result.chain, &result.theirs}) r->seconds.clear();
+    for (std::size_t first = 0; first < kPoses; first += kChunk) {
+      std::array<int, 4> order{0, 1, 2, 3};
+      std::shuffle(order.begin(), order.end(), random);
+      for (const int who : order) {
+        if (who == 0) result.ours.chunk(all, first, closed);
+        if (who == 1) result.again.chunk(all, first, closed);
+        if (who == 2) result.chain.chunk(all, first, serial);
+        if (who == 3 && peer != nullptr) result.theirs.chunk(all, first, kdl);
+      }
+    }
+  }
+  return result;
+}
+
+// Tips, m, and torques, N m: largest difference between the two.
+std::array<double, 2> apart(const Runner& a, const Runner& b) {
+  std::array<double, 2> most{0.0, 0.0};
+  for (std::size_t i = 0; i < kPoses; ++i) {
+    most[0] = std::max(most[0], (a.answers[i].tip - b.answers[i].tip).norm());
+    for (std::size_t j = 0; j < kMostJoints; ++j)
+      most[1] = std::max(most[1], std::abs(a.answers[i].torque[j] - b.answers[i].torque[j]));
+  }
+  return most;
+}
+
+}  // namespace
+
+void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& result) {
+  const Arm& arm = rig.believed.arm;
+  if (arm.machine().kind != ArmKind::phantom) {
+    result.note += "no race: it is about the closed form of the PHANToM. ";
+    return;
+  }
+  const Arm row(in_a_row(arm.machine(), rig.believed.payload));
+  const ModuleInfo* module = context.module ? context.module("peers") : nullptr;
+  const auto* peers = module != nullptr ? static_cast<const PeersModule*>(module->peers) : nullptr;
+  std::unique_ptr<ArmPeer> kdl;
+  if (peers != nullptr && peers->kdl != nullptr) kdl = peers->kdl(row.machine());
+  const Race raced = race(arm, row, kdl.get(), rig.believed.payload, context);
+  add_figure(result, "statics.p50", kUnset, raced.ours.nanoseconds(), "ns",
+             "kinematics, Jacobian, gravity, J^T f of one pose, closed form; over chunks of 250");
+  add_figure(result, "statics.chain.p50", kUnset, raced.chain.nanoseconds(), "ns",
+             "the same of a chain of three hinges");
+  add_figure(result, "same_over_same.median", kUnset, median_ratio(raced.again, raced.ours), "x",
+             "ours over ours in the same run: how far the machine can be trusted", 0.93, 1.07);
+  if (!kdl) {
+    result.note += "no race: Orocos KDL was not there when this was built (./encounter bench installs it). ";
+    return;
+  }
+  add_figure(result, "statics.kdl.p50", kUnset, raced.theirs.nanoseconds(), "ns",
+             "Orocos KDL, chain of three hinges without the parallelogram's links");
+  add_figure(result, "kdl_ratio.median", kUnset, median_ratio(raced.theirs, raced.ours), "x",
+             "KDL over the closed form, chunks of 250 interleaved", 5.0);
+  add_figure(result, "kdl_ratio.chain.median", kUnset, median_ratio(raced.theirs, raced.chain), "x",
+             "KDL over our chain, the same machine");
+  const auto [tip, torque] = apart(raced.chain, raced.theirs);
+  add_figure(result, "apart_from_kdl.tip.max", kUnset, tip, "m", "our chain against KDL", kUnset, 1e-12);
+  add_figure(result, "apart_from_kdl.torque.max", kUnset, torque, "N m", "our chain against KDL", kUnset,
+             1e-12);
+}
+
+}  // namespace enc::bench

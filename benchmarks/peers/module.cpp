@@ -1,0 +1,19 @@
+// The module's entry. Which peers it has was decided where it was built (CMakeLists.txt).
+#include "core/module.h"
+
+#include "benchmarks/peers/peers.h"
+#include "encounter_version.h"
+
+extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
+  static const enc::bench::PeersModule kPeers{
+#ifdef ENCOUNTER_EMBREE
+      .embree = enc::bench::make_embree,
+#endif
+#ifdef ENCOUNTER_KDL
+      .kdl = enc::bench::make_kdl,
+#endif
+  };
+  static const enc::ModuleInfo kInfo{
+      enc::kModuleInterface, ENCOUNTER_VERSION, "peers", nullptr, nullptr, &kPeers};
+  return &kInfo;
+}

@@ -1,0 +1,95 @@
+// Parts of the benchmark `plane_button`: runs of wall and button in the twin, and what is read off them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "benchmarks/bench.h"
+#include "benchmarks/trial.h"
+
+namespace enc::bench {
+
+// What a run was, tick by tick, by the truth; `believed` is what the core took the depth for.
+struct PressTrace {
+  std::vector<double> t;         // s
+  std::vector<double> depth;     // of the finger under the surface, m
+  std::vector<double> believed;  // m
+  std::vector<double> force;     // along the normal, of the contact in the simulator, N
+  std::vector<double> side;      // across it, N
+  std::vector<double> gain;      // lambda_z of eq. 7
+  std::vector<double> speed;     // of the tip, m/s
+  std::vector<sim::Phase> phase;
+  std::vector<char> contact;  // the core's mode
+  TrialResult run;
+  double cpu = 0.0;  // s of its thread
+  [[nodiscard]] std::size_t size() const { return t.size(); }
+};
+
+// What the first object of a scene is made to be felt as, with the user's settings.
+struct Law {
+  InteractionSpec does;
+  double stiffness = kUnset;  // N/m, where it is touched
+  double free = kUnset;       // K_p
+};
+[[nodiscard]] Law law_of(const BenchContext& context, const std::string& scene);
+
+// The scene with the benchmark's settings before the user's.
+[[nodiscard]] PressTrace press_trace(const BenchContext& context, const std::string& scene,
+                                     std::vector<std::string> own, double seconds = kUnset);
+
+// A finger that is tracked each tick, without noise: what is left is the display's. No picture leaps, so the
+// target need not take long to settle.
+[[nodiscard]] std::vector<std::string> live(std::vector<std::string> more);
+
+// Straight line through what was felt in a phase, over a depth from `low` to `high`.
+struct Line {
+  double slope = kUnset, r2 = kUnset;  // N/m
+  std::int64_t n = 0;
+};
+enum class Depth : std::uint8_t { truth, believed };
+[[nodiscard]] Line line_of(const PressTrace& trace, sim::Phase phase, Depth of, double low, double high);
+
+// Largest change of the force from one tick to the next, N, in contact and deeper than `low`. `beyond`: more
+// than the motion in that tick gives a spring of this stiffness, N/m.
+[[nodiscard]] double greatest_step(const PressTrace& trace, double low, double beyond = 0.0);
+// By how long the believed depth is behind the true one, s: where the two differ least in the mean square.
+[[nodiscard]] double lag_of(const PressTrace& trace);
+
+// Force over depth, the mean of pressing and releasing: friction and damping, which oppose the motion,
+// cancel.
+struct Curve {
+  std::vector<double> depth, force;  // m, N
+};
+[[nodiscard]] Curve mean_curve(const PressTrace& trace, double low, double high, double width);
+[[nodiscard]] Curve curve_of(const PressTrace& trace, sim::Phase phase, double low, double high,
+                             double width);
+
+[[nodiscard]] Line line_of(const Curve& curve);
+
+// Three straight lines; between two of them the force goes over smoothly (3 s^2 - 2 s^3) within `gradual`.
+// Where, how steep and how gradual: all nine are found from the curve alone.
+struct ThreeLines {
+  double d1 = kUnset, d2 = kUnset, gradual = kUnset;  // m
+  double slope[3] = {kUnset, kUnset, kUnset};         // N/m
+  double rms = kUnset;                                // N, of what is left
+};
+[[nodiscard]] ThreeLines fit_three_lines(const Curve& curve);
+
+// Parts of the result.
+class Report {
+ public:
+  explicit Report(BenchResult& result) : result_(result) {}
+  void figure(const std::string& id, double value, const char* unit, const std::string& note,
+              double low = kUnset, double high = kUnset) const;
+  [[nodiscard]] BenchResult& result() const { return result_; }
+
+ private:
+  BenchResult& result_;
+};
+void measure_wall(const BenchContext& context, const Report& report);
+void measure_button(const BenchContext& context, const Report& report);
+void measure_step(const BenchContext& context, const Report& report);       // 20 mm, in free space
+void measure_precision(const BenchContext& context, const Report& report);  // error over run time
+
+}  // namespace enc::bench

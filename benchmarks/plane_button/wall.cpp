@@ -1,0 +1,172 @@
+// The wall of Fig 5: force over depth, with a finger that is seen each tick and with one that vision sees.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/load_scene.h"
+#include "benchmarks/parallel.h"
+#include "benchmarks/plane_button/plane_button.h"
+#include "benchmarks/statistics.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr double kFrom = 2e-3, kTo = 10e-3;  // m: the depth of the fit
+using sim::Phase;
+
+struct Runs {
+  PressTrace live, slide, late, seen;
+};
+
+// Slowly: the damping of the law adds to the spring while the finger moves.
+Runs all_runs(const BenchContext& context) {
+  const std::vector<std::string> press{"user.approach_mm_s=[50]", "user.press_s=5", "user.release_s=5"};
+  std::vector<std::string> sliding = press;
+  sliding.insert(sliding.end(), {"user.press_s=2", "user.release_s=1", "user.depth_mm=8", "user.slide_mm=30",
+                                 "user.slide_mm_s=60"});
+  // No slack: the depth is what vision says, whatever the prop says.
+  std::vector<std::string> alone = press;
+  alone.emplace_back("rig.contact.leave_gap_mm=0.001");
+  Runs runs;
+  const std::array<std::function<void()>, 4> all{
+      [&] { runs.live = press_trace(context, "wall", live(press)); },
+      [&] { runs.late = press_trace(context, "wall", press); },
+      [&] { runs.slide = press_trace(context, "wall", live(sliding)); },
+      [&] { runs.seen = press_trace(context, "wall", alone); }};
+  in_parallel(context.quick ? 2 : all.size(), [&](std::size_t i) { all[i](); });
+  return runs;
+}
+
+double side_share(const PressTrace& trace) {
+  double side = 0.0, normal = 0.0;
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    if (trace.phase[i] != Phase::hold) continue;
+    side += trace.side[i];
+    normal += trace.force[i];
+  }
+  return 100.0 * side / normal;
+}
+
+// Half the width of the loop that pressing and releasing make, N: friction and damping.
+double loop_width(const PressTrace& trace) {
+  const Line down = line_of(trace, Phase::press, Depth::truth, 5e-3, 7e-3);
+  double press = 0.0, release = 0.0, n = 0.0, m = 0.0;
+  for (std::size_t i = 0; i < trace.size() && down.n > 0; ++i) {
+    if (trace.contact[i] == 0 || std::abs(trace.depth[i] - 6e-3) > 0.5e-3) continue;
+    const double spring = trace.force[i] - down.slope * (trace.depth[i] - 6e-3);
+    if (trace.phase[i] == Phase::press) press += spring, n += 1.0;
+    if (trace.phase[i] == Phase::release) release += spring, m += 1.0;
+  }
+  return 0.5 * (press / n - release / m);
+}
+
+void live_figures(const Runs& runs, double law, const Report& report) {
+  const PressTrace& trace = runs.live;
+  const Line press = line_of(trace, Phase::press, Depth::truth, kFrom, kTo);
+  const Line release = line_of(trace, Phase::release, Depth::truth, kFrom, kTo);
+  report.figure("wall.slope", press.slope, "N/m",
+                fmt::format("contact force over true depth, pressed from 2 to 10 mm; the law: {:g} N/m", law),
+                0.98 * law, 1.02 * law);
+  report.figure("wall.r2", press.r2, "", "of that line", 0.999, 1.0);
+  report.figure("wall.release.slope", release.slope, "N/m", "let go: the damping of the law pulls back");
+  report.figure("wall.release.r2", release.r2, "", "of that line");
+  report.figure("wall.loop", loop_width(trace), "N",
+                "half the loop between press and release at 6 mm: dry friction and damping");
+  report.figure("wall.step", greatest_step(trace, kFrom), "N", "change of the force in a ms, below 2 mm", 0.0,
+                0.2);
+  report.figure("wall.touch_step", greatest_step(trace, 0.0), "N",
+                "the same with the first touch at 50 mm/s");
+  if (runs.slide.size() > 0)
+    report.figure("wall.tangential", side_share(runs.slide), "%",
+                  "of the normal force, while the finger slides 30 mm at up to 60 mm/s", 0.0, 5.0);
+}
+
+// Nothing else runs meanwhile, and nobody looks on.
+void speed_figures(const BenchContext& context, const Report& report) {
+  constexpr int kRepeats = 3;
+  std::vector<double> times, ns;
+  for (int i = 0; i < kRepeats; ++i) {
+    TrialOptions options;
+    options.seed = context.seed;
+    options.seconds = context.quick ? 1.0 : 6.0;
+    Trial trial(load_scene(context, "wall", {"user.approach_mm_s=[200]"}), std::move(options));
+    const double start = thread_seconds();
+    const TrialResult run = trial.run();
+    times.push_back(run.simulated / (thread_seconds() - start));
+    ns.insert(ns.end(), run.step_ns.begin(), run.step_ns.end());
+  }
+  report.figure("arm.times_real_time", median(times), "x", "CPU time of the thread, RK4 at 1 ms", 60.0);
+  report.figure("arm.step.p99_9", 1e-3 * percentile(ns, 0.999), "us", "step(), wall clock", 0.0, 20.0);
+}
+
+void late_figures(const Runs& runs, double law, const Report& report) {
+  const PressTrace& trace = runs.late;
+  const Line press = line_of(trace, Phase::press, Depth::believed, kFrom, kTo);
+  report.figure("wall.late.slope", press.slope, "N/m",
+                "finger seen at 20 Hz, 50 ms old: over the depth that the core believed", 0.98 * law,
+                1.02 * law);
+  report.figure("wall.late.r2", press.r2, "", "of that line", 0.99, 1.0);
+  report.figure("wall.late.lag", 1e3 * lag_of(trace), "ms", "the believed depth behind the true one", 0.0,
+                10.0);
+  report.figure("wall.late.step", greatest_step(trace, kFrom, law), "N",
+                "change of the force in a ms, below 2 mm, beyond what the motion gives the spring", 0.0, 0.2);
+  report.figure("wall.late.step_plain", greatest_step(trace, kFrom), "N", "with the motion");
+  report.figure("wall.late.touch_step", greatest_step(trace, 0.0), "N", "and with the first touch");
+  if (runs.seen.size() == 0) return;
+  const Line seen = line_of(runs.seen, Phase::press, Depth::believed, kFrom, kTo);
+  report.figure("wall.vision_alone.r2", seen.r2, "",
+                "without the prop as a witness of the depth (leave_gap_mm = 0.001)");
+  report.figure("wall.vision_alone.lag", 1e3 * lag_of(runs.seen), "ms", "likewise");
+  report.figure("wall.vision_alone.step", greatest_step(runs.seen, kFrom), "N", "likewise");
+}
+
+Series series_of(const std::string& name, const PressTrace& trace, Phase phase, Depth over) {
+  Series series{name};
+  constexpr std::size_t kEvery = 8;
+  for (std::size_t i = 0; i < trace.size(); i += kEvery) {
+    if (trace.phase[i] != phase || trace.depth[i] < -2e-3) continue;
+    series.x.push_back(-1e3 * (over == Depth::truth ? trace.depth[i] : trace.believed[i]));
+    series.y.push_back(trace.force[i]);
+  }
+  return series;
+}
+
+void plots(const Runs& runs, double law, const Report& report) {
+  Plot wall{"plane_button_wall", "Normal force over distance, wall (Fig 5 left)",
+            "distance of the finger (mm), negative: under the surface", "normal force (N)"};
+  Series shape{"the law (shape of Fig 4)", {-10.0, 0.0, 2.0}, {1e-2 * law, 0.0, 0.0}};
+  shape.paper = true;
+  wall.series = {shape, series_of("pressed", runs.live, Phase::press, Depth::truth),
+                 series_of("let go", runs.live, Phase::release, Depth::truth)};
+  wall.caption =
+      "Contact force in the simulator over the true depth of the finger; axis as in the paper, which prints "
+      "no "
+      "units. Between press and release lie dry friction and the damping of the law.";
+  report.result().plots.push_back(std::move(wall));
+  Plot late{"plane_button_late", "The same with a finger that vision sees, 20 Hz and 50 ms old",
+            "distance of the finger as believed (mm)", "normal force (N)"};
+  late.series = {shape, series_of("depth from the prop", runs.late, Phase::press, Depth::believed)};
+  if (runs.seen.size() > 0) {
+    late.series.insert(late.series.begin() + 1,
+                       series_of("depth from vision alone", runs.seen, Phase::press, Depth::believed));
+    late.series[1].mark = Mark::points;
+  }
+  late.caption = "Vision says that the finger is there; how deep it is, the prop's encoders say each tick.";
+  report.result().plots.push_back(std::move(late));
+}
+
+}  // namespace
+
+void measure_wall(const BenchContext& context, const Report& report) {
+  const Runs runs = all_runs(context);
+  const double law = law_of(context, "wall").stiffness;
+  speed_figures(context, report);
+  live_figures(runs, law, report);
+  late_figures(runs, law, report);
+  plots(runs, law, report);
+  report.result().simulated += runs.live.run.simulated + runs.late.run.simulated;
+}
+
+}  // namespace enc::bench

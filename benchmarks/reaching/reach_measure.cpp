@@ -1,0 +1,96 @@
+#include "benchmarks/reaching/reach_measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stages.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr double kThere = 2e-3;    // m
+constexpr double kSettled = 1.0;   // s after which an arm that nobody needs shall stand
+constexpr double kImpact = 0.050;  // s
+
+double along_surface(const Wanted& at, const Point<'W'>& tip) {
+  const Vec3 apart = (at.point - tip).e();
+  const Vec3 n = at.normal.e();
+  return (apart - n.dot(apart) * n).norm();
+}
+
+}  // namespace
+
+Wanted wanted_at(const Object& object, const Point<'W'>& tip) {
+  const stages::NearestInWorld at = stages::nearest(object, tip);
+  const Point<'W'> point = object.met_in_its_middle() ? object.X_WO.origin() : at.point;
+  return {point, at.normal, at.distance};
+}
+
+std::vector<Reach> ReachMeasure::reaches() const {
+  std::vector<Reach> all = over_;
+  if (begun_) all.push_back(now_);
+  return all;
+}
+
+void ReachMeasure::begin(const Glance& glance) {
+  if (begun_) over_.push_back(now_);
+  begun_ = true;
+  now_ = Reach{};
+  now_.aim = glance.truth.aim;
+  now_.aborted = glance.truth.aborted;
+  contacts_before_ = glance.out.contacts;
+}
+
+void ReachMeasure::see(const Glance& glance) {
+  const double now = seconds(glance.truth.t.time_since_epoch());
+  const sim::Phase phase = glance.truth.phase;
+  // The core sees a finger go late: what it counts until the next reach begins is of this one.
+  if (phase == sim::Phase::approach && phase_ != phase) begin(glance);
+  phase_ = phase;
+  const Mode mode = glance.out.mode;
+  if (mode == Mode::away && mode_ != mode) away_since_ = now;
+  if (mode == Mode::away && now - away_since_ > kSettled)
+    far_speed_ = std::max(far_speed_, glance.truth.tip_velocity.norm());
+  const bool prepares = mode == Mode::follow && mode_ == Mode::away;
+  mode_ = mode;
+  if (!begun_) return;
+  now_.contacts = glance.out.contacts - contacts_before_;
+  if (prepares) ++now_.prepares;
+  if (std::isnan(now_.met)) {
+    if (prepares) {
+      now_.prepared = now;
+      way_.clear();
+    }
+    way_.push_back(glance.truth.tip);
+    meet(glance, now);
+  } else {
+    watch_contact(glance, now);
+  }
+}
+
+void ReachMeasure::meet(const Glance& glance, double now) {
+  const sim::Truth& truth = glance.truth;
+  const Wanted at = wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
+  if (!truth.touching && at.distance > truth.tool_radius) return;
+  now_.met = now;
+  now_.chosen = glance.out.object;
+  now_.speed = truth.tool_velocity.norm();
+  now_.miss = along_surface(at, truth.tip);
+  const auto far =
+      std::find_if(way_.rbegin(), way_.rend(), [&](const auto& p) { return (p - at.point).norm() > kThere; });
+  if (far != way_.rbegin() && !std::isnan(now_.prepared))
+    now_.arrived = now - glance.scene.dt * static_cast<double>(far - way_.rbegin() - 1);
+  watch_contact(glance, now);
+}
+
+void ReachMeasure::watch_contact(const Glance& glance, double now) {
+  const sim::Truth& truth = glance.truth;
+  if (!truth.touching) return;
+  now_.touched = true;
+  const Wanted at = wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
+  if (now - now_.met <= kImpact) now_.impact = std::max(now_.impact, -dot(truth.contact_force, at.normal));
+  if (truth.phase == sim::Phase::hold)
+    now_.slide_error = std::max(now_.slide_error, along_surface(at, truth.tip));
+}
+
+}  // namespace enc::bench

@@ -1,0 +1,63 @@
+// What became of each reach of a finger, judged by the truth: was the prop where the finger met the surface,
+// since when, and how hard was the meeting [VisHap 2.2].
+#pragma once
+
+#include <vector>
+
+#include "benchmarks/trial.h"
+
+namespace enc::bench {
+
+// A reach has met the surface when the finger first touches the prop, or passes through the surface without
+// it.
+struct Reach {
+  std::int32_t aim = -1;     // object that the person reaches for
+  std::int32_t chosen = -1;  // by the core, when they meet
+  double prepared = kUnset;  // s of experiment: the last "prepare" before
+  double arrived =
+      kUnset;             // s: since then the prop has been within 2 mm of where they meet; unset: it is not
+  double met = kUnset;    // s
+  double speed = kUnset;  // m/s, of the finger, when they meet
+  double miss = kUnset;   // m, along the surface: prop's middle to where it should be
+  double impact = 0.0;    // N, along the normal: most within 50 ms after
+  double slide_error = 0.0;   // m: most along the surface between prop and finger while it is held
+  std::int32_t contacts = 0;  // that the core counted
+  std::int32_t prepares = 0;  // how often it began to prepare
+  bool touched = false;       // the prop, at all
+  bool aborted = false;       // it turns back before
+
+  [[nodiscard]] double lead() const { return met - prepared; }
+  [[nodiscard]] double travel() const { return arrived - prepared; }  // unset: it did not get there
+};
+
+class ReachMeasure {
+ public:
+  void see(const Glance& glance);
+  [[nodiscard]] std::vector<Reach> reaches() const;
+  // Of the tip, at most, from a second after a finger went away, m/s.
+  [[nodiscard]] double far_speed() const { return far_speed_; }
+
+ private:
+  void begin(const Glance& glance);
+  void meet(const Glance& glance, double now);
+  void watch_contact(const Glance& glance, double now);
+
+  std::vector<Reach> over_;
+  Reach now_;
+  std::int32_t contacts_before_ = 0;
+  bool begun_ = false;
+  sim::Phase phase_ = sim::Phase::wait;
+  Mode mode_ = Mode::away;
+  std::vector<Point<'W'>> way_;  // of the prop since it was prepared, a tick each
+  double away_since_ = 0.0, far_speed_ = 0.0;
+};
+
+// Where the prop should be when a finger is at `tip`, and the surface normal there. Of the truth.
+struct Wanted {
+  Point<'W'> point;
+  Vec<'W'> normal;
+  double distance = kUnset;  // of the tip's centre from the surface, m
+};
+[[nodiscard]] Wanted wanted_at(const Object& object, const Point<'W'>& tip);
+
+}  // namespace enc::bench

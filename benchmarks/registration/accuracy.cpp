@@ -1,0 +1,124 @@
+#include "benchmarks/registration/accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "benchmarks/parallel.h"
+#include "core/error.h"
+#include "sim/random.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr std::size_t kTargets = 240;
+
+// What one seed gives for every combination.
+struct OneSeed {
+  std::vector<Registration> found;
+  std::vector<double> seconds;
+};
+
+OneSeed run_seed(const RegistrationRig& rig, const RegistrationPlaces& places, const AccuracyStudy& study,
+                 std::uint64_t seed) {
+  const std::size_t most_pairs = *std::max_element(study.pairs.begin(), study.pairs.end());
+  const std::size_t most_frames = *std::max_element(study.frames.begin(), study.frames.end());
+  if (places.visited.size() < most_pairs)
+    throw Error(
+        "the camera sees fewer places of the arm than are wanted; expected its view on the arm; see "
+        "frames.W_C");
+  const std::vector<Point<'W'>> visited(places.visited.begin(),
+                                        places.visited.begin() + static_cast<std::ptrdiff_t>(most_pairs));
+  KinematicArm arm(rig.believed, rig.arm);
+  const GuidedRun run = run_guided(arm, visited, rig.X_WC, rig.camera, most_frames, seed);
+  if (run.unseen > 0) throw Error("a place was not seen; expected all in view; see truth.camera");
+  OneSeed one;
+  for (const std::size_t pairs : study.pairs)
+    for (const std::size_t frames : study.frames) {
+      const PointSet used(run.points.begin(), run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
+      one.found.push_back(register_points(averages(used, frames)));
+      const auto spared = static_cast<double>((pairs - 1) * most_frames);
+      one.seconds.push_back(run.seconds[pairs - 1] +
+                            (static_cast<double>(pairs * frames) - spared) / rig.camera.rate);
+    }
+  return one;
+}
+
+void judge(const RegistrationRig& rig, const RegistrationPlaces& places, const Registration& found,
+           Accuracy& to) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t t = 0; t < places.targets.size(); ++t) {
+    const Vec3 error = target_error(found.X_WC, rig.X_WC, places.targets[t]);
+    sum += error.cwiseAbs() / static_cast<double>(places.targets.size());
+    to.square[t] += error.squaredNorm();
+  }
+  to.residual.push_back(found.mean_error);
+  to.held_out.push_back(sum);
+  to.turn.push_back(found.X_WC.q().angularDistance(rig.X_WC.q()));
+  to.scale.push_back(found.scale);
+}
+
+}  // namespace
+
+double Accuracy::rms() const { return rms_at(0, square.size()); }
+
+double Accuracy::rms_at(std::size_t from, std::size_t to) const {
+  const auto at = [&](std::size_t i) { return square.begin() + static_cast<std::ptrdiff_t>(i); };
+  return std::sqrt(std::accumulate(at(from), at(to), 0.0) / static_cast<double>(to - from));
+}
+
+RegistrationPlaces places_of(const RegistrationRig& rig, std::size_t most_pairs) {
+  const Arm arm(rig.believed);
+  const std::vector<Point<'W'>> all = places_in_view(arm, rig.least_dexterity, rig.X_WC, rig.camera);
+  RegistrationPlaces places;
+  places.visited = well_spread(all, most_pairs);
+  Vec3 middle = Vec3::Zero();
+  for (const Point<'W'>& p : all) middle += p.e() / static_cast<double>(all.size());
+  const std::size_t step = std::max<std::size_t>(1, all.size() / kTargets);
+  for (std::size_t i = 0; i < all.size(); i += step) places.targets.push_back(all[i]);
+  // From the middle outwards, so that both are at an end of the list.
+  const auto distance = [&](const Point<'W'>& p) { return (p.e() - middle).norm(); };
+  std::stable_sort(places.targets.begin(), places.targets.end(),
+                   [&](const Point<'W'>& a, const Point<'W'>& b) { return distance(a) < distance(b); });
+  for (const Point<'W'>& p : places.targets) places.distance.push_back(distance(p));
+  return places;
+}
+
+std::vector<Accuracy> run_accuracy(const RegistrationRig& rig, const RegistrationPlaces& places,
+                                   const AccuracyStudy& study, const std::function<void(double)>& progress) {
+  std::vector<OneSeed> seeds(study.seeds);
+  in_parallel(
+      study.seeds, [&](std::size_t i) { seeds[i] = run_seed(rig, places, study, study.first_seed + i); },
+      progress);
+  std::vector<Accuracy> all;
+  for (const std::size_t pairs : study.pairs)
+    for (const std::size_t frames : study.frames) {
+      Accuracy one{pairs, frames, {}, {}, {}, {}, std::vector<double>(places.targets.size(), 0.0)};
+      const std::size_t index = all.size();
+      for (const OneSeed& seed : seeds) judge(rig, places, seed.found[index], one);
+      for (double& square : one.square) square /= static_cast<double>(study.seeds);
+      one.seconds = seeds.front().seconds[index];
+      all.push_back(std::move(one));
+    }
+  return all;
+}
+
+double exact_error(std::size_t count, std::uint64_t seed) {
+  sim::Stream random(seed, "registration.exact");
+  double worst = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 v = random.normal3();
+    const Pose<'W', 'C'> truth(Quat(random.normal(), v.x(), v.y(), v.z()).normalized(), random.normal3());
+    std::vector<PointPair> pairs;
+    for (std::size_t k = 0; k < 4 + i % 17; ++k) {
+      const Point<'C'> p(Vec3(0.1 * random.normal3()));
+      pairs.push_back({p, truth * p});
+    }
+    const Registration found = register_points(pairs);
+    worst = std::max({worst, (found.X_WC.p() - truth.p()).norm(),
+                      (found.X_WC.q().toRotationMatrix() - truth.q().toRotationMatrix()).norm()});
+  }
+  return worst;
+}
+
+}  // namespace enc::bench

@@ -1,0 +1,237 @@
+// Registration of camera and arm [VisHap 2.2]: pairs of places, each an average of frames; what is left over
+// at them, what the registration is wrong by elsewhere, and how both fall with pairs and frames.
+#include "benchmarks/registration/registration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/report/reference.h"
+#include "benchmarks/statistics.h"
+
+namespace enc::bench {
+namespace {
+
+constexpr std::size_t kPairs = 8, kFrames = 20;  // of the figures (fidelity F3)
+constexpr double kMm = 1e3;
+
+const std::vector<std::size_t> kPairCounts{4, 5, 6, 8, 12, 16, 20};
+const std::vector<std::size_t> kFrameCounts{1, 5, 20, 100};
+
+std::vector<double> along(const std::vector<Vec3>& values, std::size_t axis) {
+  std::vector<double> out;
+  out.reserve(values.size());
+  for (const Vec3& v : values) out.push_back(v(static_cast<Eigen::Index>(axis)));
+  return out;
+}
+
+struct Bounds {
+  double paper = kUnset, high = kUnset;
+  Role role = Role::ours;
+};
+
+// Median over seeds; least and most; in the note what 97.5 % of them stay below.
+void add_axes(const std::string& name, const std::vector<Vec3>& errors, const Bounds& bounds,
+              const std::string& note, BenchResult& result) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::vector<double> axis = along(errors, a);
+    Figure f{fmt::format("registration.{}{}_mm", name, kAxisNames[a]),
+             bounds.paper,
+             median(axis) * kMm,
+             "mm",
+             bounds.role,
+             kUnset,
+             bounds.high,
+             fmt::format("{}; 97.5 % of seeds below {:.3f}", note, percentile(axis, 0.975) * kMm)};
+    f.least = *std::min_element(axis.begin(), axis.end()) * kMm;
+    f.most = *std::max_element(axis.begin(), axis.end()) * kMm;
+    result.figures.push_back(std::move(f));
+  }
+}
+
+double share_below(const std::vector<Vec3>& errors, double bound) {
+  const std::vector<double> worst = worst_axis(errors);
+  const auto below = std::count_if(worst.begin(), worst.end(), [&](double x) { return x < bound; });
+  return static_cast<double>(below) / static_cast<double>(worst.size());
+}
+
+void add_figures(const std::vector<Accuracy>& all, double paper, BenchResult& result) {
+  const Accuracy& averaged = accuracy_of(all, kPairs, kFrames);
+  const Accuracy& single = accuracy_of(all, kPairs, 1);
+  add_axes("", averaged.residual, {paper, paper, Role::predicted},
+           "mean |error| at the 8 pairs themselves, 20 frames each: the plain reading of the paper", result);
+  add_axes("held_out.", averaged.held_out, {kUnset, paper, Role::ours},
+           "mean |error| of the same registration all over the volume in view", result);
+  add_axes("single.", single.residual, {}, "at the 8 pairs, one frame each", result);
+  add_axes("single.held_out.", single.held_out, {}, "all over the volume in view, one frame each", result);
+  const auto ours = [&](const std::string& id, double value, const char* unit, double low, double high,
+                        const std::string& note) {
+    result.figures.push_back({"registration." + id, kUnset, value, unit, Role::ours, low, high, note});
+  };
+  ours("below.share", 100.0 * share_below(averaged.residual, paper / kMm), "%", 95.0, kUnset,
+       "of seeds in which every axis is below the paper's bound");
+  ours("single.below.share", 100.0 * share_below(single.residual, paper / kMm), "%", kUnset, kUnset,
+       "the same with one frame each");
+  const std::size_t tenth = std::max<std::size_t>(1, averaged.square.size() / 10);
+  ours("centre.rms_mm", averaged.rms_at(0, tenth) * kMm, "mm", kUnset, kUnset,
+       "length of the error in the tenth of the volume that is nearest to its middle");
+  ours("edge.rms_mm", averaged.rms_at(averaged.square.size() - tenth, averaged.square.size()) * kMm, "mm",
+       kUnset, kUnset, "and in the tenth that is farthest from it");
+  ours("turn.rms_deg",
+       std::sqrt([&] {
+         double sum = 0.0;
+         for (const double t : averaged.turn) sum += t * t / static_cast<double>(averaged.turn.size());
+         return sum;
+       }()) *
+           180.0 / M_PI,
+       "deg", kUnset, kUnset, "of the rotation");
+  ours("procedure.time_s", averaged.seconds, "s", kUnset, kUnset,
+       "of experiment: moves, standstill, 20 frames at 8 places");
+}
+
+// Alone on one core, because it measures time.
+std::vector<RegistrationCost> costs_of(const RegistrationRig& rig, const RegistrationPlaces& places,
+                                       std::uint64_t seed, bool quick) {
+  KinematicArm arm(rig.believed, rig.arm);
+  const GuidedRun run = run_guided(arm, places.visited, rig.X_WC, rig.camera, kFrameCounts.back(), seed);
+  std::vector<RegistrationCost> costs;
+  for (const std::size_t pairs : kPairCounts)
+    for (const std::size_t frames : kFrameCounts) {
+      const PointSet used(run.points.begin(), run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
+      RegistrationCost cost{pairs, frames};
+      for (int i = 0; i < (quick ? 10 : 100); ++i) {
+        const double start = thread_seconds();
+        const Registration found = register_points(averages(used, frames));
+        const double took = thread_seconds() - start;
+        if (found.rms >= 0.0 && !(took >= cost.cpu)) cost.cpu = took;
+      }
+      costs.push_back(cost);
+    }
+  return costs;
+}
+
+struct Variant {
+  std::string name;
+  std::function<void(RegistrationRig&)> change;
+};
+
+// What the answer depends on: noise that is assumed, and what is believed wrongly.
+Table table_of_doubts(const RegistrationRig& rig, const AccuracyStudy& base) {
+  const auto noise = [](double sim::CameraTruth::*what, double value) {
+    return [what, value](RegistrationRig& r) { r.camera.*what = value; };
+  };
+  std::vector<Variant> variants{
+      {"as the rig is", [](RegistrationRig&) {}},
+      {"matching 0.15 px", noise(&sim::CameraTruth::matching, 0.15)},
+      {"matching 0.25 px", noise(&sim::CameraTruth::matching, 0.25)},
+      {"matching 0.5 px", noise(&sim::CameraTruth::matching, 0.5)},
+      {"standing 0", noise(&sim::CameraTruth::standing, 0.0)},
+      {"standing 0.1 px", noise(&sim::CameraTruth::standing, 0.1)},
+      {"standing 0.2 px", noise(&sim::CameraTruth::standing, 0.2)},
+      {"pointing 0.5 px", noise(&sim::CameraTruth::pointing, 0.5)},
+      {"disparity in whole px", noise(&sim::CameraTruth::disparity_step, 1.0)},
+      {"no noise at all, encoders only",
+       [](RegistrationRig& r) {
+         r.camera.matching = r.camera.pointing = r.camera.standing = r.camera.disparity_step = 0.0;
+       }},
+  };
+  if (rig.believed.kind == ArmKind::phantom)
+    variants.push_back({"arm 1 % longer than believed", [](RegistrationRig& r) {
+                          r.arm.machine.phantom.l1 *= 1.01;
+                          r.arm.machine.phantom.l2 *= 1.01;
+                        }});
+  Table table{"registration_doubts",
+              "Registration of 8 pairs: what it depends on, median over seeds",
+              {"rig", "left over x (mm)", "y (mm)", "z (mm)", "elsewhere x (mm)", "y (mm)", "z (mm)",
+               "one frame: left over, worst axis (mm)", "size of camera's over device's set"},
+              {}};
+  for (const Variant& variant : variants) {
+    RegistrationRig other = rig;
+    variant.change(other);
+    AccuracyStudy study{{kPairs}, {1, kFrames}, base.seeds, base.first_seed};
+    const std::vector<Accuracy> both = run_accuracy(other, places_of(other, kPairs), study);
+    const Accuracy& averaged = accuracy_of(both, kPairs, kFrames);
+    std::vector<std::string> row{variant.name};
+    for (const auto* errors : {&averaged.residual, &averaged.held_out})
+      for (std::size_t a = 0; a < 3; ++a)
+        row.push_back(fmt::format("{:.3f}", median(along(*errors, a)) * kMm));
+    row.push_back(fmt::format("{:.3f}", median(worst_axis(accuracy_of(both, kPairs, 1).residual)) * kMm));
+    row.push_back(fmt::format("{:.4f}", median(averaged.scale)));
+    table.rows.push_back(std::move(row));
+  }
+  table.note = "Left over: mean |error| at the 8 pairs themselves; elsewhere: all over the volume in view.";
+  return table;
+}
+
+Table table_of_pairs(const std::vector<Accuracy>& all) {
+  Table table{
+      "registration_pairs",
+      "Mean |error| by pairs and frames, worst axis: median and 95 % band over seeds",
+      {"pairs", "frames", "left over (mm)", "low", "high", "elsewhere (mm)", "low", "high", "experiment (s)"},
+      {}};
+  for (const Accuracy& one : all) {
+    std::vector<std::string> row{fmt::format("{}", one.pairs), fmt::format("{}", one.frames)};
+    for (const auto* errors : {&one.residual, &one.held_out}) {
+      const std::vector<double> worst = worst_axis(*errors);
+      for (const double share : {0.5, 0.025, 0.975})
+        row.push_back(fmt::format("{:.3f}", percentile(worst, share) * kMm));
+    }
+    row.push_back(fmt::format("{:.1f}", one.seconds));
+    table.rows.push_back(std::move(row));
+  }
+  table.note =
+      "Few pairs leave little over because six numbers are fitted to them; elsewhere they are the worst.";
+  return table;
+}
+
+}  // namespace
+
+const Accuracy& accuracy_of(const std::vector<Accuracy>& all, std::size_t pairs, std::size_t frames) {
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const Accuracy& one) { return one.pairs == pairs && one.frames == frames; });
+}
+
+std::vector<double> worst_axis(const std::vector<Vec3>& errors) {
+  std::vector<double> worst;
+  worst.reserve(errors.size());
+  for (const Vec3& e : errors) worst.push_back(e.maxCoeff());
+  return worst;
+}
+
+BenchResult run_registration(const BenchContext& context) {
+  BenchResult result{"registration", "vishap", 0, 0, {}};
+  const double paper = [&] {
+    const Reference reference = Reference::load(context.models, "registration.csv");
+    return reference.number(reference.row({{"quantity", "mean_error_mm"}}), "value");
+  }();
+  const std::string file = context.models + "/rigs/vishap.toml";
+  const RegistrationRig rig = registration_rig(models::load_rig_setup(file, context.set));
+  const RegistrationPlaces places = places_of(rig, kPairCounts.back());
+  AccuracyStudy study{kPairCounts, kFrameCounts,
+                      context.quick  ? 60UL
+                      : context.full ? 2000UL
+                                     : 400UL,
+                      context.seed * 100000};
+  if (context.repeats > 0) study.seeds = static_cast<std::size_t>(context.repeats);
+  const std::vector<Accuracy> all = run_accuracy(rig, places, study, context.progress);
+  result.simulated =
+      static_cast<double>(study.seeds) * accuracy_of(all, kPairCounts.back(), kFrameCounts.back()).seconds;
+  add_figures(all, paper, result);
+  result.figures.push_back(
+      {"registration.exact.max_m", kUnset, exact_error(context.quick ? 200 : 2000, context.seed), "m",
+       Role::ours, kUnset, 1e-9,
+       "random transforms, 4 to 20 pairs, no noise: position, and elements of the rotation"});
+  const std::vector<RegistrationCost> costs = costs_of(rig, places, context.seed, context.quick);
+  for (const RegistrationCost& cost : costs)
+    if (cost.pairs == kPairs && cost.frames == kFrames)
+      result.figures.push_back({"registration.cpu_us", kUnset, cost.cpu * 1e6, "us", Role::ours, kUnset,
+                                kUnset, "averaging and registering 8 pairs of 20 frames, least of several"});
+  add_registration_plots(all, costs, places, paper, result);
+  result.tables.push_back(table_of_pairs(all));
+  result.tables.push_back(table_of_doubts(rig, study));
+  result.note = fmt::format("{} seeds; points with the errors of stereo matching, no images", study.seeds);
+  return result;
+}
+
+}  // namespace enc::bench

@@ -1,0 +1,45 @@
+// The core alone under a finger that goes where it is told: no physics, no noise, an arm that stays at home.
+#pragma once
+
+#include "core/scene.h"
+#include "core/step.h"
+
+namespace enc::bench {
+
+class FingerLoop {
+ public:
+  explicit FingerLoop(Scene made) : scene(std::move(made)) {
+    const PerJoint home = scene.impedance->arm.zero();
+    in.arm.value = {home, {}, scene.impedance->arm.tip(home), Vec<'R'>::zero()};
+    tick_.dt = from_seconds(scene.dt);
+    tick_.index = -1;
+    tick_.t = Time(-tick_.dt);
+  }
+
+  // One tick with the finger at p.
+  const Outputs& tick(const Point<'W'>& p) {
+    put(p);
+    step(scene, tick_, in, state, out);
+    return out;
+  }
+  // The same, and only the time that step() takes, s of this thread.
+  double time(const Point<'W'>& p);
+
+  Scene scene;
+  Inputs in;
+  State state;
+  Outputs out;
+
+ private:
+  void put(const Point<'W'>& p) {
+    ++tick_.index;
+    tick_.t += tick_.dt;
+    in.arm.t = tick_.t;
+    in.arm.health = Health::ok;
+    const Vec3 origin = p.e() - scene.tools[0].tip.centre.e();
+    in.tool = {{0, scene.X_WC.inverse() * Pose<'W', 'T'>(Quat::Identity(), origin)}, tick_.t, Health::ok};
+  }
+  Tick tick_;
+};
+
+}  // namespace enc::bench

@@ -1,0 +1,202 @@
+// Which of many objects is nearest, and what becomes of those that move [VisHap 2.2, 2.3.3].
+#include "benchmarks/switching/switching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "benchmarks/load_scene.h"
+#include "benchmarks/parallel.h"
+#include "benchmarks/statistics.h"
+#include "benchmarks/switching/crowd.h"
+#include "benchmarks/switching/finger_loop.h"
+#include "benchmarks/trial.h"
+
+namespace enc::bench {
+
+double FingerLoop::time(const Point<'W'>& p) {
+  put(p);
+  const double start = thread_seconds();
+  step(scene, tick_, in, state, out);
+  return thread_seconds() - start;
+}
+
+namespace {
+
+constexpr double kNoise = 1e-3;  // m, of the finger along each axis: the issue's
+
+// A finger that is seen as it is: the choice itself is judged.
+Scene bare_scene(const BenchContext& context) {
+  return prepare_setup(load_scene(context, "keypad", {}, {"rig.tracker.prediction=\"hold\""}));
+}
+
+Point<'W'> anywhere(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> even(-kCrowdRoom, kCrowdRoom);
+  const double x = even(random), y = even(random), z = even(random);
+  return {x, y, z};
+}
+
+double share_right(const BenchContext& context, int queries) {
+  Scene scene = bare_scene(context);
+  fill_with_crowd(scene, 50, context.seed);
+  FingerLoop loop(std::move(scene));
+  std::mt19937_64 random(context.seed);
+  int right = 0;
+  for (int i = 0; i < queries; ++i) {
+    loop.state = State{};
+    const Point<'W'> p = anywhere(random);
+    loop.tick(p);
+    // Objects that are touched come first: then the nearest of all may not be one of them.
+    right += loop.out.object == nearest_for_a_finger(loop.scene, p, loop.scene.tools[0].tip.radius) ? 1 : 0;
+  }
+  return static_cast<double>(right) / queries;
+}
+
+struct Chatter {
+  const char* name;
+  Point<'W'> middle;
+  std::vector<double> per_second;
+};
+
+// Two balls that face each other 40 mm apart: what noise does there is the worst.
+Scene facing(Scene scene) {
+  const Surface ball{Sphere{0.010}};
+  scene.objects = {Object{ball, Pose<'W', 'O'>::shift(-0.03, 0, 0), {}},
+                   Object{ball, Pose<'W', 'O'>::shift(0.03, 0, 0), {}}};
+  return scene;
+}
+
+double switches_per_second(Scene scene, double hysteresis, const Point<'W'>& middle, double seconds,
+                           std::uint64_t seed) {
+  scene.follow.hysteresis = hysteresis;
+  FingerLoop loop(std::move(scene));
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> bell(0.0, kNoise);
+  int count = 0;
+  std::int32_t before = -1;
+  for (int i = 0; i < static_cast<int>(seconds / loop.scene.dt); ++i) {
+    const double x = bell(random), y = bell(random), z = bell(random);
+    loop.tick(middle + Vec<'W'>(x, y, z));
+    count += before >= 0 && loop.out.object != before ? 1 : 0;
+    before = loop.out.object;
+  }
+  return count / seconds;
+}
+
+void chatter(const BenchContext& context, BenchResult& result, const Adder& add) {
+  const double seconds = context.quick ? 5.0 : 60.0;
+  std::vector<double> hysteresis;
+  for (double h = 0.0; h <= 0.0141; h += 0.001) hysteresis.push_back(h);
+  const Scene keypad = bare_scene(context);
+  // 12 mm over the gap between two keys: a finger that looks for the next one.
+  std::vector<Chatter> cases{{"two balls that face each other", {0, 0, 0}, {}},
+                             {"two keys side by side", {0.010, 0.010, 0.012}, {}}};
+  for (Chatter& one : cases) {
+    one.per_second.resize(hysteresis.size());
+    const bool balls = &one == &cases.front();
+    in_parallel(hysteresis.size(), [&](std::size_t i) {
+      one.per_second[i] = switches_per_second(balls ? facing(keypad) : keypad, hysteresis[i], one.middle,
+                                              seconds, context.seed);
+    });
+  }
+  add("chatter.facing_none", cases[0].per_second[0], "1/s", "without hysteresis, 1 mm noise", 10.0, kUnset);
+  add("chatter.facing_12mm", cases[0].per_second[12], "1/s",
+      "with the 12 mm of room.toml, six sigma of the difference", kUnset, 0.0);
+  add("chatter.keys_3mm", cases[1].per_second[3], "1/s", "with the 3 mm of keypad.toml", kUnset, 0.0);
+  Plot plot{"switching_chatter",
+            "Changes of the nearest object on the mid-line",
+            "hysteresis (mm)",
+            "changes (1/s)",
+            false,
+            false,
+            {}};
+  for (const Chatter& one : cases) {
+    Series series{one.name, {}, {}};
+    for (std::size_t i = 0; i < hysteresis.size(); ++i) {
+      series.x.push_back(1e3 * hysteresis[i]);
+      series.y.push_back(one.per_second[i]);
+    }
+    series.mark = Mark::both;
+    plot.series.push_back(std::move(series));
+  }
+  plot.caption =
+      "A finger that is seen with 1 mm noise (one sigma, each axis, every tick) stands where two objects are "
+      "equally near. Between objects that face each other the noise counts twice; beside each other, less.";
+  result.plots.push_back(std::move(plot));
+}
+
+// Time of a tick and of the same answer by asking all, over the number of objects.
+void timing(const BenchContext& context, BenchResult& result, const Adder& add) {
+  const std::vector<std::size_t> counts{1, 3, 10, 30, 100, 300, 1000};
+  const int ticks = context.quick ? 4000 : 20000;
+  Series ours{"step(), median", {}, {}}, worst{"step(), p99.9", {}, {}},
+      brute{"asking every object, without bounds", {}, {}};
+  double wrong = 0.0, ratio = kUnset;
+  for (const std::size_t count : counts) {
+    Scene scene = bare_scene(context);
+    fill_with_crowd(scene, count, context.seed);
+    FingerLoop loop(std::move(scene));
+    std::vector<double> step_s, all_s;
+    for (int i = 0; i < ticks; ++i) {
+      const double t = 1e-3 * i;  // up to 300 mm/s
+      const Point<'W'> p(0.25 * std::sin(0.9 * t), 0.25 * std::sin(1.3 * t + 1.0), 0.25 * std::sin(0.7 * t));
+      step_s.push_back(loop.time(p));
+      if (i % 10 != 0) continue;
+      const double start = thread_seconds();
+      const Nearby all = brute_force(loop.scene, p);
+      all_s.push_back(thread_seconds() - start);
+      const double chosen = distance_to(loop.scene, loop.out.object, p);
+      // What is in contact stays so until the finger has left it.
+      if (loop.out.mode != Mode::contact) wrong = std::max(wrong, chosen - all.distance);  // m
+    }
+    const auto n = static_cast<double>(count);
+    for (Series* s : {&ours, &worst, &brute}) s->x.push_back(n);
+    ours.y.push_back(1e6 * percentile(step_s, 0.5));
+    worst.y.push_back(1e6 * percentile(step_s, 0.999));
+    brute.y.push_back(1e6 * percentile(all_s, 0.5));
+    ratio = brute.y.back() / ours.y.back();
+  }
+  add("tick_1000.p50", ours.y.back(), "us", "step() in a scene of 1,000 objects; CPU time of its thread",
+      kUnset, 50.0);
+  add("tick_1000.p99_9", worst.y.back(), "us", "the same", kUnset, 50.0);
+  add("brute_over_tick_1000.median", ratio, "x", "asking every object over the whole of step()", 2.0, kUnset);
+  add("farther_than_nearest.max", 1e3 * wrong, "mm",
+      "the chosen object beyond the nearest: the hysteresis, or what is "
+      "touched comes first",
+      kUnset, 1e3 * (bare_scene(context).follow.hysteresis + 0.008));
+  for (Series* s : {&ours, &worst, &brute}) s->mark = Mark::both;
+  Plot plot{
+      "switching_time", "Time of a tick over the number of objects", "objects", "time (us)", true, true, {}};
+  plot.series = {ours, worst, brute};
+  plot.caption =
+      "The answers are the same, so the run time alone is left of an error-against-run-time diagram. Objects "
+      "whose ball is farther than the nearest so far are not asked.";
+  result.plots.push_back(std::move(plot));
+}
+
+}  // namespace
+
+BenchResult run_switching(const BenchContext& context) {
+  BenchResult result{"switching", "keypad", 0, 0, {}, {}};
+  const Adder add = [&](const std::string& id, double value, const char* unit, const std::string& note,
+                        double low, double high) {
+    result.figures.push_back({"switching." + id, kUnset, value, unit, Role::ours, low, high, note});
+  };
+  const auto progress = [&](double share) {
+    if (context.progress) context.progress(share);
+  };
+  add("right", 100.0 * share_right(context, context.quick ? 2000 : 10'000), "%",
+      "queries over 50 objects of four kinds, against asking each by hand", 100.0, 100.0);
+  chatter(context, result, add);
+  progress(0.3);
+  timing(context, result, add);
+  progress(0.5);
+  slide_over_keys(context, result, add);
+  progress(0.8);
+  move_things(context, result, add);
+  return result;
+}
+
+}  // namespace enc::bench

@@ -1,0 +1,110 @@
+// A force-controlled arm with up to three joints that carries a passive prop at its tip: kinematics, statics
+// and inertia [VisHap 2.3]. Geometry is data: a PHANToM, or any chain of hinges and slides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc {
+
+inline constexpr std::size_t kMostJoints = 3;
+inline constexpr double kStandardGravity = 9.80665;  // m/s^2, along -z of R
+// A number for each joint: rad or m, N m or N. Joints that a machine does not have are 0.
+using PerJoint = std::array<double, kMostJoints>;
+
+enum class ArmKind : std::uint8_t { phantom, chain };
+
+// Symbols of [VisHap eq. 5], which are those of Cavusoglu, Feygin and Tendick: a forearm, c parallelogram
+// link, be upper arm with motor, df crank with motor. q1 turret, q2 upper arm above horizontal, q3 forearm
+// from vertical (absolute). R is the centre of the gimbal of joints: the axes of turret and upper arm meet
+// there; x forwards and z upwards. Defaults: model 1.0A, scaled from the published 1.5 by 2/3
+// (parameters 1.5, derived).
+struct PhantomGeometry {
+  double l1 = 0.1397, l2 = 0.1130, l3 = 0.02167;  // upper arm, forearm, crank, m
+  double l5 = -0.02453, l6 = 0.03513;             // centres of mass of be (signed) and df from the axis, m
+  double m_a = 0.01347, m_c = 0.01660, m_be = 0.2325, m_df = 0.1865;  // kg
+  // In Cavusoglu's body axes, kg m^2: x along the axis of q2 and q3, z along be and c but y along a and df. a
+  // and c about their centres of mass, be and df about the origin of R: the published mass matrix has no
+  // m_be l5^2 and no m_df l6^2.
+  Vec3 I_a{1.441e-5, 5e-8, 1.441e-5}, I_c{2.841e-5, 2.841e-5, 1.5e-7}, I_be{4.929e-4, 4.471e-4, 2.63e-5},
+      I_df{3.160e-4, 2.80e-5, 2.776e-4};
+  double I_base = 5.276e-4;                         // turret about its axis, kg m^2
+  double coupled_low = -0.96, coupled_high = 1.13;  // limits of q2 - q3, rad: -55 and 65 deg (parameters 1.3)
+};
+
+enum class JointKind : std::uint8_t { hinge, slide };
+
+// A joint of a chain and the link behind it.
+struct ChainLink {
+  std::string name;
+  JointKind kind = JointKind::slide;
+  Vec3 axis{0, 0, 1};  // unit, in the frame of the link before; all frames are parallel to R where all joints
+                       // are at 0
+  Vec3 origin{0, 0, 0};            // of the joint, in the link before (its joint), m
+  double mass = 0.1;               // kg
+  Vec3 centre{0, 0, 0};            // of mass, from the joint, m
+  Vec3 inertia{1e-5, 1e-5, 1e-5};  // about that, along the link's axes, kg m^2
+};
+
+// Motor, transmission and encoder of a joint. A slide's ratio is in 1/m, its torque a force.
+struct ArmDrive {
+  double low = -M_PI, high = M_PI;  // rad or m
+  double ratio = 7.47;              // motor turns of 1 rad for each rad (or m) of the joint
+  double rotor_inertia = 1.03e-6;   // of the motor, kg m^2; at the joint it counts times ratio^2
+};
+
+struct ArmMachine {
+  ArmKind kind = ArmKind::phantom;
+  PhantomGeometry phantom;
+  std::vector<ChainLink> links;  // of a chain; at most kMostJoints
+  Vec3 tip{0, 0, 0};             // of a chain: H in its last link, m
+  std::array<ArmDrive, kMostJoints> drives{{{-M_PI / 2, M_PI / 2, 8.87},
+                                            {-2.164, 2.077, 7.47},    // -124 and 119 deg
+                                            {-0.506, 3.735, 7.47}}};  // -29 and 214 deg (parameters 1.3)
+};
+
+// How the mass of a prop at the tip enters eq. 5.
+enum class Payload : std::uint8_t {
+  published,  // added to m_a, "by adjusting m_a in equation 5": joint 3 gets half of it
+  exact       // at the tip
+};
+
+class Arm {
+ public:
+  // Throws Error where the machine has no or too many links, or a length or mass that cannot be.
+  explicit Arm(const ArmMachine& machine);
+
+  [[nodiscard]] const ArmMachine& machine() const { return machine_; }
+  [[nodiscard]] std::size_t joints() const { return joints_; }
+  [[nodiscard]] PerJoint zero() const { return {}; }  // home: W is where H is there
+
+  [[nodiscard]] Point<'R'> tip(const PerJoint& q) const noexcept;
+  // d tip / d q, m per rad or m; the columns of joints that are not there are 0. The body Jacobian J^b of eq.
+  // 4 is R^T of it, and its force R^T F, so that J^bT R^T F = J^T F.
+  [[nodiscard]] Mat3 jacobian(const PerJoint& q) const noexcept;
+  // What the motors must do against gravity [eq. 5], N m or N; payload at the tip, kg. A chain has no m_a:
+  // its payload is exact.
+  [[nodiscard]] PerJoint gravity(const PerJoint& q, double payload, Payload form) const noexcept;
+  // Mass matrix with rotors, kg m^2 (or kg, kg m); payload exact.
+  [[nodiscard]] Mat3 mass(const PerJoint& q, double payload) const noexcept;
+  // Force of the tip on the motors, and back: [eq. 4]. The inverse is damped near a singular pose: never NaN.
+  [[nodiscard]] PerJoint torque(const Mat3& jacobian, const Vec<'R'>& force) const noexcept;
+  [[nodiscard]] Vec<'R'> force(const Mat3& jacobian, const PerJoint& torque) const noexcept;
+  // 1 where the tip moves equally well along every way that the machine has, 0 at a singular pose: least over
+  // largest singular value of the Jacobian, of those that belong to its joints. 1 rad counts as 1 m.
+  [[nodiscard]] double dexterity(const Mat3& jacobian) const noexcept;
+  // Joints at which the tip is at p (with fewer than three: nearest to it), within limits; false, and q as it
+  // was, where there are none. A chain looks for them from q on.
+  [[nodiscard]] bool inverse(const Point<'R'>& p, PerJoint& q) const noexcept;
+  [[nodiscard]] bool within_limits(const PerJoint& q) const noexcept;
+
+ private:
+  ArmMachine machine_;
+  std::size_t joints_ = kMostJoints;
+};
+
+}  // namespace enc

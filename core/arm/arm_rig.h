@@ -1,0 +1,37 @@
+// A force-controlled arm as the core sees it: the machine that is believed, and its control law [VisHap 2.3].
+// A part of rig_spec.h.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/arm/arm.h"
+
+namespace enc {
+
+// What is done against gravity.
+enum class GravityForm : std::uint8_t {
+  none,       // nothing: the arm falls to its limits
+  published,  // eq. 5 with the prop added to m_a
+  exact       // and the prop where it is, at the tip
+};
+
+struct ArmRig {
+  std::string driver = "none";
+  ArmMachine machine;
+  GravityForm gravity = GravityForm::exact;
+  double stiffness = 400.0;  // K_p of eq. 2, N/m
+  double damping = 12.0;     // K_v of eq. 2, N s/m; critical or more for the mass at the tip
+  // Corner of the low-pass on e and its rate [eq. 3], Hz: 2 pi f is the `a` of a / (s + a); 2 pi f dt that of
+  // y = (a x + y_before) / (1 + a).
+  double filter = 60.0;
+  double peak = 8.5;              // N: what the tip can push with [PHANToM sheet]
+  double continuous = 1.4;        // N: and for hours
+  double speed = 0.6;             // of the target on its way to where the finger will touch, m/s
+  double acceleration = 10.0;     // and of it, m/s^2
+  double settle = 0.010;          // s, in which the target follows a leap of the finger that is seen
+  double stale = 0.005;           // s: an older sample is lost
+  double least_dexterity = 0.15;  // nearer to a singular pose the tip is not sent
+};
+
+}  // namespace enc

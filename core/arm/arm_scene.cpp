@@ -1,0 +1,151 @@
+#include "core/arm/arm_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/rotation.h"
+
+namespace enc {
+namespace {
+
+std::string number(double x) {
+  std::array<char, 32> text{};
+  const auto [end, bad] =
+      std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, 3);
+  return bad == std::errc() ? std::string(text.data(), end) : std::string("?");
+}
+
+void check_gains(const ArmRig& rig, double mass) {
+  const auto positive = [](double value, const char* key) {
+    if (!(value > 0.0)) throw Error("a gain of the control law is positive", std::string("rig.arm.") + key);
+  };
+  positive(rig.stiffness, "stiffness");
+  positive(rig.damping, "damping");
+  positive(rig.filter, "filter");
+  const double ratio = damping_ratio(rig, mass);
+  if (!(ratio >= 1.0))
+    throw Error("the control law is under-damped: ratio " + number(ratio) + " for the " + number(1e3 * mass) +
+                    " g that are felt at the tip; expected 1 or more [VisHap 2.3.1]; raise it to " +
+                    number(2.0 * std::sqrt(rig.stiffness * mass)) + ", or lower stiffness_N_per_m",
+                "rig.arm.damping");
+}
+
+void check_button(const ObjectSpec& object, const BehaviourSpec& behaviour) {
+  const InteractionSpec& button = behaviour.interaction;
+  const std::string key = "behaviour." + behaviour.name + ".interaction.";
+  if (!(button.after > 0.0) || !(button.floor > 0.0))
+    throw Error("a button has three stiffnesses: before the trigger, after it and at the bottom",
+                key + (button.after > 0.0 ? "floor" : "after"));
+  if (!(button.after < behaviour.stiffness))
+    throw Error("a button becomes softer when it is triggered", key + "after");
+  if (!(button.floor > button.after))
+    throw Error("the bottom of a button is stiffer than the button", key + "floor");
+  if (!(button.bottom > button.trigger + button.gradual))
+    throw Error("the bottom of a button lies deeper than where its trigger is over", key + "bottom");
+  if (object.shape == ShapeKind::mesh || object.shape == ShapeKind::sphere)
+    throw Error("only a button or a plane clicks", "object." + object.name + ".behaviour");
+}
+
+Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
+  const BehaviourSpec& behaviour = behaviour_of(scene.behaviours, spec);
+  const InteractionSpec& does = behaviour.interaction;
+  if (does.kind == Interaction::press)
+    throw Error("behaviour '" + behaviour.name +
+                    "' is for a machine that measures force; an arm renders slide, "
+                    "click, passive, hit, shift or spin",
+                "object." + spec.name + ".behaviour");
+  if (does.kind == Interaction::click) check_button(spec, behaviour);
+  if (does.kind != Interaction::passive && !(behaviour.stiffness > 0.0))
+    throw Error("behaviour '" + behaviour.name + "' has no stiffness", "object." + spec.name + ".behaviour");
+  Object object{surface_of(spec),
+                place_of(spec),
+                {},
+                kUnset,
+                kUnset,
+                behaviour.tangential,
+                behaviour.tangential_stiffness};
+  object.interaction = does;
+  object.stiffness = behaviour.stiffness;
+  return object;
+}
+
+// The arm gets to a place of the object, and from there to where the deepest press is felt.
+void check_reach(const SceneSpec& spec, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const bool middle = object.interaction.kind == Interaction::click;
+    const Point<'W'> home(0, 0, 0);
+    const Nearest near = object.surface.nearest(object.X_WO.inverse() * home);
+    const Point<'W'> at = middle ? object.X_WO.origin() : object.X_WO * near.point;
+    PerJoint q{};
+    const Impedance& law = *scene.impedance;
+    if (law.arm.inverse(scene.X_WR.inverse() * at, q) &&
+        law.arm.dexterity(law.arm.jacobian(q)) >= law.rig.least_dexterity)
+      continue;
+    throw Error("the arm does not get to object '" + spec.objects[i].name +
+                    "', or only near a singular pose; move it nearer to the origin of W, the arm's home",
+                "object." + spec.objects[i].name + ".position");
+  }
+}
+
+}  // namespace
+
+double damping_ratio(const ArmRig& rig, double mass) {
+  return rig.damping / (2.0 * std::sqrt(rig.stiffness * mass));
+}
+
+double mass_at_tip(const Arm& arm, const PerJoint& q, double payload) {
+  const Mat3 J = arm.jacobian(q);
+  const Mat3 M = arm.mass(q, payload);
+  const auto n = static_cast<Eigen::Index>(arm.joints());
+  double most = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Mobility along the axis, J M^-1 J^T; joints are few, so M^-1 by Cramer's rule is exact enough.
+    Mat3 whole = Mat3::Identity();
+    whole.topLeftCorner(n, n) = M.topLeftCorner(n, n);
+    const Vec3 row = J.row(axis).transpose();
+    const double mobility = row.dot(whole.inverse() * row);
+    if (mobility > 1e-6) most = std::max(most, 1.0 / mobility);
+  }
+  return most;
+}
+
+Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
+  if (spec.manipulator)
+    throw Error("a scene has one machine: [manipulator] or [arm]; remove one", "manipulator");
+  Scene scene;
+  Impedance law{Arm(rig.arm.machine), rig.arm};
+  if (spec.prop) {
+    law.prop = spec.prop->kind;
+    law.prop_mass = spec.prop->mass;
+  }
+  scene.dt = 1.0 / rig.loop.rate;
+  law.filter_gain = 2.0 * std::numbers::pi * rig.arm.filter * scene.dt;
+  check_gains(rig.arm, mass_at_tip(law.arm, law.arm.zero(), law.prop_mass));
+  scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
+  scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
+  scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);
+  scene.X_GL = pose_of<'G', 'L'>(rig.frames.G_L);
+  scene.X_HF = pose_of<'H', 'F'>(rig.frames.H_F);
+  scene.impedance = std::move(law);
+  scene.follow = spec.follow;
+  scene.tracker = rig.tracker;
+  scene.contact = rig.contact;
+  scene.loop = rig.loop;
+  scene.display = rig.display;
+  scene.has_arm = true;
+  scene.has_tracker = spec.tracker.has_value();
+  scene.tip_radius = 0.0;  // a prop has a front
+  if (!scene.has_tracker) throw Error("an arm needs [tracker]: it goes where the finger is", "arm");
+  for (const ObjectSpec& object : spec.objects) scene.objects.push_back(arm_object(spec, object));
+  scene.movers = make_movers(spec.objects, scene.objects);
+  for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
+  check_reach(spec, scene);
+  return scene;
+}
+
+}  // namespace enc

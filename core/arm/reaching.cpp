@@ -1,0 +1,223 @@
+// Where the prop of an arm shall be, and with which force it is sent there [VisHap 2.3].
+#include <algorithm>
+#include <cmath>
+
+#include "core/arm/arm_scene.h"
+#include "core/braking.h"
+#include "core/stages.h"
+
+namespace enc::stages {
+namespace {
+
+const Object* nearest_object(const Walk& walk, const State& state) {
+  return state.object < 0 ? nullptr : &walk.scene.objects[static_cast<std::size_t>(state.object)];
+}
+
+// A finger that presses lies on the prop for as long as it is seen within leave_gap of it: each tick the arm
+// knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. How deep a finger is
+// says the prop, whether it is there the camera.
+void lie_on_prop(Walk& walk, const State& state) {
+  const Object* object = nearest_object(walk, state);
+  if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
+  if (!state.reaching.caught_up) return;  // the prop is on its way to another place
+  const Interaction kind = object->interaction.kind;
+  if (kind != Interaction::slide && kind != Interaction::click) return;
+  const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
+  const double slack = walk.scene.contact.leave_gap;
+  const double beyond = walk.gap - prop;
+  walk.gap = prop + beyond - std::clamp(beyond, -slack, slack);
+}
+
+// The gap alone says what is touched: an arm measures no force. "Prepare" is the way from away to follow.
+void choose_mode(const Walk& walk, State& state) {
+  const FollowSpec& follow = walk.scene.follow;
+  if (state.object < 0 || !walk.tool_known) {
+    state.mode = Mode::away;
+    return;
+  }
+  if (state.mode == Mode::away && walk.gap < follow.resume) state.mode = Mode::follow;
+  if (state.mode == Mode::contact && walk.gap > walk.scene.contact.leave_gap) state.mode = Mode::follow;
+  if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
+  if (state.mode == Mode::follow && walk.gap <= 0.0) {
+    state.mode = Mode::contact;
+    ++state.contacts;
+    state.contact = Contact{};
+    state.contact.object = state.object;
+    state.contact.tool = state.tool.value.tool;
+  }
+  if (state.mode == Mode::contact)
+    state.contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
+}
+
+struct Goal {
+  Point<'W'> point;
+  Vec<'W'> velocity = Vec<'W'>::zero();
+};
+
+// The finger's projection on the surface, which goes along with it and with what moves.
+Goal goal_of(const Walk& walk, const State& state, const Object& object) {
+  if (object.met_in_its_middle()) return {object.X_WO.origin()};
+  Goal goal{walk.surface_point};
+  const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
+  if (predicted && walk.tool_fresh && state.tip_motion.velocity.finite()) {
+    const Vec3 v = state.tip_motion.velocity.e();
+    const Vec3 n = walk.normal.e();
+    goal.velocity = Vec<'W'>(Vec3(v - n.dot(v) * n));
+  }
+  const bool shifts = object.moving >= 0 && object.interaction.kind != Interaction::spin;
+  if (shifts) goal.velocity = goal.velocity + state.moved[static_cast<std::size_t>(object.moving)].velocity;
+  return goal;
+}
+
+// On its way the target keeps within speed and acceleration; once there it goes with the goal, whose leaps
+// (each new picture of the finger is one) it takes out within `settle`.
+void move_target(Walk& walk, const Goal& goal, Reaching& now) {
+  constexpr double kThere = 0.2e-3;  // m
+  constexpr double kLeap = 10e-3;    // m: another object, or another part of it
+  const ArmRig& rig = walk.scene.impedance->rig;
+  const double dt = walk.scene.dt;
+  const Vec3 way = (goal.point - now.target).e();
+  const double far = way.norm();
+  if (far > kLeap) now.caught_up = false;
+  Vec3 velocity = goal.velocity.e() + way / rig.settle;
+  if (!now.caught_up) {
+    const double most = rig.acceleration * dt;
+    // The share leaves room for a goal that moves.
+    const double speed = std::min({rig.speed, 0.9 * braking_speed(far, rig.acceleration, dt), far / dt});
+    if (far > 0.0) velocity = goal.velocity.e() + way * (speed / far);
+    const Vec3 change = velocity - now.velocity.e();
+    if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
+    walk.target_acceleration = (velocity - now.velocity.e()) / dt;
+    now.caught_up = far < kThere && change.norm() <= 2.0 * most;
+  }
+  now.velocity = Vec<'W'>(velocity);
+  now.target = now.target + dt * now.velocity;
+}
+
+// Nothing leaps: what is felt goes over into the next within `gradual_time`.
+void change_gain(const Walk& walk, const State& state, const Object* object, Reaching& now) {
+  const double free = walk.scene.impedance->rig.stiffness;
+  Felt felt{free, 0.0};
+  if (object == nullptr) {
+    now.gain = 1.0;
+    now.sunk = 0.0;
+    return;
+  }
+  const InteractionSpec& does = object->interaction;
+  if (state.mode == Mode::contact && object->stiffness > 0.0)
+    felt = felt_at(does, object->stiffness, free, std::max(0.0, -walk.gap));
+  if (object->moving >= 0 && state.mode == Mode::contact)
+    felt.stiffness *= state.moved[static_cast<std::size_t>(object->moving)].firmness;
+  const double whole = std::max({free, object->stiffness, std::isnan(does.floor) ? 0.0 : does.floor}) / free;
+  const double share = does.gradual_time > 0.0 ? walk.scene.dt / does.gradual_time : 1e9;
+  const auto towards = [](double from, double to, double most) {
+    return from + std::clamp(to - from, -most, most);
+  };
+  now.gain = towards(now.gain, felt.stiffness / free, whole * share);
+  now.sunk = towards(now.sunk, felt.sunk, does.bottom * share);
+  now.triggered = does.kind == Interaction::click && state.mode == Mode::contact && -walk.gap >= does.trigger;
+}
+
+// Gravity compensation, as a force of the tip [VisHap eq. 4, 5].
+Vec<'R'> against_gravity(const Walk& walk) {
+  const Impedance& law = *walk.scene.impedance;
+  if (law.rig.gravity == GravityForm::none) return Vec<'R'>::zero();
+  const Payload form = law.rig.gravity == GravityForm::published ? Payload::published : Payload::exact;
+  const PerJoint& q = walk.in.arm.value.joints;
+  return law.arm.force(walk.jacobian, law.arm.gravity(q, law.prop_mass, form));
+}
+
+// What the law asks for, as far as the machine can: here is the place of the passivity controller, between
+// the two.
+Vec3 guarded(Walk& walk, const Vec3& force) {
+  const double most = walk.scene.impedance->rig.peak;
+  if (!force.allFinite()) {
+    walk.why |= kNotFinite;
+    return Vec3::Zero();
+  }
+  if (force.norm() <= most) return force;
+  walk.why |= kOverload;
+  return force * (most / force.norm());
+}
+
+// While the finger is far the arm is motionless [VisHap 2]: what pushes it stays as it is, and friction holds
+// it. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
+// the tip dithering.
+bool resting(const State& state, const Vec3& error, const Vec3& velocity) {
+  constexpr double kNear = 0.2e-3;   // m
+  constexpr double kCounts = 20e-3;  // m/s
+  return state.mode == Mode::away && error.norm() < kNear && velocity.norm() < kCounts &&
+         state.reaching.velocity.norm() < 1e-3;
+}
+
+// Of the second derivative of e [eq. 2] only the target's own is known: the force that it takes to go along.
+Vec3 sped_up(const Walk& walk) {
+  if (walk.target_acceleration.isZero()) return Vec3::Zero();
+  const Impedance& law = *walk.scene.impedance;
+  return mass_at_tip(law.arm, walk.in.arm.value.joints, law.prop_mass) * walk.target_acceleration;
+}
+
+}  // namespace
+
+void encounter(Walk& walk, State& state) noexcept {
+  Reaching& now = state.reaching;
+  if (!walk.X_WH.valid()) return;
+  if (holding(walk) || !now.target.finite()) {  // nothing is wanted, and nothing leaps afterwards
+    const Point<'W'> here = walk.X_WH.origin();
+    now = Reaching{};
+    now.target = here;
+    if (holding(walk)) return;
+  }
+  lie_on_prop(walk, state);
+  choose_mode(walk, state);
+  const Object* object = nearest_object(walk, state);
+  if (state.mode == Mode::away || object == nullptr) {
+    move_target(walk, {now.target}, now);
+  } else {
+    Goal goal = goal_of(walk, state, *object);
+    const Arm& arm = walk.scene.impedance->arm;
+    PerJoint q = walk.in.arm.value.joints;
+    if (arm.inverse(walk.scene.X_WR.inverse() * goal.point, q)) {
+      // A machine with fewer joints than ways goes to where it is nearest.
+      if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
+      move_target(walk, goal, now);
+    } else {
+      walk.why |= kUnreachable;
+      now.velocity = Vec<'W'>::zero();
+      now.caught_up = false;
+    }
+  }
+  change_gain(walk, state, object, now);
+}
+
+void impede(Walk& walk, State& state) noexcept {
+  if (!walk.X_WH.valid()) return;  // nothing is known of the machine: nothing is said to it
+  const Impedance& law = *walk.scene.impedance;
+  Reaching& now = state.reaching;
+  walk.arm_force = against_gravity(walk);
+  walk.felt = Vec<'W'>::zero();
+  state.force = walk.felt;
+  if (holding(walk)) return;
+  const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
+  const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
+  const Vec3 rate = (now.velocity - walk.tip_velocity).e();
+  const bool rests = resting(state, error, walk.tip_velocity.e());
+  const Vec3 ahead = sped_up(walk) / law.rig.stiffness;
+  const double a = law.filter_gain;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis) + ahead(axis), now.error.xyz[i]);
+    now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
+  }
+  // A real thing is held where it stands, sideways as well.
+  const Object* object = nearest_object(walk, state);
+  const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
+  const double across = real ? now.gain : 1.0;
+  const Vec3 f = law.rig.stiffness * now.error.e() + law.rig.damping * now.error_rate.e();  // [eq. 2]
+  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);             // [eq. 7]
+  walk.felt = Vec<'W'>(Vec3(-pushed));
+  state.force = walk.felt;
+  walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,19 @@
+// A force-controlled arm that carries a prop to where a finger will touch: the PHANToM [VisHap 2.3].
+#pragma once
+
+#include "core/sample.h"
+
+namespace enc {
+
+class HapticArm {
+ public:
+  virtual ~HapticArm() = default;
+  virtual Stamped<ArmSample> read() noexcept = 0;  // newest; never blocks
+  // Force that the tip shall exert on what touches it, gravity included: stays until the next one. The device
+  // makes joint torques of it (J^T F) and clips them to what its motors can.
+  virtual void command(const Vec<'R'>& force) noexcept = 0;
+  // Speed of the surface of a prop that has a motor of its own, m/s; others have nothing to drive.
+  virtual void drive([[maybe_unused]] double surface_speed) noexcept {}
+};
+
+}  // namespace enc

@@ -1,0 +1,323 @@
+#include "core/record/record.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace enc {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the record is little-endian: put byte swaps here");
+
+constexpr std::uint64_t kMagic =
+    0x0a434552434e4589ULL;                    // "\x89ENCREC\n": no text file, and a text copy breaks it
+constexpr std::uint32_t kChunk = 0x4b4e4843;  // "CHNK"
+constexpr std::uint32_t kSeal = 0x4c414553;   // "SEAL"
+constexpr std::size_t kChunkBytes = 64 * 1024;
+constexpr std::size_t kHeaderBytes = 64 * 1024 * 1024;  // more is damage, not a scene
+constexpr std::size_t kWord = sizeof(std::uint64_t);
+
+std::uint64_t head(std::uint32_t tag, std::size_t size) {
+  return tag | static_cast<std::uint64_t>(size) << 32;
+}
+
+template <class F>
+void all_fields(F& f, RecordedTick& frame) {
+  fields(f, frame.tick);
+  fields(f, frame.in);
+  fields(f, frame.out);
+  f("state_hash", frame.hash);
+}
+
+struct LayoutHash {
+  std::uint64_t value = 0xcbf29ce484222325ULL;  // FNV-1a
+  std::size_t leaves = 0;
+  void add(char c) { value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL; }
+  template <class T>
+  void operator()(std::string_view name, T&) {
+    for (const char c : name) add(c);
+    add('\0');
+    // Kind and size: an int that becomes a double, or grows, is another layout.
+    add(std::is_floating_point_v<T> ? 'f'
+        : std::is_enum_v<T>         ? 'e'
+        : std::is_integral_v<T>     ? 'i'
+        : std::is_same_v<T, Time>   ? 't'
+                                    : 'd');
+    add(static_cast<char>('0' + sizeof(T)));
+    ++leaves;
+  }
+};
+const LayoutHash& layout() {
+  static const LayoutHash kHash = [] {
+    LayoutHash hash;
+    RecordedTick frame;
+    all_fields(hash, frame);
+    // A frame holds the hash of the state, so a state of another make is another layout, too.
+    const std::size_t leaves = hash.leaves;
+    State state;
+    fields(hash, state);
+    hash.leaves = leaves;
+    return hash;
+  }();
+  return kHash;
+}
+std::size_t frame_words() { return layout().leaves; }
+
+struct PutLeaves {
+  std::uint64_t* to;
+  StateHash& chain;
+  template <class T>
+  void operator()(std::string_view, T& x) {
+    *to = leaf_bits(x);
+    chain.add(*to++);
+  }
+};
+struct GetLeaves {
+  const std::uint64_t* from;
+  template <class T>
+  void operator()(std::string_view, T& x) {
+    set_leaf(x, *from++);
+  }
+};
+
+// Texts as bytes, filled up to whole words.
+std::vector<std::uint64_t> pack(const RecordTexts& texts) {
+  std::string bytes;
+  const auto number = [&](std::size_t n) {
+    const std::uint64_t wide = n;
+    bytes.append(reinterpret_cast<const char*>(&wide), kWord);
+  };
+  number(texts.size());
+  for (const auto& [name, text] : texts) {
+    number(name.size());
+    number(text.size());
+    bytes += name + text;
+  }
+  std::vector<std::uint64_t> words((bytes.size() + kWord - 1) / kWord, 0);
+  std::memcpy(words.data(), bytes.data(), bytes.size());
+  return words;
+}
+bool unpack(const std::vector<std::uint64_t>& words, RecordTexts& texts) {
+  const std::string_view bytes(reinterpret_cast<const char*>(words.data()), words.size() * kWord);
+  std::size_t at = 0;
+  const auto number = [&](std::uint64_t& n) {
+    if (bytes.size() - at < kWord) return false;
+    std::memcpy(&n, bytes.data() + at, kWord);
+    at += kWord;
+    return true;
+  };
+  std::uint64_t count = 0, name = 0, text = 0;
+  if (!number(count)) return false;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (!number(name) || !number(text) || name > bytes.size() - at || text > bytes.size() - at - name)
+      return false;
+    texts.emplace(bytes.substr(at, name), bytes.substr(at + name, text));
+    at += name + text;
+  }
+  return true;
+}
+
+std::string hex(std::uint64_t x) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string text = "0x";
+  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[x >> shift & 0xf];
+  return text;
+}
+
+}  // namespace
+
+std::uint64_t layout_hash() { return layout().value; }
+
+// ---- writing
+// ---------------------------------------------------------------------------------------------------------
+
+RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout)
+    : path_(path), chunk_(kChunkBytes / kWord) {
+  const std::vector<std::uint64_t> packed = pack(texts);
+  if (packed.size() * kWord > kHeaderBytes)
+    throw Error("the record '" + path +
+                "' cannot hold meshes of more than 64 MiB; make them coarser, or run without a record");
+  std::vector<std::uint64_t> header{kMagic, head(kRecordFormat, packed.size() * kWord), layout,
+                                    frame_words()};
+  header.insert(header.end(), packed.begin(), packed.end());
+  for (const std::uint64_t word : header) chain_.add(word);
+  header.push_back(chain_.value);
+  file_ = std::fopen(path.c_str(), "wb");
+  if (file_ == nullptr) {
+    errno_ = errno;
+    throw Error(error() + "; give a file in a folder that exists and may be written");
+  }
+  std::setvbuf(file_, nullptr, _IONBF,
+               0);  // our chunk is the buffer: what put() has accepted is with the system
+  put(header.data(), header.size() * kWord);
+  if (full()) {
+    std::fclose(file_);
+    std::error_code none;
+    if (std::filesystem::is_regular_file(path, none)) std::filesystem::remove(path, none);
+    throw Error(error() + "; give a file where there is room");
+  }
+}
+
+RecordWriter::~RecordWriter() {
+  if (file_ == nullptr) return;
+  flush_chunk();
+  std::fclose(file_);
+}
+
+void RecordWriter::put(const void* bytes, std::size_t size) noexcept {
+  if (full()) return;
+  errno = 0;
+  if (std::fwrite(bytes, 1, size, file_) != size) errno_ = errno != 0 ? errno : EIO;
+}
+
+void RecordWriter::flush_chunk() noexcept {
+  if (used_ == 1) return;
+  chunk_[0] = head(kChunk, (used_ - 1) * kWord);
+  chain_.add(chunk_[0]);
+  chunk_[used_] = chain_.value;
+  put(chunk_.data(), (used_ + 1) * kWord);
+  used_ = 1;
+}
+
+void RecordWriter::write(const Tick& tick, const Inputs& in, const Outputs& out,
+                         std::uint64_t state_hash) noexcept {
+  if (file_ == nullptr || full()) return;
+  RecordedTick frame{tick, in, out, state_hash};
+  PutLeaves put_leaves{chunk_.data() + used_, chain_};
+  all_fields(put_leaves, frame);
+  used_ += frame_words();
+  ++ticks_;
+  if (used_ + frame_words() + 1 > chunk_.size()) flush_chunk();
+}
+
+void RecordWriter::close() noexcept {
+  if (file_ == nullptr) return;
+  flush_chunk();
+  std::array<std::uint64_t, 3> seal{head(kSeal, kWord), static_cast<std::uint64_t>(ticks_), 0};
+  chain_.add(seal[1]);
+  chain_.add(seal[0]);
+  seal[2] = chain_.value;
+  put(seal.data(), sizeof(seal));
+  if (std::fclose(file_) != 0 && errno_ == 0) errno_ = errno;
+  file_ = nullptr;
+}
+
+std::string RecordWriter::error() const {
+  if (!full()) return {};
+  return "cannot write the record '" + path_ + "': " + std::generic_category().message(errno_);
+}
+
+// ---- reading
+// ---------------------------------------------------------------------------------------------------------
+
+RecordReader::RecordReader(const std::string& path, Partial partial)
+    : path_(path), partial_(partial), file_(path, std::ios::binary) {
+  if (!file_) throw Error("cannot read the record '" + path + "': " + std::generic_category().message(errno));
+  read_header();
+  while (read_chunk()) ticks_ += static_cast<std::int64_t>(chunk_.size() / frame_words());
+  rewind();
+}
+
+void RecordReader::fail(std::uint64_t byte, const std::string& what) const {
+  throw Error(path_ + ": byte " + std::to_string(byte) + ": " + what);
+}
+
+bool RecordReader::get(void* bytes, std::size_t size) {
+  file_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size));
+  if (static_cast<std::size_t>(file_.gcount()) != size) return false;
+  byte_ += size;
+  return true;
+}
+
+void RecordReader::read_header() {
+  std::array<std::uint64_t, 4> start{};
+  if (!get(&start[0], kWord) || start[0] != kMagic) fail(0, "this is not a record of Encounter");
+  if (!get(&start[1], 3 * kWord)) fail(byte_, "the record is cut off in its header");
+  const auto format = static_cast<std::uint32_t>(start[1]);
+  const std::size_t size = start[1] >> 32;
+  if (format != kRecordFormat)
+    fail(8, "record format " + std::to_string(format) + ", but this program reads format " +
+                std::to_string(kRecordFormat) + "; use the version of Encounter that wrote it");
+  if (size > kHeaderBytes || size % kWord != 0) fail(12, "the record's header is damaged: impossible size");
+  std::vector<std::uint64_t> packed(size / kWord);
+  std::uint64_t checksum = 0;
+  if (!get(packed.data(), size) || !get(&checksum, kWord)) fail(byte_, "the record is cut off in its header");
+  for (const std::uint64_t word : start) chain_.add(word);
+  for (const std::uint64_t word : packed) chain_.add(word);
+  if (checksum != chain_.value) fail(byte_ - kWord, "checksum failure: the record's header is damaged");
+  if (!unpack(packed, texts_)) fail(32, "the record's header is damaged: impossible texts");
+  if (start[2] != layout_hash() || start[3] != frame_words()) {
+    const auto version = texts_.find("version");
+    fail(16, "record of another layout: " + hex(start[2]) + " of Encounter " +
+                 (version == texts_.end() ? "(version not said)" : version->second) +
+                 ", but this program has " + hex(layout_hash()) +
+                 "; use the version of Encounter that wrote it, or record again");
+  }
+  header_chain_ = chain_;
+  first_chunk_ = byte_;
+}
+
+bool RecordReader::read_chunk() {
+  if (done_) return false;
+  const std::uint64_t at = byte_;
+  const auto stop = [&](std::uint64_t byte, const std::string& what) {
+    if (partial_ == Partial::no) fail(byte, what);
+    done_ = true;
+    return false;
+  };
+  static const std::string kCut = "the record is cut off here, or the run was not ended: it has no seal";
+  std::uint64_t start = 0, checksum = 0;
+  if (!get(&start, kWord)) return stop(at, kCut);
+  const auto tag = static_cast<std::uint32_t>(start);
+  const std::size_t size = start >> 32;
+  const bool possible =
+      tag == kSeal ? size == kWord
+                   : tag == kChunk && size > 0 && size <= kChunkBytes && size % (frame_words() * kWord) == 0;
+  if (!possible) return stop(at, "the record is damaged: neither a chunk nor the seal");
+  chunk_.resize(size / kWord);
+  if (!get(chunk_.data(), size) || !get(&checksum, kWord)) return stop(at, kCut);
+  for (const std::uint64_t word : chunk_) chain_.add(word);
+  chain_.add(start);
+  if (checksum != chain_.value)
+    return stop(at, "checksum failure: the record is damaged between here and byte " + std::to_string(byte_));
+  if (tag == kChunk) return true;
+  done_ = true;
+  // After rewind() ticks_ is known and the same; a seal that says otherwise was written by something else.
+  if (static_cast<std::int64_t>(chunk_[0]) != ticks_)
+    return stop(at, "the seal is for " + std::to_string(chunk_[0]) + " ticks, but " + std::to_string(ticks_) +
+                        " are there");
+  char more = 0;
+  if (get(&more, 1)) return stop(byte_ - 1, "there is something after the record's seal");
+  sealed_ = true;
+  return false;
+}
+
+void RecordReader::rewind() {
+  file_.clear();
+  file_.seekg(static_cast<std::streamoff>(first_chunk_));
+  byte_ = first_chunk_;
+  chain_ = header_chain_;
+  chunk_.clear();
+  used_ = 0;
+  done_ = false;
+}
+
+bool RecordReader::next(RecordedTick& frame) {
+  if (used_ >= chunk_.size()) {
+    used_ = 0;
+    if (!read_chunk()) {
+      chunk_.clear();
+      return false;
+    }
+  }
+  GetLeaves get_leaves{chunk_.data() + used_};
+  all_fields(get_leaves, frame);
+  used_ += frame_words();
+  return true;
+}
+
+}  // namespace enc

@@ -1,0 +1,94 @@
+// A run as bytes: inputs and outputs of each tick and the state hash after it, with what is needed to run
+// them again. Format: docs/record.md.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/record/fields.h"
+
+namespace enc {
+
+inline constexpr std::uint32_t kRecordFormat = 1;
+using RecordTexts = std::map<std::string, std::string>;  // "resolved", "seed", "version"...: what the run was
+
+struct RecordedTick {
+  Tick tick;
+  Inputs in;
+  Outputs out;
+  std::uint64_t hash = 0;  // StateHash after the tick
+};
+
+// Names and types of all leaves of a frame, in order. Another number is another layout.
+[[nodiscard]] std::uint64_t layout_hash();
+
+class RecordWriter {
+ public:
+  // Throws Error where the file cannot be made or its header not be written.
+  RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout = layout_hash());
+  ~RecordWriter();  // without close() the record stays unsealed: the run did not end as it should
+  RecordWriter(const RecordWriter&) = delete;
+  RecordWriter& operator=(const RecordWriter&) = delete;
+
+  // Into memory, no heap; every hundredth tick or so a whole chunk goes to the file. After a failed write it
+  // does nothing.
+  void write(const Tick& tick, const Inputs& in, const Outputs& out, std::uint64_t state_hash) noexcept;
+  void close() noexcept;  // the rest and the seal
+
+  [[nodiscard]] bool full() const noexcept { return errno_ != 0; }
+  [[nodiscard]] std::string error() const;  // one line; empty while all is well
+  [[nodiscard]] std::int64_t ticks() const noexcept {
+    return ticks_;
+  }  // taken, of which all but the last chunk are in the file
+
+ private:
+  void put(const void* bytes, std::size_t size) noexcept;
+  void flush_chunk() noexcept;
+
+  std::string path_;
+  std::FILE* file_ = nullptr;
+  std::vector<std::uint64_t> chunk_;  // head, leaves, checksum
+  std::size_t used_ = 1;
+  StateHash chain_;
+  std::int64_t ticks_ = 0;
+  int errno_ = 0;
+};
+
+// yes: reads the whole chunks of a record that is cut off or was never sealed.
+enum class Partial { no, yes };
+
+class RecordReader {
+ public:
+  // Checks the whole file before the first frame is given out. Throws Error in one line with the byte.
+  explicit RecordReader(const std::string& path, Partial partial = Partial::no);
+
+  [[nodiscard]] const RecordTexts& texts() const { return texts_; }
+  [[nodiscard]] std::int64_t ticks() const { return ticks_; }
+  [[nodiscard]] bool sealed() const { return sealed_; }
+  // The next frame; false after the last.
+  bool next(RecordedTick& frame);
+  void rewind();
+
+ private:
+  [[noreturn]] void fail(std::uint64_t byte, const std::string& what) const;
+  bool get(void* bytes, std::size_t size);
+  void read_header();
+  bool read_chunk();  // false at the seal, or at the last whole chunk of a partial record
+
+  std::string path_;
+  Partial partial_;
+  std::ifstream file_;
+  RecordTexts texts_;
+  std::vector<std::uint64_t> chunk_;  // leaves
+  std::size_t used_ = 0;
+  std::uint64_t byte_ = 0, first_chunk_ = 0;
+  StateHash chain_, header_chain_;
+  std::int64_t ticks_ = 0;
+  bool sealed_ = false, done_ = false;
+};
+
+}  // namespace enc

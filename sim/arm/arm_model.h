@@ -1,0 +1,53 @@
+// An arm and its prop as bodies of MuJoCo: exact lengths, masses and inertias, rotors as armature, friction,
+// limits, and a parallelogram that is held together by equalities (docs/phantom_twin.md).
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/arm/arm.h"
+#include "core/scene_spec.h"
+#include "sim/arm/arm_spec.h"
+#include "sim/mujoco.h"
+
+namespace enc::sim {
+
+struct ArmParts {
+  const ArmMachine& machine;  // as it is, with its true masses
+  const ArmTruth& truth;
+  const PropSpec* prop = nullptr;  // none: the tip is bare and nothing can touch it
+  Pose<'W', 'R'> X_WR;             // where its base really stands
+  bool draw = false;               // also links and base, for a picture
+};
+
+// Bodies, joints `arm_1` to `arm_3` in the order of the machine's, body `prop` with its origin at H. Throws
+// Error where a body cannot be.
+void build_arm(mjSpec* spec, const ArmParts& parts);
+
+// Where an arm is in a compiled world.
+class ArmBody {
+ public:
+  ArmBody(const Physics& physics, std::size_t joints);
+
+  [[nodiscard]] PerJoint joints(const mjData* data) const noexcept;
+  [[nodiscard]] PerJoint rates(const mjData* data) const noexcept;
+  // Of H; as the last evaluation of the physics left it.
+  [[nodiscard]] Point<'W'> tip(const mjData* data) const noexcept;
+  [[nodiscard]] Vec<'W'> tip_velocity(const mjModel* model, const mjData* data) const noexcept;
+  void drive(mjData* data, const PerJoint& torque) const noexcept;
+  // The prop's gimbal: its front, which is at H, faces along z of N whatever the arm does. It has neither
+  // inertia nor friction. `surface`: velocity of a driven front, W.
+  void face(mjModel* model, const mjData* data, const Quat& q_WN, const Vec3& surface) const noexcept;
+  [[nodiscard]] int front() const { return front_; }  // geom; -1: there is none
+  // Largest error of the angles that the parallelogram ties, rad; 0 without one.
+  [[nodiscard]] double gap(const mjData* data) const noexcept;
+
+ private:
+  std::size_t joints_;
+  std::array<int, kMostJoints> qpos_{}, dof_{};
+  int forearm_ = -1, link_ = -1;  // qpos of the joints of the parallelogram
+  int tip_ = -1, front_ = -1;
+  Vec3 middle_ = Vec3::Zero();  // of the front's box, in N
+};
+
+}  // namespace enc::sim

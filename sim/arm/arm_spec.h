@@ -1,0 +1,57 @@
+// What an arm and its prop really are: [truth.arm]. A part of twin_spec.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/arm/arm.h"
+
+namespace enc::sim {
+
+enum class ArmFriction : std::uint8_t {
+  dry,    // Coulomb: holds what is at rest
+  smooth  // c tanh(10 qd), as in the published model of the machine: at rest it holds nothing
+};
+
+struct ArmTruth {
+  bool there = false;  // the file has it
+  double timestep =
+      0.001;  // s, of MuJoCo. First-order integrators move a wall's stability boundary (fidelity 4)
+  std::string integrator = "rk4";
+  ArmMachine machine;
+  double mass_scale = 1.0;  // of all masses and inertias against the machine's: what the rig does not know
+  std::array<double, kMostJoints> counts{4096.0, 4096.0,
+                                         4096.0};  // of an encoder, for each turn of its motor
+  ArmFriction friction_form = ArmFriction::dry;
+  std::array<double, kMostJoints> friction{0.01, 0.01, 0.01};        // Coulomb, at the joint, N m or N
+  std::array<double, kMostJoints> viscous{0.0005, 0.0005, 0.0005};   // N m s/rad or N s/m
+  std::array<double, kMostJoints> peak_torque{0.129, 0.129, 0.129};  // of the motor, N m
+  std::array<double, kMostJoints> continuous_torque{0.0286, 0.0286, 0.0286};
+  double winding_time = 12.0;                 // s, thermal, of a winding against its housing
+  double housing_time = 612.0;                // s, and of the housing against the room
+  double winding_share = 3.1 / (3.1 + 14.0);  // of the winding's rise over the room that is over its housing
+  double velocity_window = 0.002;             // s, over which the device differences its encoders
+  double watchdog = 0.005;                    // s without a command, then the motors are off
+  double drum_time = 0.020;                   // s, of the motor that drives a prop's surface
+  double gimbal_time = 0.030;                 // s, in which the prop turns to another surface
+  double prop_friction = 0.6;                 // of a finger on the prop
+  double contact_time = 0.004;                // s, of the stop between finger and prop: a hard contact
+  Vec3 misplaced{0, 0, 0};                    // of the base against the believed X_WR, m
+  Vec3 turned{0, 0, 0};                       // rad
+};
+
+// The machine with the masses and inertias that it really has. Its motors are known.
+[[nodiscard]] inline ArmMachine true_machine(const ArmTruth& truth) {
+  ArmMachine machine = truth.machine;
+  PhantomGeometry& g = machine.phantom;
+  for (double* mass : {&g.m_a, &g.m_c, &g.m_be, &g.m_df, &g.I_base}) *mass *= truth.mass_scale;
+  for (Vec3* inertia : {&g.I_a, &g.I_c, &g.I_be, &g.I_df}) *inertia *= truth.mass_scale;
+  for (ChainLink& link : machine.links) {
+    link.mass *= truth.mass_scale;
+    link.inertia *= truth.mass_scale;
+  }
+  return machine;
+}
+
+}  // namespace enc::sim

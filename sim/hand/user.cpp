@@ -1,0 +1,277 @@
+#include "sim/hand/user.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/rotation.h"
+#include "sim/hand/minimum_jerk.h"
+
+namespace enc::sim {
+namespace {
+
+constexpr double kWait = 0.6;      // s before the first approach: the force zero is found meanwhile
+constexpr double kClear = 0.002;   // m above the surface where a release ends
+constexpr double kSettle = 0.020;  // s in which the person takes the approach speed out after the touch
+constexpr double kSpeedUp = 0.3;   // s to reach approach speed
+constexpr double kRetreat = 0.8;   // s to go back to the start
+constexpr double kBall = 1900.0;   // N/m: mean of the ball's press curve
+constexpr std::size_t kSines = 4;  // of a band of tremor, for each axis
+
+std::int32_t held_tool(const SceneSpec& scene) {
+  const auto named = std::find_if(scene.tools.begin(), scene.tools.end(),
+                                  [&](const ToolSpec& t) { return t.name == scene.user->tool; });
+  return named == scene.tools.end() ? 0 : static_cast<std::int32_t>(named - scene.tools.begin());
+}
+
+// The stiffness that the person has learned to expect: the ball's, or that of what an arm renders. Of a real
+// thing they expect nothing.
+std::vector<double> expected_stiffness(const Scene& prepared) {
+  std::vector<double> expected;
+  for (const Object& object : prepared.objects)
+    expected.push_back(!prepared.has_arm ? kBall : std::isnan(object.stiffness) ? 0.0 : object.stiffness);
+  return expected;
+}
+
+// Of one way of the slide, s: a minimum-jerk reach is 1.875 times as fast at its fastest as on average.
+double slide_time(const UserSpec& spec) { return 1.875 * spec.slide / spec.slide_speed; }
+
+// Each sine has a quarter of the band to itself, so that they beat and none is drawn twice.
+void draw_band(const HandTruth& hand, Stream draws, User::State& state) {
+  for (std::size_t i = 0; i < state.band_rate.size(); ++i) {
+    const double share = (static_cast<double>(i % kSines) + draws.uniform()) / kSines;
+    state.band_rate[i] = 2.0 * std::numbers::pi * (hand.tremor_rate + hand.tremor_band * share);
+    state.band_phase[i] = 2.0 * std::numbers::pi * draws.uniform();
+  }
+}
+
+}  // namespace
+
+User::User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand, std::uint64_t seed)
+    : spec_(*scene.user), hand_(hand), tool_(held_tool(scene)), press_(enc::press_point(scene, spec_)) {
+  const bool drawn = spec_.kind == "session" || spec_.kind == "reaches";
+  if (spec_.kind != "press_release" && !drawn)
+    throw Error("unknown user '" + spec_.kind + "'; expected \"press_release\", \"session\" or \"reaches\"",
+                "user.kind");
+  const Vec3 n = press_.normal.e();
+  const Vec3 side = Vec3::UnitX() - n * n.x();
+  const Vec3 across = side.norm() > 1e-6 ? Vec3(side.normalized()) : n.unitOrthogonal();
+  away_ = std::cos(spec_.approach_tilt) * n + std::sin(spec_.approach_tilt) * across;
+  touch_ = press_.point + prepared.tools[static_cast<std::size_t>(tool_)].tip.radius * press_.normal;
+  start_ = touch_ + Vec<'W'>(Vec3(spec_.approach_from * away_));
+  object_ = static_cast<std::int32_t>(pressed_object(scene.objects, spec_.object, "user"));
+  expected_ = expected_stiffness(prepared);
+  if (drawn) {
+    session_.emplace(scene, prepared, hand);
+    state_.session = session_->begin(seed);
+    start_ = state_.session.press.start;
+  }
+  state_.hand = start_;
+  state_.noise = Stream(seed, "hand");
+  for (double& phase : state_.tremor_phase) phase = 2.0 * std::numbers::pi * state_.noise.uniform();
+  if (spec_.tremor == TremorForm::band) draw_band(hand_, Stream(seed, "tremor"), state_);
+}
+
+double User::approach_speed() const {
+  if (session_) return state_.session.press.touch_speed;
+  return spec_.approach[static_cast<std::size_t>(state_.press) % spec_.approach.size()];
+}
+
+double User::wanted_depth() const {
+  if (spec_.depths.empty()) return spec_.depth;
+  return spec_.depths[std::min(static_cast<std::size_t>(state_.press), spec_.depths.size() - 1)];
+}
+
+bool User::done() const {
+  if (session_) return state_.session.finished;
+  return state_.press >=
+         static_cast<std::int32_t>(spec_.approach.size() * static_cast<std::size_t>(spec_.repeats));
+}
+
+double User::phase_time(Phase phase) const {
+  const double v = approach_speed();
+  switch (phase) {
+    case Phase::wait:
+      return state_.press == 0 ? kWait : spec_.rest_time;
+    case Phase::approach: {
+      const double speed_up = std::min(kSpeedUp, spec_.approach_from / v);
+      return speed_up + (spec_.approach_from - 0.5 * v * speed_up) / v;
+    }
+    case Phase::press:
+      return spec_.press_time;
+    case Phase::hold:
+      return std::max(spec_.hold_time, 2.0 * slide_time(spec_));
+    case Phase::release:
+      return spec_.release_time;
+    case Phase::retreat:
+      return kRetreat;
+    case Phase::change:
+      break;  // of what is drawn only
+  }
+  return 0.0;
+}
+
+double User::duration() const {
+  if (session_) return session_->duration(state_.session);
+  double total = 1.5;
+  User probe(*this);
+  for (probe.state_.press = 0; !probe.done(); ++probe.state_.press)
+    for (const Phase phase :
+         {Phase::wait, Phase::approach, Phase::press, Phase::hold, Phase::release, Phase::retreat})
+      total += probe.phase_time(phase);
+  return total;
+}
+
+// Speeds up smoothly, then keeps the approach speed until the touch.
+HandPlan User::approach(double since) const {
+  const double v = approach_speed();
+  const double speed_up = std::min(kSpeedUp, spec_.approach_from / v);
+  const double s = std::min(1.0, since / speed_up);
+  // Speed follows a half cosine; the way is its integral.
+  const double angle = std::numbers::pi * s;
+  const double way = since < speed_up ? v * speed_up * 0.5 * (s - std::sin(angle) / std::numbers::pi)
+                                      : v * (0.5 * speed_up + since - speed_up);
+  const double speed = since < speed_up ? 0.5 * v * (1.0 - std::cos(angle)) : v;
+  const double gain = since < speed_up ? 0.5 * v * std::numbers::pi / speed_up * std::sin(angle) : 0.0;
+  return {start_.e() - away_ * way, -away_ * speed, -away_ * gain, 0.0};
+}
+
+// There and back.
+void User::slide(double since, HandPlan& plan) const {
+  const Vec<'W'> way(Vec3(spec_.slide * (rotation_z_to(press_.normal.e()) * Vec3::UnitX())));
+  const double time = slide_time(spec_);
+  Submovement{0.0, time, way}.add_to(plan, since);
+  if (since > time) Submovement{time, time, -way}.add_to(plan, since);
+}
+
+HandPlan User::plan(double since) const {
+  const Vec3 n = press_.normal.e();
+  const auto along_normal = [&](double from, double to, double time, double at) {
+    const MinimumJerk m(at / time);
+    const double depth = from + (to - from) * m.x;
+    return HandPlan{touch_.e() - n * depth, -n * ((to - from) * m.v / time),
+                    -n * ((to - from) * m.a / (time * time)), depth};
+  };
+  const double depth = std::isnan(spec_.push) ? wanted_depth() : 0.0;
+  switch (state_.phase) {
+    case Phase::wait:
+      return {start_.e(), Vec3::Zero(), Vec3::Zero(), 0.0};
+    case Phase::approach:
+      return approach(since);
+    case Phase::press: {
+      HandPlan p = along_normal(0.0, depth, spec_.press_time, since);
+      const double left = std::exp(-since / kSettle);
+      p.position -= away_ * (approach_speed() * kSettle * (1.0 - left));
+      p.velocity -= away_ * (approach_speed() * left);
+      p.acceleration += away_ * (approach_speed() * left / kSettle);
+      return p;
+    }
+    case Phase::hold: {
+      HandPlan p = along_normal(depth, depth, 1.0, since);
+      if (spec_.slide > 0.0) slide(since, p);
+      return p;
+    }
+    case Phase::release:
+      return along_normal(depth, -kClear, spec_.release_time, since);
+    case Phase::retreat: {
+      const MinimumJerk m(since / kRetreat);
+      const Vec3 from = touch_.e() + kClear * n;
+      const Vec3 way = start_.e() - from;
+      return {from + way * m.x, way * (m.v / kRetreat), way * (m.a / (kRetreat * kRetreat)), 0.0};
+    }
+    case Phase::change:
+      break;
+  }
+  return {};
+}
+
+void User::next_phase(double t) {
+  if (done() || t - state_.phase_start < phase_time(state_.phase)) return;
+  state_.phase_start += phase_time(state_.phase);
+  if (state_.phase == Phase::retreat) {
+    state_.phase = Phase::wait;
+    ++state_.press;
+  } else {
+    state_.phase = static_cast<Phase>(static_cast<std::uint8_t>(state_.phase) + 1);
+  }
+}
+
+HandPlan User::planned(double t) {
+  if (session_) {
+    session_->advance(t, state_.session);
+    return session_->at(t, state_.session);
+  }
+  next_phase(t);
+  return done() ? HandPlan{start_.e()} : plan(t - state_.phase_start);
+}
+
+// One sine for each axis, or a band of them with the same rms.
+Vec3 User::tremor(double t, double h) {
+  Vec3 tremor = Vec3::Zero();
+  if (spec_.tremor == TremorForm::band) {
+    for (std::size_t i = 0; i < state_.band_rate.size(); ++i)
+      tremor(static_cast<Eigen::Index>(i / kSines)) +=
+          std::sin(state_.band_rate[i] * t + state_.band_phase[i]);
+    return hand_.tremor * std::sqrt(2.0 / kSines) * tremor;
+  }
+  for (int i = 0; i < 3; ++i) {
+    state_.tremor_phase[i] += 2.0 * std::numbers::pi * hand_.tremor_rate * h;
+    tremor(i) = hand_.tremor * std::numbers::sqrt2 * std::sin(state_.tremor_phase[i]);
+  }
+  return tremor;
+}
+
+// Tremor, and drift: low-passed noise of the wanted rms below 2 Hz.
+Vec3 User::unsteadiness(double t, double h) {
+  const Vec3 trembling = tremor(t, h);
+  constexpr double kDriftCorner = 2.0 * std::numbers::pi * 1.0;  // rad/s
+  const double keep = std::exp(-kDriftCorner * h);
+  state_.drift = Vec<'W'>(
+      Vec3(keep * state_.drift.e() + hand_.drift * std::sqrt(1.0 - keep * keep) * state_.noise.normal3()));
+  return trembling + state_.drift.e();
+}
+
+Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
+                   bool touching) {
+  const HandPlan p = planned(t);
+  const Vec<'W'>& normal = session_ ? state_.session.press.at.normal : press_.normal;
+  const Point<'W'>& touch = session_ ? state_.session.press.touch : touch_;
+  const Vec3 n = normal.e();
+  const bool pressing = phase() == Phase::press || phase() == Phase::hold || phase() == Phase::release;
+  const bool pushing = pressing && !session_ && !std::isnan(spec_.push);
+
+  // Intent: the plan, plus what experience says the ball will take, plus what the depth loop has found to be
+  // missing.
+  const double depth = dot(touch - tool_tip, normal);
+  if (touching && pressing && !pushing)
+    state_.integral += p.load * h * (p.depth - depth) / hand_.integral_time;
+  else
+    state_.integral *= std::exp(-h / hand_.integral_time);
+  const double series = hand_.stiffness * hand_.grip_stiffness / (hand_.stiffness + hand_.grip_stiffness);
+  const double stiffness = expected_[static_cast<std::size_t>(object())];
+  const double expected = pressing ? p.load * std::max(0.0, p.depth) * stiffness / series : 0.0;
+  const Vec3 intent = p.position + unsteadiness(t, h) - n * (expected + state_.integral);
+
+  const Vec3 grip = hand_.grip_stiffness * (state_.hand - tool_tip).e() +
+                    hand_.grip_damping * (state_.hand_velocity - tool_velocity).e();
+  Vec3 arm = hand_.stiffness * (intent - state_.hand.e()) +
+             hand_.damping * (p.velocity - state_.hand_velocity.e()) + hand_.mass * p.acceleration;
+  if (pushing) {
+    const double since = t - state_.phase_start;
+    const double share = state_.phase == Phase::press ? MinimumJerk(since / spec_.press_time).x
+                         : state_.phase == Phase::release
+                             ? 1.0 - MinimumJerk(since / (0.5 * spec_.release_time)).x
+                             : 1.0;
+    // Along the normal the arm is no longer a spring to a place but a force, damped.
+    const double free = std::min(1.0, 4.0 * share);
+    arm -= n * (free * (n.dot(arm) + hand_.damping * n.dot(state_.hand_velocity.e())) + spec_.push * share);
+  }
+  const Vec3 velocity = state_.hand_velocity.e() + h * (arm - grip) / hand_.mass;
+  state_.hand_velocity = Vec<'W'>(velocity);
+  state_.hand = state_.hand + Vec<'W'>(Vec3(h * velocity));
+  state_.touching = touching;
+  return Vec<'W'>(grip);
+}
+
+}  // namespace enc::sim

@@ -1,0 +1,89 @@
+// The person who holds the tool: plans a press, moves the arm (impedance and its own mass) and, through the
+// grip, the tool. While pressing, the person closes a slow loop on depth (decisions 6). Tremor and drift ride
+// on the plan. [parameters 5] What is pressed is a list of presses at one place, planned here, or drawn
+// (session_plan.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/scene.h"
+#include "sim/hand/hand_plan.h"
+#include "sim/hand/session_plan.h"
+#include "sim/random.h"
+#include "sim/truth.h"
+#include "sim/twin_spec.h"
+
+namespace enc::sim {
+
+class User {
+ public:
+  struct State {
+    Vec<'W'> hand_velocity = Vec<'W'>::zero();
+    Point<'W'> hand;
+    double integral = 0.0;     // m: what the depth loop adds to the intent
+    double phase_start = 0.0;  // s
+    std::int32_t press = 0;
+    Phase phase = Phase::wait;
+    bool touching = false;
+    Stream noise;
+    double tremor_phase[3] = {0, 0, 0};
+    std::array<double, 12> band_rate{}, band_phase{};  // rad/s, rad: four sines for each axis
+    Vec<'W'> drift = Vec<'W'>::zero();
+    SessionPlan::State session;
+  };
+
+  // `prepared` must outlive it.
+  User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand, std::uint64_t seed);
+
+  [[nodiscard]] Point<'W'> start() const { return start_; }  // where the tool's tip begins
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] std::int32_t press() const { return session_ ? state_.session.count : state_.press; }
+  [[nodiscard]] std::int32_t object() const { return session_ ? state_.session.press.object : object_; }
+  [[nodiscard]] Phase phase() const { return session_ ? state_.session.phase : state_.phase; }
+  [[nodiscard]] bool aborted() const { return session_ && state_.session.press.aborted; }
+  // The tool in the hand, index in the scene; -1: none. The tool that it may change to, -1: none, and where
+  // that lies until then.
+  [[nodiscard]] std::int32_t tool() const { return session_ ? session_->tool(state_.session) : tool_; }
+  [[nodiscard]] std::int32_t other_tool() const { return session_ ? session_->other_tool() : -1; }
+  [[nodiscard]] Point<'W'> spot(std::int32_t which) const { return session_->spot(which); }
+  [[nodiscard]] bool turns() const { return session_.has_value(); }  // the tool
+  // Unit, from the tool's tip to its markers: along the normal of the place, on the way there turning to it.
+  [[nodiscard]] Vec<'W'> shaft(double t) const {
+    return session_ ? session_->shaft(t, state_.session) : press_.normal;
+  }
+  void restore(const State& state) { state_ = state; }
+  [[nodiscard]] bool done() const;  // every press made, tool back and at rest
+  [[nodiscard]] double approach_speed() const;
+  [[nodiscard]] double duration() const;  // s, of the whole programme
+
+  // Advances the plan and the arm by h; gives the force of the grip on the tool, N in W.
+  Vec<'W'> act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity, bool touching);
+
+ private:
+  [[nodiscard]] double wanted_depth() const;  // of this press, m
+  [[nodiscard]] double phase_time(Phase phase) const;
+  [[nodiscard]] HandPlan planned(double t);  // also goes on to the next phase
+  [[nodiscard]] HandPlan plan(double since) const;
+  [[nodiscard]] HandPlan approach(double since) const;
+  void slide(double since, HandPlan& plan) const;
+  [[nodiscard]] Vec3 tremor(double t, double h);
+  void next_phase(double t);
+  Vec3 unsteadiness(double t, double h);
+
+  UserSpec spec_;
+  HandTruth hand_;
+  std::int32_t tool_;  // index in the scene
+  PressPoint press_;
+  Vec3 away_;         // unit, from the touched point to the start
+  Point<'W'> touch_;  // tip centre when it touches
+  Point<'W'> start_;
+  std::int32_t object_;           // pressed, index in the scene
+  std::vector<double> expected_;  // N/m, of each object: what the person has learned
+  std::optional<SessionPlan> session_;
+  State state_;
+};
+
+}  // namespace enc::sim

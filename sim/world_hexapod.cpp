@@ -1,0 +1,169 @@
+// What of the world concerns a hexapod: how it is placed or carried by its legs, what pushes or is pushed by
+// its tip, what its force sensor reads.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "sim/world.h"
+
+namespace enc::sim {
+namespace {
+
+constexpr double kGravity = 9.80665;  // m/s^2; MuJoCo's own is set to it
+
+BallContact probed_ball(const WorldSpec& spec) {
+  const ObjectSpec& object = probed_object(spec.scene);
+  if (object.shape != ShapeKind::sphere)
+    throw Error("the simulated rig has a real ball and nothing else to press; expected shape = \"sphere\"",
+                "object." + object.name + ".shape");
+  constexpr double kDeepest = 8e-3;  // m: the end of the plant's table
+  if (spec.prepared.probe->depth > kDeepest)
+    throw Error("the law of the simulated ball ends at 8 mm; lower depth_mm", "probe.depth");
+  return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
+}
+
+}  // namespace
+
+Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth) {
+  const Hexapod hexapod(truth.geometry);
+  const Quat turned = rotation_xyz(truth.turned);
+  return {turned, Vec3(truth.misplaced - turned * hexapod.zero().p())};
+}
+
+void World::set_up_hexapod(const WorldSpec& spec) {
+  machine.emplace(spec.twin.hexapod, spec.seed);
+  if (spec.prepared.probe) ball.emplace(probed_ball(spec));
+  if (spec.scene.pusher)
+    pusher.emplace(*spec.scene.pusher, spec.twin.pusher, pushed_point(spec.scene, spec.prepared),
+                   spec.prepared.tip_radius, spec.seed);
+  if (pusher) programme_time_ = pusher->duration();
+  if (ball) programme_time_ = enc::programme_time(spec.prepared);
+  if (spec.prepared.travel) programme_time_ = spec.prepared.travel->duration();
+  const mjModel* m = physics_.model();
+  const int platform = physics_.id(mjOBJ_JOINT, "platform");
+  platform_qpos_ = m->jnt_qposadr[platform];
+  platform_qvel_ = m->jnt_dofadr[platform];
+  const int platform_body = physics_.id(mjOBJ_BODY, "platform");
+  if (spec.twin.structural())
+    legs.emplace(spec.twin.structure, machine->machine(), physics_, X_WR_);
+  else
+    physics_.data()->xfrc_applied[6 * platform_body + 2] =
+        kGravity * m->body_subtreemass[platform_body];  // it floats
+  tip_geom_ = physics_.id(mjOBJ_GEOM, "haptic_tip");
+  tip_body_ = m->geom_bodyid[tip_geom_];
+  mass_behind_ = m->body_subtreemass[physics_.id(mjOBJ_BODY, "behind_sensor")];
+  truth_.tip_radius = m->geom_size[3 * tip_geom_];
+  place_machine(machine->true_pose());
+  if (legs) legs->drive(physics_.data(), leg_motion(), leg_motion(), dt_);
+}
+
+// The platform's pose and velocity are prescribed. Not a mocap body: that has no velocity, so a contact with
+// a tip that moves away at 1 mm/s was damped as if the tip stood still, and was lost for single steps.
+void World::place_machine(const Pose<'R', 'H'>& from) {
+  const HexapodPlant::State& to = machine->state();
+  const Pose<'W', 'H'> X_WH = X_WR_ * from;
+  mjData* d = physics_.data();
+  std::copy_n(X_WH.xyz.begin(), 3, d->qpos + platform_qpos_);
+  double* q = d->qpos + platform_qpos_ + 3;
+  q[0] = X_WH.xyzw[3];
+  std::copy_n(X_WH.xyzw.begin(), 3, q + 1);
+  const Vec3 velocity = X_WR_.q() * to.velocity.e();
+  const Vec3 turning = from.q().conjugate() * to.turning.e();  // MuJoCo wants it in the body's axes
+  std::copy_n(velocity.data(), 3, d->qvel + platform_qvel_);
+  std::copy_n(turning.data(), 3, d->qvel + platform_qvel_ + 3);
+}
+
+LegMotion World::leg_motion() const {
+  return legs->at(machine->true_pose(), machine->state().velocity, machine->state().turning);
+}
+
+void World::move_machine(double t, double h) {
+  const Pose<'W', 'H'> from = true_tip();
+  if (legs) {
+    const LegMotion wanted = leg_motion();
+    machine->move(h);
+    legs->drive(physics_.data(), wanted, leg_motion(), h);
+  } else {
+    const Pose<'R', 'H'> placed = machine->true_pose();
+    machine->move(h);
+    place_machine(placed);
+  }
+  // Placed, the probe gets to the machine's new pose in this step; carried by legs it is where physics has
+  // it.
+  if (by_own_law()) {
+    const Point<'W'> to = legs ? from.origin() : X_WR_ * machine->true_pose().origin();
+    ball ? press_ball(from, to, h) : push_tip(from, to, t, h);
+  }
+}
+
+// The ball pushes where the probe gets to in this step, so that force and pose of a tick belong together.
+void World::press_ball(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double h) {
+  ball->move(to, h);
+  const BallContact::State& pressed = ball->state();
+  apply(pressed.force, pressed.touched, X_WH, to);
+  truth_.penetration = pressed.penetration;
+}
+
+// Likewise what pushes from outside.
+void World::push_tip(const Pose<'W', 'H'>& X_WH, const Point<'W'>& to, double t, double h) {
+  if (force && pusher->near(t, h, twin_.force.drift_ahead)) force->begin_push();
+  const Vec<'W'> velocity(Vec3(Eigen::Map<const Vec3>(physics_.data()->qvel + platform_qvel_)));
+  const Vec<'W'> pushed = pusher->act(t, h, to, velocity);
+  apply(pushed, to + truth_.tip_radius * pusher->normal(), X_WH, to);
+}
+
+// A force on the haptic-tip, whose centre gets to `to` in this step.
+void World::apply(const Vec<'W'>& pushed, const Point<'W'>& touched, const Pose<'W', 'H'>& X_WH,
+                  const Point<'W'>& to) {
+  const mjModel* m = physics_.model();
+  // MuJoCo wants force and torque at the body's centre of mass, which in this step is still where it was.
+  const double* middle = m->body_ipos + 3 * tip_body_;
+  const Point<'W'> centre = X_WH * Point<'H'>(middle[0], middle[1], middle[2]);
+  const Vec3 shift = (to - X_WH.origin()).e();
+  const Vec3 torque = ((touched - centre).e() - shift).cross(pushed.e());
+  double* applied = physics_.data()->xfrc_applied + 6 * tip_body_;
+  std::copy_n(pushed.xyz.begin(), 3, applied);
+  std::copy_n(torque.data(), 3, applied + 3);
+  truth_.contact_force = pushed;
+  truth_.touching = pushed.norm() > 0.0;
+}
+
+// Control form: where the servo put it. Structural form: where the physics has it; what a step leaves behind
+// belongs to its last stage, so all is evaluated once more at this very time.
+void World::observe_machine() {
+  if (!legs) {
+    truth_.tip = X_WR_ * machine->true_pose().origin();
+    truth_.tip_velocity = X_WR_ * machine->state().velocity;
+    truth_.tip_acceleration = X_WR_ * machine->state().acceleration;
+    return;
+  }
+  mjData* d = physics_.data();
+  mj_forward(physics_.model(), d);
+  if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
+  truth_.tip = Point<'W'>(Vec3(Eigen::Map<const Vec3>(d->qpos + platform_qpos_)));
+  truth_.tip_velocity = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qvel + platform_qvel_)));
+  truth_.tip_acceleration = Vec<'W'>(Vec3(Eigen::Map<const Vec3>(d->qacc + platform_qvel_)));
+  const Hexapod::Lengths forces = legs->forces(d);
+  std::copy_n(forces.data(), 6, truth_.leg_force.begin());
+}
+
+Pose<'W', 'H'> World::true_tip() const {
+  if (!legs) return X_WR_ * machine->true_pose();
+  const double* q = physics_.data()->qpos + platform_qpos_;
+  return {Quat(q[3], q[4], q[5], q[6]), Vec3(q[0], q[1], q[2])};
+}
+
+void World::measure_force(Time t) {
+  // MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on
+  // the sensor: contact plus weight. In the control form inertia is missing, because the platform is placed
+  // and not accelerated.
+  const mjData* d = physics_.data();
+  const Pose<'R', 'F'> X_RF = machine->true_pose() * X_HF_;
+  const Vec<'F'> inertia =
+      legs ? Vec<'F'>::zero() : X_RF.inverse() * (mass_behind_ * machine->state().acceleration);
+  const Wrench raw{Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
+                   Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
+  force->measure(t, dt_, raw, inertia);
+}
+
+}  // namespace enc::sim

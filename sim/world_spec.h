@@ -1,0 +1,27 @@
+// What a twin is built from, and where its machine really stands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/scene.h"
+#include "sim/twin_spec.h"
+
+namespace enc::sim {
+
+struct WorldSpec {
+  const SceneSpec& scene;
+  const RigSpec& rig;
+  const TwinSpec& twin;
+  const Scene& prepared;  // must outlive the world: the display draws its surfaces
+  std::string mjcf_dir;
+  std::uint64_t seed = 1;
+  bool draw_all = false;
+};
+
+// Built so that H would be W at the machine's zero, then put wrong: about W, so that a turn alone moves
+// nothing there.
+[[nodiscard]] Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth);
+[[nodiscard]] Pose<'W', 'R'> arm_base(const ArmTruth& truth);
+
+}  // namespace enc::sim

@@ -1,0 +1,38 @@
+// Gains of an arm's law that cannot be: one line, with the number that is wrong.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/trial.h"
+#include "core/error.h"
+
+namespace enc {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string said(const std::string& set) {
+  try {
+    (void)bench::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", {set}));
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+TEST(GainsInput, UnderDampedIsRefusedWithTheRatio) {
+  EXPECT_EQ(said("rig.arm.damping_Ns_per_m=11.5"), "");
+  EXPECT_THAT(said("rig.arm.damping_Ns_per_m=5"),
+              AllOf(HasSubstr("under-damped: ratio 0.4"), HasSubstr("expected 1 or more"),
+                    HasSubstr("damping_Ns_per_m")));
+  EXPECT_THAT(said("rig.arm.stiffness_N_per_m=1200"), HasSubstr("under-damped: ratio 0.5"));
+}
+
+TEST(GainsInput, NegativeOrZeroIsRefused) {
+  for (const char* key : {"stiffness_N_per_m", "damping_Ns_per_m", "filter_hz"})
+    for (const char* value : {"-1", "0", "nan"})
+      EXPECT_THAT(said(std::string("rig.arm.") + key + "=" + value), HasSubstr(key)) << key << value;
+}
+
+}  // namespace
+}  // namespace enc

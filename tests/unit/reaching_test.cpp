@@ -1,0 +1,201 @@
+// An arm's loop, step by step: the core alone under a finger and an arm that are where a test puts them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/switching/finger_loop.h"
+#include "benchmarks/trial.h"
+
+namespace enc {
+namespace {
+
+Scene scene_of(const std::string& name, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> set{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
+  set.insert(set.end(), more.begin(), more.end());
+  return bench::prepare_setup(
+      models::load(fmt::format("{}/models/scenes/{}.toml", ENCOUNTER_SOURCE_DIR, name), "", set));
+}
+
+// A finger of 8 mm radius; `depth` of its lowest point under z = 0, negative: the gap. The tip goes there,
+// too, if it is pressed.
+struct Bench {
+  explicit Bench(const std::string& name, const std::vector<std::string>& more = {})
+      : loop(scene_of(name, more)) {}
+  const Outputs& at(double depth, int ticks = 1, double x = 0.0) {
+    for (int i = 0; i < ticks; ++i) loop.tick(Point<'W'>(x, 0.0, 0.008 - depth));
+    return loop.out;
+  }
+  // The tip `depth` under the surface, where a finger has pressed it.
+  void press_tip(double depth) {
+    const Impedance& law = *loop.scene.impedance;
+    ArmSample& arm = loop.in.arm.value;
+    ASSERT_TRUE(law.arm.inverse(loop.scene.X_WR.inverse() * Point<'W'>(0, 0, -depth), arm.joints));
+    arm.tip = law.arm.tip(arm.joints);
+  }
+  // What is pushed with beyond gravity, N along z of W.
+  [[nodiscard]] double pushed() const { return -loop.out.felt.xyz[2]; }
+  bench::FingerLoop loop;
+};
+
+// Gravity alone: eq. 4 and 5.
+Vec<'R'> weight(const Bench& bench) {
+  const Impedance& law = *bench.loop.scene.impedance;
+  const PerJoint& q = bench.loop.in.arm.value.joints;
+  return law.arm.force(law.arm.jacobian(q), law.arm.gravity(q, law.prop_mass, Payload::exact));
+}
+
+TEST(Reaching, AwayFollowContact) {
+  Bench bench("wall");
+  EXPECT_EQ(bench.at(-0.150).mode, Mode::away);
+  EXPECT_EQ(bench.at(-0.110).mode, Mode::away);  // resume_mm = 100
+  EXPECT_EQ(bench.at(-0.090).mode, Mode::follow);
+  EXPECT_EQ(bench.at(-0.110).mode, Mode::follow);  // pause_mm = 120
+  EXPECT_EQ(bench.at(0.001).mode, Mode::contact);
+  EXPECT_EQ(bench.at(-0.002).mode, Mode::contact);  // leave_gap_mm = 3, from the prop
+  EXPECT_EQ(bench.at(-0.010).mode, Mode::follow);
+  EXPECT_EQ(bench.at(-0.130).mode, Mode::away);
+  EXPECT_EQ(bench.loop.out.contacts, 1);
+}
+
+TEST(Reaching, FarAwayTheTargetStandsStill) {
+  Bench bench("wall");
+  bench.at(-0.150, 100);
+  const Point<'W'> before = bench.loop.out.wanted;
+  bench.at(-0.150, 100, 0.050);
+  EXPECT_EQ((bench.loop.out.wanted - before).norm(), 0.0);
+}
+
+TEST(Reaching, TheTargetGoesToTheProjectionWithinItsLimits) {
+  Bench bench("wall");
+  bench.at(-0.050, 10);
+  const ArmRig& rig = bench.loop.scene.impedance->rig;
+  const double dt = bench.loop.scene.dt;
+  Vec3 before = bench.loop.out.wanted.e(), speed = Vec3::Zero();
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 now = bench.at(-0.050, 1, 0.030).wanted.e();
+    const Vec3 velocity = (now - before) / dt;
+    EXPECT_LE(velocity.norm(), rig.speed * 1.001);
+    if (!bench.loop.state.reaching.caught_up) {
+      EXPECT_LE((velocity - speed).norm() / dt, rig.acceleration * 1.001);
+    }
+    before = now;
+    speed = velocity;
+  }
+  EXPECT_NEAR(before.x(), 0.030, 1e-5);
+  EXPECT_NEAR(before.z(), 0.0, 1e-9);
+}
+
+TEST(Reaching, AWallIsASpringOfLambdaKp) {
+  Bench bench("wall");
+  bench.at(-0.050, 10);
+  for (const double depth : {0.001, 0.004, 0.009}) {
+    bench.press_tip(depth);
+    bench.at(depth, 500);
+    EXPECT_NEAR(bench.pushed(), 600.0 * depth, 1e-3) << depth;
+    EXPECT_NEAR(bench.loop.out.gain, 2.0, 1e-12);
+  }
+}
+
+// What vision says of the depth does not count, as long as it is within leave_gap of the prop.
+TEST(Reaching, APressingFingerIsAsDeepAsItsProp) {
+  Bench bench("wall");
+  bench.at(0.0005, 10);
+  bench.press_tip(0.005);
+  for (const double seen : {0.0025, 0.0050, 0.0075}) {
+    bench.at(seen, 500);
+    EXPECT_NEAR(bench.loop.out.deflection, 0.005, 1e-9) << seen;
+    EXPECT_NEAR(bench.pushed(), 3.0, 1e-3) << seen;
+  }
+  bench.at(0.009);  // 4 mm deeper than the prop: 1 mm beyond the slack
+  EXPECT_NEAR(bench.loop.out.deflection, 0.006, 1e-9);
+  bench.at(0.001);
+  EXPECT_NEAR(bench.loop.out.deflection, 0.004, 1e-9);
+  EXPECT_EQ(bench.at(-0.002).mode, Mode::contact);  // 1 mm deep by then
+  EXPECT_EQ(bench.at(-0.010).mode, Mode::follow);
+}
+
+TEST(Reaching, AButtonClicksOnceOnTheWayIn) {
+  Bench bench("button");
+  bench.at(-0.020, 200);
+  int clicks = 0;
+  bool before = false;
+  double most = 0.0, last = 0.0;
+  for (int i = 0; i <= 6000; ++i) {
+    const double depth = 1e-6 * i;
+    bench.press_tip(depth);
+    bench.at(depth);
+    const bool now = bench.loop.state.reaching.triggered;
+    clicks += now && !before ? 1 : 0;
+    before = now;
+    most = std::max(most, std::abs(bench.pushed() - last));
+    last = bench.pushed();
+  }
+  EXPECT_EQ(clicks, 1);
+  EXPECT_LT(most, 0.02);  // N a tick, at 1 mm/s
+  bench.at(0.006, 500);
+  EXPECT_NEAR(bench.pushed(), 600.0 * (0.006 - 0.004 * (1.0 - 200.0 / 600.0)), 2e-3);
+}
+
+TEST(Reaching, AHoldLeavesGravityAloneAndRecovers) {
+  Bench bench("wall");
+  bench.at(0.0005, 10);
+  bench.press_tip(0.005);
+  bench.at(0.005, 200);
+  const double before = bench.pushed();
+  ASSERT_GT(before, 2.5);
+  const ArmSample good = bench.loop.in.arm.value;
+  bench.loop.in.arm.value.velocity = Vec<'R'>(kUnset, 0, 0);
+  EXPECT_EQ(bench.at(0.005).mode, Mode::hold);
+  EXPECT_TRUE((bench.loop.out.why & kTipInvalid) != 0);
+  EXPECT_TRUE(!bench.loop.out.arm_force.finite() || bench.loop.out.arm_force.norm() < 2.0);
+  bench.loop.in.arm.value = good;
+  EXPECT_EQ(bench.at(0.005).mode, Mode::contact);
+  EXPECT_TRUE(bench.loop.out.arm_force.finite());
+  EXPECT_NEAR(bench.pushed(), before, 0.05);  // one bad sample is a tick without news, no kick
+}
+
+TEST(Reaching, AFingerLostPushesNoLonger) {
+  Bench bench("wall");
+  bench.at(0.0005, 10);
+  bench.press_tip(0.005);
+  bench.at(0.005, 200);
+  Tick tick;
+  tick.dt = from_seconds(bench.loop.scene.dt);
+  const Time last = bench.loop.in.tool.t;
+  for (int i = 1; i <= 400; ++i) {  // the arm goes on, the finger's last pose gets old
+    tick.index = i;
+    tick.t = last + i * tick.dt;
+    bench.loop.in.arm.t = tick.t;
+    step(bench.loop.scene, tick, bench.loop.in, bench.loop.state, bench.loop.out);
+  }
+  EXPECT_EQ(bench.loop.out.mode, Mode::hold);
+  EXPECT_TRUE((bench.loop.out.why & kToolLost) != 0);
+  EXPECT_LT((bench.loop.out.arm_force - weight(bench)).norm(), 1e-12);
+}
+
+TEST(Reaching, TooMuchIsCutToThePeakAndTold) {
+  Bench bench("wall");
+  bench.at(0.0005, 10);
+  bench.press_tip(0.020);  // 12 N
+  bench.at(0.020, 500);
+  EXPECT_NEAR(bench.loop.out.felt.norm(), 8.5, 1e-9);
+  EXPECT_TRUE((bench.loop.out.why & kOverload) != 0);
+}
+
+TEST(Reaching, AChangeOfTheTargetDoesNotLeapInForce) {
+  Bench bench("keypad");
+  bench.at(-0.010, 1000);
+  double most = 0.0, last = bench.loop.out.felt.norm();
+  std::int32_t object = bench.loop.out.object, switches = 0;
+  for (int i = 0; i < 2000; ++i) {
+    bench.at(-0.010, 1, 20e-6 * i);
+    switches += bench.loop.out.object != object ? 1 : 0;
+    object = bench.loop.out.object;
+    most = std::max(most, std::abs(bench.loop.out.felt.norm() - last));
+    last = bench.loop.out.felt.norm();
+  }
+  EXPECT_GT(switches, 0);
+  EXPECT_LT(most, 0.2);
+}
+
+}  // namespace
+}  // namespace enc
