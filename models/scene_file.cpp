@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "models/directions.h"
+#include "models/schema_walk.h"
 #include "models/units.h"
 #include "models/wording.h"
 

@@ -84,37 +84,4 @@ void describe(Visitor&, sim::TwinSpec&);
 // Everything, under the names that --set takes: the scene at the root, then behaviour, rig and truth.
 void describe_all(Visitor&, SceneSpec&, RigSpec&, sim::TwinSpec&);
 
-// For schema_*.cpp.
-template <class Walk>
-void table(Visitor& visitor, std::string_view name, Walk walk) {
-  if (!visitor.open(name, true)) return;
-  walk();
-  visitor.close();
-}
-
-// A table that is there only if it is named. Says whether it is.
-template <class Walk>
-bool table_if(Visitor& visitor, std::string_view name, bool there, Walk walk) {
-  if (!visitor.open(name, there)) return false;
-  walk();
-  visitor.close();
-  return true;
-}
-
-// A part that is there only if the scene names it.
-template <class T, class Walk>
-void part(Visitor& v, std::string_view name, std::optional<T>& item, Walk walk) {
-  if (!v.open(name, item.has_value())) return item.reset();
-  if (!item) item.emplace();
-  walk(*item);
-  v.close();
-}
-
-template <class Enum>
-void choice(Visitor& visitor, const Key& key, Words words, Enum& value) {
-  auto index = static_cast<std::uint8_t>(value);
-  visitor.value(key, Choice{words, &index});
-  value = static_cast<Enum>(index);
-}
-
 }  // namespace enc::models

@@ -1,5 +1,5 @@
 // What a scene, a rig and the simulator's truth say of a force-controlled arm and of what only it renders.
-#include "models/schema.h"
+#include "models/schema_walk.h"
 
 namespace enc::models {
 namespace {
@@ -76,12 +76,7 @@ void describe(Visitor& v, ArmMachine& m) {
   describe_drives(v, m);
   if (m.kind == ArmKind::phantom) return describe(v, m.phantom);
   v.value({"tip_mm", "H in the last link", "rig", chosen}, &m.tip);
-  m.links.resize(v.open_list("link", m.links.size()));
-  for (std::size_t i = 0; i < m.links.size(); ++i) {
-    v.open_entry("link", i, m.links[i].name);
-    describe(v, m.links[i]);
-    v.close();
-  }
+  list(v, "link", m.links, [&](ChainLink& link) { describe(v, link); });
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // What a rig says: models/rigs/*.toml without [truth]. The numbers the core works with, and the calibration
 // it believes.
-#include "models/schema.h"
+#include "models/schema_walk.h"
 
 namespace enc::models {
 namespace {

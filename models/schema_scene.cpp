@@ -1,5 +1,5 @@
 // What a scene says: models/scenes/*.toml, models/behaviours.toml, models/responses/*.toml.
-#include "models/schema.h"
+#include "models/schema_walk.h"
 
 namespace enc::models {
 namespace {
@@ -16,16 +16,6 @@ constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
 
 Key name_key(std::string_view meaning) { return {"name", meaning, kAuthor, chosen, kAny, needed, {}, true}; }
-
-template <class T, class Walk>
-void list(Visitor& v, std::string_view name, std::vector<T>& items, Walk walk) {
-  items.resize(v.open_list(name, items.size()));
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    v.open_entry(name, i, items[i].name);
-    walk(items[i]);
-    v.close();
-  }
-}
 
 void describe_mesh(Visitor& v, ObjectSpec& o) {
   v.value({"mesh", "file (.obj, .stl, .gltf, .glb; m) beside the scene or in models/meshes", kAuthor, chosen,

@@ -1,6 +1,6 @@
 // What the simulated devices, room and person really are: [truth.*] of models/rigs/sim.toml. The core never
 // sees it.
-#include "models/schema.h"
+#include "models/schema_walk.h"
 
 namespace enc::models {
 namespace {

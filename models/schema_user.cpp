@@ -1,5 +1,5 @@
 // What a scene says of the person: presses, a session, reaches.
-#include "models/schema.h"
+#include "models/schema_walk.h"
 
 namespace enc::models {
 namespace {

@@ -94,6 +94,7 @@ void World::restore(const std::vector<std::byte>& saved) {
   from.end();
   fatal_.clear();
   physics_.restore(physics);
+  if (arm) mj_kinematics(physics_.model(), physics_.data());  // the prop is turned by where its arm is
 }
 
 }  // namespace enc::sim

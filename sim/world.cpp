@@ -10,8 +10,6 @@
 namespace enc::sim {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s^2; MuJoCo's own is set to it
-
 const ToolSpec* held_tool(const SceneSpec& scene) {
   if (!scene.user || scene.tools.empty()) return nullptr;
   const auto named = std::find_if(scene.tools.begin(), scene.tools.end(),
@@ -121,6 +119,9 @@ void World::physics_step(double t) {
     fatal_ = e.what();
   }
   if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
+  if (arm)
+    mj_kinematics(physics_.model(),
+                  physics_.data());  // a step leaves the bodies where its last stage had them
 }
 
 // The hand carries the tool that it holds; the other one lies still.
@@ -141,7 +142,7 @@ void World::hold_tools(double t, double h) {
     double* applied = d->xfrc_applied + 6 * tool.body;
     const bool carried = tool.index == held;
     for (std::size_t i = 0; i < 3; ++i) applied[i] = carried ? truth_.hand_force.xyz[i] : 0.0;
-    applied[2] += kGravity * physics_.model()->body_mass[tool.body];
+    applied[2] += kStandardGravity * physics_.model()->body_mass[tool.body];
     if (!carried) std::fill_n(d->qvel + tool.qvel, 3, 0.0);
   }
 }

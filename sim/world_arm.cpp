@@ -57,7 +57,6 @@ void World::face_prop(double h) {
     arm->face(to.normal.e(), h, next_.index == 0);
     running = arm->state().surface_speed * (object.X_WO.q() * object.interaction.way);
   }
-  mj_kinematics(m, d);  // a step leaves the bodies where its last stage had them
   arm_body_->face(m, d, arm->facing(), running);
 }
 
@@ -70,12 +69,11 @@ void World::drive_arm(double h) {
   arm_body_->drive(d, torque);
 }
 
-// Forces are those of the step's last stage, which is as good as at this very time; places and velocities are
-// evaluated once more.
+// Forces are those of the step's last stage, which is as good as at this very time; velocities are evaluated
+// once more, as places were after the step.
 void World::observe_arm() {
   const mjModel* m = physics_.model();
   mjData* d = physics_.data();
-  mj_kinematics(m, d);
   mj_comPos(m, d);
   mj_comVel(m, d);
   truth_.contact_force = contact_force(truth_.touching);

@@ -9,8 +9,6 @@
 namespace enc::sim {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s^2; MuJoCo's own is set to it
-
 BallContact probed_ball(const WorldSpec& spec) {
   const ObjectSpec& object = probed_object(spec.scene);
   if (object.shape != ShapeKind::sphere)
@@ -48,7 +46,7 @@ void World::set_up_hexapod(const WorldSpec& spec) {
     legs.emplace(spec.twin.structure, machine->machine(), physics_, X_WR_);
   else
     physics_.data()->xfrc_applied[6 * platform_body + 2] =
-        kGravity * m->body_subtreemass[platform_body];  // it floats
+        kStandardGravity * m->body_subtreemass[platform_body];  // it floats
   tip_geom_ = physics_.id(mjOBJ_GEOM, "haptic_tip");
   tip_body_ = m->geom_bodyid[tip_geom_];
   mass_behind_ = m->body_subtreemass[physics_.id(mjOBJ_BODY, "behind_sensor")];

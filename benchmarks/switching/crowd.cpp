@@ -8,6 +8,7 @@
 
 #include "benchmarks/shapes.h"
 #include "core/mesh/mesh_tree.h"
+#include "core/rotation.h"
 
 namespace enc::bench {
 namespace {
@@ -21,10 +22,10 @@ class Crowd {
   }
 
   Object next(std::size_t index) {
-    const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), way());
+    const Quat turn = rotation_z_to(way());
     if (index % 50 == 49) {  // a wall of the room
       const Vec3 n = way();
-      return object(Surface(Plane{}), {Quat::FromTwoVectors(Vec3::UnitZ(), n), Vec3(-2.0 * kCrowdRoom * n)});
+      return object(Surface(Plane{}), {rotation_z_to(n), Vec3(-2.0 * kCrowdRoom * n)});
     }
     const Vec3 place(even(-kCrowdRoom, kCrowdRoom), even(-kCrowdRoom, kCrowdRoom),
                      even(-kCrowdRoom, kCrowdRoom));

@@ -102,13 +102,13 @@ double mass_at_tip(const Arm& arm, const PerJoint& q, double payload) {
   const Mat3 J = arm.jacobian(q);
   const Mat3 M = arm.mass(q, payload);
   const auto n = static_cast<Eigen::Index>(arm.joints());
+  Mat3 whole = Mat3::Identity();
+  whole.topLeftCorner(n, n) = M.topLeftCorner(n, n);
+  const Mat3 inverse = whole.inverse();  // joints are few, so Cramer's rule is exact enough
   double most = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    // Mobility along the axis, J M^-1 J^T; joints are few, so M^-1 by Cramer's rule is exact enough.
-    Mat3 whole = Mat3::Identity();
-    whole.topLeftCorner(n, n) = M.topLeftCorner(n, n);
     const Vec3 row = J.row(axis).transpose();
-    const double mobility = row.dot(whole.inverse() * row);
+    const double mobility = row.dot(inverse * row);  // J M^-1 J^T along the axis
     if (mobility > 1e-6) most = std::max(most, 1.0 / mobility);
   }
   return most;
