@@ -33,6 +33,7 @@ struct FollowSpec {
   double pause = 0.100;       // tool farther than this: do not travel [VHMR 3.3]
   double resume = 0.090;      // and travel again below this
   double hysteresis = 0.001;  // another object must be nearer by this to take over, m
+  double ahead = 0.0;         // s: the nearest object is that of where the tool will be by then
 };
 
 struct ManipulatorSpec {

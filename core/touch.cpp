@@ -100,6 +100,27 @@ Candidate nearest_object(const Query& query, std::int32_t last, Hints& hints) {
   return best;
 }
 
+// Where the finger or the tool will be, but not beyond the first surface on its way: a machine needs time to
+// go from one object to the next, and a hand that comes obliquely changes its nearest object at the last.
+Query foreseen(const Query& query, const Vec<'W'>& velocity, double clear) {
+  Query later = query;
+  const double way = query.scene.follow.ahead * velocity.norm();
+  if (way > 0.0)
+    later.p = query.p + (query.scene.follow.ahead * std::min(1.0, std::max(0.0, clear) / way)) * velocity;
+  return later;
+}
+
+// The nearest object, that of the time ahead if the scene looks ahead.
+Candidate chosen_object(const Query& query, const State& state, Hints& hints) {
+  const Candidate here = nearest_object(query, state.object, hints);
+  const Vec<'W'>& velocity = state.tip_motion.velocity;
+  if (query.scene.follow.ahead == 0.0 || !velocity.finite()) return here;
+  Candidate there =
+      nearest_object(foreseen(query, velocity, here.at.distance - query.radius), state.object, hints);
+  there.at = nearest(query, there.hint.object, there.hint);
+  return there;
+}
+
 // Of the object in contact. A finger at the rim of a button presses it until it is clearly beside it.
 NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHint& hint) {
   const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
@@ -153,7 +174,7 @@ void touch(Walk& walk, State& state) noexcept {
     best.at = pressed_surface(query, state.contact.object, best.hint);
     state.hints.tool[0] = best.hint;
   } else if (!walk.scene.objects.empty()) {
-    best = nearest_object(query, state.object, state.hints);
+    best = chosen_object(query, state, state.hints);
   }
   if (best.hint.object != state.object) state.entered = false;
   state.object = best.hint.object;

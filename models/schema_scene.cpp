@@ -102,6 +102,9 @@ void describe(Visitor& v, FollowSpec& f) {
   v.value({"hysteresis_mm", "another object must be nearer by this to take over", "[VisHap 3]", assumed,
            kNotNegative},
           &f.hysteresis);
+  v.value({"ahead_ms", "the nearest object is that of where the tool will be by then", "docs/reaching.md",
+           chosen, kNotNegative},
+          &f.ahead);
 }
 
 void describe(Visitor& v, ProbeSpec& p) {

@@ -99,6 +99,8 @@ void late_figures(const PressTrace& trace, const InteractionSpec& law, double re
                 100.0);
   report.figure("button.live.step", greatest_step(trace, 0.0), "N", "change of the force in a ms [F2]", 0.0,
                 0.4);
+  report.figure("button.live.switch_step", greatest_step(trace, law.bottom - law.gradual), "N",
+                "the same where the target goes over to the bottom board [V33]", 0.0, 0.2);
 }
 
 // How often the gain falls at the trigger: once is a click.

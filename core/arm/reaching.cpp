@@ -144,7 +144,7 @@ Vec3 guarded(Walk& walk, const Vec3& force) {
 // it. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
 // the tip dithering.
 bool resting(const State& state, const Vec3& error, const Vec3& velocity) {
-  constexpr double kNear = 0.2e-3;   // m
+  constexpr double kNear = 0.5e-3;   // m: friction alone holds 0.36
   constexpr double kCounts = 20e-3;  // m/s
   return state.mode == Mode::away && error.norm() < kNear && velocity.norm() < kCounts &&
          state.reaching.velocity.norm() < 1e-3;

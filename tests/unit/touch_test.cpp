@@ -99,6 +99,36 @@ TEST(Touch, AJumpOfTheNearestPointIsTold) {
   EXPECT_EQ(loop.out.why & kSurfaceJump, 0U) << "once";
 }
 
+// A tool that goes along the row at an even 0.1 m/s: where the next ball takes over from the first.
+double takes_over_at(double ahead, double height) {
+  SceneSpec spec = balls(2);
+  spec.follow.ahead = ahead;
+  Loop loop = loop_of(spec);
+  for (int k = 0; k < 600; ++k) {
+    loop.tool_tip = {-0.05 + 1e-4 * k, 0, height};
+    loop.tick();
+    const Object& object = loop.scene.objects[static_cast<std::size_t>(loop.out.object)];
+    // Whichever it is, the gap is the one of now.
+    const double gap = object.surface.nearest(object.X_WO.inverse() * loop.tool_tip).distance -
+                       loop.scene.tools[0].tip.radius;
+    EXPECT_NEAR(loop.out.gap, gap, 1e-4) << k;
+    if (loop.out.object == 1) return loop.tool_tip.xyz[0];
+  }
+  return kUnset;
+}
+
+TEST(Touch, LooksAheadByAsMuchAsTheToolWillGo) {
+  const double now = takes_over_at(0.0, 0.040), ahead = takes_over_at(0.060, 0.040);
+  EXPECT_NEAR(now - ahead, 0.1 * 0.060, 1e-3);
+}
+
+// Half a second ahead it would be 50 mm farther, behind both balls; but not beyond the gap that it has now.
+TEST(Touch, DoesNotLookThroughASurface) {
+  const double now = takes_over_at(0.0, 0.0105), ahead = takes_over_at(0.5, 0.0105);
+  EXPECT_GT(now - ahead, 0.002);
+  EXPECT_LT(now - ahead, 0.006);  // the gap half way between the balls
+}
+
 // Over a smooth ball nothing jumps, however the tool goes.
 TEST(Touch, OnABallNothingJumps) {
   Loop loop = loop_of(balls(1));
