@@ -98,9 +98,10 @@ int run(const RunOptions& options) {
   fmt::print("{}", options.json ? run_json(report) : run_text(report));
   if (record && record->full()) throw Error(record->error());
   if (result.diverged_at >= 0)
-    throw Error(fmt::format("the physics diverged at tick {}: {}; try a smaller truth.world.timestep_us",
-                            result.diverged_at, result.divergence),
-                {}, ErrorKind::device);
+    throw Error(
+        fmt::format("the physics diverged at tick {}: {}; try a smaller {}.timestep_us", result.diverged_at,
+                    result.divergence, setup.twin.stepping(setup.scene.arm.has_value()).table),
+        {}, ErrorKind::device);
   return result.last_mode == Mode::hold ? 4 : 0;
 }
 
