@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -5,29 +6,62 @@
 #include "app/built.h"
 #include "app/options.h"
 #include "benchmarks/trial.h"
+#include "core/arm/arm_scene.h"
 
 namespace enc::app {
+namespace {
+
+std::string limits(const models::Setup& setup, const Scene& scene) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const std::string& name = setup.scene.objects[i].name;
+    if (std::isnan(scene.objects[i].limit)) {
+      text += fmt::format("  object '{}': real, pressed by the machine and not rendered\n", name);
+      continue;
+    }
+    text += fmt::format(
+        "  object '{}': deflection up to {:g} mm, at most {:.2f} N; softest stable slope {:.3f} N/mm\n", name,
+        scene.objects[i].limit * 1e3, scene.objects[i].response.press(scene.objects[i].limit),
+        scene.lowest_slope * 1e-3);
+  }
+  return text + weak_text(setup, scene) +
+         fmt::format("  commands up to {:g} mm/s and {:g} mm/s^2\n", scene.reach.speed * 1e3,
+                     scene.reach.acceleration * 1e3);
+}
+
+// An arm has no deflection limit: it pushes with what it has.
+std::string arm_limits(const models::Setup& setup, const Scene& scene) {
+  constexpr std::array<const char*, 7> kKinds{"press", "slide", "click", "passive", "hit", "shift", "spin"};
+  const Impedance& law = *scene.impedance;
+  std::string text;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const double stiffness = std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness;
+    text +=
+        fmt::format("  object '{}': {}, {:g} N/mm when it is touched, {:.3g} of the gain in free space\n",
+                    setup.scene.objects[i].name, kKinds[static_cast<std::size_t>(object.interaction.kind)],
+                    stiffness * 1e-3, stiffness / law.rig.stiffness);
+  }
+  const double mass = mass_at_tip(law.arm, law.arm.zero(), law.prop_mass);
+  return text +
+         fmt::format(
+             "  law: {:g} N/m, {:g} N s/m, damping ratio {:.2f} for the {:.1f} g that are felt at the tip\n"
+             "  pushes with up to {:g} N, for hours {:g} N\n"
+             "  target up to {:g} mm/s and {:g} m/s^2\n",
+             law.rig.stiffness, law.rig.damping, damping_ratio(law.rig, mass), mass * 1e3, law.rig.peak,
+             law.rig.continuous, law.rig.speed * 1e3, law.rig.acceleration);
+}
+
+}  // namespace
 
 int check(const SceneOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
-  print_notes(setup.notes);
   const Scene scene = bench::prepare_setup(setup);
-  fmt::print("{}\n{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n", setup.scene.title,
-             parts_text(setup), questionnaire_text(setup), frame_graph(scene), chain_residual(scene));
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (std::isnan(scene.objects[i].limit)) {
-      fmt::print("  object '{}': real, pressed by the machine and not rendered\n",
-                 setup.scene.objects[i].name);
-      continue;
-    }
-    fmt::print(
-        "  object '{}': deflection up to {:g} mm, at most {:.2f} N; softest stable slope {:.3f} N/mm\n",
-        setup.scene.objects[i].name, scene.objects[i].limit * 1e3,
-        scene.objects[i].response.press(scene.objects[i].limit), scene.lowest_slope * 1e-3);
-  }
-  fmt::print("{}", weak_text(setup, scene));
-  fmt::print("  commands up to {:g} mm/s and {:g} mm/s^2\n\nresolved scene\n{}", scene.reach.speed * 1e3,
-             scene.reach.acceleration * 1e3, models::resolved(setup));
+  print_notes(setup.notes);
+  fmt::print("{}\n{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n{}\nresolved scene\n{}",
+             setup.scene.title, parts_text(setup), questionnaire_text(setup), frame_graph(scene),
+             chain_residual(scene), scene.impedance ? arm_limits(setup, scene) : limits(setup, scene),
+             models::resolved(setup));
   return 0;
 }
 

@@ -62,7 +62,6 @@ std::unique_ptr<RecordWriter> record_for(const RunOptions& options, const models
 
 int run(const RunOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
-  print_notes(setup.notes);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
   bench::PressMeasure presses(setup);
@@ -88,6 +87,7 @@ int run(const RunOptions& options) {
   bench::Trial trial(
       setup, trial_options);  // everything that can be refused is refused here, before a record is begun
   const std::unique_ptr<RecordWriter> record = record_for(options, setup);
+  print_notes(setup.notes);  // of a scene that is not refused
   trial.record_to(record.get());
   const double started = cpu_seconds();
   const bench::TrialResult result = trial.run();
@@ -98,9 +98,10 @@ int run(const RunOptions& options) {
   fmt::print("{}", options.json ? run_json(report) : run_text(report));
   if (record && record->full()) throw Error(record->error());
   if (result.diverged_at >= 0)
-    throw Error(fmt::format("the physics diverged at tick {}: {}; try a smaller truth.world.timestep_us",
-                            result.diverged_at, result.divergence),
-                {}, ErrorKind::device);
+    throw Error(
+        fmt::format("the physics diverged at tick {}: {}; try a smaller {}.timestep_us", result.diverged_at,
+                    result.divergence, setup.twin.stepping(setup.scene.arm.has_value()).table),
+        {}, ErrorKind::device);
   return result.last_mode == Mode::hold ? 4 : 0;
 }
 

@@ -54,6 +54,16 @@ Json pushes_json(const bench::ProbeMeasure& measure) {
   return list;
 }
 
+// Of a machine that holds a deflection against a force.
+void press_figures(Json& json, const bench::PressMeasure& presses) {
+  json["rmse_press_N"] = number(presses.rmse_press());
+  json["rmse_release_N"] = number(presses.rmse_release());
+  json["energy_in_mJ"] = presses.energy_in() * 1e3;
+  json["energy_out_mJ"] = presses.energy_out() * 1e3;
+  json["tip_outside_um"] = number(presses.greatest_outside() * 1e6);
+  json["tension_N"] = presses.greatest_tension();
+}
+
 }  // namespace
 
 std::string run_json(const RunReport& r) {
@@ -70,19 +80,16 @@ std::string run_json(const RunReport& r) {
   json["holds"] = Json::array();
   for (const auto& [t, why] : r.result.holds)
     json["holds"].push_back({{"time_s", seconds(t.time_since_epoch())}, {"why", why_text(why)}});
-  json["presses"] = presses_json(r.presses);
+  if (r.scene.impedance)
+    json["meetings"] = meetings_json(r.fingers);
+  else
+    json["presses"] = presses_json(r.presses);
   if (r.scene.probe) {
     json["pushes"] = pushes_json(r.pushes);
     json["repeats_within_N"] = number(r.pushes.spread());
     json["force_error_N"] = number(r.pushes.force_error());
   }
-  if (r.scene.impedance) json["meetings"] = meetings_json(r.fingers);
-  json["rmse_press_N"] = number(r.presses.rmse_press());
-  json["rmse_release_N"] = number(r.presses.rmse_release());
-  json["energy_in_mJ"] = r.presses.energy_in() * 1e3;
-  json["energy_out_mJ"] = r.presses.energy_out() * 1e3;
-  json["tip_outside_um"] = number(r.presses.greatest_outside() * 1e6);
-  json["tension_N"] = r.presses.greatest_tension();
+  if (!r.scene.impedance) press_figures(json, r.presses);
   const StepTimes times = step_times(r.result.step_ns);
   json["step_ns"] = {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
   json["simulated_s"] = r.result.simulated;

@@ -134,41 +134,56 @@ std::string each_meeting(const std::vector<bench::Meeting>& meetings, const F& f
   return text;
 }
 
+// The spring that a wall is, where the user presses one.
+std::string spring_line(const RunReport& r) {
+  const std::optional<UserSpec>& user = r.setup.scene.user;
+  if (!user || user->kind != "press_release") return "";
+  const Object& pressed = r.scene.objects[pressed_object(r.setup.scene.objects, user->object, "user")];
+  if (pressed.interaction.kind != Interaction::slide) return "";
+  if (!std::isfinite(r.fingers.fit().r2()))
+    return "spring      not measured: the finger was never 2 to 10 mm deep\n";
+  return fmt::format(
+      "spring      {:.1f} N/m, R2 {:.5f} (true contact force over true depth, 2 to 10 mm); wanted {:.1f} "
+      "N/m; R2 {:.5f} over the depth that the core believed\n",
+      r.fingers.fit().slope(), r.fingers.fit().r2(), pressed.stiffness, r.fingers.believed().r2());
+}
+
 // An arm that meets a bare finger [VisHap 3].
 std::string finger_lines(const RunReport& r) {
   if (!r.scene.impedance) return "";
   const auto& meetings = r.fingers.meetings();
   std::string text = fmt::format("far         tip speed at most {:.3f} mm/s\n", r.fingers.far_speed() * 1e3);
-  text += fmt::format("prepare     {} times\n", meetings.size());
-  if (std::none_of(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); }))
-    return text;
+  const auto touched =
+      std::count_if(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); });
+  text += fmt::format("prepare     {} time{}, {} followed by a touch\n", meetings.size(),
+                      meetings.size() == 1 ? "" : "s", touched);
+  if (touched == 0) return text;
   using bench::Meeting;
-  text += fmt::format("approach    {} mm/s\n", each_meeting(meetings, [](const Meeting& m) {
-                        return fmt::format("{:.0f}", m.approach_speed * 1e3);
-                      }));
+  text += fmt::format(
+      "approach    {} mm/s (planned, of the first touch after each prepare)\n",
+      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.0f}", m.approach_speed * 1e3); }));
   text += fmt::format("  there     {} ms before the touch\n", each_meeting(meetings, [](const Meeting& m) {
-                        return fmt::format("{:.0f}", (m.touched - m.arrived) * 1e3);
+                        return std::isnan(m.arrived) ? "not"
+                                                     : fmt::format("{:.0f}", (m.touched - m.arrived) * 1e3);
                       }));
   text += fmt::format(
       "  miss      {} mm (along the surface, true finger to the middle of the prop, at the touch)\n",
       each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.miss * 1e3); }));
-  text += fmt::format("  peak      {} N\n", each_meeting(meetings, [](const Meeting& m) {
-                        return fmt::format("{:.2f}", m.peak_force);
-                      }));
+  text += fmt::format(
+      "  peak      {} N (greatest until the next prepare, as the next two)\n",
+      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.peak_force); }));
   text += fmt::format("  depth     {} mm (true)\n", each_meeting(meetings, [](const Meeting& m) {
                         return fmt::format("{:.2f}", m.peak_depth * 1e3);
                       }));
   text += fmt::format(
       "  step      {} N, greatest from one cycle to the next\n",
       each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.greatest_step); }));
-  if (r.scene.objects.front().interaction.kind == Interaction::slide)
-    text += fmt::format(
-        "spring      {:.1f} N/m, R2 {:.5f} (true contact force over true depth, 2 to 10 mm); wanted {:.1f} "
-        "N/m; R2 {:.5f} over the depth that the core believed\n",
-        r.fingers.fit().slope(), r.fingers.fit().r2(), r.scene.objects.front().stiffness,
-        r.fingers.believed().r2());
-  return text +
-         fmt::format("sideways    {:.1f} % of the normal force\n", 100.0 * r.fingers.tangential_share());
+  const double sideways = r.fingers.tangential_share();
+  return text + spring_line(r) +
+         (std::isfinite(sideways)
+              ? fmt::format("sideways    {:.1f} % of the normal force, where that is more than 1 N\n",
+                            100.0 * sideways)
+              : "sideways    not measured: never more than 1 N along the normal\n");
 }
 
 // What pushes from outside has no tool: it cannot miss, and has no speed at the touch.

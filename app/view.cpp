@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "app/built.h"
 #include "app/modules.h"
+#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "models/scene_file.h"
 #include "sim/seen_surface.h"
@@ -34,6 +36,18 @@ struct Moment {
   Time t{};
 };
 
+bool touching(const Moment& m) {
+  return m.world.truth().touching && m.world.truth().contact_force.norm() > 0.01;
+}
+
+// Half of the hold is over. A blow, which is not held, is over at once.
+bool deepest(const Moment& m, double& held) {
+  const double hold_time = m.setup.scene.user->hold_time;
+  if (!(hold_time > 0.0)) return touching(m) || m.world.truth().phase == sim::Phase::release;
+  if (m.world.truth().phase == sim::Phase::hold) held += m.scene.dt;
+  return held >= 0.5 * hold_time;
+}
+
 // Runs the loop until `at`, or until the person has held the first press for half of its time.
 void run_until(Moment& m, double at) {
   Rig rig = m.world.rig();
@@ -51,14 +65,9 @@ void run_until(Moment& m, double at) {
       throw Error(
           fmt::format("the physics diverged at tick {}: {}", m.world.diverged_at(), m.world.divergence()), {},
           ErrorKind::device);
-    if (m.world.truth().phase == sim::Phase::hold) held += seconds(k.dt);
-    if (waits_for_hold && held >= 0.5 * m.setup.scene.user->hold_time) return;
+    if (waits_for_hold && deepest(m, held)) return;
     if (seconds(k.t.time_since_epoch()) >= end - 1e-9) return;
   }
-}
-
-bool touching(const Moment& m) {
-  return m.world.truth().touching && m.world.truth().contact_force.norm() > 0.01;
 }
 
 // Each leg as a rod in a jacket, from its base joint to its platform joint.
@@ -114,9 +123,10 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
     const Point<'W'> to = truth.tip + right;
     request.arrows.push_back({to - along, along, 0.0035 * scale, kForce});
     request.labels.push_back({fmt::format("force of the {}: {:.1f} N",
-                                          m.scene.probe    ? "ball"
-                                          : m.world.pusher ? "pusher"
-                                                           : "tool",
+                                          m.scene.probe     ? "ball"
+                                          : m.world.pusher  ? "pusher"
+                                          : m.scene.has_arm ? "finger"
+                                                            : "tool",
                                           truth.contact_force.norm()),
                               to - 0.6 * along, false});
   }
@@ -128,13 +138,20 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
   request.labels.push_back({"normal of the surface (N)", from + 0.6 * normal, true});
 }
 
+// What the finger has moved stands where it is now.
+void shift_objects(Moment& m) {
+  for (std::size_t i = 0; i < m.scene.objects.size(); ++i)
+    sim::shift_seen(m.world.physics(), i, shift_of(m.scene.objects[i], m.state.moved));
+}
+
 // The surface as the eye should see it: dented by the true tool.
 void dent_object(Moment& m) {
   if (m.out.object < 0 || m.out.view.tool < 0 || !m.world.truth().tool_tip.finite()) return;
   const Tip<'T'>& tip = m.scene.tools[static_cast<std::size_t>(m.out.view.tool)].tip;
   const Pose<'W', 'T'> turned(m.world.q_WT(), Vec3(0, 0, 0));
+  const Vec<'W'> shift = shift_of(m.scene.objects[static_cast<std::size_t>(m.out.object)], m.state.moved);
   const Pose<'W', 'T'> X_WT(m.world.q_WT(),
-                            m.world.truth().tool_tip - turned * Vec<'T'>(Vec3(tip.centre.e())));
+                            m.world.truth().tool_tip - shift - turned * Vec<'T'>(Vec3(tip.centre.e())));
   sim::dent_seen(m.world.physics(), m.scene, static_cast<std::size_t>(m.out.object), X_WT * tip);
 }
 
@@ -142,13 +159,16 @@ void dent_object(Moment& m) {
 Point<'W'> flank(const Moment& m, std::size_t object) {
   const ObjectSpec& spec = m.setup.scene.objects[object];
   const Pose<'W', 'O'>& X_WO = m.scene.objects[object].X_WO;
+  const Vec<'W'> shift = shift_of(m.scene.objects[object], m.state.moved);
   if (spec.shape == ShapeKind::mesh) {
     const Ball around = m.scene.objects[object].surface.bound();
     const Point<'O'> aside = around.centre + Vec<'O'>(Vec3(0.4 * around.radius * Vec3(0.75, -0.6, 0.1)));
-    return X_WO * m.scene.objects[object].surface.nearest(aside).point;
+    return X_WO * m.scene.objects[object].surface.nearest(aside).point + shift;
   }
-  return spec.shape == ShapeKind::sphere ? X_WO * Point<'O'>(Vec3(0.8 * spec.radius * Vec3(0.75, -0.6, 0.1)))
-                                         : X_WO * Point<'O'>(0.07, -0.07, 0);
+  if (spec.shape == ShapeKind::sphere)
+    return X_WO * Point<'O'>(Vec3(0.8 * spec.radius * Vec3(0.75, -0.6, 0.1))) + shift;
+  const bool button = spec.shape == ShapeKind::button;
+  return X_WO * Point<'O'>(button ? 0.4 * spec.width : 0.07, button ? -0.4 * spec.height : -0.07, 0) + shift;
 }
 
 // An arm, its prop and the finger that meets it.
@@ -162,8 +182,7 @@ void add_arm_labels(const Moment& m, sim::ViewRequest& request) {
     request.labels.push_back(
         {fmt::format("{} (virtual)", m.setup.scene.objects[i].name), flank(m, i), false});
   if (truth.tool_tip.finite()) request.labels.push_back({"finger", truth.tool_tip, true});
-  if (!request.title.empty())
-    request.labels.push_back({"arm", m.world.X_WR() * Point<'R'>(0.02, 0, 0.02), true});
+  if (!request.title.empty()) request.labels.push_back({"arm", m.world.X_WR() * Point<'R'>(0, 0, 0), true});
 }
 
 void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
@@ -222,13 +241,15 @@ int picture(const ViewOptions& options, Look look) {
     throw Error("--at-s is a time from 0 to 3600 s");
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
-  const Scene scene = prepare(setup.scene, setup.rig);
+  const Scene scene = bench::prepare_setup(setup);
+  print_notes(setup.notes);
   sim::World world({setup.scene, setup.rig, setup.twin, scene, models::models_dir(options.scene) + "/mjcf",
                     options.seed, true});
   Moment moment{setup, scene, world, {}, {}, {}};
   run_until(moment, options.at.value_or(kUnset));
 
   dent_object(moment);
+  shift_objects(moment);
 
   sim::ViewRequest request;
   request.model = world.physics().model();

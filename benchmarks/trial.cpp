@@ -21,8 +21,7 @@ Scene prepare_setup(const models::Setup& setup) {
   try {
     return prepare(setup.scene, setup.rig);
   } catch (const Error& e) {
-    const std::string place = e.key().empty() ? setup.scene_path : models::place_of(setup, e.key());
-    throw Error(place + ": " + e.what(), {}, e.kind());
+    throw Error(models::place_of(setup, e.key()) + ": " + e.what(), {}, e.kind());
   }
 }
 

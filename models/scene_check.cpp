@@ -37,11 +37,12 @@ void check_real(const Setup& setup, const ObjectSpec& o) {
   const std::string path = "object." + o.name;
   const bool probed = setup.scene.probe && &o == &probed_object(setup.scene);
   if (!probed) {
-    fail(
-        setup, path,
-        fmt::format("object {} has no 'behaviour'; expected one, because [probe] does not press it; write it "
-                    "like 'behaviour = \"tennis_ball\"'",
-                    quoted(o.name)));
+    fail(setup, path,
+         fmt::format("object {} has no 'behaviour'; expected one, because {}; write it like 'behaviour = "
+                     "\"{}\"'",
+                     quoted(o.name),
+                     setup.scene.probe ? "[probe] does not press it" : "nothing else says what is felt",
+                     setup.scene.arm ? "phantom_wall" : "tennis_ball"));
   }
   if (!std::isnan(o.limit) || !o.limits.empty()) {
     const char* key = o.limits.empty() ? "limit_mm" : "limits_mm";
@@ -80,13 +81,7 @@ void check_limits(const Setup& setup, const ObjectSpec& o, double most, const st
 void check_object(const Setup& setup, const ObjectSpec& o) {
   const std::string path = "object." + o.name;
   if (o.shape == ShapeKind::plane || o.shape == ShapeKind::button) {
-    // Any other length has been mended by mend_normals().
-    if (!(std::abs(o.normal.norm() - 1.0) < 1e-6))
-      fail(setup, path + ".normal",
-           fmt::format(
-               "'normal' has length {:.6g} and no direction; expected length 1; write it like 'normal = "
-               "[0, 0, 1]'",
-               o.normal.norm()));
+    check_unit(setup, path + ".normal", o.normal);  // mend_normals() has mended what has a direction
   } else if (o.shape == ShapeKind::sphere && o.limit >= o.radius) {
     fail(setup, path + ".limit_mm",
          fmt::format("'limit_mm' is {}; expected less than the radius, {} mm; lower it", mm(o.limit),
@@ -157,19 +152,10 @@ bool on_a_line(const std::vector<Vec3>& markers) {
   return largest < 1e-6;
 }
 
-void check_tip(const Setup& setup, const ToolSpec& tool) {
-  if (tool.tip_shape == TipShape::sphere) return;
-  const double length = tool.tip_axis.norm();
-  if (std::abs(length - 1.0) < 1e-6) return;
-  const Vec3 a = length > 0 ? Vec3(tool.tip_axis / length) : Vec3(0, 0, 1);
-  fail(setup, fmt::format("tool.{}.tip_axis", tool.name),
-       fmt::format("'tip_axis' has length {:.6g}; expected length 1; write it like 'tip_axis = [{}, {}, {}]'",
-                   length, a.x(), a.y(), a.z()));
-}
-
 void check_tool(const Setup& setup, const ToolSpec& tool) {
   if (setup.scene.arm) return check_finger(setup, tool);
-  check_tip(setup, tool);
+  if (tool.tip_shape != TipShape::sphere)
+    check_unit(setup, fmt::format("tool.{}.tip_axis", tool.name), tool.tip_axis);
   const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
   if (tool.markers.size() < 3) {
     fail(
@@ -290,8 +276,8 @@ void check_driver(const Setup& setup, bool named, const std::string& table, cons
   if (!named || driver != "none") return;
   fail(setup, table,
        fmt::format("the scene names [{}] and rig {} has none; expected a [{}] with a driver; add it to the "
-                   "rig, or use '--rig sim'",
-                   table, quoted(setup.rig_path), table));
+                   "rig, or use '--rig {}'",
+                   table, quoted(setup.rig_path), table, setup.scene.arm ? "vishap" : "sim"));
 }
 
 void check_rig(const Setup& setup) {
@@ -309,6 +295,25 @@ void check_rig(const Setup& setup) {
   }
 }
 
+// The physics steps a whole number of times in a haptic period, and not so often that a run never ends.
+void check_stepping(const Setup& setup) {
+  constexpr double kMost = 1000.0;
+  const sim::Stepping stepping = setup.twin.stepping(setup.scene.arm.has_value());
+  const double rate = setup.rig.loop.rate, period = 1e6 / rate;  // us
+  if (stepping.timestep * rate * kMost < 1.0 - 1e-6)
+    fail(
+        setup, stepping.table + ".timestep_us",
+        fmt::format("'timestep_us' is {:g}; expected at least a thousandth of the haptic period, {:g}; raise "
+                    "it",
+                    stepping.timestep * 1e6, period / kMost));
+  if (stepping.steps_per_tick(rate) == 0)
+    fail(setup, stepping.table + ".timestep_us",
+         fmt::format(
+             "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "
+             "as 'timestep_us = {:g}'",
+             period, period));
+}
+
 }  // namespace
 
 void fail(const Setup& setup, const std::string& key, const std::string& what) {
@@ -316,6 +321,17 @@ void fail(const Setup& setup, const std::string& key, const std::string& what) {
 }
 
 std::string mm(double metres) { return text_of(unit_of("x_mm"), metres); }
+
+void check_unit(const Setup& setup, const std::string& key, const Vec3& v) {
+  const double length = v.stableNorm();
+  if (std::abs(length - 1.0) < 1e-6) return;
+  const bool none = !(length > kNoWay);
+  const Vec3 u = none ? Vec3(0, 0, 1) : Vec3(v / length);
+  const std::string name = key.substr(key.rfind('.') + 1);
+  fail(setup, key,
+       fmt::format("'{}' has length {:.6g}{}; expected length 1; write it like '{} = [{}, {}, {}]'", name,
+                   length, none ? " and no direction" : "", name, u.x(), u.y(), u.z()));
+}
 
 void check(const Setup& setup) {
   const SceneSpec& s = setup.scene;
@@ -338,14 +354,7 @@ void check(const Setup& setup) {
   check_gripper(setup);
   check_arm(setup);
   check_rig(setup);
-  const sim::Stepping stepping = setup.twin.stepping(s.arm.has_value());
-  if (stepping.steps_per_tick(setup.rig.loop.rate) == 0) {
-    fail(setup, stepping.table + ".timestep_us",
-         fmt::format(
-             "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "
-             "as 'timestep_us = {:g}'",
-             1e6 / setup.rig.loop.rate, 1e6 / setup.rig.loop.rate));
-  }
+  check_stepping(setup);
 }
 
 }  // namespace enc::models

@@ -20,6 +20,10 @@ template <class T>
   return names;
 }
 
+inline constexpr double kNoWay = 1e-6;  // what is shorter has no direction
+// A direction has length 1; `key` ends with its name in the file.
+void check_unit(const Setup& setup, const std::string& key, const Vec3& v);
+
 void check_session(const Setup& setup);  // [user.session]
 void check_reaches(const Setup& setup);  // [user.reaches]
 // arm_check.cpp

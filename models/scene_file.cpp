@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "models/directions.h"
+#include "models/scene_check.h"
 #include "models/schema_walk.h"
 #include "models/units.h"
 #include "models/wording.h"
@@ -85,10 +86,13 @@ void clear_absent_drivers(Setup& setup) {
   clear("rig.arm", setup.rig.arm.driver);
 }
 
+// Else it is a name in models/rigs.
+bool is_path(const std::string& rig) { return rig.find('/') != std::string::npos || rig.ends_with(".toml"); }
+
 void read_rig(Setup& setup, const std::string& rig) {
   const std::string models = models_dir(setup.scene_path);
-  const bool is_path = rig.find('/') != std::string::npos || rig.ends_with(".toml");
-  setup.rig_path = is_path ? rig : (fs::path(models) / "rigs" / (rig + ".toml")).lexically_normal().string();
+  setup.rig_path =
+      is_path(rig) ? rig : (fs::path(models) / "rigs" / (rig + ".toml")).lexically_normal().string();
   const std::string text = text_of_file(setup.rig_path, "rig", files_in(models, "rigs"));
   const Places places = read_toml(text, setup.rig_path, [&](Visitor& visitor) {
     describe(visitor, setup.rig);
@@ -254,10 +258,26 @@ std::string place_of(const Setup& setup, std::string_view key) {
   return fmt::format("{}:1:1", in_rig ? setup.rig_path : setup.scene_path);
 }
 
+namespace {
+
+// Also where --rig names another one: a scene that is wrong is wrong everywhere.
+void check_made_for(const Setup& setup) {
+  const std::string& rig = setup.scene.rig;
+  const std::vector<std::string> names = files_in(models_dir(setup.scene_path), "rigs");
+  if (rig.empty() || is_path(rig) || std::find(names.begin(), names.end(), rig) != names.end()) return;
+  fail(setup, "made_for",
+       fmt::format("there is no rig {}; expected a file in {}; {}", quoted(rig),
+                   (fs::path(models_dir(setup.scene_path)) / "rigs").lexically_normal().string(),
+                   advice(rig, names)));
+}
+
+}  // namespace
+
 Setup load(const std::string& scene_path, const std::string& rig, const std::vector<std::string>& overrides) {
   Setup setup;
   setup.scene_path = scene_path;
   read_scene(setup);
+  check_made_for(setup);
   read_rig(setup, !rig.empty() ? rig : setup.scene.rig.empty() ? "sim" : setup.scene.rig);
   // Behaviours come second, because --set may name another one for an object.
   const auto of_behaviour = [](const std::string& text) { return text.starts_with("behaviour."); };

@@ -87,11 +87,11 @@ void describe(Visitor& v, ArmRig& a) {
          {"gravity", "what is done against it: nothing, eq. 5 with the prop in m_a, or the prop at the tip",
           "[VisHap eq. 5]", chosen},
          kGravity, a.gravity);
-  v.value({"stiffness_N_per_m", "K_p of eq. 2", "docs/plane_button.md", chosen}, &a.stiffness);
-  v.value({"damping_Ns_per_m", "K_v of eq. 2", "docs/plane_button.md", chosen}, &a.damping);
-  v.value(
-      {"filter_hz", "a / 2 pi of eq. 3 in its s-domain form, a / (s + a)", "docs/plane_button.md", chosen},
-      &a.filter);
+  v.value({"stiffness_N_per_m", "K_p of eq. 2", "docs/plane_button.md", chosen, kPositive}, &a.stiffness);
+  v.value({"damping_Ns_per_m", "K_v of eq. 2", "docs/plane_button.md", chosen, kPositive}, &a.damping);
+  v.value({"filter_hz", "a / 2 pi of eq. 3 in its s-domain form, a / (s + a)", "docs/plane_button.md", chosen,
+           kPositive},
+          &a.filter);
   v.value({"peak_N", "what the tip pushes with at most", "parameters 1.1", published, kPositive}, &a.peak);
   v.value({"continuous_N", "and for hours", "parameters 1.1", published, kPositive}, &a.continuous);
   v.value({"speed_mm_s", "of the target on its way to where the finger will touch", "docs/reaching.md",
@@ -116,12 +116,14 @@ void describe(Visitor& v, sim::ArmTruth& a) {
           &a.timestep);
   v.value({"integrator", "of MuJoCo, likewise", "fidelity 4", chosen, kAny, defaulted, kIntegrators},
           &a.integrator);
-  v.value({"mass_scale", "of all its masses and inertias against the machine's below", "parameters 1.2",
-           assumed, kPositive},
+  v.value({"mass_scale",
+           "of all its masses and inertias against the machine's below",
+           "parameters 1.2",
+           assumed,
+           {0.01, 100.0}},
           &a.mass_scale);
   const auto each = [&](const Key& key, PerJoint& numbers) { per_joint(v, key, numbers); };
-  each({"counts", "of each encoder, for a turn of its motor", "parameters 1.3", published, kPositive},
-       a.counts);
+  each({"counts", "of each encoder, for a turn of its motor", "parameters 1.3", published, {1.0}}, a.counts);
   choice(v,
          {"friction_form", "dry: holds what is at rest; smooth: c tanh(10 qd), at rest nothing",
           "parameters 1.3", chosen},
@@ -188,9 +190,11 @@ void describe(Visitor& v, InteractionSpec& i) {
   if (i.kind == Interaction::click) {
     v.value({"trigger_mm", "depth d1 at which it triggers", "[VisHap Fig 4]", assumed, kPositive},
             &i.trigger);
-    v.value({"after_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kAny, needed}, &i.after);
+    v.value({"after_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kPositive, needed},
+            &i.after);
     v.value({"bottom_mm", "depth d2 of the bottom", "[VisHap Fig 4]", assumed, kPositive}, &i.bottom);
-    v.value({"floor_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kAny, needed}, &i.floor);
+    v.value({"floor_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kPositive, needed},
+            &i.floor);
   }
   if (i.kind == Interaction::hit || i.kind == Interaction::shift)
     v.value({"mass_kg", "of what moves", "docs/objects.md", chosen, kPositive}, &i.mass);

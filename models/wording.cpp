@@ -23,6 +23,8 @@ std::string bounds(const Range& r) {
     return fmt::format(" {} {} {} {}", r.above_low ? "above" : "from", r.low,
                        r.above_low ? "and at most" : "to", r.high);
   }
+  if (std::isfinite(r.low) && r.low != 0.0)
+    return fmt::format(" of {} {}", r.above_low ? "more than" : "at least", r.low);
   return "";
 }
 
@@ -64,7 +66,10 @@ struct Example {
   std::string operator()(const std::int64_t*) const { return "1"; }
   std::string operator()(const std::string*) const { return word(key.words); }
   std::string operator()(const Choice& choice) const { return word(choice.words); }
-  std::string operator()(const Vec3*) const { return "[0, 0, 1]"; }
+  std::string operator()(const Vec3*) const {
+    const bool zero = key.range.above_low ? key.range.low < 0.0 : key.range.low <= 0.0;
+    return zero ? "[0, 0, 1]" : "[10, 10, 10]";
+  }
   std::string operator()(const std::vector<double>*) const { return "[10, 20]"; }
   std::string operator()(const std::vector<Vec3>*) const { return "[[0, 0, 0], [52, 0, 0], [0, 41, 0]]"; }
   std::string operator()(const std::array<double, 4>*) const { return "[0.6, 0.4, 0.0, 0.0]"; }

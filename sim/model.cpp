@@ -156,13 +156,21 @@ void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const
   if (tool.markers.empty()) draw_finger(body, parts.finger, tip->size[0]);
 }
 
+// A button or a piece of a plane, whose face is at z = 0 of O.
+mjsGeom* draw_slab(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
+  const bool button = object.shape == ShapeKind::button;
+  const Vec3 half = button ? Vec3(0.5 * object.width, 0.5 * object.height, 0.5 * object.thickness)
+                           : Vec3(0.08, 0.08, 0.001);
+  mjsGeom* geom =
+      drawn(mjs_findBody(spec, "world"), mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, half.z()), half,
+            button ? std::array{0.85F, 0.35F, 0.30F, 0.40F} : std::array{0.4F, 0.6F, 0.9F, 0.4F});
+  name(geom->element, seen_name(index));
+  return geom;
+}
+
 mjsGeom* draw_object(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
-  if (object.shape == ShapeKind::button)  // its face is at z = 0 of O
-    return drawn(mjs_findBody(spec, "world"), mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.002),
-                 {0.5 * object.width, 0.5 * object.height, 0.002}, {0.85F, 0.35F, 0.30F, 0.55F});
-  if (object.shape == ShapeKind::plane)
-    return drawn(mjs_findBody(spec, "world"), mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, 0.001),
-                 {0.08, 0.08, 0.001}, {0.4F, 0.6F, 0.9F, 0.4F});
+  if (object.shape == ShapeKind::button || object.shape == ShapeKind::plane)
+    return draw_slab(spec, index, object, X_WO);
   const bool ball = object.shape == ShapeKind::sphere;
   mjsGeom* geom = ball ? add_seen_ball(spec, index, object.radius)
                        : add_seen_mesh(spec, index, *object.surface, object.scale);

@@ -1,5 +1,7 @@
 #include "sim/mujoco.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace enc::sim {
@@ -28,7 +30,11 @@ Physics::Physics(SpecPtr spec) : spec_(std::move(spec)) {
   install_mujoco_handlers();
   spec_->option.disableflags |= mjDSBL_AUTORESET;
   model_.reset(mj_compile(spec_.get(), nullptr));
-  if (!model_) throw Error(std::string("the simulated world does not compile: ") + mjs_getError(spec_.get()));
+  if (!model_) {
+    std::string why = mjs_getError(spec_.get());
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    throw Error("the simulated world does not compile: " + why, "truth");
+  }
   data_.reset(mj_makeData(model_.get()));
   if (!data_) throw Error("not enough memory for the simulated world");
 }

@@ -76,10 +76,17 @@ mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, doubl
   return add_seen(spec, object, vertices, triangles);
 }
 
+void shift_seen(Physics& physics, std::size_t object, const Vec<'W'>& shift) {
+  const int geom = mj_name2id(physics.model(), mjOBJ_GEOM, seen_name(object).c_str());
+  if (geom < 0) return;
+  for (int k = 0; k < 3; ++k)
+    physics.data()->geom_xpos[3 * geom + k] += shift.xyz[static_cast<std::size_t>(k)];
+}
+
 void dent_seen(Physics& physics, const Scene& scene, std::size_t object, const Tip<'W'>& tip) {
   mjModel* m = physics.model();
   const int geom = mj_name2id(m, mjOBJ_GEOM, seen_name(object).c_str());
-  if (geom < 0) return;
+  if (geom < 0 || m->geom_type[geom] != mjGEOM_MESH) return;
   const Object& seen = scene.objects[object];
   const Pose<'O', 'W'> X_OW = seen.X_WO.inverse();
   const DentField<double> field =

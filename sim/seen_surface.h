@@ -9,10 +9,13 @@
 
 namespace enc::sim {
 
-// Adds a mesh geom called seen_name(object), around the origin of O.
+// What is seen of an object is a geom called seen_name(object). These are meshes, around the origin of O.
 mjsGeom* add_seen_ball(mjSpec* spec, std::size_t object, double radius);
 mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, double scale);
 [[nodiscard]] std::string seen_name(std::size_t object);
+
+// In the picture alone, until the physics steps again.
+void shift_seen(Physics& physics, std::size_t object, const Vec<'W'>& shift);
 
 // Displaces vertices and normals of that mesh by a tip. Does nothing where the object has no such mesh. To be
 // done once, and before the model is given to a renderer.

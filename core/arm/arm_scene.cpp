@@ -19,13 +19,17 @@ std::string number(double x) {
   return bad == std::errc() ? std::string(text.data(), end) : std::string("?");
 }
 
-void check_gains(const ArmRig& rig, double mass) {
+void check_gains(const ArmRig& rig, double mass, double rate) {
   const auto positive = [](double value, const char* key) {
     if (!(value > 0.0)) throw Error("a gain of the control law is positive", std::string("rig.arm.") + key);
   };
   positive(rig.stiffness, "stiffness");
   positive(rig.damping, "damping");
   positive(rig.filter, "filter");
+  if (rig.filter > 0.5 * rate)
+    throw Error("the filter's corner is " + number(rig.filter) + " Hz; expected at most " +
+                    number(0.5 * rate) + ", half of the loop's rate: there is nothing above; lower it",
+                "rig.arm.filter");
   const double ratio = damping_ratio(rig, mass);
   if (!(ratio >= 1.0))
     throw Error("the control law is under-damped: ratio " + number(ratio) + " for the " + number(1e3 * mass) +
@@ -41,13 +45,22 @@ void check_button(const ObjectSpec& object, const BehaviourSpec& behaviour) {
     throw Error("a button has three stiffnesses: before the trigger, after it and at the bottom",
                 key + (button.after > 0.0 ? "floor" : "after"));
   if (!(button.after < behaviour.stiffness))
-    throw Error("a button becomes softer when it is triggered", key + "after");
+    throw Error("a button becomes softer when it is triggered: from " + number(1e-3 * behaviour.stiffness) +
+                    " to " + number(1e-3 * button.after) + " N/mm; expected less; lower it",
+                key + "after");
   if (!(button.floor > button.after))
-    throw Error("the bottom of a button is stiffer than the button", key + "floor");
-  if (!(button.bottom > button.trigger + button.gradual))
-    throw Error("the bottom of a button lies deeper than where its trigger is over", key + "bottom");
+    throw Error("the bottom of a button is stiffer than the button: " + number(1e-3 * button.floor) +
+                    " N/mm; expected more than " + number(1e-3 * button.after) + "; raise it",
+                key + "floor");
+  const double over = button.trigger + button.gradual;
+  if (!(button.bottom > over))
+    throw Error("the bottom of a button is " + number(1e3 * button.bottom) + " mm deep; expected more than " +
+                    number(1e3 * over) + ", where its trigger is over; raise it, or lower trigger_mm",
+                key + "bottom");
   if (object.shape == ShapeKind::mesh || object.shape == ShapeKind::sphere)
-    throw Error("only a button or a plane clicks", "object." + object.name + ".behaviour");
+    throw Error("object '" + object.name +
+                    "' cannot click; expected a button or a plane; change its shape or its behaviour",
+                "object." + object.name + ".behaviour");
 }
 
 Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
@@ -73,23 +86,32 @@ Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
   return object;
 }
 
-// The arm gets to a place of the object, and from there to where the deepest press is felt.
+bool gets_to(const Scene& scene, const Point<'W'>& p) {
+  const Impedance& law = *scene.impedance;
+  PerJoint q{};
+  return law.arm.inverse(scene.X_WR.inverse() * p, q) &&
+         law.arm.dexterity(law.arm.jacobian(q)) >= law.rig.least_dexterity;
+}
+
+// The arm gets to a place of the object, and to where the user presses one.
 void check_reach(const SceneSpec& spec, const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    const bool middle = object.interaction.kind == Interaction::click;
     const Point<'W'> home(0, 0, 0);
     const Nearest near = object.surface.nearest(object.X_WO.inverse() * home);
-    const Point<'W'> at = middle ? object.X_WO.origin() : object.X_WO * near.point;
-    PerJoint q{};
-    const Impedance& law = *scene.impedance;
-    if (law.arm.inverse(scene.X_WR.inverse() * at, q) &&
-        law.arm.dexterity(law.arm.jacobian(q)) >= law.rig.least_dexterity)
+    if (gets_to(scene, object.met_in_its_middle() ? object.X_WO.origin() : object.X_WO * near.point))
       continue;
     throw Error("the arm does not get to object '" + spec.objects[i].name +
                     "', or only near a singular pose; move it nearer to the origin of W, the arm's home",
                 "object." + spec.objects[i].name + ".position");
   }
+  if (!spec.user || spec.user->kind != "press_release") return;  // others choose what is in reach
+  const Object& pressed = scene.objects[pressed_object(spec.objects, spec.user->object, "user")];
+  if (!pressed.met_in_its_middle() && !gets_to(scene, press_point(spec, *spec.user).point))
+    throw Error(
+        "the user presses where the arm does not get, or only near a singular pose; change polar, azimuth "
+        "or offset",
+        "user");
 }
 
 }  // namespace
@@ -125,7 +147,7 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   }
   scene.dt = 1.0 / rig.loop.rate;
   law.filter_gain = 2.0 * std::numbers::pi * rig.arm.filter * scene.dt;
-  check_gains(rig.arm, mass_at_tip(law.arm, law.arm.zero(), law.prop_mass));
+  check_gains(rig.arm, mass_at_tip(law.arm, law.arm.zero(), law.prop_mass), rig.loop.rate);
   scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
   scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
   scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);

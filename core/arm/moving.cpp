@@ -178,7 +178,8 @@ Mover make_mover(const ObjectSpec& spec, const Object& object) {
     refuse(!(does.travel > 0.0), spec, "moves and has no travel");
   }
   refuse(does.kind == Interaction::hit && !std::isfinite(object.radius), spec,
-         "has no end, and cannot be hit");
+         "has no end, and cannot be hit; expected a sphere, a button or a mesh; change its shape or its "
+         "behaviour");
   Mover mover;
   mover.kind = does.kind;
   mover.stiffness = object.stiffness;

@@ -180,6 +180,11 @@ mjsBody* build_chain(mjsBody* base, const ArmParts& parts) {
     mjsBody* next = add_body(body, link.origin, {link.mass, link.centre, link.inertia});
     const mjtJoint type = link.kind == JointKind::hinge ? mjJNT_HINGE : mjJNT_SLIDE;
     fit_drive(add_joint(next, kJoints[i], type, link.axis), parts, i, 0.0);
+    if (parts.draw && link.kind == JointKind::slide) {  // its rail
+      const ArmDrive& drive = parts.machine.drives[i];
+      draw(body, mjGEOM_CAPSULE, link.origin + drive.low * link.axis, link.origin + drive.high * link.axis,
+           0.004, kAccent);
+    }
     if (parts.draw) {
       draw(next, mjGEOM_CAPSULE, Vec3::Zero(), Vec3(link.centre + 1e-4 * Vec3::UnitX()), 0.008, kMetal);
       if (link.origin.norm() > 1e-3) draw(body, mjGEOM_CAPSULE, Vec3::Zero(), link.origin, 0.006, kAccent);

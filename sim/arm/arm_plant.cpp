@@ -15,7 +15,9 @@ ArmPlant::ArmPlant(const ArmTruth& truth, const Arm& believed, double dt)
       dt_(dt),
       window_(std::max<std::int64_t>(1, std::llround(truth.velocity_window / dt))) {
   if (window_ >= static_cast<std::int64_t>(kLongestWindow))
-    throw Error("the encoders are differenced over at most 63 ticks", "truth.arm.velocity_window");
+    throw Error("the encoders are differenced over " + std::to_string(window_) +
+                    " ticks; expected at most 63; lower it",
+                "truth.arm.velocity_window");
   for (std::size_t i = 0; i < believed_.joints(); ++i)
     step_[i] = 2.0 * std::numbers::pi / (truth.counts[i] * truth.machine.drives[i].ratio);
 }

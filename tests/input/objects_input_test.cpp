@@ -57,7 +57,7 @@ TEST(ObjectsInput, NumbersOutOfRange) {
         "behaviour.hit_ball.interaction.travel_mm=0", "behaviour.hit_ball.stiffness_N_per_mm=-1"})
     EXPECT_THAT(said("hit_ball", {set}), HasSubstr("; expected a ")) << set;
   EXPECT_THAT(said("tiles", {"behaviour.tile.interaction.friction_N=-1"}), HasSubstr("; expected a "));
-  EXPECT_THAT(said("tiles", {"behaviour.tile.interaction.way=[0,0,-0.5]"}), HasSubstr("expected 1"));
+  EXPECT_THAT(said("tiles", {"behaviour.tile.interaction.way=[0,0,-0.5]"}), HasSubstr("expected length 1"));
 }
 
 TEST(ObjectsInput, AnEntryThatTheDatabaseDoesNotHaveIsOneLineWithItsPlace) {

@@ -50,6 +50,27 @@ TEST(View, ShotIsAPngOfTheRightSizeWithAPictureInIt) {
   EXPECT_LT(png.size(), 300'000U);
 }
 
+// A ball that is hit is not held: what is shown is the blow, not the finger before it sets out.
+TEST(View, ABlowIsShownAtItsTouch) {
+  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  const fs::path shot = fs::path(testing::TempDir()) / ("blow_" + std::to_string(getpid()) + ".png");
+  const tests::Result result = tests::run_program(
+      {"view", ENCOUNTER_SOURCE_DIR "/models/scenes/hit_ball.toml", "--shot", shot.string()}, kNotOurLeaks);
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("at 1.5"));
+  fs::remove(shot);
+}
+
+TEST(View, WhatIsRefusedIsSaidWithItsPlace) {
+  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  const std::string far = "object.wall.position_mm=[0, 0, -900]";
+  const tests::Result result = tests::run_program(
+      {"view", ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "--shot", "a.png", "--set", far},
+      kNotOurLeaks);
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--set " + far + ": the arm does not get"));
+}
+
 TEST(View, WithoutShotSaysSo) {
   const tests::Result result = tests::run_program({"view", kScene});
   EXPECT_EQ(result.code, 2);

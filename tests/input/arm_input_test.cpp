@@ -1,0 +1,215 @@
+// What can be wrong in the files of an arm, its truth and its objects: refused in one line, with the place of
+// the key.
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/trial.h"
+#include "core/error.h"
+#include "tests/conformance/bench_world.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+// As `encounter run` says it.
+std::string said(const std::vector<std::string>& set, const std::string& scene = "wall",
+                 const std::string& rig = "") {
+  try {
+    const bench::Trial trial(models::load(scene_file(scene), rig, set), {});
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), Not(HasSubstr("\n")));
+    EXPECT_EQ(e.kind(), ErrorKind::input);
+    return e.what();
+  }
+  return {};
+}
+
+TEST(ArmInput, LimitsOfAJointGoUpAndHaveHomeBetweenThem) {
+  for (const char* machine : {"rig", "truth"}) {
+    const std::string key = std::string(machine) + ".arm.machine.joint_low=";
+    EXPECT_THAT(
+        said({key + "[2, 0, 0]"}),
+        AllOf(StartsWith("--set " + key), HasSubstr("joint 1 goes from 2 to 1.5708"), HasSubstr("expected")));
+    EXPECT_THAT(said({key + "[0, 1, 0]"}), HasSubstr("joint 2 goes from 1 to 2.077"));
+  }
+  EXPECT_THAT(said({"rig.arm.machine.joint_high=[1, 1, -0.1]"}),
+              AllOf(StartsWith("--set"), HasSubstr("joint 3 goes from -0.506 to -0.1")));
+  EXPECT_THAT(said({"rig.arm.machine.coupled_low_deg=0", "rig.arm.machine.coupled_high_deg=0"}),
+              HasSubstr("expected a range"));
+}
+
+TEST(ArmInput, ChainsHaveOneToThreeLinksAndTheTruthAsMany) {
+  EXPECT_THAT(said({"rig.arm.machine.kind=chain"}),
+              AllOf(HasSubstr("vishap.toml"), HasSubstr("has 0 links"), HasSubstr("'[[arm.machine.link]]'")));
+  models::Setup setup = models::load(scene_file("wall"), "stage");
+  setup.twin.arm.machine.links.pop_back();
+  try {
+    models::check(setup);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), AllOf(HasSubstr("stage.toml"), HasSubstr("has 1 joints; expected 2")));
+  }
+}
+
+TEST(ArmInput, AxesAndWaysThatHaveNoLengthOfOneAreNamed) {
+  EXPECT_THAT(said({"rig.arm.machine.link.x.axis=[0.5, 0, 0]"}, "wall", "stage"),
+              AllOf(HasSubstr("'axis' has length 0.5; expected length 1"), HasSubstr("'axis = [1, 0, 0]'")));
+  EXPECT_THAT(said({"behaviour.tile.interaction.way=[0, 0, 0]"}, "tiles"),
+              HasSubstr("'way' has length 0 and no direction"));
+}
+
+TEST(ArmInput, ANormalOfAnyLengthIsMended) {
+  for (const char* normal : {"[0, 3e150, 4e200]", "[0, 0, 1e-5]"}) {
+    const models::Setup setup =
+        models::load(scene_file("wall"), "", {std::string("object.wall.normal=") + normal});
+    EXPECT_THAT(setup.notes, ElementsAre(HasSubstr("taken as [0, ")));
+    EXPECT_DOUBLE_EQ(setup.scene.objects[0].normal.z(), 1.0);
+  }
+}
+
+TEST(ArmInput, NumbersThatAMachineCannotHave) {
+  EXPECT_THAT(said({"rig.arm.continuous_N=14"}), HasSubstr("expected at most 'peak_N', 8.5"));
+  EXPECT_THAT(said({"truth.arm.continuous_torque_Nm=[0.01, 0.2, 0.01]"}),
+              HasSubstr("'continuous_torque_Nm' is 0.2; expected at most 'peak_torque_Nm', 0.129"));
+  EXPECT_THAT(said({"truth.arm.counts=[0.5, 1, 1]"}), HasSubstr("a number of at least 1 in every place"));
+  EXPECT_THAT(said({"truth.arm.mass_scale=1e9"}), HasSubstr("expected a number from 0.01 to 100"));
+  EXPECT_THAT(said({"truth.arm.velocity_window_ms=100"}), HasSubstr("expected at most 63"));
+}
+
+TEST(ArmInput, AFilterThatLetsMoreThroughThanTheLoopCarries) {
+  EXPECT_EQ(said({"rig.arm.filter_hz=500"}), "");
+  EXPECT_THAT(said({"rig.arm.filter_hz=501"}), HasSubstr("expected at most 500, half of the loop's rate"));
+}
+
+TEST(ArmInput, ATimeStepThatNeverEnds) {
+  EXPECT_EQ(said({"truth.arm.timestep_us=10"}), "");
+  for (const char* step : {"1e-9", "0.001", "0.5"})
+    EXPECT_THAT(said({std::string("truth.arm.timestep_us=") + step}),
+                HasSubstr("expected at least a thousandth of the haptic period, 1;"));
+}
+
+TEST(ArmInput, AWorldThatDoesNotCompileIsOneLineWithItsPlace) {
+  EXPECT_THAT(said({"truth.arm.machine.m_c_kg=1e-30"}),
+              AllOf(HasSubstr("vishap.toml:"), HasSubstr("does not compile")));
+}
+
+TEST(ArmInput, KeysThatOnlyTheOtherMachineReads) {
+  EXPECT_THAT(said({"object.wall.limit_mm=3"}),
+              HasSubstr("'limit_mm' limits a deflection, which an arm does not"));
+  EXPECT_THAT(said({"object.wall.limits_mm=[3, 2]"}), HasSubstr("'limits_mm' limits a deflection"));
+  EXPECT_THAT(said({"behaviour.phantom_wall.limit_mm=3"}), HasSubstr("'limit_mm' limits a deflection"));
+  EXPECT_THAT(said({"behaviour.phantom_wall.tangential=spring",
+                    "behaviour.phantom_wall.tangential_stiffness_N_per_mm=1"}),
+              HasSubstr("expected 'stick'"));
+}
+
+// The place is the scene's, where another name is written.
+TEST(ArmInput, ABehaviourOfTheOtherMachine) {
+  EXPECT_THAT(said({"object.wall.behaviour=wall"}),
+              AllOf(StartsWith("--set object.wall.behaviour=wall: "), HasSubstr("\"phantom_wall\"")));
+  EXPECT_THAT(
+      said({"object.wall.behaviour=phantom_wall"}, "plane"),
+      AllOf(StartsWith("--set object.wall.behaviour=phantom_wall: "), HasSubstr("without [interaction]")));
+  EXPECT_THAT(
+      said({"object.wall.behaviour="}),
+      AllOf(HasSubstr("has no 'behaviour'"), Not(HasSubstr("[probe]")), HasSubstr("\"phantom_wall\"")));
+}
+
+TEST(ArmInput, OneFingerOfAFingersSize) {
+  EXPECT_THAT(said({"tool.finger.tip_radius_mm=60"}), HasSubstr("a positive radius of at most 50 mm"));
+  models::Setup setup = models::load(scene_file("wall"), "");
+  setup.scene.tools.push_back(setup.scene.tools[0]);
+  setup.scene.tools.back().name = "thumb";
+  try {
+    models::check(setup);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("tool 'thumb' is another"));
+  }
+}
+
+TEST(ArmInput, APressOutOfReach) {
+  EXPECT_THAT(said({"user.offset_mm=5000"}),
+              AllOf(HasSubstr("wall.toml:"), HasSubstr("the arm does not get")));
+  // The middle of a key is met, wherever its face is touched.
+  EXPECT_THAT(said({"object.key.position_mm=[0, 0, -400]"}, "room"),
+              HasSubstr("does not get to object 'key'"));
+}
+
+TEST(ArmInput, ButtonsSayWhichDepthAndStiffness) {
+  const std::string at = "behaviour.phantom_button.interaction.";
+  EXPECT_THAT(said({at + "trigger_mm=5"}, "button"), HasSubstr("4 mm deep; expected more than 5.5"));
+  EXPECT_THAT(said({at + "after_N_per_mm=0.7"}, "button"), HasSubstr("from 0.4 to 0.7 N/mm"));
+  EXPECT_THAT(said({at + "floor_N_per_mm=0.1"}, "button"), HasSubstr("0.1 N/mm; expected more than 0.2"));
+}
+
+TEST(ArmInput, TheRigThatIsOfferedHasAnArm) {
+  EXPECT_THAT(said({}, "wall", "sim"), EndsWith("or use '--rig vishap'"));
+  EXPECT_THAT(said({}, "plane", "vishap"), EndsWith("or use '--rig sim'"));
+}
+
+TEST(ArmInput, MadeForARigThatIsNotThere) {
+  const TemporaryFolder folder;
+  std::ifstream wall(scene_file("wall"));
+  std::string text{std::istreambuf_iterator<char>(wall), {}};
+  const std::string path = folder.file("wall.toml");
+  std::ofstream(path) << text.replace(text.find("\"vishap\""), 8, "\"vishp\"");
+  for (const char* rig : {"", "vishap"}) {
+    try {
+      (void)models::load(path, rig);
+      ADD_FAILURE();
+    } catch (const Error& e) {
+      EXPECT_THAT(e.what(), AllOf(StartsWith(path + ":4:1: "), HasSubstr("'vishp'"),
+                                  EndsWith("did you mean 'vishap'?")));
+    }
+  }
+}
+
+// A note is about a scene that runs.
+TEST(ArmInput, OfARefusedSceneOneLineIsSaid) {
+  const tests::Result result =
+      tests::run_program({"run", scene_file("hit_ball"), "--set", "object.ball.behaviour=phantom_button"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("cannot click"));
+}
+
+TEST(ArmReport, CheckSaysWhatAnArmRenders) {
+  const tests::Result result = tests::run_program({"check", scene_file("room")});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("object 'key': passive, 0.6 N/mm"), HasSubstr("damping ratio 1.19"),
+                                HasSubstr("pushes with up to 8.5 N"), Not(HasSubstr("nan")),
+                                Not(HasSubstr("not rendered"))));
+}
+
+// Without a touch that could be measured nothing is printed as nan; figures of a deflection are a hexapod's.
+TEST(ArmReport, WhatWasNotMeasuredIsSaid) {
+  const std::vector<std::string> args{"run",     scene_file("wall"),
+                                      "--for-s", "5",
+                                      "--set",   "truth.arm.peak_torque_Nm=[1e-9, 1e-9, 1e-9]",
+                                      "--set",   "truth.arm.continuous_torque_Nm=[1e-9, 1e-9, 1e-9]"};
+  const tests::Result weak = tests::run_program(args);
+  EXPECT_EQ(weak.code, 0) << weak.err;
+  EXPECT_THAT(weak.out, AllOf(HasSubstr("sideways    not measured"), Not(HasSubstr("nan"))));
+  const tests::Result json = tests::run_program({"run", scene_file("wall"), "--for-s", "0.2", "--json"});
+  EXPECT_THAT(json.out, AllOf(HasSubstr("\"meetings\""), Not(HasSubstr("\"rmse_press_N\""))));
+  // A spring is fitted where one is pressed, not over reaches for several objects.
+  EXPECT_THAT(tests::run_program({"run", scene_file("reaching"), "--for-s", "6"}).out,
+              Not(HasSubstr("spring ")));
+}
+
+}  // namespace
+}  // namespace enc::test
