@@ -181,20 +181,33 @@ TEST(Reaching, TooMuchIsCutToThePeakAndTold) {
   EXPECT_TRUE((bench.loop.out.why & kOverload) != 0);
 }
 
-TEST(Reaching, AChangeOfTheTargetDoesNotLeapInForce) {
-  Bench bench("keypad");
-  bench.at(-0.010, 1000);
-  double most = 0.0, last = bench.loop.out.felt.norm();
-  std::int32_t object = bench.loop.out.object, switches = 0;
+// [V33]: through the trigger to the bottom board, 2.5 mm/s.
+TEST(Reaching, TheChangeToTheBottomBoardDoesNotLeapInForce) {
+  Bench bench("button");
+  bench.at(0.0, 500);
+  double most = 0.0, last = bench.pushed(), greatest_gain = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    bench.at(-0.010, 1, 20e-6 * i);
-    switches += bench.loop.out.object != object ? 1 : 0;
-    object = bench.loop.out.object;
-    most = std::max(most, std::abs(bench.loop.out.felt.norm() - last));
-    last = bench.loop.out.felt.norm();
+    const double depth = 2.5e-6 * i;
+    bench.press_tip(depth);
+    bench.at(depth);
+    most = std::max(most, std::abs(bench.pushed() - last));
+    last = bench.pushed();
+    greatest_gain = std::max(greatest_gain, bench.loop.out.gain);
   }
-  EXPECT_GT(switches, 0);
+  EXPECT_NEAR(greatest_gain, 600.0 / 300.0, 1e-6);  // the floor's over K_p: it is on the board
   EXPECT_LT(most, 0.2);
+}
+
+// From key to key the target hurries where nobody feels it: a key that is touched stays the target.
+TEST(Reaching, WhatIsTouchedStaysTheTarget) {
+  Bench bench("keypad");
+  const double over_key_5 = 0.010;  // y
+  for (int i = 0; i < 1000; ++i) bench.loop.tick({0.0, over_key_5, 0.018});
+  const std::int32_t key = bench.loop.out.object;
+  for (int i = 0; i < 100; ++i) bench.loop.tick({1e-4 * i, over_key_5, 0.006});  // aside, to the next
+  EXPECT_EQ(bench.loop.out.mode, Mode::contact);
+  EXPECT_EQ(bench.loop.out.object, key);
+  EXPECT_EQ(bench.loop.scene.objects[static_cast<std::size_t>(key)].name, "key_5");
 }
 
 }  // namespace
