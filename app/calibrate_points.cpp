@@ -37,10 +37,10 @@ std::string number(const models::Interval& i, double unit, int digits) {
 std::string axes_text(const PointSet& places, const PointStudy& s) {
   std::string out = fmt::format("{} pairs, {:.4g} frame{} of each, condition {:.2f}\n", places.size(),
                                 s.frames, s.frames > 1.0 ? "s" : "", s.found.condition);
-  out += fmt::format("{:6}{:>24}{:>12}{:>24}{:>18}{:>14}\n", "axis", "mean |error| left, mm", "rms, mm",
+  out += fmt::format("{:6}{:>24}{:>12}{:>24}{:>18}{:>17}\n", "axis", "mean |error| left, mm", "rms, mm",
                      "left out, mm", "frame noise, mm", "that stays, mm");
   for (Eigen::Index a = 0; a < 3; ++a)
-    out += fmt::format("{:<6}{:>24}{:>12}{:>24}{:>18}{:>14}\n", kNames[a],
+    out += fmt::format("{:<6}{:>24}{:>12}{:>24}{:>18}{:>17}\n", kNames[a],
                        number(s.found.mean_error(a), kMm, 4), number(s.found.rms_error(a), kMm, 4),
                        number(s.left_out[static_cast<std::size_t>(a)], kMm, 4),
                        number(s.frame_noise(a), kMm, 4), number(s.standing(a), kMm, 4));
