@@ -134,12 +134,12 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* calibrate_command =
       app.add_subcommand("calibrate",
                          "a tracker's bias, noise and latency out of a log; the camera's pose out of pairs "
-                         "of points, or guided on a rig");
+                         "of points, or guided: the rig's simulated arm is driven through the camera's view");
   calibrate_command
       ->add_option(
           "what", calibrate_options.log,
           "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; CSV with camera_x_m.., device_x_m.., "
-          "pair; or a rig with an arm")
+          "pair; or a rig with a simulated arm, such as vishap")
       ->required();
   calibrate_command->add_option("--rate-Hz", calibrate_options.rate,
                                 "of a log: rows a second that it shall have; default: any");
@@ -149,7 +149,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       ->check(CLI::Range(4, 1000))
       ->capture_default_str();
   calibrate_command->add_option("--frames", calibrate_options.frames, "of a rig: averaged at each place")
-      ->check(CLI::Range(1, 100000))
+      ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   calibrate_command->add_option("--seed", calibrate_options.seed, "of the camera's noise")
       ->capture_default_str()

@@ -25,6 +25,18 @@ Scene prepare_setup(const models::Setup& setup) {
   }
 }
 
+std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& prepared, std::uint64_t seed,
+                                       bool draw_all) {
+  const std::string mjcf = models::models_dir(setup.scene_path) + "/mjcf";
+  try {
+    return std::make_unique<sim::World>(
+        sim::WorldSpec{setup.scene, setup.rig, setup.twin, prepared, mjcf, seed, draw_all});
+  } catch (const Error& e) {
+    if (e.key().empty()) throw;
+    throw Error(models::place_of(setup, e.key()) + ": " + e.what(), {}, e.kind());
+  }
+}
+
 void check_devices(const Rig& rig, const RigSpec& spec) {
   if (!rig.manipulator) return;
   const Reach reach = rig.manipulator->reach();
@@ -38,14 +50,7 @@ void check_devices(const Rig& rig, const RigSpec& spec) {
 
 Trial::Trial(models::Setup setup, TrialOptions options)
     : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
-  const std::string mjcf = models::models_dir(setup_.scene_path) + "/mjcf";
-  try {
-    world_ = std::make_unique<sim::World>(sim::WorldSpec{setup_.scene, setup_.rig, setup_.twin, scene_, mjcf,
-                                                         options_.seed, options_.draw_all});
-  } catch (const Error& e) {
-    if (e.key().empty()) throw;
-    throw Error(models::place_of(setup_, e.key()) + ": " + e.what(), {}, e.kind());
-  }
+  world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
   rig_ = world_->rig();
   if (options_.fit_out) options_.fit_out(rig_);
   check_devices(rig_, setup_.rig);

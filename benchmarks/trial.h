@@ -88,6 +88,9 @@ class Trial {
 
 // prepare(), with the place in the file put before what is wrong.
 [[nodiscard]] Scene prepare_setup(const models::Setup& setup);
+// The twin of a set-up, with the place in the file put before what is wrong. Both must outlive it.
+[[nodiscard]] std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& prepared,
+                                                     std::uint64_t seed, bool draw_all = false);
 // A device that can do less than the rig file promises is refused before anything moves.
 void check_devices(const Rig& rig, const RigSpec& spec);
 

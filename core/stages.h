@@ -13,6 +13,7 @@ struct Walk {
   const Tick& tick;
   const Inputs& in;
   std::uint32_t why = 0;
+  Point<'W'> sent;  // guide: where an arm goes while it follows nobody; unset: it waits
 
   bool tool_known = false;  // track
   bool tool_fresh = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/arm/guide.h"
 #include "core/fuse.h"
 #include "core/rotation.h"
 #include "core/stages.h"
@@ -47,11 +48,9 @@ void report(const stages::Walk& walk, const State& state, Outputs& out) {
               out.mode};
 }
 
-}  // namespace
-
-void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) noexcept {
-  stages::Walk walk(scene, tick, in);
-  if (in.missed >= scene.loop.late_cycles) walk.why |= kClockLate;
+void walk_through(stages::Walk& walk, State& state, Outputs& out) noexcept {
+  const Scene& scene = walk.scene;
+  if (walk.in.missed >= scene.loop.late_cycles) walk.why |= kClockLate;
   stages::track(walk, state);  // where are the tool and the tip
   stages::touch(walk, state);  // which surface point is nearest, and how far
   stages::grip(walk);          // does the gripper hold its tool
@@ -76,6 +75,20 @@ void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, 
   }
   stages::limit_command(walk, state);  // and what the machine is told
   report(walk, state, out);
+}
+
+}  // namespace
+
+void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) noexcept {
+  stages::Walk walk(scene, tick, in);
+  walk_through(walk, state, out);
+}
+
+void guide(const Scene& scene, const Tick& tick, const Inputs& in, const Point<'W'>& to, State& state,
+           Outputs& out) noexcept {
+  stages::Walk walk(scene, tick, in);
+  walk.sent = to;
+  walk_through(walk, state, out);
 }
 
 }  // namespace enc

@@ -59,7 +59,8 @@ int whole_steps(const WorldSpec& spec) {
   const Stepping stepping = spec.twin.stepping(spec.scene.arm.has_value());
   const int steps = stepping.steps_per_tick(spec.rig.loop.rate);
   if (steps == 0)
-    throw Error("the physics time step must divide the haptic period", stepping.table + ".timestep");
+    throw Error("the physics time step does not divide the haptic period; expected a whole share of it",
+                stepping.table + ".timestep");
   return steps;
 }
 

@@ -19,18 +19,10 @@ struct OneSeed {
   std::vector<double> seconds;
 };
 
-OneSeed run_seed(const RegistrationRig& rig, const RegistrationPlaces& places, const AccuracyStudy& study,
+OneSeed run_seed(const RegistrationRig& rig, const std::vector<TipVisit>& visits, const AccuracyStudy& study,
                  std::uint64_t seed) {
-  const std::size_t most_pairs = *std::max_element(study.pairs.begin(), study.pairs.end());
-  const std::size_t most_frames = *std::max_element(study.frames.begin(), study.frames.end());
-  if (places.visited.size() < most_pairs)
-    throw Error(
-        "the camera sees fewer places of the arm than are wanted; expected its view on the arm; see "
-        "frames.W_C");
-  const std::vector<Point<'W'>> visited(places.visited.begin(),
-                                        places.visited.begin() + static_cast<std::ptrdiff_t>(most_pairs));
-  KinematicArm arm(rig.believed, rig.arm);
-  const GuidedRun run = run_guided(arm, visited, rig.X_WC, rig.camera, most_frames, seed);
+  const std::size_t most_frames = visits.front().frames.size();
+  const GuidedRun run = see_visits(visits, rig.X_WC, rig.camera, seed);
   if (run.unseen > 0) throw Error("a place was not seen; expected all in view; see truth.camera");
   OneSeed one;
   for (const std::size_t pairs : study.pairs)
@@ -54,6 +46,7 @@ void judge(const RegistrationRig& rig, const RegistrationPlaces& places, const R
   }
   to.residual.push_back(found.mean_error);
   to.held_out.push_back(sum);
+  to.position.push_back((found.X_WC.p() - rig.X_WC.p()).cwiseAbs());
   to.turn.push_back(found.X_WC.q().angularDistance(rig.X_WC.q()));
   to.scale.push_back(found.scale);
 }
@@ -85,15 +78,23 @@ RegistrationPlaces places_of(const RegistrationRig& rig, std::size_t most_pairs)
 }
 
 std::vector<Accuracy> run_accuracy(const RegistrationRig& rig, const RegistrationPlaces& places,
-                                   const AccuracyStudy& study, const std::function<void(double)>& progress) {
+                                   const std::vector<TipVisit>& visits, const AccuracyStudy& study,
+                                   const std::function<void(double)>& progress) {
+  if (visits.size() < *std::max_element(study.pairs.begin(), study.pairs.end()))
+    throw Error(
+        "the camera sees fewer places of the arm than are wanted; expected its view on the arm; see "
+        "frames.W_C");
   std::vector<OneSeed> seeds(study.seeds);
   in_parallel(
-      study.seeds, [&](std::size_t i) { seeds[i] = run_seed(rig, places, study, study.first_seed + i); },
+      study.seeds, [&](std::size_t i) { seeds[i] = run_seed(rig, visits, study, study.first_seed + i); },
       progress);
   std::vector<Accuracy> all;
   for (const std::size_t pairs : study.pairs)
     for (const std::size_t frames : study.frames) {
-      Accuracy one{pairs, frames, {}, {}, {}, {}, std::vector<double>(places.targets.size(), 0.0)};
+      Accuracy one;
+      one.pairs = pairs;
+      one.frames = frames;
+      one.square.assign(places.targets.size(), 0.0);
       const std::size_t index = all.size();
       for (const OneSeed& seed : seeds) judge(rig, places, seed.found[index], one);
       for (double& square : one.square) square /= static_cast<double>(study.seeds);

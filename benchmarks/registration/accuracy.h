@@ -1,5 +1,6 @@
 // How good a registration is, over many seeds of camera noise and over the number of pairs and of frames of
-// each: the procedure is run once a seed, with the most of both, and fewer are taken from its beginning.
+// each: the places are visited once, with the most of both, the camera sees them anew for each seed, and
+// fewer are taken from their beginning.
 #pragma once
 
 #include <cstddef>
@@ -33,6 +34,7 @@ struct Accuracy {
   std::size_t pairs = 8, frames = 20;
   std::vector<Vec3> residual;        // mean |error| left over at the pairs
   std::vector<Vec3> held_out;        // mean |error| of the registration itself at the targets
+  std::vector<Vec3> position;        // |error| of the camera's own place
   std::vector<double> turn;          // rad
   std::vector<double> scale;         // camera's size over the device's
   std::vector<double> square;        // at each target, mean over seeds, m^2
@@ -46,8 +48,10 @@ struct AccuracyStudy {
   std::size_t seeds = 200;
   std::uint64_t first_seed = 1;
 };
-// In the order of pairs, then frames.
+// In the order of pairs, then frames. visits: of the first places, in their order, with as many frames as are
+// studied.
 [[nodiscard]] std::vector<Accuracy> run_accuracy(const RegistrationRig& rig, const RegistrationPlaces& places,
+                                                 const std::vector<TipVisit>& visits,
                                                  const AccuracyStudy& study,
                                                  const std::function<void(double)>& progress = {});
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
+
+#include "core/error.h"
 
 namespace enc::bench {
 namespace {
@@ -30,7 +31,8 @@ KinematicArm::KinematicArm(const ArmMachine& believed, const sim::ArmTruth& trut
 }
 
 double KinematicArm::go(const Point<'W'>& wanted) {
-  if (!believed_.inverse(X_WR_.inverse() * wanted, joints_)) return kUnset;
+  if (!believed_.inverse(X_WR_.inverse() * wanted, joints_))
+    throw Error("no joints of the arm put its tip at a place; expected one that it reaches");
   const double way = (wanted - at_).norm();
   at_ = wanted;
   return way / kSpeed + kSettling;
@@ -88,34 +90,38 @@ std::vector<Point<'W'>> well_spread(const std::vector<Point<'W'>>& places, std::
   return chosen;
 }
 
-GuidedRun run_guided(MovedArm& arm, const std::vector<Point<'W'>>& places, const Pose<'W', 'C'>& X_WC,
-                     const sim::CameraTruth& camera, std::size_t frames, std::uint64_t seed) {
+std::vector<TipVisit> visit_places(MovedArm& arm, const std::vector<Point<'W'>>& places, double rate,
+                                   std::size_t frames) {
+  std::vector<TipVisit> visits;
+  double now = 0.0;
+  for (const Point<'W'>& wanted : places) {
+    now += arm.go(wanted);
+    TipVisit visit{now, {}};
+    for (std::size_t f = 0; f < frames; ++f) visit.frames.push_back(arm.read(1.0 / rate));
+    now += static_cast<double>(frames) / rate;
+    visits.push_back(std::move(visit));
+  }
+  return visits;
+}
+
+GuidedRun see_visits(const std::vector<TipVisit>& visits, const Pose<'W', 'C'>& X_WC,
+                     const sim::CameraTruth& camera, std::uint64_t seed) {
   sim::StereoPoints eyes(camera, seed);
   const Pose<'C', 'W'> X_CW = X_WC.inverse();
   GuidedRun run;
-  double now = 0.0;
-  for (const Point<'W'>& wanted : places) {
-    const double moving = arm.go(wanted);
-    if (std::isnan(moving)) {
-      ++run.unseen;
-      continue;
-    }
-    now += moving;
-    const double still = now;
+  for (const TipVisit& visit : visits) {
     eyes.move();
     SeenPlace place{static_cast<std::int64_t>(run.points.size()) + 1, {}};
-    for (std::size_t f = 0; f < frames; ++f) {
-      now += 1.0 / camera.rate;
-      const TipStand tip = arm.read(1.0 / camera.rate);
+    for (const TipStand& tip : visit.frames) {
       const std::optional<Point<'C'>> seen = eyes.see(X_CW * tip.truth);
       if (seen) place.frames.push_back({*seen, tip.reading});
     }
-    if (place.frames.size() < frames) {
+    if (place.frames.size() < visit.frames.size()) {
       ++run.unseen;
       continue;
     }
     run.points.push_back(std::move(place));
-    run.seconds.push_back(still);
+    run.seconds.push_back(visit.still);
   }
   return run;
 }

@@ -1,5 +1,6 @@
 // The guided registration [VisHap 2.2]: an arm's tip goes to places that are well spread in the camera's
-// view, stands still at each for a number of frames, and what camera and arm say of it is kept.
+// view and stands still at each for a number of frames; then the camera sees these, and what it and the arm
+// say is kept. What the arm does knows nothing of the camera's noise: one walk serves any number of seeds.
 #pragma once
 
 #include <array>
@@ -22,7 +23,7 @@ struct TipStand {
 class MovedArm {
  public:
   virtual ~MovedArm() = default;
-  // Goes there and waits until it stands still; s of experiment. NaN where it cannot.
+  // Goes there and waits until it stands still; s of experiment. Throws Error where it cannot.
   virtual double go(const Point<'W'>& wanted) = 0;
   virtual TipStand read(double later) = 0;  // after so many s more
 };
@@ -54,14 +55,22 @@ class KinematicArm final : public MovedArm {
 // of a longer list are the list for n.
 [[nodiscard]] std::vector<Point<'W'>> well_spread(const std::vector<Point<'W'>>& places, std::size_t count);
 
+// A place at which the tip stood.
+struct TipVisit {
+  double still = kUnset;  // s of experiment until then
+  std::vector<TipStand> frames;
+};
+// rate: of the camera, Hz.
+[[nodiscard]] std::vector<TipVisit> visit_places(MovedArm& arm, const std::vector<Point<'W'>>& places,
+                                                 double rate, std::size_t frames);
+
 struct GuidedRun {
   PointSet points;
   std::vector<double> seconds;  // of experiment, from the beginning until the tip stands still at each place
-  std::size_t unseen = 0;       // places that were not reached or not seen
+  std::size_t unseen = 0;       // places that were not seen
 };
-[[nodiscard]] GuidedRun run_guided(MovedArm& arm, const std::vector<Point<'W'>>& places,
-                                   const Pose<'W', 'C'>& X_WC, const sim::CameraTruth& camera,
-                                   std::size_t frames, std::uint64_t seed);
+[[nodiscard]] GuidedRun see_visits(const std::vector<TipVisit>& visits, const Pose<'W', 'C'>& X_WC,
+                                   const sim::CameraTruth& camera, std::uint64_t seed);
 
 // What a registration is wrong by at a place of the tip, along W's axes, m.
 [[nodiscard]] Vec3 target_error(const Pose<'W', 'C'>& found, const Pose<'W', 'C'>& truth,

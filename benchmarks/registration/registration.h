@@ -12,7 +12,7 @@ namespace enc::bench {
 
 inline constexpr const char* kAxisNames = "xyz";
 
-// Throws Error where the rig has no arm.
+// Throws Error where the rig has no arm, or none that is simulated.
 [[nodiscard]] RegistrationRig registration_rig(const models::Setup& setup);
 
 // Of the list in which pairs and frames are each of the given ones.

@@ -172,7 +172,7 @@ void encounter(Walk& walk, State& state) noexcept {
   choose_mode(walk, state);
   const Object* object = nearest_object(walk, state);
   if (state.mode == Mode::away || object == nullptr) {
-    move_target(walk, {now.target}, now);
+    move_target(walk, {walk.sent.finite() ? walk.sent : now.target}, now);
   } else {
     Goal goal = goal_of(walk, state, *object);
     const Arm& arm = walk.scene.impedance->arm;

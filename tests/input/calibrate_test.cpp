@@ -160,5 +160,45 @@ TEST_F(Calibrate, RefusesBadPointsInOneLine) {
               HasSubstr("p.csv:1:1: the camera's points are all in one place"));
 }
 
+TEST_F(Calibrate, DrivesTheArmOfARigThroughTheCamerasView) {
+  const std::vector<std::string> args{"calibrate", "vishap", "--out", path("p.csv"), "--json"};
+  const Result r = run_program(args, kModels);
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto told = nlohmann::json::parse(r.out);
+  EXPECT_EQ(told["pairs"], 8);
+  EXPECT_EQ(told["frames"], 20.0);
+  EXPECT_GT(told["time_s"].get<double>(), 8.0);
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_LT(told["true_error_mm"][a].get<double>(), 0.5);
+    EXPECT_EQ(told["true_error_mm"][a], told["camera_to_arm_error_mm"][a]);
+  }
+  EXPECT_EQ(run_program(args, kModels).out, r.out);  // to the byte
+  const Result of_file = run_program({"calibrate", path("p.csv"), "--json"}, kModels);
+  const auto read = nlohmann::json::parse(of_file.out);
+  EXPECT_NEAR(read["position_mm"][0].get<double>(), told["position_mm"][0].get<double>(), 1e-3);
+  const Result text = run_program(
+      {"calibrate", "vishap", "--pairs", "4", "--frames", "2", "--set", "truth.arm.misplaced_mm=[0,0,3]"},
+      kModels);
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out, AllOf(HasSubstr("mm in W, "), HasSubstr("mm between camera and arm"),
+                              HasSubstr("the arm was driven to each place")));
+}
+
+TEST_F(Calibrate, RefusesRigsInOneLine) {
+  const auto refused = [](std::vector<std::string> more) {
+    more.insert(more.begin(), "calibrate");
+    return line(more);
+  };
+  EXPECT_THAT(refused({"sim"}), HasSubstr("sim.toml:1:1: this rig has no arm"));
+  EXPECT_THAT(
+      refused({"vishap", "--set", "truth.arm.peak_torque_Nm=[0.001,0.001,0.001]"}),
+      AllOf(HasSubstr("vishap.toml:15:1: the tip did not come to rest for place 1, at ["),
+            HasSubstr("mm away; expected it within 10 mm"), HasSubstr("raise rig.arm.stiffness_N_per_m")));
+  EXPECT_THAT(refused({"vishap", "--set", "truth.frames.W_C.rotation_deg=[0,0,0]"}),
+              HasSubstr("0 places of the arm were seen and 8 are wanted"));
+  EXPECT_THAT(refused({"vishap", "--set", "rig.arm.driver=usb"}), HasSubstr("expected driver \"sim\""));
+  EXPECT_THAT(refused({"vishap", "--out", path("none/p.csv")}), HasSubstr("cannot write the points"));
+}
+
 }  // namespace
 }  // namespace enc::tests

@@ -27,7 +27,8 @@ RegistrationRig rig() {
 }
 GuidedRun guided(const RegistrationRig& r, std::size_t pairs, std::size_t frames, std::uint64_t seed) {
   KinematicArm arm(r.believed, r.arm);
-  return run_guided(arm, places_of(r, pairs).visited, r.X_WC, r.camera, frames, seed);
+  return see_visits(visit_places(arm, places_of(r, pairs).visited, r.camera.rate, frames), r.X_WC, r.camera,
+                    seed);
 }
 std::string refusal(const std::string& text) {
   try {
