@@ -22,7 +22,7 @@ Json meetings_json(const bench::FingerMeasure& measure) {
                    {"approach_mm_s", number(m.approach_speed * 1e3)},
                    {"miss_mm", number(m.miss * 1e3)},
                    {"peak_N", m.peak_force},
-                   {"depth_mm", m.peak_depth * 1e3},
+                   {"depth_mm", number(m.peak_depth * 1e3)},
                    {"step_N", m.greatest_step}});
   return all;
 }

@@ -172,9 +172,11 @@ std::string finger_lines(const RunReport& r) {
   text += fmt::format(
       "  peak      {} N (greatest until the next prepare, as the next two)\n",
       each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.peak_force); }));
-  text += fmt::format("  depth     {} mm (true)\n", each_meeting(meetings, [](const Meeting& m) {
-                        return fmt::format("{:.2f}", m.peak_depth * 1e3);
-                      }));
+  if (std::any_of(meetings.begin(), meetings.end(), [](const Meeting& m) { return m.peak_depth > 0.0; }))
+    text += fmt::format("  depth     {} mm (true)\n", each_meeting(meetings, [](const Meeting& m) {
+                          return std::isnan(m.peak_depth) ? "not known"
+                                                          : fmt::format("{:.2f}", m.peak_depth * 1e3);
+                        }));
   text += fmt::format(
       "  step      {} N, greatest from one cycle to the next\n",
       each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.greatest_step); }));

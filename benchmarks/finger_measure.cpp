@@ -32,7 +32,9 @@ TrueDepth true_depth(const Glance& glance) {
   if (index < 0 || !glance.truth.tool_tip.finite()) return {};
   const Object& object = glance.scene.objects[static_cast<std::size_t>(index)];
   const stages::NearestInWorld at = stages::nearest(object, glance.truth.tool_tip);
-  return {glance.truth.tool_radius - at.distance, at.normal,
+  const Interaction kind = object.interaction.kind;
+  const bool gone = kind == Interaction::hit || kind == Interaction::shift;  // it is not where it began
+  return {gone ? kUnset : glance.truth.tool_radius - at.distance, at.normal,
           glance.truth.tool_tip - glance.truth.tool_radius * at.normal};
 }
 
@@ -49,11 +51,24 @@ void FingerMeasure::see(const Glance& glance) {
   if (mode == Mode::follow && before_ == Mode::away) {
     meetings_.push_back({});
     meetings_.back().prepared = now;
+    way_.clear();
   }
   before_ = mode;
   if (meetings_.empty() || mode == Mode::away) return;
   watch_meeting(glance, now);
   watch_force(glance);
+}
+
+Wanted wanted_at(const Object& object, const Point<'W'>& tip) {
+  const stages::NearestInWorld at = stages::nearest(object, tip);
+  const Point<'W'> point = object.met_in_its_middle() ? object.X_WO.origin() : at.point;
+  return {point, at.normal, at.distance};
+}
+
+std::size_t there_since(const std::vector<Point<'W'>>& way, const Point<'W'>& place, double within) {
+  const auto far = std::find_if(way.rbegin(), way.rend(),
+                                [&](const Point<'W'>& p) { return !((p - place).norm() <= within); });
+  return static_cast<std::size_t>(way.rend() - far);
 }
 
 void FingerMeasure::watch_meeting(const Glance& glance, double now) {
@@ -63,10 +78,7 @@ void FingerMeasure::watch_meeting(const Glance& glance, double now) {
   if (std::isnan(meeting.touched)) {
     meeting.object = glance.out.object;
     meeting.approach_speed = glance.truth.approach_speed;
-    if (!((glance.out.wanted - glance.truth.tip).norm() <= kThere))
-      meeting.arrived = kUnset;
-    else if (std::isnan(meeting.arrived))
-      meeting.arrived = now;
+    way_.push_back(glance.truth.tip);
   }
   if (!glance.truth.touching || !at.normal.finite()) return;
   if (std::isnan(meeting.touched)) {
@@ -74,8 +86,13 @@ void FingerMeasure::watch_meeting(const Glance& glance, double now) {
     const Vec3 apart = (at.touching - glance.truth.tip).e();
     const Vec3 n = at.normal.e();
     meeting.miss = (apart - n.dot(apart) * n).norm();
+    const Object& object = glance.scene.objects[static_cast<std::size_t>(meeting.object)];
+    const Point<'W'> met = wanted_at(object, glance.truth.tool_tip).point;
+    const std::size_t there = there_since(way_, met, kThere);
+    if (there < way_.size())
+      meeting.arrived = now - glance.scene.dt * static_cast<double>(way_.size() - 1 - there);
   }
-  meeting.peak_depth = std::max(meeting.peak_depth, at.depth);
+  meeting.peak_depth = std::fmax(meeting.peak_depth, at.depth);
 }
 
 void FingerMeasure::watch_force(const Glance& glance) {
@@ -88,7 +105,8 @@ void FingerMeasure::watch_force(const Glance& glance) {
     return;
   }
   const double force = -dot(glance.truth.contact_force, at.normal);
-  const bool pressed = glance.out.mode == Mode::contact && at.depth > 0.0;
+  const bool pressed =
+      glance.out.mode == Mode::contact && (std::isnan(at.depth) ? glance.truth.touching : at.depth > 0.0);
   if (pressed && !glance.truth.touching) ++meeting.breaks;
   meeting.peak_force = std::max(meeting.peak_force, force);
   if (pressed && !std::isnan(last_force_))

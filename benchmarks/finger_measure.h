@@ -22,12 +22,12 @@ struct LineFit {
 struct Meeting {
   std::int32_t object = -1;
   double prepared = kUnset;        // s of experiment: away became follow
-  double arrived = kUnset;         // s: the prop was within 2 mm of where it was wanted, and stayed
+  double arrived = kUnset;         // s: since then the prop has been within 2 mm of where they meet
   double touched = kUnset;         // s: first true contact with the prop
   double approach_speed = kUnset;  // m/s, planned
   double miss = kUnset;     // m: prop's middle to the finger's lowest point, along the surface, at the touch
   double peak_force = 0.0;  // N, along the normal
-  double peak_depth = 0.0;  // m, true
+  double peak_depth = kUnset;  // m, true; unset: never touched, or a thing that has moved
   double greatest_step = 0.0;  // N: of the force along the normal from one tick to the next, while touched
   std::int32_t breaks = 0;     // ticks without contact between first and last
 };
@@ -49,11 +49,24 @@ class FingerMeasure {
   void watch_force(const Glance& glance);
 
   std::vector<Meeting> meetings_;
+  std::vector<Point<'W'>> way_;  // of the prop since the last "prepare", a tick each
   LineFit fit_, believed_;
   Mode before_ = Mode::away;
   double away_since_ = 0.0, far_speed_ = 0.0, last_force_ = kUnset;
   double tangential_ = 0.0, normal_ = 0.0;
 };
+
+// Where the prop should be when a finger is at `tip`, and the surface normal there. Of the truth.
+struct Wanted {
+  Point<'W'> point;
+  Vec<'W'> normal;
+  double distance = kUnset;  // of the tip's centre from the surface, m
+};
+[[nodiscard]] Wanted wanted_at(const Object& object, const Point<'W'>& tip);
+
+// From which point on a way is within `within` of a place to its end; way.size() where even its end is not.
+[[nodiscard]] std::size_t there_since(const std::vector<Point<'W'>>& way, const Point<'W'>& place,
+                                      double within);
 
 // Depth of a finger's nearest point under the surface of the object that the core has chosen, m; and its
 // outward normal. Of the truth.

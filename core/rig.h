@@ -35,10 +35,8 @@ struct Rig {
   }
   void write(const Outputs& out) noexcept {
     if (manipulator && out.tip.valid()) manipulator->command(out.tip);
-    if (arm && out.arm_force.finite()) {
-      arm->command(out.arm_force);
-      arm->drive(out.prop_speed);
-    }
+    if (arm && out.arm_force.finite()) arm->command(out.arm_force);
+    if (arm) arm->drive(out.prop_speed);
     if (display) display->show(out.view);
     if (gripper) gripper->command(out.grip);
   }

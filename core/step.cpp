@@ -16,7 +16,8 @@ void report_arm(const stages::Walk& walk, const State& state, Outputs& out) {
   out.arm_force = walk.arm_force;
   out.wanted = state.reaching.target;
   out.gain = state.reaching.gain;
-  const bool near = state.object >= 0 && (state.mode == Mode::follow || state.mode == Mode::contact);
+  const bool near = !stages::holding(walk) && state.object >= 0 &&
+                    (state.mode == Mode::follow || state.mode == Mode::contact);
   out.prop_speed = near ? walk.scene.objects[static_cast<std::size_t>(state.object)].prop_speed() : 0.0;
   const bool touched = state.mode == Mode::contact && walk.gap < 0.0;
   out.deflection = touched ? -walk.gap : 0.0;

@@ -50,6 +50,7 @@ struct Reaching {
   double sunk = 0.0;       // m: how far the target is behind the surface, in a button
   bool caught_up = false;  // the target is where the finger's projection is
   bool triggered = false;
+  double blind = 0.0;  // s since the machine last said where it is
 };
 
 // How far an object that moves has got, and what its finger does (moving.h).

@@ -152,8 +152,24 @@ void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const
   tip->mass = 0;
   colour(tip, {0.85F, 0.85F, 0.20F, 1});
   hard_contact(tip, parts.twin.world);
+  if (!parts.draw_all) return;
   draw_tool(body, tool, parts.q_WT, Vec3::Zero());
   if (tool.markers.empty()) draw_finger(body, parts.finger, tip->size[0]);
+}
+
+// The only two that can touch: then no others are looked for (10 % of the run time).
+// Friction and stop are those of the first.
+void only_pair(mjSpec* spec, const char* one, const char* other) {
+  mjsPair* pair = mjs_addPair(spec, nullptr);
+  mjs_setString(pair->geomname1, one);
+  mjs_setString(pair->geomname2, other);
+  mjsGeom* first = mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, one));
+  mjsGeom* second = mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, other));
+  pair->condim = first->condim;
+  std::fill_n(pair->friction, 2, first->friction[0]);
+  std::copy_n(first->solref, mjNREF, pair->solref);
+  std::copy_n(first->solimp, mjNIMP, pair->solimp);
+  for (mjsGeom* geom : {first, second}) geom->contype = geom->conaffinity = 0;
 }
 
 // A button or a piece of a plane, whose face is at z = 0 of O.
@@ -239,6 +255,8 @@ SpecPtr build_model(const ModelParts& parts) {
   else  // nothing can touch, and a hexapod has no other constraint
     spec->option.disableflags |= mjDSBL_CONTACT | (parts.scene.arm ? 0 : mjDSBL_CONSTRAINT);
   if (parts.other != nullptr) add_tool(spec.get(), parts, *parts.other, "other_tool");
+  if (parts.scene.arm && parts.scene.prop && parts.tool != nullptr)
+    only_pair(spec.get(), "prop_front", "tool_tip");
   if (parts.draw_all) add_pictures(spec.get(), parts);
   return spec;
 }

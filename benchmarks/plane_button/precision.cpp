@@ -31,6 +31,7 @@ double apart(const Curve& a, const Curve& b) {
 Curve sampled(const PressTrace& trace) {
   const Curve fine = curve_of(trace, sim::Phase::press, 1e-3, 10e-3, 0.05e-3);
   Curve curve;
+  if (fine.depth.size() < 2) return curve;  // hardly pressed
   std::size_t at = 1;
   for (double depth = 2e-3; depth < 9.5e-3; depth += 0.1e-3) {
     while (at + 1 < fine.depth.size() && fine.depth[at] < depth) ++at;

@@ -105,8 +105,9 @@ void late_figures(const Runs& runs, double law, const Report& report) {
   const PressTrace& trace = runs.late;
   const Line press = line_of(trace, Phase::press, Depth::believed, kFrom, kTo);
   report.figure("wall.late.slope", press.slope, "N/m",
-                "finger seen at 20 Hz, 50 ms old: over the depth that the core believed", 0.98 * law,
-                1.02 * law);
+                "finger seen at 20 Hz, 50 ms old: over the depth that the core believed, which is the prop's "
+                "while it lies on it",
+                0.98 * law, 1.02 * law);
   report.figure("wall.late.r2", press.r2, "", "of that line", 0.99, 1.0);
   report.figure("wall.late.lag", 1e3 * lag_of(trace), "ms", "the believed depth behind the true one", 0.0,
                 10.0);

@@ -20,12 +20,6 @@ double along_surface(const Wanted& at, const Point<'W'>& tip) {
 
 }  // namespace
 
-Wanted wanted_at(const Object& object, const Point<'W'>& tip) {
-  const stages::NearestInWorld at = stages::nearest(object, tip);
-  const Point<'W'> point = object.met_in_its_middle() ? object.X_WO.origin() : at.point;
-  return {point, at.normal, at.distance};
-}
-
 std::vector<Reach> ReachMeasure::reaches() const {
   std::vector<Reach> all = over_;
   if (begun_) all.push_back(now_);
@@ -76,10 +70,9 @@ void ReachMeasure::meet(const Glance& glance, double now) {
   now_.chosen = glance.out.object;
   now_.speed = truth.tool_velocity.norm();
   now_.miss = along_surface(at, truth.tip);
-  const auto far =
-      std::find_if(way_.rbegin(), way_.rend(), [&](const auto& p) { return (p - at.point).norm() > kThere; });
-  if (far != way_.rbegin() && !std::isnan(now_.prepared))
-    now_.arrived = now - glance.scene.dt * static_cast<double>(far - way_.rbegin() - 1);
+  const std::size_t there = there_since(way_, at.point, kThere);
+  if (there < way_.size() && !std::isnan(now_.prepared))
+    now_.arrived = now - glance.scene.dt * static_cast<double>(way_.size() - 1 - there);
   watch_contact(glance, now);
 }
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "benchmarks/trial.h"
+#include "benchmarks/finger_measure.h"
 
 namespace enc::bench {
 
@@ -51,13 +51,5 @@ class ReachMeasure {
   std::vector<Point<'W'>> way_;  // of the prop since it was prepared, a tick each
   double away_since_ = 0.0, far_speed_ = 0.0;
 };
-
-// Where the prop should be when a finger is at `tip`, and the surface normal there. Of the truth.
-struct Wanted {
-  Point<'W'> point;
-  Vec<'W'> normal;
-  double distance = kUnset;  // of the tip's centre from the surface, m
-};
-[[nodiscard]] Wanted wanted_at(const Object& object, const Point<'W'>& tip);
 
 }  // namespace enc::bench

@@ -22,7 +22,19 @@ class FingerLoop {
     step(scene, tick_, in, state, out);
     return out;
   }
-  // The same, and only the time that step() takes, s of this thread.
+  // One tick with a new picture of a finger that was at p `age` ago; and one with none.
+  const Outputs& see(const Point<'W'>& p, Duration age) {
+    put(p);
+    in.tool.t -= age;
+    step(scene, tick_, in, state, out);
+    return out;
+  }
+  const Outputs& tick() {
+    go_on();
+    step(scene, tick_, in, state, out);
+    return out;
+  }
+  // The same as tick(p), and only the time that step() takes, s of this thread.
   double time(const Point<'W'>& p);
 
   Scene scene;
@@ -31,11 +43,14 @@ class FingerLoop {
   Outputs out;
 
  private:
-  void put(const Point<'W'>& p) {
+  void go_on() {
     ++tick_.index;
     tick_.t += tick_.dt;
     in.arm.t = tick_.t;
     in.arm.health = Health::ok;
+  }
+  void put(const Point<'W'>& p) {
+    go_on();
     const Vec3 origin = p.e() - scene.tools[0].tip.centre.e();
     in.tool = {{0, scene.X_WC.inverse() * Pose<'W', 'T'>(Quat::Identity(), origin)}, tick_.t, Health::ok};
   }

@@ -11,7 +11,7 @@ namespace enc {
 
 // What is done against gravity.
 enum class GravityForm : std::uint8_t {
-  none,       // nothing: the arm falls to its limits
+  none,       // nothing: the tip hangs from its target, and falls where nothing is commanded
   published,  // eq. 5 with the prop added to m_a
   exact       // and the prop where it is, at the tip
 };

@@ -19,7 +19,7 @@ std::string number(double x) {
   return bad == std::errc() ? std::string(text.data(), end) : std::string("?");
 }
 
-void check_gains(const ArmRig& rig, double mass, double rate) {
+void check_gains(const ArmRig& rig, double rate) {
   const auto positive = [](double value, const char* key) {
     if (!(value > 0.0)) throw Error("a gain of the control law is positive", std::string("rig.arm.") + key);
   };
@@ -30,12 +30,21 @@ void check_gains(const ArmRig& rig, double mass, double rate) {
     throw Error("the filter's corner is " + number(rig.filter) + " Hz; expected at most " +
                     number(0.5 * rate) + ", half of the loop's rate: there is nothing above; lower it",
                 "rig.arm.filter");
-  const double ratio = damping_ratio(rig, mass);
-  if (!(ratio >= 1.0))
-    throw Error("the control law is under-damped: ratio " + number(ratio) + " for the " + number(1e3 * mass) +
-                    " g that are felt at the tip; expected 1 or more [VisHap 2.3.1]; raise it to " +
-                    number(2.0 * std::sqrt(rig.stiffness * mass)) + ", or lower stiffness_N_per_m",
-                "rig.arm.damping");
+  if (rig.settle * rate < 1.0)
+    throw Error("a leap of the finger is followed within " + number(1e3 * rig.settle) +
+                    " ms; expected a period of the loop or more; raise it",
+                "rig.arm.settle");
+}
+
+// At home; elsewhere the law keeps the ratio.
+void check_damping(const Impedance& law) {
+  const double ratio = damping_ratio(law.rig, law.home_mass);
+  if (ratio >= 1.0) return;
+  throw Error("the control law is under-damped: ratio " + number(ratio) + " for the " +
+                  number(1e3 * law.home_mass) +
+                  " g that are felt at the tip; expected 1 or more [VisHap 2.3.1]; raise it to " +
+                  number(2.0 * std::sqrt(law.rig.stiffness * law.home_mass)) + ", or lower stiffness_N_per_m",
+              "rig.arm.damping");
 }
 
 void check_button(const ObjectSpec& object, const BehaviourSpec& behaviour) {
@@ -136,6 +145,15 @@ double mass_at_tip(const Arm& arm, const PerJoint& q, double payload) {
   return most;
 }
 
+Vec3 force_to_accelerate(const Arm& arm, const PerJoint& q, double payload, const Vec3& acceleration) {
+  constexpr double kDamped = 1e-6;  // m^2: near a singular pose no joint is asked for what it cannot
+  const Mat3 J = arm.jacobian(q);
+  const Mat3 squared = J * J.transpose() + kDamped * Mat3::Identity();
+  const Vec3 joints = J.transpose() * (squared.inverse() * acceleration);
+  const Vec3 torque = arm.mass(q, payload) * joints;
+  return arm.force(J, {torque(0), torque(1), torque(2)}).e();
+}
+
 Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   if (spec.manipulator)
     throw Error("a scene has one machine: [manipulator] or [arm]; remove one", "manipulator");
@@ -147,7 +165,9 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   }
   scene.dt = 1.0 / rig.loop.rate;
   law.filter_gain = 2.0 * std::numbers::pi * rig.arm.filter * scene.dt;
-  check_gains(rig.arm, mass_at_tip(law.arm, law.arm.zero(), law.prop_mass), rig.loop.rate);
+  check_gains(rig.arm, rig.loop.rate);
+  law.home_mass = mass_at_tip(law.arm, law.arm.zero(), law.prop_mass);
+  check_damping(law);
   scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
   scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
   scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);

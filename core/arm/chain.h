@@ -9,8 +9,9 @@ namespace enc::chain {
 [[nodiscard]] Vec3 tip(const ArmMachine& machine, const PerJoint& q) noexcept;       // in R, m
 [[nodiscard]] Mat3 jacobian(const ArmMachine& machine, const PerJoint& q) noexcept;  // d tip / d q
 
-// The joints, within the drives' limits, that put the tip within 1e-9 m of p; the search starts at `q`, then
-// at places spread over the limits. False, and q as it was, where it finds none. At most about 0.2 ms.
+// The joints, within the drives' limits, that put the tip within 1e-9 m of p; with fewer joints than ways,
+// where the tip is nearest to p as far as a search from `q` and from places spread over the limits finds.
+// False, and q as it was, where none of them ends within the limits. At most about 0.2 ms.
 [[nodiscard]] bool inverse(const ArmMachine& machine, const Vec3& p, PerJoint& q) noexcept;
 
 // Payload at the tip.

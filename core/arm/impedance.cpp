@@ -28,7 +28,7 @@ Felt button_at(const InteractionSpec& button, double resistance, double depth) {
 }  // namespace
 
 double corner_frequency(double a, double dt) {
-  // |H|^2 = a^2 / (1 + 2 (1 + a)(1 - cos w) / ... ) of y = (a x + y_before) / (1 + a): half at this w dt.
+  // |H|^2 = a^2 / (a^2 + 2 (1 + a) (1 - cos w dt)) of y = (a x + y_before) / (1 + a): half at this cosine.
   const double cosine = 1.0 - a * a / (2.0 * (1.0 + a));
   return cosine > -1.0 ? std::acos(cosine) / (2.0 * std::numbers::pi * dt)
                        : 0.5 / dt;  // passes half or more of everything that a tick can carry

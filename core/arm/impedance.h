@@ -32,6 +32,7 @@ struct Impedance {
   PropKind prop = PropKind::plate;
   double prop_mass = 0.0;       // kg
   double filter_gain = kUnset;  // a of eq. 3, discrete
+  double home_mass = kUnset;    // kg, felt at the tip at home
 };
 
 // Stiffness that is felt at a depth, and how far behind the surface the target is for it, N/m and m: the

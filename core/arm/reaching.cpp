@@ -54,19 +54,23 @@ struct Goal {
   Vec<'W'> velocity = Vec<'W'>::zero();
 };
 
-// The finger's projection on the surface, which goes along with it and with what moves.
+// The finger's projection on the surface, which goes along with it and with what moves. How fast, the surface
+// says: on a small ball the projection is slower than the finger, beyond the edge of a button it stands.
 Goal goal_of(const Walk& walk, const State& state, const Object& object) {
   if (object.met_in_its_middle()) return {object.X_WO.origin()};
-  Goal goal{walk.surface_point};
+  const Vec<'W'> none = Vec<'W'>::zero();
   const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
-  if (predicted && walk.tool_fresh && state.tip_motion.velocity.finite()) {
-    const Vec3 v = state.tip_motion.velocity.e();
-    const Vec3 n = walk.normal.e();
-    goal.velocity = Vec<'W'>(Vec3(v - n.dot(v) * n));
-  }
+  const bool known = predicted && walk.tool_fresh && state.tip_motion.velocity.finite();
+  const Vec<'W'> finger = known ? state.tip_motion.velocity : none;
   const bool shifts = object.moving >= 0 && object.interaction.kind != Interaction::spin;
-  if (shifts) goal.velocity = goal.velocity + state.moved[static_cast<std::size_t>(object.moving)].velocity;
-  return goal;
+  const Vec<'W'> face = shifts ? state.moved[static_cast<std::size_t>(object.moving)].velocity : none;
+  const Vec<'W'> shift = shifts ? shift_of(object, state.moved) : none;
+  const double dt = walk.scene.dt;
+  ObjectHint hint = state.hints.tool[0];
+  const Point<'W'> now = walk.tool_tip - shift;
+  const Point<'W'> at = nearest(walk.scene, state.object, now, hint).point;
+  const Point<'W'> then = nearest(walk.scene, state.object, now + dt * (finger - face), hint).point;
+  return {walk.surface_point, face + (1.0 / dt) * (then - at)};
 }
 
 // On its way the target keeps within speed and acceleration; once there it goes with the goal, whose leaps
@@ -142,26 +146,41 @@ Vec3 guarded(Walk& walk, const Vec3& force) {
 
 // While the finger is far the arm is motionless [VisHap 2]: what pushes it stays as it is, and friction holds
 // it. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
-// the tip dithering.
+// the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
+// only turns round, friction would not hold what then pushes it.
 bool resting(const State& state, const Vec3& error, const Vec3& velocity) {
-  constexpr double kNear = 0.5e-3;   // m: friction alone holds 0.36
+  constexpr double kNear = 1e-3;     // m: friction alone holds half of it
   constexpr double kCounts = 20e-3;  // m/s
+  constexpr double kStood = 1e-9;    // m/s
+  const Reaching& now = state.reaching;
   return state.mode == Mode::away && error.norm() < kNear && velocity.norm() < kCounts &&
-         state.reaching.velocity.norm() < 1e-3;
+         now.velocity.norm() < 1e-3 && now.error_rate.norm() < kStood;
+}
+
+// K_v of eq. 2 with the ratio that it has at home: back towards its base the tip is felt to be twice as
+// heavy.
+double damping_at(const Impedance& law, double mass) {
+  return law.rig.damping * std::sqrt(std::clamp(mass / law.home_mass, 1.0, 4.0));
 }
 
 // Of the second derivative of e [eq. 2] only the target's own is known: the force that it takes to go along.
-Vec3 sped_up(const Walk& walk) {
+// It is no measurement, and needs no filter: behind that of eq. 3 it would come late and overshoot.
+Vec3 going_along(const Walk& walk) {
   if (walk.target_acceleration.isZero()) return Vec3::Zero();
   const Impedance& law = *walk.scene.impedance;
-  return mass_at_tip(law.arm, walk.in.arm.value.joints, law.prop_mass) * walk.target_acceleration;
+  return force_to_accelerate(law.arm, walk.in.arm.value.joints, law.prop_mass, walk.target_acceleration);
 }
 
 }  // namespace
 
 void encounter(Walk& walk, State& state) noexcept {
   Reaching& now = state.reaching;
-  if (!walk.X_WH.valid()) return;
+  if (!walk.X_WH.valid()) {  // one reading that is missed changes nothing; later it may be anywhere
+    now.blind += walk.scene.dt;
+    if (now.blind > walk.scene.impedance->rig.stale) now = Reaching{};
+    return;
+  }
+  now.blind = 0.0;
   if (holding(walk) || !now.target.finite()) {  // nothing is wanted, and nothing leaps afterwards
     const Point<'W'> here = walk.X_WH.origin();
     now = Reaching{};
@@ -177,7 +196,8 @@ void encounter(Walk& walk, State& state) noexcept {
     Goal goal = goal_of(walk, state, *object);
     const Arm& arm = walk.scene.impedance->arm;
     PerJoint q = walk.in.arm.value.joints;
-    if (arm.inverse(walk.scene.X_WR.inverse() * goal.point, q)) {
+    if (arm.inverse(walk.scene.X_WR.inverse() * goal.point, q) &&
+        arm.dexterity(arm.jacobian(q)) >= walk.scene.impedance->rig.least_dexterity) {
       // A machine with fewer joints than ways goes to where it is nearest.
       if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
       move_target(walk, goal, now);
@@ -202,19 +222,20 @@ void impede(Walk& walk, State& state) noexcept {
   const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
   const Vec3 rate = (now.velocity - walk.tip_velocity).e();
   const bool rests = resting(state, error, walk.tip_velocity.e());
-  const Vec3 ahead = sped_up(walk) / law.rig.stiffness;
+  const double mass = mass_at_tip(law.arm, walk.in.arm.value.joints, law.prop_mass);
   const double a = law.filter_gain;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis) + ahead(axis), now.error.xyz[i]);
+    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis), now.error.xyz[i]);
     now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
   }
   // A real thing is held where it stands, sideways as well.
   const Object* object = nearest_object(walk, state);
   const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
   const double across = real ? now.gain : 1.0;
-  const Vec3 f = law.rig.stiffness * now.error.e() + law.rig.damping * now.error_rate.e();  // [eq. 2]
-  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);             // [eq. 7]
+  const Vec3 f = going_along(walk) + law.rig.stiffness * now.error.e() +
+                 damping_at(law, mass) * now.error_rate.e();                     // [eq. 2]
+  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);  // [eq. 7]
   walk.felt = Vec<'W'>(Vec3(-pushed));
   state.force = walk.felt;
   walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]

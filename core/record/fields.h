@@ -177,6 +177,7 @@ void fields(F& f, Reaching& r) {
   f("lambda", r.gain);
   f("sunk", r.sunk);
   f("caught_up", r.caught_up);
+  f("blind", r.blind);
   f("triggered", r.triggered);
 }
 template <class F>

@@ -63,7 +63,7 @@ double ArmPlant::limited(std::size_t i, double torque) noexcept {
   const double most =
       warmth(i) < 1.0 ? truth_.peak_torque[i] : std::min(truth_.peak_torque[i], truth_.continuous_torque[i]);
   const double given = std::clamp(torque / ratio, -most, most);
-  state_.clipped = state_.clipped || given * ratio != torque;
+  state_.clipped = state_.clipped || given != torque / ratio;
   const double load = given / truth_.continuous_torque[i];
   const double share = truth_.winding_share;
   const double heat = load * load;
@@ -80,8 +80,8 @@ void ArmPlant::begin_cycle() noexcept {
   state_.clipped = false;
   for (std::size_t i = 0; i < believed_.joints(); ++i) state_.torque[i] = limited(i, wanted[i]);
   state_.silent += dt_;
-  state_.surface_speed +=
-      (1.0 - std::exp(-dt_ / truth_.drum_time)) * (state_.surface_wanted - state_.surface_speed);
+  state_.surface_speed += (1.0 - std::exp(-dt_ / truth_.drum_time)) *
+                          ((live ? state_.surface_wanted : 0.0) - state_.surface_speed);
 }
 
 PerJoint ArmPlant::friction(const PerJoint& rates) const noexcept {

@@ -137,8 +137,13 @@ TEST(ArmPlant, TheGimbalTurnsInItsTime) {
 TEST(ArmPlant, ADrivenFrontComesUpToSpeed) {
   Bench b;
   b.plant.drive_surface(0.05);
-  for (int i = 0; i < 20; ++i) b.plant.begin_cycle();
+  for (int i = 0; i < 20; ++i) {
+    b.plant.command(Vec<'R'>::zero());
+    b.plant.begin_cycle();
+  }
   EXPECT_NEAR(b.plant.state().surface_speed, 0.05 * (1.0 - std::exp(-1.0)), 1e-9);
+  for (int i = 0; i < 200; ++i) b.plant.begin_cycle();  // nobody commands: the watchdog stops it
+  EXPECT_LT(b.plant.state().surface_speed, 1e-5);
 }
 
 TEST(ArmPlant, RefusesAVelocityWindowThatIsTooLong) {
