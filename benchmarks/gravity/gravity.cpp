@@ -11,14 +11,21 @@
 
 namespace enc::bench {
 
+namespace {
+
+// Of n places along each way, the i-th in the order x, y, z: from -0.5 to 0.5.
+Vec3 place_in_cube(int i, int n) {
+  const int x = i % n, y = i / n % n, z = i / (n * n);
+  return Vec3(x, y, z) / (n - 1) - Vec3::Constant(0.5);
+}
+
+}  // namespace
+
 double share_in_reach(const Arm& arm, const Vec3& centre, int n) {
   int reached = 0;
   PerJoint q;
   for (int i = 0; i < n * n * n; ++i) {
-    const Vec3 at(i % n, i / n % n, i / (n * n));
-    const Vec3 p =
-        centre +
-        (at / (n - 1) - Vec3::Constant(0.5)).cwiseProduct(Eigen::Map<const Vec3>(ArmBox::kSize.data()));
+    const Vec3 p = centre + place_in_cube(i, n).cwiseProduct(Eigen::Map<const Vec3>(ArmBox::kSize.data()));
     if (arm.inverse(Point<'R'>(p), q)) ++reached;
   }
   return static_cast<double>(reached) / (n * n * n);
@@ -28,17 +35,18 @@ ArmBox place_box(const Arm& arm, int n) {
   constexpr double kStep = 0.005;
   ArmBox box;
   const double reach = arm.tip(arm.zero()).e().norm();
-  for (double x = 0.0; x <= 1.3 * reach; x += kStep)
-    for (double z = -reach; z <= reach; z += kStep) {
-      const double share = share_in_reach(arm, {x, 0, z}, 5);
+  const int ahead = static_cast<int>(1.3 * reach / kStep), high = static_cast<int>(2.0 * reach / kStep);
+  for (int i = 0; i <= ahead; ++i)
+    for (int k = 0; k <= high; ++k) {
+      const Vec3 centre(i * kStep, 0.0, k * kStep - reach);
+      const double share = share_in_reach(arm, centre, 5);
       if (share <= box.share) continue;
       box.share = share;
-      box.centre = {x, 0, z};
+      box.centre = centre;
     }
   const Vec3 size = Eigen::Map<const Vec3>(ArmBox::kSize.data());
   for (int i = 0; i < n * n * n; ++i) {
-    const Vec3 at(i % n, i / n % n, i / (n * n));
-    const Vec3 p = box.centre + (at / (n - 1) - Vec3::Constant(0.5)).cwiseProduct(size);
+    const Vec3 p = box.centre + place_in_cube(i, n).cwiseProduct(size);
     PerJoint q;
     if (!arm.inverse(Point<'R'>(p), q)) continue;
     box.poses.push_back(q);

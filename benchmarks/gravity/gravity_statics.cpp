@@ -90,8 +90,9 @@ Plot map(const GravityRig& rig, const ArmBox& box, int n) {
     plot.series.push_back(std::move(series));
   }
   for (int i = 0; i < n * n; ++i) {
-    const Vec3 p = box.centre + Vec3(ArmBox::kSize[0] * (i % n / (n - 1.0) - 0.5), 0.0,
-                                     ArmBox::kSize[2] * (i / n / (n - 1.0) - 0.5));
+    const int across = i % n, up = i / n;
+    const Vec3 p = box.centre + Vec3(ArmBox::kSize[0] * (across / (n - 1.0) - 0.5), 0.0,
+                                     ArmBox::kSize[2] * (up / (n - 1.0) - 0.5));
     PerJoint q;
     if (!rig.real.arm.inverse(Point<'R'>(p), q)) continue;
     const double force = residual(with(rig.believed, kPlate), Compensation::published, with(rig.real, kPlate),

@@ -35,7 +35,7 @@ TwinArm twin_arm(const Laden& laden, double timestep, mjtIntegrator integrator, 
                  const PerJoint& viscous = {}) {
   sim::install_mujoco_handlers();
   sim::SpecPtr spec(mj_makeSpec());
-  spec->compiler.degree = 0;  // limits are in rad
+  spec->compiler.degree = false;  // limits are in rad
   spec->option.timestep = timestep;
   spec->option.integrator = integrator;
   spec->option.gravity[2] = -kStandardGravity;

@@ -170,7 +170,8 @@ void plots(const Runs& runs, const Law& law, const Law& wall, const Report& repo
              "lambda_z over its greatest"};
   Series force{"the law (shape of Fig 4)"}, click{"button"}, slide{"wall"};
   force.paper = true;
-  for (double depth = 0.0; depth < 6e-3; depth += 0.02e-3) {
+  for (int i = 0; i < 300; ++i) {
+    const double depth = i * 0.02e-3;
     const Felt felt = felt_at(law.does, law.stiffness, law.free, depth);
     force.x.push_back(-1e3 * depth);
     force.y.push_back(felt.stiffness * (depth - felt.sunk));

@@ -33,7 +33,8 @@ Curve sampled(const PressTrace& trace) {
   Curve curve;
   if (fine.depth.size() < 2) return curve;  // hardly pressed
   std::size_t at = 1;
-  for (double depth = 2e-3; depth < 9.5e-3; depth += 0.1e-3) {
+  for (int i = 0; i < 75; ++i) {
+    const double depth = 2e-3 + i * 0.1e-3;
     while (at + 1 < fine.depth.size() && fine.depth[at] < depth) ++at;
     const double share = (depth - fine.depth[at - 1]) / (fine.depth[at] - fine.depth[at - 1]);
     curve.depth.push_back(depth);

@@ -49,13 +49,16 @@ Breaks coarse(const Curve& curve) {
   Breaks best{};
   double least = 1e300;
   Coefficients unused;
-  for (double d1 = curve.depth.front(); d1 < curve.depth.back(); d1 += kStep)
-    for (double d2 = d1 + kStep; d2 < curve.depth.back(); d2 += kStep)
+  const double first = curve.depth.front();
+  const int steps = static_cast<int>((curve.depth.back() - first) / kStep);
+  for (int i = 0; i < steps; ++i)
+    for (int k = i + 1; k <= steps; ++k)
       for (const double gradual : {0.1e-3, 0.3e-3, 0.6e-3, 1.0e-3}) {
-        const double rest = rest_of(curve, {d1, d2, gradual}, unused);
+        const Breaks breaks{first + i * kStep, first + k * kStep, gradual};
+        const double rest = rest_of(curve, breaks, unused);
         if (rest >= least) continue;
         least = rest;
-        best = {d1, d2, gradual};
+        best = breaks;
       }
   return best;
 }

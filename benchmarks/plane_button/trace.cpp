@@ -131,7 +131,8 @@ Curve mean_curve(const PressTrace& trace, double low, double high, double width)
   const Curve down = curve_of(trace, sim::Phase::press, low, high, width);
   const Curve up = curve_of(trace, sim::Phase::release, low, high, width);
   Curve mean;
-  for (double depth = low; depth < high; depth += width) {
+  for (int i = 0; low + i * width < high; ++i) {
+    const double depth = low + i * width;
     const double force = 0.5 * (at_depth(down, depth) + at_depth(up, depth));
     if (std::isnan(force)) continue;
     mean.depth.push_back(depth);

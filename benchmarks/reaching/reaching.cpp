@@ -200,6 +200,7 @@ void slide_part(const BenchContext& context, BenchResult& result, const Adder& a
             {}};
   for (const Seen how : {Seen::vision, Seen::live}) {
     std::vector<ReachRun> runs;
+    runs.reserve(speeds.size());
     for (const double v : speeds) runs.push_back(slide(v, context.full ? 5 : 1, context.seed) + seen(how));
     const std::vector<ReachRan> ran = run_all(context, runs);
     Series series{name_of(how), {}, {}};

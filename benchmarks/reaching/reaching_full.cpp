@@ -37,6 +37,7 @@ void vision_part(const BenchContext& context, BenchResult& result) {
             {}};
   for (const double hz : rate) {
     std::vector<Settings> settings;
+    settings.reserve(latency.size());
     for (const double ms : latency)
       settings.push_back({fmt::format("truth.tracker.rate_hz={}", hz),
                           fmt::format("truth.tracker.latency_ms={}", ms),

@@ -102,7 +102,7 @@ double switches_per_second(Scene scene, double hysteresis, const Chatter& finger
 void chatter(const BenchContext& context, BenchResult& result, const Adder& add) {
   const double seconds = context.quick ? 5.0 : 60.0;
   std::vector<double> hysteresis;
-  for (double h = 0.0; h <= 0.0141; h += 0.001) hysteresis.push_back(h);
+  for (int mm = 0; mm <= 14; ++mm) hysteresis.push_back(1e-3 * mm);
   const Scene keypad = bare_scene(context), whole = prepare_setup(load_scene(context, "keypad"));
   // 12 mm over the gap between two keys: a finger that looks for the next one.
   const Point<'W'> gap(0.010, 0.010, 0.012);

@@ -218,7 +218,7 @@ void add_front(mjsBody* prop, const ArmParts& parts) {
 }  // namespace
 
 void build_arm(mjSpec* spec, const ArmParts& parts) {
-  spec->compiler.degree = 0;  // ranges are in rad
+  spec->compiler.degree = false;  // ranges are in rad
   mjsBody* base = mjs_addBody(mjs_findBody(spec, "world"), nullptr);
   name(base->element, "arm_base");
   set3(base->pos, parts.X_WR.p());
