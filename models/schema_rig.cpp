@@ -75,7 +75,7 @@ void describe(Visitor& v, TrackerRig& t) {
            derived, kPositive},
           &t.acceleration_noise);
   v.value({"surprise_noise_m_s2_per_sqrt_hz",
-           "a pose three sigma off raises the noise to constant_velocity, up to this; 0: it does not",
+           "a pose four sigma off raises the noise to constant_velocity, up to this; 0: it does not",
            "docs/reaching.md", chosen, kNotNegative},
           &t.surprise_noise);
   v.value({"jerk_noise_m_s3_per_sqrt_hz", "what drives the tip, to constant_acceleration", "fidelity 2",

@@ -234,7 +234,7 @@ void build_arm(mjSpec* spec, const ArmParts& parts) {
 ArmBody::ArmBody(const Physics& physics, std::size_t joints)
     : joints_(joints), tip_(physics.id(mjOBJ_BODY, "prop")) {
   mjModel* m = physics.model();
-  for (std::size_t i = 0; i < joints; ++i) {
+  for (std::size_t i = 0; i < std::min(joints, kMostJoints); ++i) {
     const int id = physics.id(mjOBJ_JOINT, kJoints[i]);
     qpos_[i] = m->jnt_qposadr[id];
     dof_[i] = m->jnt_dofadr[id];
