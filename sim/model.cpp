@@ -157,8 +157,8 @@ void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const
   if (tool.markers.empty()) draw_finger(body, parts.finger, tip->size[0]);
 }
 
-// The only two that can touch: then no others are looked for (10 % of the run time).
-// Friction and stop are those of the first.
+// The only two that can touch: then no others are looked for (3 % of the instructions of a tick). Friction
+// and stop are those of the first.
 void only_pair(mjSpec* spec, const char* one, const char* other) {
   mjsPair* pair = mjs_addPair(spec, nullptr);
   mjs_setString(pair->geomname1, one);

@@ -120,9 +120,8 @@ void World::physics_step(double t) {
     fatal_ = e.what();
   }
   if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
-  if (arm)
-    mj_kinematics(physics_.model(),
-                  physics_.data());  // a step leaves the bodies where its last stage had them
+  // A step leaves the bodies where its last stage had them.
+  if (arm) mj_kinematics(physics_.model(), physics_.data());
 }
 
 // The hand carries the tool that it holds; the other one lies still.
