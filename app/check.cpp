@@ -42,14 +42,13 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
                     setup.scene.objects[i].name, kKinds[static_cast<std::size_t>(object.interaction.kind)],
                     stiffness * 1e-3, stiffness / law.rig.stiffness);
   }
-  const double mass = mass_at_tip(law.arm, law.arm.zero(), law.prop_mass);
   return text +
          fmt::format(
              "  law: {:g} N/m, {:g} N s/m, damping ratio {:.2f} for the {:.1f} g that are felt at the tip\n"
              "  pushes with up to {:g} N, for hours {:g} N\n"
              "  target up to {:g} mm/s and {:g} m/s^2\n",
-             law.rig.stiffness, law.rig.damping, damping_ratio(law.rig, mass), mass * 1e3, law.rig.peak,
-             law.rig.continuous, law.rig.speed * 1e3, law.rig.acceleration);
+             law.rig.stiffness, law.rig.damping, damping_ratio(law.rig, law.home_mass), law.home_mass * 1e3,
+             law.rig.peak, law.rig.continuous, law.rig.speed * 1e3, law.rig.acceleration);
 }
 
 }  // namespace

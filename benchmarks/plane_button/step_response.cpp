@@ -76,7 +76,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
   };
   Trial trial(std::move(setup), std::move(options));
   const Impedance& law = *trial.scene().impedance;
-  leap.ratio = damping_ratio(law.rig, mass_at_tip(law.arm, law.arm.zero(), law.prop_mass));
+  leap.ratio = damping_ratio(law.rig, law.home_mass);
   trial.run();
   leap.speed = std::sqrt(sum / n);
   return leap;

@@ -121,6 +121,28 @@ Vec<'R'> Arm::force(const Mat3& J, const PerJoint& torque) const noexcept {
   return Vec<'R'>(Vec3(J * (G.inverse() * Vec3(torque[0], torque[1], torque[2]))));
 }
 
+double Arm::felt_mass(const Mat3& J, const Mat3& mass) const noexcept {
+  const auto n = static_cast<Eigen::Index>(joints_);
+  Mat3 whole = Mat3::Identity();
+  whole.topLeftCorner(n, n) = mass.topLeftCorner(n, n);
+  const Mat3 inverse = whole.inverse();  // joints are few, so Cramer's rule is exact enough
+  double most = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 row = J.row(axis).transpose();
+    const double mobility = row.dot(inverse * row);  // J M^-1 J^T along the axis
+    if (mobility > 1e-6) most = std::max(most, 1.0 / mobility);
+  }
+  return most;
+}
+
+Vec<'R'> Arm::force_to_accelerate(const Mat3& J, const Mat3& mass,
+                                  const Vec<'R'>& acceleration) const noexcept {
+  constexpr double kDamped = 1e-6;  // m^2: near a singular pose no joint is asked for what it cannot
+  const Mat3 squared = J * J.transpose() + kDamped * Mat3::Identity();
+  const Vec3 torque = mass * (J.transpose() * (squared.inverse() * acceleration.e()));
+  return force(J, {torque(0), torque(1), torque(2)});
+}
+
 double Arm::dexterity(const Mat3& J) const noexcept { return dexterity_of(gram(J, joints_)); }
 
 bool Arm::inverse(const Point<'R'>& p, PerJoint& q) const noexcept {
@@ -132,6 +154,10 @@ bool Arm::inverse(const Point<'R'>& p, PerJoint& q) const noexcept {
     return true;
   }
   return false;
+}
+
+bool Arm::reaches(const Point<'R'>& p, double least_dexterity, PerJoint& q) const noexcept {
+  return inverse(p, q) && dexterity(jacobian(q)) >= least_dexterity;
 }
 
 bool Arm::within_limits(const PerJoint& q) const noexcept {

@@ -94,12 +94,20 @@ class Arm {
   // Force of the tip on the motors, and back: [eq. 4]. The inverse is damped near a singular pose: never NaN.
   [[nodiscard]] PerJoint torque(const Mat3& jacobian, const Vec<'R'>& force) const noexcept;
   [[nodiscard]] Vec<'R'> force(const Mat3& jacobian, const PerJoint& torque) const noexcept;
+  // Mass that is felt at the tip, kg: the largest along the axes of R that the machine moves along; 0 where
+  // it moves along none. `mass`: the mass matrix.
+  [[nodiscard]] double felt_mass(const Mat3& jacobian, const Mat3& mass) const noexcept;
+  // What the tip has to be pushed with, beyond gravity, to be accelerated so (m/s^2): N.
+  [[nodiscard]] Vec<'R'> force_to_accelerate(const Mat3& jacobian, const Mat3& mass,
+                                             const Vec<'R'>& acceleration) const noexcept;
   // 1 where the tip moves equally well along every way that the machine has, 0 at a singular pose: least over
   // largest singular value of the Jacobian, of those that belong to its joints. 1 rad counts as 1 m.
   [[nodiscard]] double dexterity(const Mat3& jacobian) const noexcept;
   // Joints at which the tip is at p (with fewer than three: nearest to it), within limits; false, and q as it
   // was, where there are none. A chain looks for them from q on.
   [[nodiscard]] bool inverse(const Point<'R'>& p, PerJoint& q) const noexcept;
+  // As that, and with so much dexterity there.
+  [[nodiscard]] bool reaches(const Point<'R'>& p, double least_dexterity, PerJoint& q) const noexcept;
   [[nodiscard]] bool within_limits(const PerJoint& q) const noexcept;
 
  private:

@@ -98,8 +98,7 @@ Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
 bool gets_to(const Scene& scene, const Point<'W'>& p) {
   const Impedance& law = *scene.impedance;
   PerJoint q{};
-  return law.arm.inverse(scene.X_WR.inverse() * p, q) &&
-         law.arm.dexterity(law.arm.jacobian(q)) >= law.rig.least_dexterity;
+  return law.arm.reaches(scene.X_WR.inverse() * p, law.rig.least_dexterity, q);
 }
 
 // The arm gets to a place of the object, and to where the user presses one.
@@ -129,31 +128,6 @@ double damping_ratio(const ArmRig& rig, double mass) {
   return rig.damping / (2.0 * std::sqrt(rig.stiffness * mass));
 }
 
-double mass_at_tip(const Arm& arm, const PerJoint& q, double payload) {
-  const Mat3 J = arm.jacobian(q);
-  const Mat3 M = arm.mass(q, payload);
-  const auto n = static_cast<Eigen::Index>(arm.joints());
-  Mat3 whole = Mat3::Identity();
-  whole.topLeftCorner(n, n) = M.topLeftCorner(n, n);
-  const Mat3 inverse = whole.inverse();  // joints are few, so Cramer's rule is exact enough
-  double most = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 row = J.row(axis).transpose();
-    const double mobility = row.dot(inverse * row);  // J M^-1 J^T along the axis
-    if (mobility > 1e-6) most = std::max(most, 1.0 / mobility);
-  }
-  return most;
-}
-
-Vec3 force_to_accelerate(const Arm& arm, const PerJoint& q, double payload, const Vec3& acceleration) {
-  constexpr double kDamped = 1e-6;  // m^2: near a singular pose no joint is asked for what it cannot
-  const Mat3 J = arm.jacobian(q);
-  const Mat3 squared = J * J.transpose() + kDamped * Mat3::Identity();
-  const Vec3 joints = J.transpose() * (squared.inverse() * acceleration);
-  const Vec3 torque = arm.mass(q, payload) * joints;
-  return arm.force(J, {torque(0), torque(1), torque(2)}).e();
-}
-
 Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   if (spec.manipulator)
     throw Error("a scene has one machine: [manipulator] or [arm]; remove one", "manipulator");
@@ -166,7 +140,8 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   scene.dt = 1.0 / rig.loop.rate;
   law.filter_gain = 2.0 * std::numbers::pi * rig.arm.filter * scene.dt;
   check_gains(rig.arm, rig.loop.rate);
-  law.home_mass = mass_at_tip(law.arm, law.arm.zero(), law.prop_mass);
+  const PerJoint home = law.arm.zero();
+  law.home_mass = law.arm.felt_mass(law.arm.jacobian(home), law.arm.mass(home, law.prop_mass));
   check_damping(law);
   scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
   scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);

@@ -9,12 +9,7 @@ namespace enc {
 // under-damped, a role that is missing.
 [[nodiscard]] Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig);
 
-// What the tip has to be pushed with, beyond gravity, to be accelerated so: N, in R.
-[[nodiscard]] Vec3 force_to_accelerate(const Arm& arm, const PerJoint& q, double payload,
-                                       const Vec3& acceleration);
 // Damping ratio of a tip of `mass` (kg) under f = K_p e + K_v de/dt.
 [[nodiscard]] double damping_ratio(const ArmRig& rig, double mass);
-// Mass that is felt at the tip, kg: the largest along the axes of R that the machine moves along.
-[[nodiscard]] double mass_at_tip(const Arm& arm, const PerJoint& q, double payload);
 
 }  // namespace enc

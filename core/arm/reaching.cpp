@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/arm/arm_scene.h"
 #include "core/braking.h"
 #include "core/stages.h"
 
@@ -165,10 +164,11 @@ double damping_at(const Impedance& law, double mass) {
 
 // Of the second derivative of e [eq. 2] only the target's own is known: the force that it takes to go along.
 // It is no measurement, and needs no filter: behind that of eq. 3 it would come late and overshoot.
-Vec3 going_along(const Walk& walk) {
+Vec3 going_along(const Walk& walk, const Mat3& mass) {
   if (walk.target_acceleration.isZero()) return Vec3::Zero();
-  const Impedance& law = *walk.scene.impedance;
-  return force_to_accelerate(law.arm, walk.in.arm.value.joints, law.prop_mass, walk.target_acceleration);
+  const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
+  const Vec<'R'> wanted = X_WR.inverse() * Vec<'W'>(walk.target_acceleration);
+  return (X_WR * walk.scene.impedance->arm.force_to_accelerate(walk.jacobian, mass, wanted)).e();
 }
 
 }  // namespace
@@ -196,8 +196,7 @@ void encounter(Walk& walk, State& state) noexcept {
     Goal goal = goal_of(walk, state, *object);
     const Arm& arm = walk.scene.impedance->arm;
     PerJoint q = walk.in.arm.value.joints;
-    if (arm.inverse(walk.scene.X_WR.inverse() * goal.point, q) &&
-        arm.dexterity(arm.jacobian(q)) >= walk.scene.impedance->rig.least_dexterity) {
+    if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, walk.scene.impedance->rig.least_dexterity, q)) {
       // A machine with fewer joints than ways goes to where it is nearest.
       if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
       move_target(walk, goal, now);
@@ -222,7 +221,7 @@ void impede(Walk& walk, State& state) noexcept {
   const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
   const Vec3 rate = (now.velocity - walk.tip_velocity).e();
   const bool rests = resting(state, error, walk.tip_velocity.e());
-  const double mass = mass_at_tip(law.arm, walk.in.arm.value.joints, law.prop_mass);
+  const Mat3 mass = law.arm.mass(walk.in.arm.value.joints, law.prop_mass);
   const double a = law.filter_gain;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
@@ -233,9 +232,9 @@ void impede(Walk& walk, State& state) noexcept {
   const Object* object = nearest_object(walk, state);
   const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
   const double across = real ? now.gain : 1.0;
-  const Vec3 f = going_along(walk) + law.rig.stiffness * now.error.e() +
-                 damping_at(law, mass) * now.error_rate.e();                     // [eq. 2]
-  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);  // [eq. 7]
+  const Vec3 f = going_along(walk, mass) + law.rig.stiffness * now.error.e() +
+                 damping_at(law, law.arm.felt_mass(walk.jacobian, mass)) * now.error_rate.e();  // [eq. 2]
+  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);                 // [eq. 7]
   walk.felt = Vec<'W'>(Vec3(-pushed));
   state.force = walk.felt;
   walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
