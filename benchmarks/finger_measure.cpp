@@ -40,21 +40,26 @@ TrueDepth true_depth(const Glance& glance) {
 
 double FingerMeasure::tangential_share() const { return normal_ > 0.0 ? tangential_ / normal_ : kUnset; }
 
+bool FarWatch::see(const Glance& glance) {
+  constexpr double kSettled = 1.0;  // s after which an arm that nobody needs shall stand
+  const double now = seconds(glance.truth.t.time_since_epoch());
+  const Mode before = mode_;
+  mode_ = glance.out.mode;
+  if (mode_ != before && mode_ == Mode::away) since_ = now;
+  if (mode_ == Mode::away && now - since_ > kSettled)
+    speed_ = std::max(speed_, glance.truth.tip_velocity.norm());
+  return mode_ == Mode::follow && before == Mode::away;
+}
+
 void FingerMeasure::see(const Glance& glance) {
   if (!glance.scene.impedance) return;
   const double now = seconds(glance.truth.t.time_since_epoch());
-  const Mode mode = glance.out.mode;
-  if (mode != before_ && mode == Mode::away) away_since_ = now;
-  constexpr double kSettled = 1.0;  // s
-  if (mode == Mode::away && now - away_since_ > kSettled)
-    far_speed_ = std::max(far_speed_, glance.truth.tip_velocity.norm());
-  if (mode == Mode::follow && before_ == Mode::away) {
+  if (far_.see(glance)) {
     meetings_.push_back({});
     meetings_.back().prepared = now;
     way_.clear();
   }
-  before_ = mode;
-  if (meetings_.empty() || mode == Mode::away) return;
+  if (meetings_.empty() || glance.out.mode == Mode::away) return;
   watch_meeting(glance, now);
   watch_force(glance);
 }

@@ -32,6 +32,18 @@ struct Meeting {
   std::int32_t breaks = 0;     // ticks without contact between first and last
 };
 
+// How still the arm stands while the finger is far, and when it begins to prepare.
+class FarWatch {
+ public:
+  bool see(const Glance& glance);  // true in the tick in which away becomes follow
+  // Of the tip, at most, from a second after away began, m/s.
+  [[nodiscard]] double speed() const { return speed_; }
+
+ private:
+  Mode mode_ = Mode::away;
+  double since_ = 0.0, speed_ = 0.0;
+};
+
 class FingerMeasure {
  public:
   void see(const Glance& glance);
@@ -39,9 +51,7 @@ class FingerMeasure {
   [[nodiscard]] const std::vector<Meeting>& meetings() const { return meetings_; }
   [[nodiscard]] const LineFit& fit() const { return fit_; }            // over the true depth of 2 to 10 mm
   [[nodiscard]] const LineFit& believed() const { return believed_; }  // the same over what the core believed
-  [[nodiscard]] double far_speed() const {
-    return far_speed_;
-  }                                               // m/s, of the tip, at most, 1 s after away began
+  [[nodiscard]] double far_speed() const { return far_.speed(); }
   [[nodiscard]] double tangential_share() const;  // of the normal force, while more than 1 N is felt
 
  private:
@@ -51,8 +61,8 @@ class FingerMeasure {
   std::vector<Meeting> meetings_;
   std::vector<Point<'W'>> way_;  // of the prop since the last "prepare", a tick each
   LineFit fit_, believed_;
-  Mode before_ = Mode::away;
-  double away_since_ = 0.0, far_speed_ = 0.0, last_force_ = kUnset;
+  FarWatch far_;
+  double last_force_ = kUnset;
   double tangential_ = 0.0, normal_ = 0.0;
 };
 

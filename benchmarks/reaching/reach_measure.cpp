@@ -9,7 +9,6 @@ namespace enc::bench {
 namespace {
 
 constexpr double kThere = 2e-3;    // m
-constexpr double kSettled = 1.0;   // s after which an arm that nobody needs shall stand
 constexpr double kImpact = 0.050;  // s
 
 double along_surface(const Wanted& at, const Point<'W'>& tip) {
@@ -20,8 +19,8 @@ double along_surface(const Wanted& at, const Point<'W'>& tip) {
 
 }  // namespace
 
-std::vector<Reach> ReachMeasure::reaches() const {
-  std::vector<Reach> all = over_;
+std::vector<ReachOutcome> ReachMeasure::reaches() const {
+  std::vector<ReachOutcome> all = over_;
   if (begun_) all.push_back(now_);
   return all;
 }
@@ -29,7 +28,7 @@ std::vector<Reach> ReachMeasure::reaches() const {
 void ReachMeasure::begin(const Glance& glance) {
   if (begun_) over_.push_back(now_);
   begun_ = true;
-  now_ = Reach{};
+  now_ = ReachOutcome{};
   now_.aim = glance.truth.aim;
   now_.aborted = glance.truth.aborted;
   contacts_before_ = glance.out.contacts;
@@ -41,12 +40,7 @@ void ReachMeasure::see(const Glance& glance) {
   // The core sees a finger go late: what it counts until the next reach begins is of this one.
   if (phase == sim::Phase::approach && phase_ != phase) begin(glance);
   phase_ = phase;
-  const Mode mode = glance.out.mode;
-  if (mode == Mode::away && mode_ != mode) away_since_ = now;
-  if (mode == Mode::away && now - away_since_ > kSettled)
-    far_speed_ = std::max(far_speed_, glance.truth.tip_velocity.norm());
-  const bool prepares = mode == Mode::follow && mode_ == Mode::away;
-  mode_ = mode;
+  const bool prepares = far_.see(glance);
   if (!begun_) return;
   now_.contacts = glance.out.contacts - contacts_before_;
   if (prepares) ++now_.prepares;

@@ -10,7 +10,7 @@ namespace enc::bench {
 
 // A reach has met the surface when the finger first touches the prop, or passes through the surface without
 // it.
-struct Reach {
+struct ReachOutcome {
   std::int32_t aim = -1;     // object that the person reaches for
   std::int32_t chosen = -1;  // by the core, when they meet
   double prepared = kUnset;  // s of experiment: the last "prepare" before
@@ -33,23 +33,21 @@ struct Reach {
 class ReachMeasure {
  public:
   void see(const Glance& glance);
-  [[nodiscard]] std::vector<Reach> reaches() const;
-  // Of the tip, at most, from a second after a finger went away, m/s.
-  [[nodiscard]] double far_speed() const { return far_speed_; }
+  [[nodiscard]] std::vector<ReachOutcome> reaches() const;
+  [[nodiscard]] double far_speed() const { return far_.speed(); }
 
  private:
   void begin(const Glance& glance);
   void meet(const Glance& glance, double now);
   void watch_contact(const Glance& glance, double now);
 
-  std::vector<Reach> over_;
-  Reach now_;
+  std::vector<ReachOutcome> over_;
+  ReachOutcome now_;
   std::int32_t contacts_before_ = 0;
   bool begun_ = false;
   sim::Phase phase_ = sim::Phase::wait;
-  Mode mode_ = Mode::away;
+  FarWatch far_;
   std::vector<Point<'W'>> way_;  // of the prop since it was prepared, a tick each
-  double away_since_ = 0.0, far_speed_ = 0.0;
 };
 
 }  // namespace enc::bench

@@ -44,9 +44,9 @@ Settings quick_presses(int count) {
 }
 
 template <class Value>
-std::vector<double> of_each(const std::vector<Reach>& reaches, Value value) {
+std::vector<double> of_each(const std::vector<ReachOutcome>& reaches, Value value) {
   std::vector<double> all;
-  for (const Reach& r : reaches)
+  for (const ReachOutcome& r : reaches)
     if (!std::isnan(r.met)) all.push_back(value(r));
   return all;
 }
@@ -88,23 +88,23 @@ ReachRun slide(double speed, int count, std::uint64_t seed) {
                   fmt::format("user.slide_mm_s={}", 1e3 * speed)};
 }
 
-std::vector<Reach> joined(const std::vector<ReachRan>& ran) {
-  std::vector<Reach> all;
+std::vector<ReachOutcome> joined(const std::vector<ReachRan>& ran) {
+  std::vector<ReachOutcome> all;
   for (const ReachRan& one : ran) all.insert(all.end(), one.reaches.begin(), one.reaches.end());
   return all;
 }
 
-std::vector<double> misses(const std::vector<Reach>& reaches) {
-  return of_each(reaches, [](const Reach& r) { return r.miss; });
+std::vector<double> misses(const std::vector<ReachOutcome>& reaches) {
+  return of_each(reaches, [](const ReachOutcome& r) { return r.miss; });
 }
 
-std::vector<double> impacts(const std::vector<Reach>& reaches) {
-  return of_each(reaches, [](const Reach& r) { return r.impact; });
+std::vector<double> impacts(const std::vector<ReachOutcome>& reaches) {
+  return of_each(reaches, [](const ReachOutcome& r) { return r.impact; });
 }
 
-double in_time(const std::vector<Reach>& reaches) {
-  const auto there =
-      std::count_if(reaches.begin(), reaches.end(), [](const Reach& r) { return r.lead() >= r.travel(); });
+double in_time(const std::vector<ReachOutcome>& reaches) {
+  const auto there = std::count_if(reaches.begin(), reaches.end(),
+                                   [](const ReachOutcome& r) { return r.lead() >= r.travel(); });
   return static_cast<double>(there) / static_cast<double>(reaches.size());
 }
 

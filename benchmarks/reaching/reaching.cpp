@@ -19,7 +19,7 @@ using Adder = std::function<void(const std::string& id, double value, const char
 const char* name_of(Seen how) { return how == Seen::vision ? "seen at 20 Hz, 50 ms late" : "seen live"; }
 std::string key_of(Seen how) { return how == Seen::vision ? "" : "live."; }
 
-double percent(const std::vector<Reach>& reaches, const std::function<bool(const Reach&)>& is) {
+double percent(const std::vector<ReachOutcome>& reaches, const std::function<bool(const ReachOutcome&)>& is) {
   return 100.0 * static_cast<double>(std::count_if(reaches.begin(), reaches.end(), is)) /
          static_cast<double>(reaches.size());
 }
@@ -37,7 +37,7 @@ std::vector<ReachRan> random_runs(const BenchContext& context, Seen how) {
   return run_all(context, runs);
 }
 
-std::vector<Reach> of_scene(const std::vector<ReachRan>& ran, std::size_t scene) {
+std::vector<ReachOutcome> of_scene(const std::vector<ReachRan>& ran, std::size_t scene) {
   std::vector<ReachRan> these;
   for (std::size_t i = scene; i < ran.size(); i += kScenes.size()) these.push_back(ran[i]);
   return joined(these);
@@ -46,15 +46,16 @@ std::vector<Reach> of_scene(const std::vector<ReachRan>& ran, std::size_t scene)
 void random_figures(const std::vector<ReachRan>& ran, Seen how, const Adder& add) {
   const std::string key = key_of(how);
   const std::string text = name_of(how);
-  const std::vector<Reach> all = joined(ran);
+  const std::vector<ReachOutcome> all = joined(ran);
   add(key + "reaches", static_cast<double>(all.size()), "", kUnset, kUnset,
       "random reaches, 0.3 to 0.8 m/s at the peak and 50 to 200 mm/s wanted at the touch; " + text);
-  add(key + "object_percent", percent(all, [](const Reach& r) { return r.chosen == r.aim; }), "%", kUnset,
-      kUnset, "of the reaches in which the core has chosen the object that is met");
-  add(key + "contact_percent", percent(all, [](const Reach& r) { return r.contacts == 1 && r.touched; }), "%",
-      kUnset, kUnset, "of the reaches that are one contact to the core");
+  add(key + "object_percent", percent(all, [](const ReachOutcome& r) { return r.chosen == r.aim; }), "%",
+      kUnset, kUnset, "of the reaches in which the core has chosen the object that is met");
+  add(key + "contact_percent",
+      percent(all, [](const ReachOutcome& r) { return r.contacts == 1 && r.touched; }), "%", kUnset, kUnset,
+      "of the reaches that are one contact to the core");
   for (std::size_t i = 0; i < kScenes.size(); ++i) {
-    const std::vector<Reach> these = of_scene(ran, i);
+    const std::vector<ReachOutcome> these = of_scene(ran, i);
     add(key + "lead_percent." + kScenes[i], 100.0 * in_time(these), "%", kUnset, kUnset,
         "of the reaches in which the prop is within 2 mm of where it is met before it is met; " + text);
     add(key + "random_miss_mm." + kScenes[i] + ".p95", 1e3 * percentile(misses(these), 0.95), "mm", kUnset,
@@ -85,7 +86,7 @@ void random_part(const BenchContext& context, BenchResult& result, const Adder& 
               {}};
     for (std::size_t i = 0; i < kScenes.size(); ++i) {
       std::vector<double> lead, travel;
-      for (const Reach& r : of_scene(ran, i)) {
+      for (const ReachOutcome& r : of_scene(ran, i)) {
         lead.push_back(r.lead());
         travel.push_back(r.travel());
       }
@@ -108,7 +109,7 @@ void random_part(const BenchContext& context, BenchResult& result, const Adder& 
 
 struct Speeds {
   std::vector<double> each;  // m/s
-  std::vector<std::vector<Reach>> reaches;
+  std::vector<std::vector<ReachOutcome>> reaches;
 };
 
 constexpr std::array<double, 3> kTilts{0.0, 20.0, 40.0};  // deg
@@ -135,7 +136,7 @@ Speeds steady(const BenchContext& context, BenchResult& result, Seen how) {
 }
 
 Series over_speed(const std::string& name, const Speeds& speeds, double share, double unit,
-                  std::vector<double> (*of)(const std::vector<Reach>&)) {
+                  std::vector<double> (*of)(const std::vector<ReachOutcome>&)) {
   Series series{name, {}, {}};
   series.mark = Mark::both;
   for (std::size_t i = 0; i < speeds.each.size(); ++i) {
@@ -207,7 +208,7 @@ void slide_part(const BenchContext& context, BenchResult& result, const Adder& a
     series.mark = Mark::both;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       std::vector<double> errors;
-      for (const Reach& r : ran[i].reaches) errors.push_back(r.slide_error);
+      for (const ReachOutcome& r : ran[i].reaches) errors.push_back(r.slide_error);
       series.x.push_back(1e3 * speeds[i]);
       series.y.push_back(1e3 * median(errors));
       result.simulated += ran[i].simulated;

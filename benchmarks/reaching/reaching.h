@@ -23,7 +23,7 @@ struct ReachRun {
   std::int64_t random = 0;  // so many random reaches instead of what the scene's user does
 };
 struct ReachRan {
-  std::vector<Reach> reaches;
+  std::vector<ReachOutcome> reaches;
   double far_speed = 0.0;                 // m/s
   double simulated = 0.0, seconds = 0.0;  // s; seconds: of CPU
 };
@@ -38,12 +38,12 @@ struct ReachRan {
 [[nodiscard]] ReachRun slide(double speed, int count, std::uint64_t seed);
 [[nodiscard]] ReachRun operator+(ReachRun run, const Settings& set);
 
-[[nodiscard]] std::vector<Reach> joined(const std::vector<ReachRan>& ran);
+[[nodiscard]] std::vector<ReachOutcome> joined(const std::vector<ReachRan>& ran);
 // Of each: of the reaches that met the surface.
-[[nodiscard]] std::vector<double> misses(const std::vector<Reach>& reaches);   // m
-[[nodiscard]] std::vector<double> impacts(const std::vector<Reach>& reaches);  // N
+[[nodiscard]] std::vector<double> misses(const std::vector<ReachOutcome>& reaches);   // m
+[[nodiscard]] std::vector<double> impacts(const std::vector<ReachOutcome>& reaches);  // N
 // Share of the reaches for which the prop was there in time.
-[[nodiscard]] double in_time(const std::vector<Reach>& reaches);
+[[nodiscard]] double in_time(const std::vector<ReachOutcome>& reaches);
 
 // By `--full`: what the finger's rate and latency, the filter's noise and the physics' steps cost and give.
 void add_reaching_full(const BenchContext& context, BenchResult& result);

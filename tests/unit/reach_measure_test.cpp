@@ -10,8 +10,8 @@
 namespace enc::test {
 namespace {
 
-using bench::Reach;
 using bench::ReachMeasure;
+using bench::ReachOutcome;
 
 Scene wall() {
   Scene scene;
@@ -22,7 +22,7 @@ Scene wall() {
 
 // A finger of 8 mm radius goes down with 100 mm/s from 20 mm over the wall at x = 0; the prop comes along x
 // with 200 mm/s and stops at x = `stop`, 10 ms after the reach began the core prepares.
-std::vector<Reach> reach(double stop, bool touching = true) {
+std::vector<ReachOutcome> reach(double stop, bool touching = true) {
   const Scene scene = wall();
   ReachMeasure measure;
   Tick tick;
@@ -49,9 +49,9 @@ std::vector<Reach> reach(double stop, bool touching = true) {
 }
 
 TEST(ReachMeasure, SaysSinceWhenThePropIsThere) {
-  const std::vector<Reach> reaches = reach(0.0);
+  const std::vector<ReachOutcome> reaches = reach(0.0);
   ASSERT_EQ(reaches.size(), 1U);
-  const Reach& r = reaches[0];
+  const ReachOutcome& r = reaches[0];
   EXPECT_NEAR(r.prepared, 0.010, 1e-9);
   EXPECT_NEAR(r.met, 0.200, 1e-9);  // 28 - 20 mm: the radius
   EXPECT_NEAR(r.lead(), 0.190, 1e-9);
@@ -66,7 +66,7 @@ TEST(ReachMeasure, SaysSinceWhenThePropIsThere) {
 }
 
 TEST(ReachMeasure, APropThatIsBesideIsNotThere) {
-  const std::vector<Reach> reaches = reach(0.003);
+  const std::vector<ReachOutcome> reaches = reach(0.003);
   ASSERT_EQ(reaches.size(), 1U);
   EXPECT_NEAR(reaches[0].miss, 0.003, 1e-12);
   EXPECT_TRUE(std::isnan(reaches[0].arrived));
@@ -74,7 +74,7 @@ TEST(ReachMeasure, APropThatIsBesideIsNotThere) {
 }
 
 TEST(ReachMeasure, AFingerThatPassesThePropMeetsTheSurfaceAllTheSame) {
-  const std::vector<Reach> reaches = reach(0.020, false);
+  const std::vector<ReachOutcome> reaches = reach(0.020, false);
   ASSERT_EQ(reaches.size(), 1U);
   EXPECT_NEAR(reaches[0].met, 0.200, 1.1e-3);
   EXPECT_NEAR(reaches[0].miss, 0.020, 1e-12);
