@@ -70,9 +70,29 @@ void run_until(Moment& m, double at) {
   }
 }
 
+// Crank and link of a PHANToM, which are no bodies of the simulated arm.
+void add_parallelogram(const Moment& m, sim::ViewRequest& request) {
+  const ArmMachine& arm = m.setup.twin.arm.machine;
+  if (arm.kind != ArmKind::phantom) return;
+  const PhantomGeometry& g = arm.phantom;
+  const PerJoint& q = m.world.truth().joints;
+  const Vec3 ahead(std::cos(q[0]), std::sin(q[0]), 0.0), up = Vec3::UnitZ();
+  const Vec3 upper = std::cos(q[1]) * ahead + std::sin(q[1]) * up;    // along the upper arm
+  const Vec3 forearm = std::sin(q[2]) * ahead - std::cos(q[2]) * up;  // and along the forearm
+  const auto rod = [&](const Vec3& from, const Vec3& to, double radius, const sim::Colour& colour) {
+    const Pose<'W', 'R'>& X_WR = m.world.X_WR();
+    request.rods.push_back({X_WR * Point<'R'>(from), X_WR * Point<'R'>(to), radius, colour});
+  };
+  const Vec3 end = g.l3 * forearm;
+  rod(-1.2 * g.l6 * forearm, -1.8 * g.l6 * forearm, 0.0125, kJacket);  // the motor, a counterweight
+  rod(-g.l6 * forearm, end, 0.005, kLeg);
+  rod(end, end + g.l1 * upper, 0.003, kLeg);
+}
+
 // Each leg as a rod in a jacket, from its base joint to its platform joint.
 void add_legs(const Moment& m, sim::ViewRequest& request) {
   if (!m.world.machine) {
+    add_parallelogram(m, request);
     request.floor = (m.world.X_WR() * Point<'R'>(0, 0, -0.200)).xyz[2];
     return;
   }

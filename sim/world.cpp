@@ -139,7 +139,7 @@ void World::hold_tools(double t, double h) {
   }
   truth_.hand_force = user_->act(t, h, at, moving, truth_.touching);
   for (const Held& tool : tools_) {
-    double* applied = d->xfrc_applied + 6 * tool.body;
+    double* applied = d->qfrc_applied + tool.qvel;  // its slides are the axes of W
     const bool carried = tool.index == held;
     for (std::size_t i = 0; i < 3; ++i) applied[i] = carried ? truth_.hand_force.xyz[i] : 0.0;
     applied[2] += kStandardGravity * physics_.model()->body_mass[tool.body];

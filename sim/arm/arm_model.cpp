@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/rotation.h"
@@ -14,6 +15,7 @@ using Rgba = std::array<float, 4>;
 constexpr Rgba kMetal{0.72F, 0.74F, 0.78F, 1}, kDark{0.20F, 0.22F, 0.26F, 1}, kAccent{0.30F, 0.42F, 0.62F, 1};
 constexpr Rgba kProp{0.90F, 0.55F, 0.20F, 1};
 const char* const kJoints[kMostJoints] = {"arm_1", "arm_2", "arm_3"};
+const char* const kElbow = "arm_elbow";  // of a PHANToM, in place of arm_3: q3 - q2
 
 void set3(double* to, const Vec3& v) { std::copy_n(v.data(), 3, to); }
 void name(mjsElement* element, const char* text) {
@@ -27,8 +29,19 @@ struct Solid {
   Vec3 inertia;  // about it, along the body's axes, kg m^2
 };
 
-mjsBody* add_body(mjsBody* parent, const Vec3& at, const Solid& solid) {
-  mjsBody* body = mjs_addBody(parent, nullptr);
+// Where a part hangs: on a body, or on the base, which is a frame of the world and no body.
+struct Mount {
+  mjsBody* body;
+  mjsFrame* frame = nullptr;
+};
+void hang(mjsElement* part, const Mount& on) {
+  if (on.frame != nullptr && mjs_setFrame(part, on.frame) != 0)
+    throw Error("a part of the arm cannot be put on its base");
+}
+
+mjsBody* add_body(const Mount& on, const Vec3& at, const Solid& solid) {
+  mjsBody* body = mjs_addBody(on.body, nullptr);
+  hang(body->element, on);
   set3(body->pos, at);
   body->explicitinertial = true;
   body->mass = solid.mass;
@@ -45,20 +58,23 @@ mjsJoint* add_joint(mjsBody* body, const char* called, mjtJoint type, const Vec3
   return joint;
 }
 
-// A motor's joint: its rotor, friction, limits. `more`: inertia that turns with it and has no body.
-void fit_drive(mjsJoint* joint, const ArmParts& parts, std::size_t i, double more) {
+// A motor's joint, or the tendon that stands for one: its rotor, friction, limits. `more`: inertia that turns
+// with it and has no body.
+template <class Driven>
+void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more) {
   const ArmDrive& drive = parts.machine.drives[i];
-  joint->armature = drive.rotor_inertia * drive.ratio * drive.ratio + more;
-  joint->damping[0] = parts.truth.viscous[i];
+  driven->armature = drive.rotor_inertia * drive.ratio * drive.ratio + more;
+  driven->damping[0] = parts.truth.viscous[i];
   if (parts.truth.friction_form == ArmFriction::dry) {
-    joint->frictionloss = parts.truth.friction[i];
-    // What holds must not creep: with MuJoCo's own impedance of 0.9 a tip under half of the friction does,
-    // 0.1 mm in a second.
-    joint->solimp_friction[0] = joint->solimp_friction[1] = 0.9999;
+    driven->frictionloss = parts.truth.friction[i];
+    // What holds must not creep. MuJoCo's own impedance of 0.9 and 20 ms let a tip under half of the friction
+    // go by 0.1 mm in a second: these let it go by a thousandth of that.
+    driven->solimp_friction[0] = driven->solimp_friction[1] = 0.999;
+    driven->solref_friction[0] = 0.002;  // s
   }
-  joint->limited = mjLIMITED_TRUE;
-  joint->range[0] = drive.low;
-  joint->range[1] = drive.high;
+  driven->limited = mjLIMITED_TRUE;
+  driven->range[0] = drive.low;
+  driven->range[1] = drive.high;
 }
 
 // The published inertias need not be those of a body: I_xx of the published upper arm is larger than the sum
@@ -72,42 +88,16 @@ double split(Solid& solid) {
   return rest;
 }
 
-// About its centre of mass, where the published one is about the hinge, `length` away.
-void to_centre(Solid& solid, double across, double along, double length, const char* key) {
-  const double shift = solid.mass * length * length;
+// An inertia that is published about the hinge, with the centre of mass `length` from it.
+void check_about_hinge(double mass, double across, double along, double length, const char* key) {
+  const double shift = mass * length * length;
   if (across < shift || along < shift)
     throw Error("an inertia about the axis is smaller than mass and centre of mass alone would make it", key);
-  solid.inertia.y() = across - shift;
 }
 
-void tie(mjSpec* spec, const char* called, const char* joint, double upper, double crank) {
-  mjsTendon* tendon = mjs_addTendon(spec, nullptr);
-  name(tendon->element, called);
-  mjs_wrapJoint(tendon, joint, 1.0);
-  mjs_wrapJoint(tendon, "arm_2", upper);
-  mjs_wrapJoint(tendon, "arm_3", crank);
-  mjsEquality* equal = mjs_addEquality(spec, nullptr);
-  equal->type = mjEQ_TENDON;
-  equal->objtype = mjOBJ_TENDON;
-  mjs_setString(equal->name1, called);
-  std::fill_n(equal->data, 5, 0.0);
-  equal->solref[0] = 2.0 * spec->option.timestep;
-  equal->solref[1] = 1.0;
-  equal->solimp[0] = equal->solimp[1] = 0.9999;
-}
-
-void limit_fold(mjSpec* spec, const PhantomGeometry& g) {
-  mjsTendon* fold = mjs_addTendon(spec, nullptr);
-  name(fold->element, "arm_fold");
-  mjs_wrapJoint(fold, "arm_2", 1.0);
-  mjs_wrapJoint(fold, "arm_3", -1.0);
-  fold->limited = mjLIMITED_TRUE;
-  fold->range[0] = g.coupled_low;
-  fold->range[1] = g.coupled_high;
-}
-
-void draw(mjsBody* body, mjtGeom type, const Vec3& from, const Vec3& to, double radius, Rgba rgba) {
-  mjsGeom* geom = mjs_addGeom(body, nullptr);
+void draw(const Mount& on, mjtGeom type, const Vec3& from, const Vec3& to, double radius, Rgba rgba) {
+  mjsGeom* geom = mjs_addGeom(on.body, nullptr);
+  hang(geom->element, on);
   geom->type = type;
   set3(geom->fromto, from);
   set3(geom->fromto + 3, to);
@@ -118,82 +108,114 @@ void draw(mjsBody* body, mjtGeom type, const Vec3& from, const Vec3& to, double 
 }
 
 struct Phantom {
-  mjsBody *turret, *upper, *crank, *link, *forearm;
+  mjsBody *turret, *upper, *forearm;
 };
 
-void draw_phantom(mjsBody* base, const Phantom& p, const PhantomGeometry& g) {
+// Crank and link are no bodies: whoever makes a picture adds them (app/view.cpp).
+void draw_phantom(const Mount& base, const Phantom& p, const PhantomGeometry& g) {
   const Vec3 o = Vec3::Zero();
   draw(base, mjGEOM_CYLINDER, {0, 0, -g.l2 - 0.02}, {0, 0, -g.l2 - 0.05}, 0.06, kDark);
   draw(base, mjGEOM_CYLINDER, {0, 0, -g.l2 - 0.03}, {0, 0, -0.055}, 0.012, kMetal);
-  draw(p.turret, mjGEOM_CYLINDER, {0, 0, -0.055}, {0, 0, -0.035}, 0.040, kAccent);
-  draw(p.turret, mjGEOM_CAPSULE, {0, -0.022, -0.035}, {0, -0.022, 0}, 0.006, kMetal);
-  draw(p.turret, mjGEOM_CAPSULE, {0, 0.022, -0.035}, {0, 0.022, 0}, 0.006, kMetal);
-  draw(p.upper, mjGEOM_CYLINDER, {g.l5, 0, 0}, {2.4 * g.l5, 0, 0}, 0.0125,
+  draw({p.turret}, mjGEOM_CYLINDER, {0, 0, -0.055}, {0, 0, -0.035}, 0.040, kAccent);
+  draw({p.turret}, mjGEOM_CAPSULE, {0, -0.022, -0.035}, {0, -0.022, 0}, 0.006, kMetal);
+  draw({p.turret}, mjGEOM_CAPSULE, {0, 0.022, -0.035}, {0, 0.022, 0}, 0.006, kMetal);
+  draw({p.upper}, mjGEOM_CYLINDER, {g.l5, 0, 0}, {2.4 * g.l5, 0, 0}, 0.0125,
        kDark);  // motors as counterweights
-  draw(p.upper, mjGEOM_CAPSULE, {g.l5, 0, 0}, {g.l1, 0, 0}, 0.0055, kMetal);
-  draw(p.crank, mjGEOM_CYLINDER, {0, 0, g.l6}, {0, 0, 2.0 * g.l6}, 0.0125, kDark);
-  draw(p.crank, mjGEOM_CAPSULE, {0, 0, g.l6}, {0, 0, -g.l3}, 0.005, kMetal);
-  draw(p.link, mjGEOM_CAPSULE, o, {g.l1, 0, 0}, 0.003, kMetal);
-  draw(p.forearm, mjGEOM_CAPSULE, o, {0, 0, -g.l2}, 0.0045, kMetal);
+  draw({p.upper}, mjGEOM_CAPSULE, {g.l5, 0, 0}, {g.l1, 0, 0}, 0.0055, kMetal);
+  draw({p.forearm}, mjGEOM_CAPSULE, o, {0, 0, -g.l2}, 0.0045, kMetal);
 }
 
-// Along x where they hang or lie at q = 0: upper arm and link; along -z: crank and forearm. All hinges are
-// along -y, so that a positive angle lifts the upper arm and swings the forearm out.
-mjsBody* build_phantom(mjSpec* spec, mjsBody* base, const ArmParts& parts) {
-  const PhantomGeometry& g = parts.machine.phantom;
-  const Vec3 o = Vec3::Zero();
+// Upper arm and forearm with what the parallelogram adds to them.
+struct Carried {
+  Solid upper, forearm;
+  double weightless;                 // share of the forearm's mass that has no weight
+  double second = 0.0, third = 0.0;  // inertia without a body, of the joints of motors 2 and 3, kg m^2
+};
+
+// The parallelogram without its loop (docs/phantom_twin.md). The link stays parallel to the upper arm and the
+// crank to the forearm, so their own inertias are added to those. A mass m at a u2 + b u3, u2 along the upper
+// arm and u3 along the forearm, moves by m a^2, m a b and m b^2, and so does m / 4 at twice of both: the
+// link's middle, at l1 / 2 and l3, becomes a point of the forearm, 2 l3 from the elbow. The crank has a = 0
+// and is inertia alone. Weight goes by m a and m b, which this does not keep: that of the forearm is put
+// right by gravity compensation, then that of the upper arm by its centre of mass. Its mass is free, since it
+// turns about a point that stands still: it is large enough for its inertia to hold it.
+Carried carried(const PhantomGeometry& g) {
+  check_about_hinge(g.m_be, g.I_be.x(), g.I_be.y(), g.l5, "truth.arm.machine.I_be");
+  check_about_hinge(g.m_df, g.I_df.x(), g.I_df.z(), g.l6, "truth.arm.machine.I_df");
   // Published axes: x is the hinge; across it, y and z are those which are vertical where the link lies at 0
   // and at 90 degrees.
   const auto lying = [](const Vec3& I) { return Vec3(I.z(), I.x(), I.y()); };
-  Solid be{g.m_be, {g.l5, 0, 0}, lying(g.I_be)};
-  Solid df{g.m_df, {0, 0, g.l6}, lying(g.I_df)};
-  Solid link{g.m_c, {0.5 * g.l1, 0, 0}, lying(g.I_c)};
-  Solid forearm{g.m_a, {0, 0, -0.5 * g.l2}, lying(g.I_a)};
-  to_centre(be, g.I_be.x(), g.I_be.y(), g.l5, "truth.arm.machine.I_be");
-  be.inertia.z() -= g.m_be * g.l5 * g.l5;
-  to_centre(df, g.I_df.x(), g.I_df.z(), g.l6, "truth.arm.machine.I_df");
-  df.inertia.x() -= g.m_df * g.l6 * g.l6;
-  const double at_upper = split(be) + split(link), at_crank = split(df) + split(forearm);
+  Carried c{};
+  const double quarter = 0.25 * g.m_c, middle = 0.5 * g.l2, beyond = 2.0 * g.l3;
+  const double mass = g.m_a + quarter;
+  const double centre = (g.m_a * middle + quarter * beyond) / mass;
+  if (!(centre > 0.0)) throw Error("neither forearm nor link has a mass that moves", "truth.arm.machine.m_a");
+  const double spread =
+      g.m_a * (middle - centre) * (middle - centre) + quarter * (beyond - centre) * (beyond - centre);
+  c.forearm = {mass, {0, 0, -centre}, lying(g.I_a) + lying(g.I_df) + Vec3(spread, spread, 0)};
+  c.third = split(c.forearm);
+  const double with_weight = (g.m_a * middle + g.m_c * g.l3 - g.m_df * g.l6) / centre;
+  c.weightless = 1.0 - with_weight / mass;
 
+  const double moment = g.m_be * g.l5 + (0.5 * g.m_c + g.m_a - with_weight) * g.l1;  // along u2, kg m
+  const Vec3 about_hinge = lying(g.I_be) + lying(g.I_c);
+  const double held = 0.25 * std::min(about_hinge.y(), about_hinge.z());
+  if (!(held > 0.0)) throw Error("the upper arm has no inertia", "truth.arm.machine.I_be");
+  const double heavy = std::max(g.m_be, moment * moment / held);
+  const double shift = moment * moment / heavy;
+  c.upper = {heavy, {moment / heavy, 0, 0}, about_hinge - Vec3(0, shift, shift)};
+  c.second = split(c.upper);
+  return c;
+}
+
+// Along x where they lie at q = 0: the upper arm; along -z the forearm. All hinges are along -y, so that a
+// positive angle lifts the upper arm and swings the forearm out. Motor 3 turns the forearm against the
+// turret: q3 is the sum of both hinges' angles, and a tendon reads it.
+mjsBody* build_phantom(mjSpec* spec, const Mount& base, const ArmParts& parts) {
+  const PhantomGeometry& g = parts.machine.phantom;
+  const Vec3 o = Vec3::Zero();
+  const Carried c = carried(g);
   Phantom p{};
   p.turret = add_body(base, o, {g.m_be, o, Vec3::Constant(g.I_base)});  // its mass stands still
   fit_drive(add_joint(p.turret, kJoints[0], mjJNT_HINGE, Vec3::UnitZ()), parts, 0, 0.0);
-  p.upper = add_body(p.turret, o, be);
-  fit_drive(add_joint(p.upper, kJoints[1], mjJNT_HINGE, -Vec3::UnitY()), parts, 1, at_upper);
-  p.crank = add_body(p.turret, o, df);
-  fit_drive(add_joint(p.crank, kJoints[2], mjJNT_HINGE, -Vec3::UnitY()), parts, 2, at_crank);
-  p.link = add_body(p.crank, {0, 0, -g.l3}, link);
-  add_joint(p.link, "arm_link", mjJNT_HINGE, -Vec3::UnitY());
-  p.forearm = add_body(p.upper, {g.l1, 0, 0}, forearm);
-  add_joint(p.forearm, "arm_forearm", mjJNT_HINGE, -Vec3::UnitY());
-  tie(spec, "arm_forearm_follows_crank", "arm_forearm", 1.0, -1.0);
-  tie(spec, "arm_link_follows_upper", "arm_link", -1.0, 1.0);
-  limit_fold(spec, g);
+  p.upper = add_body({p.turret}, o, c.upper);
+  fit_drive(add_joint(p.upper, kJoints[1], mjJNT_HINGE, -Vec3::UnitY()), parts, 1, c.second);
+  p.forearm = add_body({p.upper}, {g.l1, 0, 0}, c.forearm);
+  p.forearm->gravcomp = c.weightless;
+  mjsJoint* elbow = add_joint(p.forearm, kElbow, mjJNT_HINGE, -Vec3::UnitY());
+  elbow->limited = mjLIMITED_TRUE;
+  elbow->range[0] = -g.coupled_high;
+  elbow->range[1] = -g.coupled_low;
+  mjsTendon* third = mjs_addTendon(spec, nullptr);
+  name(third->element, kJoints[2]);
+  mjs_wrapJoint(third, kJoints[1], 1.0);
+  mjs_wrapJoint(third, kElbow, 1.0);
+  fit_drive(third, parts, 2, c.third);
   if (parts.draw) draw_phantom(base, p, g);
-  return add_body(p.forearm, {0, 0, -g.l2}, {parts.prop ? parts.prop->mass : 0.0, o, o});
+  return add_body({p.forearm}, {0, 0, -g.l2}, {parts.prop ? parts.prop->mass : 0.0, o, o});
 }
 
-mjsBody* build_chain(mjsBody* base, const ArmParts& parts) {
-  mjsBody* body = base;
+mjsBody* build_chain(const Mount& base, const ArmParts& parts) {
+  Mount on = base;
   for (std::size_t i = 0; i < parts.machine.links.size(); ++i) {
     const ChainLink& link = parts.machine.links[i];
-    mjsBody* next = add_body(body, link.origin, {link.mass, link.centre, link.inertia});
+    mjsBody* next = add_body(on, link.origin, {link.mass, link.centre, link.inertia});
     const mjtJoint type = link.kind == JointKind::hinge ? mjJNT_HINGE : mjJNT_SLIDE;
     fit_drive(add_joint(next, kJoints[i], type, link.axis), parts, i, 0.0);
     if (parts.draw && link.kind == JointKind::slide) {  // its rail
       const ArmDrive& drive = parts.machine.drives[i];
-      draw(body, mjGEOM_CAPSULE, link.origin + drive.low * link.axis, link.origin + drive.high * link.axis,
+      draw(on, mjGEOM_CAPSULE, link.origin + drive.low * link.axis, link.origin + drive.high * link.axis,
            0.004, kAccent);
     }
     if (parts.draw) {
-      draw(next, mjGEOM_CAPSULE, Vec3::Zero(), Vec3(link.centre + 1e-4 * Vec3::UnitX()), 0.008, kMetal);
-      if (link.origin.norm() > 1e-3) draw(body, mjGEOM_CAPSULE, Vec3::Zero(), link.origin, 0.006, kAccent);
+      draw({next}, mjGEOM_CAPSULE, Vec3::Zero(), Vec3(link.centre + 1e-4 * Vec3::UnitX()), 0.008, kMetal);
+      if (link.origin.norm() > 1e-3) draw(on, mjGEOM_CAPSULE, Vec3::Zero(), link.origin, 0.006, kAccent);
     }
-    body = next;
+    on = {next};
   }
   if (parts.draw && parts.machine.tip.norm() > 1e-3)
-    draw(body, mjGEOM_CAPSULE, Vec3::Zero(), parts.machine.tip, 0.006, kMetal);
-  return add_body(body, parts.machine.tip, {parts.prop ? parts.prop->mass : 0.0, Vec3::Zero(), Vec3::Zero()});
+    draw(on, mjGEOM_CAPSULE, Vec3::Zero(), parts.machine.tip, 0.006, kMetal);
+  return add_body(on, parts.machine.tip, {parts.prop ? parts.prop->mass : 0.0, Vec3::Zero(), Vec3::Zero()});
 }
 
 // The prop's front. Its own friction and stop count, whatever touches it.
@@ -219,12 +241,12 @@ void add_front(mjsBody* prop, const ArmParts& parts) {
 
 void build_arm(mjSpec* spec, const ArmParts& parts) {
   spec->compiler.degree = false;  // ranges are in rad
-  mjsBody* base = mjs_addBody(mjs_findBody(spec, "world"), nullptr);
-  name(base->element, "arm_base");
-  set3(base->pos, parts.X_WR.p());
+  mjsBody* world = mjs_findBody(spec, "world");
+  const Mount base{world, mjs_addFrame(world, nullptr)};
+  set3(base.frame->pos, parts.X_WR.p());
   const Quat q(parts.X_WR.q());
   const double wxyz[4] = {q.w(), q.x(), q.y(), q.z()};
-  std::copy_n(wxyz, 4, base->quat);
+  std::copy_n(wxyz, 4, base.frame->quat);
   mjsBody* tip =
       parts.machine.kind == ArmKind::phantom ? build_phantom(spec, base, parts) : build_chain(base, parts);
   name(tip->element, "prop");
@@ -234,14 +256,11 @@ void build_arm(mjSpec* spec, const ArmParts& parts) {
 ArmBody::ArmBody(const Physics& physics, std::size_t joints)
     : joints_(joints), tip_(physics.id(mjOBJ_BODY, "prop")) {
   mjModel* m = physics.model();
+  folds_ = mj_name2id(m, mjOBJ_JOINT, kElbow) >= 0;
   for (std::size_t i = 0; i < std::min(joints, kMostJoints); ++i) {
-    const int id = physics.id(mjOBJ_JOINT, kJoints[i]);
+    const int id = physics.id(mjOBJ_JOINT, folds_ && i == 2 ? kElbow : kJoints[i]);
     qpos_[i] = m->jnt_qposadr[id];
     dof_[i] = m->jnt_dofadr[id];
-  }
-  if (const int id = mj_name2id(m, mjOBJ_JOINT, "arm_forearm"); id >= 0) {
-    forearm_ = m->jnt_qposadr[id];
-    link_ = m->jnt_qposadr[physics.id(mjOBJ_JOINT, "arm_link")];
   }
   front_ = mj_name2id(m, mjOBJ_GEOM, "prop_front");
   if (front_ < 0) return;
@@ -252,13 +271,45 @@ ArmBody::ArmBody(const Physics& physics, std::size_t joints)
 PerJoint ArmBody::joints(const mjData* d) const noexcept {
   PerJoint q{};
   for (std::size_t i = 0; i < joints_; ++i) q[i] = d->qpos[qpos_[i]];
+  if (folds_) q[2] += q[1];
   return q;
 }
 
 PerJoint ArmBody::rates(const mjData* d) const noexcept {
   PerJoint v{};
   for (std::size_t i = 0; i < joints_; ++i) v[i] = d->qvel[dof_[i]];
+  if (folds_) v[2] += v[1];
   return v;
+}
+
+void ArmBody::put(mjData* d, const PerJoint& joints, const PerJoint& rates) const noexcept {
+  for (std::size_t i = 0; i < joints_; ++i) {
+    const bool fold = folds_ && i == 2;
+    d->qpos[qpos_[i]] = joints[i] - (fold ? joints[1] : 0.0);
+    d->qvel[dof_[i]] = rates[i] - (fold ? rates[1] : 0.0);
+  }
+}
+
+PerJoint ArmBody::on_joints(const mjtNum* force) const noexcept {
+  PerJoint torque{};
+  for (std::size_t i = 0; i < joints_; ++i) torque[i] = force[dof_[i]];
+  if (folds_) torque[1] -= torque[2];
+  return torque;
+}
+
+Mat3 ArmBody::mass(const mjModel* m, const mjData* d) const {
+  const auto dofs = static_cast<std::size_t>(m->nv);
+  std::vector<mjtNum> full(dofs * dofs);
+  mj_fullM(m, d, full.data());
+  Mat3 own = Mat3::Zero();
+  for (std::size_t i = 0; i < joints_; ++i)
+    for (std::size_t k = 0; k < joints_; ++k)
+      own(static_cast<int>(i), static_cast<int>(k)) =
+          full[static_cast<std::size_t>(dof_[i]) * dofs + static_cast<std::size_t>(dof_[k])];
+  if (!folds_) return own;
+  Mat3 G = Mat3::Identity();  // d (these joints of MuJoCo) / d (joints of the arm)
+  G(2, 1) = -1.0;
+  return G.transpose() * own * G;
 }
 
 Point<'W'> ArmBody::tip(const mjData* d) const noexcept {
@@ -273,6 +324,7 @@ Vec<'W'> ArmBody::tip_velocity(const mjModel* m, const mjData* d) const noexcept
 
 void ArmBody::drive(mjData* d, const PerJoint& torque) const noexcept {
   for (std::size_t i = 0; i < joints_; ++i) d->qfrc_applied[dof_[i]] = torque[i];
+  if (folds_) d->qfrc_applied[dof_[1]] += torque[2];
 }
 
 void ArmBody::face(mjModel* m, const mjData* d, const Quat& q_WN, const Vec3& surface) const noexcept {
@@ -284,12 +336,6 @@ void ArmBody::face(mjModel* m, const mjData* d, const Quat& q_WN, const Vec3& su
   set3(m->geom_pos + 3 * front_, turn * middle_);
   set3(m->geom_surfacevel + 6 * front_, q_WN.conjugate() * surface);
   m->flg_surfacevel = m->flg_surfacevel || !surface.isZero();
-}
-
-double ArmBody::gap(const mjData* d) const noexcept {
-  if (forearm_ < 0) return 0.0;
-  const double fold = d->qpos[qpos_[1]] - d->qpos[qpos_[2]];
-  return std::max(std::abs(d->qpos[forearm_] + fold), std::abs(d->qpos[link_] - fold));
 }
 
 }  // namespace enc::sim

@@ -1,5 +1,6 @@
-// An arm and its prop as bodies of MuJoCo: exact lengths, masses and inertias, rotors as armature, friction,
-// limits, and a parallelogram that is held together by equalities (docs/phantom_twin.md).
+// An arm and its prop as bodies of MuJoCo: exact lengths, masses and inertias, rotors as armature, friction
+// and limits. A PHANToM is a turret with two hinges: what its parallelogram carries is counted to those
+// (docs/phantom_twin.md).
 #pragma once
 
 #include <array>
@@ -20,8 +21,8 @@ struct ArmParts {
   bool draw = false;               // also links and base, for a picture
 };
 
-// Bodies, joints `arm_1` to `arm_3` in the order of the machine's, body `prop` with its origin at H. Throws
-// Error where a body cannot be.
+// Bodies, joints `arm_1` to `arm_3` in the order of the machine's (of a PHANToM `arm_elbow`, q3 - q2, is in
+// the place of the third), body `prop` with its origin at H. Throws Error where a body cannot be.
 void build_arm(mjSpec* spec, const ArmParts& parts);
 
 // Where an arm is in a compiled world.
@@ -31,6 +32,12 @@ class ArmBody {
 
   [[nodiscard]] PerJoint joints(const mjData* data) const noexcept;
   [[nodiscard]] PerJoint rates(const mjData* data) const noexcept;
+  // To these joints and rates; what follows from them is for the next evaluation of the physics.
+  void put(mjData* data, const PerJoint& joints, const PerJoint& rates) const noexcept;
+  // A force along MuJoCo's coordinates, as qfrc_bias is one, on the machine's joints, N m or N.
+  [[nodiscard]] PerJoint on_joints(const mjtNum* force) const noexcept;
+  // Mass matrix of those joints, of the last evaluation; joints that are not there have 0.
+  [[nodiscard]] Mat3 mass(const mjModel* model, const mjData* data) const;
   // Of H; as the last evaluation of the physics left it.
   [[nodiscard]] Point<'W'> tip(const mjData* data) const noexcept;
   [[nodiscard]] Vec<'W'> tip_velocity(const mjModel* model, const mjData* data) const noexcept;
@@ -39,13 +46,11 @@ class ArmBody {
   // inertia nor friction. `surface`: velocity of a driven front, W.
   void face(mjModel* model, const mjData* data, const Quat& q_WN, const Vec3& surface) const noexcept;
   [[nodiscard]] int front() const { return front_; }  // geom; -1: there is none
-  // Largest error of the angles that the parallelogram ties, rad; 0 without one.
-  [[nodiscard]] double gap(const mjData* data) const noexcept;
 
  private:
   std::size_t joints_;
   std::array<int, kMostJoints> qpos_{}, dof_{};
-  int forearm_ = -1, link_ = -1;  // qpos of the joints of the parallelogram
+  bool folds_ = false;  // the third coordinate is q3 - q2
   int tip_ = -1, front_ = -1;
   Vec3 middle_ = Vec3::Zero();  // of the front's box, in N
 };

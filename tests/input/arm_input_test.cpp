@@ -101,7 +101,7 @@ TEST(ArmInput, ATimeStepThatNeverEnds) {
 }
 
 TEST(ArmInput, AWorldThatDoesNotCompileIsOneLineWithItsPlace) {
-  EXPECT_THAT(said({"truth.arm.machine.m_c_kg=1e-30"}),
+  EXPECT_THAT(said({"truth.arm.machine.m_be_kg=1e-30"}),
               AllOf(HasSubstr("vishap.toml:"), HasSubstr("does not compile")));
 }
 

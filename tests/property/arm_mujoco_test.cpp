@@ -100,32 +100,31 @@ Built chain(const ArmMachine& machine, double payload) {
 }
 
 // The twin's own model of it, of either kind.
-Built twin(const ArmMachine& machine, double payload) {
+struct Twin {
+  Physics physics;
+  ArmBody body;
+};
+Twin twin(const ArmMachine& machine, double payload, const ArmTruth& truth = {}) {
   SpecPtr spec = empty();
-  const ArmTruth truth{};
+  spec->option.integrator = mjINT_RK4;
+  spec->option.timestep = 0.001;
   PropSpec prop;
   prop.mass = payload;
   build_arm(spec.get(), {machine, truth, &prop, Pose<'W', 'R'>::shift(0.1, -0.2, 0.3)});
   Physics physics(std::move(spec));
-  const mjModel* m = physics.model();
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(m->nv, 3);
-  const auto row = [&](const char* joint, const Eigen::RowVector3d& of_q) {
-    G.row(m->jnt_dofadr[physics.id(mjOBJ_JOINT, joint)]) = of_q;
-  };
-  row("arm_1", {1, 0, 0});
-  if (m->nv > 1) row("arm_2", {0, 1, 0});
-  if (m->nv > 2) row("arm_3", {0, 0, 1});
-  if (machine.kind == ArmKind::phantom) {
-    row("arm_forearm", {0, -1, 1});
-    row("arm_link", {0, 1, -1});
-  }
-  return {std::move(physics), G};
+  const ArmBody body(physics, Arm(machine).joints());
+  return {std::move(physics), body};
 }
 
 struct Apart {
   double gravity = 0.0;  // N m
   double mass = 0.0;     // of the matrix, relative
 };
+Apart apart(const Arm& arm, const PerJoint& q, double payload, const Vec3& gravity, const Mat3& mass) {
+  const PerJoint ours = arm.gravity(q, payload, Payload::exact);
+  return {(gravity - Vec3(ours[0], ours[1], ours[2])).cwiseAbs().maxCoeff(),
+          (mass - arm.mass(q, payload)).norm() / mass.norm()};
+}
 Apart compare(const Arm& arm, Built& built, const PerJoint& q, double payload) {
   const mjModel* m = built.physics.model();
   mjData* d = built.physics.data();
@@ -135,9 +134,17 @@ Apart compare(const Arm& arm, Built& built, const PerJoint& q, double payload) {
   std::vector<double> full(static_cast<std::size_t>(m->nv * m->nv));
   mj_fullM(m, d, full.data());
   const Mat3 M = built.G.transpose() * Eigen::Map<Eigen::MatrixXd>(full.data(), m->nv, m->nv) * built.G;
-  const PerJoint ours = arm.gravity(q, payload, Payload::exact);
-  return {(gravity - Vec3(ours[0], ours[1], ours[2])).cwiseAbs().maxCoeff(),
-          (M - arm.mass(q, payload)).norm() / M.norm()};
+  return apart(arm, q, payload, gravity, M);
+}
+Apart compare(const Arm& arm, Twin& twin, const PerJoint& q, double payload) {
+  const mjModel* m = twin.physics.model();
+  mjData* d = twin.physics.data();
+  twin.body.put(d, q, {});
+  mj_forward(m, d);
+  EXPECT_LT((twin.body.tip(d).e() - Vec3(0.1, -0.2, 0.3) - arm.tip(q).e()).norm(), 1e-12);
+  const PerJoint needed = twin.body.on_joints(d->qfrc_bias), helped = twin.body.on_joints(d->qfrc_passive);
+  const Vec3 gravity(needed[0] - helped[0], needed[1] - helped[1], needed[2] - helped[2]);
+  return apart(arm, q, payload, gravity, twin.body.mass(m, d));
 }
 
 struct Draw {
@@ -160,24 +167,30 @@ struct Draw {
 };
 
 // Worst over poses.
-Apart worst_over_poses(const ArmMachine& machine, int poses, double payload, Draw& draw,
-                       bool of_twin = false) {
-  const Arm arm(machine);
-  Built built = of_twin                            ? twin(arm.machine(), payload)
-                : machine.kind == ArmKind::phantom ? phantom(arm.machine(), payload)
-                                                   : chain(arm.machine(), payload);
+template <class Bodies>
+Apart worst_over_poses(const Arm& arm, Bodies bodies, int poses, double payload, Draw& draw) {
   Apart worst;
   for (int i = 0; i < poses; ++i) {
-    const Apart apart = compare(arm, built, draw.pose(arm), payload);
-    worst.gravity = std::max(worst.gravity, apart.gravity);
-    worst.mass = std::max(worst.mass, apart.mass);
+    const Apart at = compare(arm, bodies, draw.pose(arm), payload);
+    worst.gravity = std::max(worst.gravity, at.gravity);
+    worst.mass = std::max(worst.mass, at.mass);
   }
   return worst;
+}
+Apart of_bodies(const ArmMachine& machine, int poses, double payload, Draw& draw) {
+  const Arm arm(machine);
+  return worst_over_poses(
+      arm, machine.kind == ArmKind::phantom ? phantom(arm.machine(), payload) : chain(arm.machine(), payload),
+      poses, payload, draw);
+}
+Apart of_twin(const ArmMachine& machine, int poses, double payload, Draw& draw) {
+  const Arm arm(machine);
+  return worst_over_poses(arm, twin(arm.machine(), payload), poses, payload, draw);
 }
 
 TEST(ArmMujoco, GravityAndMassOfThePhantom) {
   Draw draw;
-  const Apart worst = worst_over_poses(ArmMachine{}, 1'000, 0.020, draw);
+  const Apart worst = of_bodies(ArmMachine{}, 1'000, 0.020, draw);
   RecordProperty("gravity_Nm", std::to_string(1e15 * worst.gravity) + "e-15");
   RecordProperty("mass_relative", std::to_string(1e15 * worst.mass) + "e-15");
   EXPECT_LT(worst.gravity, 1e-12);
@@ -204,7 +217,7 @@ ArmMachine off_by_twenty_percent(Draw& draw) {
 TEST(ArmMujoco, WithMassesAndForearmOffByTwentyPercent) {
   Draw draw;
   for (int i = 0; i < 50; ++i) {
-    const Apart worst = worst_over_poses(off_by_twenty_percent(draw), 20, draw.uniform(0.0, 0.05), draw);
+    const Apart worst = of_bodies(off_by_twenty_percent(draw), 20, draw.uniform(0.0, 0.05), draw);
     EXPECT_LT(worst.gravity, 1e-12) << i;
     EXPECT_LT(worst.mass, 1e-9) << i;
   }
@@ -212,15 +225,97 @@ TEST(ArmMujoco, WithMassesAndForearmOffByTwentyPercent) {
 
 TEST(ArmMujoco, TheTwinIsTheSamePhantom) {
   Draw draw;
-  const Apart worst = worst_over_poses(ArmMachine{}, 1'000, 0.020, draw, true);
+  const Apart worst = of_twin(ArmMachine{}, 1'000, 0.020, draw);
   RecordProperty("gravity_Nm", std::to_string(1e15 * worst.gravity) + "e-15");
   RecordProperty("mass_relative", std::to_string(1e15 * worst.mass) + "e-15");
   EXPECT_LT(worst.gravity, 1e-9);
   EXPECT_LT(worst.mass, 0.01);
   for (int i = 0; i < 50; ++i) {
-    const Apart off = worst_over_poses(off_by_twenty_percent(draw), 20, draw.uniform(0.0, 0.05), draw, true);
+    const Apart off = of_twin(off_by_twenty_percent(draw), 20, draw.uniform(0.0, 0.05), draw);
     EXPECT_LT(off.gravity, 1e-9) << i;
     EXPECT_LT(off.mass, 0.01) << i;
+  }
+}
+
+// A PHANToM without friction, as the twin has it and body by body.
+struct Pair {
+  Twin own;
+  Built bodies = phantom(ArmMachine{}, 0.020);
+
+  Pair() : own(twin(ArmMachine{}, 0.020, frictionless())) {
+    bodies.physics.model()->opt.enableflags |= mjENBL_ENERGY;
+  }
+  static ArmTruth frictionless() {
+    ArmTruth truth;
+    truth.friction = truth.viscous = {};
+    return truth;
+  }
+  // Puts the bodies where the twin is, as fast.
+  void follow() {
+    const PerJoint q = own.body.joints(own.physics.data()), v = own.body.rates(own.physics.data());
+    mjData* d = bodies.physics.data();
+    Eigen::Map<Eigen::Matrix<double, 5, 1>>(d->qpos) = bodies.G * Vec3(q[0], q[1], q[2]);
+    Eigen::Map<Eigen::Matrix<double, 5, 1>>(d->qvel) = bodies.G * Vec3(v[0], v[1], v[2]);
+    mj_forward(bodies.physics.model(), d);
+  }
+  [[nodiscard]] double energy() {
+    follow();
+    return bodies.physics.data()->energy[0] + bodies.physics.data()->energy[1];
+  }
+};
+
+// Also what turning joints do to each other.
+TEST(ArmMujoco, TheTwinIsBentByItsMotionAsTheBodiesAre) {
+  Draw draw;
+  Pair pair;
+  mjData* d = pair.own.physics.data();
+  for (int k = 0; k < 300; ++k) {
+    const Vec3 v = 5.0 * draw.direction();
+    pair.own.body.put(d, draw.pose(Arm(ArmMachine{})), {v.x(), v.y(), v.z()});
+    mj_forward(pair.own.physics.model(), d);
+    pair.follow();
+    const PerJoint needed = pair.own.body.on_joints(d->qfrc_bias),
+                   helped = pair.own.body.on_joints(d->qfrc_passive);
+    const Vec3 bodies = pair.bodies.G.transpose() *
+                        Eigen::Map<Eigen::Matrix<double, 5, 1>>(pair.bodies.physics.data()->qfrc_bias);
+    EXPECT_LT((Vec3(needed[0] - helped[0], needed[1] - helped[1], needed[2] - helped[2]) - bodies).norm(),
+              1e-12);
+  }
+}
+
+// Swings that meet no limit.
+TEST(ArmMujoco, TheTwinKeepsTheEnergyOfTheBodies) {
+  Draw draw;
+  for (int k = 0; k < 20; ++k) {
+    Pair pair;
+    const Vec3 v = 2.0 * draw.direction();
+    pair.own.body.put(pair.own.physics.data(), {0.0, 0.1, 0.1}, {v.x(), v.y(), v.z()});
+    const double before = pair.energy(), kinetic = pair.bodies.physics.data()->energy[1];
+    for (int i = 0; i < 200; ++i) ASSERT_TRUE(pair.own.physics.step());
+    EXPECT_LT(std::abs(pair.energy() - before), 1e-5 * kinetic) << k;
+  }
+}
+
+// Dry friction holds: under half of it the tip stays within a micrometre in a second, at a time step of 1 ms.
+TEST(ArmMujoco, TheTwinDoesNotCreep) {
+  Draw draw;
+  const Arm arm{ArmMachine{}};
+  const ArmTruth truth;
+  for (int k = 0; k < 10; ++k) {
+    Twin own = twin(ArmMachine{}, 0.020, truth);
+    mjData* d = own.physics.data();
+    own.physics.model()->opt.gravity[2] = 0.0;
+    const PerJoint start = draw.pose(arm);
+    own.body.put(d, start, {});
+    PerJoint push{};
+    for (std::size_t i = 0; i < 3; ++i) push[i] = (k + i) % 2 == 0 ? 0.5 * truth.friction[i] : 0.0;
+    own.body.drive(d, push);
+    for (int i = 0; i < 1'000; ++i) ASSERT_TRUE(own.physics.step());
+    EXPECT_LT((arm.tip(own.body.joints(d)) - arm.tip(start)).norm(), 1e-6) << k;
+    for (std::size_t i = 0; i < 3; ++i) push[i] *= 4.0;  // twice the friction: it does go
+    own.body.drive(d, push);
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(own.physics.step());
+    EXPECT_GT((arm.tip(own.body.joints(d)) - arm.tip(start)).norm(), 1e-3) << k;
   }
 }
 
@@ -234,9 +329,11 @@ TEST(ArmMujoco, GravityAndMassOfChains) {
                                draw.direction(), 0.2 * draw.direction(), draw.uniform(0.01, 0.5),
                                0.1 * draw.direction(), 1e-4 * Vec3(1.0, draw.uniform(0.8, 1.2), 1.1)});
     machine.tip = 0.1 * draw.direction();
-    const Apart worst = worst_over_poses(machine, 5, draw.uniform(0.0, 0.05), draw);
-    EXPECT_LT(worst.gravity, 1e-9) << i;
-    EXPECT_LT(worst.mass, 1e-9) << i;
+    const double payload = draw.uniform(0.0, 0.05);
+    for (const Apart& worst : {of_bodies(machine, 5, payload, draw), of_twin(machine, 5, payload, draw)}) {
+      EXPECT_LT(worst.gravity, 1e-9) << i;
+      EXPECT_LT(worst.mass, 1e-9) << i;
+    }
   }
 }
 
