@@ -10,6 +10,12 @@
 namespace enc {
 namespace {
 
+// A running surface goes on at its own speed while the prop that stands for it moves along with the finger.
+double driven(const Object& object, const Reaching& now) {
+  if (object.interaction.kind != Interaction::spin) return 0.0;
+  return object.prop_speed() - dot(now.velocity, object.X_WO * Vec<'O'>(object.interaction.way));
+}
+
 // No force is measured: what the finger feels is what the arm is told beyond gravity.
 void report_arm(const stages::Walk& walk, const State& state, Outputs& out) {
   out.tip = Pose<'R', 'H'>();
@@ -18,7 +24,8 @@ void report_arm(const stages::Walk& walk, const State& state, Outputs& out) {
   out.gain = state.reaching.gain;
   const bool near = !stages::holding(walk) && state.object >= 0 &&
                     (state.mode == Mode::follow || state.mode == Mode::contact);
-  out.prop_speed = near ? walk.scene.objects[static_cast<std::size_t>(state.object)].prop_speed() : 0.0;
+  out.prop_speed =
+      near ? driven(walk.scene.objects[static_cast<std::size_t>(state.object)], state.reaching) : 0.0;
   const bool touched = state.mode == Mode::contact && walk.gap < 0.0;
   out.deflection = touched ? -walk.gap : 0.0;
 }

@@ -247,6 +247,19 @@ TEST(Reaching, TheTargetOverABallStaysUnderTheFinger) {
 }
 
 // From key to key the target hurries where nobody feels it: a key that is touched stays the target.
+// The prop that stands for a drum goes along with the finger: its belt is slower by as much.
+TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
+  Bench bench("drum");
+  EXPECT_EQ(bench.at(-0.150, 10).prop_speed, 0.0);
+  EXPECT_NEAR(bench.at(-0.020, 500).prop_speed, 0.050, 1e-9);
+  double x = 0.0;
+  for (int i = 0; i < 500; ++i) bench.at(0.001, 1, x += 30e-6);  // 30 mm/s
+  EXPECT_NEAR(bench.loop.out.prop_speed, 0.020, 1e-4);
+  for (int i = 0; i < 200; ++i) bench.at(0.001, 1, x -= 30e-6);
+  EXPECT_NEAR(bench.loop.out.prop_speed, 0.080, 1e-4);
+  EXPECT_NEAR(bench.at(0.001, 500, x).prop_speed, 0.050, 1e-4);
+}
+
 TEST(Reaching, WhatIsTouchedStaysTheTarget) {
   Bench bench("keypad");
   const double over_key_5 = 0.010;  // y
