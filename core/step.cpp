@@ -11,9 +11,11 @@ namespace enc {
 namespace {
 
 // A running surface goes on at its own speed while the prop that stands for it moves along with the finger.
+// On its way there the prop need not.
 double driven(const Object& object, const Reaching& now) {
   if (object.interaction.kind != Interaction::spin) return 0.0;
-  return object.prop_speed() - dot(now.velocity, object.X_WO * Vec<'O'>(object.interaction.way));
+  const Vec<'W'> way = object.X_WO * Vec<'O'>(object.interaction.way);
+  return object.prop_speed() - (now.caught_up ? dot(now.velocity, way) : 0.0);
 }
 
 // No force is measured: what the finger feels is what the arm is told beyond gravity.

@@ -1,4 +1,6 @@
 // An arm's loop, step by step: the core alone under a finger and an arm that are where a test puts them.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -246,13 +248,18 @@ TEST(Reaching, TheTargetOverABallStaysUnderTheFinger) {
   EXPECT_LT(most, 0.5e-3);
 }
 
-// From key to key the target hurries where nobody feels it: a key that is touched stays the target.
 // The prop that stands for a drum goes along with the finger: its belt is slower by as much.
 TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   Bench bench("drum");
   EXPECT_EQ(bench.at(-0.150, 10).prop_speed, 0.0);
-  EXPECT_NEAR(bench.at(-0.020, 500).prop_speed, 0.050, 1e-9);
-  double x = 0.0;
+  double fastest = 0.0;  // of the target on its way; what is left of it when it arrives, the belt takes out
+  for (int i = 0; i < 500; ++i) {
+    EXPECT_NEAR(bench.at(-0.020, 1, 0.020).prop_speed, 0.050, 0.060) << i;
+    fastest = std::max(fastest, bench.loop.state.reaching.velocity.norm());
+  }
+  EXPECT_GT(fastest, 0.100);
+  double x = 0.020;
+  for (int i = 0; i < 300; ++i) bench.at(0.001, 1, x -= 60e-6);
   for (int i = 0; i < 500; ++i) bench.at(0.001, 1, x += 30e-6);  // 30 mm/s
   EXPECT_NEAR(bench.loop.out.prop_speed, 0.020, 1e-4);
   for (int i = 0; i < 200; ++i) bench.at(0.001, 1, x -= 30e-6);
@@ -260,6 +267,7 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   EXPECT_NEAR(bench.at(0.001, 500, x).prop_speed, 0.050, 1e-4);
 }
 
+// From key to key the target hurries where nobody feels it: a key that is touched stays the target.
 TEST(Reaching, WhatIsTouchedStaysTheTarget) {
   Bench bench("keypad");
   const double over_key_5 = 0.010;  // y
