@@ -38,7 +38,7 @@ struct Object {
     return interaction.kind == Interaction::click || (button && interaction.kind == Interaction::passive);
   }
 
-  // At which a driven prop's surface runs along `way`, m/s.
+  // At which the object's own surface runs along `way`, m/s.
   [[nodiscard]] double prop_speed() const {
     return interaction.kind == Interaction::spin ? interaction.speed : 0.0;
   }

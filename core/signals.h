@@ -38,7 +38,7 @@ struct Outputs {
   Vec<'R'> arm_force;
   Point<'W'> wanted;
   double gain = kUnset;
-  double prop_speed = 0.0;  // of the surface of a driven prop, m/s
+  double prop_speed = 0.0;  // of a driven prop's surface against the prop, m/s
 };
 
 }  // namespace enc

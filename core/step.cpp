@@ -10,10 +10,10 @@
 namespace enc {
 namespace {
 
-// A running surface goes on at its own speed while the prop that stands for it moves along with the finger.
-// On its way there the prop need not.
-double driven(const Object& object, const Reaching& now) {
-  if (object.interaction.kind != Interaction::spin) return 0.0;
+// Of a belt against its prop: a running surface goes on at its own speed while the prop that stands for it
+// moves along with the finger. On its way there it need not. Other props cannot run.
+double driven(const Object& object, const Impedance& law, const Reaching& now) {
+  if (object.interaction.kind != Interaction::spin || law.prop != PropKind::drum) return 0.0;
   const Vec<'W'> way = object.X_WO * Vec<'O'>(object.interaction.way);
   return object.prop_speed() - (now.caught_up ? dot(now.velocity, way) : 0.0);
 }
@@ -26,8 +26,9 @@ void report_arm(const stages::Walk& walk, const State& state, Outputs& out) {
   out.gain = state.reaching.gain;
   const bool near = !stages::holding(walk) && state.object >= 0 &&
                     (state.mode == Mode::follow || state.mode == Mode::contact);
-  out.prop_speed =
-      near ? driven(walk.scene.objects[static_cast<std::size_t>(state.object)], state.reaching) : 0.0;
+  out.prop_speed = near ? driven(walk.scene.objects[static_cast<std::size_t>(state.object)],
+                                 *walk.scene.impedance, state.reaching)
+                        : 0.0;
   const bool touched = state.mode == Mode::contact && walk.gap < 0.0;
   out.deflection = touched ? -walk.gap : 0.0;
 }

@@ -28,9 +28,8 @@ struct TwinArm {
   }
   // Of a pose at rest, N m: what the motors have to do against it.
   [[nodiscard]] Vec3 weight() const {
-    const PerJoint needed = body.on_joints(physics.data()->qfrc_bias);
-    const PerJoint helped = body.on_joints(physics.data()->qfrc_passive);
-    return {needed[0] - helped[0], needed[1] - helped[1], needed[2] - helped[2]};
+    const PerJoint load = body.load(physics.data());
+    return {load[0], load[1], load[2]};
   }
 };
 

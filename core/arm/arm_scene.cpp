@@ -91,6 +91,7 @@ Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
                 behaviour.tangential,
                 behaviour.tangential_stiffness};
   object.interaction = does;
+  object.interaction.way.normalize();
   object.stiffness = behaviour.stiffness;
   return object;
 }

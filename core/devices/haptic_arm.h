@@ -12,7 +12,7 @@ class HapticArm {
   // Force that the tip shall exert on what touches it, gravity included: stays until the next one. The device
   // makes joint torques of it (J^T F) and clips them to what its motors can.
   virtual void command(const Vec<'R'>& force) noexcept = 0;
-  // Speed of the surface of a prop that has a motor of its own, m/s; others have nothing to drive.
+  // Speed of a prop's surface against the prop, m/s, where that has a motor; others have nothing to drive.
   virtual void drive([[maybe_unused]] double surface_speed) noexcept {}
 };
 

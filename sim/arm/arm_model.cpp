@@ -159,8 +159,9 @@ Carried carried(const PhantomGeometry& g) {
 
   const double moment = g.m_be * g.l5 + (0.5 * g.m_c + g.m_a - with_weight) * g.l1;  // along u2, kg m
   const Vec3 about_hinge = lying(g.I_be) + lying(g.I_c);
-  const double held = 0.25 * std::min(about_hinge.y(), about_hinge.z());
-  if (!(held > 0.0)) throw Error("the upper arm has no inertia", "truth.arm.machine.I_be");
+  const double held = 0.01 * std::min(about_hinge.y(), about_hinge.z());
+  if (!(held > 0.0 && g.m_be > 0.0))
+    throw Error("the upper arm has no mass or no inertia", "truth.arm.machine.m_be");
   const double heavy = std::max(g.m_be, moment * moment / held);
   const double shift = moment * moment / heavy;
   c.upper = {heavy, {moment / heavy, 0, 0}, about_hinge - Vec3(0, shift, shift)};
@@ -182,6 +183,8 @@ mjsBody* build_phantom(mjSpec* spec, const Mount& base, const ArmParts& parts) {
   fit_drive(add_joint(p.upper, kJoints[1], mjJNT_HINGE, -Vec3::UnitY()), parts, 1, c.second);
   p.forearm = add_body({p.upper}, {g.l1, 0, 0}, c.forearm);
   p.forearm->gravcomp = c.weightless;
+  // MuJoCo looks for more weight on one body only if it finds less on another; the turret's does nothing.
+  if (c.weightless < 0.0) p.turret->gravcomp = 1.0;
   mjsJoint* elbow = add_joint(p.forearm, kElbow, mjJNT_HINGE, -Vec3::UnitY());
   elbow->limited = mjLIMITED_TRUE;
   elbow->range[0] = -g.coupled_high;
@@ -290,9 +293,9 @@ void ArmBody::put(mjData* d, const PerJoint& joints, const PerJoint& rates) cons
   }
 }
 
-PerJoint ArmBody::on_joints(const mjtNum* force) const noexcept {
+PerJoint ArmBody::load(const mjData* d) const noexcept {
   PerJoint torque{};
-  for (std::size_t i = 0; i < joints_; ++i) torque[i] = force[dof_[i]];
+  for (std::size_t i = 0; i < joints_; ++i) torque[i] = d->qfrc_bias[dof_[i]] - d->qfrc_passive[dof_[i]];
   if (folds_) torque[1] -= torque[2];
   return torque;
 }

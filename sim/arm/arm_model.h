@@ -34,8 +34,9 @@ class ArmBody {
   [[nodiscard]] PerJoint rates(const mjData* data) const noexcept;
   // To these joints and rates; what follows from them is for the next evaluation of the physics.
   void put(mjData* data, const PerJoint& joints, const PerJoint& rates) const noexcept;
-  // A force along MuJoCo's coordinates, as qfrc_bias is one, on the machine's joints, N m or N.
-  [[nodiscard]] PerJoint on_joints(const mjtNum* force) const noexcept;
+  // What the motors would have to do to keep the rates as they are, in the last evaluation, N m or N: weight,
+  // what turning joints do to each other, and viscous friction. Not the dry one.
+  [[nodiscard]] PerJoint load(const mjData* data) const noexcept;
   // Mass matrix of those joints, of the last evaluation; joints that are not there have 0.
   [[nodiscard]] Mat3 mass(const mjModel* model, const mjData* data) const;
   // Of H; as the last evaluation of the physics left it.

@@ -265,6 +265,8 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   for (int i = 0; i < 200; ++i) bench.at(0.001, 1, x -= 30e-6);
   EXPECT_NEAR(bench.loop.out.prop_speed, 0.080, 1e-4);
   EXPECT_NEAR(bench.at(0.001, 500, x).prop_speed, 0.050, 1e-4);
+  Bench plate("drum", {"prop.kind=\"plate\""});
+  EXPECT_EQ(plate.at(-0.020, 500).prop_speed, 0.0);  // it cannot run
 }
 
 // From key to key the target hurries where nobody feels it: a key that is touched stays the target.
