@@ -170,8 +170,8 @@ struct Worked {
   double cost = 0.0;   // s of CPU time for each second of experiment
 };
 Worked swing(const Laden& laden, const std::vector<Vec3>& path, double timestep, mjtIntegrator integrator,
-             int laps) {
-  TwinArm twin = twin_arm(laden, timestep, integrator);
+             int laps, const PerJoint& friction = {}, const PerJoint& viscous = {}) {
+  TwinArm twin = twin_arm(laden, timestep, integrator, friction, viscous);
   const auto steps = static_cast<int>(std::lround(kSample / timestep));
   Worked worked{0.0, 1e9};
   for (int lap = 0; lap < laps; ++lap) {
@@ -244,7 +244,14 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
              fmt::format("of the tip, free swing, {} at {:g} us as the rig has it", truth.integrator,
                          truth.timestep * 1e6),
              kUnset, 0.05);
-  add_figure(result, "swing.times_real_time", kUnset, 1.0 / used.cost, "x", "the arm's bodies alone", 60.0);
+  add_figure(result, "swing.times_real_time", kUnset, 1.0 / used.cost, "x",
+             "the arm's bodies, without friction");
+  const Worked rubbed = swing(laden, path, truth.timestep, own->second, 15, truth.friction, truth.viscous);
+  add_figure(
+      result, "twin.times_real_time", kUnset, 1.0 / rubbed.cost, "x",
+      fmt::format("the same with prop, dry and viscous friction, {} at {:g} us; CPU time of the thread",
+                  truth.integrator, truth.timestep * 1e6),
+      60.0);
 }
 
 // What the tip does in ten seconds where nothing but gravity compensation drives the motors, a thousand times

@@ -97,7 +97,10 @@ void speed_figures(const BenchContext& context, const Report& report) {
     times.push_back(run.simulated / (thread_seconds() - start));
     ns.insert(ns.end(), run.step_ns.begin(), run.step_ns.end());
   }
-  report.figure("arm.times_real_time", median(times), "x", "CPU time of the thread, RK4 at 1 ms", 60.0);
+  report.figure(
+      "arm.times_real_time", median(times), "x",
+      "the whole scene: the twin, its finger, hand, tracker, step() and the bench's own accounts; CPU time "
+      "of the thread, RK4 at 1 ms");
   report.figure("arm.step.p99_9", 1e-3 * percentile(ns, 0.999), "us", "step(), wall clock", 0.0, 20.0);
 }
 

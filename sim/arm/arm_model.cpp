@@ -67,10 +67,9 @@ void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more
   driven->damping[0] = parts.truth.viscous[i];
   if (parts.truth.friction_form == ArmFriction::dry) {
     driven->frictionloss = parts.truth.friction[i];
-    // What holds must not creep. MuJoCo's own impedance of 0.9 and 20 ms let a tip under half of the friction
-    // go by 0.1 mm in a second: these let it go by a thousandth of that.
-    driven->solimp_friction[0] = driven->solimp_friction[1] = 0.999;
-    driven->solref_friction[0] = 0.002;  // s
+    // What holds must not creep: with MuJoCo's own impedance of 0.9 a tip under half of the friction does,
+    // 0.1 mm in a second. Its time constant stays (docs/phantom_twin.md).
+    driven->solimp_friction[0] = driven->solimp_friction[1] = 0.9999;
   }
   driven->limited = mjLIMITED_TRUE;
   driven->range[0] = drive.low;
