@@ -247,11 +247,10 @@ void add_swing(const GravityRig& rig, const BenchContext& context, BenchResult& 
   add_figure(result, "swing.times_real_time", kUnset, 1.0 / used.cost, "x",
              "the arm's bodies, without friction");
   const Worked rubbed = swing(laden, path, truth.timestep, own->second, 15, truth.friction, truth.viscous);
-  add_figure(
-      result, "twin.times_real_time", kUnset, 1.0 / rubbed.cost, "x",
-      fmt::format("the same with prop, dry and viscous friction, {} at {:g} us; CPU time of the thread",
-                  truth.integrator, truth.timestep * 1e6),
-      60.0);
+  add_figure(result, "twin.times_real_time", kUnset, 1.0 / rubbed.cost, "x",
+             fmt::format("the same with dry and viscous friction, {} at {:g} us; CPU time of the thread",
+                         truth.integrator, truth.timestep * 1e6),
+             60.0);
 }
 
 // What the tip does in ten seconds where nothing but gravity compensation drives the motors, a thousand times

@@ -126,13 +126,12 @@ struct Apart {
 };
 Apart apart(const Arm& arm, const PerJoint& q, double payload, const Vec3& gravity, const Mat3& mass) {
   const PerJoint ours = arm.gravity(q, payload, Payload::exact);
-  return {(gravity - Vec3(ours[0], ours[1], ours[2])).cwiseAbs().maxCoeff(),
-          (mass - arm.mass(q, payload)).norm() / mass.norm()};
+  return {(gravity - vector(ours)).cwiseAbs().maxCoeff(), (mass - arm.mass(q, payload)).norm() / mass.norm()};
 }
 Apart compare(const Arm& arm, Built& built, const PerJoint& q, double payload) {
   const mjModel* m = built.physics.model();
   mjData* d = built.physics.data();
-  Eigen::Map<Eigen::VectorXd>(d->qpos, m->nq) = built.G * Vec3(q[0], q[1], q[2]);
+  Eigen::Map<Eigen::VectorXd>(d->qpos, m->nq) = built.G * vector(q);
   mj_forward(m, d);
   const Vec3 gravity = built.G.transpose() * Eigen::Map<Eigen::VectorXd>(d->qfrc_bias, m->nv);
   std::vector<double> full(static_cast<std::size_t>(m->nv * m->nv));
@@ -277,8 +276,8 @@ struct Pair {
   void follow() {
     const PerJoint q = own.body.joints(own.physics.data()), v = own.body.rates(own.physics.data());
     mjData* d = bodies.physics.data();
-    Eigen::Map<Eigen::Matrix<double, 5, 1>>(d->qpos) = bodies.G * Vec3(q[0], q[1], q[2]);
-    Eigen::Map<Eigen::Matrix<double, 5, 1>>(d->qvel) = bodies.G * Vec3(v[0], v[1], v[2]);
+    Eigen::Map<Eigen::Matrix<double, 5, 1>>(d->qpos) = bodies.G * vector(q);
+    Eigen::Map<Eigen::Matrix<double, 5, 1>>(d->qvel) = bodies.G * vector(v);
     mj_forward(bodies.physics.model(), d);
   }
   [[nodiscard]] double energy() {
@@ -294,7 +293,7 @@ TEST(ArmMujoco, TheTwinIsBentByItsMotionAsTheBodiesAre) {
   mjData* d = pair.own.physics.data();
   for (int k = 0; k < 300; ++k) {
     const Vec3 v = 5.0 * draw.direction();
-    pair.own.body.put(d, draw.pose(Arm(ArmMachine{})), {v.x(), v.y(), v.z()});
+    pair.own.body.put(d, draw.pose(Arm(ArmMachine{})), per_joint(v));
     mj_forward(pair.own.physics.model(), d);
     pair.follow();
     const Vec3 bodies = pair.bodies.G.transpose() *
@@ -358,7 +357,7 @@ TEST(ArmMujoco, TheTwinKeepsTheEnergyOfTheBodies) {
   for (int k = 0; k < 20; ++k) {
     Pair pair;
     const Vec3 v = 2.0 * draw.direction();
-    pair.own.body.put(pair.own.physics.data(), {0.0, 0.1, 0.1}, {v.x(), v.y(), v.z()});
+    pair.own.body.put(pair.own.physics.data(), {0.0, 0.1, 0.1}, per_joint(v));
     const double before = pair.energy(), kinetic = pair.bodies.physics.data()->energy[1];
     for (int i = 0; i < 200; ++i) ASSERT_TRUE(pair.own.physics.step());
     EXPECT_LT(std::abs(pair.energy() - before), 1e-5 * kinetic) << k;
