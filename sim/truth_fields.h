@@ -1,0 +1,28 @@
+// The fields of the truth, named once, as core/record/fields.h does for what the core sees: for a hash over
+// what really happened.
+#pragma once
+
+#include "core/record/fields.h"
+#include "sim/truth.h"
+
+namespace enc::sim {
+
+template <class F>
+void fields(F& f, Truth& t) {
+  f("t", t.t);
+  for (detail::Triple* v :
+       std::initializer_list<detail::Triple*>{&t.tool_tip, &t.tool_velocity, &t.tip, &t.tip_velocity,
+                                              &t.tip_acceleration, &t.contact_force, &t.hand_force})
+    enc::fields(f, "vector_W", *v);
+  enc::fields(f, "leg_force", t.leg_force);
+  enc::fields(f, "joints", t.joints);
+  enc::fields(f, "motor_torque", t.motor_torque);
+  enc::fields(f, "warmth", t.warmth);
+  f("touching", t.touching);
+  for (double* x : {&t.penetration, &t.tool_radius, &t.tip_radius, &t.approach_speed}) f("number", *x);
+  for (std::int32_t* x : {&t.press, &t.aim, &t.tool}) f("index", *x);
+  f("phase", t.phase);
+  f("aborted", t.aborted);
+}
+
+}  // namespace enc::sim

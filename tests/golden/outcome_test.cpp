@@ -1,0 +1,109 @@
+// What every scene that ships does, tick by tick: one hash over outputs and truth (none over memory, which
+// may be laid out anew) and the state hash. A change that shall change nothing leaves the table as it is.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/trial.h"
+#include "models/scene_file.h"
+#include "sim/truth_fields.h"
+
+namespace enc {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kScenes = ENCOUNTER_SOURCE_DIR "/models/scenes";
+const fs::path kTable = ENCOUNTER_SOURCE_DIR "/tests/golden/outcomes.csv";
+constexpr const char* kHeader = "scene,seed,length,ticks,state_hash,outcome_hash";
+constexpr double kShort = 1.5;  // s
+
+// length is "whole", or "short": its first kShort seconds.
+std::string row_of(const std::string& scene, std::uint64_t seed, const std::string& length) {
+  StateHash outcome;
+  bench::TrialOptions options;
+  options.seed = seed;
+  if (length == "short") options.seconds = kShort;
+  options.watch = [&](const bench::Glance& glance) {
+    Outputs out = glance.out;
+    sim::Truth truth = glance.truth;
+    fields(outcome, out);
+    fields(outcome, truth);
+  };
+  bench::Trial trial(models::load((kScenes / (scene + ".toml")).string(), {}, {}), options);
+  const bench::TrialResult result = trial.run();
+  return fmt::format("{},{},{},{},{:016x},{:016x}", scene, seed, length, result.ticks, result.hash,
+                     outcome.value);
+}
+
+std::vector<std::string> table() {
+  std::vector<std::string> rows;
+  std::ifstream file(kTable);
+  for (std::string line; std::getline(file, line);) rows.push_back(line);
+  return rows;
+}
+
+std::vector<std::string> words_of(const std::string& row) {
+  std::vector<std::string> words{""};
+  for (const char c : row) {
+    if (c == ',')
+      words.emplace_back();
+    else
+      words.back().push_back(c);
+  }
+  return words;
+}
+
+void expect_rows(const std::string& length) {
+#if defined(__x86_64__)
+  // The C library picks sin, cos and exp by the processor, and so the last bit of what they give.
+  if (!__builtin_cpu_supports("fma") || !__builtin_cpu_supports("avx2"))
+    GTEST_SKIP() << "the table is of a processor with FMA and AVX2";
+#endif
+  for (const std::string& row : table()) {
+    const std::vector<std::string> words = words_of(row);
+    if (words.size() < 3 || words[2] != length) continue;
+    EXPECT_EQ(row_of(words[0], std::stoull(words[1]), length), row)
+        << "if the change is meant, look at what moved, write the table anew with\n  "
+           "ENCOUNTER_WRITE_OUTCOMES=1 build/release/test_golden --gtest_filter=Outcome.TheTable*\n"
+           "and say in the commit why";
+  }
+}
+
+TEST(Outcome, TheTableHasEverySceneTwice) {
+  std::set<std::string> scenes, expected;
+  for (const auto& entry : fs::directory_iterator(kScenes))
+    if (entry.path().extension() == ".toml") scenes.insert(entry.path().stem());
+  for (const std::string& scene : scenes)
+    for (const char* end : {",1,short", ",2,short", ",1,whole", ",2,whole"}) expected.insert(scene + end);
+  if (std::getenv("ENCOUNTER_WRITE_OUTCOMES") != nullptr) {
+    std::ofstream file(kTable);
+    file << kHeader << "\n";
+    for (const std::string& scene : scenes)
+      for (const char* length : {"short", "whole"})
+        for (const std::uint64_t seed : {1U, 2U}) file << row_of(scene, seed, length) << "\n";
+  }
+  const std::vector<std::string> rows = table();
+  ASSERT_FALSE(rows.empty());
+  EXPECT_EQ(rows.front(), kHeader);
+  std::set<std::string> found;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const std::vector<std::string> words = words_of(rows[i]);
+    ASSERT_EQ(words.size(), 6U) << rows[i];
+    found.insert(words[0] + "," + words[1] + "," + words[2]);
+  }
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Outcome, TheFirstSecondsOfEveryScene) { expect_rows("short"); }
+
+TEST(OutcomeLong, EverySceneToItsEnd) { expect_rows("whole"); }
+
+}  // namespace
+}  // namespace enc
