@@ -6,57 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "app/modules.h"
 #include "app/process.h"
-#include "core/error.h"
-#include "core/module.h"
 
 namespace enc::app {
 namespace {
-
-// The module's maker of a role, or one clear line.
-template <class Make>
-Make maker(const std::string& driver, const char* role, Make DriverModule::*member) {
-  const ModuleInfo& module = load_module(driver);
-  if (module.driver == nullptr || module.driver->*member == nullptr)
-    throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, role),
-                {}, ErrorKind::device);
-  return module.driver->*member;
-}
-
-// A real machine is shown its commands only when armed; until then it is read and stays where it is.
-class Dry final : public Manipulator {
- public:
-  explicit Dry(std::unique_ptr<Manipulator> machine) : machine_(std::move(machine)) {}
-  [[nodiscard]] Reach reach() const override { return machine_->reach(); }
-  Stamped<TipSample> read() noexcept override { return machine_->read(); }
-  void command(const Pose<'R', 'H'>&) noexcept override {}
-
- private:
-  std::unique_ptr<Manipulator> machine_;
-};
-
-// Likewise a real arm.
-class DryArm final : public HapticArm {
- public:
-  explicit DryArm(std::unique_ptr<HapticArm> arm) : arm_(std::move(arm)) {}
-  Stamped<ArmSample> read() noexcept override { return arm_->read(); }
-  void command(const Vec<'R'>&) noexcept override {}
-
- private:
-  std::unique_ptr<HapticArm> arm_;
-};
-
-// Likewise a real gripper.
-class DryGripper final : public Gripper {
- public:
-  explicit DryGripper(std::unique_ptr<Gripper> gripper) : gripper_(std::move(gripper)) {}
-  Stamped<GripSample> read() noexcept override { return gripper_->read(); }
-  void command(const Grip&) noexcept override {}
-
- private:
-  std::unique_ptr<Gripper> gripper_;
-};
 
 std::string arm_name(const models::Setup& setup) {
   const ArmMachine& machine = setup.rig.arm.machine;
@@ -149,37 +102,6 @@ std::string weak_text(const models::Setup& setup, const Scene& scene) {
         setup.scene.objects[i].name, scene.strength, object.limit * 1e3, object.wanted * 1e3);
   }
   return text;
-}
-
-void fit_out(Rig& rig, const models::Setup& setup, bool armed) {
-  if (rig.manipulator && setup.rig.manipulator.driver != "sim") {
-    auto machine =
-        maker(setup.rig.manipulator.driver, "manipulator", &DriverModule::manipulator)(reach_of(setup.rig));
-    if (armed)
-      rig.manipulator = std::move(machine);
-    else
-      rig.manipulator = std::make_unique<Dry>(std::move(machine));
-  }
-  if (rig.arm && setup.rig.arm.driver != "sim") {
-    auto arm = maker(setup.rig.arm.driver, "arm", &DriverModule::arm)();
-    if (armed)
-      rig.arm = std::move(arm);
-    else
-      rig.arm = std::make_unique<DryArm>(std::move(arm));
-  }
-  if (rig.force && setup.rig.force.driver != "sim")
-    rig.force = maker(setup.rig.force.driver, "force sensor", &DriverModule::force)();
-  if (rig.tracker && setup.rig.tracker.driver != "sim")
-    rig.tracker = maker(setup.rig.tracker.driver, "tracker", &DriverModule::tracker)();
-  if (rig.display && setup.rig.display.driver != "sim")
-    rig.display = maker(setup.rig.display.driver, "display", &DriverModule::display)();
-  if (rig.gripper && setup.rig.gripper.driver != "sim") {
-    auto gripper = maker(setup.rig.gripper.driver, "gripper", &DriverModule::gripper)();
-    if (armed)
-      rig.gripper = std::move(gripper);
-    else
-      rig.gripper = std::make_unique<DryGripper>(std::move(gripper));
-  }
 }
 
 }  // namespace enc::app

@@ -1,10 +1,10 @@
-// What a scene builds and what it leaves out, in words; and the devices that come from modules.
+// What a scene builds and what it leaves out, in words.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "core/rig.h"
+#include "core/scene.h"
 #include "models/scene_file.h"
 
 namespace enc::app {
@@ -27,9 +27,5 @@ void print_notes(const std::vector<std::string>& notes);
 // A line for each object that is rendered less deep than it asks, because the machine cannot carry its force;
 // or nothing.
 [[nodiscard]] std::string weak_text(const models::Setup& setup, const Scene& scene);
-
-// Puts module devices in the places that the rig names. A rig with real devices is dry unless armed: commands
-// are not sent.
-void fit_out(Rig& rig, const models::Setup& setup, bool armed);
 
 }  // namespace enc::app

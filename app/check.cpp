@@ -5,8 +5,8 @@
 
 #include "app/built.h"
 #include "app/options.h"
-#include "benchmarks/trial.h"
 #include "core/arm/arm_scene.h"
+#include "trial/prepare.h"
 
 namespace enc::app {
 namespace {
@@ -55,7 +55,7 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
 
 int check(const SceneOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
-  const Scene scene = bench::prepare_setup(setup);
+  const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
   fmt::print("{}\n{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n{}\nresolved scene\n{}",
              setup.scene.title, parts_text(setup), questionnaire_text(setup), frame_graph(scene),

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
-#include "benchmarks/record_table.h"
-#include "benchmarks/trial.h"
 #include "core/error.h"
+#include "trial/measure/record_table.h"
+#include "trial/prepare.h"
 
 namespace enc::app {
 namespace {
@@ -55,10 +55,10 @@ int export_record(const ExportOptions& options) {
     throw Error(options.csv + ": is the record itself; choose another file for the table");
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
-  const Scene scene = bench::prepare_setup(setup);
+  const Scene scene = trial::prepare_setup(setup);
   Output output(options.csv);
-  bench::RecordTable table(setup, scene);
-  output.write(bench::RecordTable::header());
+  trial::RecordTable table(setup, scene);
+  output.write(trial::RecordTable::header());
   for (RecordedTick frame; record.next(frame);) output.write(table.row(frame.tick, frame.in, frame.out));
   output.close();
   return 0;

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
-#include "benchmarks/hare.h"
-#include "benchmarks/shapes.h"
 #include "core/error.h"
 #include "models/mesh_write.h"
+#include "models/shapes/hare.h"
+#include "models/shapes/shapes.h"
 #include "models/wording.h"
 
 namespace enc::app {
@@ -20,11 +20,11 @@ struct Maker {
   int fine;  // where --fine is not given
 };
 constexpr auto kMakers = std::to_array<Maker>({
-    {"ball", [](int n) { return bench::geodesic_ball(n); }, 71},
-    {"cube", [](int n) { return bench::cube(n); }, 16},
-    {"hare", [](int) { return bench::hare_mesh(); }, 1},
-    {"knot", [](int n) { return bench::knot(10 * n, n); }, 48},
-    {"turned_part", [](int n) { return bench::turned_part(n); }, 120},
+    {"ball", [](int n) { return models::geodesic_ball(n); }, 71},
+    {"cube", [](int n) { return models::cube(n); }, 16},
+    {"hare", [](int) { return models::hare_mesh(); }, 1},
+    {"knot", [](int n) { return models::knot(10 * n, n); }, 48},
+    {"turned_part", [](int n) { return models::turned_part(n); }, 120},
 });
 constexpr int kFinest = 400;  // the ball has 20 n^2 triangles
 

@@ -7,12 +7,12 @@
 
 #include "app/built.h"
 #include "app/options.h"
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "core/mesh/mesh_tree.h"
 #include "models/mesh_check.h"
 #include "models/mesh_file.h"
 #include "models/wording.h"
+#include "trial/prepare.h"
 
 namespace enc::app {
 namespace {
@@ -26,7 +26,7 @@ struct Placed {
 Placed object_of(const std::string& scene_path, const std::string& name) {
   const models::Setup setup = models::load(scene_path, "sim");
   print_notes(setup.notes);
-  const Scene scene = bench::prepare_setup(setup);
+  const Scene scene = trial::prepare_setup(setup);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     names.push_back(setup.scene.objects[i].name);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "trial/bench_module.h"
 
 namespace enc::app {
 
@@ -42,13 +43,7 @@ struct ExportOptions {
 struct ParamsOptions : SceneOptions {
   bool json = false;
 };
-struct BenchOptions {
-  std::vector<std::string> names, set;
-  std::string out;
-  std::uint64_t seed = 1;
-  std::int64_t repeats = 0;  // 0: the benchmark's own
-  bool quick = false, full = false, list = false;
-};
+using trial::BenchOptions;
 struct FitOptions {
   std::vector<std::string> loops;
   std::string out;
@@ -73,15 +68,14 @@ struct NearestOptions {
   std::string what;  // a mesh file, or SCENE#object
   std::string points;
 };
-struct QuestionnaireOptions {
-  std::string form = "vhmr_2020";
-  std::string store, answers, participant, out, results;
-  bool date = false, json = false;
-};
+using trial::QuestionnaireOptions;
 struct MeshOptions {
   std::string name, out;
   std::optional<int> fine;
 };
+
+// main(): the words of the command line to an exit code.
+int command_line(int argc, char** argv);
 
 int run(const RunOptions& options);
 int check(const SceneOptions& options);
@@ -92,10 +86,7 @@ int doctor();
 int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
 int fit(const FitOptions& options);
-int fit_ball(const FitOptions& options);
 int calibrate(const CalibrateOptions& options);
-int calibrate_points(const std::string& csv, const CalibrateOptions& options);
-int calibrate_rig(const CalibrateOptions& options);
 int nearest(const NearestOptions& options);
 int mesh(const MeshOptions& options);
 int questionnaire(const QuestionnaireOptions& options);

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
-#include "benchmarks/trial.h"
+#include "trial/prepare.h"
 
 namespace enc::app {
 
 int replay(const ReplayOptions& options) {
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
-  const Scene scene = bench::prepare_setup(setup);
+  const Scene scene = trial::prepare_setup(setup);
   const ReplayResult result = enc::replay(scene, record);
   if (result.first_difference >= 0) {
     fmt::print("differs from tick {} on: {}\n", result.first_difference, result.what);

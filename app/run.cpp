@@ -8,13 +8,14 @@
 #include <unistd.h>
 
 #include "app/built.h"
+#include "app/modules.h"
 #include "app/options.h"
 #include "app/process.h"
 #include "app/run_report.h"
-#include "benchmarks/press_measure.h"
-#include "benchmarks/probe_measure.h"
-#include "benchmarks/trial.h"
 #include "core/error.h"
+#include "trial/measure/press_measure.h"
+#include "trial/measure/probe_measure.h"
+#include "trial/trial.h"
 
 namespace enc::app {
 namespace {
@@ -27,19 +28,6 @@ double pace_of(const std::string& text) {
   if (bad != std::errc() || end != text.data() + text.size() || !(factor > 0.0) || !std::isfinite(factor))
     throw Error("--pace '" + text + "': expected free, wall, or a positive number such as 0.1 or 10");
   return factor;
-}
-
-// Of the devices that the scene names.
-bool all_simulated(const models::Setup& setup) {
-  const SceneSpec& scene = setup.scene;
-  const RigSpec& rig = setup.rig;
-  const auto simulated = [](bool named, const std::string& driver) { return !named || driver == "sim"; };
-  return simulated(scene.manipulator.has_value(), rig.manipulator.driver) &&
-         simulated(scene.arm.has_value(), rig.arm.driver) &&
-         simulated(scene.force.has_value(), rig.force.driver) &&
-         simulated(scene.tracker.has_value(), rig.tracker.driver) &&
-         simulated(scene.display.has_value(), rig.display.driver) &&
-         simulated(scene.gripper.has_value(), rig.gripper.driver);
 }
 
 void show_progress(double share) {
@@ -64,37 +52,40 @@ int run(const RunOptions& options) {
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
-  bench::PressMeasure presses(setup);
-  bench::ProbeMeasure pushes;
-  bench::FingerMeasure fingers;
-  bench::TrialOptions trial_options;
+  trial::PressMeasure presses(setup);
+  trial::ProbeMeasure pushes;
+  trial::FingerMeasure fingers;
+  trial::TrialOptions trial_options;
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
   trial_options.pace = pace_of(options.pace);
-  // Real devices live in wall time (decisions 9), and the simulated ones then follow.
-  if (!all_simulated(setup) && trial_options.pace != 1.0) {
-    if (options.pace != "free") throw Error("--pace: a rig with real devices runs at wall pace only");
-    trial_options.pace = 1.0;
-  }
-  trial_options.fit_out = [&](Rig& rig) { fit_out(rig, setup, options.armed); };
-  trial_options.watch = [&](const bench::Glance& glance) {
+  trial_options.drivers = load_module;
+  trial_options.armed = options.armed;
+  trial_options.watch = [&](const trial::Glance& glance) {
     presses.see(glance);
     pushes.see(glance);
     fingers.see(glance);
   };
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) trial_options.progress = show_progress;
-  bench::Trial trial(
+  trial::Trial trial(
       setup, trial_options);  // everything that can be refused is refused here, before a record is begun
   const std::unique_ptr<RecordWriter> record = record_for(options, setup);
   print_notes(setup.notes);  // of a scene that is not refused
   trial.record_to(record.get());
   const double started = cpu_seconds();
-  const bench::TrialResult result = trial.run();
+  const trial::TrialResult result = trial.run();
   if (record) record->close();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const RunReport report{setup, trial.scene(), result, presses, pushes, fingers, started};
+  const RunReport report{setup,
+                         trial.scene(),
+                         result,
+                         presses,
+                         pushes,
+                         fingers,
+                         trial.has_world() ? trial.world().physics().elements() : 0,
+                         started};
   fmt::print("{}", options.json ? run_json(report) : run_text(report));
   if (record && record->full()) throw Error(record->error());
   if (result.diverged_at >= 0)

@@ -12,9 +12,9 @@ using Json = nlohmann::ordered_json;
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-Json meetings_json(const bench::FingerMeasure& measure) {
+Json meetings_json(const trial::FingerMeasure& measure) {
   Json all = Json::array();
-  for (const bench::Meeting& m : measure.meetings())
+  for (const trial::Meeting& m : measure.meetings())
     all.push_back({{"object", m.object},
                    {"prepared_s", number(m.prepared)},
                    {"arrived_s", number(m.arrived)},
@@ -27,9 +27,9 @@ Json meetings_json(const bench::FingerMeasure& measure) {
   return all;
 }
 
-Json presses_json(const bench::PressMeasure& measure) {
+Json presses_json(const trial::PressMeasure& measure) {
   Json list = Json::array();
-  for (const bench::PressFigures& p : measure.presses()) {
+  for (const trial::PressFigures& p : measure.presses()) {
     if (std::isnan(p.miss)) continue;
     list.push_back({{"approach_mm_s", number(p.approach_speed * 1e3)},
                     {"miss_mm", number(p.miss * 1e3)},
@@ -43,9 +43,9 @@ Json presses_json(const bench::PressMeasure& measure) {
   return list;
 }
 
-Json pushes_json(const bench::ProbeMeasure& measure) {
+Json pushes_json(const trial::ProbeMeasure& measure) {
   Json list = Json::array();
-  for (const bench::PushFigures& p : measure.pushes())
+  for (const trial::PushFigures& p : measure.pushes())
     list.push_back({{"peak_force_N", number(p.peak_force)},
                     {"peak_deflection_mm", number(p.peak_deflection * 1e3)},
                     {"work_in_mJ", number(p.work_in * 1e3)},
@@ -55,7 +55,7 @@ Json pushes_json(const bench::ProbeMeasure& measure) {
 }
 
 // Of a machine that holds a deflection against a force.
-void press_figures(Json& json, const bench::PressMeasure& presses) {
+void press_figures(Json& json, const trial::PressMeasure& presses) {
   json["rmse_press_N"] = number(presses.rmse_press());
   json["rmse_release_N"] = number(presses.rmse_release());
   json["energy_in_mJ"] = presses.energy_in() * 1e3;
@@ -100,6 +100,7 @@ std::string run_json(const RunReport& r) {
   json["started_cpu_ms"] = r.started * 1e3;
   json["peak_memory_MiB"] = peak_memory_mb();
   json["threads"] = thread_count();
+  json["mujoco_elements"] = r.elements;
   json["libraries"] = mapped_libraries();
   json["state_hash"] = fmt::format("{:016x}", r.result.hash);
   return json.dump(2) + "\n";

@@ -7,12 +7,12 @@
 
 #include "app/built.h"
 #include "app/process.h"
-#include "benchmarks/statistics.h"
+#include "models/order_statistics.h"
 
 namespace enc::app {
 namespace {
 
-std::string modes_line(const bench::TrialResult& result) {
+std::string modes_line(const trial::TrialResult& result) {
   std::string text;
   for (int i = 0; i < kModes; ++i) {
     const double time = result.mode_time[static_cast<std::size_t>(i)];
@@ -24,25 +24,25 @@ std::string modes_line(const bench::TrialResult& result) {
 
 // One entry for each press: speed, miss and its bound, all in the units people think in.
 template <class F>
-std::string each(const std::vector<bench::PressFigures>& presses, const F& figure) {
+std::string each(const std::vector<trial::PressFigures>& presses, const F& figure) {
   std::string text;
-  for (const bench::PressFigures& press : presses) {
+  for (const trial::PressFigures& press : presses) {
     if (std::isnan(press.miss)) continue;
     text += (text.empty() ? "" : " / ") + figure(press);
   }
   return text;
 }
 
-double peak(const std::vector<bench::PressFigures>& presses, double bench::PressFigures::*figure) {
+double peak(const std::vector<trial::PressFigures>& presses, double trial::PressFigures::*figure) {
   double most = 0.0;
-  for (const bench::PressFigures& press : presses) most = std::max(most, press.*figure);
+  for (const trial::PressFigures& press : presses) most = std::max(most, press.*figure);
   return most;
 }
 
-std::string range_text(const std::vector<bench::PressFigures>& presses) {
+std::string range_text(const std::vector<trial::PressFigures>& presses) {
   double low = INFINITY;
   double high = -INFINITY;
-  for (const bench::PressFigures& press : presses) {
+  for (const trial::PressFigures& press : presses) {
     if (std::isnan(press.force_at_limit)) continue;
     low = std::min(low, press.force_at_limit);
     high = std::max(high, press.force_at_limit);
@@ -53,13 +53,13 @@ std::string range_text(const std::vector<bench::PressFigures>& presses) {
 std::string press_lines(const RunReport& r) {
   if (r.scene.impedance) return "";
   const auto& presses = r.presses.presses();
-  const auto met = [](const bench::PressFigures& p) { return !std::isnan(p.miss); };
+  const auto met = [](const trial::PressFigures& p) { return !std::isnan(p.miss); };
   if (std::none_of(presses.begin(), presses.end(), met)) return "";
   std::string text;
   text += fmt::format(
       "force       peak {:.2f} N, {} (true); deflection peak {:.3f} mm (true), limit {:.1f} mm\n",
-      peak(presses, &bench::PressFigures::peak_force), range_text(presses),
-      peak(presses, &bench::PressFigures::peak_deflection) * 1e3, r.scene.objects.front().limit * 1e3);
+      peak(presses, &trial::PressFigures::peak_force), range_text(presses),
+      peak(presses, &trial::PressFigures::peak_deflection) * 1e3, r.scene.objects.front().limit * 1e3);
   const auto newtons = [](double x) {
     return std::isnan(x) ? std::string("none") : fmt::format("{:.3f} N", x);
   };
@@ -93,9 +93,9 @@ std::string press_lines(const RunReport& r) {
 
 // One entry for each push of the test rig.
 template <class F>
-std::string each_push(const std::vector<bench::PushFigures>& pushes, const F& figure) {
+std::string each_push(const std::vector<trial::PushFigures>& pushes, const F& figure) {
   std::string text;
-  for (const bench::PushFigures& push : pushes) text += (text.empty() ? "" : " / ") + figure(push);
+  for (const trial::PushFigures& push : pushes) text += (text.empty() ? "" : " / ") + figure(push);
   return text;
 }
 
@@ -125,9 +125,9 @@ std::string push_lines(const RunReport& r) {
 
 // One entry for each time that the arm was told to prepare.
 template <class F>
-std::string each_meeting(const std::vector<bench::Meeting>& meetings, const F& figure) {
+std::string each_meeting(const std::vector<trial::Meeting>& meetings, const F& figure) {
   std::string text;
-  for (const bench::Meeting& meeting : meetings) {
+  for (const trial::Meeting& meeting : meetings) {
     if (std::isnan(meeting.touched)) continue;
     text += (text.empty() ? "" : " / ") + figure(meeting);
   }
@@ -158,7 +158,7 @@ std::string finger_lines(const RunReport& r) {
   text += fmt::format("prepare     {} time{}, {} followed by a touch\n", meetings.size(),
                       meetings.size() == 1 ? "" : "s", touched);
   if (touched == 0) return text;
-  using bench::Meeting;
+  using trial::Meeting;
   text += fmt::format(
       "approach    {} mm/s (planned, of the first touch after each prepare)\n",
       each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.0f}", m.approach_speed * 1e3); }));
@@ -194,16 +194,16 @@ std::string pushed_lines(const RunReport& r) {
   const auto& pushes = r.presses.presses();
   return fmt::format("pushed      {} of {} times from outside; at most {:.2f} N and {:.3f} mm deep (true)\n",
                      pushes.size(), r.setup.scene.pusher->repeats,
-                     peak(pushes, &bench::PressFigures::peak_force),
-                     peak(pushes, &bench::PressFigures::peak_deflection) * 1e3);
+                     peak(pushes, &trial::PressFigures::peak_force),
+                     peak(pushes, &trial::PressFigures::peak_deflection) * 1e3);
 }
 
 }  // namespace
 
 StepTimes step_times(const std::vector<std::uint32_t>& ns) {
   if (ns.empty()) return {};
-  return {bench::percentile(ns, 0.5), bench::percentile(ns, 0.99), bench::percentile(ns, 0.999),
-          bench::percentile(ns, 1.0)};
+  return {models::percentile(ns, 0.5), models::percentile(ns, 0.99), models::percentile(ns, 0.999),
+          models::percentile(ns, 1.0)};
 }
 
 std::string run_text(const RunReport& r) {

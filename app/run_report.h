@@ -3,20 +3,21 @@
 
 #include <string>
 
-#include "benchmarks/finger_measure.h"
-#include "benchmarks/press_measure.h"
-#include "benchmarks/probe_measure.h"
-#include "benchmarks/trial.h"
+#include "trial/measure/finger_measure.h"
+#include "trial/measure/press_measure.h"
+#include "trial/measure/probe_measure.h"
+#include "trial/trial.h"
 
 namespace enc::app {
 
 struct RunReport {
   const models::Setup& setup;
   const Scene& scene;
-  const bench::TrialResult& result;
-  const bench::PressMeasure& presses;
-  const bench::ProbeMeasure& pushes;
-  const bench::FingerMeasure& fingers;
+  const trial::TrialResult& result;
+  const trial::PressMeasure& presses;
+  const trial::ProbeMeasure& pushes;
+  const trial::FingerMeasure& fingers;
+  int elements = 0;      // of the simulated world
   double started = 0.0;  // CPU s from the start of the process to the first tick
 };
 

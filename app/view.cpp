@@ -8,12 +8,11 @@
 
 #include "app/built.h"
 #include "app/modules.h"
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "models/scene_file.h"
 #include "sim/seen_surface.h"
 #include "sim/view/view.h"
-#include "sim/world.h"
+#include "trial/trial.h"
 
 namespace enc::app {
 namespace {
@@ -31,9 +30,9 @@ struct Moment {
   const models::Setup& setup;
   const Scene& scene;
   sim::World& world;
-  State state;
-  Outputs out;
-  Time t{};
+  const State& state;
+  const Outputs& out;
+  const Tick& now;
 };
 
 bool touching(const Moment& m) {
@@ -48,25 +47,25 @@ bool deepest(const Moment& m, double& held) {
   return held >= 0.5 * hold_time;
 }
 
-// Runs the loop until `at`, or until the person has held the first press for half of its time.
-void run_until(Moment& m, double at) {
-  Rig rig = m.world.rig();
-  Inputs in;
-  const bool waits_for_hold = std::isnan(at) && !m.world.user_done();
-  const double end = waits_for_hold ? m.world.programme_time() : std::isnan(at) ? 4.0 : at;
+// A picture is of the twin, whatever drives the rig. With a person in it and no moment given, it waits for
+// the press.
+trial::TrialOptions options_of(const ViewOptions& options, bool person) {
+  trial::TrialOptions trial;
+  trial.seed = options.seed;
+  trial.draw_all = true;
+  if (options.at || !person) trial.seconds = options.at.value_or(4.0);
+  return trial;
+}
+
+// Runs until its end, or until the person has held the first press for half of its time.
+void run_until(trial::Trial& trial, const Moment& m, bool waits_for_hold) {
   double held = 0.0;
-  while (true) {
-    const Tick k = rig.clock->next();
-    rig.read(in);
-    step(m.scene, k, in, m.state, m.out);
-    rig.write(m.out);
-    m.t = k.t;
+  while (trial.tick()) {
     if (m.world.diverged_at() >= 0)
       throw Error(
           fmt::format("the physics diverged at tick {}: {}", m.world.diverged_at(), m.world.divergence()), {},
           ErrorKind::device);
     if (waits_for_hold && deepest(m, held)) return;
-    if (seconds(k.t.time_since_epoch()) >= end - 1e-9) return;
   }
 }
 
@@ -159,13 +158,13 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
 }
 
 // What the finger has moved stands where it is now.
-void shift_objects(Moment& m) {
+void shift_objects(const Moment& m) {
   for (std::size_t i = 0; i < m.scene.objects.size(); ++i)
     sim::shift_seen(m.world.physics(), i, shift_of(m.scene.objects[i], m.state.moved));
 }
 
 // The surface as the eye should see it: dented by the true tool.
-void dent_object(Moment& m) {
+void dent_object(const Moment& m) {
   if (m.out.object < 0 || m.out.view.tool < 0 || !m.world.truth().tool_tip.finite()) return;
   const Tip<'T'>& tip = m.scene.tools[static_cast<std::size_t>(m.out.view.tool)].tip;
   const Pose<'W', 'T'> turned(m.world.q_WT(), Vec3(0, 0, 0));
@@ -261,23 +260,23 @@ int picture(const ViewOptions& options, Look look) {
     throw Error("--at-s is a time from 0 to 3600 s");
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
-  const Scene scene = bench::prepare_setup(setup);
+  const bool person = setup.scene.user.has_value() && !setup.scene.tools.empty();
+  trial::Trial trial(setup, options_of(options, person));
   print_notes(setup.notes);
-  sim::World world({setup.scene, setup.rig, setup.twin, scene, models::models_dir(options.scene) + "/mjcf",
-                    options.seed, true});
-  Moment moment{setup, scene, world, {}, {}, {}};
-  run_until(moment, options.at.value_or(kUnset));
+  const Moment moment{setup, trial.scene(), trial.world(), trial.state(), trial.outputs(), trial.now()};
+  run_until(trial, moment, person && !options.at);
 
   dent_object(moment);
   shift_objects(moment);
 
   sim::ViewRequest request;
-  request.model = world.physics().model();
-  request.data = world.physics().data();
+  request.model = trial.world().physics().model();
+  request.data = trial.world().physics().data();
   request.path = options.shot;
   request.camera = camera_for(moment, close_up);
   if (!close_up)
-    request.title = fmt::format("{}, at {:.2f} s", setup.scene.title, seconds(moment.t.time_since_epoch()));
+    request.title =
+        fmt::format("{}, at {:.2f} s", setup.scene.title, seconds(moment.now.t.time_since_epoch()));
   Point<'W'> marker;
   add_legs(moment, request);
   add_tool_frame(moment, request, marker);
@@ -285,7 +284,7 @@ int picture(const ViewOptions& options, Look look) {
   add_labels(moment, request, marker);
   module->shot(request);
   fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
-             seconds(moment.t.time_since_epoch()));
+             seconds(moment.now.t.time_since_epoch()));
   return 0;
 }
 

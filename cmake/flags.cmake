@@ -9,7 +9,7 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 # -g1: lines in backtraces and profiles at little cost.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG -g1")
-set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1 -D_GLIBCXX_ASSERTIONS") # full -g costs a third more time to build
+set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g1 -D_GLIBCXX_ASSERTIONS") # full -g costs a third more time to build, -O1 half
 
 # A replay gives the same bits on every machine: no fused multiply-add, never -ffast-math, never -march. The two others
 # change no result; they only say that nobody reads errno or traps.
@@ -19,7 +19,8 @@ add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor -Woverloaded-virtual
                     -Wold-style-cast -Wcast-qual -Wvla -Wundef)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  add_compile_options(-Wduplicated-cond -Wlogical-op -Wno-restrict)
+  # Those that are off see ghosts in std::string, where a precompiled header hides that it is the system's.
+  add_compile_options(-Wduplicated-cond -Wlogical-op -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
   # Only with the compiler we test with: a newer one has new warnings, which must not keep a newcomer from building.
   if(ENCOUNTER_WERROR AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     add_compile_options(-Werror)

@@ -101,29 +101,60 @@ for name in wheel.namelist():
   rm -rf "$work"
 }
 
+# CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.
+yardstick() {
+  local TIMEFORMAT='%U %S' user system
+  read -r user system < <({ time g++ -std=c++20 -O2 -fsyntax-only -x c++ -include regex -include functional /dev/null \
+    >/dev/null 2>&1; } 2>&1 | tail -n 1)
+  awk -v a="$user" -v b="$system" 'BEGIN { print a + b }'
+}
+
+# Minutes that a build will take: what each file takes (measured, in yardsticks), by kind, shared by the processors.
+estimate() {  # lines of `ninja -n` on standard input
+  awk -v yard="$(yardstick)" -v cores="$(nproc)" '
+    /Building CXX/ { n += /\.gch/ ? 6 : /unity/ ? 25 : /test_/ ? 12 : 4.0 }
+    END { print yard * n / cores / 60 }'
+}
+
+minutes() { awk -v m="$1" 'BEGIN { if (m < 0.75) print "less than a minute"; else printf "about %d minute%s\n", m + 0.5, m < 1.5 ? "" : "s" }'; }
+
+# Reads what ninja says: all of it goes to the log; people see how far it is, a line that renews itself in a terminal,
+# else a line a minute.
+show_progress() {
+  local line began=$SECONDS told=$SECONDS done_ all left
+  while IFS= read -r line; do
+    printf '%s\n' "$line" >>"$log"
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    done_=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+    left=$(((SECONDS - began) * (all - done_) / (done_ > 0 ? done_ : 1)))
+    if [[ -t 2 ]]; then
+      printf '\r  %d of %d steps, %d:%02d left ' "$done_" "$all" $((left / 60)) $((left % 60)) >&2
+    elif ((SECONDS - told >= 60)); then
+      told=$SECONDS
+      say "$done_ of $all steps, about $(((left + 59) / 60)) min left"
+    fi
+  done
+  [[ ! -t 2 ]] || printf '\r%40s\r' "" >&2
+}
+
 # Configures and builds. Configuring again takes half a second and sees edited presets and newly installed packages.
 build_preset() {  # PRESET TARGET...
-  local preset=$1 cache=$root/build/$1/CMakeCache.txt files minutes
+  local preset=$1 cache=$root/build/$1/CMakeCache.txt todo steps
   shift
   # A build folder that was moved or copied here points to where it came from.
   [[ ! -e $cache ]] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" || rm -rf "${cache%/*}"
-  if [[ -e $root/build/$preset/.ninja_log ]]; then
-    say "building what changed ($preset)"
-  else
-    files=$(find "$root"/{core,sim,models,hw_drivers,benchmarks,app,tests} -name '*.cpp' 2>/dev/null | wc -l)
-    [[ " $* " == *" all "* ]] || files=$(find "$root"/{core,sim,models,hw_drivers,benchmarks,app} -name '*.cpp' 2>/dev/null | wc -l)
-    minutes=$((files * 7 / $(nproc) / 60 + 1))
-    say "building ($preset, $files files), about $minutes minute$([[ $minutes == 1 ]] || echo s)"
-  fi
   # Presets differ in few objects: what one has compiled, the next takes from the cache. The cache lives in build/ like all else.
   local launcher=""
   ! command -v ccache >/dev/null || launcher=ccache
   local -x CCACHE_DIR=$root/build/ccache CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_MAXSIZE=2G
   local -x CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
   cd "$root" || exit 2  # presets are found from here; callers that care use a subshell
-  if logged cmake --preset "$preset" -DMUJOCO_ROOT="${ENCOUNTER_MUJOCO:-}" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" &&
-    logged cmake --build --preset "$preset" --target "$@"; then
-    return 0
+  if logged cmake --preset "$preset" -DMUJOCO_ROOT="${ENCOUNTER_MUJOCO:-}" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"; then
+    todo=$(ninja -C "build/$preset" -n "$@" 2>/dev/null | grep 'Building CXX' || true)
+    steps=$(grep -c . <<<"$todo" || true)
+    [[ $steps == 0 ]] || say "building ($preset, $steps files), $(minutes "$(estimate <<<"$todo")")"
+    { echo; echo "== $(date '+%F %T') ninja $preset $*"; } >>"$log"
+    if (set -o pipefail; ninja -C "build/$preset" "$@" </dev/null 2>&1 | show_progress); then return 0; fi
   fi
   local errors; errors=$(grep -A 4 -E 'error:|CMake Error|undefined reference' "$log" | head -n 40)
   if [[ -n $errors ]]; then echo "$errors" >&2; else tail -n 15 "$log" >&2; fi

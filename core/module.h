@@ -13,7 +13,7 @@ namespace enc {
 
 // Raise it when anything that crosses the border changes. A module of another number or another build is
 // refused, never tried.
-inline constexpr std::uint32_t kModuleInterface = 2;
+inline constexpr std::uint32_t kModuleInterface = 3;
 
 // Devices that a driver module makes; what it does not offer stays null. Constructors throw Error(kind
 // device) with a way out.
@@ -33,6 +33,8 @@ struct ModuleInfo {
   const DriverModule* driver = nullptr;
   const void* view = nullptr;   // sim::ViewModule, of the view module only
   const void* peers = nullptr;  // bench::PeersModule, of the peers module only
+  const void* bench = nullptr;  // trial::BenchModule, of the bench module only
+  const void* fit = nullptr;    // app::FitModule, of the fit module only
 };
 
 // The one symbol: extern "C" const enc::ModuleInfo* encounter_module();

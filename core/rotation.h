@@ -6,6 +6,9 @@
 
 namespace enc {
 
+// The least rotation that turns `from` to the direction of `to`; neither may be zero.
+[[nodiscard]] Quat rotation_between(const Vec3& from, const Vec3& to);
+
 // A rotation whose z axis is n (unit length), turned least from the reference axes. Continuous but at n = -z.
 [[nodiscard]] Quat rotation_z_to(const Vec3& n);
 

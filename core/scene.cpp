@@ -257,6 +257,13 @@ PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
   return {X_WO * at.point, X_WO * at.normal};
 }
 
+Scene::Scene() = default;
+Scene::~Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
 Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   if (spec.arm) return prepare_arm(spec, rig);
   Scene scene;

@@ -28,6 +28,14 @@ struct Tool {
 };
 
 struct Scene {
+  // Made, copied and destroyed in scene.cpp: inline, every other file would compile that anew.
+  Scene();
+  ~Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+
   std::vector<Object> objects;
   std::vector<Tool> tools;
   std::vector<Mover> movers;  // objects that move, in the order of State::moved

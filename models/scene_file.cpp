@@ -18,6 +18,13 @@
 #include "models/wording.h"
 
 namespace enc::models {
+
+Setup::Setup() = default;
+Setup::~Setup() = default;
+Setup::Setup(const Setup&) = default;
+Setup::Setup(Setup&&) noexcept = default;
+Setup& Setup::operator=(const Setup&) = default;
+Setup& Setup::operator=(Setup&&) noexcept = default;
 namespace {
 
 namespace fs = std::filesystem;

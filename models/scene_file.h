@@ -17,6 +17,14 @@
 namespace enc::models {
 
 struct Setup {
+  // Made, copied and destroyed in scene_file.cpp: inline, every other file would compile that anew.
+  Setup();
+  ~Setup();
+  Setup(const Setup&);
+  Setup(Setup&&) noexcept;
+  Setup& operator=(const Setup&);
+  Setup& operator=(Setup&&) noexcept;
+
   SceneSpec scene;
   RigSpec rig;
   sim::TwinSpec twin;

@@ -40,6 +40,11 @@ class Physics {
     return count != 0;
   }
   [[nodiscard]] std::string warning_text() const;
+  // Bodies, joints, geoms, sites, sensors, actuators, tendons, equalities: what the scene made it build.
+  [[nodiscard]] int elements() const {
+    const mjModel& m = *model_;
+    return m.nbody + m.njnt + m.ngeom + m.nsite + m.nsensor + m.nu + m.ntendon + m.neq;
+  }
   [[nodiscard]] int id(mjtObj type, const char* name) const;  // throws Error when there is none
 
   [[nodiscard]] std::vector<double> save() const;

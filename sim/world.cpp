@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/rotation.h"
 #include "sim/model.h"
 
 namespace enc::sim {
@@ -26,7 +27,7 @@ Vec3 shaft_of(const ToolSpec& tool) {
 
 // The person points the tool along the surface normal: tip towards the surface, markers away from it.
 Quat pointed(const Vec3& shaft_T, const Vec3& normal) {
-  return shaft_T.norm() > 1e-9 ? Quat::FromTwoVectors(shaft_T, normal) : Quat::Identity();
+  return shaft_T.norm() > 1e-9 ? rotation_between(shaft_T, normal) : Quat::Identity();
 }
 Quat tool_orientation(const ToolSpec& tool, const Vec3& normal) { return pointed(shaft_of(tool), normal); }
 

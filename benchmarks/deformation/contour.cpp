@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 namespace {
 
 constexpr double kSpacing = 0.05e-3;  // m, along a contour
@@ -121,4 +121,4 @@ Overlap overlap(const Contour& a, const Contour& b, double ball_radius) {
   return {either > 0.0 ? common / either : 1.0, either > 0.0 ? common_volume / either_volume : 1.0};
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

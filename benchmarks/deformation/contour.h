@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 
 using Vec2 = Eigen::Vector2d;
 using Contour = std::vector<Vec2>;
@@ -35,4 +35,4 @@ struct Overlap {
 };
 [[nodiscard]] Overlap overlap(const Contour& a, const Contour& b, double ball_radius);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

@@ -9,14 +9,12 @@
 #include <fmt/format.h>
 
 #include "benchmarks/deformation/deformation_full.h"
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/parallel.h"
 #include "core/scene.h"
 #include "models/scene_file.h"
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 namespace {
-
-constexpr double kMm = 1e3;  // per m
 
 struct Seen {
   Contour contour;
@@ -110,7 +108,7 @@ void add_plots(BenchResult& result, double radius, const Fig11Contours& referenc
 
 }  // namespace
 
-BenchResult run_deformation(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"deformation", "tennis_ball", 0, 0, {}};
   const models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
   const Scene scene = prepare(setup.scene, setup.rig);
@@ -142,4 +140,4 @@ BenchResult run_deformation(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

@@ -8,14 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/parallel.h"
 #include "core/dent/dent.h"
 #include "core/error.h"
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 namespace {
-
-constexpr double kMm = 1e3;  // per m
 
 double radius_of(const Surface& ball) { return ball.bound().radius; }
 
@@ -222,4 +220,4 @@ void add_full(BenchResult& result, const BenchContext& context, const Surface& b
   add_calibration(result, ball, reference);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

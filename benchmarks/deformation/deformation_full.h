@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "benchmarks/bench.h"
 #include "benchmarks/deformation/fig11_contour.h"
+#include "benchmarks/kit/bench.h"
 #include "core/surface.h"
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 
 // Contour of the seen ball under a spherical tip from above. `sinking`: in place of the core's constants, the
 // depth at which half of it is the ball's own and the radius of the dent, both over the ball's radius.
@@ -24,4 +24,4 @@ struct Sinking {
 void add_full(BenchResult& result, const BenchContext& context, const Surface& ball,
               const Fig11Contours& reference);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

@@ -8,10 +8,9 @@
 #include "benchmarks/report/reference.h"
 #include "core/error.h"
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 namespace {
 
-constexpr double kMm = 1e3;  // per m
 constexpr const char* kFile = "fig11_contour.csv";
 
 double probe_radius() { return sim::ball_set(sim::BallSet::nominal).probe_radius; }
@@ -110,4 +109,4 @@ Table fig11_table(const std::vector<PressedShell>& probe, const std::vector<Pres
   return table;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

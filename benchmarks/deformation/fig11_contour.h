@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "benchmarks/bench.h"
 #include "benchmarks/deformation/shell_press.h"
+#include "benchmarks/kit/bench.h"
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 
 inline constexpr double kStylus = 2e-3;                   // m, tip radius
 [[nodiscard]] const std::vector<double>& fig11_depths();  // m
@@ -39,4 +39,4 @@ struct Fig11Contours {
 [[nodiscard]] Table fig11_table(const std::vector<PressedShell>& probe,
                                 const std::vector<PressedShell>& stylus, double error);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -294,4 +294,4 @@ ShellEnergy::Value ShellEnergy::at(const Eigen::VectorXd& x) const {
   return sum.value;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

@@ -17,7 +17,7 @@
 #include "benchmarks/deformation/contour.h"
 #include "sim/ball_plant.h"
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 
 // Nodes in columns from the outer to the inner side, the pole's first.
 struct ShellMesh {
@@ -76,4 +76,4 @@ class ShellEnergy {
   std::vector<bool> fixed_;
 };
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 namespace {
 
 constexpr double kBalanced = 1e-7;  // N
@@ -125,4 +125,4 @@ std::vector<PressedShell> press_shell(const sim::BallParameters& ball, int throu
   return states;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

@@ -7,7 +7,7 @@
 #include "benchmarks/deformation/contour.h"
 #include "benchmarks/deformation/shell_energy.h"
 
-namespace enc::bench {
+namespace enc::bench::deformation {
 
 struct PressedShell {
   double depth = 0.0;       // m
@@ -21,4 +21,4 @@ struct PressedShell {
 [[nodiscard]] std::vector<PressedShell> press_shell(const sim::BallParameters& ball, int through, double fine,
                                                     const std::vector<double>& depths);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::deformation

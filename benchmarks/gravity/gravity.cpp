@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/load_scene.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/statistics.h"
 #include "sim/arm/arm_spec.h"
 
-namespace enc::bench {
+namespace enc::bench::gravity {
 
 namespace {
 
@@ -103,7 +103,7 @@ void add_figure(BenchResult& result, const std::string& id, double paper, double
   result.figures.push_back({"gravity." + id, paper, twin, unit, role, low, high, note});
 }
 
-BenchResult run_gravity(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"gravity", "wall", 0, 0, {}, {}};
   const GravityRig rig = gravity_rig(context);
   add_statics(rig, context, result);
@@ -115,4 +115,4 @@ BenchResult run_gravity(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::gravity

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "core/arm/arm.h"
 #include "models/scene_file.h"
 
-namespace enc::bench {
+namespace enc::bench::gravity {
 
 // The 13 x 18 x 25 cm of [VisHap 1] in front of the arm: where in x and z most of it is within the limits,
 // and the joints at its grid points. Which side lies along which axis no source says; here x is the shortest,
@@ -65,4 +65,4 @@ void add_catalogue(const GravityRig& rig, BenchResult& result);
 void add_twin(const GravityRig& rig, const BenchContext& context, BenchResult& result);
 void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& result);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::gravity

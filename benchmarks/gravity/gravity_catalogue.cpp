@@ -7,7 +7,7 @@
 
 #include "benchmarks/gravity/gravity.h"
 
-namespace enc::bench {
+namespace enc::bench::gravity {
 namespace {
 
 // What the tip can push with along x, y, z of R at the zero pose, motors at these torques, one axis at a
@@ -115,4 +115,4 @@ void add_catalogue(const GravityRig& rig, BenchResult& result) {
              100.0 * share_in_reach(Arm(longer), {longer.phantom.l1, 0, 0}, 5), "%", "the same with l2 = l1");
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::gravity

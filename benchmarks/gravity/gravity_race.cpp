@@ -7,11 +7,11 @@
 #include <random>
 
 #include "benchmarks/gravity/gravity.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/peers/peers.h"
-#include "benchmarks/statistics.h"
 #include "core/module.h"
 
-namespace enc::bench {
+namespace enc::bench::gravity {
 namespace {
 
 constexpr std::size_t kPoses = 10'000, kChunk = 250;
@@ -155,4 +155,4 @@ void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& r
              1e-12);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::gravity

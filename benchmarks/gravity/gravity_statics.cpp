@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "benchmarks/gravity/gravity.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/statistics.h"
 
-namespace enc::bench {
+namespace enc::bench::gravity {
 namespace {
 
 constexpr double kBound = 0.05;                 // N: what is asked of equal masses
@@ -200,4 +200,4 @@ void add_statics(const GravityRig& rig, const BenchContext& context, BenchResult
     result.plots.push_back(map(rig, box, context.quick ? 13 : 27));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::gravity

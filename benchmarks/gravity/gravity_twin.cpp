@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "benchmarks/gravity/gravity.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/statistics.h"
 #include "sim/arm/arm_model.h"
 
-namespace enc::bench {
+namespace enc::bench::gravity {
 namespace {
 
 // The twin's bodies alone, without devices.
@@ -287,7 +287,6 @@ Still left_alone(const GravityRig& rig, double payload, Compensation form, const
 }
 
 void add_drift(const GravityRig& rig, BenchResult& result) {
-  constexpr double kPlate = 0.020;  // kg
   using enum Compensation;
   struct Case {
     const char *id, *name;
@@ -330,4 +329,4 @@ void add_twin(const GravityRig& rig, const BenchContext& context, BenchResult& r
   add_drift(rig, result);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::gravity

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/bench.h"
 #include "benchmarks/identification/identification_trial.h"
-#include "benchmarks/parallel.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
 
-namespace enc::bench {
+namespace enc::bench::identification {
 namespace {
 
 // The first is what must hold; the others say what it rests on.
@@ -50,7 +50,7 @@ struct Tally {
 Tally tally(const Trials& trials, std::size_t number) {
   Tally t;
   for (const IdentificationTrial& trial : trials)
-    for (const BallEstimate& e : trial.fit.estimates) {
+    for (const trial::BallEstimate& e : trial.fit.estimates) {
       if (e.number != number) continue;
       ++t.trials;
       t.inside += trial.holds(e) ? 1 : 0;
@@ -61,15 +61,15 @@ Tally tally(const Trials& trials, std::size_t number) {
 // Over all numbers of the ball's law that every loop tells.
 double inside_percent(const Trials& trials) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < kNearer; ++i) sum += tally(trials, i).inside_percent();
-  return sum / static_cast<double>(kNearer);
+  for (std::size_t i = 0; i < trial::kNearer; ++i) sum += tally(trials, i).inside_percent();
+  return sum / static_cast<double>(trial::kNearer);
 }
 
 // "rubber_modulus" of "rubber_modulus_MPa".
 std::string bare(std::size_t number) {
-  const std::string_view name = ball_numbers()[number].name;
+  const std::string_view name = trial::ball_numbers()[number].name;
   const std::size_t unit = name.find_last_of('_');
-  const bool has_unit = ball_numbers()[number].unit != 1.0 || name.ends_with("_s");
+  const bool has_unit = trial::ball_numbers()[number].unit != 1.0 || name.ends_with("_s");
   return std::string(has_unit ? name.substr(0, unit) : name);
 }
 
@@ -103,12 +103,12 @@ void add_figures(BenchResult& result, const std::array<Trials, 6>& all) {
   const std::size_t trials = all[0].size();
   // Of fewer, a share says nothing.
   const double least = trials >= 50 ? 90.0 : kUnset;
-  for (std::size_t i = 0; i <= kNearer; ++i) {
+  for (std::size_t i = 0; i <= trial::kNearer; ++i) {
     const Tally t = tally(all[0], i);
     add(bare(i) + ".inside_percent", t.inside_percent(), "%", least, kUnset,
         fmt::format("injected value in the 95 % interval, {} trials", trials));
     // A hundredth of nearer's size, 0.1 mm, is 1 um.
-    const bool place = i == kNearer;
+    const bool place = i == trial::kNearer;
     add(bare(i) + (place ? ".width_um.median" : ".width_percent.median"), 100.0 * median(t.widths),
         place ? "um" : "%", kUnset, place ? kUnset : 20.0,
         place ? "full width of the interval of where the ball stands"
@@ -128,10 +128,10 @@ Table case_table(const std::array<Trials, 6>& all) {
       "Injected value inside of the 95 % interval, of all trials; median of its full width over the value",
       {"case", "trials"},
       {}};
-  for (std::size_t i = 0; i < kNearer; ++i) table.columns.push_back(bare(i));
+  for (std::size_t i = 0; i < trial::kNearer; ++i) table.columns.push_back(bare(i));
   for (std::size_t c = 0; c < all.size(); ++c) {
     std::vector<std::string> row{cases()[c].what, fmt::format("{}", all[c].size())};
-    for (std::size_t i = 0; i < kNearer; ++i) {
+    for (std::size_t i = 0; i < trial::kNearer; ++i) {
       const Tally t = tally(all[c], i);
       row.push_back(fmt::format("{}; {:.1f} %", t.inside, 100.0 * median(t.widths)));
     }
@@ -156,12 +156,12 @@ Plot recovered_plot(const Trials& trials) {
             false,
             {},
             "Bars: 95 % intervals. Each ball has all eight numbers drawn at once, and the fit begins at 1."};
-  for (std::size_t i = 0; i < kNearer; ++i) {
-    const double nominal = value_of(ball_numbers()[i], {});
+  for (std::size_t i = 0; i < trial::kNearer; ++i) {
+    const double nominal = trial::value_of(trial::ball_numbers()[i], {});
     Series series{bare(i), {}, {}, {}, {}, Mark::bars};
     for (const IdentificationTrial& trial : trials) {
       const models::Interval& found = trial.fit.estimates[i].interval;
-      series.x.push_back(value_of(ball_numbers()[i], trial.truth) / nominal);
+      series.x.push_back(trial::value_of(trial::ball_numbers()[i], trial.truth) / nominal);
       series.y.push_back(found.value / nominal);
       series.low.push_back((found.value - found.half) / nominal);
       series.high.push_back((found.value + found.half) / nominal);
@@ -181,16 +181,18 @@ Plot error_plot(const Trials& trials) {
       false,
       {},
       "Inside of -1 to 1 the interval holds the injected value: about 95 of 100 of each number should be."};
-  Series band{"interval", {-0.5, static_cast<double>(kNearer) + 0.5}, {0.0, 0.0}, {-1.0, -1.0}, {1.0, 1.0},
-              Mark::band};
+  Series band{"interval", {-0.5, static_cast<double>(trial::kNearer) + 0.5},
+              {0.0, 0.0}, {-1.0, -1.0},
+              {1.0, 1.0}, Mark::band};
   Series points{"trials", {}, {}, {}, {}, Mark::points};
-  for (std::size_t i = 0; i <= kNearer; ++i) {
+  for (std::size_t i = 0; i <= trial::kNearer; ++i) {
     plot.x_names.push_back(bare(i));
     for (std::size_t n = 0; n < trials.size(); ++n) {
       const models::Interval& found = trials[n].fit.estimates[i].interval;
       points.x.push_back(static_cast<double>(i) +
                          0.7 * (static_cast<double>(n) / static_cast<double>(trials.size()) - 0.5));
-      points.y.push_back((found.value - value_of(ball_numbers()[i], trials[n].truth)) / found.half);
+      points.y.push_back((found.value - trial::value_of(trial::ball_numbers()[i], trials[n].truth)) /
+                         found.half);
     }
   }
   plot.series = {band, points};
@@ -210,7 +212,7 @@ Plot width_plot(const std::array<Trials, 6>& all) {
       "fastest branch; a wall to be found as well costs the modulus a factor, and little else."};
   for (const std::size_t c : {0U, 4U, 5U}) {
     Series series{cases()[c].what, {}, {}, {}, {}, Mark::bars};
-    for (std::size_t i = 0; i < kNearer; ++i) {
+    for (std::size_t i = 0; i < trial::kNearer; ++i) {
       const Tally t = tally(all[c], i);
       series.x.push_back(static_cast<double>(i) + 0.15 * static_cast<double>(plot.series.size()));
       series.y.push_back(100.0 * median(t.widths));
@@ -219,14 +221,14 @@ Plot width_plot(const std::array<Trials, 6>& all) {
     }
     plot.series.push_back(std::move(series));
   }
-  for (std::size_t i = 0; i < kNearer; ++i) plot.x_names.push_back(bare(i));
-  plot.series.push_back({"asked", {-0.5, static_cast<double>(kNearer) - 0.5}, {20.0, 20.0}});
+  for (std::size_t i = 0; i < trial::kNearer; ++i) plot.x_names.push_back(bare(i));
+  plot.series.push_back({"asked", {-0.5, static_cast<double>(trial::kNearer) - 0.5}, {20.0, 20.0}});
   return plot;
 }
 
 }  // namespace
 
-BenchResult run_identification(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"identification", "rig_identify", 0, 0, {}};
   const std::array<Trials, 6> all = run_all(context);
   for (const Trials& trials : all)
@@ -241,4 +243,4 @@ BenchResult run_identification(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::identification

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
-#include "benchmarks/identification/ball_fit.h"
+#include "benchmarks/kit/bench.h"
 #include "models/scene_file.h"
+#include "trial/fit/ball_fit.h"
 
-namespace enc::bench {
+namespace enc::bench::identification {
 
 // What is pressed and how, and what the fit is told about it.
 struct IdentificationCase {
@@ -24,18 +24,18 @@ struct IdentificationCase {
 };
 
 struct IdentificationTrial {
-  StandingBall truth;
-  BallFit fit;
+  trial::StandingBall truth;
+  trial::BallFit fit;
   double simulated = 0.0;  // s
   // Is the injected value inside of the interval?
-  [[nodiscard]] bool holds(const BallEstimate& estimate) const;
+  [[nodiscard]] bool holds(const trial::BallEstimate& estimate) const;
 };
 
 // What the rig of a set-up measures: readings while the probe presses.
-[[nodiscard]] Pushes pushes_of_run(const models::Setup& setup, std::uint64_t seed, double& simulated);
+[[nodiscard]] trial::Pushes pushes_of_run(const models::Setup& setup, std::uint64_t seed, double& simulated);
 
 // Modulus within 15 %, the others within 30 % of the nominal ball, drawn by the seed.
 [[nodiscard]] IdentificationTrial identify_once(const BenchContext& context, const IdentificationCase& which,
                                                 std::uint64_t seed);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::identification

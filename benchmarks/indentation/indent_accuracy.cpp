@@ -7,10 +7,10 @@
 
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/stiffness/push_study.h"
-#include "benchmarks/trial.h"
 #include "core/loop_model.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
+namespace enc::bench::indentation {
 namespace {
 
 // Half of the filter's lag, and a threshold that the quieter of two sensors would allow. The ball's softest
@@ -32,18 +32,18 @@ Rest rest_of(const IndentStudy& study, const Words& own) {
   constexpr double kSettled = 2.0;  // s of the hold
   std::vector<double> tip, force;
   double held = 0.0;
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = study.seed;
-  options.watch = [&](const Glance& glance) {
+  options.watch = [&](const trial::Glance& glance) {
     if (glance.truth.phase != sim::Phase::hold) return;
     held += glance.scene.dt;
     if (held < kSettled) return;
     tip.push_back(glance.truth.tip.xyz[2]);
     force.push_back(glance.out.felt.xyz[2]);
   };
-  Trial(setup, options).run();
+  trial::Trial(setup, options).run();
   if (tip.empty()) return {};
-  return {peak_to_peak(tip), peak_to_peak(force)};
+  return {stiffness::peak_to_peak(tip), stiffness::peak_to_peak(force)};
 }
 
 struct Price {
@@ -54,7 +54,7 @@ struct Price {
 Price price_of(const IndentStudy& study, const Words& own) {
   const models::Setup setup =
       indent_setup(study.context.models, indentations().front(), own, study.context.set);
-  return {lowest_stable_stiffness(loop_of(setup.rig)), lowest_stable_stiffness(pushed_loop(setup)),
+  return {lowest_stable_stiffness(loop_of(setup.rig)), lowest_stable_stiffness(stiffness::pushed_loop(setup)),
           rest_of(study, own)};
 }
 
@@ -113,10 +113,11 @@ void add_trade_off(const IndentStudy& study, BenchResult& result) {
     setup.rig.force.filter = corner;
     setup.rig.contact.softest = 0.0;
     const std::vector<IndentRun> runs = indent_runs(setup, study.seed, study.context.quick ? 1 : 2);
-    for (const auto& [series, y] : {std::pair{&recorded, cell_of(runs, Reading::recorded, true).rmse},
-                                    std::pair{&truth, cell_of(runs, Reading::truth, true).rmse},
-                                    std::pair{&grip, lowest_stable_stiffness(loop_of(setup.rig)) * 1e-3},
-                                    std::pair{&pusher, lowest_stable_stiffness(pushed_loop(setup)) * 1e-3}}) {
+    for (const auto& [series, y] :
+         {std::pair{&recorded, cell_of(runs, Reading::recorded, true).rmse},
+          std::pair{&truth, cell_of(runs, Reading::truth, true).rmse},
+          std::pair{&grip, lowest_stable_stiffness(loop_of(setup.rig)) * 1e-3},
+          std::pair{&pusher, lowest_stable_stiffness(stiffness::pushed_loop(setup)) * 1e-3}}) {
       series->x.push_back(corner);
       series->y.push_back(y);
     }
@@ -145,9 +146,10 @@ void add_trade_off(const IndentStudy& study, BenchResult& result) {
 
 // The softest wall that comes to rest in the whole twin, with the filter of each set.
 void add_pushed(const IndentStudy& study, BenchResult& result) {
-  const models::Setup setup = push_setup(study.context.models, study.context.set, {kAccuracy.front()});
-  StabilityMap map(setup, study.seed, 8, 7.0 / 8.0);
-  const double lowest = map.lowest_stable(lowest_stable_stiffness(pushed_loop(setup)));
+  const models::Setup setup =
+      stiffness::push_setup(study.context.models, study.context.set, {kAccuracy.front()});
+  stiffness::StabilityMap map(setup, study.seed, 8, 7.0 / 8.0);
+  const double lowest = map.lowest_stable(lowest_stable_stiffness(stiffness::pushed_loop(setup)));
   result.figures.push_back(
       {"indentation.accuracy.pushed.lowest_stable_N_per_mm", kUnset, lowest * 1e-3, "N/mm", Role::ours,
        kUnset, kUnset,
@@ -185,4 +187,4 @@ std::vector<Cell> add_accuracy(const IndentStudy& study, const std::vector<Cell>
   return cells;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::indentation

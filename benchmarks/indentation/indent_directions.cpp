@@ -7,14 +7,14 @@
 #include <fmt/format.h>
 
 #include "benchmarks/indentation/indentation.h"
-#include "benchmarks/parallel.h"
-#include "benchmarks/record_table.h"
+#include "benchmarks/kit/parallel.h"
 #include "core/probe.h"
 #include "models/directions.h"
-#include "models/loop_csv.h"
+#include "models/fit/loop_csv.h"
 #include "sim/ball_plant.h"
+#include "trial/measure/record_table.h"
 
-namespace enc::bench {
+namespace enc::bench::indentation {
 namespace {
 
 struct Push {
@@ -86,7 +86,8 @@ Misfit misfit_of(const IndentStudy& study, const Push& push,
   misfit.weights = models::weights(directions, way_of_probe(setup.scene));
   const Response rule(models::mixed(parts, misfit.weights), 0.0, Reversal::prandtl_ishlinskii);
   const Response nearest(parts.front(), 0.0, Reversal::prandtl_ishlinskii);
-  const models::LoopData loop = models::parse_loop(table_of_run(setup, study.seed), push.name, rule.limit());
+  const models::LoopData loop =
+      models::parse_loop(trial::table_of_run(setup, study.seed), push.name, rule.limit());
   misfit.rule = rms_of(loop.moving, rule);
   misfit.nearest = rms_of(loop.moving, nearest);
   return misfit;
@@ -176,4 +177,4 @@ void add_minor_loops(const IndentStudy& study, BenchResult& result) {
   result.plots.push_back(std::move(plot));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::indentation

@@ -7,7 +7,7 @@
 
 #include "benchmarks/indentation/indentation.h"
 
-namespace enc::bench {
+namespace enc::bench::indentation {
 namespace {
 
 double centre_of(std::size_t bin) { return (static_cast<double>(bin) + 0.5) * kBin; }
@@ -166,4 +166,4 @@ void add_table2_plot(const IndentStudy& study, const std::vector<Cell>& standard
   result.plots.push_back(std::move(plot));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::indentation

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "benchmarks/indentation/indentation.h"
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/parallel.h"
 #include "sim/hand/minimum_jerk.h"
 
-namespace enc::bench {
+namespace enc::bench::indentation {
 namespace {
 
 models::Setup with_time(models::Setup setup, double time) {
@@ -160,4 +160,4 @@ void add_press_time(const IndentStudy& study, BenchResult& result) {
   add_lag(study, result);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::indentation

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/parallel.h"
-#include "benchmarks/trial.h"
+#include "benchmarks/kit/parallel.h"
 #include "core/stages.h"
 #include "sim/random.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
+namespace enc::bench::indentation {
 namespace {
 
 constexpr double kNearLimit = 0.05e-3;  // m (decisions 6)
@@ -19,7 +19,7 @@ constexpr double kNearLimit = 0.05e-3;  // m (decisions 6)
 // Looks at one press: the recorded deflection needs the point that the core has buffered at the first touch.
 class Recorder {
  public:
-  void see(const Glance& glance) {
+  void see(const trial::Glance& glance) {
     if (glance.out.mode != Mode::contact || glance.out.object < 0) return;
     const Object& object = glance.scene.objects[static_cast<std::size_t>(glance.out.object)];
     const Vec<'W'> normal = stages::nearest(object, glance.out.first_touch).normal;
@@ -81,11 +81,11 @@ Recording split(const Branch& contact, double limit) {
 
 IndentRun indent_run(const models::Setup& setup, std::uint64_t seed) {
   Recorder recorder;
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = seed;
-  options.watch = [&](const Glance& glance) { recorder.see(glance); };
-  Trial trial(setup, options);
-  const TrialResult result = trial.run();
+  options.watch = [&](const trial::Glance& glance) { recorder.see(glance); };
+  trial::Trial trial(setup, options);
+  const trial::TrialResult result = trial.run();
   IndentRun run;
   // The polynomials, whichever law is felt between them.
   run.reference = Response(setup.scene.behaviours.front().curves, 0.0);
@@ -137,4 +137,4 @@ std::vector<IndentRun> indent_runs(const models::Setup& setup, std::uint64_t fir
   return runs;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::indentation

@@ -11,7 +11,7 @@
 #include "core/response.h"
 #include "models/scene_file.h"
 
-namespace enc::bench {
+namespace enc::bench::indentation {
 
 using Words = std::vector<std::string>;
 
@@ -83,4 +83,4 @@ struct HandSpread {
 [[nodiscard]] std::vector<IndentRun> indent_runs(const models::Setup& setup, std::uint64_t first,
                                                  std::size_t count);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::indentation

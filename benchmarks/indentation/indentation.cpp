@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/work_precision.h"
 #include "benchmarks/report/reference.h"
-#include "benchmarks/work_precision.h"
 
-namespace enc::bench {
+namespace enc::bench::indentation {
 namespace {
 
 struct RunSpread {
@@ -223,7 +223,7 @@ IndentRuns IndentStudy::all(const Words& own, std::size_t count) const {
   return every;
 }
 
-BenchResult run_indentation(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"indentation", "indentation", 0, 0, {}};
   const IndentStudy study{context, paper_cells(context.models), (context.seed - 1) * 1000 + 1,
                           context.repeats > 0 ? static_cast<std::size_t>(context.repeats)
@@ -264,4 +264,4 @@ BenchResult run_indentation(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::indentation

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
 #include "benchmarks/indentation/indent_run.h"
+#include "benchmarks/kit/bench.h"
 
-namespace enc::bench {
+namespace enc::bench::indentation {
 
 // A cell of Table 2 for each indentation and way: index 2 i for pressing, 2 i + 1 for releasing.
 inline constexpr std::size_t kCells = 6;
@@ -68,4 +68,4 @@ void add_directions(const IndentStudy& study, BenchResult& result);
 // Turning at 2 and at 4 mm, against the rig's ball.
 void add_minor_loops(const IndentStudy& study, BenchResult& result);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::indentation

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/parallel.h"
 #include "benchmarks/plane_button/plane_button.h"
 
-namespace enc::bench {
+namespace enc::bench::plane_button {
 namespace {
 
 using sim::Phase;
@@ -30,15 +30,15 @@ Settings joined(Settings a, const Settings& b) {
   return a;
 }
 
-struct Runs {
+struct ButtonRuns {
   PressTrace slow, late, gradual, sudden;
 };
 
-Runs all_runs(const BenchContext& context) {
+ButtonRuns button_runs(const BenchContext& context) {
   const std::string slow = context.quick ? "6" : "12";
   const Settings one{"user.approach_mm_s=[20]"};
   const Settings high = live(joined(one, kHighGain));
-  Runs runs;
+  ButtonRuns runs;
   const std::array<std::function<void()>, 4> all{
       [&] {
         runs.slow = press_trace(
@@ -127,7 +127,7 @@ double given_back(const PressTrace& trace) {
   return 1e3 * sum;
 }
 
-void sudden_figures(const Runs& runs, const Report& report) {
+void sudden_figures(const ButtonRuns& runs, const Report& report) {
   report.figure("button.gradual.step", greatest_step(runs.gradual, 1e-3), "N",
                 "high gain (1000, 300, 1500 N/m), gradual change: in a ms", 0.0, 0.4);
   report.figure("button.sudden.step", greatest_step(runs.sudden, 1e-3), "N",
@@ -163,7 +163,7 @@ Series over_time(const std::string& name, const PressTrace& trace) {
   return series;
 }
 
-void plots(const Runs& runs, const Law& law, const Law& wall, const Report& report) {
+void button_plots(const ButtonRuns& runs, const Law& law, const Law& wall, const Report& report) {
   Plot button{"plane_button_button", "Normal force over distance, button (Fig 5 right)",
               "distance of the finger (mm), negative: under the surface", "normal force (N)"};
   Plot shape{"plane_button_shape", "Gain over depth, wall and button (Fig 4)", "depth of the finger (mm)",
@@ -200,13 +200,13 @@ void plots(const Runs& runs, const Law& law, const Law& wall, const Report& repo
 }  // namespace
 
 void measure_button(const BenchContext& context, const Report& report) {
-  const Runs runs = all_runs(context);
+  const ButtonRuns runs = button_runs(context);
   const Law law = law_of(context, "button");
   slow_figures(runs.slow, law.does, law.stiffness, report);
   late_figures(runs.late, law.does, law.stiffness, report);
   if (runs.sudden.size() > 0) sudden_figures(runs, report);
-  plots(runs, law, law_of(context, "wall"), report);
+  button_plots(runs, law, law_of(context, "wall"), report);
   report.result().simulated += runs.slow.run.simulated + runs.late.run.simulated;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::plane_button

@@ -1,8 +1,8 @@
 #include "benchmarks/plane_button/plane_button.h"
 
-namespace enc::bench {
+namespace enc::bench::plane_button {
 
-BenchResult run_plane_button(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"plane_button", "wall", 0, 0, {}, {}};
   result.note =
       "The paper prints no units on either axis: shapes are compared, all numbers are ours. Force is the "
@@ -22,4 +22,4 @@ BenchResult run_plane_button(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::plane_button

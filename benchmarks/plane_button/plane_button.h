@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
-#include "benchmarks/trial.h"
+#include "benchmarks/kit/bench.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
+namespace enc::bench::plane_button {
 
 // What a run was, tick by tick, by the truth; `believed` is what the core took the depth for.
 struct PressTrace {
@@ -21,7 +21,7 @@ struct PressTrace {
   std::vector<double> speed;     // of the tip, m/s
   std::vector<sim::Phase> phase;
   std::vector<char> contact;  // the core's mode
-  TrialResult run;
+  trial::TrialResult run;
   double cpu = 0.0;  // s of its thread
   [[nodiscard]] std::size_t size() const { return t.size(); }
 };
@@ -92,4 +92,4 @@ void measure_button(const BenchContext& context, const Report& report);
 void measure_step(const BenchContext& context, const Report& report);       // 20 mm, in free space
 void measure_precision(const BenchContext& context, const Report& report);  // error over run time
 
-}  // namespace enc::bench
+}  // namespace enc::bench::plane_button

@@ -5,7 +5,7 @@
 
 #include "benchmarks/plane_button/plane_button.h"
 
-namespace enc::bench {
+namespace enc::bench::plane_button {
 namespace {
 
 // A quick press by a hand that does not tremble: a hand's noise is drawn once for each step of the physics,
@@ -80,4 +80,4 @@ void measure_precision(const BenchContext& context, const Report& report) {
   report.result().tables.push_back(std::move(table));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::plane_button

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
 #include "benchmarks/plane_button/plane_button.h"
 #include "core/arm/arm_scene.h"
 
-namespace enc::bench {
+namespace enc::bench::plane_button {
 namespace {
 
 constexpr double kLeap = 20e-3;  // m
@@ -57,7 +57,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
                          "rig.arm.settle_ms=20"});
   models::Setup setup = load_scene(context, "wall", own);
   const Pose<'C', 'W'> X_CW = pose_of<'W', 'C'>(setup.rig.frames.W_C).inverse();
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = context.seed;
   options.seconds = kEnd;
   options.fit_out = [&](Rig& rig) {
@@ -65,7 +65,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
   };
   Leap leap;
   double sum = 0.0, n = 0.0;
-  options.watch = [&](const Glance& glance) {
+  options.watch = [&](const trial::Glance& glance) {
     const double now = seconds(glance.truth.t.time_since_epoch());
     leap.t.push_back(now - kWhen);
     leap.x.push_back((glance.truth.tip.e() - way.from).dot(way.along));
@@ -74,7 +74,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
     sum += std::pow(glance.truth.tip_velocity.norm(), 2);
     n += 1.0;
   };
-  Trial trial(std::move(setup), std::move(options));
+  trial::Trial trial(std::move(setup), std::move(options));
   const Impedance& law = *trial.scene().impedance;
   leap.ratio = damping_ratio(law.rig, law.home_mass);
   trial.run();
@@ -86,7 +86,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
 double stiffest(const BenchContext& context, const std::string& integrator) {
   constexpr double kRinging = 0.02;  // m/s
   const Law law = law_of(context, "wall");
-  const double damping = prepare_setup(load_scene(context, "wall")).impedance->rig.damping;
+  const double damping = trial::prepare_setup(load_scene(context, "wall")).impedance->rig.damping;
   double low = 1.0, high = 16.0;
   for (int i = 0; i < 7; ++i) {
     const double lambda = std::sqrt(low * high);
@@ -135,4 +135,4 @@ void measure_step(const BenchContext& context, const Report& report) {
                 "the same physics by a first-order integrator [fidelity 4]");
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::plane_button

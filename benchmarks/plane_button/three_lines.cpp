@@ -7,7 +7,7 @@
 
 #include "benchmarks/plane_button/plane_button.h"
 
-namespace enc::bench {
+namespace enc::bench::plane_button {
 namespace {
 
 using Coefficients = Eigen::Matrix<double, 6, 1>;  // offset and slope of each line
@@ -98,4 +98,4 @@ ThreeLines fit_three_lines(const Curve& curve) {
   return fit;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::plane_button

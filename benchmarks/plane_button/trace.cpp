@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/finger_measure.h"
-#include "benchmarks/load_scene.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/plane_button/plane_button.h"
-#include "benchmarks/statistics.h"
+#include "trial/measure/finger_measure.h"
 
-namespace enc::bench {
+namespace enc::bench::plane_button {
 
 std::vector<std::string> live(std::vector<std::string> more) {
   std::vector<std::string> all{"truth.tracker.rate_hz=1000",     "truth.tracker.latency_ms=0",
@@ -17,7 +17,7 @@ std::vector<std::string> live(std::vector<std::string> more) {
 }
 
 Law law_of(const BenchContext& context, const std::string& scene) {
-  const Scene prepared = prepare_setup(load_scene(context, scene));
+  const Scene prepared = trial::prepare_setup(load_scene(context, scene));
   const Object& object = prepared.objects.front();
   return {object.interaction, object.stiffness, prepared.impedance->rig.stiffness};
 }
@@ -25,11 +25,11 @@ Law law_of(const BenchContext& context, const std::string& scene) {
 PressTrace press_trace(const BenchContext& context, const std::string& scene, std::vector<std::string> own,
                        double seconds) {
   PressTrace trace;
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = context.seed;
   options.seconds = seconds;
-  options.watch = [&trace](const Glance& glance) {
-    const TrueDepth at = true_depth(glance);
+  options.watch = [&trace](const trial::Glance& glance) {
+    const trial::TrueDepth at = trial::true_depth(glance);
     const bool known = at.normal.finite();
     const Vec<'W'>& pushed = glance.truth.contact_force;
     const double force = known ? -dot(pushed, at.normal) : 0.0;
@@ -43,7 +43,7 @@ PressTrace press_trace(const BenchContext& context, const std::string& scene, st
     trace.phase.push_back(glance.truth.phase);
     trace.contact.push_back(glance.out.mode == Mode::contact ? 1 : 0);
   };
-  Trial trial(load_scene(context, scene, std::move(own)), std::move(options));
+  trial::Trial trial(load_scene(context, scene, std::move(own)), std::move(options));
   const double start = thread_seconds();
   trace.run = trial.run();
   trace.cpu = thread_seconds() - start;
@@ -51,7 +51,7 @@ PressTrace press_trace(const BenchContext& context, const std::string& scene, st
 }
 
 Line line_of(const PressTrace& trace, sim::Phase phase, Depth of, double low, double high) {
-  LineFit fit;
+  trial::LineFit fit;
   for (std::size_t i = 0; i < trace.size(); ++i) {
     if (trace.phase[i] != phase || trace.contact[i] == 0) continue;
     if (trace.depth[i] < low || trace.depth[i] > high) continue;
@@ -142,7 +142,7 @@ Curve mean_curve(const PressTrace& trace, double low, double high, double width)
 }
 
 Line line_of(const Curve& curve) {
-  LineFit fit;
+  trial::LineFit fit;
   for (std::size_t i = 0; i < curve.depth.size(); ++i) fit.add(curve.depth[i], curve.force[i]);
   return {fit.slope(), fit.r2(), fit.n};
 }
@@ -152,4 +152,4 @@ void Report::figure(const std::string& id, double value, const char* unit, const
   result_.figures.push_back({"plane_button." + id, kUnset, value, unit, Role::ours, low, high, note});
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::plane_button

@@ -5,23 +5,23 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/plane_button/plane_button.h"
-#include "benchmarks/statistics.h"
 
-namespace enc::bench {
+namespace enc::bench::plane_button {
 namespace {
 
 constexpr double kFrom = 2e-3, kTo = 10e-3;  // m: the depth of the fit
 using sim::Phase;
 
-struct Runs {
+struct WallRuns {
   PressTrace live, slide, late, seen;
 };
 
 // Slowly: the damping of the law adds to the spring while the finger moves.
-Runs all_runs(const BenchContext& context) {
+WallRuns wall_runs(const BenchContext& context) {
   const std::vector<std::string> press{"user.approach_mm_s=[50]", "user.press_s=5", "user.release_s=5"};
   std::vector<std::string> sliding = press;
   sliding.insert(sliding.end(), {"user.press_s=2", "user.release_s=1", "user.depth_mm=8", "user.slide_mm=30",
@@ -29,7 +29,7 @@ Runs all_runs(const BenchContext& context) {
   // No slack: the depth is what vision says, whatever the prop says.
   std::vector<std::string> alone = press;
   alone.emplace_back("rig.contact.leave_gap_mm=0.001");
-  Runs runs;
+  WallRuns runs;
   const std::array<std::function<void()>, 4> all{
       [&] { runs.live = press_trace(context, "wall", live(press)); },
       [&] { runs.late = press_trace(context, "wall", press); },
@@ -62,7 +62,7 @@ double loop_width(const PressTrace& trace) {
   return 0.5 * (press / n - release / m);
 }
 
-void live_figures(const Runs& runs, double law, const Report& report) {
+void live_figures(const WallRuns& runs, double law, const Report& report) {
   const PressTrace& trace = runs.live;
   const Line press = line_of(trace, Phase::press, Depth::truth, kFrom, kTo);
   const Line release = line_of(trace, Phase::release, Depth::truth, kFrom, kTo);
@@ -88,12 +88,12 @@ void speed_figures(const BenchContext& context, const Report& report) {
   constexpr int kRepeats = 3;
   std::vector<double> times, ns;
   for (int i = 0; i < kRepeats; ++i) {
-    TrialOptions options;
+    trial::TrialOptions options;
     options.seed = context.seed;
     options.seconds = context.quick ? 1.0 : 6.0;
-    Trial trial(load_scene(context, "wall", {"user.approach_mm_s=[200]"}), std::move(options));
+    trial::Trial trial(load_scene(context, "wall", {"user.approach_mm_s=[200]"}), std::move(options));
     const double start = thread_seconds();
-    const TrialResult run = trial.run();
+    const trial::TrialResult run = trial.run();
     times.push_back(run.simulated / (thread_seconds() - start));
     ns.insert(ns.end(), run.step_ns.begin(), run.step_ns.end());
   }
@@ -104,7 +104,7 @@ void speed_figures(const BenchContext& context, const Report& report) {
   report.figure("arm.step.p99_9", 1e-3 * percentile(ns, 0.999), "us", "step(), wall clock", 0.0, 20.0);
 }
 
-void late_figures(const Runs& runs, double law, const Report& report) {
+void late_figures(const WallRuns& runs, double law, const Report& report) {
   const PressTrace& trace = runs.late;
   const Line press = line_of(trace, Phase::press, Depth::believed, kFrom, kTo);
   report.figure("wall.late.slope", press.slope, "N/m",
@@ -137,7 +137,7 @@ Series series_of(const std::string& name, const PressTrace& trace, Phase phase, 
   return series;
 }
 
-void plots(const Runs& runs, double law, const Report& report) {
+void wall_plots(const WallRuns& runs, double law, const Report& report) {
   Plot wall{"plane_button_wall", "Normal force over distance, wall (Fig 5 left)",
             "distance of the finger (mm), negative: under the surface", "normal force (N)"};
   Series shape{"the law (shape of Fig 4)", {-10.0, 0.0, 2.0}, {1e-2 * law, 0.0, 0.0}};
@@ -164,13 +164,13 @@ void plots(const Runs& runs, double law, const Report& report) {
 }  // namespace
 
 void measure_wall(const BenchContext& context, const Report& report) {
-  const Runs runs = all_runs(context);
+  const WallRuns runs = wall_runs(context);
   const double law = law_of(context, "wall").stiffness;
   speed_figures(context, report);
   live_figures(runs, law, report);
   late_figures(runs, law, report);
-  plots(runs, law, report);
+  wall_plots(runs, law, report);
   report.result().simulated += runs.live.run.simulated + runs.late.run.simulated;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::plane_button

@@ -9,7 +9,7 @@
 #include "models/csv_reader.h"
 #include "models/wording.h"
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r";
@@ -126,4 +126,4 @@ std::string next_participant(const Answers& answers) {
   return std::to_string(largest + 1);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

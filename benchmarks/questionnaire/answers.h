@@ -12,7 +12,7 @@
 
 #include "benchmarks/questionnaire/form.h"
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 
 struct Answer {
   std::string participant;               // a number or a code, never a name
@@ -41,4 +41,4 @@ Answers append_answers(const std::string& path, const Form& form, std::vector<An
 // it is an Error with its place. The end of the input is an Error, too.
 [[nodiscard]] Answer ask(const Form& form, std::istream& in, std::ostream& out, bool again);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "models/wording.h"
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 namespace {
 
 class LockedFile {
@@ -125,4 +125,4 @@ Answers append_answers(const std::string& path, const Form& form, std::vector<An
   return all;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

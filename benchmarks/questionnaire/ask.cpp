@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "models/wording.h"
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 namespace {
 
 class Interview {
@@ -72,4 +72,4 @@ Answer ask(const Form& form, std::istream& in, std::ostream& out, bool again) {
   return answer;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

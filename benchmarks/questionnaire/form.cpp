@@ -12,7 +12,7 @@
 #include "models/toml_reader.h"
 #include "models/wording.h"
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ Form load_form(const std::string& models, const std::string& name) {
   return parse_form(models::csv_text(path, "form", "a TOML file"), path);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 
 // A step of the scale, a group of items, or what somebody has used before.
 struct Wording {
@@ -34,4 +34,4 @@ struct Form {
 [[nodiscard]] Form load_form(const std::string& models, const std::string& name);
 [[nodiscard]] Form parse_form(const std::string& text, const std::string& path);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 namespace {
 
 std::string tenth(double x) { return std::isfinite(x) ? fmt::format("{:.1f}", x) : ""; }
@@ -115,4 +115,4 @@ Plot opinion_plot(const Form& form, const std::vector<ItemReference>& items,
   return plot;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

@@ -4,11 +4,11 @@
 
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/questionnaire/answers.h"
 #include "benchmarks/questionnaire/proxies.h"
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 
 struct Opinion {
   double mean = kUnset;
@@ -29,4 +29,4 @@ struct Opinion {
 [[nodiscard]] Plot opinion_plot(const Form& form, const std::vector<ItemReference>& items,
                                 const std::vector<Answer>& rows);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

@@ -8,7 +8,7 @@
 
 #include "benchmarks/report/reference.h"
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 
 std::vector<ItemReference> items_of(const Form& form, const std::string& models) {
   std::vector<ItemReference> items;
@@ -43,4 +43,4 @@ Table proxy_table(const std::vector<ItemReference>& items, const std::vector<Jud
   return table;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/questionnaire/form.h"
 #include "benchmarks/report/verdict.h"
 
-namespace enc::bench {
+namespace enc::bench::questionnaire {
 
 struct ItemReference {
   std::string name, text;
@@ -22,4 +22,4 @@ struct ItemReference {
 // Without rows where none of the figures was judged.
 [[nodiscard]] Table proxy_table(const std::vector<ItemReference>& items, const std::vector<Judged>& all);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::questionnaire

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "benchmarks/finger_measure.h"
+#include "trial/measure/finger_measure.h"
 
-namespace enc::bench {
+namespace enc::bench::reaching {
 
 // A reach has met the surface when the finger first touches the prop, or passes through the surface without
 // it.
@@ -32,22 +32,22 @@ struct ReachOutcome {
 
 class ReachMeasure {
  public:
-  void see(const Glance& glance);
+  void see(const trial::Glance& glance);
   [[nodiscard]] std::vector<ReachOutcome> reaches() const;
   [[nodiscard]] double far_speed() const { return far_.speed(); }
 
  private:
-  void begin(const Glance& glance);
-  void meet(const Glance& glance, double now);
-  void watch_contact(const Glance& glance, double now);
+  void begin(const trial::Glance& glance);
+  void meet(const trial::Glance& glance, double now);
+  void watch_contact(const trial::Glance& glance, double now);
 
   std::vector<ReachOutcome> over_;
   ReachOutcome now_;
   std::int32_t contacts_before_ = 0;
   bool begun_ = false;
   sim::Phase phase_ = sim::Phase::wait;
-  FarWatch far_;
+  trial::FarWatch far_;
   std::vector<Point<'W'>> way_;  // of the prop since it was prepared, a tick each
 };
 
-}  // namespace enc::bench
+}  // namespace enc::bench::reaching

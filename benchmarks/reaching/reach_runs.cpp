@@ -3,20 +3,20 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/reaching/reaching.h"
-#include "benchmarks/statistics.h"
 #include "core/error.h"
 
-namespace enc::bench {
+namespace enc::bench::reaching {
 namespace {
 
 ReachRan run_one(const BenchContext& context, const ReachRun& run) {
   ReachMeasure measure;
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = run.seed;
-  options.watch = [&](const Glance& glance) { measure.see(glance); };
+  options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
   models::Setup setup = load_scene(context, run.scene, run.set);
   if (run.random > 0) {
     UserSpec& user = *setup.scene.user;
@@ -24,9 +24,9 @@ ReachRan run_one(const BenchContext& context, const ReachRun& run) {
     if (!user.reaches) user.reaches.emplace();
     user.reaches->count = run.random;
   }
-  Trial trial(std::move(setup), options);
+  trial::Trial trial(std::move(setup), options);
   const double start = thread_seconds();
-  const TrialResult done = trial.run();
+  const trial::TrialResult done = trial.run();
   if (done.diverged_at >= 0) throw Error("a simulation of reaches diverged: " + done.divergence);
   return {measure.reaches(), measure.far_speed(), done.simulated, thread_seconds() - start};
 }
@@ -120,4 +120,4 @@ Series distribution(const std::string& name, std::vector<double> seconds) {
   return series;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::reaching

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/statistics.h"
 
-namespace enc::bench {
+namespace enc::bench::reaching {
 namespace {
 
 using Adder = std::function<void(const std::string& id, double value, const char* unit, double low,
@@ -229,7 +229,7 @@ void slide_part(const BenchContext& context, BenchResult& result, const Adder& a
 
 }  // namespace
 
-BenchResult run_reaching(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"reaching", "wall", 0, 0, {}, {}};
   const Adder add = [&](const std::string& id, double value, const char* unit, double low, double high,
                         const std::string& note) {
@@ -248,4 +248,4 @@ BenchResult run_reaching(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::reaching

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/reaching/reach_measure.h"
 
-namespace enc::bench {
+namespace enc::bench::reaching {
 
 using Settings = std::vector<std::string>;
 
@@ -51,4 +51,4 @@ void add_reaching_full(const BenchContext& context, BenchResult& result);
 // Cumulative distribution, %, of milliseconds.
 [[nodiscard]] Series distribution(const std::string& name, std::vector<double> seconds);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::reaching

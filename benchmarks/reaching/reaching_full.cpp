@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/reaching/reaching.h"
-#include "benchmarks/statistics.h"
 
-namespace enc::bench {
+namespace enc::bench::reaching {
 namespace {
 
 constexpr int kEach = 6;
@@ -136,4 +136,4 @@ void add_reaching_full(const BenchContext& context, BenchResult& result) {
   steps_part(context, result);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::reaching

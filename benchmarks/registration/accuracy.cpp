@@ -4,31 +4,29 @@
 #include <cmath>
 #include <numeric>
 
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/parallel.h"
 #include "core/error.h"
 #include "sim/random.h"
 
-namespace enc::bench {
+namespace enc::bench::registration {
 namespace {
-
-constexpr std::size_t kTargets = 240;
 
 // What one seed gives for every combination.
 struct OneSeed {
-  std::vector<Registration> found;
+  std::vector<models::Registration> found;
   std::vector<double> seconds;
 };
 
-OneSeed run_seed(const RegistrationRig& rig, const std::vector<TipVisit>& visits, const AccuracyStudy& study,
-                 std::uint64_t seed) {
+OneSeed run_seed(const trial::RegistrationRig& rig, const std::vector<trial::TipVisit>& visits,
+                 const AccuracyStudy& study, std::uint64_t seed) {
   const std::size_t most_frames = visits.front().frames.size();
-  const GuidedRun run = see_visits(visits, rig.X_WC, rig.camera, seed);
+  const trial::GuidedRun run = trial::see_visits(visits, rig.X_WC, rig.camera, seed);
   if (run.unseen > 0) throw Error("a place was not seen; expected all in view; see truth.camera");
   OneSeed one;
   for (const std::size_t pairs : study.pairs)
     for (const std::size_t frames : study.frames) {
-      const PointSet used(run.points.begin(), run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
-      one.found.push_back(register_points(averages(used, frames)));
+      const trial::PointSet used(run.points.begin(), run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
+      one.found.push_back(models::register_points(trial::averages(used, frames)));
       const auto spared = static_cast<double>((pairs - 1) * most_frames);
       one.seconds.push_back(run.seconds[pairs - 1] +
                             (static_cast<double>(pairs * frames) - spared) / rig.camera.rate);
@@ -36,11 +34,11 @@ OneSeed run_seed(const RegistrationRig& rig, const std::vector<TipVisit>& visits
   return one;
 }
 
-void judge(const RegistrationRig& rig, const RegistrationPlaces& places, const Registration& found,
-           Accuracy& to) {
+void judge(const trial::RegistrationRig& rig, const trial::RegistrationPlaces& places,
+           const models::Registration& found, Accuracy& to) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t t = 0; t < places.targets.size(); ++t) {
-    const Vec3 error = target_error(found.X_WC, rig.X_WC, places.targets[t]);
+    const Vec3 error = trial::target_error(found.X_WC, rig.X_WC, places.targets[t]);
     sum += error.cwiseAbs() / static_cast<double>(places.targets.size());
     to.square[t] += error.squaredNorm();
   }
@@ -60,25 +58,8 @@ double Accuracy::rms_at(std::size_t from, std::size_t to) const {
   return std::sqrt(std::accumulate(at(from), at(to), 0.0) / static_cast<double>(to - from));
 }
 
-RegistrationPlaces places_of(const RegistrationRig& rig, std::size_t most_pairs) {
-  const Arm arm(rig.believed);
-  const std::vector<Point<'W'>> all = places_in_view(arm, rig.least_dexterity, rig.X_WC, rig.camera);
-  RegistrationPlaces places;
-  places.visited = well_spread(all, most_pairs);
-  Vec3 middle = Vec3::Zero();
-  for (const Point<'W'>& p : all) middle += p.e() / static_cast<double>(all.size());
-  const std::size_t step = std::max<std::size_t>(1, all.size() / kTargets);
-  for (std::size_t i = 0; i < all.size(); i += step) places.targets.push_back(all[i]);
-  // From the middle outwards, so that both are at an end of the list.
-  const auto distance = [&](const Point<'W'>& p) { return (p.e() - middle).norm(); };
-  std::stable_sort(places.targets.begin(), places.targets.end(),
-                   [&](const Point<'W'>& a, const Point<'W'>& b) { return distance(a) < distance(b); });
-  for (const Point<'W'>& p : places.targets) places.distance.push_back(distance(p));
-  return places;
-}
-
-std::vector<Accuracy> run_accuracy(const RegistrationRig& rig, const RegistrationPlaces& places,
-                                   const std::vector<TipVisit>& visits, const AccuracyStudy& study,
+std::vector<Accuracy> run_accuracy(const trial::RegistrationRig& rig, const trial::RegistrationPlaces& places,
+                                   const std::vector<trial::TipVisit>& visits, const AccuracyStudy& study,
                                    const std::function<void(double)>& progress) {
   if (visits.size() < *std::max_element(study.pairs.begin(), study.pairs.end()))
     throw Error(
@@ -110,16 +91,16 @@ double exact_error(std::size_t count, std::uint64_t seed) {
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 v = random.normal3();
     const Pose<'W', 'C'> truth(Quat(random.normal(), v.x(), v.y(), v.z()).normalized(), random.normal3());
-    std::vector<PointPair> pairs;
+    std::vector<models::PointPair> pairs;
     for (std::size_t k = 0; k < 4 + i % 17; ++k) {
       const Point<'C'> p(Vec3(0.1 * random.normal3()));
       pairs.push_back({p, truth * p});
     }
-    const Registration found = register_points(pairs);
+    const models::Registration found = models::register_points(pairs);
     worst = std::max({worst, (found.X_WC.p() - truth.p()).norm(),
                       (found.X_WC.q().toRotationMatrix() - truth.q().toRotationMatrix()).norm()});
   }
   return worst;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::registration

@@ -8,26 +8,9 @@
 #include <functional>
 #include <vector>
 
-#include "benchmarks/registration/guided.h"
+#include "trial/guided/registration_rig.h"
 
-namespace enc::bench {
-
-// What a registration works on: the arm as believed and as it is, and the camera where it really is.
-struct RegistrationRig {
-  ArmMachine believed;
-  sim::ArmTruth arm;
-  double least_dexterity = 0.15;
-  Pose<'W', 'C'> X_WC;
-  sim::CameraTruth camera;
-};
-
-// The places of the tip that a rig offers, and which of them are used and judged.
-struct RegistrationPlaces {
-  std::vector<Point<'W'>> visited;  // well spread, the most that are used
-  std::vector<Point<'W'>> targets;  // all over the volume in view
-  std::vector<double> distance;     // of each target from the middle of the volume, m
-};
-[[nodiscard]] RegistrationPlaces places_of(const RegistrationRig& rig, std::size_t most_pairs);
+namespace enc::bench::registration {
 
 // One number of pairs and of frames; vectors are over seeds. Errors along W's axes, m.
 struct Accuracy {
@@ -50,12 +33,13 @@ struct AccuracyStudy {
 };
 // In the order of pairs, then frames. visits: of the first places, in their order, with as many frames as are
 // studied.
-[[nodiscard]] std::vector<Accuracy> run_accuracy(const RegistrationRig& rig, const RegistrationPlaces& places,
-                                                 const std::vector<TipVisit>& visits,
+[[nodiscard]] std::vector<Accuracy> run_accuracy(const trial::RegistrationRig& rig,
+                                                 const trial::RegistrationPlaces& places,
+                                                 const std::vector<trial::TipVisit>& visits,
                                                  const AccuracyStudy& study,
                                                  const std::function<void(double)>& progress = {});
 
 // Largest of random transforms' errors, without noise: position in m and rotation (of its matrix).
 [[nodiscard]] double exact_error(std::size_t count, std::uint64_t seed);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::registration

@@ -7,15 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/registration/driven_arm.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/report/reference.h"
-#include "benchmarks/statistics.h"
+#include "trial/guided/driven_arm.h"
 
-namespace enc::bench {
+namespace enc::bench::registration {
 namespace {
 
 constexpr std::size_t kPairs = 8, kFrames = 20;  // of the figures (fidelity F3)
-constexpr double kMm = 1e3;
 
 const std::vector<std::size_t> kPairCounts{4, 5, 6, 8, 12, 16, 20};
 const std::vector<std::size_t> kFrameCounts{1, 5, 20, 100};
@@ -92,18 +91,19 @@ void add_figures(const std::vector<Accuracy>& all, double paper, BenchResult& re
 }
 
 // The first places, by the arm's kinematics alone.
-std::vector<TipVisit> visits_of(const RegistrationRig& rig, const RegistrationPlaces& places,
-                                std::size_t frames) {
-  KinematicArm arm(rig.believed, rig.arm);
-  return visit_places(arm, places.visited, rig.camera.rate, frames);
+std::vector<trial::TipVisit> visits_of(const trial::RegistrationRig& rig,
+                                       const trial::RegistrationPlaces& places, std::size_t frames) {
+  trial::KinematicArm arm(rig.believed, rig.arm);
+  return trial::visit_places(arm, places.visited, rig.camera.rate, frames);
 }
 
 // The same through the twin: the arm is driven there once, and the camera sees that with each seed.
-void add_driven(const models::Setup& setup, const RegistrationRig& rig, const AccuracyStudy& base,
+void add_driven(const models::Setup& setup, const trial::RegistrationRig& rig, const AccuracyStudy& base,
                 double paper, BenchResult& result) {
-  const RegistrationPlaces places = places_of(rig, kPairs);
-  DrivenArm arm(setup);
-  const std::vector<TipVisit> visits = visit_places(arm, places.visited, rig.camera.rate, kFrames);
+  const trial::RegistrationPlaces places = trial::places_of(rig, kPairs);
+  trial::DrivenArm arm(setup);
+  const std::vector<trial::TipVisit> visits =
+      trial::visit_places(arm, places.visited, rig.camera.rate, kFrames);
   const std::vector<Accuracy> driven =
       run_accuracy(rig, places, visits, {{kPairs}, {kFrames}, base.seeds, base.first_seed});
   add_axes(
@@ -118,17 +118,19 @@ void add_driven(const models::Setup& setup, const RegistrationRig& rig, const Ac
 }
 
 // Alone on one core, because it measures time.
-std::vector<RegistrationCost> costs_of(const RegistrationRig& rig, const RegistrationPlaces& places,
-                                       std::uint64_t seed, bool quick) {
-  const GuidedRun run = see_visits(visits_of(rig, places, kFrameCounts.back()), rig.X_WC, rig.camera, seed);
+std::vector<RegistrationCost> costs_of(const trial::RegistrationRig& rig,
+                                       const trial::RegistrationPlaces& places, std::uint64_t seed,
+                                       bool quick) {
+  const trial::GuidedRun run =
+      trial::see_visits(visits_of(rig, places, kFrameCounts.back()), rig.X_WC, rig.camera, seed);
   std::vector<RegistrationCost> costs;
   for (const std::size_t pairs : kPairCounts)
     for (const std::size_t frames : kFrameCounts) {
-      const PointSet used(run.points.begin(), run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
+      const trial::PointSet used(run.points.begin(), run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
       RegistrationCost cost{pairs, frames};
       for (int i = 0; i < (quick ? 10 : 100); ++i) {
         const double start = thread_seconds();
-        const Registration found = register_points(averages(used, frames));
+        const models::Registration found = models::register_points(trial::averages(used, frames));
         const double took = thread_seconds() - start;
         if (found.rms >= 0.0 && !(took >= cost.cpu)) cost.cpu = took;
       }
@@ -139,16 +141,16 @@ std::vector<RegistrationCost> costs_of(const RegistrationRig& rig, const Registr
 
 struct Variant {
   std::string name;
-  std::function<void(RegistrationRig&)> change;
+  std::function<void(trial::RegistrationRig&)> change;
 };
 
 // What the answer depends on: noise that is assumed, and what is believed wrongly.
-Table table_of_doubts(const RegistrationRig& rig, const AccuracyStudy& base) {
+Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& base) {
   const auto noise = [](double sim::CameraTruth::*what, double value) {
-    return [what, value](RegistrationRig& r) { r.camera.*what = value; };
+    return [what, value](trial::RegistrationRig& r) { r.camera.*what = value; };
   };
   std::vector<Variant> variants{
-      {"as the rig is", [](RegistrationRig&) {}},
+      {"as the rig is", [](trial::RegistrationRig&) {}},
       {"matching 0.15 px", noise(&sim::CameraTruth::matching, 0.15)},
       {"matching 0.25 px", noise(&sim::CameraTruth::matching, 0.25)},
       {"matching 0.5 px", noise(&sim::CameraTruth::matching, 0.5)},
@@ -158,12 +160,12 @@ Table table_of_doubts(const RegistrationRig& rig, const AccuracyStudy& base) {
       {"pointing 0.5 px", noise(&sim::CameraTruth::pointing, 0.5)},
       {"disparity in whole px", noise(&sim::CameraTruth::disparity_step, 1.0)},
       {"no noise at all, encoders only",
-       [](RegistrationRig& r) {
+       [](trial::RegistrationRig& r) {
          r.camera.matching = r.camera.pointing = r.camera.standing = r.camera.disparity_step = 0.0;
        }},
   };
   if (rig.believed.kind == ArmKind::phantom)
-    variants.push_back({"arm 1 % longer than believed", [](RegistrationRig& r) {
+    variants.push_back({"arm 1 % longer than believed", [](trial::RegistrationRig& r) {
                           r.arm.machine.phantom.l1 *= 1.01;
                           r.arm.machine.phantom.l2 *= 1.01;
                         }});
@@ -173,10 +175,10 @@ Table table_of_doubts(const RegistrationRig& rig, const AccuracyStudy& base) {
                "one frame: left over, worst axis (mm)", "size of camera's over device's set"},
               {}};
   for (const Variant& variant : variants) {
-    RegistrationRig other = rig;
+    trial::RegistrationRig other = rig;
     variant.change(other);
     AccuracyStudy study{{kPairs}, {1, kFrames}, base.seeds, base.first_seed};
-    const RegistrationPlaces places = places_of(other, kPairs);
+    const trial::RegistrationPlaces places = trial::places_of(other, kPairs);
     const std::vector<Accuracy> both = run_accuracy(other, places, visits_of(other, places, kFrames), study);
     const Accuracy& averaged = accuracy_of(both, kPairs, kFrames);
     std::vector<std::string> row{variant.name};
@@ -226,7 +228,7 @@ std::vector<double> worst_axis(const std::vector<Vec3>& errors) {
   return worst;
 }
 
-BenchResult run_registration(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"registration", "vishap", 0, 0, {}};
   const double paper = [&] {
     const Reference reference = Reference::load(context.models, "registration.csv");
@@ -234,8 +236,8 @@ BenchResult run_registration(const BenchContext& context) {
   }();
   const std::string file = context.models + "/rigs/vishap.toml";
   const models::Setup setup = models::load_rig_setup(file, context.set);
-  const RegistrationRig rig = registration_rig(setup);
-  const RegistrationPlaces places = places_of(rig, kPairCounts.back());
+  const trial::RegistrationRig rig = trial::registration_rig(setup);
+  const trial::RegistrationPlaces places = trial::places_of(rig, kPairCounts.back());
   AccuracyStudy study{kPairCounts, kFrameCounts,
                       context.quick  ? 60UL
                       : context.full ? 2000UL
@@ -267,4 +269,4 @@ BenchResult run_registration(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::registration

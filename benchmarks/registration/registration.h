@@ -4,16 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/registration/accuracy.h"
 #include "models/scene_file.h"
 
-namespace enc::bench {
+namespace enc::bench::registration {
 
 inline constexpr const char* kAxisNames = "xyz";
-
-// Throws Error where the rig has no arm, or none that is simulated.
-[[nodiscard]] RegistrationRig registration_rig(const models::Setup& setup);
 
 // Of the list in which pairs and frames are each of the given ones.
 [[nodiscard]] const Accuracy& accuracy_of(const std::vector<Accuracy>& all, std::size_t pairs,
@@ -29,6 +26,6 @@ struct RegistrationCost {
 };
 
 void add_registration_plots(const std::vector<Accuracy>& all, const std::vector<RegistrationCost>& costs,
-                            const RegistrationPlaces& places, double paper, BenchResult& result);
+                            const trial::RegistrationPlaces& places, double paper, BenchResult& result);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::registration

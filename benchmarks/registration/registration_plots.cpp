@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/registration/registration.h"
-#include "benchmarks/statistics.h"
 
-namespace enc::bench {
+namespace enc::bench::registration {
 namespace {
-
-constexpr double kMm = 1e3;
 
 void add_point(Series& to, double x, const std::vector<double>& values) {
   to.x.push_back(x);
@@ -79,7 +77,7 @@ Plot frames_plot(const char* id, const char* title, const char* x_label, const s
   return plot;
 }
 
-Plot distance_plot(const std::vector<Accuracy>& all, const RegistrationPlaces& places) {
+Plot distance_plot(const std::vector<Accuracy>& all, const trial::RegistrationPlaces& places) {
   Plot plot{"registration_distance",
             "Registration: 8 pairs, over the volume in view",
             "distance from its middle (mm)",
@@ -109,7 +107,7 @@ Plot distance_plot(const std::vector<Accuracy>& all, const RegistrationPlaces& p
 }  // namespace
 
 void add_registration_plots(const std::vector<Accuracy>& all, const std::vector<RegistrationCost>& costs,
-                            const RegistrationPlaces& places, double paper, BenchResult& result) {
+                            const trial::RegistrationPlaces& places, double paper, BenchResult& result) {
   result.plots.push_back(axes_plot(all, paper));
   Plot pairs =
       frames_plot("registration_pairs", "Registration: how many pairs, how many frames", "pairs", all, paper,
@@ -138,4 +136,4 @@ void add_registration_plots(const std::vector<Accuracy>& all, const std::vector<
   result.plots.push_back(std::move(cpu));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::registration

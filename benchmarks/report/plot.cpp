@@ -29,7 +29,7 @@ std::string quoted(const std::string& text) {
 double at(const std::vector<double>& values, std::size_t i) {
   return i < values.size() && std::isfinite(values[i]) ? values[i] : kUnset;
 }
-std::string word(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : "NaN"; }
+std::string gnuplot_word(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : "NaN"; }
 
 struct Limits {
   double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -91,7 +91,8 @@ std::string data_block(const Series& s, const Plot& plot, std::size_t index, dou
     if (plot.log_x && x <= 0.0) x = kUnset;
     if (plot.log_y && y <= 0.0) y = kUnset;
     if (plot.log_y && low <= 0.0) low = floor;
-    text += fmt::format("{} {} {} {}\n", word(x + shift), word(y), word(low), word(high));
+    text += fmt::format("{} {} {} {}\n", gnuplot_word(x + shift), gnuplot_word(y), gnuplot_word(low),
+                        gnuplot_word(high));
   }
   return text + "EOD\n";
 }

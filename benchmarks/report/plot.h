@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 
 namespace enc::bench {
 

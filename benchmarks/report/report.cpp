@@ -176,13 +176,14 @@ Table contradiction_table(const std::vector<Contradiction>& contradictions) {
 }
 
 Background load_background(const std::string& models) {
-  return {contradictions(models), load_thresholds(models), items_of(load_form(models, "vhmr_2020"), models)};
+  return {contradictions(models), load_thresholds(models),
+          questionnaire::items_of(questionnaire::load_form(models, "vhmr_2020"), models)};
 }
 
 std::vector<Table> closing_tables(const Report& report) {
   const std::vector<Judged> all = judged(report.results, report.background.thresholds);
   std::vector<Table> tables{verdict_table(all), threshold_table(all),
-                            proxy_table(report.background.items, all), role_table(report),
+                            questionnaire::proxy_table(report.background.items, all), role_table(report),
                             contradiction_table(report.background.contradictions)};
   std::erase_if(tables, [](const Table& t) { return t.rows.empty(); });
   for (Table& t : tables) drop_empty_columns(t);

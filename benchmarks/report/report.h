@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/questionnaire/proxies.h"
 #include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/verdict.h"
@@ -19,7 +19,7 @@ namespace enc::bench {
 struct Background {
   std::vector<Contradiction> contradictions;
   std::vector<Threshold> thresholds;
-  std::vector<ItemReference> items;
+  std::vector<questionnaire::ItemReference> items;
 };
 [[nodiscard]] Background load_background(const std::string& models);
 

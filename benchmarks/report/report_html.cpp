@@ -81,7 +81,7 @@ bool is_number(const std::string& text) {
          text.find_first_of("0123456789") != std::string::npos;
 }
 
-std::string table(const Table& t) {
+std::string html_table(const Table& t) {
   std::string text = "<div class=\"wide\"><table>\n<thead><tr>";
   for (const std::string& column : t.columns) text += "<th>" + escaped(column) + "</th>";
   text += "</tr></thead>\n<tbody>\n";
@@ -114,7 +114,7 @@ std::string head(const Report& report) {
   return text + "</p></nav>\n";
 }
 
-std::string picture(const Report& report, const Plot& plot) {
+std::string html_picture(const Report& report, const Plot& plot) {
   const auto svg = report.drawings.find(plot.id);
   if (svg == report.drawings.end()) return {};
   return fmt::format(
@@ -124,7 +124,7 @@ std::string picture(const Report& report, const Plot& plot) {
 
 std::string plots(const Report& report) {
   std::string text;
-  for (const Plot* plot : ordered_plots(report)) text += picture(report, *plot);
+  for (const Plot* plot : ordered_plots(report)) text += html_picture(report, *plot);
   if (text.empty()) return {};
   return "<h2>Plots</h2>\n<p class=\"note\">Black, open circles or dashed: the paper. Colours: the twin. "
          "Crosses at the "
@@ -136,17 +136,18 @@ std::string plots(const Report& report) {
 
 std::string report_html(const Report& report) {
   std::string text = head(report) + plots(report);
-  text += "<h2>What was run</h2>\n" + table(overview_table(report));
+  text += "<h2>What was run</h2>\n" + html_table(overview_table(report));
   for (const BenchResult& result : report.results) {
-    text += fmt::format("<h2 id=\"{0}\">{0}</h2>\n{1}", escaped(result.name), table(figure_table(result)));
+    text +=
+        fmt::format("<h2 id=\"{0}\">{0}</h2>\n{1}", escaped(result.name), html_table(figure_table(result)));
     for (const Table& t : result.tables)
-      if (t.source.empty()) text += "<h3>" + escaped(t.title) + "</h3>\n" + table(t);
+      if (t.source.empty()) text += "<h3>" + escaped(t.title) + "</h3>\n" + html_table(t);
   }
   for (const Table& t : closing_tables(report)) {
     text += fmt::format("<h2 id=\"{}\">{}</h2>\n", escaped(t.id), escaped(t.title));
     if (t.id == report.verdict.id)
-      text += "<div class=\"one\">" + picture(report, report.verdict) + "</div>\n";
-    text += table(t);
+      text += "<div class=\"one\">" + html_picture(report, report.verdict) + "</div>\n";
+    text += html_table(t);
   }
   return text + "</body>\n</html>\n";
 }

@@ -31,7 +31,7 @@ std::string line(const std::vector<std::string>& cells) {
   return text + "\n";
 }
 
-std::string table(const Table& t) {
+std::string markdown_table(const Table& t) {
   std::string text = line(t.columns) + "|";
   for (std::size_t i = 0; i < t.columns.size(); ++i) text += "---|";
   text += "\n";
@@ -39,7 +39,7 @@ std::string table(const Table& t) {
   return text + (t.note.empty() ? "" : "\n" + plain(t.note) + "\n");
 }
 
-std::string picture(const Report& report, const Plot& plot) {
+std::string markdown_picture(const Report& report, const Plot& plot) {
   std::string text;
   if (report.drawings.contains(plot.id)) text = fmt::format("![{}]({}.svg)\n\n", plain(plot.title), plot.id);
   return text + fmt::format("{} ([data]({}.plot.csv))\n", plain(plot.caption), plot.id);
@@ -50,19 +50,19 @@ std::string picture(const Report& report, const Plot& plot) {
 std::string report_markdown(const Report& report) {
   std::string text = "# Encounter: benchmark report\n\n";
   for (const Fact& fact : facts(report)) text += fmt::format("- **{}**: {}\n", fact.name, plain(fact.value));
-  text += "\n" + table(overview_table(report));
+  text += "\n" + markdown_table(overview_table(report));
   for (const Plot* plot : ordered_plots(report)) {
-    text += fmt::format("\n## {}\n\n{}", plain(plot->title), picture(report, *plot));
+    text += fmt::format("\n## {}\n\n{}", plain(plot->title), markdown_picture(report, *plot));
   }
   for (const BenchResult& result : report.results) {
-    text += fmt::format("\n## {}\n\n{}", plain(result.name), table(figure_table(result)));
+    text += fmt::format("\n## {}\n\n{}", plain(result.name), markdown_table(figure_table(result)));
     for (const Table& t : result.tables)
-      if (t.source.empty()) text += fmt::format("\n### {}\n\n{}", plain(t.title), table(t));
+      if (t.source.empty()) text += fmt::format("\n### {}\n\n{}", plain(t.title), markdown_table(t));
   }
   for (const Table& t : closing_tables(report)) {
     text += fmt::format("\n## {}\n\n", plain(t.title));
-    if (t.id == report.verdict.id) text += picture(report, report.verdict) + "\n";
-    text += table(t);
+    if (t.id == report.verdict.id) text += markdown_picture(report, report.verdict) + "\n";
+    text += markdown_table(t);
   }
   return text;
 }

@@ -75,7 +75,7 @@ std::string range_of(const Threshold& t) {
   const std::string value = fmt::format("{:.3g}", t.value);
   return t.least == t.most ? value : fmt::format("{} ({:.3g} .. {:.3g})", value, t.least, t.most);
 }
-std::string word(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : ""; }
+std::string short_word(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : ""; }
 
 bool same(const Threshold& a, const Threshold& b) { return a.figure == b.figure && a.sign == b.sign; }
 
@@ -166,8 +166,8 @@ Table verdict_table(const std::vector<Judged>& all) {
               "the range. Felt: above it. In between: some people, or in some places. Not comparable: nobody "
               "has measured what a person can tell there."};
   for (const Judged& j : all)
-    table.rows.push_back({j.figure.id, word(j.figure.twin), j.figure.unit, range_of(j.threshold),
-                          word(j.over), felt_name(j.felt), word(j.figure.paper),
+    table.rows.push_back({j.figure.id, short_word(j.figure.twin), j.figure.unit, range_of(j.threshold),
+                          short_word(j.over), felt_name(j.felt), short_word(j.figure.paper),
                           std::isfinite(j.paper_over) ? felt_name(j.paper) : ""});
   return table;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 
 namespace enc::bench {
 

@@ -7,16 +7,16 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/parallel.h"
-#include "benchmarks/statistics.h"
-#include "benchmarks/work_precision.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/work_precision.h"
 #include "core/mode.h"
 #include "core/stages.h"
 
-namespace enc::bench {
+namespace enc::bench::session {
 namespace {
 
-SessionSample sample_of(const Glance& glance) {
+SessionSample sample_of(const trial::Glance& glance) {
   const sim::Truth& truth = glance.truth;
   const double distance = stages::nearest(glance.scene.objects.front(), truth.tip).distance;
   return {seconds(truth.t.time_since_epoch()),
@@ -31,14 +31,14 @@ SessionSample sample_of(const Glance& glance) {
 
 SessionRun run_once(const models::Setup& setup, std::uint64_t seed, std::vector<SessionSample>* drawn) {
   SessionMeasure measure(setup);
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = seed;
-  options.watch = [&](const Glance& glance) {
+  options.watch = [&](const trial::Glance& glance) {
     measure.see(glance);
     if (drawn != nullptr) drawn->push_back(sample_of(glance));
   };
   SessionRun run;
-  run.simulated = Trial(setup, options).run().simulated;
+  run.simulated = trial::Trial(setup, options).run().simulated;
   run.presses = measure.presses();
   run.change = measure.change();
   run.tension = measure.tension();
@@ -138,7 +138,7 @@ void Figures::add_distributions() {
 
 void Figures::add_machine() {
   std::int64_t beyond = 0, holds = 0, ticks = 0;
-  double over = -kInfinite, tension = 0.0;
+  double over = -trial::kInfinite, tension = 0.0;
   std::uint32_t reasons = 0;
   for (const SessionRun& run : runs_) {
     beyond += run.beyond;
@@ -174,7 +174,7 @@ void Figures::add_change(double packet_rate) {
     contacts += run.change.contacts;
   }
   if (changes == 0) return;  // too short, or the scene has no other tool
-  add("tool_change.periods.max", missed == 0 ? periods : kInfinite, "periods", kUnset, 1,
+  add("tool_change.periods.max", missed == 0 ? periods : trial::kInfinite, "periods", kUnset, 1,
       fmt::format(
           "of the tracker's packets, from the first pose of the new tool at the core to the overlay's "
           "switch; {} changes",
@@ -202,7 +202,7 @@ void add_precision(const BenchContext& context, BenchResult& result) {
 
 }  // namespace
 
-BenchResult run_session(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"session", "session", 0, 0, {}};
   std::vector<std::string> set;
   if (context.quick) set = {"user.session.duration_s=10", "user.session.change_share=[0.1, 0.2]"};
@@ -227,4 +227,4 @@ BenchResult run_session(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::session

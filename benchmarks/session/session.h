@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/session/session_measure.h"
 
-namespace enc::bench {
+namespace enc::bench::session {
 
 // A tick of the session that is drawn.
 struct SessionSample {
@@ -29,4 +29,4 @@ struct SessionRun {
 void add_session_plots(const std::vector<SessionRun>& runs, const std::vector<SessionSample>& drawn,
                        BenchResult& result);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::session

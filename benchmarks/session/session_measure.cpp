@@ -5,7 +5,7 @@
 
 #include "core/stages.h"
 
-namespace enc::bench {
+namespace enc::bench::session {
 namespace {
 
 constexpr double kImpactTime = 0.1;  // s from the first touch
@@ -17,7 +17,7 @@ double time_of(const sim::Truth& truth) { return seconds(truth.t.time_since_epoc
 }  // namespace
 
 // Each set-point against the speed, acceleration and reach that the machine promises.
-void SessionMeasure::see_command(const Glance& glance) {
+void SessionMeasure::see_command(const trial::Glance& glance) {
   const Point<'R'> command = glance.out.tip.origin();
   if (command_.finite()) {
     const double dt = glance.scene.dt;
@@ -38,7 +38,7 @@ void SessionMeasure::see_command(const Glance& glance) {
   hold_reasons_ |= glance.out.why & kHoldReasons;
 }
 
-void SessionMeasure::see_touch(const Glance& glance, SessionPress& press, const Object& object) {
+void SessionMeasure::see_touch(const trial::Glance& glance, SessionPress& press, const Object& object) {
   const sim::Truth& truth = glance.truth;
   const double now = time_of(truth);
   if (truth.touching && !touching_) {
@@ -56,7 +56,7 @@ void SessionMeasure::see_touch(const Glance& glance, SessionPress& press, const 
   press.impact = std::fmax(press.impact, force - object.response.press(deflection));
 }
 
-void SessionMeasure::see_press(const Glance& glance) {
+void SessionMeasure::see_press(const trial::Glance& glance) {
   const sim::Truth& truth = glance.truth;
   if (truth.phase == sim::Phase::approach && seen_.size() <= static_cast<std::size_t>(truth.press)) {
     seen_.resize(static_cast<std::size_t>(truth.press) + 1);
@@ -80,7 +80,7 @@ void SessionMeasure::see_press(const Glance& glance) {
   see_touch(glance, press, object);
 }
 
-void SessionMeasure::see_change(const Glance& glance) {
+void SessionMeasure::see_change(const trial::Glance& glance) {
   const sim::Truth& truth = glance.truth;
   const double now = time_of(truth);
   // The tool that the tracker has shown before; another one is news.
@@ -102,7 +102,7 @@ void SessionMeasure::see_change(const Glance& glance) {
   contacts_before_ = glance.out.contacts;
 }
 
-void SessionMeasure::see(const Glance& glance) {
+void SessionMeasure::see(const trial::Glance& glance) {
   see_command(glance);
   see_press(glance);
   see_change(glance);
@@ -112,7 +112,7 @@ void SessionMeasure::see(const Glance& glance) {
 std::vector<SessionPress> SessionMeasure::presses() const {
   std::vector<SessionPress> all = seen_;
   for (std::size_t i = 0; i < std::min(all.size(), presses_.presses().size()); ++i) {
-    const PressFigures& figures = presses_.presses()[i];
+    const trial::PressFigures& figures = presses_.presses()[i];
     all[i].miss = figures.miss;
     all[i].delay = figures.first_force_delay;
     all[i].contacts = figures.contacts;
@@ -122,4 +122,4 @@ std::vector<SessionPress> SessionMeasure::presses() const {
   return all;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::session

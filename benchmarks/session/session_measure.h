@@ -4,21 +4,21 @@
 
 #include <vector>
 
-#include "benchmarks/press_measure.h"
+#include "trial/measure/press_measure.h"
 
-namespace enc::bench {
+namespace enc::bench::session {
 
 // One reach, and the press after it unless it turned back.
 struct SessionPress {
   bool aborted = false;
   std::int32_t tool = -1;
   Vec3 normal = Vec3::Zero();            // of the place, in W: at the tool when it was nearest
-  double nearest = kInfinite;            // m, of the tool's tip to the surface; negative inside
+  double nearest = trial::kInfinite;     // m, of the tool's tip to the surface; negative inside
   double miss = kUnset, delay = kUnset;  // m, s: PressFigures
   double touch_speed = kUnset;           // m/s, true, of the tool when it meets the surface
   double impact = kUnset;  // N: most of force less the object's own at that deflection, 0.1 s from the touch
-  double peak_force = 0.0, over_limit = -kInfinite;  // N, m: PressFigures
-  std::int32_t contacts = 0;                         // of the core
+  double peak_force = 0.0, over_limit = -trial::kInfinite;  // N, m: PressFigures
+  std::int32_t contacts = 0;                                // of the core
   std::int32_t bounces = 0,
                long_bounces = 0;  // contact lost and regained within 0.2 s; lost for 20 ms or more
 };
@@ -36,7 +36,7 @@ struct ToolChange {
 class SessionMeasure {
  public:
   explicit SessionMeasure(const models::Setup& setup) : setup_(setup), presses_(setup) {}
-  void see(const Glance& glance);
+  void see(const trial::Glance& glance);
   // All that have begun, the figures of PressMeasure filled in.
   [[nodiscard]] std::vector<SessionPress> presses() const;
   [[nodiscard]] const ToolChange& change() const { return change_; }
@@ -47,13 +47,13 @@ class SessionMeasure {
   [[nodiscard]] std::int64_t ticks() const { return ticks_; }
 
  private:
-  void see_command(const Glance& glance);
-  void see_press(const Glance& glance);
-  void see_touch(const Glance& glance, SessionPress& press, const Object& object);
-  void see_change(const Glance& glance);
+  void see_command(const trial::Glance& glance);
+  void see_press(const trial::Glance& glance);
+  void see_touch(const trial::Glance& glance, SessionPress& press, const Object& object);
+  void see_change(const trial::Glance& glance);
 
   const models::Setup& setup_;
-  PressMeasure presses_;
+  trial::PressMeasure presses_;
   std::vector<SessionPress> seen_;
   ToolChange change_;
   double touched_at_ = kUnset, lost_at_ = kUnset;  // s
@@ -65,4 +65,4 @@ class SessionMeasure {
   std::uint32_t hold_reasons_ = 0;
 };
 
-}  // namespace enc::bench
+}  // namespace enc::bench::session

@@ -7,7 +7,7 @@
 
 #include "benchmarks/session/session.h"
 
-namespace enc::bench {
+namespace enc::bench::session {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -38,7 +38,7 @@ Plot share_plot(const std::vector<SessionRun>& runs, const char* id, const char*
   plot.series.push_back(cumulative(runs, "all", of));
   plot.series.push_back(cumulative(runs, "touch below 40 mm/s", slower_than(0.0, 0.040)));
   plot.series.push_back(cumulative(runs, "40 to 70 mm/s", slower_than(0.040, 0.070)));
-  plot.series.push_back(cumulative(runs, "above 70 mm/s", slower_than(0.070, kInfinite)));
+  plot.series.push_back(cumulative(runs, "above 70 mm/s", slower_than(0.070, trial::kInfinite)));
   std::erase_if(plot.series, [](const Series& s) { return s.x.empty(); });
   return plot;
 }
@@ -171,4 +171,4 @@ void add_session_plots(const std::vector<SessionRun>& runs, const std::vector<Se
   result.tables.push_back(press_table(runs));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::session

@@ -6,11 +6,11 @@
 #include <limits>
 #include <numbers>
 
-#include "benchmarks/parallel.h"
-#include "benchmarks/trial.h"
+#include "benchmarks/kit/parallel.h"
 #include "core/stages.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
+namespace enc::bench::stiffness {
 namespace {
 
 // Shares of the hold, at its end: over which is averaged (a raised cosine weighs 2 s like 1 s), and in which
@@ -158,10 +158,10 @@ double push_time(const models::Setup& setup) {
 }
 
 Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace) {
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = seed;
   options.seconds = push_time(setup);
-  Trial trial(setup, options);
+  trial::Trial trial(setup, options);
   const Observer observer(trial.scene(), trial.world(), setup);
   Hold hold;
   while (trial.tick()) {
@@ -234,4 +234,4 @@ LoopModel pushed_loop(const models::Setup& setup) {
   return loop;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::stiffness

@@ -12,7 +12,7 @@
 #include "core/loop_model.h"
 #include "models/scene_file.h"
 
-namespace enc::bench {
+namespace enc::bench::stiffness {
 
 // The tip does not come to rest: its way in the second half of the hold, peak to peak, is longer than this, m
 // [fidelity A1].
@@ -86,4 +86,4 @@ class StabilityMap {
 // sampled filter is ahead of the continuous one. Speed and acceleration limits are not in it.
 [[nodiscard]] LoopModel pushed_loop(const models::Setup& setup);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::stiffness

@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/work_precision.h"
 #include "benchmarks/report/reference.h"
-#include "benchmarks/statistics.h"
 #include "benchmarks/stiffness/stiffness_beyond.h"
-#include "benchmarks/work_precision.h"
 
-namespace enc::bench {
+namespace enc::bench::stiffness {
 namespace {
 
 constexpr double kPerMm = 1e3;  // N/m in 1 N/mm
@@ -349,7 +349,7 @@ void add_level_table(const std::vector<Level>& levels, BenchResult& result) {
 
 }  // namespace
 
-BenchResult run_stiffness(const BenchContext& given) {
+BenchResult run(const BenchContext& given) {
   BenchResult result{"stiffness", "stiffness", 0, 0, {}};
   BenchContext context = given;
   context.seed = (given.seed - 1) * 10'000 + 1;  // each push has a seed of its own: seeds 1 and 2 share none
@@ -392,4 +392,4 @@ BenchResult run_stiffness(const BenchContext& given) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::stiffness

@@ -1,10 +1,10 @@
 // Parts of the benchmark `stiffness` [VHMR Fig 3].
 #pragma once
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/stiffness/push_study.h"
 
-namespace enc::bench {
+namespace enc::bench::stiffness {
 
 // A share of the progress bar.
 using Progress = std::function<void(double)>;
@@ -40,4 +40,4 @@ void add_knee(const BenchContext& context, BenchResult& result);
 // Each effect switched off alone: what it does to the boundary and to the error.
 void add_switches(const BenchContext& context, const Progress& progress, BenchResult& result);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::stiffness

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
-#include "benchmarks/press_measure.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/stiffness/push_study.h"
+#include "trial/measure/press_measure.h"
 
-namespace enc::bench {
+namespace enc::bench::stiffness {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -38,13 +38,13 @@ Words operator+(Words a, const Words& b) {
 }
 Words of(const Pusher& pusher) { return *pusher.set == 0 ? Words{} : Words{pusher.set}; }
 
-struct Extent {
+struct BeyondExtent {
   std::vector<double> stiffnesses, boundary;  // N/m
   std::size_t pushes;
   Words hold;
 };
-Extent extent_of(const BenchContext& context) {
-  Extent e{{10, 20, 30, 100, 1000, 10000, 100000}, {1, 2, 3}, 3, {"pusher.hold_s=12"}};
+BeyondExtent beyond_extent(const BenchContext& context) {
+  BeyondExtent e{{10, 20, 30, 100, 1000, 10000, 100000}, {1, 2, 3}, 3, {"pusher.hold_s=12"}};
   if (context.quick) e = {{10, 1000}, {2}, 1, {"pusher.hold_s=6"}};
   if (context.repeats > 0) e.pushes = static_cast<std::size_t>(context.repeats);
   return e;
@@ -97,12 +97,12 @@ struct Range {
   [[nodiscard]] double worst() const { return std::max(std::abs(least), std::abs(most)); }
 };
 // Of the pushes at one stiffness.
-struct Level {
+struct BeyondLevel {
   double stiffness;
   Range error, load_error, settling, way;
 };
-std::vector<Level> levels_of(const std::vector<Run>& runs, const std::vector<double>& stiffnesses) {
-  std::vector<Level> levels;
+std::vector<BeyondLevel> beyond_levels(const std::vector<Run>& runs, const std::vector<double>& stiffnesses) {
+  std::vector<BeyondLevel> levels;
   const std::size_t pushes = runs.size() / stiffnesses.size();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (i % pushes == 0) levels.push_back({stiffnesses[i / pushes], {}, {}, {}, {}});
@@ -115,9 +115,9 @@ std::vector<Level> levels_of(const std::vector<Run>& runs, const std::vector<dou
   return levels;
 }
 
-Series series_of(const std::vector<Level>& levels, const std::string& name, bool settling, bool log) {
+Series series_of(const std::vector<BeyondLevel>& levels, const std::string& name, bool settling, bool log) {
   Series s{name, {}, {}, {}, {}, Mark::both};
-  for (const Level& level : levels) {
+  for (const BeyondLevel& level : levels) {
     s.x.push_back(level.stiffness * 1e-3);
     const double y = settling ? level.settling.most : level.load_error.worst();
     s.y.push_back(log ? std::max(y, 1e-3) : y);
@@ -126,26 +126,27 @@ Series series_of(const std::vector<Level>& levels, const std::string& name, bool
 }
 
 // The lowest stiffness that is stable, with all looked at above it, N/m; infinite where none is.
-double boundary_of(const std::vector<Level>& levels) {
+double boundary_of(const std::vector<BeyondLevel>& levels) {
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = levels.size(); i-- > 0 && levels[i].way.most <= kWander;) lowest = levels[i].stiffness;
   return lowest;
 }
 
 struct Study {
-  std::vector<Level> beyond, soft_end, paper;
+  std::vector<BeyondLevel> beyond, soft_end, paper;
 };
 
-Study study(const BenchContext& context, const Extent& extent, const Pusher& pusher, BenchResult& result) {
+Study study(const BenchContext& context, const BeyondExtent& extent, const Pusher& pusher,
+            BenchResult& result) {
   const models::Setup beyond =
       push_setup(context.models, kController + kSensor + extent.hold + of(pusher) + context.set);
   const models::Setup paper = push_setup(context.models, of(pusher) + context.set);
   Study s;
-  s.beyond =
-      levels_of(runs_of(beyond, extent.stiffnesses, extent.pushes, context.seed + 3000), extent.stiffnesses);
+  s.beyond = beyond_levels(runs_of(beyond, extent.stiffnesses, extent.pushes, context.seed + 3000),
+                           extent.stiffnesses);
   s.soft_end =
-      levels_of(runs_of(beyond, extent.boundary, extent.pushes, context.seed + 4000), extent.boundary);
-  s.paper = levels_of(runs_of(paper, extent.stiffnesses, 1, context.seed + 5000), extent.stiffnesses);
+      beyond_levels(runs_of(beyond, extent.boundary, extent.pushes, context.seed + 4000), extent.boundary);
+  s.paper = beyond_levels(runs_of(paper, extent.stiffnesses, 1, context.seed + 5000), extent.stiffnesses);
   const auto runs = static_cast<double>((extent.stiffnesses.size() + extent.boundary.size()) * extent.pushes);
   result.simulated +=
       runs * push_time(beyond) + static_cast<double>(extent.stiffnesses.size()) * push_time(paper);
@@ -159,11 +160,11 @@ void add_figures(const Study& s, const Pusher& pusher, BenchResult& result) {
     result.figures.push_back(
         {head + id, kUnset, twin, unit, Role::ours, kUnset, high, note, range.least, range.most});
   };
-  std::vector<Level> all = s.soft_end;
+  std::vector<BeyondLevel> all = s.soft_end;
   all.insert(all.end(), s.beyond.begin(), s.beyond.end());
   add("boundary_N_per_mm", boundary_of(all) * 1e-3, "N/mm", 0.003, {kUnset, kUnset},
       "lowest stiffness that was tried and came to rest, as did all above");
-  for (const Level& level : s.beyond) {
+  for (const BeyondLevel& level : s.beyond) {
     const std::string k = fmt::format("{:g}", level.stiffness * 1e-3);
     add("error_percent." + k + ".worst", level.load_error.worst(), "%", 2.0, level.load_error,
         "true load over true displacement");
@@ -180,8 +181,8 @@ Table level_table(const std::array<Study, 2>& studies) {
               {},
               "Least to greatest of the pushes."};
   for (std::size_t i = 0; i < studies.size(); ++i)
-    for (const std::vector<Level>* levels : {&studies[i].soft_end, &studies[i].beyond})
-      for (const Level& l : *levels)
+    for (const std::vector<BeyondLevel>* levels : {&studies[i].soft_end, &studies[i].beyond})
+      for (const BeyondLevel& l : *levels)
         table.rows.push_back({kPushers[i].name, fmt::format("{:g}", l.stiffness * 1e-3),
                               fmt::format("{:+.2f} .. {:+.2f}", l.load_error.least, l.load_error.most),
                               fmt::format("{:+.2f} .. {:+.2f}", l.error.least, l.error.most),
@@ -207,7 +208,7 @@ void add_plots(const std::array<Study, 2>& studies, BenchResult& result) {
                 {}};
   for (std::size_t i = 0; i < studies.size(); ++i) {
     const std::string pusher = fmt::format(", {} pusher", kPushers[i].name);
-    std::vector<Level> all = studies[i].soft_end;
+    std::vector<BeyondLevel> all = studies[i].soft_end;
     all.insert(all.end(), studies[i].beyond.begin(), studies[i].beyond.end());
     error.series.push_back(series_of(all, "damped, re-tared" + pusher, false, true));
     error.series.push_back(series_of(studies[i].paper, "as the paper" + pusher, false, true));
@@ -233,10 +234,10 @@ struct Course {
 
 // One push, every 10 ms: where the tip truly is, and the stiffness of the pusher that the core has seen.
 Course course_of(const models::Setup& setup, std::uint64_t seed) {
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = seed;
   options.seconds = push_time(setup);
-  Trial trial(setup, options);
+  trial::Trial trial(setup, options);
   const PressPoint at = pushed_point(setup.scene, trial.scene()).at;
   Course course;
   for (int i = 0; trial.tick(); ++i) {
@@ -250,7 +251,7 @@ Course course_of(const models::Setup& setup, std::uint64_t seed) {
 }
 
 // Both pushers on a very soft wall, with and without the damper; and what drives the damper.
-void add_courses(const BenchContext& context, const Extent& extent, BenchResult& result) {
+void add_courses(const BenchContext& context, const BeyondExtent& extent, BenchResult& result) {
   Plot motion{"stiffness_beyond_motion",
               "A push into a wall of 0.01 N/mm",
               "time, s",
@@ -300,7 +301,7 @@ void add_price(const BenchContext& context, BenchResult& result) {
   in_parallel(2, [&](std::size_t i) {
     models::Setup setup = load_scene(context, "tennis_ball", sets[i]);
     setup.scene.user->approach = {0.02};
-    const PressMeasure m = measured_run(setup, context.seed, simulated[i]);
+    const trial::PressMeasure m = trial::measured_run(setup, context.seed, simulated[i]);
     release[i] = m.rmse_release();
     rows[i] = {i == 0 ? "none" : "observed", fmt::format("{:.4f}", m.rmse_press()),
                fmt::format("{:.4f}", m.rmse_release()),
@@ -315,7 +316,7 @@ void add_price(const BenchContext& context, BenchResult& result) {
 }
 
 // Each part of the controller and of the sensor left out alone, soft pusher.
-void add_parts(const BenchContext& context, const Extent& extent, BenchResult& result) {
+void add_parts(const BenchContext& context, const BeyondExtent& extent, BenchResult& result) {
   struct Part {
     const char* name;
     Words set;
@@ -341,8 +342,8 @@ void add_parts(const BenchContext& context, const Extent& extent, BenchResult& r
     for (const Pusher& pusher : kPushers) {
       const models::Setup setup = push_setup(
           context.models, kController + kSensor + extent.hold + of(pusher) + part.set + context.set);
-      const std::vector<Level> l =
-          levels_of(runs_of(setup, stiffnesses, extent.pushes, context.seed + 3000), stiffnesses);
+      const std::vector<BeyondLevel> l =
+          beyond_levels(runs_of(setup, stiffnesses, extent.pushes, context.seed + 3000), stiffnesses);
       result.simulated += 3.0 * static_cast<double>(extent.pushes) * push_time(setup);
       table.rows.push_back(
           {part.name, pusher.name, fmt::format("{:.2f}", l[0].load_error.worst()),
@@ -357,7 +358,7 @@ void add_parts(const BenchContext& context, const Extent& extent, BenchResult& r
 
 void add_beyond(const BenchContext& context, const std::function<void(double)>& progress,
                 BenchResult& result) {
-  const Extent extent = extent_of(context);
+  const BeyondExtent extent = beyond_extent(context);
   const auto tell = [&](double done) {
     if (progress) progress(done);
   };
@@ -377,4 +378,4 @@ void add_beyond(const BenchContext& context, const std::function<void(double)>& 
   tell(1.0);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::stiffness

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/parallel.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/stiffness/stiffness.h"
 
-namespace enc::bench {
+namespace enc::bench::stiffness {
 
 bool Level::rendered() const {
   return std::none_of(pushes.begin(), pushes.end(), [](const Push& p) { return p.unstable(); });
@@ -184,4 +184,4 @@ void add_switches(const BenchContext& context, const Progress& progress, BenchRe
   result.tables.push_back(std::move(table));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::stiffness

@@ -6,19 +6,19 @@
 #include <memory>
 #include <random>
 
-#include "benchmarks/shapes.h"
 #include "core/mesh/mesh_tree.h"
 #include "core/rotation.h"
+#include "models/shapes/shapes.h"
 
-namespace enc::bench {
+namespace enc::bench::switching {
 namespace {
 
 class Crowd {
  public:
   explicit Crowd(std::uint64_t seed) : random_(seed) {
     for (std::size_t i = 0; i < solids_.size(); ++i)
-      solids_[i] = std::make_shared<const MeshTree>(i % 2 == 0 ? geodesic_ball(2, 0.006 + 0.002 * i)
-                                                               : cube(2, 0.010 + 0.003 * i));
+      solids_[i] = std::make_shared<const MeshTree>(i % 2 == 0 ? models::geodesic_ball(2, 0.006 + 0.002 * i)
+                                                               : models::cube(2, 0.010 + 0.003 * i));
   }
 
   Object next(std::size_t index) {
@@ -94,4 +94,4 @@ double distance_to(const Scene& scene, std::int32_t index, const Point<'W'>& p) 
   return object.surface.nearest(object.X_WO.inverse() * p).distance;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::switching

@@ -5,7 +5,7 @@
 
 #include "core/scene.h"
 
-namespace enc::bench {
+namespace enc::bench::switching {
 
 inline constexpr double kCrowdRoom = 0.3;  // m: half the side of the cube in which they stand
 
@@ -26,4 +26,4 @@ struct Nearby {
 [[nodiscard]] std::int32_t nearest_for_a_finger(const Scene& scene, const Point<'W'>& p, double radius);
 [[nodiscard]] double distance_to(const Scene& scene, std::int32_t object, const Point<'W'>& p);  // m
 
-}  // namespace enc::bench
+}  // namespace enc::bench::switching

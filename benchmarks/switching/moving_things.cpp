@@ -5,14 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
 #include "benchmarks/switching/crowd.h"
 #include "benchmarks/switching/switching.h"
-#include "benchmarks/trial.h"
 #include "sim/mujoco.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
+namespace enc::bench::switching {
 namespace {
 
 models::Setup live(const BenchContext& context, const std::string& scene, std::vector<std::string> own = {}) {
@@ -20,8 +20,8 @@ models::Setup live(const BenchContext& context, const std::string& scene, std::v
   return load_scene(context, scene, std::move(own));
 }
 
-TrialOptions options_of(const BenchContext& context) {
-  TrialOptions options;
+trial::TrialOptions options_of(const BenchContext& context) {
+  trial::TrialOptions options;
   options.seed = context.seed;
   return options;
 }
@@ -34,10 +34,10 @@ struct Row {
   std::int32_t switches = 0;
 };
 Row slide_row(const BenchContext& context, const std::string& key) {
-  Trial trial(live(context, "keypad",
-                   {"user.object=\"" + key + "\"", "user.slide_mm=40", "user.slide_mm_s=60",
-                    "user.depth_mm=1.5", "user.approach_mm_s=[50]"}),
-              options_of(context));
+  trial::Trial trial(live(context, "keypad",
+                          {"user.object=\"" + key + "\"", "user.slide_mm=40", "user.slide_mm_s=60",
+                           "user.depth_mm=1.5", "user.approach_mm_s=[50]"}),
+                     options_of(context));
   Row row;
   std::int32_t before = -1;
   double force = 0.0;
@@ -92,7 +92,7 @@ models::Setup even_hit(const BenchContext& context, double speed, double restitu
 // Speeds along the normal at the ticks where they meet and part: of the true finger, and of the ball, which
 // is the core's.
 Bounce hit_once(const BenchContext& context, double speed, double restitution) {
-  Trial trial(even_hit(context, speed, restitution), options_of(context));
+  trial::Trial trial(even_hit(context, speed, restitution), options_of(context));
   const Object& ball = trial.scene().objects[0];
   Bounce bounce{speed};
   double parted = kUnset, now = 0.0;
@@ -168,7 +168,7 @@ struct TileEnd {
   double way = kUnset, speed = kUnset;
 };
 TileEnd push_tile(const BenchContext& context, const std::string& tile) {
-  Trial trial(live(context, "tiles", {"user.object=\"" + tile + "\""}), options_of(context));
+  trial::Trial trial(live(context, "tiles", {"user.object=\"" + tile + "\""}), options_of(context));
   trial.run();
   const auto& objects = trial.setup().scene.objects;
   const auto named =
@@ -194,7 +194,7 @@ struct Running {
   Mean felt;         // of the finger, while it is neither dragged nor held
 };
 Running running_surface(const BenchContext& context) {
-  Trial trial(live(context, "drum", {"user.slide_mm=25", "user.slide_mm_s=100"}), options_of(context));
+  trial::Trial trial(live(context, "drum", {"user.slide_mm=25", "user.slide_mm_s=100"}), options_of(context));
   const Object& drum = trial.scene().objects[0];
   const Vec<'W'> way = drum.X_WO * Vec<'O'>(drum.interaction.way);
   const double grip = 0.3 * trial.setup().twin.arm.prop_friction;
@@ -250,7 +250,7 @@ void move_things(const BenchContext& context, BenchResult& result, const Adder& 
   add("tile.end_speed", 1e3 * bar.speed, "mm/s", "there", 0.0, 0.0);
   add("tile.blocked", 1e3 * way.way, "mm",
       "the other one, pushed first: it stops at its neighbour, 7.5 mm away", 7.49, 7.51);
-  const double wanted = prepare_setup(live(context, "drum")).objects[0].prop_speed();
+  const double wanted = trial::prepare_setup(live(context, "drum")).objects[0].prop_speed();
   const Running drum = running_surface(context);
   const auto error = [&](const Mean& runs) { return 100.0 * std::abs(runs.value() / wanted - 1.0); };
   add("drum.speed_error", std::max(error(drum.there), error(drum.back)), "%",
@@ -264,4 +264,4 @@ void move_things(const BenchContext& context, BenchResult& result, const Adder& 
       kUnset, kUnset);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::switching

@@ -7,30 +7,31 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/switching/crowd.h"
-#include "benchmarks/switching/finger_loop.h"
-#include "benchmarks/trial.h"
+#include "trial/finger_loop.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
-
-double FingerLoop::time(const Point<'W'>& p) {
-  put(p);
-  const double start = thread_seconds();
-  step(scene, tick_, in, state, out);
-  return thread_seconds() - start;
-}
+namespace enc::bench::switching {
 
 namespace {
+
+// Of step() alone, with the finger at p, s of this thread.
+double time_of(trial::FingerLoop& loop, const Point<'W'>& p) {
+  loop.put(p);
+  const double start = thread_seconds();
+  loop.go();
+  return thread_seconds() - start;
+}
 
 constexpr double kNoise = 1e-3;        // m, of the finger along each axis [V35]
 constexpr double kSeenNoise = 0.5e-3;  // m, of the rig [VisHap 2.1]
 
 // A finger that is seen as it is: the choice itself is judged.
 Scene bare_scene(const BenchContext& context) {
-  return prepare_setup(load_scene(context, "keypad", {}, {"rig.tracker.prediction=\"hold\""}));
+  return trial::prepare_setup(load_scene(context, "keypad", {}, {"rig.tracker.prediction=\"hold\""}));
 }
 
 Point<'W'> anywhere(std::mt19937_64& random) {
@@ -42,7 +43,7 @@ Point<'W'> anywhere(std::mt19937_64& random) {
 double share_right(const BenchContext& context, int queries) {
   Scene scene = bare_scene(context);
   fill_with_crowd(scene, 50, context.seed);
-  FingerLoop loop(std::move(scene));
+  trial::FingerLoop loop(std::move(scene));
   std::mt19937_64 random(context.seed);
   int right = 0;
   for (int i = 0; i < queries; ++i) {
@@ -79,7 +80,7 @@ double switches_per_second(Scene scene, double hysteresis, const Chatter& finger
   constexpr Duration kOld = std::chrono::milliseconds(50);
   constexpr int kFrom = 1000;  // ticks until the filter knows the finger
   scene.follow.hysteresis = hysteresis;
-  FingerLoop loop(std::move(scene));
+  trial::FingerLoop loop(std::move(scene));
   std::mt19937_64 random(seed);
   const bool pictures = finger.shown == Shown::pictures;
   std::normal_distribution<double> bell(0.0, pictures ? kSeenNoise : kNoise);
@@ -103,7 +104,7 @@ void chatter(const BenchContext& context, BenchResult& result, const Adder& add)
   const double seconds = context.quick ? 5.0 : 60.0;
   std::vector<double> hysteresis;
   for (int mm = 0; mm <= 14; ++mm) hysteresis.push_back(1e-3 * mm);
-  const Scene keypad = bare_scene(context), whole = prepare_setup(load_scene(context, "keypad"));
+  const Scene keypad = bare_scene(context), whole = trial::prepare_setup(load_scene(context, "keypad"));
   // 12 mm over the gap between two keys: a finger that looks for the next one.
   const Point<'W'> gap(0.010, 0.010, 0.012);
   std::vector<Chatter> cases{{"two balls that face each other", {0, 0, 0}},
@@ -158,12 +159,12 @@ void timing(const BenchContext& context, BenchResult& result, const Adder& add) 
   for (const std::size_t count : counts) {
     Scene scene = bare_scene(context);
     fill_with_crowd(scene, count, context.seed);
-    FingerLoop loop(std::move(scene));
+    trial::FingerLoop loop(std::move(scene));
     std::vector<double> step_s, all_s;
     for (int i = 0; i < ticks; ++i) {
       const double t = 1e-3 * i;  // up to 300 mm/s
       const Point<'W'> p(0.25 * std::sin(0.9 * t), 0.25 * std::sin(1.3 * t + 1.0), 0.25 * std::sin(0.7 * t));
-      step_s.push_back(loop.time(p));
+      step_s.push_back(time_of(loop, p));
       if (i % 10 != 0) continue;
       const double start = thread_seconds();
       const Nearby all = brute_force(loop.scene, p);
@@ -199,7 +200,7 @@ void timing(const BenchContext& context, BenchResult& result, const Adder& add) 
 
 }  // namespace
 
-BenchResult run_switching(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"switching", "keypad", 0, 0, {}, {}};
   const Adder add = [&](const std::string& id, double value, const char* unit, const std::string& note,
                         double low, double high) {
@@ -220,4 +221,4 @@ BenchResult run_switching(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::switching

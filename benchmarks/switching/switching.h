@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 
-namespace enc::bench {
+namespace enc::bench::switching {
 
 using Adder = std::function<void(const std::string& id, double value, const char* unit,
                                  const std::string& note, double low, double high)>;
@@ -22,4 +22,4 @@ void slide_over_keys(const BenchContext& context, BenchResult& result, const Add
 // Ball, tiles and drum in the twin.
 void move_things(const BenchContext& context, BenchResult& result, const Adder& add);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::switching

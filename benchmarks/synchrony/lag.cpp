@@ -9,7 +9,7 @@
 
 #include "core/frames.h"
 
-namespace enc::bench {
+namespace enc::bench::synchrony {
 namespace {
 
 using Signal = Eigen::Map<const Eigen::VectorXd>;
@@ -43,4 +43,4 @@ double lag_of(std::span<const double> earlier, std::span<const double> later, do
   return (static_cast<double>(best - all.begin()) + between - static_cast<double>(reach)) * period;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::synchrony

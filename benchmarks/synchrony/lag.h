@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace enc::bench {
+namespace enc::bench::synchrony {
 
 // The delay of `later` behind `earlier`, s, at which their correlation (each with its own mean taken out) is
 // highest; negative where `later` comes first. Both are sampled every `period` s. Searched to `most` s either
@@ -12,4 +12,4 @@ namespace enc::bench {
 [[nodiscard]] double lag_of(std::span<const double> earlier, std::span<const double> later, double period,
                             double most);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::synchrony

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "benchmarks/synchrony/lag.h"
-#include "benchmarks/trial.h"
 #include "core/stages.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
+namespace enc::bench::synchrony {
 namespace {
 
 constexpr double kLongestLag = 0.1;  // s
@@ -16,7 +16,7 @@ constexpr double kPeriod = 1e-3;     // s, at which signals are compared for the
 double seconds_of(Time t) { return seconds(t.time_since_epoch()); }
 
 // What the machine itself says: its tip against the buffered first touch.
-double haptic_deflection(const Glance& g, const Object& object) {
+double haptic_deflection(const trial::Glance& g, const Object& object) {
   if (g.out.mode != Mode::contact || !g.out.first_touch.finite()) return 0.0;
   const Vec<'W'> normal = stages::nearest(object, g.out.first_touch).normal;
   const Point<'W'> tip = g.scene.X_WR * g.in.tip.value.X_RH.origin();
@@ -29,7 +29,7 @@ double visual_deflection(const Inputs& in) {
 
 class SyncMeasure {
  public:
-  void see(const Glance& g) {
+  void see(const trial::Glance& g) {
     const Object& object = g.scene.objects.front();
     SyncSample s;
     s.t = seconds_of(g.tick.t);
@@ -51,7 +51,7 @@ class SyncMeasure {
   SyncRun run;
 
  private:
-  void watch_limit(const Glance& g, const Object& object) {
+  void watch_limit(const trial::Glance& g, const Object& object) {
     const auto press = static_cast<std::size_t>(std::max(0, g.out.contacts - 1));
     if (g.out.mode != Mode::contact || press >= run.over.size()) return;
     const double depth = -(stages::nearest(object, g.truth.tip).distance + g.truth.tip_radius);
@@ -128,11 +128,11 @@ double SyncRun::peak_speed() const {
 
 SyncRun run_sync(const models::Setup& setup, std::uint64_t seed) {
   SyncMeasure measure;
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = seed;
-  options.watch = [&](const Glance& glance) { measure.see(glance); };
-  measure.run.simulated = Trial(setup, options).run().simulated;
+  options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
+  measure.run.simulated = trial::Trial(setup, options).run().simulated;
   return std::move(measure.run);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::synchrony

@@ -9,7 +9,7 @@
 
 #include "models/scene_file.h"
 
-namespace enc::bench {
+namespace enc::bench::synchrony {
 
 // A cycle, m. Deflections are 0 where nothing is deflected.
 struct SyncSample {
@@ -47,4 +47,4 @@ struct SyncRun {
 
 [[nodiscard]] SyncRun run_sync(const models::Setup& setup, std::uint64_t seed);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::synchrony

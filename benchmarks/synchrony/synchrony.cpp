@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/work_precision.h"
 #include "benchmarks/report/reference.h"
-#include "benchmarks/work_precision.h"
 
-namespace enc::bench {
+namespace enc::bench::synchrony {
 namespace {
 
 using Set = std::vector<std::string>;
@@ -229,7 +229,7 @@ void add_display_figures(BenchResult& result, const SyncStudy& study) {
 
 }  // namespace
 
-BenchResult run_synchrony(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   BenchResult result{"synchrony", "synchrony", 0, 0, {}};
   SyncStudy study = study_of(context);
   run_all(study, context, result.simulated);
@@ -256,4 +256,4 @@ BenchResult run_synchrony(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::synchrony

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/synchrony/sync_trial.h"
 
-namespace enc::bench {
+namespace enc::bench::synchrony {
 
 // What a run came to; its samples are gone.
 struct SyncSummary {
@@ -69,4 +69,4 @@ struct SyncStudy {
 void add_sync_tables(const SyncStudy& study, BenchResult& result);
 void add_sync_plots(const SyncStudy& study, BenchResult& result);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::synchrony

@@ -5,7 +5,7 @@
 
 #include "benchmarks/synchrony/synchrony.h"
 
-namespace enc::bench {
+namespace enc::bench::synchrony {
 namespace {
 
 constexpr double kMillimetres = 1e3, kMilliseconds = 1e3;
@@ -256,4 +256,4 @@ void add_sync_plots(const SyncStudy& study, BenchResult& result) {
   result.plots.push_back(rate_plot(study));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::synchrony

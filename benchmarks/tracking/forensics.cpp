@@ -5,15 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
 #include "benchmarks/tracking/motion.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "models/scene_file.h"
 #include "sim/random.h"
 #include "sim/tracker_plant.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 constexpr double kPeriod = 1e-3;  // s [VHMR 2]
@@ -183,4 +183,4 @@ void add_forensics(const BenchContext& context, BenchResult& result) {
   add_table(table1_of(Reference::load(context.models, "table1.csv")), result);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

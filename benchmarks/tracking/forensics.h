@@ -2,11 +2,11 @@
 // and the method on the paper's own Table 1 [VHMR 4.1].
 #pragma once
 
-#include "benchmarks/bench.h"
-#include "models/latency_fit.h"
+#include "benchmarks/kit/bench.h"
+#include "models/fit/latency_fit.h"
 #include "sim/twin_spec.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 // A tool that a machine carries along x, y and z, past the simulated tracker [VHMR 4.1].
 struct LogSpec {
@@ -26,4 +26,4 @@ struct MadeLog {
 // Figures tracking.forensics.*, a plot of found over injected, and a table of what Table 1 says by itself.
 void add_forensics(const BenchContext& context, BenchResult& result);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -9,7 +9,7 @@
 #include "sim/hand/minimum_jerk.h"
 #include "sim/random.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 // A straight move that begins at `start`: speeds up, runs, slows down by the same acceleration.
@@ -165,4 +165,4 @@ Motion stopped(const Motion& motion, double at) {
           }};
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

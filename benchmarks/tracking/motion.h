@@ -9,7 +9,7 @@
 
 #include "core/frames.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 struct MotionPoint {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};  // m, m/s
@@ -67,4 +67,4 @@ struct ReachSpec {
 // The motion until it meets something, at `at`, s; from there it stands still.
 [[nodiscard]] Motion stopped(const Motion& motion, double at);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -8,15 +8,15 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/bench.h"
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
-#include "benchmarks/press_measure.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
 #include "benchmarks/tracking/prediction_rows.h"
 #include "benchmarks/tracking/prediction_run.h"
+#include "trial/measure/press_measure.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 constexpr std::array<sim::Packets, 2> kPackets{sim::Packets::polled, sim::Packets::event};
@@ -249,10 +249,10 @@ std::array<double, 3> step_costs(const models::Setup& setup, const BenchContext&
       const std::size_t k = (i + static_cast<std::size_t>(round)) % 3;
       models::Setup with = setup;
       with.rig.tracker.prediction = kPredictions[k];
-      TrialOptions options;
+      trial::TrialOptions options;
       options.seed = context.seed;
       options.seconds = context.quick ? 3.0 : 10.0;
-      const TrialResult run = Trial(with, options).run();
+      const trial::TrialResult run = trial::Trial(with, options).run();
       medians[k].push_back(median(run.step_ns));
       simulated += run.simulated;
     }
@@ -275,7 +275,7 @@ std::array<std::array<double, 5>, 3> misses(const models::Setup& setup, const Be
     user.press_time = user.release_time = 0.8;
     user.hold_time = 0.1;
     user.depth = 0.002;
-    miss[i] = measured_run(with, context.seed + i % seeds, time[i]).presses().front().miss;
+    miss[i] = trial::measured_run(with, context.seed + i % seeds, time[i]).presses().front().miss;
   });
   for (const double t : time) simulated += t;
   std::array<std::array<double, 5>, 3> result{};
@@ -320,7 +320,7 @@ void add_loop(BenchResult& result, const models::Setup& setup, const BenchContex
 
 void add_prediction(const BenchContext& context, BenchResult& result) {
   Bench bench{load_scene(context, "tennis_ball"), {}, {}, {}};
-  bench.scene = prepare_setup(bench.setup);
+  bench.scene = trial::prepare_setup(bench.setup);
   bench.X_WC = pose_of<'W', 'C'>(bench.setup.twin.frames.W_C);
   bench.rows = prediction_rows(bench.setup.twin.hexapod.acceleration,
                                table1_of(Reference::load(context.models, "table1.csv")));
@@ -347,4 +347,4 @@ void add_prediction(const BenchContext& context, BenchResult& result) {
   add_loop(result, bench.setup, context);
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

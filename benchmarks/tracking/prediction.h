@@ -2,11 +2,11 @@
 // the paper's motion and over motions it does not have [decisions 21].
 #pragma once
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 // Adds figures `tracking.predicted.*`, plots and tables to the benchmark `tracking`.
 void add_prediction(const BenchContext& context, BenchResult& result);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 // Every axis moves alike, so that the distance is what the paper's norm of three separate axes is.
@@ -143,4 +143,4 @@ std::vector<PredictionRow> prediction_rows(double acceleration, const Table1& pa
   return rows;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -11,7 +11,7 @@
 #include "benchmarks/tracking/tracking_fit.h"
 #include "sim/twin_spec.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 struct PredictionRow {
   std::string id, title;
@@ -31,4 +31,4 @@ struct PredictionRow {
 // compared with.
 [[nodiscard]] std::vector<PredictionRow> prediction_rows(double acceleration, const Table1& paper);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -6,7 +6,7 @@
 #include "core/stages.h"
 #include "sim/tracker_plant.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 constexpr double kSettle = 0.5;  // s at rest before the motion: the filter knows the tool by then
@@ -86,4 +86,4 @@ std::array<TipErrors, 3> predicted_run(const Scene& scene, const Pose<'W', 'C'>&
   return {watchers[0].result(), watchers[1].result(), watchers[2].result()};
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

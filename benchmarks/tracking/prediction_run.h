@@ -11,7 +11,7 @@
 #include "core/scene.h"
 #include "models/scene_file.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 inline constexpr std::array<Prediction, 3> kPredictions{Prediction::hold, Prediction::constant_velocity,
                                                         Prediction::constant_acceleration};
@@ -42,4 +42,4 @@ struct TipTrace {
 [[nodiscard]] std::array<TipErrors, 3> predicted_run(const Scene& scene, const Pose<'W', 'C'>& true_X_WC,
                                                      const PredictionRun& run, TipTrace* trace = nullptr);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -8,17 +8,17 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/bench.h"
-#include "benchmarks/load_scene.h"
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/work_precision.h"
 #include "benchmarks/tracking/forensics.h"
 #include "benchmarks/tracking/prediction.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_plots.h"
 #include "benchmarks/tracking/tracking_trial.h"
-#include "benchmarks/work_precision.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 using Set = std::vector<std::string>;
@@ -270,7 +270,7 @@ models::Setup later(models::Setup setup) {
 
 }  // namespace
 
-BenchResult run_tracking(const BenchContext& context) {
+BenchResult run(const BenchContext& context) {
   const Sizes sizes = sizes_of(context);
   BenchResult result{"tracking", "tracking", 0, 0, {}};
   const Table1 paper = table1_of(Reference::load(context.models, "table1.csv"));
@@ -357,4 +357,4 @@ BenchResult run_tracking(const BenchContext& context) {
   return result;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "benchmarks/parallel.h"
+#include "benchmarks/kit/parallel.h"
 #include "core/frames.h"
 #include "sim/random.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 constexpr double kShortest = 2e-3, kLongest = 30e-3;  // s, of the fixed delay
@@ -215,4 +215,4 @@ Predicted40 predict_40(const std::vector<Candidate>& candidates, const Table1& p
   return prediction;
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

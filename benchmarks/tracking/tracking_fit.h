@@ -9,7 +9,7 @@
 #include "benchmarks/report/reference.h"
 #include "benchmarks/tracking/tracking_theory.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 // Table 1 in m: [0, 20, 40 mm/s][x, y, z, norm].
 inline constexpr std::array<int, 3> kTableSpeeds{0, 20, 40};  // mm/s
@@ -68,4 +68,4 @@ struct Predicted40 {
 [[nodiscard]] Predicted40 predict_40(const std::vector<Candidate>& candidates, const Table1& paper,
                                      BiasSide side, std::uint64_t seed);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -7,12 +7,12 @@
 
 #include "core/frames.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 constexpr double kMillimetres = 1e3;
 
-std::string mm(double metres) { return fmt::format("{:.4f}", metres * kMillimetres); }
+std::string fine_mm(double metres) { return fmt::format("{:.4f}", metres * kMillimetres); }
 std::string percent(double ratio) { return fmt::format("{:+.1f}", (ratio - 1.0) * 100.0); }
 
 struct Statistic {
@@ -30,10 +30,11 @@ Table table1(const Pictures& p) {
   for (std::size_t s = 0; s < p.paper.size(); ++s)
     for (std::size_t a = 0; a < kTableAxes.size(); ++a)
       for (const auto& [name, what] : kStatistics)
-        table.rows.push_back(
-            {fmt::format("{}", kTableSpeeds[s]), kTableAxes[a], name, mm(p.paper[s][a].*what),
-             mm(p.twin.table[s][a].*what), percent(p.twin.table[s][a].*what / p.paper[s][a].*what),
-             mm(p.twin.least[s][a].*what), mm(p.twin.most[s][a].*what), mm(p.theory.table[0][s][a].*what)});
+        table.rows.push_back({fmt::format("{}", kTableSpeeds[s]), kTableAxes[a], name,
+                              fine_mm(p.paper[s][a].*what), fine_mm(p.twin.table[s][a].*what),
+                              percent(p.twin.table[s][a].*what / p.paper[s][a].*what),
+                              fine_mm(p.twin.least[s][a].*what), fine_mm(p.twin.most[s][a].*what),
+                              fine_mm(p.theory.table[0][s][a].*what)});
   table.note = "Least and most: over seeds, which are the phases of the tracker's and the server's clocks.";
   return table;
 }
@@ -49,9 +50,9 @@ Table from_20(const Pictures& p) {
     for (const auto& [name, what] : kStatistics) {
       const double value = p.paper[2][a].*what;
       const bool inside = value >= prediction.low[2][a].*what && value <= prediction.high[2][a].*what;
-      table.rows.push_back({kTableAxes[a], name, mm(value), mm(prediction.median[2][a].*what),
-                            mm(prediction.low[2][a].*what), mm(prediction.high[2][a].*what),
-                            inside ? "yes" : "no", mm(p.twin_from_20[2][a].*what),
+      table.rows.push_back({kTableAxes[a], name, fine_mm(value), fine_mm(prediction.median[2][a].*what),
+                            fine_mm(prediction.low[2][a].*what), fine_mm(prediction.high[2][a].*what),
+                            inside ? "yes" : "no", fine_mm(p.twin_from_20[2][a].*what),
                             percent(p.twin_from_20[2][a].*what / value)});
     }
   return table;
@@ -73,7 +74,7 @@ Table hypotheses(const Pictures& p) {
                           fmt::format("{:.1f}", 100.0 * m.moving), fmt::format("{:.2f}", m.worst),
                           fmt::format("{:.2f}", c.fixed * 1e3), fmt::format("{:.2f}", c.jitter * 1e3),
                           fmt::format("{:.2f}", c.acceleration), fmt::format("{:.1f}", mean_age(chain) * 1e3),
-                          mm(c.table[side][2][3].rmse), mm(c.table[side][2][3].mae)});
+                          fine_mm(c.table[side][2][3].rmse), fine_mm(c.table[side][2][3].mae)});
   };
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     row(side, "0, 20", p.fits.from_20[side]);
@@ -101,9 +102,9 @@ Table directions(const Pictures& p) {
     for (std::size_t s = 1; s < p.paper.size(); ++s)
       for (const auto& [name, what] : kStatistics)
         table.rows.push_back({kMotions[side], fmt::format("{}", kTableSpeeds[s]), name,
-                              mm(p.paper[s][3].*what), mm((*twins[side])[s][3].*what),
-                              mm(p.theory.table[side][s][3].*what),
-                              side == 1 ? mm(p.twin_adds[s][3].*what) : ""});
+                              fine_mm(p.paper[s][3].*what), fine_mm((*twins[side])[s][3].*what),
+                              fine_mm(p.theory.table[side][s][3].*what),
+                              side == 1 ? fine_mm(p.twin_adds[s][3].*what) : ""});
   return table;
 }
 
@@ -244,4 +245,4 @@ void add_plots(BenchResult& result, const Pictures& pictures) {
   result.plots.push_back(predictive_plot(pictures));
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

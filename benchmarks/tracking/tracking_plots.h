@@ -4,11 +4,11 @@
 #include <array>
 #include <vector>
 
-#include "benchmarks/bench.h"
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_trial.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 struct TwinTable {
   Table1 table{}, least{}, most{};  // over seeds
@@ -36,4 +36,4 @@ struct Pictures {
 void add_tables(BenchResult& result, const Pictures& pictures);
 void add_plots(BenchResult& result, const Pictures& pictures);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

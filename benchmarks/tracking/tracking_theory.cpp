@@ -6,7 +6,7 @@
 
 #include "benchmarks/tracking/motion.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 // Mean of |N(mean, deviation)|.
@@ -40,9 +40,9 @@ std::vector<double> waited(const std::vector<double>& density, double width) {
 std::vector<double> delays(double mean, double period) {
   if (!(mean > 0.1 * kCell)) return {1.0};
   std::vector<double> density;
-  constexpr double kLongest = 12.0;  // means
+  constexpr double kMostMeans = 12.0;  // means
   double total = 0.0;
-  const int cells = static_cast<int>(std::ceil(kLongest * mean / kCell));
+  const int cells = static_cast<int>(std::ceil(kMostMeans * mean / kCell));
   density.reserve(static_cast<std::size_t>(cells));
   for (int i = 0; i < cells; ++i) {
     const double d = (i + 0.5) * kCell;
@@ -192,4 +192,4 @@ Errors Lag::errors(double bias, double noise, int way) const {
   return {std::sqrt(std::max(0.0, square)), mae, std::abs(mean_ + along)};
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 struct ChainSpec {
   double rate = 120.0, server_rate = 100.0;  // Hz, free-running
@@ -55,4 +55,4 @@ class Lag {
   double mean_ = 0.0, square_ = 0.0;
 };
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

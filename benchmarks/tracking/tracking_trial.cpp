@@ -4,16 +4,16 @@
 #include <array>
 #include <cmath>
 
-#include "benchmarks/trial.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 namespace {
 
 constexpr double kSettled = 0.3;  // s at rest before a stop counts: longer than any packet is on its way
 
 class TravelMeasure {
  public:
-  TravelMeasure(Trial& trial, bool keep) : trial_(trial), keep_(keep) {}
+  TravelMeasure(trial::Trial& trial, bool keep) : trial_(trial), keep_(keep) {}
 
   void see() {
     const Scene& scene = trial_.scene();
@@ -54,7 +54,7 @@ class TravelMeasure {
     if (keep_) errors_.packets.push_back(packet);
   }
 
-  Trial& trial_;
+  trial::Trial& trial_;
   bool keep_;
   TravelErrors errors_;
   Time stamp_{};
@@ -95,9 +95,9 @@ void TravelErrors::add(const TravelErrors& other) {
 }
 
 TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets) {
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seed = seed;
-  Trial trial(setup, options);
+  trial::Trial trial(setup, options);
   TravelMeasure measure(trial, keep_packets);
   while (trial.tick()) measure.see();
   TravelErrors errors = measure.take();
@@ -121,4 +121,4 @@ MovesSpec moves_of(const models::Setup& setup) {
           setup.twin.stepping(setup.scene.arm.has_value()).timestep};
 }
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

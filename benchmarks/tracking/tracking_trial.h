@@ -10,7 +10,7 @@
 #include "benchmarks/tracking/tracking_theory.h"
 #include "models/scene_file.h"
 
-namespace enc::bench {
+namespace enc::bench::tracking {
 
 // One packet: time, place along the axis, error along it, and how it counts.
 enum class Moving : std::int8_t { back = -1, stopped = 0, forward = 1 };
@@ -48,4 +48,4 @@ struct TravelErrors {
 [[nodiscard]] ChainSpec chain_of(const models::Setup& setup);
 [[nodiscard]] MovesSpec moves_of(const models::Setup& setup);
 
-}  // namespace enc::bench
+}  // namespace enc::bench::tracking

@@ -1,12 +1,13 @@
 // A simulated world of the tennis ball scene, for the suites here.
 #pragma once
 
-#include <memory>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "models/scene_file.h"
-#include "sim/world.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 
@@ -17,29 +18,27 @@ inline std::string scene_file(const std::string& name) {
   return file;
 }
 
-// Owns what a world refers to; not to be moved.
+// A trial without an end, whose parts a test may use by themselves. Not to be moved.
 struct Twin {
   explicit Twin(const std::vector<std::string>& set = {}, std::uint64_t seed = 1,
                 const std::string& name = "tennis_ball")
-      : setup(models::load(scene_file(name), "sim", set)) {
-    build(seed);
-  }
-  Twin(std::uint64_t seed, models::Setup made) : setup(std::move(made)) { build(seed); }
+      : Twin(seed, models::load(scene_file(name), "sim", set)) {}
+  Twin(std::uint64_t seed, models::Setup made) : trial(std::move(made), options(seed)) {}
   Twin(const Twin&) = delete;
   Twin& operator=(const Twin&) = delete;
 
-  void build(std::uint64_t seed) {
-    scene = prepare(setup.scene, setup.rig);
-    world = std::make_unique<sim::World>(sim::WorldSpec{setup.scene, setup.rig, setup.twin, scene,
-                                                        ENCOUNTER_SOURCE_DIR "/models/mjcf", seed, false});
-    rig = world->rig();
+  trial::TrialOptions options(std::uint64_t seed) {
+    trial::TrialOptions options;
+    options.seed = seed;
+    options.seconds = std::numeric_limits<double>::infinity();
+    options.disturb = [this](Inputs& read) {
+      if (disturb) disturb(read);
+    };
+    return options;
   }
   // One tick of the loop with the haptic core in it.
   const Tick& tick() {
-    k = rig.clock->next();
-    rig.read(in);
-    step(scene, k, in, state, out);
-    rig.write(out);
+    trial.tick();
     return k;
   }
   void run(int ticks) {
@@ -47,14 +46,16 @@ struct Twin {
   }
   [[nodiscard]] double now() const { return seconds(k.t.time_since_epoch()); }
 
-  models::Setup setup;
-  Scene scene;
-  std::unique_ptr<sim::World> world;
-  Rig rig;  // after the world, so that it goes first
-  Inputs in;
-  State state;
-  Outputs out;
-  Tick k;
+  std::function<void(Inputs&)> disturb;  // between reading and step()
+  trial::Trial trial;
+  const models::Setup& setup = trial.setup();
+  const Scene& scene = trial.scene();
+  sim::World* world = &trial.world();
+  Rig& rig = trial.rig();
+  Inputs& in = trial.inputs();
+  State& state = trial.state();
+  Outputs& out = trial.outputs();
+  const Tick& k = trial.now();
 };
 
 // Nothing but the true force: no noise, no zero error, no drift, no steps.

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/hare.h"
 #include "models/mesh_check.h"
 #include "models/mesh_write.h"
+#include "models/shapes/hare.h"
 
 namespace enc {
 namespace {
@@ -18,7 +18,7 @@ TEST(HareGolden, IsReproducedAndSound) {
   const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   ASSERT_FALSE(committed.empty());
   EXPECT_LT(committed.size(), 600'000U);
-  EXPECT_TRUE(models::mesh_bytes(bench::hare_mesh(), ".glb") == committed);
+  EXPECT_TRUE(models::mesh_bytes(models::hare_mesh(), ".glb") == committed);
   const models::CheckedMesh solid = models::load_solid(path);
   EXPECT_TRUE(solid.notes.empty()) << solid.notes.front();
   EXPECT_EQ(solid.mesh.triangles.size(), 19824U);

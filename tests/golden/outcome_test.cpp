@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "models/scene_file.h"
 #include "sim/truth_fields.h"
+#include "trial/trial.h"
 
 namespace enc {
 namespace {
@@ -27,17 +27,17 @@ constexpr double kShort = 1.5;  // s
 // length is "whole", or "short": its first kShort seconds.
 std::string row_of(const std::string& scene, std::uint64_t seed, const std::string& length) {
   StateHash outcome;
-  bench::TrialOptions options;
+  trial::TrialOptions options;
   options.seed = seed;
   if (length == "short") options.seconds = kShort;
-  options.watch = [&](const bench::Glance& glance) {
+  options.watch = [&](const trial::Glance& glance) {
     Outputs out = glance.out;
     sim::Truth truth = glance.truth;
     fields(outcome, out);
     fields(outcome, truth);
   };
-  bench::Trial trial(models::load((kScenes / (scene + ".toml")).string(), {}, {}), options);
-  const bench::TrialResult result = trial.run();
+  trial::Trial trial(models::load((kScenes / (scene + ".toml")).string(), {}, {}), options);
+  const trial::TrialResult result = trial.run();
   return fmt::format("{},{},{},{},{:016x},{:016x}", scene, seed, length, result.ticks, result.hash,
                      outcome.value);
 }

@@ -6,12 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/record_table.h"
 #include "core/response.h"
 #include "core/scene.h"
-#include "models/loop_fit.h"
+#include "models/fit/loop_fit.h"
 #include "models/response_file.h"
 #include "models/scene_file.h"
+#include "trial/measure/record_table.h"
 
 namespace enc {
 namespace {
@@ -30,7 +30,7 @@ void expect_fitted(const std::string& scene, const std::string& ball, const std:
   ASSERT_FALSE(committed.empty());
   const models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene + ".toml", "sim",
                                            {"truth.ball.set=" + ball});
-  const models::LoopData loop = models::parse_loop(bench::table_of_run(setup, 1), scene + ".csv", kLimit);
+  const models::LoopData loop = models::parse_loop(trial::table_of_run(setup, 1), scene + ".csv", kLimit);
   const models::LoopFit fit = models::fit_loop(loop, {kLimit, floor_of_rig(), kUnset});
   EXPECT_EQ(models::response_text(fit.response, fit.source), committed)
       << "if that is as it should be:\n  build/release/encounter run models/scenes/" << scene

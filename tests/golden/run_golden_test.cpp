@@ -11,10 +11,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "core/record/replay.h"
 #include "models/scene_file.h"
+#include "trial/trial.h"
 
 namespace enc {
 namespace {
@@ -71,7 +71,7 @@ TEST_F(StepGolden, TheRecordedPressGivesTheSameBits) {
   const auto record = open();
   ASSERT_TRUE(record);
   const models::Setup setup = models::parse_resolved(record->texts().at("resolved"), kRecord);
-  const ReplayResult result = replay(bench::prepare_setup(setup), *record);
+  const ReplayResult result = replay(trial::prepare_setup(setup), *record);
   EXPECT_EQ(result.first_difference, -1) << result.what << "\n" << kRecordAgain;
   EXPECT_EQ(result.ticks, 601);  // tick 0 and 1.2 s of 500 Hz
   RecordedTick frame;

@@ -7,11 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "tests/conformance/bench_world.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 namespace {
@@ -27,7 +27,7 @@ using ::testing::StartsWith;
 std::string said(const std::vector<std::string>& set, const std::string& scene = "wall",
                  const std::string& rig = "") {
   try {
-    const bench::Trial trial(models::load(scene_file(scene), rig, set), {});
+    const trial::Trial trial(models::load(scene_file(scene), rig, set), {});
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), Not(HasSubstr("\n")));
     EXPECT_EQ(e.kind(), ErrorKind::input);

@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/identification/ball_loops.h"
 #include "tests/support/ball_pushes.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "trial/fit/ball_loops.h"
 
 namespace enc::tests {
 namespace {
@@ -31,7 +31,7 @@ class FitBall : public testing::Test {
 };
 
 std::string csv_of(const test::PushProgramme& programme) {
-  bench::Pushes pushes = test::ball_pushes({}, programme);
+  trial::Pushes pushes = test::ball_pushes({}, programme);
   test::add_noise(pushes, 1);
   std::string text = "time_s,deflection_mm,force_N,repeat\n";
   for (std::size_t push = 0; push < pushes.size(); ++push)

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/error.h"
+#include "trial/trial.h"
 
 namespace enc {
 namespace {
@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 
 std::string said(const std::string& set) {
   try {
-    (void)bench::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", {set}));
+    (void)trial::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", {set}));
   } catch (const Error& e) {
     return e.what();
   }

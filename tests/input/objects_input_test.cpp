@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 namespace {
@@ -30,7 +30,7 @@ models::Setup setup_of(const std::string& scene, const std::vector<std::string>&
 // What is wrong; empty if the scene can be made ready.
 std::string said(const std::string& scene, const std::vector<std::string>& set) {
   try {
-    (void)bench::prepare_setup(setup_of(scene, set));
+    (void)trial::prepare_setup(setup_of(scene, set));
   } catch (const Error& e) {
     return e.what();
   }
@@ -42,8 +42,8 @@ TEST(ObjectsInput, TheShippedScenesAreReadyAndHaveTheirProps) {
     EXPECT_EQ(said(scene, {}), "") << scene;
     EXPECT_THAT(setup_of(scene).notes, IsEmpty()) << scene;
   }
-  EXPECT_EQ(bench::prepare_setup(setup_of("keypad")).objects.size(), 12U);
-  EXPECT_EQ(bench::prepare_setup(setup_of("tiles")).movers.size(), 2U);
+  EXPECT_EQ(trial::prepare_setup(setup_of("keypad")).objects.size(), 12U);
+  EXPECT_EQ(trial::prepare_setup(setup_of("tiles")).movers.size(), 2U);
 }
 
 TEST(ObjectsInput, NumbersOutOfRange) {
@@ -110,7 +110,7 @@ TEST(ObjectsInput, EachEntryIsItsObjectsAlone) {
   fs::copy(kModels, folder.path(), fs::copy_options::recursive);
   const fs::path file = fs::path(folder.path()) / "behaviours.toml";
   const auto room = [&] {
-    return bench::prepare_setup(
+    return trial::prepare_setup(
         models::load((fs::path(folder.path()) / "scenes" / "room.toml").string(), "vishap", {}));
   };
   const Scene before = room();
@@ -131,8 +131,8 @@ TEST(ObjectsInput, EachEntryIsItsObjectsAlone) {
 
 // A machine that only its file describes [L18].
 TEST(ObjectsInput, AStageOfTwoSlidesRunsTheWall) {
-  bench::TrialOptions options;
-  bench::Trial trial(
+  trial::TrialOptions options;
+  trial::Trial trial(
       setup_of("wall", {"user.approach_mm_s=[50]", "user.press_s=1", "user.release_s=1"}, "stage"), options);
   double peak = 0.0;
   while (trial.tick()) peak = std::max(peak, trial.world().truth().contact_force.norm());

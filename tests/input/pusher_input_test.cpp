@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "tests/conformance/bench_world.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 namespace {
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 // What the scene `stiffness` says with these settings; empty if it can be made ready.
 std::string said(const std::vector<std::string>& set, const std::string& scene = "stiffness") {
   try {
-    (void)bench::prepare_setup(models::load(scene_file(scene), "sim", set));
+    (void)trial::prepare_setup(models::load(scene_file(scene), "sim", set));
   } catch (const Error& e) {
     return e.what();
   }

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "tests/conformance/bench_world.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 namespace {
@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 std::string said(const std::vector<std::string>& set, const std::string& scene = "reaching") {
   try {
-    (void)bench::prepare_setup(models::load(scene_file(scene), "", set));
+    (void)trial::prepare_setup(models::load(scene_file(scene), "", set));
   } catch (const Error& e) {
     return e.what();
   }

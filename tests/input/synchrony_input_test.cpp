@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "tests/conformance/bench_world.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 namespace {
@@ -15,7 +15,7 @@ using ::testing::Not;
 
 std::string said(const std::vector<std::string>& set) {
   try {
-    (void)bench::prepare_setup(models::load(scene_file("synchrony"), "sim", set));
+    (void)trial::prepare_setup(models::load(scene_file("synchrony"), "sim", set));
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), Not(HasSubstr("\n")));
     return e.what();

@@ -10,7 +10,7 @@
 #include "core/response.h"
 #include "core/scene.h"
 #include "models/directions.h"
-#include "models/response_fit.h"
+#include "models/fit/response_fit.h"
 #include "models/scene_file.h"
 
 namespace enc::models {

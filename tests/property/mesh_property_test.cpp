@@ -15,8 +15,8 @@
 #include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/shapes.h"
 #include "core/mesh/mesh_tree.h"
+#include "models/shapes/shapes.h"
 
 namespace enc {
 namespace {
@@ -187,12 +187,12 @@ void compare(const std::string& name, const Mesh& mesh, int medial_every = 5) {
   EXPECT_EQ(off, 0);     // distance and point belong together, normals are unit
 }
 
-TEST(MeshProperty, Sphere) { compare("sphere", bench::geodesic_ball(3)); }
-TEST(MeshProperty, Cube) { compare("cube", bench::cube(2)); }
-TEST(MeshProperty, PartWithSlivers) { compare("turned part", bench::turned_part()); }
-TEST(MeshProperty, TorusKnot) { compare("knot", bench::knot(400, 24)); }
+TEST(MeshProperty, Sphere) { compare("sphere", models::geodesic_ball(3)); }
+TEST(MeshProperty, Cube) { compare("cube", models::cube(2)); }
+TEST(MeshProperty, PartWithSlivers) { compare("turned part", models::turned_part()); }
+TEST(MeshProperty, TorusKnot) { compare("knot", models::knot(400, 24)); }
 // Near the centre of a ball all triangles are as near, and CGAL tries each: 200 such points are enough.
-TEST(MeshProperty, BallOf100000) { compare("ball", bench::geodesic_ball(71), 500); }
+TEST(MeshProperty, BallOf100000) { compare("ball", models::geodesic_ball(71), 500); }
 
 }  // namespace
 }  // namespace enc

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/register.h"
+#include "models/fit/register.h"
 #include "core/rotation.h"
 #include "sim/random.h"
 
@@ -25,8 +25,8 @@ std::vector<Vec3> any_points(Stream& random, std::size_t count, const Vec3& size
   for (std::size_t i = 0; i < count; ++i) points.emplace_back(random.normal3().cwiseProduct(size));
   return points;
 }
-std::vector<PointPair> pairs_of(const std::vector<Vec3>& camera, const Pose<'W', 'C'>& X_WC) {
-  std::vector<PointPair> pairs;
+std::vector<models::PointPair> pairs_of(const std::vector<Vec3>& camera, const Pose<'W', 'C'>& X_WC) {
+  std::vector<models::PointPair> pairs;
   for (const Vec3& c : camera) pairs.push_back({Point<'C'>(c), X_WC * Point<'C'>(c)});
   return pairs;
 }
@@ -40,9 +40,9 @@ TEST(RegisterProperty, RecoversKnownTransforms) {
     const double narrow = std::exp(-3.9 * random.uniform());
     const Vec3 size = 0.1 * Vec3(1.0, narrow, flat);
     const auto points = any_points(random, 4 + static_cast<std::size_t>(random.bits() % 17), size);
-    Registration found;
+    models::Registration found;
     try {
-      found = register_points(pairs_of(points, truth));
+      found = models::register_points(pairs_of(points, truth));
     } catch (const std::exception&) {
       continue;  // four random points may lie on a line; how often is counted below
     }
@@ -60,7 +60,7 @@ TEST(RegisterProperty, HardlyAnySetIsRefused) {
   for (int i = 0; i < 2000; ++i) {
     const auto points = any_points(random, 4, Vec3(0.1, 0.1, 0.1));
     try {
-      (void)register_points(pairs_of(points, any_pose(random)));
+      (void)models::register_points(pairs_of(points, any_pose(random)));
     } catch (const std::exception&) {
       ++refused;
     }
@@ -70,15 +70,15 @@ TEST(RegisterProperty, HardlyAnySetIsRefused) {
 
 TEST(RegisterProperty, NoOtherPoseLeavesLess) {
   Stream random(3, "register");
-  const auto sum = [](const std::vector<PointPair>& pairs, const Pose<'W', 'C'>& X_WC) {
+  const auto sum = [](const std::vector<models::PointPair>& pairs, const Pose<'W', 'C'>& X_WC) {
     double squares = 0.0;
-    for (const PointPair& p : pairs) squares += (X_WC * p.camera - p.device).e().squaredNorm();
+    for (const models::PointPair& p : pairs) squares += (X_WC * p.camera - p.device).e().squaredNorm();
     return squares;
   };
   for (int i = 0; i < 300; ++i) {
     auto pairs = pairs_of(any_points(random, 8, Vec3(0.1, 0.05, 0.03)), any_pose(random));
-    for (PointPair& p : pairs) p.device = p.device + Vec<'W'>(Vec3(0.02 * random.normal3()));
-    const Registration found = register_points(pairs);
+    for (models::PointPair& p : pairs) p.device = p.device + Vec<'W'>(Vec3(0.02 * random.normal3()));
+    const models::Registration found = models::register_points(pairs);
     const double least = sum(pairs, found.X_WC);
     EXPECT_NEAR(found.rms, std::sqrt(least / 8.0), 1e-12);
     for (const double size : {1e-4, 1e-2, 1.0})
@@ -93,11 +93,11 @@ TEST(RegisterProperty, ShiftingAndTurningTheSetsTurnsTheAnswer) {
   Stream random(4, "register");
   for (int i = 0; i < 300; ++i) {
     auto pairs = pairs_of(any_points(random, 6, Vec3(0.1, 0.1, 0.1)), any_pose(random));
-    for (PointPair& p : pairs) p.device = p.device + Vec<'W'>(Vec3(0.001 * random.normal3()));
-    const Registration before = register_points(pairs);
+    for (models::PointPair& p : pairs) p.device = p.device + Vec<'W'>(Vec3(0.001 * random.normal3()));
+    const models::Registration before = models::register_points(pairs);
     const Pose<'W', 'W'> moved(any_rotation(random), random.normal3());
-    for (PointPair& p : pairs) p.device = moved * p.device;
-    const Registration after = register_points(pairs);
+    for (models::PointPair& p : pairs) p.device = moved * p.device;
+    const models::Registration after = models::register_points(pairs);
     const Pose<'W', 'C'> expected = moved * before.X_WC;
     ASSERT_LT((after.X_WC.p() - expected.p()).norm(), 1e-9);
     ASSERT_NEAR(after.rms, before.rms, 1e-12);
@@ -130,8 +130,8 @@ TEST(RegisterProperty, ErrorsAtTargetsAsTheoryHasThem) {
   for (int i = 0; i < kRuns; ++i) {
     const Pose<'W', 'C'> truth = any_pose(random);
     auto pairs = pairs_of(points, truth);
-    for (PointPair& p : pairs) p.camera = p.camera + Vec<'C'>(Vec3(kNoise * random.normal3()));
-    const Registration found = register_points(pairs);
+    for (models::PointPair& p : pairs) p.camera = p.camera + Vec<'C'>(Vec3(kNoise * random.normal3()));
+    const models::Registration found = models::register_points(pairs);
     there += (found.X_WC * Point<'C'>(target) - truth * Point<'C'>(target)).e().squaredNorm() / kRuns;
     left += found.rms * found.rms / kRuns;
   }

@@ -10,7 +10,7 @@
 
 #include "core/loop_model.h"
 #include "core/response.h"
-#include "models/loop_fit.h"
+#include "models/fit/loop_fit.h"
 #include "tests/support/plant_loop.h"
 
 namespace enc {

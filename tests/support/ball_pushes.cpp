@@ -7,10 +7,10 @@
 
 namespace enc::test {
 
-bench::Pushes ball_pushes(const sim::BallParameters& ball, const PushProgramme& programme) {
+trial::Pushes ball_pushes(const sim::BallParameters& ball, const PushProgramme& programme) {
   const sim::BallPlant plant(ball);
   sim::BallPlantState state;
-  bench::Pushes pushes;
+  trial::Pushes pushes;
   const double way = programme.depth / programme.speed;  // s
   const auto ticks = static_cast<int>(std::lround((2.0 * way + programme.dwell) / programme.period));
   double time = 1.0;
@@ -30,7 +30,7 @@ bench::Pushes ball_pushes(const sim::BallParameters& ball, const PushProgramme& 
   return pushes;
 }
 
-void add_noise(bench::Pushes& pushes, std::uint64_t seed) {
+void add_noise(trial::Pushes& pushes, std::uint64_t seed) {
   constexpr double kNoise = 0.0125, kQuantum = 0.025, kZero = 0.003;  // N
   constexpr double kWalk = 0.002;                                     // N / sqrt(s)
   sim::Stream random(seed, "ball_pushes");

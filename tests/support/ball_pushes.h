@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "benchmarks/identification/ball_loops.h"
 #include "sim/ball_plant.h"
+#include "trial/fit/ball_loops.h"
 
 namespace enc::test {
 
@@ -19,9 +19,9 @@ struct PushProgramme {
 };
 
 // Without noise.
-[[nodiscard]] bench::Pushes ball_pushes(const sim::BallParameters& ball, const PushProgramme& programme);
+[[nodiscard]] trial::Pushes ball_pushes(const sim::BallParameters& ball, const PushProgramme& programme);
 
 // A sensor as the simulated one: white noise, steps, a zero that wanders and is found anew before each push.
-void add_noise(bench::Pushes& pushes, std::uint64_t seed);
+void add_noise(trial::Pushes& pushes, std::uint64_t seed);
 
 }  // namespace enc::test

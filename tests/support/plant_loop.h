@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "models/response_fit.h"
+#include "models/fit/response_fit.h"
 #include "sim/ball_plant.h"
 
 namespace enc::test {

@@ -2,8 +2,8 @@
 // it must.
 #include <cstdlib>
 
-#include "benchmarks/trial.h"
 #include "models/scene_file.h"
+#include "trial/trial.h"
 
 namespace enc {
 namespace {
@@ -23,13 +23,13 @@ struct Seen {
 
 Seen look(const models::Setup& setup) {
   Seen seen{Vec3::Constant(kUnset), Vec3::Constant(kUnset)};
-  bench::TrialOptions options;
+  trial::TrialOptions options;
   options.seconds = 0.3;
-  options.watch = [&](const bench::Glance& g) {
+  options.watch = [&](const trial::Glance& g) {
     if (g.in.tool.health == Health::ok) seen.tool_error = g.out.view.tip.e() - g.truth.tool_tip.e();
     if (g.in.wrench.health == Health::ok) seen.force = g.in.wrench.value.force.e();
   };
-  bench::Trial trial(setup, options);
+  trial::Trial trial(setup, options);
   trial.run();
   return seen;
 }
@@ -65,7 +65,7 @@ TEST(Calibration, AMachineThatIsTurnedGoesAlongItsOwnAxes) {
   setup.scene.user.reset();
   setup.scene.tracker.reset();
   setup.twin.hexapod.turned = Vec3(0, 0, 0.02);
-  bench::Trial trial(setup, {});
+  trial::Trial trial(setup, {});
   sim::World& world = trial.world();
   EXPECT_LT(world.truth().tip.e().norm(), 1e-12);
   const Vec3 zero = world.machine->machine().zero().p();

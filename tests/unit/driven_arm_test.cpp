@@ -1,6 +1,6 @@
 // The arm of the guided registration, driven through the twin: it gets where it is sent and rests there, the
 // camera sees what is true and the device says what it believes.
-#include "benchmarks/registration/driven_arm.h"
+#include "trial/guided/driven_arm.h"
 
 #include <string>
 #include <vector>
@@ -8,12 +8,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/registration/registration.h"
-#include "benchmarks/trial.h"
 #include "core/arm/guide.h"
 #include "core/error.h"
+#include "trial/guided/registration_rig.h"
+#include "trial/trial.h"
 
-namespace enc::bench {
+namespace enc::trial {
 namespace {
 
 using testing::AllOf;
@@ -171,7 +171,7 @@ TEST(DrivenArm, TheRegistrationShowsWhatIsWrongWithTheArm) {
     DrivenArm arm(setup);
     const GuidedRun run =
         see_visits(visit_places(arm, places.visited, rig.camera.rate, 2), rig.X_WC, rig.camera, 1);
-    const Registration found = register_points(averages(run.points));
+    const models::Registration found = models::register_points(averages(run.points));
     const Point<'W'>& middle = places.targets.front();
     return Errors{target_error(found.X_WC, rig.X_WC, middle).norm(),
                   target_error(found.X_WC, arm.as_it_believes(rig.X_WC), middle).norm()};
@@ -186,4 +186,4 @@ TEST(DrivenArm, TheRegistrationShowsWhatIsWrongWithTheArm) {
 }
 
 }  // namespace
-}  // namespace enc::bench
+}  // namespace enc::trial

@@ -1,5 +1,5 @@
 // From a loop to a response with stops: least squares by hand, exact data, the file as text.
-#include "models/loop_fit.h"
+#include "models/fit/loop_fit.h"
 
 #include <cmath>
 #include <string>

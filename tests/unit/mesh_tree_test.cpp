@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/shapes.h"
 #include "core/mesh/mesh_normals.h"
 #include "core/mesh/triangle.h"
+#include "models/shapes/shapes.h"
 
 namespace enc {
 namespace {
@@ -86,7 +86,7 @@ TEST(MeshTree, TheSignIsRightWhereASingleFaceIsWrong) {
 }
 
 TEST(MeshTree, TiesGoToTheLowestTriangleWhateverTheHint) {
-  const Mesh cube = bench::cube(2, 0.05);
+  const Mesh cube = models::cube(2, 0.05);
   const MeshTree tree(cube);
   // The centre is as near to six middles of faces, in each of which several triangles meet.
   const Nearest centre = tree.nearest(Point<'O'>(0, 0, 0));
@@ -127,7 +127,7 @@ TEST(MeshTree, NeighboursMeetAtTheirEdges) {
   const std::vector<std::array<std::int32_t, 3>> by_hand{{2, 3, 1}, {0, 3, 2}, {1, 3, 0}, {0, 2, 1}};
   EXPECT_EQ(across, by_hand);
   for (const auto& mesh :
-       {bench::geodesic_ball(5), bench::cube(3), bench::turned_part(), bench::knot(60, 12)})
+       {models::geodesic_ball(5), models::cube(3), models::turned_part(), models::knot(60, 12)})
     for (const auto& t : neighbours_of(mesh))
       for (const std::int32_t k : t) EXPECT_GE(k, 0);  // closed
 }
@@ -137,7 +137,7 @@ TEST(MeshTree, EqualsTryingEveryTriangle) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> coordinate(-0.05, 0.05);
   for (const int n : {1, 2, 3, 4, 5, 7, 12, 20}) {
-    const Mesh ball = bench::geodesic_ball(n);
+    const Mesh ball = models::geodesic_ball(n);
     ASSERT_EQ(ball.triangles.size(), 20U * static_cast<std::size_t>(n * n));
     const MeshTree tree(ball);
     for (int i = 0; i < 50; ++i) {
@@ -153,7 +153,7 @@ TEST(MeshTree, EqualsTryingEveryTriangle) {
       EXPECT_NEAR(std::abs(at.distance), std::sqrt(least), 1e-12 * std::sqrt(least) + 1e-17);
       // A ball with flat faces lies inside the round one by no more than the sagitta of its largest triangle,
       // in the middle of an icosahedron's face: ((1.0515 / 0.7947 / sqrt 3) / n)^2 / 2.
-      EXPECT_NEAR(at.distance, p.e().norm() - bench::kBallRadius, 0.292 * bench::kBallRadius / (n * n));
+      EXPECT_NEAR(at.distance, p.e().norm() - models::kBallRadius, 0.292 * models::kBallRadius / (n * n));
     }
   }
 }
@@ -168,10 +168,10 @@ TEST(MeshTree, ManyTrianglesInOnePlace) {
 }
 
 TEST(MeshSurface, IsASurfaceLikeOthers) {
-  const Surface surface(MeshSurface{std::make_shared<const MeshTree>(bench::geodesic_ball(20))});
+  const Surface surface(MeshSurface{std::make_shared<const MeshTree>(models::geodesic_ball(20))});
   const Nearest at = surface.nearest(Point<'O'>(0, 0, 0.04), 7);
   EXPECT_NEAR(at.distance, 0.007, 3e-5);
-  EXPECT_NEAR(surface.bound().radius, bench::kBallRadius, 1e-12);
+  EXPECT_NEAR(surface.bound().radius, models::kBallRadius, 1e-12);
   EXPECT_EQ(surface.nearest(Point<'O'>(0, 0, 0.04)).feature, at.feature);
 }
 

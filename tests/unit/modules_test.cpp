@@ -1,11 +1,15 @@
 // Modules that are wrong are refused in one line that says what to do.
-#include "app/modules.cpp"  // app/ is not a library
+#include "app/modules.h"
 
+#include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "core/error.h"
+#include "encounter_version.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
 

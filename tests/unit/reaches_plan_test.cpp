@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/error.h"
 #include "sim/hand/session_plan.h"
 #include "tests/conformance/bench_world.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 namespace {
@@ -22,7 +22,7 @@ struct Reaching {
       : Reaching(models::load(scene_file("reaching"), "", set)) {}
   explicit Reaching(models::Setup made)
       : setup(std::move(made)),
-        scene(bench::prepare_setup(setup)),
+        scene(trial::prepare_setup(setup)),
         plan(setup.scene, scene, setup.twin.hand) {}
   [[nodiscard]] const ReachesSpec& spec() const { return *setup.scene.user->reaches; }
 
@@ -145,18 +145,18 @@ TEST(ReachesWorld, EachReachIsOneContact) {
       {"user.reaches.count=3", "truth.hand.aborted=0", "truth.tracker.rate_hz=1000",
        "truth.tracker.latency_ms=1", "truth.tracker.noise_mm=[0,0,0]",
        "rig.tracker.measurement_noise_mm=0.01", "rig.tracker.acceleration_noise_m_s2_per_sqrt_hz=1"});
-  bench::TrialOptions options;
+  trial::TrialOptions options;
   int touched = 0, right = 0;
   bool before = false;
-  options.watch = [&](const bench::Glance& glance) {
+  options.watch = [&](const trial::Glance& glance) {
     if (glance.out.mode == Mode::contact && !before) {
       ++touched;
       right += glance.out.object == glance.truth.aim ? 1 : 0;
     }
     before = glance.out.mode == Mode::contact;
   };
-  bench::Trial trial(setup, options);
-  const bench::TrialResult result = trial.run();
+  trial::Trial trial(setup, options);
+  const trial::TrialResult result = trial.run();
   EXPECT_EQ(result.contacts, 3);
   EXPECT_EQ(touched, 3);
   EXPECT_EQ(right, 3);

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/switching/finger_loop.h"
-#include "benchmarks/trial.h"
+#include "trial/finger_loop.h"
+#include "trial/trial.h"
 
 namespace enc {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 Scene scene_of(const std::string& name, const std::vector<std::string>& more = {}) {
   std::vector<std::string> set{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
   set.insert(set.end(), more.begin(), more.end());
-  return bench::prepare_setup(
+  return trial::prepare_setup(
       models::load(fmt::format("{}/models/scenes/{}.toml", ENCOUNTER_SOURCE_DIR, name), "", set));
 }
 
@@ -35,7 +35,7 @@ struct Bench {
   }
   // What is pushed with beyond gravity, N along z of W.
   [[nodiscard]] double pushed() const { return -loop.out.felt.xyz[2]; }
-  bench::FingerLoop loop;
+  trial::FingerLoop loop;
 };
 
 // Gravity alone: eq. 4 and 5.

@@ -1,4 +1,4 @@
-#include "models/response_fit.h"
+#include "models/fit/response_fit.h"
 
 #include <algorithm>
 #include <array>

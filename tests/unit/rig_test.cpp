@@ -1,26 +1,26 @@
 // The test rig as a whole: machine, ball, sensor, programme.
 #include <gtest/gtest.h>
 
-#include "benchmarks/probe_measure.h"
 #include "core/record/fields.h"
 #include "core/record/replay.h"
 #include "tests/conformance/bench_world.h"
+#include "trial/measure/probe_measure.h"
 
 namespace enc::test {
 namespace {
 
 struct Pushed {
-  bench::TrialResult result;
-  std::vector<bench::PushFigures> pushes;
+  trial::TrialResult result;
+  std::vector<trial::PushFigures> pushes;
   double spread = 0.0, force_error = 0.0;
 };
 Pushed run(const std::string& scene, const std::vector<std::string>& set = {}, std::uint64_t seed = 1) {
-  bench::ProbeMeasure measure;
-  bench::TrialOptions options;
+  trial::ProbeMeasure measure;
+  trial::TrialOptions options;
   options.seed = seed;
-  options.watch = [&](const bench::Glance& glance) { measure.see(glance); };
-  bench::Trial trial(models::load(scene_file(scene), "sim", set), options);
-  const bench::TrialResult result = trial.run();
+  options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
+  trial::Trial trial(models::load(scene_file(scene), "sim", set), options);
+  const trial::TrialResult result = trial.run();
   return {result, measure.pushes(), measure.spread(), measure.force_error()};
 }
 
@@ -78,7 +78,7 @@ TEST(Rig, FivePushesOfEachSet) {
   for (const char* name : {"nominal", "low_loss", "high_loss", "vented", "kpa_20"}) {
     const Pushed made = run("rig_A", {std::string("truth.ball.set=") + name});
     ASSERT_EQ(made.pushes.size(), 5U) << name;
-    for (const bench::PushFigures& push : made.pushes) {
+    for (const trial::PushFigures& push : made.pushes) {
       EXPECT_NEAR(push.peak_force, 12.0, 0.2) << name;
       EXPECT_NEAR(push.peak_deflection, 0.006, 0.1e-3) << name;
     }
@@ -89,7 +89,7 @@ TEST(Rig, FivePushesOfEachSet) {
   }
   const Pushed regulation = run("rig_A", {"truth.ball.set=regulation"});
   ASSERT_EQ(regulation.pushes.size(), 5U);
-  for (const bench::PushFigures& push : regulation.pushes) {
+  for (const trial::PushFigures& push : regulation.pushes) {
     EXPECT_GT(push.peak_force, 45.0);
     EXPECT_LT(push.peak_force, 52.0);
   }

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/trial.h"
 #include "core/press_check.h"
 #include "sim/hand/user.h"
 #include "tests/conformance/bench_world.h"
+#include "trial/trial.h"
 
 namespace enc::test {
 namespace {
@@ -24,7 +24,7 @@ using sim::SessionPlan;
 struct Session {
   explicit Session(const std::vector<std::string>& set = {})
       : setup(models::load(scene_file("session"), "sim", set)),
-        scene(bench::prepare_setup(setup)),
+        scene(trial::prepare_setup(setup)),
         plan(setup.scene, scene, setup.twin.hand) {}
   [[nodiscard]] const SessionSpec& spec() const { return *setup.scene.user->session; }
 

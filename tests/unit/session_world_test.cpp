@@ -99,22 +99,16 @@ TEST(SessionWorld, AToolMistakenWhilePressingIsNotFelt) {
   Twin twin({"user.session.depth_mm=[4,4]", "user.session.press_mm_s=[4,4]", "user.session.hold_s=[3,3]",
              "truth.hand.aborted=0"},
             4, "session");
-  const auto tick = [&](bool mistaken) {
-    twin.k = twin.rig.clock->next();
-    twin.rig.read(twin.in);
-    if (mistaken) twin.in.tool.value.tool = 1;
-    step(twin.scene, twin.k, twin.in, twin.state, twin.out);
-    twin.rig.write(twin.out);
-  };
-  while (twin.world->truth().phase != sim::Phase::hold) tick(false);
-  for (int i = 0; i < 1000; ++i) tick(false);  // the hand has settled
+  while (twin.world->truth().phase != sim::Phase::hold) twin.tick();
+  twin.run(1000);  // the hand has settled
   ASSERT_EQ(twin.out.mode, Mode::contact);
   const double force = twin.world->truth().contact_force.norm();
   const double given = twin.out.deflection;
   EXPECT_GT(force, 3.0);
   bool switched = false;
+  twin.disturb = [](Inputs& in) { in.tool.value.tool = 1; };
   for (int i = 0; i < 100; ++i) {
-    tick(true);
+    twin.tick();
     switched = switched || twin.out.view.tool == 1;
     EXPECT_NEAR(twin.world->truth().contact_force.norm(), force, 0.2) << i;
     EXPECT_NEAR(twin.out.deflection, given, 0.1e-3) << i;

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/shapes.h"
 #include "core/mode.h"
+#include "models/shapes/shapes.h"
 #include "tests/support/scenes.h"
 
 namespace enc {
@@ -28,7 +28,7 @@ SceneSpec balls(int count) {
   SceneSpec spec = test::ball_scene();
   spec.objects.clear();
   for (int i = 0; i < count; ++i)
-    spec.objects.push_back(mesh_object("ball_" + std::to_string(i), bench::geodesic_ball(8, 0.012),
+    spec.objects.push_back(mesh_object("ball_" + std::to_string(i), models::geodesic_ball(8, 0.012),
                                        {-0.04 + 0.025 * i, 0, -0.005}));
   return spec;
 }
@@ -84,7 +84,7 @@ TEST(Touch, ObjectsThatAreNotAskedCouldNotBeNearest) {
 TEST(Touch, AJumpOfTheNearestPointIsTold) {
   SceneSpec spec = test::ball_scene();
   const double top = 0.008;
-  spec.objects = {mesh_object("cube", bench::cube(4, 0.05), {0, 0, top - 0.025})};
+  spec.objects = {mesh_object("cube", models::cube(4, 0.05), {0, 0, top - 0.025})};
   Loop loop = loop_of(spec);
   loop.tool_tip = {-0.0005, 0, top - 0.025};
   loop.tick(2);

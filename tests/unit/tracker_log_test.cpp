@@ -1,5 +1,5 @@
 // The log of a tracker as a file: what is read, and what is refused with its place in one line.
-#include "models/tracker_log.h"
+#include "models/fit/tracker_log.h"
 
 #include <string>
 #include <vector>

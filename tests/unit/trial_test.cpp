@@ -1,6 +1,6 @@
 // Whole runs, as `run` and the benchmarks make them: the same to the bit whatever the wall clock does, right
 // when the twin's devices are not, and within all limits on every tick.
-#include "benchmarks/trial.h"
+#include "trial/trial.h"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/press_measure.h"
 #include "core/record/fields.h"
 #include "models/scene_file.h"
+#include "trial/measure/press_measure.h"
 
 namespace enc::bench {
 namespace {
@@ -36,8 +36,8 @@ Set quick(const Set& more = {}) {
   return set;
 }
 
-TrialResult run(const models::Setup& setup, TrialOptions options = {}) {
-  Trial trial(setup, std::move(options));
+trial::TrialResult run(const models::Setup& setup, trial::TrialOptions options = {}) {
+  trial::Trial trial(setup, std::move(options));
   return trial.run();
 }
 
@@ -64,8 +64,8 @@ class Stalled : public Clock {
 };
 
 // 2 s: approach, touch at 1.35 s and the first part of a press.
-TrialOptions two_seconds(std::uint64_t seed = 1) {
-  TrialOptions options;
+trial::TrialOptions two_seconds(std::uint64_t seed = 1) {
+  trial::TrialOptions options;
   options.seed = seed;
   options.seconds = 2.0;
   return options;
@@ -73,24 +73,24 @@ TrialOptions two_seconds(std::uint64_t seed = 1) {
 
 TEST(TrialHash, IsTheSameAtAnyPaceAndUnderStalls) {
   const models::Setup setup = scene("tennis_ball", quick());
-  const TrialResult free = run(setup, two_seconds());
+  const trial::TrialResult free = run(setup, two_seconds());
   EXPECT_EQ(free.ticks, 2001);
   EXPECT_EQ(free.contacts, 1);
   EXPECT_GT(free.mode_time[static_cast<std::size_t>(Mode::contact)], 0.3);
   EXPECT_EQ(run(setup, two_seconds()).hash, free.hash);
 
-  TrialOptions paced = two_seconds();
+  trial::TrialOptions paced = two_seconds();
   paced.pace = 200.0;
   EXPECT_EQ(run(setup, paced).hash, free.hash);
   paced.pace = 20.0;  // slower than the machine could: it does wait
-  const TrialResult slow = run(setup, paced);
+  const trial::TrialResult slow = run(setup, paced);
   EXPECT_EQ(slow.hash, free.hash);
   EXPECT_GT(slow.wall, 0.095);  // 2 s / 20
 
   int stalls = 0;
-  TrialOptions stalled = two_seconds();
+  trial::TrialOptions stalled = two_seconds();
   stalled.fit_out = [&](Rig& rig) { rig.clock = std::make_unique<Stalled>(std::move(rig.clock), stalls); };
-  const TrialResult result = run(setup, stalled);
+  const trial::TrialResult result = run(setup, stalled);
   EXPECT_GT(stalls, 10);
   EXPECT_EQ(result.hash, free.hash);
   EXPECT_TRUE(result.holds.empty());  // a lockstep clock is never late
@@ -104,8 +104,8 @@ TEST(TrialHash, AnotherSeedIsAnotherRun) {
 TEST(TrialHash, LookingOnChangesNothing) {
   const models::Setup setup = scene("tennis_ball", quick());
   int seen = 0;
-  TrialOptions watched = two_seconds();
-  watched.watch = [&](const Glance&) { ++seen; };
+  trial::TrialOptions watched = two_seconds();
+  watched.watch = [&](const trial::Glance&) { ++seen; };
   watched.progress = [](double) {};
   EXPECT_EQ(run(setup, watched).hash, run(setup, two_seconds()).hash);
   EXPECT_EQ(seen, 2001);
@@ -145,7 +145,7 @@ class TappedDisplay : public Display {
 };
 
 // Hash over truth, state and outputs of each of the next ticks.
-std::vector<std::uint64_t> trace(Trial& trial, int ticks) {
+std::vector<std::uint64_t> trace(trial::Trial& trial, int ticks) {
   std::vector<std::uint64_t> all;
   for (int i = 0; i < ticks; ++i) {
     EXPECT_TRUE(trial.tick());
@@ -165,13 +165,13 @@ std::vector<std::uint64_t> trace(Trial& trial, int ticks) {
 void goes_on_from(int saved_at) {
   Stamped<TrackedTool>* tool = nullptr;
   Stamped<DentSample>* dent = nullptr;
-  TrialOptions options;
+  trial::TrialOptions options;
   options.seconds = 10.0;
   options.fit_out = [&](Rig& rig) {
     rig.tracker = std::make_unique<TappedTracker>(std::move(rig.tracker), tool);
     rig.display = std::make_unique<TappedDisplay>(std::move(rig.display), dent);
   };
-  Trial trial(scene("tennis_ball", quick()), options);
+  trial::Trial trial(scene("tennis_ball", quick()), options);
   for (int i = 0; i < saved_at; ++i) ASSERT_TRUE(trial.tick());
   const std::vector<std::byte> world = trial.world().save();
   const State state = trial.state();
@@ -207,7 +207,7 @@ struct Onlooker {
   Time last_hold{};
   Mode last = Mode::away;
 
-  void see(const Glance& g) {
+  void see(const trial::Glance& g) {
     const Vec3 command = g.out.tip.p();
     const double dt = g.scene.dt;
     const Vec3 velocity = ticks > 0 ? Vec3((command - command_) / dt) : Vec3::Zero();
@@ -240,12 +240,12 @@ struct Onlooker {
   }
 
  private:
-  static double height(const Glance& g) {
+  static double height(const trial::Glance& g) {
     const Object& ball = g.scene.objects.front();
     const double radius = std::get<Sphere>(ball.surface.shape()).radius;
     return (g.truth.tip - ball.X_WO.origin()).norm() + g.truth.tip_radius - radius;
   }
-  bool entered(const Glance& g) {
+  bool entered(const trial::Glance& g) {
     entered_ = entered_ || height(g) < 0.0;
     return entered_;
   }
@@ -255,13 +255,13 @@ struct Onlooker {
 };
 
 struct Seen {
-  TrialResult result;
+  trial::TrialResult result;
   Onlooker onlooker;
 };
-Seen look(const models::Setup& setup, TrialOptions options = {},
-          std::function<void(const Glance&)> also = {}) {
+Seen look(const models::Setup& setup, trial::TrialOptions options = {},
+          std::function<void(const trial::Glance&)> also = {}) {
   Seen seen;
-  options.watch = [&](const Glance& g) {
+  options.watch = [&](const trial::Glance& g) {
     seen.onlooker.see(g);
     if (also) also(g);
   };
@@ -281,7 +281,7 @@ void black_out(double at, Mode during) {
   Time newest{};
   const Seen seen = look(scene("tennis_ball", quick({"truth.tracker.blackout_at_s=" + number(at),
                                                      "truth.tracker.blackout_for_s=" + number(kFor)})),
-                         {}, [&](const Glance& g) {
+                         {}, [&](const trial::Glance& g) {
                            const double t = seconds(g.tick.t.time_since_epoch());
                            if (t < at) before = g.out.mode;
                            // Recovery within one tick of good data.
@@ -333,7 +333,7 @@ TEST(TrialFault, ASaturatedForceSensorHoldsUntilItReadsAgain) {
   bool good_before = true;
   const Seen seen =
       look(scene("tennis_ball", quick({"truth.force.range_N=12", "truth.force.zero_N=0"})), {},
-           [&](const Glance& g) {
+           [&](const trial::Glance& g) {
              if (g.out.mode == Mode::hold && std::isnan(force_at_hold))
                force_at_hold = g.truth.contact_force.norm();
              EXPECT_EQ(g.out.mode == Mode::hold, g.in.wrench.health == Health::saturated);
@@ -375,7 +375,7 @@ TEST(TrialFault, ARegistrationErrorOf300MicrometresNeverHidesAPress) {
       SCOPED_TRACE(text);
       int unnoticed = 0;
       int longest = 0;
-      const Seen seen = look(scene("tennis_ball", quick({text})), {}, [&](const Glance& g) {
+      const Seen seen = look(scene("tennis_ball", quick({text})), {}, [&](const trial::Glance& g) {
         const bool pressing = g.truth.contact_force.norm() > 0.5;
         unnoticed = pressing && g.out.mode != Mode::contact ? unnoticed + 1 : 0;
         longest = std::max(longest, unnoticed);
@@ -389,11 +389,13 @@ TEST(TrialFault, ARegistrationErrorOf300MicrometresNeverHidesAPress) {
 }
 
 double force_at_limit(const models::Setup& setup, std::int32_t& contacts, double& deepest) {
-  PressMeasure measure(setup);
-  TrialOptions options;
-  options.watch = [&](const Glance& glance) { measure.see(glance); };
+  trial::PressMeasure measure(setup);
+  trial::TrialOptions options;
+  options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
   contacts = run(setup, options).contacts;
-  const auto met = [](const PressFigures& press) { return !std::isnan(press.miss); };  // not only planned
+  const auto met = [](const trial::PressFigures& press) {
+    return !std::isnan(press.miss);
+  };  // not only planned
   EXPECT_EQ(std::count_if(measure.presses().begin(), measure.presses().end(), met), 1);
   deepest = measure.presses().front().peak_deflection;
   return measure.presses().front().force_at_limit;
@@ -449,7 +451,7 @@ TEST(TrialPress, TwelveNewtonAtTheLimitFromEveryPolarAngle) {
 // The machine begins where it stands: its tip may be outside of the object until it has got there.
 TEST(TrialPress, AnObjectThatStandsAsideIsEnteredWithoutAHold) {
   for (const char* set : {"object.ball.position_mm=[20,0,-20]", "object.ball.position_mm=[-15,15,-20]"}) {
-    const TrialResult result = run(scene("tennis_ball", quick({set})));
+    const trial::TrialResult result = run(scene("tennis_ball", quick({set})));
     EXPECT_TRUE(result.holds.empty()) << set;
     EXPECT_EQ(result.contacts, 1) << set;
   }
@@ -462,9 +464,9 @@ TEST(TrialPress, TheLimitIsHeldUnderThirtyNewton) {
     double strongest = 0.0;
     const models::Setup setup =
         scene("push_limit", {"user.push_N=30", "object.ball.limit_mm=" + std::to_string(limit)});
-    PressMeasure measure(setup);
-    TrialOptions options;
-    options.watch = [&](const Glance& glance) { measure.see(glance); };
+    trial::PressMeasure measure(setup);
+    trial::TrialOptions options;
+    options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
     contacts = run(setup, options).contacts;
     deepest = measure.presses().front().peak_deflection;
     strongest = measure.presses().front().peak_force;
@@ -581,8 +583,8 @@ struct Margin {
 Margin margin_of(const Set& set) {
   Margin margin;
   const models::Setup setup = scene("tennis_ball", set);
-  TrialOptions options;
-  options.watch = [&](const Glance& g) {
+  trial::TrialOptions options;
+  options.watch = [&](const trial::Glance& g) {
     if (g.tick.index % 10 != 0 || g.out.mode != Mode::contact || g.in.dent.health != Health::ok) return;
     const Object& ball = g.scene.objects.front();
     const Vec3 centre = ball.X_WO.p();

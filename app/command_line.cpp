@@ -1,0 +1,234 @@
+// The command line. Each subcommand is one function in a file of its own (options.h). Exit codes: 0 yes, 1
+// the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold.
+#include <algorithm>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <encounter_version.h>
+
+#include "app/options.h"
+#include "core/error.h"
+#include "models/wording.h"
+
+namespace enc::app {
+namespace {
+
+// CLI11 reads "-1" and numbers of 30 digits as some other number.
+std::string bad_seed(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (bad == std::errc() && end == text.data() + text.size()) return {};
+  return "--seed: expected a whole number from 0 to 18446744073709551615";
+}
+
+void scene_options(CLI::App* command, SceneOptions& options) {
+  command->add_option("scene", options.scene, "scene file (models/scenes/*.toml)")->required();
+  command->add_option("--rig", options.rig, "rig: sim, a name in models/rigs, or a file")
+      ->capture_default_str();
+  command->add_option("--set", options.set,
+                      "override, e.g. object.ball.radius_mm=30 (names: encounter params SCENE)");
+  command->add_option("--seed", options.seed, "seed of all random streams")
+      ->capture_default_str()
+      ->check(bad_seed);
+}
+
+int dispatch(CLI::App& app, int argc, char** argv) {
+  int code = 0;
+  RunOptions run_options;
+  CLI::App* run_command = app.add_subcommand("run", "run a scene and say what happened");
+  scene_options(run_command, run_options);
+  run_command
+      ->add_option("--pace", run_options.pace, "free, wall, or seconds of experiment per second of wall time")
+      ->capture_default_str();
+  run_command->add_option("--for-s", run_options.seconds,
+                          "length, s of experiment; default: until the user or the probe is done");
+  run_command->add_option("--record", run_options.record,
+                          "write inputs and outputs of every tick to this file");
+  run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
+  run_command->add_flag("--armed", run_options.armed,
+                        "send commands to real devices; without it they are only computed and recorded");
+  run_command->callback([&] { code = run(run_options); });
+
+  SceneOptions check_options;
+  CLI::App* check_command =
+      app.add_subcommand("check", "read a scene, say what will be built and what is left out and why");
+  scene_options(check_command, check_options);
+  check_command->callback([&] { code = check(check_options); });
+
+  ReplayOptions replay_options;
+  CLI::App* replay_command =
+      app.add_subcommand("replay", "run step() again over a record; exit 1 where outputs differ");
+  replay_command->add_option("record", replay_options.record, "file written by run --record")->required();
+  replay_command->add_flag("--partial", replay_options.partial, "replay what a cut-off record still holds");
+  replay_command->callback([&] { code = replay(replay_options); });
+
+  ExportOptions export_options;
+  CLI::App* export_command =
+      app.add_subcommand("export", "a record as a table: tip, force, deflection of every tick (CSV)");
+  export_command->add_option("record", export_options.record, "file written by run --record")->required();
+  export_command->add_option("--csv", export_options.csv, "file to write; -: standard output")
+      ->capture_default_str();
+  export_command->add_flag("--partial", export_options.partial, "export what a cut-off record still holds");
+  export_command->callback([&] { code = export_record(export_options); });
+
+  ViewOptions view_options;
+  CLI::App* view_command = app.add_subcommand("view", "picture of a scene at a moment");
+  scene_options(view_command, view_options);
+  view_command->add_option("--shot", view_options.shot, "PNG file to write");
+  view_command->add_option("--at-s", view_options.at,
+                           "moment, s of experiment; default: the first press at its deepest");
+  view_command->add_flag("--close-up", view_options.close_up, "the contact instead of the whole machine");
+  view_command->callback([&] { code = view(view_options); });
+
+  ParamsOptions params_options;
+  CLI::App* params_command =
+      app.add_subcommand("params", "every name that --set takes: unit, value, source, confidence (CSV)");
+  scene_options(params_command, params_options);
+  params_command->add_flag("--json", params_options.json, "JSON instead of CSV");
+  params_command->callback([&] { code = params(params_options); });
+
+  BenchOptions bench_options;
+  CLI::App* bench_command =
+      app.add_subcommand("bench", "run benchmarks; exit 1 where a figure is out of bounds");
+  bench_command->add_option("names", bench_options.names,
+                            "benchmarks, groups, or figures such as press.restore; none: all benchmarks");
+  bench_command->add_option("--out", bench_options.out,
+                            "folder for report.html, REPORT.md, results.json, pictures and tables");
+  bench_command->add_option("--seed", bench_options.seed, "first seed")
+      ->capture_default_str()
+      ->check(bad_seed);
+  bench_command->add_option("--repeats", bench_options.repeats,
+                            "seeds per row; default: the benchmark's own");
+  bench_command->add_option("--set", bench_options.set, "override, as for run");
+  bench_command->add_flag("--quick", bench_options.quick, "fewer repeats; all of them in 15 s");
+  bench_command->add_flag("--full", bench_options.full,
+                          "also what takes minutes: what each part does, error against run time");
+  bench_command->add_flag("--list", bench_options.list, "only print the benchmarks and what they show");
+  bench_command->callback([&] { code = bench(bench_options); });
+
+  FitOptions fit_options;
+  CLI::App* fit_command = app.add_subcommand(
+      "fit", "turn a measured loop (CSV) into a response file, or into the ball behind it");
+  fit_command->add_option("loop", fit_options.loops, "CSV with time_s, deflection_mm, force_N, repeat")
+      ->required();
+  fit_command->add_option("--out", fit_options.out, "response file to write, models/responses/NAME.toml");
+  fit_command->add_option("--limit-mm", fit_options.limit_mm, "deflection up to which the response holds")
+      ->capture_default_str();
+  fit_command->add_option("--rig", fit_options.rig, "rig that will render it: sets how soft it may be")
+      ->capture_default_str();
+  fit_command->add_option(
+      "--ceiling-N-per-mm", fit_options.ceiling,
+      "stiffest that the stops may be; lower: quieter at rest, less exact where motion turns");
+  fit_command->add_flag("--ball", fit_options.ball,
+                        "the numbers of the ball that was pressed, with intervals; takes several loops");
+  fit_command->add_option("--hold", fit_options.hold, "of the ball: NAME or NAME=VALUE that is known");
+  fit_command->add_option("--free", fit_options.free, "of the ball: NAME to be found that is held otherwise");
+  fit_command->add_flag("--json", fit_options.json, "of the ball: one JSON object instead of text");
+  fit_command->callback([&] { code = fit(fit_options); });
+
+  CalibrateOptions calibrate_options;
+  CLI::App* calibrate_command =
+      app.add_subcommand("calibrate",
+                         "a tracker's bias, noise and latency out of a log; the camera's pose out of pairs "
+                         "of points, or guided: the rig's simulated arm is driven through the camera's view");
+  calibrate_command
+      ->add_option(
+          "what", calibrate_options.log,
+          "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; CSV with camera_x_m.., device_x_m.., "
+          "pair; or a rig with a simulated arm, such as vishap")
+      ->required();
+  calibrate_command->add_option("--rate-Hz", calibrate_options.rate,
+                                "of a log: rows a second that it shall have; default: any");
+  calibrate_command->add_flag("--json", calibrate_options.json, "one JSON object instead of text");
+  calibrate_command->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to");
+  calibrate_command->add_option("--pairs", calibrate_options.pairs, "of a rig: places of the tip")
+      ->check(CLI::Range(4, 1000))
+      ->capture_default_str();
+  calibrate_command->add_option("--frames", calibrate_options.frames, "of a rig: averaged at each place")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  calibrate_command->add_option("--seed", calibrate_options.seed, "of the camera's noise")
+      ->capture_default_str()
+      ->check(bad_seed);
+  calibrate_command->add_option("--set", calibrate_options.set, "of a rig: override, as for run");
+  calibrate_command->callback([&] { code = calibrate(calibrate_options); });
+
+  NearestOptions nearest_options;
+  CLI::App* nearest_command = app.add_subcommand(
+      "nearest",
+      "signed distance, nearest surface point and normal for each point of a CSV file (x_m,y_m,z_m)");
+  nearest_command
+      ->add_option("surface", nearest_options.what,
+                   "mesh file, points in its axes; or SCENE#object, points in W")
+      ->required();
+  nearest_command->add_option("points", nearest_options.points, "CSV file with the header x_m,y_m,z_m")
+      ->required();
+  nearest_command->callback([&] { code = nearest(nearest_options); });
+
+  MeshOptions mesh_options;
+  CLI::App* mesh_command = app.add_subcommand("mesh", "write a mesh of our own (.glb, .obj or .stl)");
+  mesh_command->add_option("name", mesh_options.name, "ball, cube, hare, knot or turned_part")->required();
+  mesh_command->add_option("--out", mesh_options.out, "file")->required();
+  mesh_command->add_option("--fine", mesh_options.fine,
+                           "3 to 400: how finely it is cut; a ball has 20 n^2 triangles");
+  mesh_command->callback([&] { code = mesh(mesh_options); });
+
+  QuestionnaireOptions questionnaire_options;
+  CLI::App* questionnaire_command = app.add_subcommand(
+      "questionnaire", "ask a person what the paper asked, keep the answers, show mean, range and counts");
+  questionnaire_command
+      ->add_option("form", questionnaire_options.form, "a name in models/questionnaires, or a file")
+      ->capture_default_str();
+  questionnaire_command->add_option("--store", questionnaire_options.store,
+                                    "CSV file that the answers are added to; what is in it stays");
+  questionnaire_command->add_option("--answers", questionnaire_options.answers,
+                                    "CSV file with answers of many, in place of asking");
+  questionnaire_command->add_option("--participant", questionnaire_options.participant,
+                                    "number or code; default: the next number");
+  questionnaire_command->add_option("--out", questionnaire_options.out, "folder for picture and tables");
+  questionnaire_command->add_option("--results", questionnaire_options.results,
+                                    "results.json of a bench run: shows its figures beside the items");
+  questionnaire_command->add_flag("--date", questionnaire_options.date, "keep the date, too");
+  questionnaire_command->add_flag("--json", questionnaire_options.json, "one JSON object instead of text");
+  questionnaire_command->callback([&] { code = questionnaire(questionnaire_options); });
+
+  CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
+  doctor_command->callback([&] { code = doctor(); });
+
+  // CLI11 would only say that a subcommand is missing.
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
+    throw enc::Error("unknown subcommand '" + std::string(argv[1]) + "'; " +
+                     enc::models::advice(argv[1], names));
+  app.parse(argc, argv);
+  return code;
+}
+
+}  // namespace
+
+int command_line(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of that file, not the end of the run
+  CLI::App app("Encounter: a digital twin of encounter-type haptic displays");
+  app.set_version_flag("--version", std::string("encounter " ENCOUNTER_VERSION));
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& e) {
+    return "encounter: " + std::string(e.what()) + "; see encounter --help\n";
+  });
+  try {
+    return dispatch(app, argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const enc::Error& e) {
+    std::fprintf(stderr, "encounter: %s\n", e.what());
+    return static_cast<int>(e.kind());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "encounter: %s\n", e.what());
+    return 2;
+  }
+}
+
+}  // namespace enc::app

@@ -1,0 +1,192 @@
+// `encounter calibrate LOG.csv`: how far off, how noisy and how late a tracker is, out of any log of a tool
+// that the machine carries past it. Points and rigs go to calibrate_points.cpp.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/fit/commands.h"
+#include "core/error.h"
+#include "models/csv_reader.h"
+#include "models/fit/latency_fit.h"
+#include "trial/fit/point_set.h"
+
+namespace enc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using models::AxisLatency;
+using models::Interval;
+using models::LatencyFit;
+using models::TrackerLog;
+
+constexpr double kMm = 1e3, kMs = 1e3;
+constexpr const char* kNames = "xyz";
+
+std::string text(const Interval& i, double unit, int digits) {
+  if (std::isnan(i.value)) return "not known";
+  if (std::isnan(i.half)) return fmt::format("{:.{}f} +- ?", i.value * unit, digits);
+  return fmt::format("{:.{}f} +- {:.{}f}", i.value * unit, digits, i.half * unit, digits);
+}
+std::string text(double x, double unit, int digits) {
+  return std::isnan(x) ? "not known" : fmt::format("{:.{}f}", x * unit, digits);
+}
+bool differs_from_zero(const Interval& i) { return i.known() && std::abs(i.value) > i.half; }
+
+double mean_packet_period(const TrackerLog& log) {
+  return (log.packets.back().time - log.packets.front().time) / static_cast<double>(log.packets.size() - 1);
+}
+
+std::string table_text(const TrackerLog& log, const LatencyFit& fit) {
+  std::string out = fmt::format(
+      "{:.1f} s, {} rows at {:.4g} Hz, {} packets at {:.4g} Hz{}\n", log.time.back() - log.time.front(),
+      log.time.size(), 1.0 / log.period, log.packets.size(), 1.0 / mean_packet_period(log),
+      fit.outliers > 0 ? fmt::format("; {} left out, farther than 6 standard deviations", fit.outliers) : "");
+  out += fmt::format("{:6}{:>20}{:>22}{:>12}{:>12}{:>10}\n", "axis", "latency, ms", "bias, mm", "noise, mm",
+                     "travel, mm", "stops");
+  for (std::size_t a = 0; a < 3; ++a) {
+    const AxisLatency& x = fit.axes[a];
+    out += fmt::format("{:<6}{:>20}{:>22}{:>12}{:>12.1f}{:>10}\n", kNames[a], text(x.latency, kMs, 2),
+                       text(x.bias, kMm, 4), text(x.noise, kMm, 4), x.travel * kMm, x.stops);
+  }
+  return out + fmt::format("{:6}{:>20}\n", "all", text(fit.latency, kMs, 2));
+}
+
+std::string scatter_text(const TrackerLog& log, const LatencyFit& fit) {
+  if (!fit.scatter.known()) return "";
+  const double slot = mean_packet_period(log) / std::sqrt(12.0);
+  return fmt::format(
+      "scatter     of the age {} ms; waiting for a slot of {:.3g} ms explains up to {:.2f} ms of it\n",
+      text(fit.scatter, kMs, 2), mean_packet_period(log) * kMs, slot * kMs);
+}
+
+std::string stamps_text(const LatencyFit& fit) {
+  if (std::isnan(fit.stamp_age.value))
+    return "stamps      none (no tool_time_s): all times are those of arrival\n";
+  if (!fit.stamp_error.known())
+    return fmt::format(
+        "stamps      tell a mean age of {:.4g} ms: {}\n", fit.stamp_age.value * kMs,
+        fit.latency.known() ? "they are of another clock" : "nothing moved to compare them with");
+  return fmt::format("stamps      tell a mean age of {:.2f} ms; packets are older than that by {} ms\n",
+                     fit.stamp_age.value * kMs, text(fit.stamp_error, kMs, 2));
+}
+
+// What the log cannot tell, and what it tells beside the numbers.
+std::string remarks_text(const TrackerLog& log, const LatencyFit& fit) {
+  std::string out;
+  const auto say = [&](const std::string& what) { out += "note        " + what + "\n"; };
+  for (const std::string& note : log.notes) say(note);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const AxisLatency& x = fit.axes[a];
+    const char name = kNames[a];
+    if (x.moving == 0)
+      say(fmt::format("{} did not move: its latency is not in this log; move it, there and back", name));
+    else if (x.one_way)
+      say(fmt::format(
+          "{} moved one way only: what of its bias changes in motion counts as latency, {:.2g} ms "
+          "for each 0.1 mm; move it back, too",
+          name, 0.1e-3 / x.fastest * kMs));
+    if (x.at_rest < 10 && !std::isnan(x.bias.value))
+      say(fmt::format("{} never stopped: its bias is from motion both ways, its noise is not known", name));
+    else if (x.at_rest < 10)
+      say(fmt::format("{} never stopped and moved one way: its bias is not in this log; stop sometimes",
+                      name));
+    if (differs_from_zero(x.change) && std::abs(x.change.value) > 5e-6)
+      say(fmt::format("the bias of {} differs in motion by {} mm", name, text(x.change, kMm, 4)));
+    if (differs_from_zero(x.step) && std::abs(x.step.value) > 0.02e-3)
+      say(fmt::format("{} has a lag that does not grow with speed: {} mm", name, text(x.step, kMm, 4)));
+    if (x.places > std::max(0.03e-3, 3.0 * x.noise))
+      say(fmt::format("the bias of {} depends on the place: stops differ by up to {:.3f} mm", name,
+                      x.places * kMm));
+  }
+  if (!fit.axes_agree)
+    say("the axes' latencies differ by more than chance: something turns with the direction, or speeds "
+        "differ");
+  return out;
+}
+
+std::string advice_text(const LatencyFit& fit) {
+  std::string out;
+  const auto& axes = fit.axes;
+  const bool off =
+      std::any_of(axes.begin(), axes.end(), [](const AxisLatency& x) { return differs_from_zero(x.bias); });
+  if (off) {
+    out += "set         rig.frames.W_C.position_mm: take away [";
+    for (std::size_t a = 0; a < 3; ++a)
+      out += fmt::format("{}{:.4f}", a > 0 ? ", " : "",
+                         std::isnan(axes[a].bias.value) ? 0.0 : axes[a].bias.value * kMm);
+    out += "] (or from the tool's tip_mm, if the bias turns with the tool)\n";
+  }
+  if (fit.latency.known()) {
+    const double usual = fit.latency.value + 3.0 * (fit.scatter.known() ? fit.scatter.value : 0.0);
+    out += fmt::format("set         rig.tracker.usual_age_ms: above {:.0f}, three scatters over the mean\n",
+                       std::ceil(usual * kMs));
+  }
+  if (differs_from_zero(fit.stamp_error))
+    out += fmt::format("set         rig.tracker.stamp_late_ms = {:.2f}\n", fit.stamp_error.value * kMs);
+  return out;
+}
+
+Json number(double x, double unit) { return std::isfinite(x) ? Json(x * unit) : Json(nullptr); }
+void put(Json& to, const std::string& name, const char* label, const Interval& i, double unit) {
+  to[fmt::format("{}_{}", name, label)] = number(i.value, unit);
+  to[fmt::format("{}_half_{}", name, label)] = number(i.half, unit);
+}
+
+std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
+  Json json;
+  json["rows"] = log.time.size();
+  json["rate_Hz"] = 1.0 / log.period;
+  json["packets"] = log.packets.size();
+  json["packet_rate_Hz"] = 1.0 / mean_packet_period(log);
+  json["outliers"] = fit.outliers;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const AxisLatency& x = fit.axes[a];
+    Json axis;
+    put(axis, "latency", "ms", x.latency, kMs);
+    put(axis, "bias", "mm", x.bias, kMm);
+    axis["noise_mm"] = number(x.noise, kMm);
+    put(axis, "bias_change", "mm", x.change, kMm);
+    put(axis, "lag_step", "mm", x.step, kMm);
+    axis["places_mm"] = number(x.places, kMm);
+    axis["travel_mm"] = x.travel * kMm;
+    axis["stops"] = x.stops;
+    axis["moving"] = x.moving;
+    axis["one_way"] = x.one_way;
+    json["axes"][std::string(1, kNames[a])] = axis;
+  }
+  put(json, "latency", "ms", fit.latency, kMs);
+  put(json, "scatter", "ms", fit.scatter, kMs);
+  json["axes_agree"] = fit.axes_agree;
+  json["stamp_age_ms"] = number(fit.stamp_age.value, kMs);
+  put(json, "stamp_late", "ms", fit.stamp_error, kMs);
+  json["notes"] = log.notes;
+  return json.dump(2);
+}
+
+}  // namespace
+
+int calibrate_command(const CalibrateOptions& options) {
+  if (options.rate && !(*options.rate > 0.0))
+    throw Error("--rate-Hz: expected a positive number of rows a second");
+  // Names of rigs have neither dot nor slash, and their files are TOML; all else is a table.
+  if (options.log.find_first_of("./") == std::string::npos || options.log.ends_with(".toml"))
+    return calibrate_rig(options);
+  const std::string csv =
+      models::csv_text(options.log, "log",
+                       "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes");
+  if (trial::is_point_set(csv)) return calibrate_points(csv, options);
+  const TrackerLog log = models::parse_tracker_log(csv, options.log, options.rate.value_or(kUnset));
+  const LatencyFit fit = models::fit_latency(log);
+  if (options.json) {
+    fmt::print("{}\n", json_text(log, fit));
+    return 0;
+  }
+  fmt::print("{}{}{}{}{}intervals   95 %, from blocks of 0.25 s: neighbouring errors are alike\n",
+             table_text(log, fit), scatter_text(log, fit), stamps_text(fit), remarks_text(log, fit),
+             advice_text(fit));
+  return 0;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,220 @@
+// `encounter calibrate POINTS.csv`: the camera's pose out of places of the device's tip, how sure it is and
+// what is worth averaging. `encounter calibrate RIG`: the same on the twin, whose arm is driven to the
+// places.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/fit/commands.h"
+#include "core/error.h"
+#include "core/rotation.h"
+#include "models/scene_file.h"
+#include "trial/fit/point_study.h"
+#include "trial/guided/driven_arm.h"
+#include "trial/guided/registration_rig.h"
+
+namespace enc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using trial::PointSet;
+using trial::PointStudy;
+
+constexpr double kMm = 1e3, kDeg = 180.0 / M_PI;
+constexpr const char* kNames = "xyz";
+
+std::string number(double x, double unit, int digits) {
+  return std::isnan(x) ? "not known" : fmt::format("{:.{}f}", x * unit, digits);
+}
+std::string number(const models::Interval& i, double unit, int digits) {
+  return fmt::format("{} +- {}", number(i.value, unit, digits),
+                     std::isnan(i.half) ? "?" : number(i.half, unit, digits));
+}
+
+std::string axes_text(const PointSet& places, const PointStudy& s) {
+  std::string out = fmt::format("{} pairs, {:.4g} frame{} of each, condition {:.2f}\n", places.size(),
+                                s.frames, s.frames > 1.0 ? "s" : "", s.found.condition);
+  out += fmt::format("{:6}{:>24}{:>12}{:>24}{:>18}{:>17}\n", "axis", "mean |error| left, mm", "rms, mm",
+                     "left out, mm", "frame noise, mm", "that stays, mm");
+  for (Eigen::Index a = 0; a < 3; ++a)
+    out += fmt::format("{:<6}{:>24}{:>12}{:>24}{:>18}{:>17}\n", kNames[a],
+                       number(s.found.mean_error(a), kMm, 4), number(s.found.rms_error(a), kMm, 4),
+                       number(s.left_out[static_cast<std::size_t>(a)], kMm, 4),
+                       number(s.frame_noise(a), kMm, 4), number(s.standing(a), kMm, 4));
+  return out;
+}
+
+std::string pose_text(const PointStudy& s) {
+  const Vec3 angles = angles_xyz(s.found.X_WC.q()) * kDeg;
+  const auto halves = [](const std::array<models::Interval, 3>& of, double unit, int digits) {
+    return fmt::format("{}, {}, {}", number(of[0].half, unit, digits), number(of[1].half, unit, digits),
+                       number(of[2].half, unit, digits));
+  };
+  const Vec3 p = s.found.X_WC.p() * kMm;
+  return fmt::format(
+      "\n[frames.W_C]\nposition_mm = [{:.4f}, {:.4f}, {:.4f}]  # +- {}\n"
+      "rotation_deg = [{:.5f}, {:.5f}, {:.5f}]  # turns about W's axes +- {}\n\n",
+      p.x(), p.y(), p.z(), halves(s.position, kMm, 3), angles.x(), angles.y(), angles.z(),
+      halves(s.turn, kDeg, 4));
+}
+
+std::string fewer_text(const PointStudy& s) {
+  if (s.fewer.empty()) return "";
+  std::string out = "mean |error| at the pairs that were left out, mm: median, and 97.5 % below\n";
+  out += fmt::format("{:>5}{:>8}{:>20}{:>20}{:>20}\n", "pairs", "frames", "x", "y", "z");
+  for (const trial::FewerPoints& f : s.fewer) {
+    out += fmt::format("{:>5}{:>8}", f.pairs, f.frames);
+    for (Eigen::Index a = 0; a < 3; ++a)
+      out += fmt::format("{:>20}",
+                         fmt::format("{:.3f}, {:.3f}", f.error.median(a) * kMm, f.error.high(a) * kMm));
+    out += "\n";
+  }
+  return out;
+}
+
+// What is worth averaging: frames until what stays is all that is left, then places.
+std::string advice_text(const PointStudy& s) {
+  const double frame = s.frame_noise.norm(), stays = s.standing.norm();
+  if (std::isnan(frame))
+    return "average     frames of one place cannot be told apart here: give rows of one place the same "
+           "`pair`\n";
+  const double left = frame / std::sqrt(s.frames);
+  const std::string now =
+      fmt::format("a frame scatters by {:.3f} mm, the average of {:.4g} by {:.3f} mm; {:.3f} mm stay",
+                  frame * kMm, s.frames, left * kMm, stays * kMm);
+  if (left > stays && stays > 0.0)
+    return fmt::format("average     more frames: {}; worth it up to some {:.0f}\n", now,
+                       std::ceil(std::pow(frame / stays, 2)));
+  if (left > stays) return fmt::format("average     more frames: {}\n", now);
+  return fmt::format(
+      "average     more places, not more frames: {}; it is of the camera's calibration or of the arm\n", now);
+}
+
+std::string notes_text(const PointSet& places, const PointStudy& s) {
+  std::string out;
+  const auto say = [&](const std::string& what) { out += "note        " + what + "\n"; };
+  if (s.found.condition > 10.0)
+    say(fmt::format(
+        "the places are nearly on a line (condition {:.0f}): the turn about it is known badly; add places "
+        "to its sides",
+        s.found.condition));
+  if (s.scale.known() && std::abs(s.scale.value - 1.0) > std::max(s.scale.half, 1e-3))
+    say(fmt::format(
+        "the camera's set is {:+.2f} +- {:.2f} % larger than the device's: a baseline, a focal length or a "
+        "length of the arm is believed wrongly",
+        100.0 * (s.scale.value - 1.0), 100.0 * s.scale.half));
+  if (places.size() > models::kFewestPairs && s.worst_error > 5.0 * s.usual_error && s.worst_error > 1e-4)
+    say(fmt::format(
+        "pair {} is {:.2f} mm off by the others, which are {:.2f} mm off: measure it again, or leave it out",
+        places[s.worst].number, s.worst_error * kMm, s.usual_error * kMm));
+  if (places.size() < 6)
+    say("fewer than 6 pairs: what is left over is small because the pose follows the pairs");
+  return out;
+}
+
+Json json_of(const Vec3& v, double unit) {
+  Json list = Json::array();
+  for (Eigen::Index a = 0; a < 3; ++a)
+    list.push_back(std::isfinite(v(a)) ? Json(v(a) * unit) : Json(nullptr));
+  return list;
+}
+Json json_of(const std::array<models::Interval, 3>& of, double models::Interval::*what, double unit) {
+  return json_of(Vec3(of[0].*what, of[1].*what, of[2].*what), unit);
+}
+
+Json study_json(const PointSet& places, const PointStudy& s) {
+  Json json;
+  json["pairs"] = places.size();
+  json["frames"] = s.frames;
+  json["condition"] = s.found.condition;
+  json["scale"] = s.found.scale;
+  json["position_mm"] = json_of(s.found.X_WC.p(), kMm);
+  json["position_half_mm"] = json_of(s.position, &models::Interval::half, kMm);
+  json["rotation_deg"] = json_of(angles_xyz(s.found.X_WC.q()), kDeg);
+  json["turn_half_deg"] = json_of(s.turn, &models::Interval::half, kDeg);
+  json["mean_error_mm"] = json_of(s.found.mean_error, kMm);
+  json["rms_error_mm"] = json_of(s.found.rms_error, kMm);
+  json["left_out_mm"] = json_of(s.left_out, &models::Interval::value, kMm);
+  json["left_out_half_mm"] = json_of(s.left_out, &models::Interval::half, kMm);
+  json["frame_noise_mm"] = json_of(s.frame_noise, kMm);
+  json["standing_mm"] = json_of(s.standing, kMm);
+  json["fewer"] = Json::array();
+  for (const trial::FewerPoints& f : s.fewer)
+    json["fewer"].push_back({{"pairs", f.pairs},
+                             {"frames", f.frames},
+                             {"median_mm", json_of(f.error.median, kMm)},
+                             {"high_mm", json_of(f.error.high, kMm)}});
+  return json;
+}
+
+std::string study_text(const PointSet& places, const PointStudy& s) {
+  return axes_text(places, s) + pose_text(s) + fewer_text(s) + advice_text(s) + notes_text(places, s) +
+         "intervals   95 %, from leaving out one pair at a time\n";
+}
+
+// Of what was found against X_WC, all over the volume in view.
+Vec3 mean_error(const PointStudy& study, const Pose<'W', 'C'>& X_WC, const std::vector<Point<'W'>>& targets) {
+  Vec3 mean = Vec3::Zero();
+  for (const Point<'W'>& p : targets)
+    mean += trial::target_error(study.found.X_WC, X_WC, p).cwiseAbs() / static_cast<double>(targets.size());
+  return mean;
+}
+
+void write_points(const PointSet& places, const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  file << trial::points_text(places);
+  if (!file.flush())
+    throw Error(fmt::format(
+        "{}:1:1: cannot write the points; expected a file in a folder that exists; see --out", path));
+}
+
+}  // namespace
+
+int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
+  const PointSet places = trial::parse_points(csv, options.log);
+  const PointStudy study = trial::study_points(places, options.seed);
+  fmt::print("{}\n", options.json ? study_json(places, study).dump(2) : study_text(places, study));
+  return 0;
+}
+
+int calibrate_rig(const CalibrateOptions& options) {
+  const models::Setup setup = models::load_rig_setup(options.log, options.set);
+  const trial::RegistrationRig rig = trial::registration_rig(setup);
+  trial::DrivenArm arm(setup);
+  const trial::RegistrationPlaces places = trial::places_of(rig, options.pairs);
+  const std::vector<trial::TipVisit> visits =
+      trial::visit_places(arm, places.visited, rig.camera.rate, options.frames);
+  const trial::GuidedRun run = trial::see_visits(visits, rig.X_WC, rig.camera, options.seed);
+  if (run.points.size() < options.pairs)
+    throw Error(fmt::format(
+        "{}: {} places of the arm were seen and {} are wanted; expected the camera to look at the "
+        "arm; see truth.frames.W_C and truth.arm.misplaced_mm, or ask for fewer --pairs",
+        models::place_of(setup, "truth.frames.W_C"), run.points.size(), options.pairs));
+  if (!options.out.empty()) write_points(run.points, options.out);
+  const PointStudy study = trial::study_points(run.points, options.seed);
+  const Vec3 error = mean_error(study, rig.X_WC, places.targets);
+  const Vec3 apart = mean_error(study, arm.as_it_believes(rig.X_WC), places.targets);
+  const double time = run.seconds.back() + static_cast<double>(options.frames) / rig.camera.rate;
+  if (options.json) {
+    Json json = study_json(run.points, study);
+    json["true_error_mm"] = json_of(error, kMm);
+    json["camera_to_arm_error_mm"] = json_of(apart, kMm);
+    json["time_s"] = time;
+    fmt::print("{}\n", json.dump(2));
+    return 0;
+  }
+  const auto axes = [](const Vec3& v) {
+    return fmt::format("{} {} {} mm", number(v.x(), kMm, 4), number(v.y(), kMm, 4), number(v.z(), kMm, 4));
+  };
+  fmt::print(
+      "{}truth       all over the volume in view, mean |error| of x, y, z: {} in W, {} between camera and "
+      "arm\n"
+      "procedure   {:.1f} s of experiment: the arm was driven to each place and rested there\n",
+      study_text(run.points, study), axes(error), axes(apart), time);
+  return 0;
+}
+
+}  // namespace enc::app

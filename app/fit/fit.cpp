@@ -1,0 +1,119 @@
+// `encounter fit LOOP.csv`: a measured loop becomes a response file, and what is known about it is said.
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "app/fit/commands.h"
+#include "core/error.h"
+#include "core/scene.h"
+#include "models/csv_reader.h"
+#include "models/fit/loop_fit.h"
+#include "models/response_file.h"
+#include "models/scene_file.h"
+
+namespace enc::app {
+namespace {
+
+using models::BranchKnown;
+using models::LoopFit;
+
+std::string branch_text(const char* name, const BranchKnown& known, double rmse, double rmse_free) {
+  std::string text =
+      fmt::format("{:11} RMSE {:.4f} N; without constraints {:.4f} N\n", name, rmse, rmse_free);
+  double scale = 1.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    scale *= 1e-3;
+    text += fmt::format("  d^{}       {:11.6f} +- {:.6f} N/mm^{}\n", k + 1,
+                        known.coefficients[k].value * scale, known.coefficients[k].half * scale, k + 1);
+  }
+  text += "  curve    ";
+  for (std::size_t i = 0; i < known.curve.size(); ++i)
+    text += fmt::format("{}{:.2f}+-{:.3f}", i == 0 ? " " : ", ", known.curve[i].value, known.curve[i].half);
+  text += " N at 1, 2, ... mm\n";
+  if (!known.repeats.empty() && !std::isnan(known.repeats.front())) {
+    text += "  repeats  ";
+    for (std::size_t i = 0; i < known.repeats.size(); ++i)
+      text += fmt::format("{}+-{:.3f}", i == 0 ? " " : ", ", known.repeats[i]);
+    text += " N of their mean there\n";
+  }
+  if (!known.curve.empty())
+    text += fmt::format("  deepest   full width of the interval at {} mm: {:.3f} N, {:.1f} % of the force\n",
+                        known.curve.size(), 2.0 * known.curve.back().half,
+                        200.0 * known.curve.back().half / known.curve.back().value);
+  return text + fmt::format(
+                    "  tied      d^{} and d^{} go together (correlation {:.4f}; condition "
+                    "number {:.2g}): the curve is known, these two singly are not\n",
+                    known.tied[0], known.tied[1], known.correlation, known.condition);
+}
+
+std::string stops_text(const LoopFit& fit) {
+  const StopsSpec& stops = *fit.response.stops;
+  std::string text = fmt::format(
+      "stops       RMSE {:.4f} N; without constraints {:.4f} N (Prandtl-Ishlinskii, both branches)\n",
+      fit.stops.rmse, fit.stops.rmse_free);
+  std::string none;
+  for (std::size_t i = 0; i < stops.radii.size(); ++i) {
+    if (stops.weights[i] > 0.0)
+      text +=
+          fmt::format("  r         {:7.4f} mm: {:.4f} N/mm\n", stops.radii[i] * 1e3, stops.weights[i] * 1e-3);
+    else
+      none += fmt::format("{}{:.4f}", none.empty() ? "" : ", ", stops.radii[i] * 1e3);
+  }
+  return text + fmt::format("  no weight {} mm\n", none.empty() ? "none of the radii" : none);
+}
+
+std::string report(const LoopFit& fit) {
+  return fmt::format("{} presses, {} readings; slope kept within {:.4f} and {:.3f} N/mm\n", fit.presses,
+                     fit.readings, fit.floor * 1e-3, fit.ceiling * 1e-3) +
+         branch_text("press", fit.press, fit.curves.rmse_press, fit.curves.rmse_press_free) +
+         branch_text("release", fit.release, fit.curves.rmse_release, fit.curves.rmse_release_free) +
+         stops_text(fit) +
+         "intervals   95 %, block bootstrap over twelfths of each branch, fixed seed: neighbouring residuals "
+         "are "
+         "alike\n" +
+         (fit.presses > 1 ? fmt::format("repeats     differ by at most {:.3f} N, at {:.2f} mm\n",
+                                        fit.repeatability, fit.repeatability_at * 1e3)
+                          : std::string("repeats     only one: nothing is known about repeatability\n"));
+}
+
+}  // namespace
+
+int fit_loop(const FitOptions& options) {
+  if (options.loops.size() != 1)
+    throw Error("fit: a response comes from one loop; expected one file; give --ball to use several");
+  if (options.json || !options.hold.empty() || !options.free.empty())
+    throw Error("fit: --hold, --free and --json are of the ball; expected them with --ball; add it");
+  const std::string& file_name = options.loops.front();
+  if (!(options.limit_mm > 0.0 && options.limit_mm < 1e3))
+    throw Error("--limit-mm: expected a positive number of millimetres");
+  models::LoopFitOptions how;
+  how.limit = options.limit_mm * 1e-3;
+  how.floor = models::fit_floor(loop_of(models::load_rig(options.rig)));
+  if (options.ceiling) {
+    how.ceiling = *options.ceiling * 1e3;
+    if (!(how.ceiling > how.floor))
+      throw Error(
+          fmt::format("--ceiling-N-per-mm: expected more than {:.3f} N/mm, the softest that the loop renders",
+                      how.floor * 1e-3));
+  }
+  const models::LoopData loop = models::parse_loop(
+      models::csv_text(file_name, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
+      file_name, how.limit);
+  LoopFit fit;
+  try {
+    fit = models::fit_loop(loop, how);
+  } catch (const Error& e) {
+    throw Error(
+        fmt::format("{}:1:1: {}; record the loop again, or give another --limit-mm", file_name, e.what()));
+  }
+  fmt::print("{}", report(fit));
+  if (options.out.empty()) return 0;
+  std::ofstream file(options.out, std::ios::binary);
+  file << models::response_text(fit.response, fit.source);
+  file.close();
+  if (!file) throw Error(options.out + ": cannot be written; choose a folder that exists and is yours");
+  return 0;
+}
+
+}  // namespace enc::app

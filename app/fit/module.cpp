@@ -1,0 +1,22 @@
+// What the program finds in encounter_fit.so.
+#include "core/module.h"
+
+#include "app/fit/commands.h"
+#include "app/fit/fit_module.h"
+#include "encounter_version.h"
+
+namespace enc::app {
+namespace {
+
+int fit_command(const FitOptions& options) { return options.ball ? fit_ball(options) : fit_loop(options); }
+
+constexpr FitModule kFit{fit_command, calibrate_command};
+
+}  // namespace
+}  // namespace enc::app
+
+extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
+  static const enc::ModuleInfo kInfo{
+      enc::kModuleInterface, ENCOUNTER_VERSION, "fit", nullptr, nullptr, nullptr, nullptr, &enc::app::kFit};
+  return &kInfo;
+}

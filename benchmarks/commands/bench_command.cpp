@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <future>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/kit/bench.h"
+#include "benchmarks/report/choice.h"
+#include "benchmarks/report/report.h"
+#include "core/error.h"
+#include "models/scene_file.h"
+
+namespace enc::bench {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+double since(WallClock::time_point start) {
+  return std::chrono::duration<double>(WallClock::now() - start).count();
+}
+
+std::string bounds(const Figure& f) {
+  if (std::isfinite(f.low) && std::isfinite(f.high))
+    return fmt::format(" within {:.4g}..{:.4g}", f.low, f.high);
+  if (std::isfinite(f.high)) return fmt::format(" at most {:.4g}", f.high);
+  return std::isfinite(f.low) ? fmt::format(" at least {:.4g}", f.low) : "";
+}
+
+// The words that were given, for the report: whoever repeats them gets its figures.
+std::string command_of(const trial::BenchOptions& options) {
+  std::string text = "./encounter bench";
+  for (const std::string& name : options.names) text += " " + name;
+  if (options.quick) text += " --quick";
+  if (options.full) text += " --full";
+  if (options.seed != 1) text += fmt::format(" --seed {}", options.seed);
+  if (options.repeats != 0) text += fmt::format(" --repeats {}", options.repeats);
+  for (const std::string& set : options.set) text += " --set '" + set + "'";
+  return text;
+}
+
+// Ctrl-C and SIGTERM wait until somebody asks; threads and what they start inherit that.
+class Signals {
+ public:
+  Signals() {
+    sigemptyset(&set_);
+    sigaddset(&set_, SIGINT);
+    sigaddset(&set_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &set_, &before_);
+  }
+  ~Signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+  [[nodiscard]] bool came() const {
+    const timespec none{};
+    return sigtimedwait(&set_, nullptr, &none) > 0;
+  }
+
+ private:
+  sigset_t set_{}, before_{};
+};
+
+// How far a benchmark is: a line that renews itself in a terminal, one line in a file.
+class Teller {
+ public:
+  Teller(const char* name, std::size_t number, std::size_t of)
+      : text_(fmt::format("{} of {}: {}", number, of, name)) {}
+  void tell(double share) {
+    if (terminal_)
+      fmt::print(stderr, "\r  {} {:3.0f} %  {:.0f} s ", text_, std::floor(100.0 * share), since(start_));
+    else if (since(start_) > 2.0)  // what is refused at once has one line: why
+      say();
+    std::fflush(stderr);
+  }
+  void end() {
+    if (terminal_)
+      fmt::print(stderr, "\r{:60}\r", "");
+    else
+      say();
+    std::fflush(stderr);
+  }
+
+ private:
+  void say() {
+    if (!said_) fmt::print(stderr, "encounter: {}\n", text_);
+    said_ = true;
+  }
+  const bool terminal_ = isatty(STDERR_FILENO) != 0;
+  const std::string text_;
+  const WallClock::time_point start_ = WallClock::now();
+  bool said_ = false;
+};
+
+// The work is done in a thread of its own, so that this one can tell, and can stop whatever the other does.
+class Session {
+ public:
+  Session(const trial::BenchOptions& options, const trial::ModuleFinder& modules)
+      : options_(options), choices_(chosen(options.names)) {
+    report_.command = command_of(options);
+    report_.seed = options.seed;
+    report_.set = options.set;
+    for (const Choice& choice : choices_) report_.missing.emplace_back(choice.benchmark->name);
+    context_.models = models::models_dir("");
+    report_.background = load_background(context_.models);
+    context_.seed = options.seed;
+    context_.repeats = options.repeats;
+    context_.quick = options.quick;
+    context_.full = options.full;
+    context_.set = options.set;
+    context_.module = modules;
+    context_.progress = [this](double share) { share_ = share; };
+  }
+
+  int run() {
+    write();  // an unwritable folder is refused before hours of work
+    for (std::size_t i = 0; i < choices_.size(); ++i) {
+      const Choice& choice = choices_[i];
+      BenchResult result = measured(*choice.benchmark, i + 1);
+      check_ids(choice, result);
+      print(choice, result);
+      add_result(report_, std::move(result));
+      write();
+    }
+    const std::string felt = verdict_line(judged(report_.results, report_.background.thresholds));
+    if (!felt.empty()) fmt::print("errors beside what a person can tell: {}\n", felt);
+    if (!options_.out.empty() && !report_.not_drawn.empty())
+      fmt::print(stderr, "encounter: not drawn: {}; tables and figures are complete\n", report_.not_drawn);
+    return all_ok_ ? 0 : 1;
+  }
+
+ private:
+  BenchResult measured(const Benchmark& benchmark, std::size_t number) {
+    if (signals_.came()) stop();
+    share_ = 0.0;
+    Teller teller(benchmark.name, number, choices_.size());
+    const WallClock::time_point start = WallClock::now();
+    std::future<BenchResult> work = std::async(std::launch::async, [&] { return benchmark.run(context_); });
+    while (work.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+      if (signals_.came()) stop();
+      teller.tell(share_);
+    }
+    BenchResult result = work.get();
+    result.run_time = since(start);
+    teller.end();
+    return result;
+  }
+
+  void print(const Choice& choice, const BenchResult& result) {
+    fmt::print("{} ({}): {:.1f} s simulated in {:.2f} s\n", result.name, choice.benchmark->what,
+               result.simulated, result.run_time);
+    for (const Figure& f : result.figures) {
+      if (!wanted(choice, f)) continue;
+      all_ok_ = all_ok_ && f.ok();
+      fmt::print("  {:34} {:10.4g} {:5}{}{}{}\n", f.id, f.twin, f.unit,
+                 std::isfinite(f.paper) ? fmt::format(" (paper {:.4g}, {})", f.paper, role_name(f.role)) : "",
+                 bounds(f), f.ok() ? "" : "  OUT OF BOUNDS");
+    }
+    if (!result.note.empty()) fmt::print("  {}\n", result.note);
+    std::fflush(stdout);
+  }
+
+  void write() const {
+    if (!options_.out.empty()) write_report(options_.out, report_);
+  }
+
+  // The files already say what is missing. The other thread may be anywhere, so nothing is torn down.
+  [[noreturn]] void stop() const {
+    std::string missing;
+    for (const std::string& name : report_.missing) missing += " " + name;
+    fmt::print(stderr, "{}encounter: interrupted; {} of {} benchmarks complete, missing:{}\n",
+               isatty(STDERR_FILENO) != 0 ? "\n" : "", report_.results.size(), choices_.size(), missing);
+    std::fflush(nullptr);
+    _exit(1);
+  }
+
+  const trial::BenchOptions& options_;
+  const std::vector<Choice> choices_;
+  const Signals signals_;
+  Report report_;
+  BenchContext context_;
+  std::atomic<double> share_{0.0};
+  bool all_ok_ = true;
+};
+
+int list_benchmarks() {
+  for (const Benchmark& b : benchmarks()) fmt::print("{:12} {}\n", b.name, b.what);
+  for (const Group& g : groups()) {
+    std::string members;
+    for (const std::string& member : g.members) members += " " + member;
+    fmt::print("{:12} {}:{}\n", g.name, g.what, members);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int bench_command(const trial::BenchOptions& options, const trial::ModuleFinder& modules) {
+  if (options.list) return list_benchmarks();
+  if (options.repeats < 0) throw Error("--repeats: expected a positive number");
+  if (options.quick && options.full) throw Error("--quick and --full exclude each other; give one of them");
+  return Session(options, modules).run();
+}
+
+}  // namespace enc::bench

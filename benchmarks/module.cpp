@@ -1,0 +1,15 @@
+// What the program finds in encounter_bench.so.
+#include "benchmarks/commands/commands.h"
+#include "encounter_version.h"
+
+namespace {
+
+constexpr enc::trial::BenchModule kBench{enc::bench::bench_command, enc::bench::questionnaire_command};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
+  static const enc::ModuleInfo kInfo{
+      enc::kModuleInterface, ENCOUNTER_VERSION, "bench", nullptr, nullptr, nullptr, &kBench};
+  return &kInfo;
+}

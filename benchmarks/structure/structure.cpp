@@ -1,0 +1,307 @@
+// The structural hexapod: does it sag, vibrate and converge as theory says, what does it cost, and what would
+// a closed loop of bodies and constraints cost instead?
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
+#include "benchmarks/structure/structure_model.h"
+#include "trial/trial.h"
+
+namespace enc::bench::structure {
+namespace {
+
+using sim::StructureTruth;
+
+struct Report {
+  BenchResult& result;
+  void add(std::string id, double twin, const char* unit, double low, double high, std::string note) const {
+    result.figures.push_back({std::move(id), kUnset, twin, unit, Role::ours, low, high, std::move(note)});
+  }
+};
+
+StructureTruth truth_of(const char* integrator, double timestep) {
+  StructureTruth truth;
+  truth.integrator = integrator;
+  truth.timestep = timestep;
+  return truth;
+}
+
+// The swing, H every millisecond.
+struct Path {
+  std::vector<Vec3> tip;
+  double us_per_step = 0.0;  // CPU
+  double gap = 0.0;          // m
+};
+Path swung(LegForm form, const char* integrator, double timestep, double seconds = 1.0) {
+  LegModel model(form, truth_of(integrator, timestep));
+  const int steps = static_cast<int>(std::lround(seconds / timestep));
+  const int each = static_cast<int>(std::lround(1e-3 / timestep));
+  Path path;
+  const double start = thread_seconds();
+  for (int i = 0; i < steps; ++i) {
+    model.step(swing(model.machine(), i * timestep), swing(model.machine(), (i + 1) * timestep));
+    path.gap = std::max(path.gap, model.gap());
+    if ((i + 1) % each == 0) path.tip.push_back(model.tip());
+  }
+  path.us_per_step = (thread_seconds() - start) / steps * 1e6;
+  return path;
+}
+
+double rms(const Path& a, const Path& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.tip.size(); ++i) sum += (a.tip[i] - b.tip[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.tip.size()));
+}
+
+// One integrator of one form, its time step halved again and again.
+struct Family {
+  LegForm form;
+  const char* integrator;
+  std::vector<double> steps;  // s
+  double order, tolerance;    // of the halvings from `bounded` on
+  std::size_t bounded;
+  [[nodiscard]] const char* name() const { return form == LegForm::tendon ? "tendon" : "connect"; }
+};
+const std::vector<Family>& families() {
+  // What is not bounded is for the table alone: there a step is no small part of the fastest vibration.
+  static const std::vector<double> kFine{0.25e-3, 0.125e-3, 0.0625e-3, 0.03125e-3, 0.015625e-3, 0.0078125e-3};
+  static const std::vector<Family> kAll{
+      {LegForm::tendon, "rk4", {1e-3, 0.5e-3, 0.25e-3, 0.125e-3}, 4.0, 0.4, 2},
+      {LegForm::tendon, "euler", kFine, 1.0, 0.2, 4},
+      {LegForm::tendon, "implicitfast", kFine, 1.0, 0.2, 4},
+      {LegForm::connect, "rk4", {0.5e-3, 0.25e-3}, 0.0, 0.0, 99},
+  };
+  return kAll;
+}
+
+// Error against the own converged path; each halving's order; cost.
+void converge(const Report& report, const Family& family, const Path& truth, const std::vector<Path>& paths) {
+  double before = kUnset;
+  Series error_of_step{fmt::format("{}, {}", family.name(), family.integrator), {}, {}, {}, {}, Mark::both};
+  Series error_of_cost = error_of_step;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const Path& path = paths[i];
+    const double h = family.steps[i];
+    const double error = rms(path, truth);
+    const std::string id = fmt::format("structure.{}.{}.{:g}", family.name(), family.integrator, h * 1e6);
+    report.add(id + ".error.rms", error * 1e6, "um", kUnset, kUnset,
+               fmt::format("{:.1f} us a step, {:.0f} x real time; closure gap {:.2g} um", path.us_per_step,
+                           h * 1e6 / path.us_per_step, path.gap * 1e6));
+    report.add(id + ".cost.mean", path.us_per_step, "us", kUnset, kUnset, "CPU time a step");
+    if (i > 0) {
+      const bool bounded = i >= family.bounded;
+      report.add(id + ".order", std::log2(before / error), "",
+                 bounded ? family.order - family.tolerance : kUnset,
+                 bounded ? family.order + family.tolerance : kUnset,
+                 "log2 of the error at twice this step over the error here");
+    }
+    before = error;
+    error_of_step.x.push_back(h * 1e6);
+    error_of_cost.x.push_back(path.us_per_step / (h * 1e6));
+    error_of_step.y.push_back(error * 1e6);
+    error_of_cost.y.push_back(error * 1e6);
+  }
+  report.result.plots[0].series.push_back(error_of_step);
+  report.result.plots[1].series.push_back(error_of_cost);
+}
+
+// All paths on all cores; what a step costs is the CPU time of its thread.
+void work_and_precision(const Report& report, const BenchContext& context) {
+  const double seconds = context.quick ? 0.25 : 1.0;
+  const double finest = context.quick ? 0.0625e-3 : 0.015625e-3;
+  struct Job {
+    LegForm form;
+    const char* integrator;
+    double step;
+    Path path{};
+  };
+  std::vector<Job> jobs{{LegForm::tendon, "rk4", finest}, {LegForm::connect, "rk4", finest}};
+  for (const Family& family : families())
+    for (const double step : family.steps) jobs.push_back({family.form, family.integrator, step});
+  in_parallel(
+      jobs.size(),
+      [&](std::size_t i) { jobs[i].path = swung(jobs[i].form, jobs[i].integrator, jobs[i].step, seconds); },
+      context.progress);
+  report.result.plots.push_back(
+      {"structure.error_over_step",
+       "Error of H over the time step",
+       "time step (us)",
+       "rms error of H (um)",
+       true,
+       true,
+       {},
+       "By theory RK4 falls with the fourth power of the step once that resolves the fastest vibration, "
+       "the others with the first; the table has the orders found."});
+  report.result.plots.push_back({"structure.error_over_cost",
+                                 "Work and precision of the hexapod's legs",
+                                 "CPU time for each second of experiment (s)",
+                                 "rms error of H (um)",
+                                 true,
+                                 true,
+                                 {},
+                                 "Lower left is better: less error for less work."});
+  std::size_t next = 2;
+  for (const Family& family : families()) {
+    std::vector<Path> paths;
+    for (std::size_t i = 0; i < family.steps.size(); ++i) paths.push_back(jobs[next++].path);
+    converge(report, family, jobs[family.form == LegForm::tendon ? 0 : 1].path, paths);
+  }
+  report.add("structure.connect.from_tendon.rms", rms(jobs[1].path, jobs[0].path) * 1e6, "um", kUnset, kUnset,
+             "between the two converged paths: 12 rods of 1 g more, soft closure");
+}
+
+void static_sag(const Report& report, const BenchContext& /*context*/) {
+  LegModel model(LegForm::tendon, StructureTruth{});
+  const LegCommand still{model.machine().zero(), Vec<'R'>::zero(), Vec<'R'>::zero()};
+  const auto settled = [&](const Vec3& force) {
+    model.push(force);
+    for (int i = 0; i < 10000; ++i) model.step(still, still);  // 5 s: the softest mode fades with 4.4 /s
+    mj_forward(model.physics().model(), model.physics().data());
+    return model.tip();
+  };
+  const Vec3 free = settled(Vec3::Zero());
+  const Hexapod::Jacobian K = model.legs().stiffness();
+  report.add("structure.zero.error", (free - still.pose.p()).norm() * 1e6, "um", 0, 1e-3,
+             "H from its zero at rest: the weight is calibrated out");
+  const Hexapod::Jacobian C = K.inverse();
+  for (int axis = 2; axis >= 0; --axis) {
+    const Vec3 force = -50.0 * Vec3::Unit(axis);
+    const double sag = -(settled(force) - free)(axis);
+    const double expected = axis == 2 ? 50.0 / K(2, 2) : 50.0 * C(axis, axis);
+    const char* name = std::array{"x", "y", "z"}[static_cast<std::size_t>(axis)];
+    report.add(fmt::format("structure.sag.{}.50", name), sag * 1e6, "um", 0.995 * expected * 1e6,
+               1.005 * expected * 1e6,
+               axis == 2 ? "against 50 N / (J'KJ)zz, 0.5 %"
+                         : "against 50 N (J'KJ)^-1, 0.5 %: H is 190 mm above the joints and tilts");
+  }
+}
+
+void modes(const Report& report, const BenchContext& /*context*/) {
+  LegModel model(LegForm::tendon, StructureTruth{});
+  const Hexapod::Lengths expected = model.legs().modes();
+  const Hexapod::Lengths found = model.measured_modes();
+  for (int i = 0; i < 6; ++i)
+    report.add(fmt::format("structure.mode.{}.frequency", i + 1), found(i), "Hz", 0.995 * expected(i),
+               1.005 * expected(i),
+               fmt::format("by differences of the physics; M^-1 J'KJ says {:.1f} Hz", expected(i)));
+}
+
+// The scene in structural form.
+models::Setup on_legs(const BenchContext& context, std::vector<std::string> more = {}) {
+  more.emplace_back("truth.hexapod.form=structural");
+  return load_scene(context, "tennis_ball", {}, more);
+}
+
+// A world of the scene in structural form without a person, its machine told where to go.
+struct Machine {
+  explicit Machine(const BenchContext& context, const std::vector<std::string>& more)
+      : setup(on_legs(context, more)) {
+    setup.scene.user.reset();
+    scene = trial::prepare_setup(setup);
+    world = std::make_unique<sim::World>(sim::WorldSpec{setup.scene, setup.rig, setup.twin, scene,
+                                                        context.models + "/mjcf", context.seed, false});
+  }
+  const sim::Truth& go(const Vec3& from_zero, int ticks) {
+    const Vec3 there = world->machine->machine().zero().p() + from_zero;
+    world->machine->command(Pose<'R', 'H'>(Quat::Identity(), there));
+    for (int i = 0; i < ticks; ++i) {
+      world->advance();
+      simulated += scene.dt;
+      for (const double f : world->truth().leg_force) strongest = std::max(strongest, std::abs(f));
+    }
+    return world->truth();
+  }
+  models::Setup setup;
+  Scene scene;
+  std::unique_ptr<sim::World> world;
+  double strongest = 0.0;  // leg force, N
+  double simulated = 0.0;  // s
+};
+
+void payload(const Report& report, const BenchContext& context) {
+  Machine m(context, {"truth.structure.payload_kg=10", "truth.hexapod.repeatability_um=0"});
+  const double sag = -m.go(Vec3::Zero(), 1000).tip.xyz[2];
+  const double kz = m.world->legs->stiffness()(2, 2);
+  const double expected = 10.0 * 9.80665 / kz;
+  report.add("structure.payload.sag", sag * 1e6, "um", 0.99 * expected * 1e6, 1.01 * expected * 1e6,
+             "10 kg put on after calibration, at zero, against m g / (J'KJ)zz");
+  sim::Physics& physics = m.world->physics();
+  const int platform = physics.id(mjOBJ_BODY, "platform");
+  for (const Vec3& corner : {Vec3(0.03, 0, 0.01), Vec3(-0.03, 0.03, -0.01), Vec3(0, -0.03, 0.015)})
+    m.go(corner, 1500);
+  physics.data()->xfrc_applied[6 * platform + 2] = -100.0;
+  const double pushed = -m.go(Vec3::Zero(), 2000).tip.xyz[2];
+  const double both = expected + 100.0 / kz;
+  report.add("structure.payload.pushed.sag", pushed * 1e6, "um", 0.99 * both * 1e6, 1.01 * both * 1e6,
+             "and 100 N more, likewise");
+  report.add(
+      "structure.payload.leg_force.max", m.strongest, "N", 0, 171,
+      "10 kg, the platform and 100 N, on the way through the workspace; parameters 2.3 has 74 N for 100 N");
+  report.result.simulated += m.simulated;
+  report.add("structure.payload.diverged", static_cast<double>(m.world->diverged_at()), "tick", -1, -1,
+             "-1: never");
+}
+
+void repeatability(const Report& report, const BenchContext& context) {
+  Machine m(context, {});
+  sim::Stream random(context.seed, "arrivals");
+  std::vector<Vec3> arrivals;
+  const int count = context.repeats > 0 ? static_cast<int>(context.repeats) : context.quick ? 25 : 100;
+  Vec3 mean = Vec3::Zero();
+  for (int i = 0; i < count; ++i) {
+    m.go(0.003 * random.normal3().normalized(), 500);
+    arrivals.push_back(m.go(Vec3::Zero(), 1500).tip.e());
+    mean += arrivals.back() / count;
+  }
+  double sum = 0.0;
+  for (const Vec3& at : arrivals) sum += (at - mean).squaredNorm();
+  report.result.simulated += m.simulated;
+  // The rms of n numbers is known to 1 / sqrt(2 n): of 300 to 4 %; four sigma.
+  const double room = 4.0 / std::sqrt(6.0 * count);
+  report.add("structure.repeatability.rms", std::sqrt(sum / (3.0 * (count - 1))) * 1e6, "um",
+             0.5 * (1.0 - room), 0.5 * (1.0 + room),
+             fmt::format("true H, along each axis, {} arrivals from random directions", count));
+}
+
+void speed(const Report& report, const BenchContext& context) {
+  std::vector<double> times(context.quick ? 3 : 7);
+  for (double& time : times) time = 500.0 / swung(LegForm::tendon, "rk4", 0.5e-3).us_per_step;
+  report.add("structure.times_real_time.swing", median(times), "x", 20, kUnset,
+             "legs and platform, 10 mm and 3 deg at 1 Hz, one core, CPU time of its thread");
+  trial::TrialOptions options;
+  options.seed = context.seed;
+  options.seconds = context.quick ? 10.0 : 30.0;
+  trial::Trial trial(on_legs(context), options);
+  const double start = thread_seconds();
+  const trial::TrialResult run = trial.run();
+  report.result.simulated += run.simulated;
+  report.add("structure.times_real_time.scene", run.simulated / (thread_seconds() - start), "x", 20, kUnset,
+             "tennis_ball with core, hand, tracker, display, the same way");
+}
+
+}  // namespace
+
+BenchResult run(const BenchContext& context) {
+  BenchResult result{"structure", "tennis_ball", 0, 0, {}};
+  const Report report{result};
+  speed(report, context);  // alone: it is about time
+  work_and_precision(report, context);
+  const std::array<void (*)(const Report&, const BenchContext&), 4> others{static_sag, modes, payload,
+                                                                           repeatability};
+  std::array<BenchResult, others.size()> parts;
+  in_parallel(others.size(), [&](std::size_t i) { others[i](Report{parts[i]}, context); });
+  for (const BenchResult& part : parts) {
+    result.simulated += part.simulated;
+    result.figures.insert(result.figures.end(), part.figures.begin(), part.figures.end());
+  }
+  return result;
+}
+
+}  // namespace enc::bench::structure

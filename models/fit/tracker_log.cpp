@@ -1,0 +1,204 @@
+#include "models/fit/tracker_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "models/csv_reader.h"
+
+namespace enc::models {
+namespace {
+
+constexpr std::size_t kFewest = 10;     // rows, and packets
+constexpr double kFarthest = 10.0;      // m: nothing of this kind is larger
+constexpr double kLongestPeriod = 0.1;  // s, of the rows: between them the tip is interpolated
+constexpr double kUneven = 0.5;         // of a period: a step that differs by more is not of this rate
+constexpr double kSilence = 0.5;        // s without a packet: a gap, and not a lost packet
+constexpr double kWindow = 2.0;         // s over which packets are counted
+constexpr double kRateChange = 0.3;     // a window's count may differ by this share
+
+enum : std::size_t { kTime, kTip, kTool = kTip + 3, kStamp = kTool + 3 };
+
+class LogReader {
+ public:
+  LogReader(const std::string& text, const std::string& name) : row_(text, name) {}
+
+  TrackerLog read(double rate) {
+    row_.header({"time_s", "tip_x_mm", "tip_y_mm", "tip_z_mm", "tool_x_mm", "tool_y_mm", "tool_z_mm"},
+                {"tool_time_s"});
+    while (row_.next()) {
+      take_time();
+      lines_.push_back(row_.line());
+      log_.tip.push_back(position(kTip));
+      take_packet();
+    }
+    log_.repeated = filled_ > 0 && !holes_;
+    check_rows(rate);
+    check_packets();
+    return std::move(log_);
+  }
+
+ private:
+  Vec3 position(std::size_t column) const {
+    Vec3 p;
+    for (std::size_t i = 0; i < 3; ++i) {
+      p(static_cast<Eigen::Index>(i)) = row_.number(column + i) * 1e-3;
+      if (std::abs(p(static_cast<Eigen::Index>(i))) > kFarthest)
+        row_.fail(column + i, fmt::format("{} mm is farther than {:g} m; expected a position in mm; correct "
+                                          "or remove the row",
+                                          row_.text(column + i), kFarthest));
+    }
+    return p;
+  }
+
+  void take_time() {
+    const double time = row_.number(kTime);
+    if (!log_.time.empty() && !(time > log_.time.back()))
+      row_.fail(kTime, fmt::format("the time {} s {} {} s; expected increasing times; {}", row_.text(kTime),
+                                   time == log_.time.back() ? "repeats" : "does not come after",
+                                   log_.time.back(), "sort the rows, or keep one of each time"));
+    log_.time.push_back(time);
+  }
+
+  // Empty cells, or the same three numbers as before: no new packet.
+  void take_packet() {
+    if (row_.text(kTool).empty() && row_.text(kTool + 1).empty() && row_.text(kTool + 2).empty()) {
+      holes_ = holes_ || filled_ > 0;
+      return;
+    }
+    TrackerPacket packet{log_.time.back(), kUnset, position(kTool)};
+    if (!row_.text(kStamp).empty()) packet.stamp = row_.number(kStamp);
+    ++filled_;
+    const bool same = !log_.packets.empty() && packet.tool == log_.packets.back().tool &&
+                      (std::isnan(packet.stamp) || packet.stamp == log_.packets.back().stamp);
+    if (same) return;
+    log_.packets.push_back(packet);
+    packet_rows_.push_back(lines_.size() - 1);
+  }
+
+  static double median_step(const std::vector<double>& times) {
+    std::vector<double> steps;
+    steps.reserve(times.size());
+    for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                     steps.end());
+    return steps[steps.size() / 2];
+  }
+
+  void check_rows(double rate) {
+    if (log_.time.size() < kFewest)
+      row_.fail_line(
+          fmt::format("there are {} rows; expected at least {}; record longer", log_.time.size(), kFewest));
+    log_.period = median_step(log_.time);
+    if (!std::isnan(rate) && std::abs(log_.period * rate - 1.0) > 0.01)
+      row_.fail_line(lines_[1], fmt::format("the rows come at {:.4g} Hz; expected {:.4g} Hz; give the log's "
+                                            "own rate with --rate-Hz",
+                                            1.0 / log_.period, rate));
+    if (log_.period > kLongestPeriod)
+      row_.fail_line(lines_[1], fmt::format("the rows come every {:.3g} s; expected at least {:g} rows a "
+                                            "second; record each cycle of the loop",
+                                            log_.period, 1.0 / kLongestPeriod));
+    std::vector<std::size_t> odd;
+    for (std::size_t i = 1; i < log_.time.size(); ++i)
+      if (std::abs(log_.time[i] - log_.time[i - 1] - log_.period) > kUneven * log_.period) odd.push_back(i);
+    if (odd.empty()) return;
+    const std::size_t i = odd.front();
+    const double step = log_.time[i] - log_.time[i - 1];
+    if (odd.size() > std::max<std::size_t>(3, log_.time.size() / 50))
+      row_.fail_line(lines_[i],
+                     fmt::format("here the rows come every {:.4g} ms and mostly every {:.4g} ms ({} such "
+                                 "steps); expected one rate; cut the log where the rate changes",
+                                 step * 1e3, log_.period * 1e3, odd.size()));
+    row_.fail_line(lines_[i], fmt::format("rows are missing from {:.6g} to {:.6g} s (a step of {:.4g} ms "
+                                          "among steps of {:.4g} ms); expected no gap; cut the log there, or "
+                                          "record it again",
+                                          log_.time[i - 1], log_.time[i], step * 1e3, log_.period * 1e3));
+  }
+
+  // Nothing tells a lost packet from a tool at rest without noise, where the last value is repeated.
+  bool still(std::size_t from, std::size_t to) const {
+    if (!log_.repeated) return false;
+    for (std::size_t i = from; i <= to; ++i)
+      if ((log_.tip[i] - log_.tip[from]).norm() > 0.1e-3) return false;
+    return true;
+  }
+
+  void check_packets() {
+    std::vector<double> times;
+    for (const TrackerPacket& packet : log_.packets) times.push_back(packet.time);
+    if (times.size() < kFewest)
+      row_.fail_line(
+          fmt::format("there are {} packets of the tool; expected at least {}; see that the "
+                      "tracker sees the tool",
+                      times.size(), kFewest));
+    log_.packet_period = median_step(times);
+    std::size_t late = 0;
+    for (std::size_t k = 1; k < times.size(); ++k) {
+      const double step = times[k] - times[k - 1];
+      if (step > 3.5 * log_.packet_period && !still(packet_rows_[k - 1], packet_rows_[k])) ++late;
+      if (step <= std::max(kSilence, 5.0 * log_.packet_period)) continue;
+      if (still(packet_rows_[k - 1], packet_rows_[k])) continue;
+      row_.fail_line(lines_[packet_rows_[k]],
+                     fmt::format("no packet of the tool came from {:.6g} to {:.6g} s; expected one about "
+                                 "every {:.3g} ms; cut the log there, or record it again",
+                                 times[k - 1], times[k], log_.packet_period * 1e3));
+    }
+    if (late > 0)
+      log_.notes.push_back(fmt::format("{} times more than 3 packets in a row did not come", late));
+    check_packet_rate(times);
+  }
+
+  // Two rates in one log are two latencies.
+  void check_packet_rate(const std::vector<double>& times) const {
+    if (log_.repeated) return;
+    const double mean = static_cast<double>(times.size() - 1) / (times.back() - times.front());
+    std::size_t from = 0;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      if (times[k] - times[from] < kWindow) continue;
+      const double rate = static_cast<double>(k - from) / (times[k] - times[from]);
+      if (std::abs(rate / mean - 1.0) > kRateChange && times[k] - times[from] < 2.0 * kWindow)
+        row_.fail_line(lines_[packet_rows_[from]],
+                       fmt::format("from {:.6g} to {:.6g} s {:.3g} packets a second came and over the whole "
+                                   "log {:.3g}; expected one rate; cut the log where the rate changes",
+                                   times[from], times[k], rate, mean));
+      from = k;
+    }
+  }
+
+  CsvReader row_;
+  TrackerLog log_;
+  std::vector<std::size_t> lines_;        // of each row
+  std::vector<std::size_t> packet_rows_;  // row of each packet
+  std::size_t filled_ = 0;
+  bool holes_ = false;
+};
+
+}  // namespace
+
+TipPath::TipPath(const TrackerLog& log) : log_(log), reach_(std::max(5e-3, 2.0 * log.period)) {}
+
+bool TipPath::knows(double t) const {
+  return t - reach_ >= log_.time.front() && t + reach_ <= log_.time.back();
+}
+
+Vec3 TipPath::position(double t) const {
+  // Rows are even but for jitter: the right one is near.
+  const auto last = static_cast<double>(log_.time.size() - 1);
+  auto i = static_cast<std::size_t>(std::clamp(std::ceil((t - log_.time.front()) / log_.period), 1.0, last));
+  while (i > 1 && log_.time[i - 1] > t) --i;
+  while (i + 1 < log_.time.size() && log_.time[i] <= t) ++i;
+  const double share = (t - log_.time[i - 1]) / (log_.time[i] - log_.time[i - 1]);
+  return log_.tip[i - 1] + share * (log_.tip[i] - log_.tip[i - 1]);
+}
+
+Vec3 TipPath::velocity(double t) const {
+  return (position(t + reach_) - position(t - reach_)) / (2.0 * reach_);
+}
+
+TrackerLog parse_tracker_log(const std::string& text, const std::string& name, double rate) {
+  return LogReader(text, name).read(rate);
+}
+
+}  // namespace enc::models

@@ -1,0 +1,23 @@
+// Closed triangle meshes made by rule, for tests, benchmarks and examples: manifold, outward, in metres, the
+// size of a hand.
+#pragma once
+
+#include "core/mesh/mesh.h"
+
+namespace enc::models {
+
+inline constexpr double kBallRadius = 0.033;  // m, of a tennis ball [VHMR 4.1]
+
+// Geodesic ball: each face of an icosahedron cut into n^2 triangles, 20 n^2 in all. n = 71 has 100,820
+// triangles, n = 224 has 1,003,520.
+[[nodiscard]] Mesh geodesic_ball(int n, double radius = kBallRadius);
+// Cube of side `side` around the origin, each face n x n squares of two triangles.
+[[nodiscard]] Mesh cube(int n, double side = 0.05);
+// A turned part such as CAD exports: a stack of discs of unlike radius and height, `sides` around; rims a few
+// um high, annular faces of long slivers.
+[[nodiscard]] Mesh turned_part(int sides = 120);
+// Bumpy tube along a (2,3) torus knot: `along` x `around` squares of two triangles, long across and short
+// along.
+[[nodiscard]] Mesh knot(int along, int around);
+
+}  // namespace enc::models

@@ -1,0 +1,185 @@
+// What pushes the haptic-tip from outside: its law worked by hand, its programme, its tremor; and the world
+// that carries it to the sensor.
+#include "sim/pusher.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "benchmarks/stiffness/push_study.h"
+#include "tests/conformance/bench_world.h"
+
+namespace enc::test {
+namespace {
+
+using sim::Phase;
+using sim::Pusher;
+
+constexpr double kStep = 1e-3;      // s
+constexpr double kRadius = 0.005;   // m, of the tip
+constexpr double kSurface = 0.005;  // m, height of the wall in W
+
+PusherSpec programme() {
+  PusherSpec spec;
+  spec.ramp_time = 2.0;
+  spec.hold_time = 3.0;
+  spec.rest_time = 1.0;
+  spec.repeats = 2;
+  return spec;
+}
+sim::PusherTruth still() {
+  sim::PusherTruth truth;
+  truth.stiffness = 45.0;
+  truth.damping = 1.0;
+  truth.tremor = 0.0;
+  return truth;
+}
+// A wall of 30 N/m, wanted 15 mm deep: 0.45 N there.
+PushedPoint wall() { return {{Point<'W'>(0, 0, kSurface), Vec<'W'>(0, 0, 1)}, 0.015, 0.45}; }
+Point<'W'> tip_at(double depth) { return {0, 0, kSurface - kRadius - depth}; }
+
+// Acts until `to`, s, with the tip where it is; gives the force that presses, N.
+double press(Pusher& pusher, double& t, double to, double depth, double speed = 0.0) {
+  double force = 0.0;
+  for (; t < to - 0.5 * kStep; t += kStep)
+    force = -pusher.act(t, kStep, tip_at(depth), Vec<'W'>(0, 0, -speed)).xyz[2];
+  return force;
+}
+
+TEST(Pusher, SpringAndDamperWorkedByHand) {
+  Pusher pusher(programme(), still(), wall(), kRadius, 1);
+  EXPECT_DOUBLE_EQ(pusher.reach(), 0.015 + 0.45 / 45.0);
+  double t = 0.0;
+  EXPECT_EQ(press(pusher, t, 0.9, -1.0), 0.0);  // waits clear of the tip, wherever that is
+  // Half of the ramp: half of the way from 2 mm above to 25 mm below, 1.875 times as fast as on average.
+  const double at = 0.5 * 0.027 - 0.002, speed = 1.875 * 0.027 / 2.0;
+  EXPECT_NEAR(press(pusher, t, 2.0, 0.005), 45.0 * (at - 0.005) + speed, 1e-9);
+  EXPECT_NEAR(press(pusher, t, 4.0, 0.015), 0.45, 1e-12);                // held: the wall's own force
+  EXPECT_NEAR(press(pusher, t, 4.1, 0.015, 0.01), 0.45 - 0.01, 1e-12);   // the tip gives way
+  EXPECT_NEAR(press(pusher, t, 4.2, 0.014), 0.45 + 45.0 * 1e-3, 1e-12);  // or resists
+  EXPECT_EQ(press(pusher, t, 4.3, 0.026), 0.0);                          // it does not pull
+}
+
+TEST(Pusher, PushesAlongTheNormalAlone) {
+  PushedPoint to = wall();
+  to.at.normal = Vec<'W'>(0.6, 0, 0.8);
+  Pusher pusher(programme(), still(), to, kRadius, 1);
+  Vec<'W'> force;
+  for (double t = 0.0; t < 4.0; t += kStep)
+    force = pusher.act(t, kStep, to.at.point - (kRadius + 0.015) * to.at.normal, Vec<'W'>(0.8, 0, -0.6));
+  EXPECT_NEAR((force.e() + 0.45 * to.at.normal.e()).norm(), 0.0, 1e-12);  // sideways motion is not damped
+}
+
+TEST(Pusher, RepeatsItsProgramme) {
+  Pusher pusher(programme(), still(), wall(), kRadius, 1);
+  double t = 0.0;
+  for (int push = 0; push < 2; ++push)
+    for (const auto& [phase, time] :
+         {std::pair{Phase::wait, 1.0}, {Phase::press, 2.0}, {Phase::hold, 3.0}, {Phase::release, 2.0}}) {
+      press(pusher, t, t + 0.5 * time, 0.0);
+      EXPECT_EQ(pusher.state().phase, phase) << t;
+      EXPECT_EQ(pusher.state().push, push);
+      press(pusher, t, t + 0.5 * time, 0.0);
+    }
+  press(pusher, t, t + 0.1, 0.0);
+  EXPECT_TRUE(pusher.done());
+  EXPECT_EQ(press(pusher, t, t + 5.0, -1.0), 0.0);
+  EXPECT_DOUBLE_EQ(pusher.duration(), 2 * 8.0 + 1.0);
+}
+
+TEST(Pusher, TremorHasItsSizeAndRate) {
+  PusherSpec spec = programme();
+  spec.hold_time = 400.0;
+  sim::PusherTruth truth = still();
+  truth.tremor = 0.02;
+  const auto forces = [&](std::uint64_t seed) {
+    Pusher pusher(spec, truth, wall(), kRadius, seed);
+    std::vector<double> all;
+    for (double t = 0.0; t < 390.0; t += kStep) {
+      const double force = -pusher.act(t, kStep, tip_at(0.015), Vec<'W'>::zero()).xyz[2];
+      if (t > 3.0) all.push_back(force);
+    }
+    return all;
+  };
+  const std::vector<double> all = forces(1);
+  double sum = 0.0;
+  for (const double f : all) sum += (f - 0.45) * (f - 0.45);
+  EXPECT_NEAR(std::sqrt(sum / static_cast<double>(all.size())), 0.02, 0.002);
+  EXPECT_NEAR(bench::stiffness::strongest_frequency(std::span(all).first(20000), kStep), 8.1, 0.6);
+  EXPECT_EQ(all, forces(1));
+  EXPECT_NE(all, forces(2));
+}
+
+// The twin: 1 N/mm, pushed 15 mm deep, without anything that errs.
+std::vector<std::string> exact() {
+  return {"rig.force.tare=start",
+          "rig.force.tare_time_s=0",
+          "truth.force.torque_noise_Nm=0",
+          "truth.force.torque_quantum_Nm=0",
+          "rig.force.threshold_N=0",
+          "truth.force.noise_N=0",
+          "truth.force.quantum_N=0",
+          "truth.force.zero_N=0",
+          "truth.force.drift_N_per_push=0",
+          "truth.force.drift_N_per_sqrt_s=0",
+          "truth.pusher.tremor_N=0",
+          "truth.hexapod.step_um=0",
+          "truth.hexapod.repeatability_um=0"};
+}
+
+TEST(Pusher, FindsItsBalanceWithARenderedSpring) {
+  Twin twin(exact(), 1, "stiffness");
+  twin.run(8900);
+  const sim::Truth& truth = twin.world->truth();
+  EXPECT_EQ(truth.phase, Phase::hold);
+  EXPECT_EQ(twin.out.mode, Mode::contact);  // found by force alone: there is no tracker
+  EXPECT_EQ(twin.out.contacts, 1);
+  EXPECT_NEAR(-truth.contact_force.xyz[2], 15.0, 1e-3);
+  EXPECT_NEAR(twin.out.deflection, 0.015, 1e-6);
+  const double weight = twin.setup.twin.hexapod.mass * 9.80665;
+  EXPECT_NEAR(twin.in.wrench.value.force.xyz[2], truth.contact_force.xyz[2] - weight, 1e-4);
+  EXPECT_NEAR(twin.in.wrench.value.torque.e().norm(), 0.0, 1e-4);  // straight above the sensor
+}
+
+TEST(Pusher, EndsAtItsForceWhereThatComesFirst) {
+  std::vector<std::string> set = exact();
+  set.emplace_back("behaviour.spring.stiffness_N_per_mm=100");
+  Twin twin(set, 1, "stiffness");
+  twin.run(8900);
+  EXPECT_NEAR(-twin.world->truth().contact_force.xyz[2], 30.0, 0.05);
+  EXPECT_NEAR(twin.out.deflection, 0.3e-3, 1e-6);
+}
+
+TEST(Pusher, TheZeroDriftsFromPushToPush) {
+  Twin twin({"truth.force.drift_N_per_sqrt_s=0", "truth.force.drift_N_per_push=0.5", "pusher.repeats=2",
+             "pusher.hold_s=0.5", "pusher.ramp_s=0.5"},
+            1, "stiffness");
+  twin.tick();
+  const Vec3 first = twin.world->force->zero().e();
+  twin.run(1800);
+  const Vec3 second = twin.world->force->zero().e();
+  twin.run(2500);
+  const Vec3 third = twin.world->force->zero().e();
+  EXPECT_GT((second - first).norm(), 0.05);
+  EXPECT_GT((third - second).norm(), 0.05);
+}
+
+TEST(Pusher, GoesOnFromASavedState) {
+  Twin twin({}, 1, "stiffness");
+  twin.run(2500);
+  const auto saved = twin.world->save();
+  const auto later = [&] {
+    for (int i = 0; i < 300; ++i) twin.world->advance();
+    return twin.world->truth();
+  };
+  const sim::Truth once = later();
+  twin.world->restore(saved);
+  const sim::Truth again = later();
+  EXPECT_LT(once.contact_force.xyz[2], 0.0);
+  EXPECT_EQ(once.contact_force.xyz, again.contact_force.xyz);
+  EXPECT_EQ(once.tip.xyz, again.tip.xyz);
+  EXPECT_EQ(once.phase, again.phase);
+}
+
+}  // namespace
+}  // namespace enc::test

@@ -1,0 +1,240 @@
+// The questionnaire: its form, how answers are asked, read, kept and summed up. Worked by hand.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/questionnaire/opinion.h"
+#include "core/error.h"
+#include "tests/support/bytes_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::bench::questionnaire {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+
+// Two items on a scale of three steps, and one thing used before.
+Form small_form() {
+  Form form;
+  form.name = "small";
+  form.title = "Small";
+  form.steps = {{"1", "No"}, {"2", "Perhaps"}, {"3", "Yes"}};
+  form.experience = {{"vr", "VR before?"}};
+  form.groups = {{"g", "Group"}};
+  form.items = {{"1", "It is good.", "g", "b.x"}, {"2", "It is real.", "g", ""}};
+  return form;
+}
+
+template <class F>
+std::string refusal(const F& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "nothing";
+}
+std::string refused(const std::string& text) {
+  return refusal([&] { (void)parse_answers(text, "a.csv", small_form()); });
+}
+
+TEST(QuestionnaireForm, IsThePapers) {
+  const Form form = load_form(kModels, "vhmr_2020");
+  EXPECT_EQ(form.items.size(), 11U);
+  EXPECT_EQ(form.highest(), 7);
+  EXPECT_EQ(form.steps[3].text, "Neutral");
+  EXPECT_THAT(form.experience,
+              ElementsAre(Field(&Wording::name, "force_feedback"), Field(&Wording::name, "vr_mr"),
+                          Field(&Wording::name, "visuo_haptics")));
+  std::string groups;  // items 1 to 4, 5 and 6, 7 and 8, 9 to 11 [VHMR 4.4]
+  for (const Item& item : form.items) groups += item.group[0];
+  EXPECT_EQ(groups, "oooohhvvccc");
+  // The printed means make the printed global mean of 5.3.
+  const std::vector<ItemReference> items = items_of(form, kModels);
+  double sum = 0.0;
+  for (const ItemReference& item : items) sum += item.paper;
+  EXPECT_NEAR(sum / 11.0, 5.3, 0.05);
+}
+
+TEST(QuestionnaireForm, SaysWhatIsWrongAndWhere) {
+  const auto with = [](const std::string& tail) {
+    return refusal([&] {
+      (void)parse_form(
+          "format = 1\ntitle = \"t\"\nsource = \"s\"\n[[step]]\nname = \"1\"\ntext = \"a\"\n" + tail,
+          "f.toml");
+    });
+  };
+  const std::string step = "[[step]]\nname = \"2\"\ntext = \"b\"\n";
+  const std::string group = "[[group]]\nname = \"g\"\ntext = \"G\"\n";
+  const std::string item = "[[item]]\nname = \"1\"\ngroup = \"g\"\ntext = \"x\"\n";
+  EXPECT_EQ(with(step + group + item), "nothing");
+  EXPECT_THAT(with(""), HasSubstr("fewer than two steps"));
+  EXPECT_THAT(with(step), HasSubstr("no items"));
+  EXPECT_THAT(with("[[step]]\nname = \"3\"\ntext = \"b\"\n"),
+              AllOf(StartsWith("f.toml:8:1: step '3'"), HasSubstr("in order")));
+  EXPECT_THAT(with(step + item), AllOf(StartsWith("f.toml:12:1: there is no group 'g'")));
+  EXPECT_THAT(with(step + group + "[[item]]\nname = \"a,b\"\ngroup = \"g\"\ntext = \"x\"\n"),
+              HasSubstr("letters, digits and _"));
+  EXPECT_THAT(refusal([] { (void)load_form(kModels, "vhmr_2021"); }), HasSubstr("did you mean 'vhmr_2020'?"));
+}
+
+TEST(QuestionnaireAnswers, AreReadByTheirColumns) {
+  const Answers answers = parse_answers(
+      "# note\nitem_2,vr,participant,item_1,date\r\n3,yes,a,1,2026-01-02\r\n", "a.csv", small_form());
+  ASSERT_EQ(answers.rows.size(), 1U);
+  EXPECT_TRUE(answers.dated);
+  EXPECT_EQ(answers.rows[0].participant, "a");
+  EXPECT_THAT(answers.rows[0].points, ElementsAre(1, 3));
+  EXPECT_THAT(answers.rows[0].experience, ElementsAre(1));
+  EXPECT_EQ(answers.rows[0].date, "2026-01-02");
+}
+
+TEST(QuestionnaireAnswers, SayWhatIsWrongAndWhere) {
+  const std::string header = "participant,vr,item_1,item_2\n";
+  EXPECT_EQ(refused(header), "nothing");
+  EXPECT_THAT(refused(""), StartsWith("a.csv:1:1: there is no header"));
+  EXPECT_THAT(refused("participant,vr,item_1\n"), AllOf(StartsWith("a.csv:1:1: "), HasSubstr("item_2")));
+  EXPECT_THAT(refused("participant,vr,item_1,item_2,item_3\n"),
+              AllOf(StartsWith("a.csv:1:30: column 'item_3'"), HasSubstr("form 'small'")));
+  EXPECT_THAT(refused(header + "1,yes,4,2\n"),
+              AllOf(StartsWith("a.csv:2:7: 'item_1' is '4'"), HasSubstr("whole number from 1 to 3")));
+  EXPECT_THAT(refused(header + "1,yes,0,2\n"), StartsWith("a.csv:2:7: "));
+  EXPECT_THAT(refused(header + "1,yes,1.5,2\n"), StartsWith("a.csv:2:7: "));
+  EXPECT_THAT(refused(header + "1,yes,1,nan\n"), StartsWith("a.csv:2:9: 'item_2' is 'nan'"));
+  EXPECT_THAT(refused(header + "1,yes,1,\n"), StartsWith("a.csv:2:9: 'item_2' is empty"));
+  EXPECT_THAT(refused(header + "1,yes,1\n"), StartsWith("a.csv:2:"));
+  EXPECT_THAT(refused(header + "1,maybe,1,2\n"),
+              AllOf(StartsWith("a.csv:2:3: 'vr'"), HasSubstr("yes or no")));
+  EXPECT_THAT(refused(header + ",yes,1,2\n"), StartsWith("a.csv:2:1: the participant is empty"));
+  EXPECT_THAT(refused(header + "1,yes,1,2\n1,no,1,2\n"),
+              StartsWith("a.csv:3:1: participant '1' is there twice"));
+}
+
+class QuestionnaireFile : public testing::Test {
+ protected:
+  std::string path() const { return (folder_.path() / "a.csv").string(); }
+  std::string bytes() const {
+    const auto all = test::bytes_of(path());
+    return {all.begin(), all.end()};
+  }
+  void write(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(QuestionnaireFile, GrowsAtItsEndAndKeepsWhatIsThere) {
+  append_answers(path(), small_form(), {{"", {1}, {1, 3}}});
+  append_answers(path(), small_form(), {{"", {0}, {2, 2}}});
+  EXPECT_EQ(bytes(), "participant,vr,item_1,item_2\n1,yes,1,3\n2,no,2,2\n");
+}
+
+TEST_F(QuestionnaireFile, ALineWithoutItsEndGetsOne) {
+  write("participant,vr,item_1,item_2\n7,no,2,1");
+  const Answers all = append_answers(path(), small_form(), {{"", {1}, {1, 3}}, {"x", {0}, {2, 2}}});
+  EXPECT_EQ(bytes(), "participant,vr,item_1,item_2\n7,no,2,1\n8,yes,1,3\nx,no,2,2\n");
+  EXPECT_EQ(all.rows.size(), 3U);
+}
+
+TEST_F(QuestionnaireFile, NothingIsWrittenWhereSomethingIsWrong) {
+  const std::string before = "participant,vr,item_1,item_2\n7,no,2,1\n";
+  write(before);
+  const auto append = [&](std::vector<Answer> rows) {
+    return refusal([&] { append_answers(path(), small_form(), std::move(rows)); });
+  };
+  EXPECT_THAT(append({{"8", {1}, {1, 3}}, {"7", {1}, {1, 3}}}),
+              HasSubstr("participant '7' is there already"));
+  EXPECT_THAT(append({{"8", {1}, {1, 3}, "2026-01-02"}}), HasSubstr("no column 'date'"));
+  EXPECT_EQ(bytes(), before);
+  write("# by hand\nparticipant,vr,item_2,item_1\n");
+  EXPECT_THAT(append({{"8", {1}, {1, 3}}}), HasSubstr("a.csv:2:1: the columns stand in another order"));
+  write("participant,vr,item_1\n");
+  EXPECT_THAT(append({{"8", {1}, {1, 3}}}), HasSubstr("item_2"));
+  EXPECT_EQ(bytes(), "participant,vr,item_1\n");
+  EXPECT_THAT(refusal([&] { append_answers("/nowhere/a.csv", small_form(), {}); }),
+              HasSubstr("cannot be written"));
+  EXPECT_THAT(refusal([&] {
+                append_answers("/dev/full", small_form(), {{"1", {1}, {1, 3}}});
+              }),
+              HasSubstr("cannot be written"));
+}
+
+TEST_F(QuestionnaireFile, TwoThatWriteAtOnceLoseNothing) {
+  constexpr int kEach = 40;
+  const auto many = [&](const std::string& who) {
+    for (int i = 0; i < kEach; ++i)
+      append_answers(path(), small_form(), {{fmt::format("{}{}", who, i), {1}, {1, 3}}});
+  };
+  std::jthread other([&] { many("a"); });
+  many("b");
+  other.join();
+  EXPECT_EQ(append_answers(path(), small_form(), {}).rows.size(), 2U * kEach);
+}
+
+TEST(QuestionnaireAsk, AsksEverythingInOrder) {
+  std::istringstream in("no\n3\n1\n");
+  std::ostringstream out;
+  const Answer a = ask(small_form(), in, out, false);
+  EXPECT_THAT(a.experience, ElementsAre(0));
+  EXPECT_THAT(a.points, ElementsAre(3, 1));
+  EXPECT_THAT(out.str(), AllOf(HasSubstr("VR before? [yes or no]"), HasSubstr("3  Yes"),
+                               HasSubstr("2. It is real. [1 to 3]")));
+}
+
+TEST(QuestionnaireAsk, APersonIsAskedAgainAndAFileIsRefused) {
+  std::ostringstream out;
+  std::istringstream person("yes\n4\n3\n1\n");
+  EXPECT_THAT(ask(small_form(), person, out, true).points, ElementsAre(3, 1));
+  EXPECT_THAT(out.str(), HasSubstr("'4' is no answer; please give 1 to 3"));
+  std::istringstream file("yes\n4\n3\n1\n");
+  EXPECT_THAT(refusal([&] { (void)ask(small_form(), file, out, false); }),
+              StartsWith("standard input:2:1: '4' is no answer; expected 1 to 3"));
+  std::istringstream cut("yes\n3\n");
+  EXPECT_THAT(refusal([&] { (void)ask(small_form(), cut, out, true); }),
+              AllOf(StartsWith("standard input:3:1: it ended"), HasSubstr("nothing was stored")));
+}
+
+TEST(QuestionnaireOpinion, IsMeanRangeAndCounts) {
+  const Form form = small_form();
+  const std::vector<Answer> rows{{"1", {1}, {1, 3}}, {"2", {0}, {2, 3}}, {"3", {1}, {2, 3}}};
+  const Opinion first = opinion_of(form, rows, 0);
+  EXPECT_DOUBLE_EQ(first.mean, 5.0 / 3.0);
+  EXPECT_EQ(first.least, 1);
+  EXPECT_EQ(first.most, 2);
+  EXPECT_THAT(first.counts, ElementsAre(1, 2, 0));
+  EXPECT_DOUBLE_EQ(global_mean(rows), 14.0 / 6.0);
+  const std::vector<ItemReference> items = items_of(form, kModels);
+  EXPECT_THAT(opinion_table(form, items, rows).rows[0],
+              ElementsAre("1", "It is good.", "1.7", "1-2", "1", "2", "0", ""));
+  EXPECT_THAT(experience_table(form, rows).columns, ElementsAre("item", "vr (2)", "no vr (1)"));
+  EXPECT_THAT(experience_table(form, rows).rows[0], ElementsAre("1", "1.5", "2.0"));
+  // Nobody answered: no mean, no division by zero.
+  EXPECT_THAT(opinion_table(form, items, {}).rows[0],
+              ElementsAre("1", "It is good.", "", "", "0", "0", "0", ""));
+}
+
+// A figure stands beside an item; an item that nothing measures is not there.
+TEST(QuestionnaireProxies, AreFiguresAndNoAnswers) {
+  const std::vector<ItemReference> items = items_of(small_form(), kModels);
+  Judged j;
+  j.figure = {"b.x", kUnset, 0.5, "mm", Role::ours, kUnset, kUnset, ""};
+  j.felt = Felt::yes;
+  const Table table = proxy_table(items, {j});
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.rows[0][0], "1");
+  EXPECT_EQ(table.rows[0][3], "b.x");
+  EXPECT_EQ(table.rows[0][6], "felt");
+  EXPECT_TRUE(proxy_table(items, {}).rows.empty());
+}
+
+}  // namespace
+}  // namespace enc::bench::questionnaire

@@ -1,0 +1,48 @@
+// From a set-up to devices: the twin where a slot asks for one, drivers where the rig
+// names them, and the gate that keeps real machines still unless they are armed.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/module.h"
+#include "core/rig.h"
+#include "models/scene_file.h"
+#include "sim/world.h"
+#include "trial/prepare.h"
+
+namespace enc::trial {
+
+// The module of a driver, by the name that the rig gives it. Throws Error (kind device) where there is none.
+using DriverSource = std::function<const ModuleInfo&(const std::string& driver)>;
+
+// Which of the devices that the scene names are simulated ("sim"), and which are not.
+struct Slots {
+  bool simulated = false, real = false;
+};
+[[nodiscard]] Slots slots_of(const models::Setup& setup);
+
+// The twin of a set-up, with the place in the file put before what is wrong. Both must outlive it.
+[[nodiscard]] std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& prepared,
+                                                     std::uint64_t seed, bool draw_all = false);
+
+// Puts the drivers' devices in the slots for which the rig names one. A machine that is not armed is read and
+// never sent a command.
+void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drivers, bool armed);
+
+// A device that can do less than the rig file promises is refused before anything moves.
+void check_devices(const Rig& rig, const RigSpec& spec);
+
+// Counts the periods of an experiment that simulates nothing; Paced makes it keep wall time.
+class CountingClock final : public Clock {
+ public:
+  explicit CountingClock(double rate);  // Hz
+  Tick next() override;
+
+ private:
+  Tick next_;
+};
+
+}  // namespace enc::trial

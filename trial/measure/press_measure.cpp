@@ -1,0 +1,124 @@
+#include "trial/measure/press_measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stages.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr double kNearLimit = 0.05e-3;  // m (decisions 6)
+
+}  // namespace
+
+double SquareMean::root() const { return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : kUnset; }
+
+double miss_bound(const models::Setup& setup, double approach_speed) {
+  const sim::TwinSpec& twin = setup.twin;
+  const RigSpec& rig = setup.rig;
+  // Still errors: inset, registration, three sigma of the tracker, tremor and drift of the hand within the
+  // data's age.
+  const double still = setup.scene.follow.inset + twin.tracker.bias.norm() + 3.0 * twin.tracker.noise.norm();
+  // Age of what the tip acts on, at worst: a frame, a server slot and its processing, three times the mean
+  // network delay, cycles, servo.
+  const double age = 1.0 / twin.tracker.rate + twin.tracker.latency + 1.0 / twin.tracker.server_rate +
+                     twin.tracker.process + 3.0 * twin.tracker.udp_delay +
+                     (static_cast<double>(twin.hexapod.delay_cycles) + 2.0) / rig.loop.rate +
+                     2.0 * twin.hexapod.damping / (2.0 * M_PI * twin.hexapod.servo);
+  const double tilt = setup.scene.user ? setup.scene.user->approach_tilt : 0.0;
+  const double sideways = approach_speed * std::sin(tilt);
+  const double followed = std::min(sideways, rig.manipulator.speed);
+  const double braking = followed * followed / (2.0 * stages::kSideShare * rig.manipulator.acceleration);
+  const double from = setup.scene.user ? setup.scene.user->approach_from : 0.0;
+  const double outrun = (sideways - followed) / std::max(approach_speed, 1e-9) * from;
+  return still + sideways * age + braking + outrun;
+}
+
+// The tool's tip crosses the undeformed surface: is the haptic-tip there?
+void PressMeasure::meet(const Glance& glance, PressFigures& press, const Vec3& normal, double tool_gap) {
+  if (std::isnan(press.miss) && tool_gap <= 0.0) {
+    const Vec3 touching = glance.truth.tool_tip.e() - glance.truth.tool_radius * normal;
+    const Vec3 touched = glance.truth.tip.e() + glance.truth.tip_radius * normal;
+    press.miss = (touching - touched).norm();
+    press.miss_bound = miss_bound(setup_, press.approach_speed);
+    met_at_ = seconds(glance.truth.t.time_since_epoch());
+  }
+  if (std::isnan(press.first_force_delay) && !std::isnan(met_at_) && glance.truth.touching)
+    press.first_force_delay = seconds(glance.truth.t.time_since_epoch()) - met_at_;
+}
+
+void PressMeasure::compare(const Glance& glance, PressFigures& press, const Object& object, double deflection,
+                           double force) {
+  if (glance.out.mode != Mode::contact || !glance.truth.touching) return;
+  press.peak_force = std::max(press.peak_force, force);
+  press.peak_deflection = std::max(press.peak_deflection, deflection);
+  press.over_limit = std::max(press.over_limit, deflection - object.limit);
+  const bool near_limit = deflection >= object.limit - kNearLimit;
+  if (near_limit && std::isnan(press.force_at_limit)) press.force_at_limit = force;
+  reached_ = reached_ || near_limit;
+  if (deflection <= 0.0 || near_limit) return;
+  if (glance.truth.phase == sim::Phase::press && !reached_)
+    press_error_.add(force - object.response.press(deflection));
+  if (glance.truth.phase == sim::Phase::release)
+    release_error_.add(force - object.response.release(deflection));
+}
+
+// The press that a tick belongs to. It begins with the approach; waiting belongs to the press before.
+PressFigures* PressMeasure::press_of(const sim::Truth& truth) {
+  if (truth.phase != sim::Phase::wait && presses_.size() <= static_cast<std::size_t>(truth.press)) {
+    presses_.resize(static_cast<std::size_t>(truth.press) + 1);
+    presses_.back().approach_speed = truth.approach_speed;
+    met_at_ = kUnset;
+    reached_ = false;
+  }
+  return presses_.empty() ? nullptr : &presses_.back();
+}
+
+// On its way into another object the tip is rightly outside of it.
+void PressMeasure::watch_outside(std::int32_t object, double deflection) {
+  if (object != object_before_) entered_ = false;
+  object_before_ = object;
+  if (object < 0) return;
+  entered_ = entered_ || deflection >= 0.0;
+  if (entered_) greatest_outside_ = std::fmax(greatest_outside_, -deflection);
+}
+
+void PressMeasure::see(const Glance& glance) {
+  const sim::Truth& truth = glance.truth;
+  if (truth.press < 0 || glance.scene.objects.empty()) return;
+  const std::size_t index = glance.out.object >= 0 ? static_cast<std::size_t>(glance.out.object) : 0;
+  const Object& object = glance.scene.objects[index];
+  const stages::NearestInWorld at_tip = stages::nearest(object, truth.tip);
+  const double deflection = -(at_tip.distance + truth.tip_radius);
+  watch_outside(glance.out.object, deflection);
+  // Pull is along the line between the two tips, whichever way that points.
+  if (truth.touching)
+    greatest_tension_ = std::max(greatest_tension_,
+                                 truth.contact_force.e().dot((truth.tool_tip - truth.tip).e().normalized()));
+  const double power = dot(truth.contact_force, truth.tip_velocity);
+  (power > 0.0 ? energy_in_ : energy_out_) += std::abs(power) * glance.scene.dt;
+
+  if (PressFigures* press = press_of(truth)) {
+    press->contacts += glance.out.contacts - contacts_before_;
+    if (mode_before_ == Mode::restore && glance.out.mode == Mode::follow)
+      press->restore_error = (truth.tip - buffered_).norm();
+    const stages::NearestInWorld at_tool = stages::nearest(object, truth.tool_tip);
+    meet(glance, *press, at_tool.normal.e(), at_tool.distance - truth.tool_radius);
+    compare(glance, *press, object, deflection, -dot(truth.contact_force, at_tip.normal));
+  }
+  contacts_before_ = glance.out.contacts;
+  mode_before_ = glance.out.mode;
+  buffered_ = glance.out.first_touch;
+}
+
+PressMeasure measured_run(const models::Setup& setup, std::uint64_t seed, double& simulated) {
+  PressMeasure measure(setup);
+  TrialOptions options;
+  options.seed = seed;
+  options.watch = [&](const Glance& glance) { measure.see(glance); };
+  simulated += Trial(setup, options).run().simulated;
+  return measure;
+}
+
+}  // namespace enc::trial

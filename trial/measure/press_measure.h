@@ -1,0 +1,86 @@
+// What a press was, judged by the truth: the encounter, the force against the reference at the true
+// deflection, the energy.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "trial/trial.h"
+
+namespace enc::trial {
+
+inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// One press of the user.
+struct PressFigures {
+  double approach_speed = kUnset;  // m/s, planned
+  double miss = kUnset;  // m: touching point of the tool's tip to that of the haptic-tip, when the tool meets
+                         // the surface
+  double miss_bound =
+      kUnset;  // m: what inset, registration, latency and the machine's speed allow (miss_bound())
+  double first_force_delay = kUnset;  // s from meeting the surface to the first true contact force
+  double peak_force = 0.0;            // N, along the normal
+  double peak_deflection = 0.0;       // m, true, of the haptic-tip's outermost point
+  double over_limit = -kInfinite;     // m: the largest of true deflection less the object's limit
+  double force_at_limit =
+      kUnset;  // N, when the true deflection first reaches the limit - 0.05 mm (decisions 6)
+  double restore_error =
+      kUnset;  // m: true tip to the buffered first-touch point, when the core calls it restored
+  std::int32_t contacts = 0;  // contact events of the core
+};
+
+struct SquareMean {
+  double sum = 0.0;
+  std::int64_t n = 0;
+  void add(double e) {
+    sum += e * e;
+    ++n;
+  }
+  [[nodiscard]] double root() const;
+};
+
+class PressMeasure {
+ public:
+  explicit PressMeasure(const models::Setup& setup) : setup_(setup) {}
+
+  void see(const Glance& glance);
+
+  [[nodiscard]] const std::vector<PressFigures>& presses() const { return presses_; }
+  [[nodiscard]] double rmse_press() const { return press_error_.root(); }      // N
+  [[nodiscard]] double rmse_release() const { return release_error_.root(); }  // N
+  [[nodiscard]] double energy_in() const { return energy_in_; }                // J, tool to tip
+  [[nodiscard]] double energy_out() const { return energy_out_; }              // J, tip to tool
+  [[nodiscard]] double greatest_outside() const {
+    return greatest_outside_;
+  }  // m, of the tip outside the undeformed object, once it has been inside; NaN: it never was
+  [[nodiscard]] double greatest_tension() const { return greatest_tension_; }  // N, pull on the tool
+
+ private:
+  PressFigures* press_of(const sim::Truth& truth);
+  void watch_outside(std::int32_t object, double deflection);
+  void meet(const Glance& glance, PressFigures& press, const Vec3& normal, double tool_gap);
+  void compare(const Glance& glance, PressFigures& press, const Object& object, double deflection,
+               double force);
+
+  const models::Setup& setup_;
+  std::vector<PressFigures> presses_;
+  SquareMean press_error_, release_error_;
+  double energy_in_ = 0.0, energy_out_ = 0.0, greatest_outside_ = kUnset, greatest_tension_ = 0.0;
+  std::int32_t contacts_before_ = 0;
+  Mode mode_before_ = Mode::away;
+  Point<'W'> buffered_;
+  double met_at_ = kUnset;  // s
+  bool reached_ = false;
+  std::int32_t object_before_ = -1;
+  bool entered_ = false;  // the tip has been inside that object
+};
+
+// How far the tip may be from the tool when it is met at an approach speed, from the numbers of rig and twin
+// alone: docs/encounter.md.
+[[nodiscard]] double miss_bound(const models::Setup& setup, double approach_speed);
+
+// One run of the set-up, looked on by a measure.
+[[nodiscard]] PressMeasure measured_run(const models::Setup& setup, std::uint64_t seed, double& simulated);
+
+}  // namespace enc::trial

@@ -1,0 +1,45 @@
+// What the pushes of a test rig were: peak force, loss, how well repeats agree, how true the measured force
+// is.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "trial/trial.h"
+
+namespace enc::trial {
+
+// One push and its way back, as measured: unfiltered force along the axis at the measured deflection.
+struct PushFigures {
+  double peak_force = 0.0;               // N
+  double peak_deflection = 0.0;          // m
+  double work_in = 0.0, work_out = 0.0;  // J, while going in and coming back
+  [[nodiscard]] double loss() const { return work_in > 0.0 ? 1.0 - work_out / work_in : kUnset; }
+};
+
+class ProbeMeasure {
+ public:
+  void see(const Glance& glance);
+
+  [[nodiscard]] const std::vector<PushFigures>& pushes() const { return pushes_; }
+  // Largest difference of force between pushes at equal deflection and direction, N; unset below two pushes.
+  [[nodiscard]] double spread() const;
+  // Largest difference of measured and true force along the axis in a push, N.
+  [[nodiscard]] double force_error() const { return force_error_; }
+
+ private:
+  struct Range {
+    double low = kUnset, high = kUnset;  // N
+    int pushes = 0;
+    void add(double force);
+  };
+  static constexpr double kLevel = 0.1e-3;  // m: deflections at which pushes are compared
+  void compare(double deflection, double force);
+
+  std::vector<PushFigures> pushes_;
+  std::array<std::vector<Range>, 2> levels_;     // going in, coming back
+  double deflection_ = kUnset, force_ = kUnset;  // one tick ago, within the same push
+  double force_error_ = 0.0;
+};
+
+}  // namespace enc::trial

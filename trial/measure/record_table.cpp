@@ -1,0 +1,97 @@
+#include "trial/measure/record_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "trial/trial.h"
+
+namespace enc::trial {
+namespace {
+
+// The shortest text that reads back to the same number; nothing where the number is not known.
+void add(std::string& row, double x) {
+  row += ',';
+  if (std::isfinite(x)) row += fmt::format("{}", x);
+}
+
+// How hard the object is pressed, N. By a probe: as measured in this tick, not filtered. In a contact: what
+// the object was made to answer to, which is filtered.
+double pressing(const Scene& scene, const Outputs& out) {
+  if (scene.probe) return dot(out.felt, scene.probe->X_WN * Vec<'N'>(0, 0, 1));
+  return -out.force.xyz[2];
+}
+
+// Number of the push or contact that a row belongs to; 0: none.
+std::int32_t repeat(const Outputs& out) {
+  const bool pressed = out.mode == Mode::contact || (out.mode == Mode::probe && out.deflection > 0.0);
+  return pressed ? out.contacts : 0;
+}
+
+// "SIMULATED ball 'nominal'": what a probe presses. No comma: it is a cell.
+std::string source_of(const models::Setup& setup) {
+  if (!setup.scene.probe) return {};
+  std::string text = "measured with rig '" + setup.rig.title + "'";
+  if (setup.rig.force.driver == "sim") {
+    const std::vector<models::Parameter> all = models::parameters(setup);
+    const auto set = std::find_if(all.begin(), all.end(),
+                                  [](const models::Parameter& p) { return p.name == "truth.ball.set"; });
+    text = "SIMULATED and not measured: ball '" + (set == all.end() ? std::string("?") : set->value) + "'";
+  }
+  text += fmt::format(" pressed {:g} mm at {:g} mm/s", setup.scene.probe->depth * 1e3,
+                      setup.scene.probe->speed * 1e3);
+  std::erase_if(text, [](char c) { return c == ',' || c == '"' || c == '\n'; });
+  return text;
+}
+
+}  // namespace
+
+RecordTable::RecordTable(const models::Setup& setup, const Scene& scene)
+    : scene_(scene), source_(source_of(setup)) {}
+
+// Only in the row in which it came: a log must not count one packet twice.
+void RecordTable::add_tool(std::string& row, const Stamped<TrackedTool>& tool) {
+  const bool known = tool.health == Health::ok && tool.value.tool >= 0 &&
+                     tool.value.tool < static_cast<std::int32_t>(scene_.tools.size());
+  if (!known || tool.t == tool_t_) {
+    row += ",,,,";
+    return;
+  }
+  tool_t_ = tool.t;
+  const Point<'T'>& centre = scene_.tools[static_cast<std::size_t>(tool.value.tool)].tip.centre;
+  for (const double x : (scene_.X_WC * (tool.value.X_CT * centre)).xyz) add(row, 1e3 * x);
+  add(row, seconds(tool.t.time_since_epoch()));
+}
+
+std::string_view RecordTable::header() {
+  return "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
+         "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source\n";
+}
+
+std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
+  constexpr double kMillimetres = 1e3;
+  std::string row = fmt::format("{},{}", seconds(tick.t.time_since_epoch()), mode_name(out.mode));
+  const Point<'W'> tip = scene_.X_WR * in.tip.value.X_RH.origin();
+  for (const double x : tip.xyz) add(row, kMillimetres * x);
+  for (const double x : out.felt.xyz) add(row, x);
+  add(row, kMillimetres * out.deflection);
+  add(row, pressing(scene_, out));
+  const std::int32_t number = repeat(out);
+  row += fmt::format(",{}", number);
+  add_tool(row, in.tool);
+  return row + ',' + (number > 0 ? source_ : "") + '\n';
+}
+
+std::string table_of_run(const models::Setup& setup, std::uint64_t seed) {
+  std::string text(RecordTable::header());
+  const Scene scene = prepare_setup(setup);
+  RecordTable table(setup, scene);
+  TrialOptions options;
+  options.seed = seed;
+  options.watch = [&](const Glance& glance) { text += table.row(glance.tick, glance.in, glance.out); };
+  Trial(setup, options).run();
+  return text;
+}
+
+}  // namespace enc::trial

@@ -1,0 +1,15 @@
+#include "trial/prepare.h"
+
+#include "core/error.h"
+
+namespace enc::trial {
+
+Scene prepare_setup(const models::Setup& setup) {
+  try {
+    return prepare(setup.scene, setup.rig);
+  } catch (const Error& e) {
+    throw Error(models::place_of(setup, e.key()) + ": " + e.what(), {}, e.kind());
+  }
+}
+
+}  // namespace enc::trial

@@ -1,0 +1,119 @@
+#include "trial/trial.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/probe.h"
+#include "core/travel.h"
+#include "sim/clock.h"
+
+namespace enc::trial {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+std::uint32_t nanoseconds(WallClock::duration d) {
+  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(d).count());
+}
+
+// s of what the machine does by itself; 10 where it only waits for a person. With a twin it is the twin's to
+// say.
+double programme_of(const Scene& scene) {
+  if (scene.probe) return programme_time(scene);
+  return scene.travel ? scene.travel->duration() : 10.0;
+}
+
+// A share of wall time, or 0: as fast as it goes. Real devices live in wall time, and simulated ones then
+// follow.
+double pace_of(const TrialOptions& options, bool real) {
+  if (!real || options.pace == 1.0) return options.pace;
+  if (options.pace != 0.0) throw Error("--pace: a rig with real devices runs at wall pace only");
+  return 1.0;
+}
+
+}  // namespace
+
+Trial::Trial(models::Setup setup, TrialOptions options)
+    : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
+  const Slots slots = options_.drivers ? slots_of(setup_) : Slots{};
+  const double pace = pace_of(options_, slots.real);
+  if (slots.simulated || !slots.real) {
+    world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
+    rig_ = world_->rig();
+  } else {
+    rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
+  }
+  if (slots.real) put_drivers(rig_, setup_, options_.drivers, options_.armed);
+  if (options_.fit_out) options_.fit_out(rig_);
+  check_devices(rig_, setup_.rig);
+  if (pace > 0.0) rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace);
+  result_.holds.reserve(16);
+  if (std::isinf(options_.seconds)) {
+    last_tick_ = std::numeric_limits<std::int64_t>::max();
+    return;
+  }
+  const double programme = world_ ? world_->programme_time() : programme_of(scene_);
+  const double length = std::isnan(options_.seconds) ? programme : options_.seconds;
+  last_tick_ = std::llround(length / scene_.dt);
+  result_.step_ns.reserve(static_cast<std::size_t>(last_tick_) + 1);
+}
+
+void Trial::count() {
+  const Mode mode = out_.mode;
+  result_.mode_time[static_cast<std::size_t>(mode)] += scene_.dt;
+  if (mode != result_.last_mode) {
+    ++result_.mode_changes;
+    if (mode == Mode::hold && result_.holds.size() < 16)
+      result_.holds.emplace_back(now_.t, out_.why & kHoldReasons);
+  }
+  result_.last_mode = mode;
+  result_.last_why = out_.why;
+  result_.contacts = out_.contacts;
+  add_tick(hash_, state_, out_);
+  result_.hash = hash_.value;
+  ++result_.ticks;
+}
+
+bool Trial::tick() {
+  if (result_.ticks > last_tick_ || result_.stopped || result_.diverged_at >= 0) return false;
+  now_ = rig_.clock->next();
+  rig_.read(in_);
+  if (options_.disturb) options_.disturb(in_);
+  const WallClock::time_point before = WallClock::now();
+  if (options_.law)
+    options_.law(scene_, now_, in_, state_, out_);
+  else
+    step(scene_, now_, in_, state_, out_);
+  const WallClock::time_point after = WallClock::now();
+  rig_.write(out_);
+  if (result_.step_ns.size() < result_.step_ns.capacity())
+    result_.step_ns.push_back(nanoseconds(after - before));
+  count();
+  if (record_ != nullptr) {
+    record_->write(now_, in_, out_, hash_.value);
+    result_.stopped = record_->full();
+  }
+  if (options_.watch) options_.watch({scene_, now_, truth(), in_, out_});
+  if (world_) result_.diverged_at = world_->diverged_at();
+  return true;
+}
+
+TrialResult Trial::run() {
+  const WallClock::time_point start = WallClock::now();
+  WallClock::time_point told = start;
+  while (tick()) {
+    if (!options_.progress || result_.ticks % 64 != 0) continue;
+    const WallClock::time_point now = WallClock::now();
+    if (now - told < std::chrono::milliseconds(100)) continue;
+    told = now;
+    options_.progress(static_cast<double>(result_.ticks) / static_cast<double>(last_tick_ + 1));
+  }
+  result_.wall = std::chrono::duration<double>(WallClock::now() - start).count();
+  result_.simulated = static_cast<double>(result_.ticks) * scene_.dt;
+  if (result_.diverged_at >= 0) result_.divergence = world_->divergence();
+  return result_;
+}
+
+}  // namespace enc::trial

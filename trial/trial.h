@@ -1,0 +1,111 @@
+// One run of a scene: the loop of the product, with what every run counts. `run`, `view`, `calibrate`,
+// benchmarks and tests share it.
+//
+//   clock -> devices -> (disturb) -> step() -> devices -> count, record, watch
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/record/record.h"
+#include "core/rig.h"
+#include "models/scene_file.h"
+#include "sim/world.h"
+#include "trial/assemble.h"
+
+namespace enc::trial {
+
+// What a tick was, for measures that look on. Truth is for them alone; the core does not see it.
+struct Glance {
+  const Scene& scene;
+  const Tick& tick;
+  const sim::Truth& truth;  // nothing in it is set where no slot is simulated
+  const Inputs& in;
+  const Outputs& out;
+};
+
+// Another law in place of step(), such as guide(), which moves an arm without a finger.
+using Law = std::function<void(const Scene&, const Tick&, const Inputs&, State&, Outputs&)>;
+
+struct TrialOptions {
+  std::uint64_t seed = 1;
+  double seconds = kUnset;  // unset: until the user or the probe of the scene is done; infinite: for ever
+  double pace = 0.0;        // experiment seconds for each wall second; 0: as fast as it goes
+  bool draw_all = false;    // build what is only looked at, too
+  DriverSource drivers{};   // none: every slot is simulated, whatever the rig names
+  bool armed = false;       // commands are sent to real devices; else they are only computed
+  // Hooks, in the order of a tick; an empty one is not called.
+  std::function<void(Rig&)> fit_out{};         // once: puts other devices in place of those of the rig
+  std::function<void(Inputs&)> disturb{};      // after reading
+  Law law{};                                   // in place of step()
+  std::function<void(const Glance&)> watch{};  // after the tick
+  std::function<void(double)> progress{};      // share done, about ten times a second
+};
+
+struct TrialResult {
+  std::int64_t ticks = 0;
+  double simulated = 0.0, wall = 0.0;  // s
+  std::array<double, kModes> mode_time{};
+  std::int32_t contacts = 0;
+  std::int64_t mode_changes = 0;
+  std::vector<std::pair<Time, std::uint32_t>> holds;  // when each began, and why; the first 16
+  Mode last_mode = Mode::away;
+  std::uint32_t last_why = 0;
+  std::uint64_t hash = 0;
+  std::vector<std::uint32_t> step_ns;  // of each step(), as the wall clock saw it
+  std::int64_t diverged_at = -1;
+  std::string divergence;
+  bool stopped = false;  // record could not be written
+};
+
+class Trial {
+ public:
+  // Throws Error for all that can be refused: nothing moves before a tick() is asked for.
+  Trial(models::Setup setup, TrialOptions options);
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+
+  void record_to(RecordWriter* record) { record_ = record; }  // null: nowhere
+  TrialResult run();
+  // One tick; false when the run is over. run() is this in a loop.
+  bool tick();
+  [[nodiscard]] const TrialResult& result() const { return result_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const models::Setup& setup() const { return setup_; }
+  [[nodiscard]] const Tick& now() const { return now_; }  // of the last tick
+  [[nodiscard]] Rig& rig() { return rig_; }
+  [[nodiscard]] Inputs& inputs() { return in_; }
+  [[nodiscard]] const Inputs& inputs() const { return in_; }
+  [[nodiscard]] State& state() { return state_; }
+  [[nodiscard]] Outputs& outputs() { return out_; }
+  [[nodiscard]] const Outputs& outputs() const { return out_; }
+  // The twin; there is one if a slot is simulated.
+  [[nodiscard]] bool has_world() const { return world_ != nullptr; }
+  [[nodiscard]] sim::World& world() { return *world_; }
+  [[nodiscard]] const sim::World& world() const { return *world_; }
+  [[nodiscard]] const sim::Truth& truth() const { return world_ ? world_->truth() : unknown_; }
+
+ private:
+  void count();
+
+  models::Setup setup_;
+  TrialOptions options_;
+  Scene scene_;
+  std::unique_ptr<sim::World> world_;
+  sim::Truth unknown_;
+  Rig rig_;  // after the world, so that it goes first
+  Tick now_;
+  Inputs in_;
+  Outputs out_;
+  State state_;
+  StateHash hash_;
+  TrialResult result_;
+  std::int64_t last_tick_ = 0;
+  RecordWriter* record_ = nullptr;
+};
+
+}  // namespace enc::trial
