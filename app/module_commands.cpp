@@ -1,23 +1,32 @@
 // The subcommands that live in modules, because few need what they need.
-#include <algorithm>
+#include <fmt/format.h>
 
 #include "app/fit/fit_module.h"
 #include "app/modules.h"
 #include "app/options.h"
+#include "core/error.h"
 #include "trial/bench_module.h"
 
 namespace enc::app {
 namespace {
 
-const trial::BenchModule& benchmarks() {
-  return *static_cast<const trial::BenchModule*>(load_module("bench").bench);
+// One that was not built is no broken device: the words ask for something that is not there.
+const ModuleInfo& own_module(const std::string& name, const std::string& command) {
+  try {
+    return load_module(name);
+  } catch (const Error& e) {
+    throw Error(fmt::format("{}; './encounter {}' builds it", e.what(), command));
+  }
 }
 
-const FitModule& fits() { return *static_cast<const FitModule*>(load_module("fit").fit); }
+const trial::BenchModule& benchmarks() {
+  return *static_cast<const trial::BenchModule*>(own_module("bench", "bench").bench);
+}
+
+const FitModule& fits() { return *static_cast<const FitModule*>(own_module("fit", "fit").fit); }
 
 const ModuleInfo* module_if_there(const std::string& name) {
-  const std::vector<std::string> there = modules_there();
-  return std::find(there.begin(), there.end(), name) == there.end() ? nullptr : &load_module(name);
+  return module_there(name) ? &load_module(name) : nullptr;
 }
 
 }  // namespace

@@ -32,6 +32,20 @@ std::string loader_words(const std::string& file) {
   return text;
 }
 
+// A folder of one's own holds drivers; what belongs to the program is found beside it all the same.
+std::string beside_program() {
+  std::error_code none;
+  return (fs::read_symlink("/proc/self/exe", none).parent_path() / "modules").string();
+}
+std::string file_of(const std::string& name) {
+  const auto in = [&](const std::string& folder) {
+    return fmt::format("{}/{}{}{}", folder, kPrefix, name, kSuffix);
+  };
+  std::error_code none;
+  const bool ours = name == "bench" || name == "fit" || name == "peers";
+  return ours && !fs::exists(in(modules_dir()), none) ? in(beside_program()) : in(modules_dir());
+}
+
 const char* const kRebuild = "build program and modules together: cmake --build --preset release";
 
 }  // namespace
@@ -39,9 +53,7 @@ const char* const kRebuild = "build program and modules together: cmake --build 
 std::string modules_dir() {
   const char* given = std::getenv("ENCOUNTER_MODULES");
   if (given != nullptr && *given != '\0') return given;
-  std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
-  return (program.parent_path() / "modules").string();
+  return beside_program();
 }
 
 std::vector<std::string> modules_there() {
@@ -56,8 +68,13 @@ std::vector<std::string> modules_there() {
   return names;
 }
 
+bool module_there(const std::string& name) {
+  std::error_code none;
+  return fs::exists(file_of(name), none);
+}
+
 const ModuleInfo& load_module(const std::string& name) {
-  const std::string file = fmt::format("{}/{}{}{}", modules_dir(), kPrefix, name, kSuffix);
+  const std::string file = file_of(name);
   if (name.find('/') != std::string::npos)
     refuse(file, "a module's name has no '/'", "give the name alone, such as \"sample\"");
   std::error_code none;

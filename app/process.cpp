@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-
-#include <sys/resource.h>
+#include <string>
 
 namespace enc::app {
 
@@ -16,9 +15,15 @@ int thread_count() {
 }
 
 double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+  // Not getrusage(): that of a child begins with what its parent had.
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:") {
+      double kib = 0.0;
+      status >> kib;
+      return kib / 1024.0;
+    }
+  return 0.0;
 }
 
 double cpu_seconds() {

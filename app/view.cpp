@@ -49,11 +49,12 @@ bool deepest(const Moment& m, double& held) {
 
 // A picture is of the twin, whatever drives the rig. With a person in it and no moment given, it waits for
 // the press.
-trial::TrialOptions options_of(const ViewOptions& options, bool person) {
+trial::TrialOptions options_of(const ViewOptions& options, double rate, bool person) {
   trial::TrialOptions trial;
   trial.seed = options.seed;
   trial.draw_all = true;
-  if (options.at || !person) trial.seconds = options.at.value_or(4.0);
+  // The first tick at or after the moment.
+  if (options.at || !person) trial.seconds = std::ceil(options.at.value_or(4.0) * rate - 1e-6) / rate;
   return trial;
 }
 
@@ -261,7 +262,7 @@ int picture(const ViewOptions& options, Look look) {
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
   const bool person = setup.scene.user.has_value() && !setup.scene.tools.empty();
-  trial::Trial trial(setup, options_of(options, person));
+  trial::Trial trial(setup, options_of(options, setup.rig.loop.rate, person));
   print_notes(setup.notes);
   const Moment moment{setup, trial.scene(), trial.world(), trial.state(), trial.outputs(), trial.now()};
   run_until(trial, moment, person && !options.at);

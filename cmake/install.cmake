@@ -1,16 +1,23 @@
 # `cmake --install build/release --prefix DIR` gives a folder that runs anywhere on a machine with the same packages:
 #   bin/encounter  bin/modules/  lib/ (MuJoCo)  models/  benchmarks/reference/
-get_target_property(mujoco_library mujoco::mujoco IMPORTED_LOCATION)
-set_target_properties(encounter PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
+# What was not built (a view without ./encounter view) is not missed.
 install(TARGETS encounter RUNTIME DESTINATION bin)
 get_property(modules GLOBAL PROPERTY enc_modules)
-foreach(module IN LISTS modules)
-  set_target_properties(${module} PROPERTIES INSTALL_RPATH "$ORIGIN/../../lib")
-  # What was not built (a view without ./encounter view) is not missed.
-  install(TARGETS ${module} LIBRARY DESTINATION bin/modules OPTIONAL)
-endforeach()
+install(TARGETS ${modules} LIBRARY DESTINATION bin/modules OPTIONAL)
+
+# One run path for here and there: beside the program, else where MuJoCo was found. CMake's own way would pad it with an
+# empty entry, and that means: whatever folder one stands in.
+get_target_property(mujoco_library mujoco::mujoco IMPORTED_LOCATION)
+file(REAL_PATH ${mujoco_library} mujoco_library)
+cmake_path(GET mujoco_library PARENT_PATH mujoco_folder)
+set_target_properties(encounter ${modules} PROPERTIES BUILD_WITH_INSTALL_RPATH ON)
+set_target_properties(encounter PROPERTIES INSTALL_RPATH "$ORIGIN/../lib;${mujoco_folder}")
+set_target_properties(${modules} PROPERTIES INSTALL_RPATH "$ORIGIN/../../lib;${mujoco_folder}")
+
 install(FILES ${mujoco_library} DESTINATION lib)
+file(GLOB licences ${mujoco_folder}/../LICENSE*)
+install(FILES ${licences} DESTINATION lib)
 install(DIRECTORY models/ DESTINATION models FILES_MATCHING PATTERN "*.toml" PATTERN "*.xml" PATTERN "*.glb" PATTERN "*.obj"
         PATTERN "*.stl" PATTERN "*.csv")
 install(DIRECTORY benchmarks/reference/ DESTINATION benchmarks/reference)
-install(FILES LICENSE README.md DESTINATION .)
+install(FILES LICENSE DESTINATION .)

@@ -24,7 +24,7 @@ setup_begin() {
   exec 9>"$root/build/.lock"
   flock --nonblock 9 || { say "waiting for another set-up in this folder to finish"; flock 9; }
   : >"$log"
-  trap 'stop "interrupted while $doing; give the same command again, it carries on from there"' INT TERM HUP
+  trap '[[ ! -t 2 ]] || echo >&2; stop "interrupted while $doing; give the same command again, it carries on from there"' INT TERM HUP
 }
 
 setup_end() { trap - INT TERM HUP; exec 9>&-; }
@@ -103,7 +103,7 @@ for name in wheel.namelist():
 
 # CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.
 yardstick() {
-  local TIMEFORMAT='%U %S' user system
+  local LC_ALL=C TIMEFORMAT='%U %S' user system
   read -r user system < <({ time g++ -std=c++20 -O2 -fsyntax-only -x c++ -include regex -include functional /dev/null \
     >/dev/null 2>&1; } 2>&1 | tail -n 1)
   awk -v a="$user" -v b="$system" 'BEGIN { print a + b }'
@@ -111,12 +111,12 @@ yardstick() {
 
 # Minutes that a build will take: what each file takes (measured, in yardsticks), by kind, shared by the processors.
 estimate() {  # lines of `ninja -n` on standard input
-  awk -v yard="$(yardstick)" -v cores="$(nproc)" '
+  LC_ALL=C awk -v yard="$(yardstick)" -v cores="$(nproc)" '
     /Building CXX/ { n += /\.gch/ ? 6 : /unity/ ? 25 : /test_/ ? 12 : 4.0 }
     END { print yard * n / cores / 60 }'
 }
 
-minutes() { awk -v m="$1" 'BEGIN { if (m < 0.75) print "less than a minute"; else printf "about %d minute%s\n", m + 0.5, m < 1.5 ? "" : "s" }'; }
+minutes() { LC_ALL=C awk -v m="$1" 'BEGIN { if (m < 0.75) print "less than a minute"; else printf "about %d minute%s\n", m + 0.5, m < 1.5 ? "" : "s" }'; }
 
 # Reads what ninja says: all of it goes to the log; people see how far it is, a line that renews itself in a terminal,
 # else a line a minute.
@@ -127,6 +127,7 @@ show_progress() {
     [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
     done_=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
     left=$(((SECONDS - began) * (all - done_) / (done_ > 0 ? done_ : 1)))
+    ((SECONDS - began >= 3)) || continue
     if [[ -t 2 ]]; then
       printf '\r  %d of %d steps, %d:%02d left ' "$done_" "$all" $((left / 60)) $((left % 60)) >&2
     elif ((SECONDS - told >= 60)); then

@@ -15,6 +15,7 @@ enc_precompile(enc_test_support ${enc_standard_headers} ${enc_eigen_headers} <fm
 
 find_path(CGAL_INCLUDE_DIR CGAL/AABB_tree.h)
 
+add_custom_target(tests) # all but those of the benchmarks
 function(enc_test kind shards) # enc_test(folder shards libraries...)
   file(GLOB sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone
@@ -27,7 +28,12 @@ function(enc_test kind shards) # enc_test(folder shards libraries...)
   target_link_libraries(test_${kind} PRIVATE enc_test_support ${ARGN} GTest::gtest_main)
   enc_precompile_as(test_${kind} enc_test_support)
   set_target_properties(test_${kind} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-  add_dependencies(test_${kind} program fit view bench)
+  if(kind STREQUAL "benchmarks")
+    add_dependencies(test_${kind} program bench)
+  else()
+    add_dependencies(test_${kind} program fit view)
+    add_dependencies(tests test_${kind})
+  endif()
   math(EXPR last "${shards} - 1")
   foreach(shard RANGE ${last})
     add_test(NAME ${kind}.${shard} COMMAND test_${kind} --gtest_brief=1 --gtest_filter=-*Long.*)

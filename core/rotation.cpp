@@ -1,35 +1,11 @@
 #include "core/rotation.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace enc {
 
-// As Eigen's FromTwoVectors, bit by bit, but for opposite directions, where that takes an SVD: eight seconds
-// of every build. There any axis at right angles will do; this is the image of z in the reflection that takes
-// `from` to x.
-Quat rotation_between(const Vec3& from, const Vec3& to) {
-  const Vec3 a = from.normalized();
-  const Vec3 b = to.normalized();
-  const double cosine = b.dot(a);
-  if (cosine < -1.0 + 1e-12) {
-    const Vec3 both = a.cross(b);
-    const Vec3 mirror = Vec3(a.x() + (a.x() < 0.0 ? -1.0 : 1.0), a.y(), a.z()).normalized();
-    const Vec3 axis =
-        both.norm() > 1e-8 ? both.normalized() : Vec3(Vec3::UnitZ() - 2.0 * mirror.z() * mirror);
-    const double squared = (1.0 + std::max(cosine, -1.0)) * 0.5;
-    Quat opposite;
-    opposite.w() = std::sqrt(squared);
-    opposite.vec() = axis * std::sqrt(1.0 - squared);
-    return opposite;
-  }
-  const Vec3 axis = a.cross(b);
-  const double s = std::sqrt((1.0 + cosine) * 2.0);
-  Quat turn;
-  turn.vec() = axis * (1.0 / s);
-  turn.w() = s * 0.5;
-  return turn;
-}
+// Here and nowhere else: Eigen takes an SVD for opposite directions, which costs each file that has it eight seconds.
+Quat rotation_between(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
 
 Quat rotation_z_to(const Vec3& n) { return rotation_between(Vec3::UnitZ(), n); }
 

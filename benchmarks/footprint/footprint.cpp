@@ -36,12 +36,13 @@ Row measured(const std::string& program, const fs::path& scene, int repeats) {
     const Child run = run_child({program, "run", scene.string(), "--for-s", "0.001", "--json"});
     const Child nothing = run_child({"true"});
     const Json json = Json::parse(run.out, nullptr, false);
-    if (json.is_discarded()) throw Error(fmt::format("{} could not be run: {}", scene.string(), run.err));
+    if (run.code != 0 || json.is_discarded())
+      throw Error(fmt::format("{} could not be run: {}", scene.string(), run.err));
     row.libraries = json["libraries"].size();
     row.threads = json["threads"];
     row.elements = json["mujoco_elements"];
     row.memory = json["peak_memory_MiB"];
-    ratios.push_back(run.wall / nothing.wall);
+    ratios.push_back(run.cpu / std::max(nothing.cpu, 1e-5));
   }
   row.start = median(ratios);
   return row;

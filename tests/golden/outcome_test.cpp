@@ -88,6 +88,7 @@ TEST(Outcome, TheTableHasEverySceneTwice) {
     for (const std::string& scene : scenes)
       for (const char* length : {"short", "whole"})
         for (const std::uint64_t seed : {1U, 2U}) file << row_of(scene, seed, length) << "\n";
+    FAIL() << kTable << " was written anew: look at the difference";
   }
   const std::vector<std::string> rows = table();
   ASSERT_FALSE(rows.empty());
@@ -99,6 +100,27 @@ TEST(Outcome, TheTableHasEverySceneTwice) {
     found.insert(words[0] + "," + words[1] + "," + words[2]);
   }
   EXPECT_EQ(found, expected);
+}
+
+// A member that is new must be hashed, too: then this does not compile until somebody has looked.
+struct Count {
+  int leaves = 0;
+  template <class T>
+  void operator()(std::string_view, const T&) {
+    ++leaves;
+  }
+};
+TEST(Outcome, EveryMemberOfTheTruthIsNamed) {
+  const sim::Truth truth;
+  const auto& [t, tool_tip, tool_velocity, tip, tip_velocity, tip_acceleration, contact_force, hand_force,
+               leg_force, joints, motor_torque, warmth, touching, penetration, tool_radius, tip_radius, press,
+               aim, phase, approach_speed, aborted, tool] = truth;
+  EXPECT_EQ(&t, &truth.t);
+  EXPECT_EQ(&tool, &truth.tool);
+  Count count;
+  sim::Truth copy = truth;
+  fields(count, copy);
+  EXPECT_EQ(count.leaves, 1 + 7 * 3 + 6 + 3 * 3 + 1 + 4 + 3 + 2);
 }
 
 TEST(Outcome, TheFirstSecondsOfEveryScene) { expect_rows("short"); }

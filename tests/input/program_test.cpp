@@ -360,28 +360,6 @@ TEST_F(Program, SubcommandThatDoesNotExistIsNamedWithTheNearest) {
   EXPECT_THAT(refused({"rn", ball()}), AllOf(HasSubstr("'rn'"), HasSubstr("'run'")));
 }
 
-TEST_F(Program, UnknownBenchmark) {
-  EXPECT_THAT(refused({"bench", "encountr"}), AllOf(HasSubstr("'encountr'"), HasSubstr("encounter")));
-  EXPECT_THAT(refused({"bench", "encounter", "--repeats=-1"}), HasSubstr("--repeats"));
-  EXPECT_THAT(refused({"bench", "encounter", "--repeats=1", "--set", "user.dpth_mm=1"}),
-              HasSubstr("depth_mm"));
-}
-
-// A file stands where the folder should be; said before the benchmark has run, or its minutes are lost.
-TEST_F(Program, UnwritableBenchFolder) {
-  write("file", "");
-  const Result r = run_program({"bench", "encounter", "--repeats=1", "--out", path("file/results")});
-  EXPECT_EQ(r.code, 2);
-  EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
-  EXPECT_THAT(r.err, AllOf(StartsWith("encounter: "), HasSubstr(path("file/results"))));
-}
-
-TEST_F(Program, UnwritableBenchFolderIsSaidBeforeAnythingRuns) {
-  write("file", "");
-  EXPECT_THAT(refused({"bench", "encounter", "--repeats=1", "--out", path("file/results")}),
-              HasSubstr(path("file/results")));
-}
-
 // ---- records
 // -------------------------------------------------------------------------------------------------
 

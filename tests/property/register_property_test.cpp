@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "models/fit/register.h"
 #include "core/rotation.h"
+#include "models/fit/register.h"
 #include "sim/random.h"
 
 namespace enc {

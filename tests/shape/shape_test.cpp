@@ -107,6 +107,19 @@ TEST(Shape, NothingIncludesWhatIsAboveIt) {
     }
 }
 
+// Fits are a module, too: the program itself must not draw them in.
+TEST(Shape, OnlyTheModuleOfFitsIncludesThem) {
+  for (const Source& source : sources()) {
+    const std::string& name = source.name;
+    const bool may = starts(name, "app/fit/") || starts(name, "benchmarks/") || starts(name, "models/fit/") ||
+                     starts(name, "trial/fit/") || starts(name, "trial/guided/");
+    for (const Include& include : includes(source))
+      EXPECT_TRUE(may || (!starts(include.name, "models/fit/") && !starts(include.name, "trial/fit/") &&
+                          !starts(include.name, "trial/guided/")))
+          << name << " includes " << include.name;
+  }
+}
+
 // Benchmarks are a module that most never build: their own tests are the only others that may know them.
 TEST(Shape, OnlyTheirTestsIncludeBenchmarks) {
   int tests = 0;
@@ -116,7 +129,9 @@ TEST(Shape, OnlyTheirTestsIncludeBenchmarks) {
     ++tests;
     std::ifstream in(entry.path());
     for (std::string line; std::getline(in, line);)
-      EXPECT_FALSE(starts(line, "#include \"benchmarks/")) << name << ": " << line;
+      EXPECT_FALSE(line.find("#") != std::string::npos && line.find("include") != std::string::npos &&
+                   line.find("benchmarks/") != std::string::npos)
+          << name << ": " << line;
   }
   EXPECT_GT(tests, 40);
 }

@@ -98,9 +98,11 @@ TEST_F(Assemble, OnlyAnArmedMachineIsSentCommands) {
 TEST_F(Assemble, WithoutDriversEverythingIsSimulated) {
   TrialOptions made;
   made.seconds = 0.01;
-  Trial trial(scene("tennis_ball", kSample), made);
-  EXPECT_TRUE(trial.has_world());
-  EXPECT_EQ(trial.run().ticks, 11);
+  for (const char* name : {"tennis_ball", "rig_A"}) {
+    Trial trial(scene(name, kSample), made);
+    EXPECT_TRUE(trial.has_world()) << name;
+    EXPECT_EQ(trial.run().ticks, 11) << name;
+  }
 }
 
 }  // namespace

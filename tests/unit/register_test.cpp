@@ -41,9 +41,9 @@ std::string refusal(const std::vector<models::PointPair>& pairs) {
 TEST(Register, AQuarterTurnByHand) {
   // About z: x becomes y, y becomes -x.
   const std::vector<models::PointPair> pairs{{{0.1, 0, 0}, {1.0, 2.1, 3.0}},
-                                     {{0, 0.1, 0}, {0.9, 2.0, 3.0}},
-                                     {{0, 0, 0.1}, {1.0, 2.0, 3.1}},
-                                     {{0, 0, 0}, {1.0, 2.0, 3.0}}};
+                                             {{0, 0.1, 0}, {0.9, 2.0, 3.0}},
+                                             {{0, 0, 0.1}, {1.0, 2.0, 3.1}},
+                                             {{0, 0, 0}, {1.0, 2.0, 3.0}}};
   const models::Registration found = models::register_points(pairs);
   EXPECT_NEAR((found.X_WC.p() - Vec3(1, 2, 3)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((angles_xyz(found.X_WC.q()) - Vec3(0, 0, kQuarter)).norm(), 0.0, 1e-12);

@@ -1,8 +1,11 @@
 // `bench` as a person calls it: what it refuses, and what is left of a run that was stopped.
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,6 +33,45 @@ TEST(Bench, ListSaysWhatThereIs) {
   const Result r = run_program({"bench", "--list"});
   EXPECT_EQ(r.code, 0);
   EXPECT_THAT(r.out, AllOf(HasSubstr("\nencounter "), HasSubstr("\npaper-2020 "), HasSubstr("\nspeed ")));
+}
+
+// What is refused says so in one line, and nothing has run.
+std::string refused(std::vector<std::string> words) {
+  words.insert(words.begin(), "bench");
+  const Result r = run_program(words);
+  EXPECT_EQ(r.code, 2) << r.err;
+  EXPECT_EQ(r.out, "") << "something ran";
+  EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+  EXPECT_THAT(r.err, testing::StartsWith("encounter: "));
+  return r.err;
+}
+
+// The counterpart of Footprint.TheProgramHoldsNoBenchmark: here the name is to be found.
+TEST(Bench, TheModuleHoldsThem) {
+  std::ifstream in(module_folder() + "/encounter_bench.so", std::ios::binary);
+  const std::string module((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_NE(module.find("3enc5bench"), std::string::npos);
+}
+
+// A folder of one's own is for drivers: the program's modules are found beside it all the same.
+TEST(Bench, IsFoundWhereverDriversAre) {
+  const Result r = run_program({"bench", "--list"}, {{"ENCOUNTER_MODULES", "/nowhere"}});
+  EXPECT_EQ(r.code, 0) << r.err;
+}
+
+TEST(Bench, WhatIsWrongIsSaidBeforeAnythingRuns) {
+  EXPECT_THAT(refused({"encountr"}), AllOf(HasSubstr("'encountr'"), HasSubstr("encounter")));
+  EXPECT_THAT(refused({"encounter", "--repeats=-1"}), HasSubstr("--repeats"));
+  EXPECT_THAT(refused({"encounter", "--repeats=1", "--set", "user.dpth_mm=1"}), HasSubstr("depth_mm"));
+}
+
+// A file stands where the folder should be; said before the benchmark has run, or its minutes are lost.
+TEST(Bench, AFolderThatCannotBeWrittenIsSaidBeforeAnythingRuns) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder.path() / "file").string();
+  std::ofstream(file) << "";
+  EXPECT_THAT(refused({"encounter", "--repeats=1", "--out", file + "/results"}),
+              HasSubstr(file + "/results"));
 }
 
 TEST(Bench, AnUnknownNameIsAnsweredWithTheNearest) {
