@@ -4,7 +4,8 @@
 
 namespace enc {
 
-// Here and nowhere else: Eigen takes an SVD for opposite directions, which costs each file that has it eight seconds.
+// Here and nowhere else: Eigen takes an SVD for opposite directions, which costs each file that has it eight
+// seconds.
 Quat rotation_between(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
 
 Quat rotation_z_to(const Vec3& n) { return rotation_between(Vec3::UnitZ(), n); }
