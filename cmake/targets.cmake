@@ -44,6 +44,14 @@ function(enc_precompile_as name other)
   endif()
 endfunction()
 
+# Some files of a library that include the same heavy headers, compiled together.
+function(enc_batch name group) # enc_batch(name group sources...)
+  if(ENCOUNTER_FAST_BUILD)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
+  endif()
+endfunction()
+
 # Files of one folder are compiled together: they include the same headers, and share a namespace without a clash.
 function(enc_batches name folders) # enc_batches(name "folder;folder")
   if(ENCOUNTER_FAST_BUILD)

@@ -12,7 +12,7 @@
 namespace enc {
 namespace {
 
-TEST(HareGolden, IsReproducedAndSound) {
+TEST(HareGoldenLong, IsReproducedAndSound) {
   const std::string path = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
   std::ifstream file(path, std::ios::binary);
   const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

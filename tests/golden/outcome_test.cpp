@@ -123,7 +123,7 @@ TEST(Outcome, EveryMemberOfTheTruthIsNamed) {
   EXPECT_EQ(count.leaves, 1 + 7 * 3 + 6 + 3 * 3 + 1 + 4 + 3 + 2);
 }
 
-TEST(Outcome, TheFirstSecondsOfEveryScene) { expect_rows("short"); }
+TEST(OutcomeLong, TheFirstSecondsOfEveryScene) { expect_rows("short"); }
 
 TEST(OutcomeLong, EverySceneToItsEnd) { expect_rows("whole"); }
 

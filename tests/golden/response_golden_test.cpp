@@ -39,21 +39,21 @@ void expect_fitted(const std::string& scene, const std::string& ball, const std:
       << "build/release/encounter fit out/a.csv --out models/responses/" << response;
 }
 
-TEST(ResponseGolden, TennisBallIsReproduced) { expect_fitted("rig_A", "nominal", "tennis_ball.toml"); }
-TEST(ResponseGolden, TennisBallOffItsAxisIsReproduced) {
+TEST(ResponseGoldenLong, TennisBallIsReproduced) { expect_fitted("rig_A", "nominal", "tennis_ball.toml"); }
+TEST(ResponseGoldenLong, TennisBallOffItsAxisIsReproduced) {
   expect_fitted("rig_B", "nominal", "tennis_ball_B.toml");
 }
-TEST(ResponseGolden, TennisBallBesideTheVerticalIsReproduced) {
+TEST(ResponseGoldenLong, TennisBallBesideTheVerticalIsReproduced) {
   expect_fitted("rig_C", "nominal", "tennis_ball_C.toml");
 }
-TEST(ResponseGolden, RegulationBallIsReproduced) {
+TEST(ResponseGoldenLong, RegulationBallIsReproduced) {
   expect_fitted("rig_A", "regulation", "regulation_ball.toml");
 }
 
 // What the file says after reading, whichever model is felt: 12 +- 1 N where the true deflection first comes
 // within 0.05 mm of the limit (decisions 6), and accepted with the fit's own floor although its coefficients
 // are rounded.
-TEST(ResponseGolden, TennisBallFileIsAcceptedAndTwelveNewton) {
+TEST(ResponseGoldenLong, TennisBallFileIsAcceptedAndTwelveNewton) {
   const ResponseSpec spec = models::load_response(kResponses + "tennis_ball.toml");
   for (const Reversal reversal : {Reversal::energy_stop, Reversal::prandtl_ishlinskii}) {
     const Response ball(spec, floor_of_rig(), reversal);
@@ -65,7 +65,7 @@ TEST(ResponseGolden, TennisBallFileIsAcceptedAndTwelveNewton) {
 }
 
 // A regulation ball is four times as hard (parameters 4.3).
-TEST(ResponseGolden, RegulationBallFileIsAcceptedAndFiftyNewton) {
+TEST(ResponseGoldenLong, RegulationBallFileIsAcceptedAndFiftyNewton) {
   const ResponseSpec spec = models::load_response(kResponses + "regulation_ball.toml");
   for (const Reversal reversal : {Reversal::energy_stop, Reversal::prandtl_ishlinskii})
     EXPECT_NEAR(Response(spec, floor_of_rig(), reversal).press(5.95e-3), 50.0, 6.0);
