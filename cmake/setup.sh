@@ -110,9 +110,9 @@ yardstick() {
 }
 
 # Minutes that a build will take: what each file takes (measured, in yardsticks), by kind, shared by the processors.
-estimate() {  # lines of `ninja -n` on standard input
+estimate() {  # the commands of `ninja -t commands` on standard input
   LC_ALL=C awk -v yard="$(yardstick)" -v cores="$(nproc)" '
-    /Building CXX/ { n += /\.gch/ ? 6 : /unity/ ? 25 : /test_/ ? 12 : 4.0 }
+    { sanitized = /-fsanitize/ ? 1.4 : 1; n += sanitized * (/unity_benchmarks/ ? 10 : /[\/]tests[\/]/ ? 7.4 : 4.5) }
     END { print yard * n / cores / 60 }'
 }
 
@@ -140,7 +140,7 @@ show_progress() {
 
 # Configures and builds. Configuring again takes half a second and sees edited presets and newly installed packages.
 build_preset() {  # PRESET TARGET...
-  local preset=$1 cache=$root/build/$1/CMakeCache.txt todo steps
+  local preset=$1 cache=$root/build/$1/CMakeCache.txt todo
   shift
   # A build folder that was moved or copied here points to where it came from.
   [[ ! -e $cache ]] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" || rm -rf "${cache%/*}"
@@ -151,9 +151,12 @@ build_preset() {  # PRESET TARGET...
   local -x CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
   cd "$root" || exit 2  # presets are found from here; callers that care use a subshell
   if logged cmake --preset "$preset" -DMUJOCO_ROOT="${ENCOUNTER_MUJOCO:-}" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"; then
-    todo=$(ninja -C "build/$preset" -n "$@" 2>/dev/null | grep 'Building CXX' || true)
-    steps=$(grep -c . <<<"$todo" || true)
-    [[ $steps == 0 ]] || say "building ($preset, $steps files), $(minutes "$(estimate <<<"$todo")")"
+    if [[ -e build/$preset/.ninja_log ]]; then
+      say "building what changed ($preset)"
+    else
+      todo=$(ninja -C "build/$preset" -t commands "$@" | grep -- ' -c ' || true)
+      say "building ($preset, $(grep -c . <<<"$todo") files), $(minutes "$(estimate <<<"$todo")")"
+    fi
     { echo; echo "== $(date '+%F %T') ninja $preset $*"; } >>"$log"
     if (set -o pipefail; ninja -C "build/$preset" "$@" </dev/null 2>&1 | show_progress); then return 0; fi
   fi
