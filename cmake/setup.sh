@@ -138,12 +138,14 @@ show_progress() {
   [[ ! -t 2 ]] || printf '\r%40s\r' "" >&2
 }
 
+# A build folder that was moved or copied here points to where it came from.
+drop_moved() { [[ ! -e $1/CMakeCache.txt ]] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$1/CMakeCache.txt" || rm -rf "$1"; }
+
 # Configures and builds. Configuring again takes half a second and sees edited presets and newly installed packages.
 build_preset() {  # PRESET TARGET...
-  local preset=$1 cache=$root/build/$1/CMakeCache.txt todo
+  local preset=$1 todo
   shift
-  # A build folder that was moved or copied here points to where it came from.
-  [[ ! -e $cache ]] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" || rm -rf "${cache%/*}"
+  drop_moved "$root/build/$preset"
   # Presets differ in few objects: what one has compiled, the next takes from the cache. The cache lives in build/ like all else.
   local launcher=""
   ! command -v ccache >/dev/null || launcher=ccache
