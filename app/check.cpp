@@ -6,10 +6,24 @@
 #include "app/built.h"
 #include "app/options.h"
 #include "core/arm/arm_scene.h"
+#include "core/guard/room.h"
 #include "trial/prepare.h"
 
 namespace enc::app {
 namespace {
+
+// Where an object has no room for the tip under its surface, the tip waits beside.
+std::string thin_text(const std::string& name, const Scene& scene, const Object& object) {
+  const double margin = room_margin(scene);
+  const Room room = room_in(object, margin, 0);
+  if (room.thin == 0.0) return {};
+  const Point<'W'> at = object.X_WO * room.thin_at;
+  return fmt::format(
+      "  object '{}': {:.2g} % of its surface lies over what is thinner than the haptic-tip and its inset, "
+      "{:.1f} mm; thinnest, {:.2f} mm, at ({:.1f}, {:.1f}, {:.1f}) mm; there the tip waits beside\n",
+      name, room.thin * 100.0, 2e3 * margin, room.thinnest * 1e3, at.xyz[0] * 1e3, at.xyz[1] * 1e3,
+      at.xyz[2] * 1e3);
+}
 
 std::string limits(const models::Setup& setup, const Scene& scene) {
   std::string text;
@@ -23,6 +37,7 @@ std::string limits(const models::Setup& setup, const Scene& scene) {
         "  object '{}': deflection up to {:g} mm, at most {:.2f} N; softest stable slope {:.3f} N/mm\n", name,
         scene.objects[i].limit * 1e3, scene.objects[i].response.press(scene.objects[i].limit),
         scene.lowest_slope * 1e-3);
+    text += thin_text(setup.scene.objects[i].name, scene, scene.objects[i]);
   }
   return text + weak_text(setup, scene) +
          fmt::format("  commands up to {:g} mm/s and {:g} mm/s^2\n", scene.reach.speed * 1e3,

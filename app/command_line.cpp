@@ -1,5 +1,6 @@
 // The command line. Each subcommand is one function in a file of its own (options.h). Exit codes: 0 yes, 1
-// the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold.
+// the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold; 129, 130 and 143 after a
+// clean end by SIGHUP, SIGINT and SIGTERM.
 #include <algorithm>
 #include <charconv>
 #include <csignal>

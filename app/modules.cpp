@@ -94,6 +94,9 @@ const ModuleInfo& load_module(const std::string& name) {
     refuse(file,
            fmt::format("has module interface {}, this program expects {}", info->interface, kModuleInterface),
            kRebuild);
+  if (info->border != ENCOUNTER_BORDER)
+    refuse(file, "was built from other declarations than this program (core/module.h and what it includes)",
+           kRebuild);
   if (std::string_view(info->version) != ENCOUNTER_VERSION)
     refuse(file, fmt::format("is of version {}, this program is {}", info->version, ENCOUNTER_VERSION),
            kRebuild);

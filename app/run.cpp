@@ -12,6 +12,7 @@
 #include "app/options.h"
 #include "app/process.h"
 #include "app/run_report.h"
+#include "app/stop_signals.h"
 #include "core/error.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/probe_measure.h"
@@ -66,6 +67,8 @@ int run(const RunOptions& options) {
     pushes.see(glance);
     fingers.see(glance);
   };
+  trial_options.stop = [] { return StopSignals::caught() != 0; };
+  const StopSignals signals;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) trial_options.progress = show_progress;
   trial::Trial trial(
@@ -93,6 +96,7 @@ int run(const RunOptions& options) {
         fmt::format("the physics diverged at tick {}: {}; try a smaller {}.timestep_us", result.diverged_at,
                     result.divergence, setup.twin.stepping(setup.scene.arm.has_value()).table),
         {}, ErrorKind::device);
+  if (StopSignals::caught() != 0) return 128 + StopSignals::caught();
   return result.last_mode == Mode::hold ? 4 : 0;
 }
 

@@ -94,7 +94,11 @@ std::string run_json(const RunReport& r) {
   json["step_ns"] = {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
   json["simulated_s"] = r.result.simulated;
   json["wall_s"] = r.result.wall;
-  json["times_real_time"] = r.result.simulated / r.result.wall;
+  json["times_real_time"] = number(r.result.simulated / r.result.wall);
+  json["withheld_commands"] = r.result.withheld;
+  json["missed_cycles"] = r.result.missed;
+  json["late_s"] = r.result.lateness.total;
+  json["stopped"] = r.result.interrupted;
   json["ticks"] = r.result.ticks;
   json["diverged_at_tick"] = r.result.diverged_at;
   json["started_cpu_ms"] = r.started * 1e3;

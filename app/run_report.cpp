@@ -213,6 +213,17 @@ std::string run_text(const RunReport& r) {
     text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
     if (&why == &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) break;
   }
+  if (r.result.withheld > 0)
+    text += fmt::format("dry         {} commands were withheld from the machine; --armed sends them\n",
+                        r.result.withheld);
+  if (r.result.missed > 0)
+    text +=
+        fmt::format("late        {} cycles were lost to the wall clock, in {} stalls; the longest {:.3f} s\n",
+                    r.result.missed, r.result.lateness.times, r.result.lateness.longest);
+  else if (r.result.lateness.times > 0)
+    text += fmt::format("late        {:.3f} s behind the wall clock, in {} stalls; nothing was lost\n",
+                        r.result.lateness.total, r.result.lateness.times);
+  if (r.result.interrupted) text += "stopped     by a signal, before its end\n";
   text += weak_text(r.setup, r.scene);
   text += press_lines(r) + push_lines(r) + pushed_lines(r);
   text += finger_lines(r);
@@ -225,8 +236,8 @@ std::string run_text(const RunReport& r) {
                       times.p50 * 1e-3, times.p99 * 1e-3, times.p999 * 1e-3, times.max * 1e-3);
   text += fmt::format(
       "time        {:.2f} s simulated in {:.3f} s: {:.0f} x real time; started in {:.0f} ms, {:.0f} MiB\n",
-      r.result.simulated, r.result.wall, r.result.simulated / r.result.wall, r.started * 1e3,
-      peak_memory_mb());
+      r.result.simulated, r.result.wall, r.result.wall > 0.0 ? r.result.simulated / r.result.wall : 0.0,
+      r.started * 1e3, peak_memory_mb());
   text += fmt::format("state hash  {:016x} after {} ticks\n", r.result.hash, r.result.ticks);
   return text;
 }

@@ -1,6 +1,5 @@
 // What the program finds in encounter_bench.so.
 #include "benchmarks/commands/commands.h"
-#include "encounter_version.h"
 
 namespace {
 
@@ -9,7 +8,6 @@ constexpr enc::trial::BenchModule kBench{enc::bench::bench_command, enc::bench::
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
-  static const enc::ModuleInfo kInfo{
-      enc::kModuleInterface, ENCOUNTER_VERSION, "bench", nullptr, nullptr, nullptr, &kBench};
+  static const enc::ModuleInfo kInfo{.name = "bench", .bench = &kBench};
   return &kInfo;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/guard/inside.h"
 #include "core/stages.h"
 
 namespace enc::stages {
@@ -29,6 +30,21 @@ double carried(const Walk& walk, const Object& object, Contact& contact, double 
   const double damping = law.observe(swing, force, depth);
   swing.carried = law.carry(object.response, contact.response, swing.carried, pressed, damping, limit);
   return swing.carried;
+}
+
+// Beside an edge the tip cannot be right under the tool: it waits as near as the whole of it is inside.
+Point<'W'> inside(const Walk& walk, State& state, std::int32_t object, double margin,
+                  const Point<'W'>& wanted) {
+  return Inside(walk.scene, object, margin, Vec<'W'>::zero(), state.hints.command).nearest_to(wanted);
+}
+
+// Straight under the surface point: of what is round or flat that is inside, of a mesh it may be another
+// side.
+Point<'W'> under_surface(const Walk& walk, State& state, double margin) {
+  const Point<'W'> under = walk.surface_point - margin * walk.normal;
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  const bool mesh = std::holds_alternative<MeshSurface>(object.surface.shape());
+  return mesh ? inside(walk, state, state.object, margin, under) : under;
 }
 
 }  // namespace
@@ -59,16 +75,14 @@ void target(Walk& walk, State& state) noexcept {
   const double radius = walk.scene.tip_radius;
   switch (state.mode) {
     case Mode::follow:
-      walk.target = walk.surface_point - (radius + walk.scene.follow.inset) * walk.normal;
+      walk.target = under_surface(walk, state, radius + walk.scene.follow.inset);
       break;
     case Mode::contact:
     case Mode::restore: {
       const Vec3 d = state.contact.displacement.e();
-      walk.target = state.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin);
       // Sideways along the tangent plane would lead out of a round object.
-      const NearestInWorld at = nearest(walk.scene, state.contact.object, walk.target, state.hints.command);
-      const double outside = at.distance + radius + kSkin;
-      if (outside > 0.0) walk.target = walk.target - outside * at.normal;
+      walk.target = inside(walk, state, state.contact.object, radius + kSkin,
+                           state.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin));
       break;
     }
     case Mode::away:

@@ -13,6 +13,8 @@ double pressing_force(const Walk& walk, const Vec<'W'>& normal) {
 // A tool this far away presses nothing, whatever the force says: the zero has drifted, and only free space
 // can mend that. Wider than what a tool at 200 mm/s moves while its pose is on the way.
 constexpr double kFar = 10e-3;  // m
+// How long a mode may outlive its cause (mode.h).
+constexpr double kMeeting = 0.5, kReturning = 5.0, kRestoring = 2.0;  // s
 bool too_far(const Walk& walk) { return walk.tool_known && walk.gap > kFar; }
 
 // A hand that presses cannot change its tool: another one in view did not make this contact, and where it is
@@ -41,6 +43,7 @@ void begin_contact(Walk& walk, State& state, bool by_force) {
   state.contact.object = state.object;
   state.contact.tool = walk.tool_known ? state.tool.value.tool : -1;
   state.contact.X_WN = frame_under_tool(walk, state);
+  state.contact.began = walk.tick.t;
   if (!by_force) return;
   state.contact.loaded = walk.tick.t;
   walk.why |= kByForce;
@@ -63,19 +66,22 @@ void in_contact(Walk& walk, State& state) {
   // Nothing but the force speaks for the contact of a tool that is no longer seen: it has to be a whole one.
   const double least = (changed ? 1.0 : 0.5) * walk.scene.force.contact;
   if (force >= least && (changed || !too_far(walk))) state.contact.loaded = walk.tick.t;
+  const double without = age(walk.tick.t, state.contact.loaded);  // force, s
   // Behind a damper the tip comes back slowly; what pushed it may wait there.
-  const bool returning =
-      walk.scene.damping && -state.contact.displacement.xyz[2] > walk.scene.contact.leave_gap;
-  const bool unloaded = !returning && age(walk.tick.t, state.contact.loaded) >= walk.scene.contact.leave_time;
+  const bool returning = walk.scene.damping && !too_far(walk) && without < kReturning &&
+                         -state.contact.displacement.xyz[2] > walk.scene.contact.leave_gap;
+  const bool unloaded = !returning && without >= walk.scene.contact.leave_time;
   // Slid off: beside the tip, where the two can no longer touch.
   const double beside = walk.tool_known ? (walk.surface_point - state.contact.X_WN.origin()).norm() : 0.0;
   const bool slid_off = beside > walk.scene.tip_radius + walk.tool_radius;
   // Before any force was felt the tool may not be there yet: what slows down is predicted too far ahead. To
   // let go of it and then to be touched would make two contacts of one press.
-  const bool felt = state.contact.loaded > Time{};
+  const bool felt = state.contact.loaded > Time{} || age(walk.tick.t, state.contact.began) >= kMeeting;
   const double leave = felt ? walk.scene.contact.leave_gap : kFar;
   const bool gone = !walk.tool_known || changed || walk.gap > leave || slid_off;
-  if (unloaded && gone) state.mode = Mode::restore;
+  if (!unloaded || !gone) return;
+  state.mode = Mode::restore;
+  state.contact.left = walk.tick.t;
 }
 
 void in_free_space(Walk& walk, State& state) {
@@ -109,7 +115,7 @@ void mode(Walk& walk, State& state) noexcept {
     if (pressing_force(walk, normal) >= walk.scene.force.contact && !too_far(walk)) {
       begin_contact(walk, state, true);  // pressed again before the tip was back
     } else if ((walk.X_WH.origin() - buffered).norm() <= walk.scene.contact.restored ||
-               at_rest(walk, state)) {
+               at_rest(walk, state) || age(walk.tick.t, state.contact.left) >= kRestoring) {
       state.mode = Mode::follow;
     }
   } else {

@@ -7,6 +7,16 @@
 
 namespace enc {
 
+// Each mode has a cause, and is over when that is:
+//
+//   follow   a tool that is known is within the pause distance                                   at once
+//   contact  force is felt with the tool within 10 mm, or the tool is within the leave gap;      leave time
+//            until force was first felt: within 10 mm, for 0.5 s;
+//            behind a damper, the tip is deeper than the leave gap and no tool is 10 mm away     5 s
+//   restore  the tip is on its way to the buffered point                                         2 s
+//   hold     a reason to hold; of an arm that is stuck: the finger is still there                at once
+//
+// (the last column: how long a mode may outlive its cause).
 enum class Mode : std::uint8_t {
   away,     // no tool, or farther than the pause distance: the tip waits where it is [VHMR 3.3]
   follow,   // the tip tracks the surface point nearest to the tool, from just inside [VHMR 3.3]
@@ -36,6 +46,7 @@ enum Why : std::uint32_t {
   kClockLate = 1U << 11,      // cycles were missed
   kNotFinite = 1U << 12,      // the core's own target is not finite: a defect, caught
   kToolNotHeld = 1U << 13,    // the gripper has lost its tool, or says nothing
+  kNotFollowing = 1U << 14,   // the machine is not where its commands have sent it
   // Notices: the loop goes on.
   kToolPredicted = 1U << 16,  // tool pose older than usual
   kUnreachable = 1U << 17,    // target clamped to what the machine reaches

@@ -12,30 +12,31 @@ std::string_view mode_name(Mode mode) {
 }
 
 std::string why_text(std::uint32_t why) {
-  static constexpr auto kTexts =
-      std::to_array<std::pair<Why, std::string_view>>({{kToolInvalid, "tool pose invalid"},
-                                                       {kToolLost, "tool lost"},
-                                                       {kForceInvalid, "force invalid"},
-                                                       {kForceSaturated, "force sensor saturated"},
-                                                       {kForceLost, "force lost"},
-                                                       {kTipInvalid, "machine pose invalid"},
-                                                       {kTipLost, "machine pose lost"},
-                                                       {kDentWrong, "visual surface wrong"},
-                                                       {kDentOverdue, "visual surface overdue"},
-                                                       {kOutsideObject, "tip outside the object"},
-                                                       {kOutsideDent, "tip outside the visual surface"},
-                                                       {kClockLate, "clock late"},
-                                                       {kNotFinite, "target not finite"},
-                                                       {kToolNotHeld, "gripper holds no tool"},
-                                                       {kToolPredicted, "tool pose old"},
-                                                       {kUnreachable, "target out of reach"},
-                                                       {kLimited, "speed or acceleration limited"},
-                                                       {kAtLimit, "deflection limit"},
-                                                       {kByForce, "contact by force"},
-                                                       {kTaring, "force zero not known yet"},
-                                                       {kToolUnseen, "no tool in view"},
-                                                       {kOverload, "pressed harder than the machine carries"},
-                                                       {kSurfaceJump, "nearest point jumped"}});
+  static constexpr auto kTexts = std::to_array<std::pair<Why, std::string_view>>(
+      {{kToolInvalid, "tool pose invalid"},
+       {kToolLost, "tool lost"},
+       {kForceInvalid, "force invalid"},
+       {kForceSaturated, "force sensor saturated"},
+       {kForceLost, "force lost"},
+       {kTipInvalid, "machine pose invalid"},
+       {kTipLost, "machine pose lost"},
+       {kDentWrong, "visual surface wrong"},
+       {kDentOverdue, "visual surface overdue"},
+       {kOutsideObject, "tip outside the object"},
+       {kOutsideDent, "tip outside the visual surface"},
+       {kClockLate, "clock late"},
+       {kNotFinite, "target not finite"},
+       {kToolNotHeld, "gripper holds no tool"},
+       {kNotFollowing, "machine does not follow its commands"},
+       {kToolPredicted, "tool pose old"},
+       {kUnreachable, "target out of reach"},
+       {kLimited, "speed or acceleration limited"},
+       {kAtLimit, "deflection limit"},
+       {kByForce, "contact by force"},
+       {kTaring, "force zero not known yet"},
+       {kToolUnseen, "no tool in view"},
+       {kOverload, "pressed harder than the machine carries"},
+       {kSurfaceJump, "nearest point jumped"}});
   std::string text;
   for (const auto& [bit, words] : kTexts) {
     if ((why & bit) == 0) continue;

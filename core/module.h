@@ -7,13 +7,16 @@
 #include <memory>
 #include <string>
 
+#include <encounter_border.h>
+#include <encounter_version.h>
+
 #include "core/rig.h"
 
 namespace enc {
 
-// Raise it when anything that crosses the border changes. A module of another number or another build is
-// refused, never tried.
-inline constexpr std::uint32_t kModuleInterface = 3;
+// Of the border itself: ModuleInfo and how a module is found. What crosses it is in `border`, so that nobody
+// has to think of raising a number. A module of another number, border or version is refused, never tried.
+inline constexpr std::uint32_t kModuleInterface = 4;
 
 // Devices that a driver module makes; what it does not offer stays null. Constructors throw Error(kind
 // device) with a way out.
@@ -23,13 +26,14 @@ struct DriverModule {
   std::unique_ptr<PoseTracker> (*tracker)() = nullptr;
   std::unique_ptr<Display> (*display)() = nullptr;
   std::unique_ptr<Gripper> (*gripper)() = nullptr;
-  std::unique_ptr<HapticArm> (*arm)() = nullptr;
+  std::unique_ptr<HapticArm> (*arm)(const ArmRig& rig) = nullptr;
 };
 
 struct ModuleInfo {
   std::uint32_t interface = kModuleInterface;
-  const char* version = "";  // ENCOUNTER_VERSION of the build
-  const char* name = "";     // "view", "sample"
+  std::uint64_t border = ENCOUNTER_BORDER;  // a hash of all declarations that cross (cmake/border.cmake)
+  const char* version = ENCOUNTER_VERSION;
+  const char* name = "";  // "view", "sample"
   const DriverModule* driver = nullptr;
   const void* view = nullptr;   // sim::ViewModule, of the view module only
   const void* peers = nullptr;  // bench::PeersModule, of the peers module only

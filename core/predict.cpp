@@ -12,12 +12,9 @@ constexpr double kLeap = 5e-3;    // m
 // What is known of a tool that has just come into view.
 constexpr double kSpeed = 0.3;         // m/s rms
 constexpr double kAcceleration = 3.0;  // m/s^2 rms
-constexpr double kUnsure = 0.1;        // m/s rms: a speed known no better is a guess
 // After the longest prediction the tip is thought to come to rest within this time (decisions 8: 200 ms in
 // all).
 constexpr double kSlowDown = 0.1;  // s
-// How fast the prediction catches up: 0.05 mm in a tick of 1 ms [fidelity 5].
-constexpr double kCatchUp = 0.05;  // m/s
 
 double square(double x) { return x * x; }
 
@@ -98,44 +95,33 @@ void correct(const TrackerRig& rig, const Vec3& innovation, TipMotion& m) {
 
 }  // namespace
 
-void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, Time now,
-             TipMotion& motion, bool calm) noexcept {
+void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
+             bool calm) noexcept {
   if (rig.prediction == Prediction::hold || motion.tool != tool) return begin(rig, tool, t, tip, motion);
   const double h = age(t, motion.t);
-  const Point<'W'> shown = predict(rig, motion, now) - motion.behind;
-  // After a drop-out; and with the pose after that, which tells the speed for the first time.
-  const bool in_the_dark = age(now, motion.t) > rig.usual_age || motion.vv > square(kUnsure);
-  if (h > rig.longest_prediction) {  // what was known of its speed is worth nothing now
-    begin(rig, tool, t, tip, motion);
-  } else {
-    TipMotion next = motion;
-    const bool velocity = rig.prediction == Prediction::constant_velocity;
-    propagate(rig, h, velocity ? rig.acceleration_noise : rig.jerk_noise, next);
-    if (velocity && !calm) {
-      const double noise = surprised(rig, h, (tip - next.position).e(), next);
-      if (noise > rig.acceleration_noise) {
-        next = motion;
-        propagate(rig, h, noise, next);
-      }
+  // What was known of its speed is worth nothing after so long.
+  if (h > rig.longest_prediction) return begin(rig, tool, t, tip, motion);
+  TipMotion next = motion;
+  const bool velocity = rig.prediction == Prediction::constant_velocity;
+  propagate(rig, h, velocity ? rig.acceleration_noise : rig.jerk_noise, next);
+  if (velocity && !calm) {
+    const double noise = surprised(rig, h, (tip - next.position).e(), next);
+    if (noise > rig.acceleration_noise) {
+      next = motion;
+      propagate(rig, h, noise, next);
     }
-    const Vec3 innovation = (tip - next.position).e();
-    if (innovation.norm() > kLeap + kFastest * h) return begin(rig, tool, t, tip, motion);
-    correct(rig, innovation, next);
-    next.t = t;
-    motion = next;
   }
-  if (in_the_dark) motion.behind = predict(rig, motion, now) - shown;
+  const Vec3 innovation = (tip - next.position).e();
+  if (innovation.norm() > kLeap + kFastest * h) return begin(rig, tool, t, tip, motion);
+  correct(rig, innovation, next);
+  next.t = t;
+  motion = next;
 }
 
 Point<'W'> predict(const TrackerRig& rig, const TipMotion& motion, Time now) noexcept {
   const double h = carried_on(rig, age(now, motion.t));
   return Point<'W'>(
       Vec3(motion.position.e() + h * motion.velocity.e() + 0.5 * h * h * motion.acceleration.e()));
-}
-
-void catch_up(TipMotion& motion, double dt) noexcept {
-  const double left = motion.behind.norm();
-  motion.behind = left > kCatchUp * dt ? (1.0 - kCatchUp * dt / left) * motion.behind : Vec<'W'>::zero();
 }
 
 }  // namespace enc

@@ -19,7 +19,6 @@ struct TipMotion {
   Point<'W'> position;
   Vec<'W'> velocity, acceleration;
   double xx = 0.0, xv = 0.0, xa = 0.0, vv = 0.0, va = 0.0, aa = 0.0;
-  Vec<'W'> behind = Vec<'W'>::zero();  // m: what is still to be caught up after a drop-out
 };
 
 // When a pose with this stamp was exposed, as the rig believes.
@@ -27,16 +26,13 @@ struct TipMotion {
   return stamp - from_seconds(rig.stamp_late);
 }
 
-// Takes in the tip's position, exposed at `t`, which is later than any before. `now` is the tick on which it
-// came: after a drop-out the prediction does not leap to the new data but catches up with it. `calm`: the tip
-// lies on something, so that what looks like a surprise is noise.
-void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, Time now,
-             TipMotion& motion, bool calm = false) noexcept;
+// Takes in the tip's position, exposed at `t`, which is later than any before. After a drop-out the belief is
+// at once where the data are: safety reads it, and it is the command that is smoothed (decisions 39). `calm`:
+// the tip lies on something, so that what looks like a surprise is noise.
+void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
+             bool calm = false) noexcept;
 
-// Where the tip is `now`. What is left to catch up is not in it.
+// Where the tip is `now`.
 [[nodiscard]] Point<'W'> predict(const TrackerRig& rig, const TipMotion& motion, Time now) noexcept;
-
-// A tick of catching up, dt s long.
-void catch_up(TipMotion& motion, double dt) noexcept;
 
 }  // namespace enc

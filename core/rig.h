@@ -24,14 +24,15 @@ struct Rig {
   std::unique_ptr<Display> display;
   std::unique_ptr<Gripper> gripper;
 
-  void read(Inputs& in) noexcept {
+  // What the devices say on this cycle. A device without a clock of its own stamps with `now`.
+  void read(Time now, Inputs& in) noexcept {
     in.missed = clock->missed();
-    if (manipulator) in.tip = manipulator->read();
-    if (arm) in.arm = arm->read();
-    if (force) in.wrench = force->read();
-    if (tracker) tracker->poll(in.tool);
-    if (display) display->poll(in.dent);
-    if (gripper) in.grip = gripper->read();
+    if (manipulator) in.tip = manipulator->read(now);
+    if (arm) in.arm = arm->read(now);
+    if (force) in.wrench = force->read(now);
+    if (tracker) tracker->poll(now, in.tool);
+    if (display) display->poll(now, in.dent);
+    if (gripper) in.grip = gripper->read(now);
   }
   void write(const Outputs& out) noexcept {
     if (manipulator && out.tip.valid()) manipulator->command(out.tip);

@@ -7,6 +7,7 @@
 
 #include "core/arm/arm_scene.h"
 #include "core/error.h"
+#include "core/guard/room.h"
 #include "core/press_check.h"
 #include "core/stages.h"
 
@@ -268,6 +269,8 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   if (spec.arm) return prepare_arm(spec, rig);
   Scene scene;
   scene.reach = reach_of(rig);
+  scene.servo = {2.0 * std::numbers::pi * rig.manipulator.servo, rig.manipulator.servo_damping,
+                 rig.manipulator.delay};
   scene.X_WR = Pose<'W', 'H'>::identity() * scene.reach.machine.zero().inverse();
   scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
   scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);
@@ -307,6 +310,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
   if (spec.probe) scene.probe = make_probe(spec, scene);
   if (spec.travel) scene.travel = make_travel(spec, scene);
+  check_room(spec, scene);
   check_reach(spec, scene);
   return scene;
 }

@@ -10,6 +10,7 @@
 #include "core/arm/moving.h"
 #include "core/damping.h"
 #include "core/frames.h"
+#include "core/guard/following.h"
 #include "core/loop_model.h"
 #include "core/object.h"
 #include "core/probe.h"
@@ -50,6 +51,7 @@ struct Scene {
   Pose<'G', 'L'> X_GL;
   Pose<'H', 'F'> X_HF;
   Reach reach;
+  ServoModel servo;  // of the machine, as it is believed
 
   FollowSpec follow;
   ForceRig force;

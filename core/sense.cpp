@@ -16,11 +16,15 @@ bool at_rest(const Probing& probing) {
          probing.phase == ProbePhase::done;
 }
 
+// Whether nothing can be on the tip, so that what the sensor says is its zero. A tool that is not seen now
+// may be anywhere, and in a hold nothing is as it should be: then nothing is learnt.
 bool clear_of_object(const Walk& walk, const State& state) {
+  if (holding(walk) || state.held) return false;
   if (walk.scene.probe) return at_rest(state.probing) && walk.gap > walk.scene.force.tare_clearance;
   if (walk.scene.travel) return state.travelling.phase != TravelPhase::move;
   if (state.mode != Mode::away && state.mode != Mode::follow) return false;
-  return !walk.tool_known || walk.gap > walk.scene.force.tare_clearance;
+  if (!walk.scene.has_tracker) return true;
+  return walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance;
 }
 
 // The zero is the mean of the last window but one: no part of a touch is in it, however slowly it begins.

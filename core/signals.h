@@ -18,6 +18,7 @@ struct Inputs {
   Stamped<DentSample> dent;
   Stamped<GripSample> grip;
   std::int64_t missed = 0;  // cycles the clock lost before this tick
+  bool withheld = false;    // what the machine is told is not sent: it need not follow
 };
 
 struct Outputs {

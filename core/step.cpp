@@ -33,7 +33,7 @@ void report_arm(const stages::Walk& walk, const State& state, Outputs& out) {
   out.deflection = touched ? -walk.gap : 0.0;
 }
 
-void report(const stages::Walk& walk, const State& state, Outputs& out) {
+void report(const stages::Walk& walk, State& state, Outputs& out) {
   const bool engaged = state.mode == Mode::contact || state.mode == Mode::restore;
   const Pose<'N', 'W'> X_NW =
       walk.scene.probe ? walk.scene.probe->X_WN.inverse()
@@ -55,6 +55,7 @@ void report(const stages::Walk& walk, const State& state, Outputs& out) {
       engaged ? state.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - stages::kSkin) : Point<'W'>();
   if (walk.scene.impedance) report_arm(walk, state, out);
   const SeenTool seen = seen_tool(walk, state);
+  state.held = stages::holding(walk);
   out.view = {walk.tick.t, walk.tool_known ? state.tool.value.tool : -1, state.object, seen.X_WT, seen.tip,
               out.mode};
 }

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/arm/impedance.h"
+#include "core/guard/following.h"
 #include "core/predict.h"
 #include "core/response.h"
 #include "core/scene.h"
@@ -19,6 +20,7 @@ struct Contact {
   Pose<'W', 'N'> X_WN;     // at the first touch
   bool anchored = false;   // true once force was felt with the tip under the tool: the anchor no longer moves
   Time loaded{};           // last tick on which force was felt; the start of time: never
+  Time began{}, left{};    // when it began, and when the tip was sent back
   ResponseState response;
   Swing swing;
   Vec<'N'> displacement = Vec<'N'>::zero();
@@ -50,7 +52,10 @@ struct Reaching {
   double sunk = 0.0;       // m: how far the target is behind the surface, in a button
   bool caught_up = false;  // the target is where the finger's projection is
   bool triggered = false;
-  double blind = 0.0;  // s since the machine last said where it is
+  double blind = 0.0;    // s since the machine last said where it is
+  double fastest = 0.0;  // m/s, of the target, for as long as the tip may lag behind it
+  double off = 0.0;      // s for which nothing but the arm itself can have kept the tip from the target
+  bool stuck = false;    // and it was for too long: until the finger has gone
 };
 
 // How far an object that moves has got, and what its finger does (moving.h).
@@ -75,6 +80,7 @@ struct Hints {
 struct State {
   bool started = false;
   Mode mode = Mode::away;  // the mode under a hold
+  bool held = false;       // the last tick was one
   std::int32_t contacts = 0;
   std::int32_t object = -1;
   bool entered = false;       // the tip has been inside that object
@@ -94,6 +100,7 @@ struct State {
   std::array<Moved, kMostMoving> moved;
   Point<'R'> command;  // last set-point
   Vec<'R'> command_velocity = Vec<'R'>::zero();
+  Following following;
   Point<'W'> last_query, last_point;  // of the last tick: the tracked tool's tip and the surface under it
   Hints hints;
 };

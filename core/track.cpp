@@ -36,10 +36,8 @@ void take_in(const Walk& walk, State& state) {
   constexpr double kFelt = 0.2;  // N
   const bool pressing = walk.scene.impedance && state.mode == Mode::contact &&
                         -dot(state.force, state.contact.X_WN * Vec<'N'>(0, 0, 1)) > kFelt;
-  observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip), walk.tick.t,
-          state.tip_motion, pressing);
-  // Nobody follows a tool that was away, so nothing has to be caught up.
-  if (state.mode == Mode::away) state.tip_motion.behind = Vec<'W'>::zero();
+  observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip), state.tip_motion,
+          pressing);
 }
 
 // The way from `from` to `to` ends where the tool's tip meets the haptic-tip: a prediction knows nothing of a
@@ -62,12 +60,11 @@ Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>
 
 // The tip goes on from the newest pose; the tool moves with it and keeps that pose's rotation: nothing is
 // felt of it, and where it turns the tip, that is in the tip's own motion.
-void carry_on(Walk& walk, State& state) {
-  catch_up(state.tip_motion, walk.scene.dt);
+void carry_on(Walk& walk, const State& state) {
   const TipMotion& motion = state.tip_motion;
   const double radius = walk.scene.tools[static_cast<std::size_t>(motion.tool)].tip.radius;
-  const Point<'W'> ahead = predict(walk.scene.tracker, motion, walk.tick.t) - motion.behind;
-  const Point<'W'> tip = stopped_by_tip(walk, radius, motion.position - motion.behind, ahead);
+  const Point<'W'> ahead = predict(walk.scene.tracker, motion, walk.tick.t);
+  const Point<'W'> tip = stopped_by_tip(walk, radius, motion.position, ahead);
   walk.X_WT = {walk.X_WT.q(), walk.X_WT.origin() + (tip - walk.tool_tip)};
   walk.tool_tip = tip;
 }
@@ -125,6 +122,12 @@ void track_tip(Walk& walk, State& state) {
     state.started = true;
     state.command = tip.X_RH.origin();
   }
+  // What is withheld needs no following, and is forgotten.
+  if (walk.in.withheld)
+    state.following = Following{};
+  else if (!follows(walk.scene.servo, state.command, state.command_velocity, tip.X_RH.origin(), walk.scene.dt,
+                    state.following))
+    walk.why |= kNotFollowing;
 }
 
 }  // namespace

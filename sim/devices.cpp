@@ -19,7 +19,7 @@ class SimManipulator final : public Manipulator {
   [[nodiscard]] Reach reach() const override {
     return {truth_.speed, truth_.acceleration, world_.machine->machine()};
   }
-  Stamped<TipSample> read() noexcept override {
+  Stamped<TipSample> read(Time) noexcept override {
     const HexapodPlant::State& s = world_.machine->state();
     return {{s.pose, s.velocity, s.acceleration}, world_.truth().t, s.health};
   }
@@ -32,19 +32,22 @@ class SimManipulator final : public Manipulator {
 
 class SimArm final : public HapticArm {
  public:
-  explicit SimArm(World& world) : world_(world) {}
-  Stamped<ArmSample> read() noexcept override { return world_.arm->state().sample; }
+  SimArm(World& world, const ArmRig& rig) : world_(world), rig_(rig) {}
+  // What a maker's sheet says; what the motors really do is the twin's truth.
+  [[nodiscard]] ArmAbility ability() const override { return {rig_.machine, rig_.peak, rig_.continuous}; }
+  Stamped<ArmSample> read(Time) noexcept override { return world_.arm->state().sample; }
   void command(const Vec<'R'>& force) noexcept override { world_.arm->command(force); }
   void drive(double speed) noexcept override { world_.arm->drive_surface(speed); }
 
  private:
   World& world_;
+  ArmRig rig_;
 };
 
 class SimForceSensor final : public ForceSensor {
  public:
   explicit SimForceSensor(World& world) : world_(world) {}
-  Stamped<Wrench> read() noexcept override { return world_.force->sample(); }
+  Stamped<Wrench> read(Time) noexcept override { return world_.force->sample(); }
 
  private:
   World& world_;
@@ -53,7 +56,7 @@ class SimForceSensor final : public ForceSensor {
 class SimTracker final : public PoseTracker {
  public:
   explicit SimTracker(World& world) : world_(world) {}
-  bool poll(Stamped<TrackedTool>& newest) noexcept override { return world_.tracker->poll(newest); }
+  bool poll(Time, Stamped<TrackedTool>& newest) noexcept override { return world_.tracker->poll(newest); }
 
  private:
   World& world_;
@@ -63,7 +66,7 @@ class SimDisplay final : public Display {
  public:
   explicit SimDisplay(World& world) : world_(world) {}
   void show(const View& view) noexcept override { world_.display->show(view); }
-  bool poll(Stamped<DentSample>& newest) noexcept override { return world_.display->poll(newest); }
+  bool poll(Time, Stamped<DentSample>& newest) noexcept override { return world_.display->poll(newest); }
 
  private:
   World& world_;
@@ -72,7 +75,7 @@ class SimDisplay final : public Display {
 class SimGripper final : public Gripper {
  public:
   explicit SimGripper(World& world) : world_(world) {}
-  Stamped<GripSample> read() noexcept override { return world_.gripper->sample(); }
+  Stamped<GripSample> read(Time) noexcept override { return world_.gripper->sample(); }
   void command(const Grip& grip) noexcept override { world_.gripper->command(grip); }
 
  private:
@@ -84,7 +87,8 @@ class SimGripper final : public Gripper {
 Rig World::rig() {
   Rig rig;
   rig.clock = std::make_unique<SimClock>(*this);
-  if (arm) rig.arm = std::make_unique<SimArm>(*this);
+  if (arm)
+    rig.arm = std::make_unique<SimArm>(*this, prepared_.impedance ? prepared_.impedance->rig : ArmRig{});
   if (machine) rig.manipulator = std::make_unique<SimManipulator>(*this, twin_.hexapod);
   if (force) rig.force = std::make_unique<SimForceSensor>(*this);
   if (tracker) rig.tracker = std::make_unique<SimTracker>(*this);

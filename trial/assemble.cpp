@@ -1,5 +1,6 @@
 #include "trial/assemble.h"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,31 +24,36 @@ Make maker(const DriverSource& drivers, const std::string& driver, const char* r
 // A real machine is shown its commands only when armed; until then it is read and stays where it is.
 class Dry final : public Manipulator {
  public:
-  explicit Dry(std::unique_ptr<Manipulator> machine) : machine_(std::move(machine)) {}
+  Dry(std::unique_ptr<Manipulator> machine, std::int64_t& withheld)
+      : machine_(std::move(machine)), withheld_(withheld) {}
   [[nodiscard]] Reach reach() const override { return machine_->reach(); }
-  Stamped<TipSample> read() noexcept override { return machine_->read(); }
-  void command(const Pose<'R', 'H'>&) noexcept override {}
+  Stamped<TipSample> read(Time now) noexcept override { return machine_->read(now); }
+  void command(const Pose<'R', 'H'>&) noexcept override { ++withheld_; }
 
  private:
   std::unique_ptr<Manipulator> machine_;
+  std::int64_t& withheld_;
 };
 
 // Likewise a real arm.
 class DryArm final : public HapticArm {
  public:
-  explicit DryArm(std::unique_ptr<HapticArm> arm) : arm_(std::move(arm)) {}
-  Stamped<ArmSample> read() noexcept override { return arm_->read(); }
-  void command(const Vec<'R'>&) noexcept override {}
+  DryArm(std::unique_ptr<HapticArm> arm, std::int64_t& withheld)
+      : arm_(std::move(arm)), withheld_(withheld) {}
+  [[nodiscard]] ArmAbility ability() const override { return arm_->ability(); }
+  Stamped<ArmSample> read(Time now) noexcept override { return arm_->read(now); }
+  void command(const Vec<'R'>&) noexcept override { ++withheld_; }
 
  private:
   std::unique_ptr<HapticArm> arm_;
+  std::int64_t& withheld_;
 };
 
 // Likewise a real gripper.
 class DryGripper final : public Gripper {
  public:
   explicit DryGripper(std::unique_ptr<Gripper> gripper) : gripper_(std::move(gripper)) {}
-  Stamped<GripSample> read() noexcept override { return gripper_->read(); }
+  Stamped<GripSample> read(Time now) noexcept override { return gripper_->read(now); }
   void command(const Grip&) noexcept override {}
 
  private:
@@ -70,6 +76,8 @@ Slots slots_of(const models::Setup& setup) {
   slot(scene.tracker.has_value(), rig.tracker.driver);
   slot(scene.display.has_value(), rig.display.driver);
   slot(scene.gripper.has_value(), rig.gripper.driver);
+  slots.machine =
+      (scene.manipulator && rig.manipulator.driver != "sim") || (scene.arm && rig.arm.driver != "sim");
   return slots;
 }
 
@@ -85,7 +93,8 @@ std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& 
   }
 }
 
-void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drivers, bool armed) {
+void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drivers, bool armed,
+                 std::int64_t& withheld) {
   const SceneSpec& scene = setup.scene;
   const RigSpec& spec = setup.rig;
   if (scene.manipulator && spec.manipulator.driver != "sim") {
@@ -94,14 +103,14 @@ void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drive
     if (armed)
       rig.manipulator = std::move(machine);
     else
-      rig.manipulator = std::make_unique<Dry>(std::move(machine));
+      rig.manipulator = std::make_unique<Dry>(std::move(machine), withheld);
   }
   if (scene.arm && spec.arm.driver != "sim") {
-    auto arm = maker(drivers, spec.arm.driver, "arm", &DriverModule::arm)();
+    auto arm = maker(drivers, spec.arm.driver, "arm", &DriverModule::arm)(spec.arm);
     if (armed)
       rig.arm = std::move(arm);
     else
-      rig.arm = std::make_unique<DryArm>(std::move(arm));
+      rig.arm = std::make_unique<DryArm>(std::move(arm), withheld);
   }
   if (scene.force && spec.force.driver != "sim")
     rig.force = maker(drivers, spec.force.driver, "force sensor", &DriverModule::force)();
@@ -118,15 +127,85 @@ void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drive
   }
 }
 
+namespace {
+
+// What a device says against what the rig file promises. What is not a number is never enough.
+struct Comparison {
+  const char* device;
+
+  void able(double can, double promised, const char* what, const char* key, double unit) const {
+    if (can >= promised * (1 - 1e-9)) return;
+    throw Error(fmt::format("the {} can do less than the rig file promises: {} {:g} of {:g}; lower {}",
+                            device, what, can / unit, promised / unit, key),
+                {}, ErrorKind::device);
+  }
+  void same(double is, double promised, double within, const char* what, const char* key, double unit) const {
+    if (std::abs(is - promised) <= within) return;
+    throw Error(fmt::format("the {} is another one than the rig file says: {} {:.6g}, not {:.6g}; correct {}",
+                            device, what, is / unit, promised / unit, key),
+                {}, ErrorKind::device);
+  }
+};
+
+constexpr double kMm = 1e-3, kDegree = M_PI / 180.0;
+constexpr double kLength = 10e-6;  // m: better than a machine of this kind is measured
+constexpr double kAngle = 1e-4;    // rad
+
+void check_machine(const Reach& reach, const ManipulatorRig& rig) {
+  const Comparison machine{"machine"};
+  machine.able(reach.speed, rig.speed, "speed in mm/s", "rig.manipulator.speed_mm_s", kMm);
+  machine.able(reach.acceleration, rig.acceleration, "acceleration in mm/s2",
+               "rig.manipulator.acceleration_mm_s2", kMm);
+  const HexapodGeometry& is = reach.machine.geometry();
+  const HexapodGeometry& promised = rig.geometry;
+  machine.able(is.stroke, promised.stroke, "stroke in mm", "rig.manipulator.geometry.stroke_mm", kMm);
+  machine.able(is.tilt_limit, promised.tilt_limit, "tilt in degrees",
+               "rig.manipulator.geometry.tilt_limit_deg", kDegree);
+  machine.able(is.yaw_limit, promised.yaw_limit, "yaw in degrees", "rig.manipulator.geometry.yaw_limit_deg",
+               kDegree);
+  const auto length = [&](double HexapodGeometry::*side, const char* what, const char* key) {
+    machine.same(is.*side, promised.*side, kLength, what, key, kMm);
+  };
+  length(&HexapodGeometry::base_radius, "base radius in mm", "rig.manipulator.geometry.base_radius_mm");
+  length(&HexapodGeometry::platform_radius, "platform radius in mm",
+         "rig.manipulator.geometry.platform_radius_mm");
+  length(&HexapodGeometry::height, "height in mm", "rig.manipulator.geometry.height_mm");
+  length(&HexapodGeometry::tip_height, "tip height in mm", "rig.manipulator.geometry.tip_height_mm");
+  machine.same(is.base_half_angle, promised.base_half_angle, kAngle, "base half angle in degrees",
+               "rig.manipulator.geometry.base_half_angle_deg", kDegree);
+  machine.same(is.platform_half_angle, promised.platform_half_angle, kAngle, "platform half angle in degrees",
+               "rig.manipulator.geometry.platform_half_angle_deg", kDegree);
+}
+
+void check_arm(const ArmAbility& is, const ArmRig& rig) {
+  const Comparison arm{"arm"};
+  arm.able(is.peak, rig.peak, "peak force in N", "rig.arm.peak_N", 1.0);
+  arm.able(is.continuous, rig.continuous, "continuous force in N", "rig.arm.continuous_N", 1.0);
+  const ArmMachine& promised = rig.machine;
+  if (is.machine.kind != promised.kind || is.machine.links.size() != promised.links.size())
+    throw Error("the arm is another one than the rig file says; correct rig.arm.machine", {},
+                ErrorKind::device);
+  if (is.machine.kind == ArmKind::phantom) {
+    const auto length = [&](double PhantomGeometry::*side, const char* what) {
+      arm.same(is.machine.phantom.*side, promised.phantom.*side, kLength, what, "rig.arm.machine", kMm);
+    };
+    length(&PhantomGeometry::l1, "l1 in mm");
+    length(&PhantomGeometry::l2, "l2 in mm");
+  }
+  const std::size_t joints = promised.kind == ArmKind::phantom ? kMostJoints : promised.links.size();
+  for (std::size_t i = 0; i < joints; ++i) {
+    arm.able(-is.machine.drives[i].low, -promised.drives[i].low, "way of a joint below 0 in rad",
+             "rig.arm.machine.joint_low", -1.0);
+    arm.able(is.machine.drives[i].high, promised.drives[i].high, "way of a joint above 0 in rad",
+             "rig.arm.machine.joint_high", 1.0);
+  }
+}
+
+}  // namespace
+
 void check_devices(const Rig& rig, const RigSpec& spec) {
-  if (!rig.manipulator) return;
-  const Reach reach = rig.manipulator->reach();
-  if (reach.speed < spec.manipulator.speed * (1 - 1e-9) ||
-      reach.acceleration < spec.manipulator.acceleration * (1 - 1e-9))
-    throw Error(
-        "the machine is slower than the rig file promises; lower rig.manipulator.speed_mm_s or "
-        "acceleration_mm_s2",
-        {}, ErrorKind::device);
+  if (rig.manipulator) check_machine(rig.manipulator->reach(), spec.manipulator);
+  if (rig.arm) check_arm(rig.arm->ability(), spec.arm);
 }
 
 CountingClock::CountingClock(double rate) { next_.dt = from_seconds(1.0 / rate); }

@@ -21,6 +21,7 @@ using DriverSource = std::function<const ModuleInfo&(const std::string& driver)>
 // Which of the devices that the scene names are simulated ("sim"), and which are not.
 struct Slots {
   bool simulated = false, real = false;
+  bool machine = false;  // the manipulator or the arm is real
 };
 [[nodiscard]] Slots slots_of(const models::Setup& setup);
 
@@ -29,10 +30,12 @@ struct Slots {
                                                      std::uint64_t seed, bool draw_all = false);
 
 // Puts the drivers' devices in the slots for which the rig names one. A machine that is not armed is read and
-// never sent a command.
-void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drivers, bool armed);
+// never sent a command: `withheld`, which must outlive the rig, counts those of its machine or arm instead.
+void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drivers, bool armed,
+                 std::int64_t& withheld);
 
-// A device that can do less than the rig file promises is refused before anything moves.
+// A device that can do less than the rig file promises, is another machine, or does not know what it can do
+// is refused before anything moves.
 void check_devices(const Rig& rig, const RigSpec& spec);
 
 // Counts the periods of an experiment that simulates nothing; Paced makes it keep wall time.

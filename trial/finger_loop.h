@@ -14,6 +14,7 @@ class FingerLoop {
     tick_.dt = from_seconds(scene.dt);
     tick_.index = -1;
     tick_.t = Time(-tick_.dt);
+    in.withheld = true;  // it is told nothing
   }
 
   // One tick with the finger at p.

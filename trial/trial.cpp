@@ -45,10 +45,13 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   } else {
     rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
   }
-  if (slots.real) put_drivers(rig_, setup_, options_.drivers, options_.armed);
+  if (slots.real) put_drivers(rig_, setup_, options_.drivers, options_.armed, result_.withheld);
+  in_.withheld = slots.machine && !options_.armed;
   if (options_.fit_out) options_.fit_out(rig_);
   check_devices(rig_, setup_.rig);
-  if (pace > 0.0) rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace);
+  if (pace > 0.0)
+    rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace,
+                                              slots.real ? sim::Late::skip : sim::Late::wait, options_.stop);
   result_.holds.reserve(16);
   if (std::isinf(options_.seconds)) {
     last_tick_ = std::numeric_limits<std::int64_t>::max();
@@ -73,13 +76,19 @@ void Trial::count() {
   result_.contacts = out_.contacts;
   add_tick(hash_, state_, out_);
   result_.hash = hash_.value;
+  result_.missed += in_.missed;
   ++result_.ticks;
 }
 
 bool Trial::tick() {
-  if (result_.ticks > last_tick_ || result_.stopped || result_.diverged_at >= 0) return false;
+  if ((result_.ticks > 0 && now_.index >= last_tick_) || result_.stopped || result_.diverged_at >= 0)
+    return false;
+  if (options_.stop && options_.stop()) {
+    result_.interrupted = true;
+    return false;
+  }
   now_ = rig_.clock->next();
-  rig_.read(in_);
+  rig_.read(now_.t, in_);
   if (options_.disturb) options_.disturb(in_);
   const WallClock::time_point before = WallClock::now();
   if (options_.law)
@@ -108,10 +117,11 @@ TrialResult Trial::run() {
     const WallClock::time_point now = WallClock::now();
     if (now - told < std::chrono::milliseconds(100)) continue;
     told = now;
-    options_.progress(static_cast<double>(result_.ticks) / static_cast<double>(last_tick_ + 1));
+    options_.progress(static_cast<double>(now_.index) / static_cast<double>(last_tick_ + 1));
   }
   result_.wall = std::chrono::duration<double>(WallClock::now() - start).count();
-  result_.simulated = static_cast<double>(result_.ticks) * scene_.dt;
+  result_.simulated = static_cast<double>(result_.ticks + result_.missed) * scene_.dt;
+  result_.lateness = rig_.clock->lateness();
   if (result_.diverged_at >= 0) result_.divergence = world_->divergence();
   return result_;
 }

@@ -38,6 +38,7 @@ struct TrialOptions {
   bool draw_all = false;    // build what is only looked at, too
   DriverSource drivers{};   // none: every slot is simulated, whatever the rig names
   bool armed = false;       // commands are sent to real devices; else they are only computed
+  std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
   // Hooks, in the order of a tick; an empty one is not called.
   std::function<void(Rig&)> fit_out{};         // once: puts other devices in place of those of the rig
   std::function<void(Inputs&)> disturb{};      // after reading
@@ -59,7 +60,11 @@ struct TrialResult {
   std::vector<std::uint32_t> step_ns;  // of each step(), as the wall clock saw it
   std::int64_t diverged_at = -1;
   std::string divergence;
-  bool stopped = false;  // record could not be written
+  bool stopped = false;       // record could not be written
+  bool interrupted = false;   // options.stop said so
+  std::int64_t withheld = 0;  // commands to a real machine or arm that was not armed
+  std::int64_t missed = 0;    // cycles that were lost to the wall clock
+  Lateness lateness;          // against the wall clock
 };
 
 class Trial {

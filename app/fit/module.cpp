@@ -3,7 +3,6 @@
 
 #include "app/fit/commands.h"
 #include "app/fit/fit_module.h"
-#include "encounter_version.h"
 
 namespace enc::app {
 namespace {
@@ -16,7 +15,6 @@ constexpr FitModule kFit{fit_command, calibrate_command};
 }  // namespace enc::app
 
 extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
-  static const enc::ModuleInfo kInfo{
-      enc::kModuleInterface, ENCOUNTER_VERSION, "fit", nullptr, nullptr, nullptr, nullptr, &enc::app::kFit};
+  static const enc::ModuleInfo kInfo{.name = "fit", .fit = &enc::app::kFit};
   return &kInfo;
 }

@@ -7,6 +7,7 @@
 #include <future>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "benchmarks/commands/commands.h"
@@ -44,21 +45,23 @@ std::string command_of(const trial::BenchOptions& options) {
   return text;
 }
 
-// Ctrl-C and SIGTERM wait until somebody asks; threads and what they start inherit that.
+// SIGINT, SIGTERM and SIGHUP wait until somebody asks; threads and what they start inherit that.
 class Signals {
  public:
   Signals() {
     sigemptyset(&set_);
     sigaddset(&set_, SIGINT);
     sigaddset(&set_, SIGTERM);
+    sigaddset(&set_, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &set_, &before_);
   }
   ~Signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
-  [[nodiscard]] bool came() const {
+  // Number of one that came; 0 or less: none.
+  [[nodiscard]] int came() const {
     const timespec none{};
-    return sigtimedwait(&set_, nullptr, &none) > 0;
+    return sigtimedwait(&set_, nullptr, &none);
   }
 
  private:
@@ -130,18 +133,20 @@ class Session {
     if (!felt.empty()) fmt::print("errors beside what a person can tell: {}\n", felt);
     if (!options_.out.empty() && !report_.not_drawn.empty())
       fmt::print(stderr, "encounter: not drawn: {}; tables and figures are complete\n", report_.not_drawn);
-    return all_ok_ ? 0 : 1;
+    if (fell_short_.empty()) return 0;
+    fmt::print("out of bounds: {}\n", fmt::join(fell_short_, ", "));
+    return 1;
   }
 
  private:
   BenchResult measured(const Benchmark& benchmark, std::size_t number) {
-    if (signals_.came()) stop();
+    if (const int signal = signals_.came(); signal > 0) stop(signal);
     share_ = 0.0;
     Teller teller(benchmark.name, number, choices_.size());
     const WallClock::time_point start = WallClock::now();
     std::future<BenchResult> work = std::async(std::launch::async, [&] { return benchmark.run(context_); });
     while (work.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-      if (signals_.came()) stop();
+      if (const int signal = signals_.came(); signal > 0) stop(signal);
       teller.tell(share_);
     }
     BenchResult result = work.get();
@@ -155,7 +160,7 @@ class Session {
                result.simulated, result.run_time);
     for (const Figure& f : result.figures) {
       if (!wanted(choice, f)) continue;
-      all_ok_ = all_ok_ && f.ok();
+      if (!f.ok()) fell_short_.push_back(f.id);
       fmt::print("  {:34} {:10.4g} {:5}{}{}{}\n", f.id, f.twin, f.unit,
                  std::isfinite(f.paper) ? fmt::format(" (paper {:.4g}, {})", f.paper, role_name(f.role)) : "",
                  bounds(f), f.ok() ? "" : "  OUT OF BOUNDS");
@@ -169,13 +174,13 @@ class Session {
   }
 
   // The files already say what is missing. The other thread may be anywhere, so nothing is torn down.
-  [[noreturn]] void stop() const {
+  [[noreturn]] void stop(int signal) const {
     std::string missing;
     for (const std::string& name : report_.missing) missing += " " + name;
     fmt::print(stderr, "{}encounter: interrupted; {} of {} benchmarks complete, missing:{}\n",
                isatty(STDERR_FILENO) != 0 ? "\n" : "", report_.results.size(), choices_.size(), missing);
     std::fflush(nullptr);
-    _exit(1);
+    _exit(128 + signal);
   }
 
   const trial::BenchOptions& options_;
@@ -184,7 +189,7 @@ class Session {
   Report report_;
   BenchContext context_;
   std::atomic<double> share_{0.0};
-  bool all_ok_ = true;
+  std::vector<std::string> fell_short_;  // ids
 };
 
 int list_benchmarks() {

@@ -2,7 +2,6 @@
 #include "core/module.h"
 
 #include "benchmarks/peers/peers.h"
-#include "encounter_version.h"
 
 extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
   static const enc::bench::PeersModule kPeers{
@@ -13,7 +12,6 @@ extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encount
       .kdl = enc::bench::make_kdl,
 #endif
   };
-  static const enc::ModuleInfo kInfo{
-      enc::kModuleInterface, ENCOUNTER_VERSION, "peers", nullptr, nullptr, &kPeers};
+  static const enc::ModuleInfo kInfo{.name = "peers", .peers = &kPeers};
   return &kInfo;
 }

@@ -30,8 +30,8 @@ class LeapingFinger : public PoseTracker {
  public:
   LeapingFinger(std::unique_ptr<PoseTracker> clockwork, const Pose<'C', 'W'>& X_CW, const Way& way)
       : clockwork_(std::move(clockwork)), X_CW_(X_CW), way_(way) {}
-  bool poll(Stamped<TrackedTool>& newest) noexcept override {
-    const bool news = clockwork_->poll(newest);
+  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+    const bool news = clockwork_->poll(now, newest);
     const bool after = seconds(newest.t.time_since_epoch()) >= kWhen;
     newest.value.X_CT =
         X_CW_ * Pose<'W', 'T'>(Quat::Identity(),

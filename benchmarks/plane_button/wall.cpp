@@ -8,6 +8,7 @@
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/yardstick.h"
 #include "benchmarks/plane_button/plane_button.h"
 
 namespace enc::bench::plane_button {
@@ -87,10 +88,14 @@ void live_figures(const WallRuns& runs, double law, const Report& report) {
 void speed_figures(const BenchContext& context, const Report& report) {
   constexpr int kRepeats = 3;
   std::vector<double> times, ns;
+  Yardstick yardstick;
   for (int i = 0; i < kRepeats; ++i) {
     trial::TrialOptions options;
     options.seed = context.seed;
     options.seconds = context.quick ? 1.0 : 6.0;
+    options.watch = [&](const trial::Glance& glance) {
+      if (glance.tick.index % 100 == 0) yardstick.measure();
+    };
     trial::Trial trial(load_scene(context, "wall", {"user.approach_mm_s=[200]"}), std::move(options));
     const double start = thread_seconds();
     const trial::TrialResult run = trial.run();
@@ -101,7 +106,9 @@ void speed_figures(const BenchContext& context, const Report& report) {
       "arm.times_real_time", median(times), "x",
       "the whole scene: the twin, its finger, hand, tracker, step() and the bench's own accounts; CPU time "
       "of the thread, RK4 at 1 ms");
-  report.figure("arm.step.p99_9", 1e-3 * percentile(ns, 0.999), "us", "step(), wall clock", 0.0, 20.0);
+  report.figure("arm.step.p99_9", 1e-3 * percentile(ns, 0.999), "us", "step(), wall clock");
+  report.figure("arm.step_over_yardstick.median", 1e-9 * percentile(ns, 0.5) / yardstick.seconds(), "x",
+                "step() over a fixed piece of work of the same run (kit/yardstick.h)", 0.0, 3.0);
 }
 
 void late_figures(const WallRuns& runs, double law, const Report& report) {

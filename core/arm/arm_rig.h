@@ -34,4 +34,10 @@ struct ArmRig {
   double least_dexterity = 0.15;  // nearer to a singular pose the tip is not sent
 };
 
+// What an arm says that it is and can do.
+struct ArmAbility {
+  ArmMachine machine;
+  double peak = kUnset, continuous = kUnset;  // N, of the tip at home
+};
+
 }  // namespace enc

@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/braking.h"
+#include "core/guard/braking.h"
+#include "core/guard/inside.h"
 #include "core/stages.h"
 
 namespace enc::stages {
@@ -68,33 +69,95 @@ Goal goal_of(const Walk& walk, const State& state, const Object& object) {
   ObjectHint hint = state.hints.tool[0];
   const Point<'W'> now = walk.tool_tip - shift;
   const Point<'W'> at = nearest(walk.scene, state.object, now, hint).point;
-  const Point<'W'> then = nearest(walk.scene, state.object, now + dt * (finger - face), hint).point;
-  return {walk.surface_point, face + (1.0 / dt) * (then - at)};
+  const Vec<'W'> beside = finger - face;
+  const Vec<'W'> along = (1.0 / dt) * (nearest(walk.scene, state.object, now + dt * beside, hint).point - at);
+  // In a hollow the projection is faster than the finger; where it leaps to another part it has no speed.
+  constexpr double kHollow = 3.0;
+  const bool leaps = along.norm() > kHollow * beside.norm();
+  return {walk.surface_point, leaps ? face : face + along};
 }
 
-// On its way the target keeps within speed and acceleration; once there it goes with the goal, whose leaps
-// (each new picture of the finger is one) it takes out within `settle`.
-void move_target(Walk& walk, const Goal& goal, Reaching& now) {
+// Where the nearest point leaps to another part of the object, the straight way may leave a hollow one, and
+// there the finger is: then the target waits at the last point of its way that is inside, or goes along the
+// surface as long as that is nearer.
+Vec3 not_through_a_hollow(const Walk& walk, State& state, const Object& object, const Vec3& wanted) {
+  constexpr double kOutside = 0.5e-3;  // m: a target on a curved surface is a little outside of it
+  const ArmRig& rig = walk.scene.impedance->rig;
+  Inside inside(walk.scene, state.object, -kOutside, shift_of(object, state.moved), state.hints.command);
+  const Brake brake{state.reaching.target, state.reaching.velocity.e(), rig.acceleration, rig.speed,
+                    walk.scene.dt};
+  const double here = inside.depth(brake.at);
+  state.entered = state.entered || here >= -kOutside;
+  return state.entered ? inside.velocity(brake, here, wanted) : wanted;
+}
+
+// The target keeps within speed and acceleration, always. On its way it goes straight; once there it goes
+// with the goal, whose leaps (each new picture of the finger is one) it takes out within `settle`.
+void move_target(Walk& walk, State& state, const Goal& goal, const Object* object) {
   constexpr double kThere = 0.2e-3;  // m
   constexpr double kLeap = 10e-3;    // m: another object, or another part of it
+  Reaching& now = state.reaching;
   const ArmRig& rig = walk.scene.impedance->rig;
   const double dt = walk.scene.dt;
   const Vec3 way = (goal.point - now.target).e();
   const double far = way.norm();
   if (far > kLeap) now.caught_up = false;
-  Vec3 velocity = goal.velocity.e() + way / rig.settle;
+  // The share leaves room for a goal that moves.
+  const double stops = std::min(0.9 * braking_speed(far, rig.acceleration, dt), far / dt);
+  const double speed = now.caught_up ? std::min(far / rig.settle, stops) : std::min(rig.speed, stops);
+  Vec3 velocity = goal.velocity.e();
+  if (far > 0.0) velocity += way * (speed / far);
+  if (velocity.norm() > rig.speed) velocity *= rig.speed / velocity.norm();
+  const double most = rig.acceleration * dt;
+  const Vec3 change = velocity - now.velocity.e();
+  if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
   if (!now.caught_up) {
-    const double most = rig.acceleration * dt;
-    // The share leaves room for a goal that moves.
-    const double speed = std::min({rig.speed, 0.9 * braking_speed(far, rig.acceleration, dt), far / dt});
-    if (far > 0.0) velocity = goal.velocity.e() + way * (speed / far);
-    const Vec3 change = velocity - now.velocity.e();
-    if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
+    if (object != nullptr) velocity = not_through_a_hollow(walk, state, *object, velocity);
     walk.target_acceleration = (velocity - now.velocity.e()) / dt;
     now.caught_up = far < kThere && change.norm() <= 2.0 * most;
   }
   now.velocity = Vec<'W'>(velocity);
   now.target = now.target + dt * now.velocity;
+}
+
+// Whether the arm does what it is told. A finger may push the tip away from its target, so only where none is
+// near does the distance tell. Believed: an even motion lags by K_v / K_p.
+void check_following(Walk& walk, State& state) {
+  constexpr double kFriction = 5e-3;  // m: what friction and a wrong weight may hold it off
+  constexpr double kLags = 2.0;       // it may be so much slower than the rig says
+  constexpr double kBeside = 0.030;   // m: from the finger to the prop's middle
+  constexpr double kPatience = 0.25;  // s
+  Reaching& now = state.reaching;
+  if (walk.in.withheld) {
+    now.off = now.fastest = 0.0;
+    return;
+  }
+  const ArmRig& rig = walk.scene.impedance->rig;
+  const double lag = rig.damping / rig.stiffness;
+  const double dt = walk.scene.dt;
+  now.fastest = std::max(now.velocity.norm(), now.fastest * std::max(0.0, 1.0 - dt / lag));
+  double near = kFriction + kLags * lag * now.fastest;
+  if (rig.gravity == GravityForm::none) {
+    const Impedance& law = *walk.scene.impedance;
+    const PerJoint weight = law.arm.gravity(walk.in.arm.value.joints, law.prop_mass, Payload::exact);
+    near += law.arm.force(walk.jacobian, weight).norm() / rig.stiffness;  // it hangs from its target
+  }
+  const bool free = !walk.tool_known || (walk.tool_tip - walk.X_WH.origin()).norm() > kBeside;
+  const bool off = free && state.mode != Mode::contact && (now.target - walk.X_WH.origin()).norm() > near;
+  now.off = off ? now.off + dt : 0.0;
+  if (now.off < kPatience) return;
+  now.stuck = true;
+  walk.why |= kNotFollowing;
+}
+
+// The hold of an arm that is stuck lasts until the finger has gone: to try again is to push with all it has.
+void hold_stuck(Walk& walk, State& state) {
+  if (!state.reaching.stuck) return;
+  const bool gone = !walk.tool_known || walk.gap > walk.scene.follow.pause;
+  if (gone)
+    state.reaching.stuck = false;
+  else
+    walk.why |= kNotFollowing;
 }
 
 // Nothing leaps: what is felt goes over into the next within `gradual_time`.
@@ -181,17 +244,20 @@ void encounter(Walk& walk, State& state) noexcept {
     return;
   }
   now.blind = 0.0;
+  if (!holding(walk) && now.target.finite()) check_following(walk, state);
+  hold_stuck(walk, state);
   if (holding(walk) || !now.target.finite()) {  // nothing is wanted, and nothing leaps afterwards
-    const Point<'W'> here = walk.X_WH.origin();
+    const bool stuck = now.stuck;
     now = Reaching{};
-    now.target = here;
+    now.target = walk.X_WH.origin();
+    now.stuck = stuck;
     if (holding(walk)) return;
   }
   lie_on_prop(walk, state);
   choose_mode(walk, state);
   const Object* object = nearest_object(walk, state);
   if (state.mode == Mode::away || object == nullptr) {
-    move_target(walk, {walk.sent.finite() ? walk.sent : now.target}, now);
+    move_target(walk, state, {walk.sent.finite() ? walk.sent : now.target}, nullptr);
   } else {
     Goal goal = goal_of(walk, state, *object);
     const Arm& arm = walk.scene.impedance->arm;
@@ -199,7 +265,7 @@ void encounter(Walk& walk, State& state) noexcept {
     if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, walk.scene.impedance->rig.least_dexterity, q)) {
       // A machine with fewer joints than ways goes to where it is nearest.
       if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
-      move_target(walk, goal, now);
+      move_target(walk, state, goal, object);
     } else {
       walk.why |= kUnreachable;
       now.velocity = Vec<'W'>::zero();

@@ -10,8 +10,9 @@ namespace enc {
 class Display {
  public:
   virtual ~Display() = default;
-  virtual void show(const View& view) noexcept = 0;             // newest only; never blocks
-  virtual bool poll(Stamped<DentSample>& newest) noexcept = 0;  // true when a drawn surface came back
+  virtual void show(const View& view) noexcept = 0;  // newest only; never blocks
+  virtual bool poll(Time now,
+                    Stamped<DentSample>& newest) noexcept = 0;  // true when a drawn surface came back
 };
 
 }  // namespace enc

@@ -8,7 +8,8 @@ namespace enc {
 class ForceSensor {
  public:
   virtual ~ForceSensor() = default;
-  virtual Stamped<Wrench> read() noexcept = 0;  // newest; raw: weight, inertia and zero error are still in it
+  // Newest; never blocks. Raw: weight, inertia and zero error are still in it.
+  virtual Stamped<Wrench> read(Time now) noexcept = 0;
 };
 
 }  // namespace enc

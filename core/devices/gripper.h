@@ -8,7 +8,7 @@ namespace enc {
 class Gripper {
  public:
   virtual ~Gripper() = default;
-  virtual Stamped<GripSample> read() noexcept = 0;  // newest; never blocks
+  virtual Stamped<GripSample> read(Time now) noexcept = 0;  // newest; never blocks
   virtual void command(
       const Grip& grip) noexcept = 0;  // stays until the next one; force clamped to its range
 };

@@ -1,6 +1,7 @@
 // A force-controlled arm that carries a prop to where a finger will touch: the PHANToM [VisHap 2.3].
 #pragma once
 
+#include "core/arm/arm_rig.h"
 #include "core/sample.h"
 
 namespace enc {
@@ -8,7 +9,8 @@ namespace enc {
 class HapticArm {
  public:
   virtual ~HapticArm() = default;
-  virtual Stamped<ArmSample> read() noexcept = 0;  // newest; never blocks
+  [[nodiscard]] virtual ArmAbility ability() const = 0;    // asked once, before anything moves
+  virtual Stamped<ArmSample> read(Time now) noexcept = 0;  // newest; never blocks
   // Force that the tip shall exert on what touches it, gravity included: stays until the next one. The device
   // makes joint torques of it (J^T F) and clips them to what its motors can.
   virtual void command(const Vec<'R'>& force) noexcept = 0;

@@ -10,7 +10,7 @@ class Manipulator {
  public:
   virtual ~Manipulator() = default;
   [[nodiscard]] virtual Reach reach() const = 0;                  // asked once, before anything moves
-  virtual Stamped<TipSample> read() noexcept = 0;                 // newest; never blocks
+  virtual Stamped<TipSample> read(Time now) noexcept = 0;         // newest; never blocks
   virtual void command(const Pose<'R', 'H'>& X_RH) noexcept = 0;  // set-point for the coming period
 };
 

@@ -9,6 +9,7 @@ class PoseTracker {
  public:
   virtual ~PoseTracker() = default;
   virtual bool poll(
+      Time now,
       Stamped<TrackedTool>& newest) noexcept = 0;  // true when there is news; leaves `newest` alone otherwise
 };
 

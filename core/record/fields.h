@@ -94,6 +94,7 @@ void fields(F& f, Inputs& in) {
   fields(f, in.dent);
   fields(f, in.grip);
   f("missed", in.missed);
+  f("withheld", in.withheld);
 }
 template <class F>
 void fields(F& f, View& v) {
@@ -140,6 +141,8 @@ void fields(F& f, Contact& c) {
   fields(f, "contact_X_WN", c.X_WN);
   f("anchored", c.anchored);
   f("loaded", c.loaded);
+  f("contact_began", c.began);
+  f("contact_left", c.left);
   f("response_deflection", c.response.deflection);
   f("response_alpha", c.response.alpha);
   fields(f, "response_stop", c.response.stop);
@@ -160,7 +163,6 @@ void fields(F& f, TipMotion& m) {
   fields(f, "motion_velocity_W", m.velocity);
   fields(f, "motion_acceleration_W", m.acceleration);
   for (double* const x : {&m.xx, &m.xv, &m.xa, &m.vv, &m.va, &m.aa}) f("motion_covariance", *x);
-  fields(f, "motion_behind_W", m.behind);
 }
 template <class F>
 void fields(F& f, Travelling& t) {
@@ -178,6 +180,9 @@ void fields(F& f, Reaching& r) {
   f("sunk", r.sunk);
   f("caught_up", r.caught_up);
   f("blind", r.blind);
+  f("target_fastest", r.fastest);
+  f("arm_off", r.off);
+  f("stuck", r.stuck);
   f("triggered", r.triggered);
 }
 template <class F>
@@ -197,6 +202,7 @@ template <class F>
 void fields(F& f, State& s) {
   f("started", s.started);
   f("state_mode", s.mode);
+  f("held", s.held);
   f("state_contacts", s.contacts);
   f("state_object", s.object);
   f("entered", s.entered);
@@ -217,6 +223,10 @@ void fields(F& f, State& s) {
   for (Moved& moved : s.moved) fields(f, moved);
   fields(f, "command_R", s.command);
   fields(f, "command_velocity_R", s.command_velocity);
+  fields(f, "expected_R", s.following.expected);
+  fields(f, "expected_velocity_R", s.following.velocity);
+  f("fastest_command", s.following.fastest);
+  f("off_course", s.following.off);
   fields(f, "last_query_W", s.last_query);
   fields(f, "last_point_W", s.last_point);
   fields(f, "nearest_hint", s.hints.tool[0]);

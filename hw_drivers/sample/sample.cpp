@@ -3,31 +3,20 @@
 #include <memory>
 
 #include "core/module.h"
-#include "encounter_version.h"
 
 namespace enc::sample {
 namespace {
 
-// Without a clock of its own, a device counts its cycles: read() is called once in each, and the first cycle
-// is time 0.
-class Cycles {
- public:
-  Time next() { return Time(kPeriod * n_++); }
-
- private:
-  static constexpr Duration kPeriod{1'000'000};  // 1 kHz
-  std::int64_t n_ = 0;
-};
-
+// A device without a clock of its own stamps what it read with the cycle in which it came.
 class SampleManipulator final : public Manipulator {
  public:
   explicit SampleManipulator(const Reach& reach) : reach_(reach), pose_(reach.machine.zero()) {}
 
   [[nodiscard]] Reach reach() const override { return reach_; }
 
-  Stamped<TipSample> read() noexcept override {
+  Stamped<TipSample> read(Time now) noexcept override {
     // wire: take the newest datagram if there is one; never wait for it
-    return {{pose_, Vec<'R'>::zero(), Vec<'R'>::zero()}, cycles_.next(), health_};
+    return {{pose_, Vec<'R'>::zero(), Vec<'R'>::zero()}, now, health_};
   }
 
   void command(const Pose<'R', 'H'>& X_RH) noexcept override {
@@ -62,17 +51,13 @@ class SampleManipulator final : public Manipulator {
   Reach reach_;
   Pose<'R', 'H'> pose_;
   Health health_ = Health::ok;
-  Cycles cycles_;
 };
 
 class SampleForceSensor final : public ForceSensor {
  public:
-  Stamped<Wrench> read() noexcept override {
-    return {{Vec<'F'>::zero(), Vec<'F'>::zero()}, cycles_.next(), Health::ok};
+  Stamped<Wrench> read(Time now) noexcept override {
+    return {{Vec<'F'>::zero(), Vec<'F'>::zero()}, now, Health::ok};
   }
-
- private:
-  Cycles cycles_;
 };
 
 // A constructor throws Error (kind device) with a way out where the device does not answer.
@@ -81,8 +66,8 @@ std::unique_ptr<Manipulator> manipulator(const Reach& reach) {
 }
 std::unique_ptr<ForceSensor> force() { return std::make_unique<SampleForceSensor>(); }
 
-constexpr DriverModule kDriver{manipulator, force, nullptr, nullptr, nullptr};
-constexpr ModuleInfo kInfo{kModuleInterface, ENCOUNTER_VERSION, "sample", &kDriver, nullptr};
+constexpr DriverModule kDriver{.manipulator = manipulator, .force = force};
+constexpr ModuleInfo kInfo{.name = "sample", .driver = &kDriver};
 
 }  // namespace
 }  // namespace enc::sample

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/module.h"
-#include "encounter_version.h"
 #include "sim/mujoco.h"
 #include "sim/view/egl.h"
 #include "sim/view/labels.h"
@@ -186,7 +185,7 @@ void shot(const ViewRequest& request) {
 }
 
 constexpr ViewModule kView{shot};
-constexpr ModuleInfo kInfo{kModuleInterface, ENCOUNTER_VERSION, "view", nullptr, &kView};
+constexpr ModuleInfo kInfo{.name = "view", .view = &kView};
 
 }  // namespace
 }  // namespace enc::sim

@@ -14,16 +14,16 @@ struct Gripping : testing::Test {
       twin.rig.clock->next();
       device().command(grip);
     }
-    return device().read();
+    return device().read({});
   }
 };
 
 TEST_F(Gripping, IsAbsentBeforeTheFirstTickAndThenStampedAtEach) {
-  EXPECT_EQ(device().read().health, Health::absent);
+  EXPECT_EQ(device().read({}).health, Health::absent);
   for (int i = 0; i < 50; ++i) {
     const Tick k = twin.rig.clock->next();
-    EXPECT_EQ(device().read().t, k.t);
-    EXPECT_EQ(device().read().health, Health::ok);
+    EXPECT_EQ(device().read({}).t, k.t);
+    EXPECT_EQ(device().read({}).health, Health::ok);
     device().command({false, kUnset});
   }
 }
@@ -61,8 +61,8 @@ TEST_F(Gripping, NotANumberIsRefusedAndTheGripKept) {
 
 TEST_F(Gripping, ReadingChangesNothing) {
   after({true, 100.0}, 30);
-  const double opening = device().read().value.opening;
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(device().read().value.opening, opening);
+  const double opening = device().read({}).value.opening;
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(device().read({}).value.opening, opening);
 }
 
 }  // namespace

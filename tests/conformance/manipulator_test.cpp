@@ -15,14 +15,15 @@ namespace {
 struct Machine {
   virtual ~Machine() = default;
   virtual Manipulator& device() = 0;
-  virtual void next() {}  // one cycle passes
+  virtual void next() { now += Duration(1'000'000); }  // one cycle passes
+  Time now{-Duration(1'000'000)};
 };
 
 struct SimMachine final : Machine {
   explicit SimMachine(const std::vector<std::string>& set = {}) : twin(set) {}
   Twin twin;
   Manipulator& device() override { return *twin.rig.manipulator; }
-  void next() override { twin.rig.clock->next(); }
+  void next() override { now = twin.rig.clock->next().t; }
 };
 
 struct SampleMachine final : Machine {
@@ -46,7 +47,7 @@ class ManipulatorTest : public testing::TestWithParam<Entry> {
     Stamped<TipSample> last;
     for (int i = 0; i < cycles; ++i) {
       machine_->next();
-      last = machine_->device().read();
+      last = machine_->device().read(machine_->now);
       machine_->device().command(command);
     }
     return last;
@@ -63,7 +64,7 @@ TEST_P(ManipulatorTest, TimeNeverGoesBackAndAdvances) {
   Time before{};
   for (int i = 0; i < 50; ++i) {
     machine_->next();
-    const auto s = machine_->device().read();
+    const auto s = machine_->device().read(machine_->now);
     EXPECT_GE(s.t, before);
     before = s.t;
   }
@@ -72,7 +73,7 @@ TEST_P(ManipulatorTest, TimeNeverGoesBackAndAdvances) {
 
 TEST_P(ManipulatorTest, SaysAPoseThatIsOneAndWithinItsReach) {
   machine_->next();
-  const auto s = machine_->device().read();
+  const auto s = machine_->device().read(machine_->now);
   EXPECT_EQ(s.health, Health::ok);
   EXPECT_TRUE(s.value.X_RH.valid());
   EXPECT_TRUE(machine_->device().reach().contains(s.value.X_RH));
@@ -114,12 +115,12 @@ TEST_P(ManipulatorTest, NotANumberIsRefusedAndSaid) {
 
 TEST_P(ManipulatorTest, ReadNeitherWaitsNorMovesAnything) {
   after(at(0.01, 0, 0), 30);
-  const auto first = machine_->device().read();
+  const auto first = machine_->device().read(machine_->now);
   for (int i = 0; i < 1000; ++i) {
-    const auto again = machine_->device().read();
-    EXPECT_EQ(again.value.X_RH.xyz, machine_->device().read().value.X_RH.xyz);
+    const auto again = machine_->device().read(machine_->now);
+    EXPECT_EQ(again.value.X_RH.xyz, machine_->device().read(machine_->now).value.X_RH.xyz);
   }
-  EXPECT_GE(machine_->device().read().t, first.t);
+  EXPECT_GE(machine_->device().read(machine_->now).t, first.t);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -147,7 +148,7 @@ TEST(SimulatedMachine, KeepsSpeedAndAccelerationUnderWildCommands) {
   double hardest = 0.0;
   for (int i = 0; i < 5000; ++i) {
     twin.rig.clock->next();
-    const Vec3 p = twin.rig.manipulator->read().value.X_RH.p();
+    const Vec3 p = twin.rig.manipulator->read({}).value.X_RH.p();
     const Vec3 v = (p - before) / 1e-3;
     fastest = std::max(fastest, v.norm());
     hardest = std::max(hardest, (v - velocity).norm() / 1e-3);

@@ -20,7 +20,7 @@ Tally watch(Twin& twin, double duration) {
   Time arrived{};
   for (int i = 0; i < static_cast<int>(duration * 1e3); ++i) {
     const Tick k = twin.rig.clock->next();
-    if (!twin.rig.tracker->poll(sample)) continue;
+    if (!twin.rig.tracker->poll({}, sample)) continue;
     tally.backwards = tally.backwards || sample.t <= before || sample.t > k.t;
     if (tally.news > 0) tally.longest_gap = std::max(tally.longest_gap, seconds(k.t - arrived));
     before = sample.t;
@@ -35,17 +35,17 @@ TEST(SimulatedTracker, SaysNothingBeforeItsFirstSample) {
   Twin twin;
   Stamped<TrackedTool> sample;
   twin.rig.clock->next();
-  EXPECT_FALSE(twin.rig.tracker->poll(sample));
+  EXPECT_FALSE(twin.rig.tracker->poll({}, sample));
   EXPECT_EQ(sample.health, Health::absent);
 }
 
 TEST(SimulatedTracker, NewsIsToldOnceAndOtherwiseTheSampleIsLeftAlone) {
   Twin twin;
   Stamped<TrackedTool> sample;
-  while (!twin.rig.tracker->poll(sample)) twin.rig.clock->next();
+  while (!twin.rig.tracker->poll({}, sample)) twin.rig.clock->next();
   const Time first = sample.t;
   sample.value.tool = 77;
-  EXPECT_FALSE(twin.rig.tracker->poll(sample));
+  EXPECT_FALSE(twin.rig.tracker->poll({}, sample));
   EXPECT_EQ(sample.value.tool, 77);
   EXPECT_EQ(sample.t, first);
 }
@@ -84,8 +84,8 @@ TEST(SimulatedTracker, AStampErrorIsInTheStampsAndNowhereElse) {
   for (int i = 0; i < 1000; ++i) {
     right.rig.clock->next();
     wrong.rig.clock->next();
-    const bool is_news = right.rig.tracker->poll(a);
-    ASSERT_EQ(wrong.rig.tracker->poll(b), is_news);
+    const bool is_news = right.rig.tracker->poll({}, a);
+    ASSERT_EQ(wrong.rig.tracker->poll({}, b), is_news);
     if (!is_news) continue;
     ++news;
     EXPECT_EQ(b.t - a.t, from_seconds(0.003));
@@ -115,7 +115,7 @@ TEST(SimulatedTracker, MeasuresTheToolWithBiasAndNoise) {
   int n = 0;
   for (int i = 0; i < 590; ++i) {  // before the tool sets out
     twin.rig.clock->next();
-    if (!twin.rig.tracker->poll(sample)) continue;
+    if (!twin.rig.tracker->poll({}, sample)) continue;
     EXPECT_EQ(sample.value.tool, 0);
     const Pose<'W', 'T'> X_WT = twin.scene.X_WC * sample.value.X_CT;
     const Point<'W'> tip = X_WT * Point<'T'>(twin.setup.scene.tools[0].tip);
@@ -134,7 +134,7 @@ TEST(SimulatedDisplay, ADentComesNoEarlierThanItsLatency) {
   Twin twin({"truth.display.latency_ms=25"});
   Stamped<DentSample> dent;
   twin.rig.clock->next();
-  EXPECT_FALSE(twin.rig.display->poll(dent));
+  EXPECT_FALSE(twin.rig.display->poll({}, dent));
   EXPECT_EQ(dent.health, Health::absent);
   Time before{};
   int news = 0;
@@ -143,7 +143,7 @@ TEST(SimulatedDisplay, ADentComesNoEarlierThanItsLatency) {
     View view;
     view.t = k.t;
     twin.rig.display->show(view);
-    if (!twin.rig.display->poll(dent)) continue;
+    if (!twin.rig.display->poll({}, dent)) continue;
     EXPECT_GE(k.t - dent.t, from_seconds(0.025));
     EXPECT_LT(k.t - dent.t, from_seconds(0.027));  // and no later than the tick after
     EXPECT_GT(dent.t, before);

@@ -52,6 +52,40 @@ SceneSpec plane_scene(const BehaviourSpec& behaviour) {
   return spec;
 }
 
+SceneSpec mesh_scene(Mesh mesh, double z, const Vec3& rotation, const BehaviourSpec& behaviour) {
+  SceneSpec spec = ball_scene(behaviour);
+  ObjectSpec& object = spec.objects[0];
+  object.name = "mesh";
+  object.shape = ShapeKind::mesh;
+  object.radius = kUnset;
+  object.position = Vec3(0, 0, z);
+  object.rotation = rotation;
+  object.surface = std::make_shared<const Mesh>(std::move(mesh));
+  return spec;
+}
+
+Mesh prism(const std::vector<std::array<double, 2>>& corners, double length) {
+  Mesh mesh;
+  const auto n = static_cast<std::int32_t>(corners.size());
+  for (const double y : {-0.5 * length, 0.5 * length})
+    for (const auto& [x, z] : corners) mesh.vertices.push_back({x, y, z});
+  for (std::int32_t i = 1; i + 1 < n; ++i) {
+    mesh.triangles.push_back({0, i, i + 1});
+    mesh.triangles.push_back({n, n + i + 1, n + i});
+  }
+  for (std::int32_t i = 0; i < n; ++i) {
+    const std::int32_t j = (i + 1) % n;
+    mesh.triangles.push_back({i, n + j, j});
+    mesh.triangles.push_back({i, n + i, n + j});
+  }
+  return mesh;
+}
+
+Mesh box(double x, double y, double z) {
+  const double a = 0.5 * x, c = 0.5 * z;
+  return prism({{-a, -c}, {a, -c}, {a, c}, {-a, c}}, y);
+}
+
 SceneSpec rig_scene() {
   SceneSpec spec = ball_scene();
   spec.behaviours.clear();

@@ -35,6 +35,14 @@ namespace enc::test {
   return rig;
 }
 
+// A mesh with its origin at (0, 0, z) of W in place of the ball; the haptic-tip must have room in it.
+[[nodiscard]] SceneSpec mesh_scene(Mesh mesh, double z, const Vec3& rotation = Vec3::Zero(),
+                                   const BehaviourSpec& behaviour = spring());
+// A polygon of the x-z plane, counter-clockwise seen from -y, drawn out along y to both sides by half of
+// `length`, m. `corners` are triangulated as a fan from the first, so each must be seen from there.
+[[nodiscard]] Mesh prism(const std::vector<std::array<double, 2>>& corners, double length);
+[[nodiscard]] Mesh box(double x, double y, double z);  // around its middle, m
+
 inline constexpr double kTop = 0.008;         // m, of ball and plane above W's origin
 inline constexpr double kBallRadius = 0.033;  // m
 inline constexpr double kToolRadius = 0.002;  // m

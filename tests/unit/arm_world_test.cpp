@@ -46,14 +46,14 @@ struct Room {
   // A tick in which the tip is told to push with `force` besides what gravity asks for.
   void tick(const Vec3& force, bool compensate = true) {
     devices.clock->next();
-    const PerJoint& q = devices.arm->read().value.joints;
+    const PerJoint& q = devices.arm->read({}).value.joints;
     const Arm arm(rig.arm.machine);
     const Vec<'R'> weight = arm.force(arm.jacobian(q), arm.gravity(q, scene.prop->mass, Payload::exact));
     devices.arm->command(Vec<'R'>(Vec3(force + (compensate ? Vec3(weight.e()) : Vec3::Zero()))));
   }
   // Held at H by a spring and a damper, in R's axes.
   void hold() {
-    const ArmSample s = devices.arm->read().value;
+    const ArmSample s = devices.arm->read({}).value;
     const Vec3 error = -(world->X_WR() * s.tip).e();
     tick(kSpring * error - kDamper * s.velocity.e());
   }

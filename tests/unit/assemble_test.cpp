@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/modules.h"
@@ -56,10 +57,10 @@ TEST_F(Assemble, WithoutASimulatedSlotThereIsNoWorldAndTimeIsTheWalls) {
   Trial trial(scene("rig_A", kSample), made);
   EXPECT_FALSE(trial.has_world());
   const TrialResult result = trial.run();
-  EXPECT_EQ(result.ticks, 51);
-  EXPECT_EQ(looks, 51);
+  EXPECT_GE(result.ticks + result.missed, 51);  // on a busy machine some are lost
+  EXPECT_EQ(looks, result.ticks);
   EXPECT_GE(result.wall, 0.05);
-  EXPECT_EQ(trial.now().index, 50);
+  EXPECT_GE(trial.now().index, 50);
   EXPECT_EQ(result.diverged_at, -1);
 }
 
@@ -67,7 +68,7 @@ TEST_F(Assemble, OneSimulatedSlotBringsTheWorld) {
   Trial trial(scene("tennis_ball", kSample), options());
   EXPECT_TRUE(trial.has_world());
   const TrialResult result = trial.run();
-  EXPECT_EQ(result.ticks, 51);
+  EXPECT_GE(result.ticks + result.missed, 51);
   EXPECT_GE(result.wall, 0.05);  // real devices live in wall time
   EXPECT_TRUE(trial.truth().tip.finite());
 }
@@ -76,6 +77,104 @@ TEST_F(Assemble, ARealDeviceKeepsWallPace) {
   TrialOptions fast = options();
   fast.pace = 10.0;
   EXPECT_THROW(Trial(scene("tennis_ball", kSample), fast), Error);
+}
+
+// A machine that is another one than the rig says, or does not know what it can do.
+class Claims final : public Manipulator {
+ public:
+  explicit Claims(Reach reach) : reach_(std::move(reach)) {}
+  [[nodiscard]] Reach reach() const override { return reach_; }
+  Stamped<TipSample> read(Time) noexcept override { return {}; }
+  void command(const Pose<'R', 'H'>&) noexcept override {}
+
+ private:
+  Reach reach_;
+};
+class ArmClaims final : public HapticArm {
+ public:
+  explicit ArmClaims(ArmAbility ability) : ability_(std::move(ability)) {}
+  [[nodiscard]] ArmAbility ability() const override { return ability_; }
+  Stamped<ArmSample> read(Time) noexcept override { return {}; }
+  void command(const Vec<'R'>&) noexcept override {}
+
+ private:
+  ArmAbility ability_;
+};
+
+std::string refusal(const Rig& rig, const RigSpec& spec) {
+  try {
+    check_devices(rig, spec);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::device);
+    return error.what();
+  }
+  return {};
+}
+
+TEST_F(Assemble, AMachineIsAskedForAllThatTheRigPromises) {
+  const RigSpec spec;
+  const auto refused = [&](const auto& change) {
+    HexapodGeometry geometry = spec.manipulator.geometry;
+    Reach reach = reach_of(spec);
+    change(reach, geometry);
+    reach.machine = Hexapod(geometry);
+    Rig rig;
+    rig.manipulator = std::make_unique<Claims>(reach);
+    return refusal(rig, spec);
+  };
+  EXPECT_EQ(refused([](Reach&, HexapodGeometry&) {}), "");
+  EXPECT_THAT(refused([](Reach& r, HexapodGeometry&) { r.speed = kUnset; }),
+              testing::HasSubstr("speed_mm_s"));
+  EXPECT_THAT(refused([](Reach& r, HexapodGeometry&) { r.speed *= 0.5; }), testing::HasSubstr("speed_mm_s"));
+  EXPECT_THAT(refused([](Reach& r, HexapodGeometry&) { r.acceleration = kUnset; }),
+              testing::HasSubstr("acceleration_mm_s2"));
+  EXPECT_THAT(refused([](Reach&, HexapodGeometry& g) { g.stroke *= 0.9; }), testing::HasSubstr("stroke_mm"));
+  EXPECT_THAT(refused([](Reach&, HexapodGeometry& g) { g.tilt_limit *= 0.5; }),
+              testing::HasSubstr("tilt_limit_deg"));
+  EXPECT_THAT(refused([](Reach&, HexapodGeometry& g) { g.yaw_limit = kUnset; }),
+              testing::HasSubstr("yaw_limit_deg"));
+  for (double HexapodGeometry::*side : {&HexapodGeometry::base_radius, &HexapodGeometry::platform_radius,
+                                        &HexapodGeometry::height, &HexapodGeometry::tip_height}) {
+    EXPECT_THAT(refused([&](Reach&, HexapodGeometry& g) { g.*side += 1e-3; }),
+                testing::HasSubstr("another one than the rig file says"));
+    EXPECT_EQ(refused([&](Reach&, HexapodGeometry& g) { g.*side += 1e-6; }), "");
+  }
+  EXPECT_THAT(refused([&](Reach&, HexapodGeometry& g) { g.base_half_angle += 1e-3; }),
+              testing::HasSubstr("base_half_angle_deg"));
+}
+
+TEST_F(Assemble, AnArmIsAskedToo) {
+  const RigSpec spec = scene("wall").rig;
+  const auto refused = [&](const auto& change) {
+    ArmAbility ability{spec.arm.machine, spec.arm.peak, spec.arm.continuous};
+    change(ability);
+    Rig rig;
+    rig.arm = std::make_unique<ArmClaims>(ability);
+    return refusal(rig, spec);
+  };
+  EXPECT_EQ(refused([](ArmAbility&) {}), "");
+  EXPECT_THAT(refused([](ArmAbility& a) { a.peak = kUnset; }), testing::HasSubstr("rig.arm.peak_N"));
+  EXPECT_THAT(refused([](ArmAbility& a) { a.peak *= 0.9; }), testing::HasSubstr("rig.arm.peak_N"));
+  EXPECT_THAT(refused([](ArmAbility& a) { a.continuous = 0.0; }), testing::HasSubstr("rig.arm.continuous_N"));
+  EXPECT_THAT(refused([](ArmAbility& a) { a.machine.kind = ArmKind::chain; }),
+              testing::HasSubstr("another one than the rig file says"));
+  EXPECT_THAT(refused([](ArmAbility& a) { a.machine.phantom.l1 += 0.01; }), testing::HasSubstr("l1"));
+  EXPECT_THAT(refused([](ArmAbility& a) { a.machine.drives[1].high -= 0.5; }),
+              testing::HasSubstr("rig.arm.machine.joint_high"));
+  EXPECT_THAT(refused([](ArmAbility& a) { a.machine.drives[2].low += 0.1; }),
+              testing::HasSubstr("rig.arm.machine.joint_low"));
+}
+
+TEST_F(Assemble, ADryRunCountsWhatItWithholds) {
+  TrialOptions made = options();
+  Trial dry(scene("rig_A", kSample), made);
+  const TrialResult result = dry.run();
+  EXPECT_EQ(result.withheld, result.ticks);
+  EXPECT_TRUE(dry.inputs().withheld);
+  made.armed = true;
+  Trial armed(scene("rig_A", kSample), made);
+  EXPECT_EQ(armed.run().withheld, 0);
+  EXPECT_FALSE(armed.inputs().withheld);
 }
 
 // The sample machine is at the next read where it was told to be: dry, it is never told.

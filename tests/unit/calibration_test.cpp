@@ -24,7 +24,7 @@ struct Seen {
 Seen look(const models::Setup& setup) {
   Seen seen{Vec3::Constant(kUnset), Vec3::Constant(kUnset)};
   trial::TrialOptions options;
-  options.seconds = 0.3;
+  options.seconds = 0.55;
   options.watch = [&](const trial::Glance& g) {
     if (g.in.tool.health == Health::ok) seen.tool_error = g.out.view.tip.e() - g.truth.tool_tip.e();
     if (g.in.wrench.health == Health::ok) seen.force = g.in.wrench.value.force.e();

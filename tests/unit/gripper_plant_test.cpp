@@ -107,7 +107,7 @@ TEST(ClampedTool, TheTrackerSeesItMoveWithTheMachine) {
     for (int i = 0; i < 2000; ++i) {
       twin.rig.clock->next();
       twin.rig.manipulator->command(Pose<'R', 'H'>(Quat::Identity(), there));
-      twin.rig.tracker->poll(seen);
+      twin.rig.tracker->poll({}, seen);
     }
     ASSERT_EQ(seen.health, Health::ok);
     EXPECT_EQ(seen.value.tool, 0);

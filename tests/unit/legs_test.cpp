@@ -72,7 +72,7 @@ TEST(Legs, SagAsTheirStiffnessSays) {
   go(twin, Vec3::Zero(), 1000);
   EXPECT_NEAR(-twin.world->truth().tip.xyz[2], 50.0 / kz, 0.005 * 50.0 / kz);
   // What the machine's encoders say is the servo's side.
-  EXPECT_EQ(twin.rig.manipulator->read().value.X_RH.xyz, machine.zero().xyz);
+  EXPECT_EQ(twin.rig.manipulator->read({}).value.X_RH.xyz, machine.zero().xyz);
   const Eigen::Matrix<double, 6, 6> J = machine.jacobian(machine.zero());
   const Eigen::Matrix<double, 6, 1> wrench = J.transpose() * leg_forces(twin);
   EXPECT_NEAR(wrench(2), kMoved * kGravity + 50.0, 0.01);  // legs turn a little under the load
@@ -145,7 +145,7 @@ TEST(Legs, DampingIsOfALegWithASixthOfTheMass) {
 TEST(Legs, TheForceSensorFeelsWeightAndInertiaOnce) {
   Twin twin(1, bare());
   go(twin, Vec3::Zero(), 300);
-  EXPECT_NEAR(twin.rig.force->read().value.force.xyz[2], -0.91 * kGravity, 1e-5);
+  EXPECT_NEAR(twin.rig.force->read({}).value.force.xyz[2], -0.91 * kGravity, 1e-5);
   double largest = 0.0;
   for (int i = 0; i < 300; ++i) {
     go(twin, Vec3(0.010, 0, 0.005), 1);
@@ -156,7 +156,7 @@ TEST(Legs, TheForceSensorFeelsWeightAndInertiaOnce) {
     const Vec3 spin(d->qacc[3], d->qacc[4], d->qacc[5]);
     const Vec3 a = truth.tip_acceleration.e() + spin.cross(Vec3(0, 0, -0.08));
     const Vec3 expected = 0.91 * (Vec3(0, 0, -kGravity) - a);
-    ASSERT_LT((twin.rig.force->read().value.force.e() - expected).norm(), 2e-3) << i;
+    ASSERT_LT((twin.rig.force->read({}).value.force.e() - expected).norm(), 2e-3) << i;
   }
   EXPECT_GT(largest, 0.3);
 }
@@ -256,7 +256,7 @@ TEST(Legs, ArrivalsRepeatToHalfAMicrometre) {
       go(twin, 30e-6 * random.normal3().normalized(), 100);
       go(twin, Vec3::Zero(), 300);
       sum += twin.world->truth().tip.e().squaredNorm();
-      const Vec3 said = twin.rig.manipulator->read().value.X_RH.p();
+      const Vec3 said = twin.rig.manipulator->read({}).value.X_RH.p();
       EXPECT_LT((said - twin.world->machine->machine().zero().p()).norm(), 1e-8);
     }
     EXPECT_NEAR(std::sqrt(sum / (3 * kArrivals)), 0.5e-6, 4.0 * 0.5e-6 / std::sqrt(6.0 * kArrivals)) << form;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -39,8 +40,8 @@ class ModulesTest : public testing::Test {
   void compile(const std::string& name, const std::string& info) const {
     const std::string source = (folder_ / (name + ".c")).string();
     std::ofstream(source) << "#include <stdint.h>\n"
-                             "static const struct { uint32_t interface; const char *version, *name; const "
-                             "void *driver, *view; }\n"
+                             "static const struct { uint32_t interface; uint64_t border; const char "
+                             "*version, *name; const void *driver, *view; }\n"
                              "info = {"
                           << info << "};\nconst void* encounter_module(void) { return &info; }\n";
     ASSERT_EQ(tests::run({"cc", "-shared", "-fPIC", "-o", file(name), source}).code, 0);
@@ -87,13 +88,59 @@ TEST_F(ModulesTest, ALibraryWithoutTheSymbol) {
 
 TEST_F(ModulesTest, AnotherInterfaceVersionOrName) {
   const std::string kNumber = std::to_string(kModuleInterface);
-  compile("old", "9999, \"" ENCOUNTER_VERSION "\", \"old\", 0, 0");
+  const std::string kBorder = std::to_string(ENCOUNTER_BORDER) + "u";
+  compile("old", "9999, " + kBorder + ", \"" ENCOUNTER_VERSION "\", \"old\", 0, 0");
   EXPECT_THAT(refusal("old"), AllOf(HasSubstr("interface 9999"), HasSubstr("expects " + kNumber),
                                     HasSubstr("build program and modules together")));
-  compile("other", kNumber + ", \"77.1\", \"other\", 0, 0");
+  compile("other", kNumber + ", " + kBorder + ", \"77.1\", \"other\", 0, 0");
   EXPECT_THAT(refusal("other"), AllOf(HasSubstr("version 77.1"), HasSubstr(ENCOUNTER_VERSION)));
-  compile("renamed", kNumber + ", \"" ENCOUNTER_VERSION "\", \"first\", 0, 0");
+  compile("renamed", kNumber + ", " + kBorder + ", \"" ENCOUNTER_VERSION "\", \"first\", 0, 0");
   EXPECT_THAT(refusal("renamed"), HasSubstr("calls itself 'first'"));
+}
+
+// A struct that crosses the border has changed, and nobody raised a number.
+TEST_F(ModulesTest, OtherDeclarationsAreAnotherBorder) {
+  const std::string text = fmt::format("{}u, {}u, \"{}\", \"stale\", 0, 0", kModuleInterface,
+                                       ENCOUNTER_BORDER ^ 1U, ENCOUNTER_VERSION);
+  compile("stale", text);
+  EXPECT_THAT(refusal("stale"),
+              AllOf(HasSubstr("other declarations"), HasSubstr("build program and modules together")));
+}
+
+// The number is that of the declarations alone: what they say, not how they are commented.
+TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
+  const fs::path root = folder_ / "tree";
+  const auto hash = [&] {
+    const std::string out = (folder_ / "border.h").string();
+    EXPECT_EQ(tests::run({"cmake", "-DROOT=" + root.string(), "-DOUT=" + out, "-DCOMPILER=x", "-P",
+                          ENCOUNTER_SOURCE_DIR "/cmake/border.cmake"})
+                  .code,
+              0);
+    std::ifstream file(out);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const auto edit = [&](const std::string& header, const std::string& from, const std::string& to) {
+    std::ifstream in(root / header);
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << header;
+    std::ofstream(root / header) << text.replace(at, from.size(), to);
+  };
+  for (const char* folder : {"core", "sim", "trial", "app", "benchmarks", "models"}) {
+    fs::create_directories(root / folder);
+    fs::copy(fs::path(ENCOUNTER_SOURCE_DIR) / folder, root / folder,
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  }
+  const std::string before = hash();
+  EXPECT_THAT(before, HasSubstr("#define ENCOUNTER_BORDER 0x"));
+  edit("core/sample.h", "// N, N m.", "// newton");
+  EXPECT_EQ(hash(), before);
+  edit("core/sample.h", "Vec<'F'> force;",
+       "Vec<'F'> pull;");  // far inside: module.h, rig.h, devices, sample.h
+  const std::string other = hash();
+  EXPECT_NE(other, before);
+  edit("core/reach.h", "double speed = kUnset;", "float speed = kUnset;");
+  EXPECT_NE(hash(), other);
 }
 
 TEST_F(ModulesTest, ANameIsNoPath) { EXPECT_THAT(refusal("../view"), HasSubstr("has no '/'")); }

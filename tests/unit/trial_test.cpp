@@ -120,9 +120,9 @@ class TappedTracker : public PoseTracker {
  public:
   TappedTracker(std::unique_ptr<PoseTracker> tracker, Stamped<TrackedTool>*& at)
       : tracker_(std::move(tracker)), at_(at) {}
-  bool poll(Stamped<TrackedTool>& newest) noexcept override {
+  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
     at_ = &newest;
-    return tracker_->poll(newest);
+    return tracker_->poll(now, newest);
   }
 
  private:
@@ -134,9 +134,9 @@ class TappedDisplay : public Display {
   TappedDisplay(std::unique_ptr<Display> display, Stamped<DentSample>*& at)
       : display_(std::move(display)), at_(at) {}
   void show(const View& view) noexcept override { display_->show(view); }
-  bool poll(Stamped<DentSample>& newest) noexcept override {
+  bool poll(Time now, Stamped<DentSample>& newest) noexcept override {
     at_ = &newest;
-    return display_->poll(newest);
+    return display_->poll(now, newest);
   }
 
  private:

@@ -131,9 +131,9 @@ TEST(World, ADisplayChangesNoForceAndNoTrackerSample) {
   for (int i = 0; i < 1000; ++i) {
     with.rig.clock->next();
     bare.rig.clock->next();
-    ASSERT_EQ(with.rig.force->read().value.force.xyz, bare.rig.force->read().value.force.xyz);
-    const bool news = with.rig.tracker->poll(a);
-    ASSERT_EQ(bare.rig.tracker->poll(b), news);
+    ASSERT_EQ(with.rig.force->read({}).value.force.xyz, bare.rig.force->read({}).value.force.xyz);
+    const bool news = with.rig.tracker->poll({}, a);
+    ASSERT_EQ(bare.rig.tracker->poll({}, b), news);
     if (news) {
       ASSERT_EQ(a.value.X_CT.xyz, b.value.X_CT.xyz);
     }

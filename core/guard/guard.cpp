@@ -5,18 +5,37 @@
 #include <limits>
 #include <numbers>
 
-#include "core/braking.h"
 #include "core/dent/dent.h"
+#include "core/guard/braking.h"
+#include "core/guard/inside.h"
 #include "core/stages.h"
 
 namespace enc::stages {
 namespace {
 
+// Of the tip's centre: where all of the tip is inside.
+double least_depth(const Walk& walk) { return walk.scene.tip_radius + kSkin; }
+
+Brake brake_of(const Walk& walk, const State& state) {
+  const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
+  const Reach& reach = walk.scene.reach;
+  return {X_WR * state.command, X_WR.q() * state.command_velocity.e(), reach.acceleration, reach.speed,
+          walk.scene.dt};
+}
+
+bool command_stays(const Walk& walk, State& state) {
+  Inside inside(walk.scene, state.object, least_depth(walk), Vec<'W'>::zero(), state.hints.command);
+  const Brake brake = brake_of(walk, state);
+  const double here = inside.depth(brake.at);
+  return here >= walk.scene.tip_radius && inside.can_stop(brake, here, brake.velocity);
+}
+
 // `distance`: of the tip's outermost point to the undeformed surface, m.
 void check_undeformed(Walk& walk, double distance, State& state) {
   constexpr double kTolerance =
       50e-6;  // m: what play and overshoot of a machine may take before it is a fault
-  if (distance <= -kSkin) state.entered = true;  // on the way in, the tip is rightly outside
+  // On the way in the tip is rightly outside, and so is what it is told.
+  if (!state.entered && distance <= -kSkin) state.entered = command_stays(walk, state);
   if (state.entered && distance > kTolerance) walk.why |= kOutsideObject;
 }
 
@@ -86,6 +105,7 @@ struct Walls {
   double out = std::numeric_limits<double>::infinity(), in = std::numeric_limits<double>::infinity();  // m
   double speed = std::numeric_limits<double>::infinity();  // along the normal, m/s
   double share = kAlongShare;                              // of the acceleration, along the normal
+  double depth = kUnset;                                   // of the tip's centre in the object, m
 };
 
 Walls walls_around(const Walk& walk, State& state) {
@@ -112,6 +132,7 @@ Walls walls_around(const Walk& walk, State& state) {
       nearest(walk.scene, state.object, walk.scene.X_WR * state.command, state.hints.command);
   const double depth = -(at.distance + walk.scene.tip_radius);
   Walls walls{at.normal.e(), depth - kSkin};
+  walls.depth = -at.distance;
   if (state.mode == Mode::contact) walls.in = object.limit_at(state.contacts) + kSkin - depth;
   return walls;
 }
@@ -184,6 +205,19 @@ void check_tip(Walk& walk, State& state) noexcept {
 
 namespace {
 
+// The walls know the side that is nearest; beside an edge there are others.
+Vec3 kept_inside(Walk& walk, State& state, const Walls& walls, const Vec3& wanted) {
+  if (std::isnan(walls.depth)) return wanted;
+  // Mostly there is room for the whole way that it takes to stop.
+  const double speed = wanted.norm();
+  const double way = speed * (walk.scene.dt + speed / (2.0 * walk.scene.reach.acceleration));
+  if (walls.depth - way >= least_depth(walk)) return wanted;
+  Inside inside(walk.scene, state.object, least_depth(walk), Vec<'W'>::zero(), state.hints.command);
+  const Vec3 kept = inside.velocity(brake_of(walk, state), walls.depth, wanted);
+  if (kept != wanted) walk.why |= kLimited;
+  return kept;
+}
+
 // Velocity of the next set-point, in W.
 Vec3 commanded(Walk& walk, State& state, const Vec3& before) {
   const double dt = walk.scene.dt;
@@ -195,7 +229,8 @@ Vec3 commanded(Walk& walk, State& state, const Vec3& before) {
     // brought back in.
     const bool safe = walls.out >= 0.0 &&
                       walls.normal.dot(straight) <= approach_speed(walls.out, kAlongShare * acceleration, dt);
-    return safe ? straight : next_velocity(walk, walls, Vec3::Zero(), before);
+    return safe ? straight
+                : kept_inside(walk, state, walls, next_velocity(walk, walls, Vec3::Zero(), before));
   }
   Point<'R'> target = walk.scene.X_WR.inverse() * walk.target;
   if (!target.finite()) {
@@ -203,7 +238,8 @@ Vec3 commanded(Walk& walk, State& state, const Vec3& before) {
     return straight;
   }
   target = reachable(walk, state.command, target);
-  return next_velocity(walk, walls, walk.scene.X_WR.q() * (target - state.command).e(), before);
+  return kept_inside(walk, state, walls,
+                     next_velocity(walk, walls, walk.scene.X_WR.q() * (target - state.command).e(), before));
 }
 
 // Legs have a shortest length, so the reach is not convex: a way of 3 mm between two points within it can

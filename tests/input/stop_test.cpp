@@ -1,0 +1,152 @@
+// Signals: a run ends as its end does, with its report, its record and its own exit code.
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/record/record.h"
+#include "tests/support/built.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// The program in a process of its own, with what it prints in a file.
+class Started {
+ public:
+  explicit Started(std::vector<std::string> args) : out_(folder_.path() / "out") {
+    args.insert(args.begin(), program_file());
+    child_ = fork();
+    if (child_ != 0) return;
+    const int file = open(out_.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);
+    dup2(file, STDOUT_FILENO);
+    dup2(file, STDERR_FILENO);
+    setenv("ENCOUNTER_MODULES", module_folder().c_str(), 1);
+    std::vector<char*> words;
+    for (std::string& arg : args) words.push_back(arg.data());
+    words.push_back(nullptr);
+    execv(words[0], words.data());
+    _exit(127);
+  }
+  void send(int signal) const { kill(child_, signal); }
+  // Exit code; 128 + signal, negated, where a signal killed it.
+  int wait() const {
+    int status = 0;
+    waitpid(child_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  [[nodiscard]] std::string text() const {
+    std::ifstream file(out_);
+    std::ostringstream all;
+    all << file.rdbuf();
+    return all.str();
+  }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+
+ private:
+  test::TemporaryFolder folder_;
+  std::filesystem::path out_;
+  pid_t child_ = -1;
+};
+
+void after_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
+
+std::string scene(const char* name) {
+  return std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + name + ".toml";
+}
+
+TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
+  for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}}) {
+    const test::TemporaryFolder folder;
+    const std::string record = (folder.path() / "r.encrec").string();
+    const Started run({"run", scene("tennis_ball"), "--pace", "wall", "--record", record});
+    while (!std::filesystem::exists(record) || std::filesystem::file_size(record) < 4096) after_ms(20);
+    after_ms(300);
+    run.send(signal);
+    EXPECT_EQ(run.wait(), code);
+    EXPECT_THAT(run.text(), HasSubstr("stopped     by a signal"));
+    EXPECT_THAT(run.text(), HasSubstr("state hash"));
+    const Result replayed = run_program({"replay", record});  // it is sealed
+    EXPECT_EQ(replayed.code, 0) << replayed.err;
+  }
+}
+
+// Also where the clock waits for hours, and where devices are real and armed.
+TEST(Stop, AlsoWhileTheClockWaits) {
+  const Started slow({"run", scene("tennis_ball"), "--pace", "1e-6"});
+  after_ms(500);
+  slow.send(SIGTERM);
+  EXPECT_EQ(slow.wait(), 143);
+  const Started armed({"run", scene("rig_A"), "--set", "rig.manipulator.driver=\"sample\"", "--set",
+                       "rig.force.driver=\"sample\"", "--armed"});
+  after_ms(500);
+  armed.send(SIGINT);
+  EXPECT_EQ(armed.wait(), 130);
+  EXPECT_THAT(armed.text(), HasSubstr("stopped     by a signal"));
+}
+
+TEST(Stop, WhatIsIgnoredStaysIgnored) {
+  std::signal(SIGHUP, SIG_IGN);  // as nohup does; the child inherits it
+  const Started run({"run", scene("plane"), "--pace", "wall", "--for-s", "1"});
+  std::signal(SIGHUP, SIG_DFL);
+  after_ms(300);
+  run.send(SIGHUP);
+  EXPECT_EQ(run.wait(), 0) << run.text();
+}
+
+// A process that was stopped for a second: armed, the cycles are lost and said; simulated, nothing is lost.
+TEST(Stop, AStoppedProcessMakesNothingUp) {
+  const std::vector<std::string> sample{"--set", "rig.manipulator.driver=\"sample\"", "--set",
+                                        "rig.force.driver=\"sample\"", "--armed"};
+  std::vector<std::string> args{"run", scene("rig_A"), "--for-s", "2.5", "--json"};
+  args.insert(args.end(), sample.begin(), sample.end());
+  const Started armed(args);
+  after_ms(700);
+  armed.send(SIGSTOP);
+  after_ms(1000);
+  armed.send(SIGCONT);
+  armed.wait();
+  const std::string text = armed.text();
+  const auto number = [&](const std::string& key) {
+    const std::size_t at = text.find("\"" + key + "\": ");
+    return at == std::string::npos ? -1.0 : std::stod(text.substr(at + key.size() + 4));
+  };
+  EXPECT_GE(number("missed_cycles"), 950.0);
+  EXPECT_LE(number("ticks"), 2501.0 - 950.0);
+  EXPECT_THAT(text, HasSubstr("clock late"));
+
+  const Result free = run_program({"run", scene("plane"), "--for-s", "1"});
+  const Started paced({"run", scene("plane"), "--for-s", "1", "--pace", "wall"});
+  after_ms(500);
+  paced.send(SIGSTOP);
+  after_ms(700);
+  paced.send(SIGCONT);
+  EXPECT_EQ(paced.wait(), 0);
+  EXPECT_THAT(paced.text(), HasSubstr("nothing was lost"));
+  const auto hash = [](const std::string& all) { return all.substr(all.find("state hash")); };
+  EXPECT_EQ(hash(paced.text()), hash(free.out));
+}
+
+TEST(Stop, ADryRunSaysWhatWasWithheld) {
+  const Result dry =
+      run_program({"run", scene("rig_A"), "--for-s", "0.2", "--set", "rig.manipulator.driver=\"sample\"",
+                   "--set", "rig.force.driver=\"sample\""},
+                  {{"ENCOUNTER_MODULES", module_folder()}});
+  EXPECT_THAT(dry.out, HasSubstr("201 commands were withheld"));
+  EXPECT_THAT(dry.out, HasSubstr("--armed sends them"));
+}
+
+}  // namespace
+}  // namespace enc::tests

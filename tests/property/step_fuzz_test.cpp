@@ -1,0 +1,442 @@
+// step() under everything that devices can say: scenes drawn at random, of both machines, each for 20 s. What
+// is judged on each tick: the command is within speed, acceleration and reach; the whole tip it is sent to is
+// inside of the object; no mode outlives its cause (mode.h); and when all is well again, the hold is over.
+//
+// ENCOUNTER_FUZZ_SCENES and ENCOUNTER_FUZZ_SEED make it longer and other: 600 scenes take some minutes.
+#include <chrono>
+#include <cstdlib>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/record/fields.h"
+#include "models/shapes/hare.h"
+#include "models/shapes/shapes.h"
+#include "tests/support/scenes.h"
+#include "trial/prepare.h"
+
+namespace enc {
+namespace {
+
+constexpr double kGuard = 50e-6;  // m
+
+struct Random {
+  std::mt19937_64 engine;
+  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+  Vec3 vec(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
+  bool once_in(unsigned n) { return engine() % n == 0; }
+  std::size_t of(std::size_t n) { return static_cast<std::size_t>(engine() % n); }
+};
+
+// Puts nonsense in one number of the inputs.
+struct SpoilOne {
+  Random& random;
+  int wanted, seen = 0;
+  template <class T>
+  void operator()(std::string_view name, T& x) {
+    if (name == "withheld" || seen++ != wanted) return;
+    if constexpr (std::is_same_v<T, double>) {
+      constexpr double kInf = std::numeric_limits<double>::infinity();
+      const std::array<double, 12> bad{kUnset, kInf, -kInf, 1e12,   -1e12,  1e308,
+                                       0.0,    1.0,  -1.0,  1e-300, 5e-324, x * (1.0 + random.in(-0.1, 0.1))};
+      x = bad[random.of(bad.size())];
+    } else if constexpr (std::is_same_v<T, Time>) {
+      x = Time(Duration(static_cast<std::int64_t>(random.engine() % 2'000'000'000'000) - 1'000'000'000'000));
+    } else if constexpr (std::is_same_v<T, Health>) {
+      x = static_cast<Health>(random.of(6));
+    } else {
+      x = static_cast<T>(static_cast<std::int64_t>(random.of(2001)) - 1000);
+    }
+  }
+};
+
+// ---- scenes ---------------------------------------------------------------------------------------------
+
+Mesh groove() {
+  return test::prism({{0.0, -0.03},
+                      {0.045, -0.03},
+                      {0.045, 0.03},
+                      {0.025, 0.03},
+                      {0.0, -0.005},
+                      {-0.025, 0.03},
+                      {-0.045, 0.03},
+                      {-0.045, -0.03}},
+                     0.06);
+}
+Mesh wedge(double half_angle) {
+  const double half = 0.08 * std::tan(half_angle);
+  return test::prism({{-half, -0.05}, {half, -0.05}, {0.0, 0.03}}, 0.06);
+}
+
+struct Drawn {
+  std::string what;
+  Scene scene;
+};
+
+SceneSpec hexapod_scene(Random& random, std::string& what) {
+  const BehaviourSpec behaviour = random.once_in(2)
+                                      ? test::lossy_ball()
+                                      : test::spring(random.in(500.0, 20'000.0), random.in(0.002, 0.006));
+  const Vec3 turn = random.vec(3.0);
+  switch (random.of(8)) {
+    case 0: {
+      what = "two balls, display";
+      SceneSpec spec = test::ball_scene(behaviour);
+      spec.objects.push_back(spec.objects[0]);
+      spec.objects[0].position.x() = -0.034;
+      spec.objects[1].position.x() = 0.034;
+      spec.objects[1].name = "other";
+      spec.display.emplace();
+      return spec;
+    }
+    case 1:
+      what = "plane";
+      return test::plane_scene(behaviour);
+    case 2: {
+      what = "plane without a tracker";
+      SceneSpec spec = test::plane_scene(behaviour);
+      spec.tracker.reset();
+      spec.tools.clear();
+      return spec;
+    }
+    case 3:
+      what = "cube";
+      return test::mesh_scene(test::box(0.06, 0.06, 0.06), -0.022, Vec3::Zero(), behaviour);
+    case 4:
+      what = "turned cube";
+      return test::mesh_scene(test::box(0.06, 0.06, 0.06), -0.022, turn, behaviour);
+    case 5:
+      what = "wedge";
+      return test::mesh_scene(wedge(random.in(0.25, 0.8)), -0.02, Vec3(0, 0, turn.z()), behaviour);
+    case 6:
+      what = "groove";
+      return test::mesh_scene(groove(), -0.01, Vec3(0, 0, turn.z()), behaviour);
+    default: {
+      static const Mesh hare = models::hare_mesh();
+      what = "hare";
+      return test::mesh_scene(hare, -0.018, Vec3(0, 0, turn.z()), behaviour);
+    }
+  }
+}
+
+RigSpec drawn_rig(Random& random) {
+  RigSpec rig;
+  constexpr std::array kPredictions{Prediction::hold, Prediction::constant_velocity,
+                                    Prediction::constant_acceleration};
+  rig.tracker.prediction = kPredictions[random.of(3)];
+  constexpr std::array kTares{Tare::start, Tare::free, Tare::window};
+  rig.force.tare = kTares[random.of(3)];
+  rig.force.filter = random.in(2.0, 50.0);
+  rig.manipulator.speed = random.in(0.02, 0.2);
+  rig.manipulator.acceleration = random.in(0.2, 3.0);
+  rig.contact.softest = 0.0;
+  if (random.once_in(4)) rig.admittance.damping = Damping::observed;
+  return rig;
+}
+
+const std::vector<std::string> kArmScenes{"wall", "button", "keypad", "room", "hit_ball", "drum"};
+
+Drawn draw(std::uint64_t seed, Random& random) {
+  Drawn drawn;
+  if (seed % 4 == 3) {
+    static std::map<std::string, models::Setup> setups;
+    const std::string name = kArmScenes[random.of(kArmScenes.size())];
+    if (!setups.contains(name))
+      setups[name] = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", "", {});
+    drawn.what = "arm, " + name;
+    drawn.scene = trial::prepare_setup(setups[name]);
+    return drawn;
+  }
+  const SceneSpec spec = hexapod_scene(random, drawn.what);
+  SceneSpec with = spec;
+  with.follow.inset = random.in(20e-6, 0.5e-3);
+  drawn.scene = prepare(with, drawn_rig(random));
+  return drawn;
+}
+
+// ---- what judges ----------------------------------------------------------------------------------------
+
+// Ticks for which a mode has gone on without its cause (mode.h), by what the core itself believes.
+class Modes {
+ public:
+  std::string judge(const Scene& scene, const State& state, const Outputs& out, bool well) {
+    const bool tool_known = std::isfinite(out.gap);
+    const double dt = scene.dt;
+    well_ = well ? well_ + dt : 0.0;
+    // After all has been well for so long, nothing is held: but an arm that is stuck, while the finger is
+    // there, and a tip that is outside and on its way back.
+    if (out.mode == Mode::hold && well_ > 1.5 && !state.reaching.stuck && (out.why & kOutsideObject) == 0)
+      return "hold goes on: " + why_text(out.why);
+    if ((out.mode == Mode::hold) != ((out.why & kHoldReasons) != 0))
+      return "hold without a reason, or a reason without";
+    if (out.mode == Mode::hold) return {};
+    const bool far =
+        state.mode == Mode::follow && scene.has_tracker && tool_known && out.gap > scene.follow.pause;
+    far_ = far ? far_ + dt : 0.0;
+    if (far_ > 1.5 * dt) return "follow beyond the pause distance";
+    restore_ = state.mode == Mode::restore ? restore_ + dt : 0.0;
+    if (restore_ > 2.0 + 2.0 * dt) return "restore goes on";
+    if (scene.impedance) {
+      if (state.mode == Mode::contact && out.gap > scene.contact.leave_gap)
+        return "contact beyond the leave gap";
+      return {};
+    }
+    if (state.mode != Mode::contact) {
+      loose_ = in_contact_ = 0.0;
+      return {};
+    }
+    in_contact_ += dt;
+    const double force = -out.force.xyz[2];
+    const bool near =
+        tool_known && state.tool.value.tool == state.contact.tool && out.gap <= scene.contact.leave_gap;
+    const bool pressed = force >= 0.5 * scene.force.contact &&
+                         (!tool_known || out.gap <= 10e-3 || state.tool.value.tool != state.contact.tool);
+    const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;
+    loose_ = near || pressed || coming ? 0.0 : loose_ + dt;
+    const bool damped = scene.damping && !(tool_known && out.gap > 10e-3);
+    if (loose_ > scene.contact.leave_time + (damped ? 5.0 : 0.0) + 3.0 * dt)
+      return fmt::format("contact goes on: force {} N, gap {} mm", force, out.gap * 1e3);
+    return {};
+  }
+
+ private:
+  double well_ = 0.0, far_ = 0.0, restore_ = 0.0, loose_ = 0.0, in_contact_ = 0.0;
+};
+
+struct Tally {
+  std::array<std::int64_t, kModes> ticks{};
+  std::int64_t inside = 0;
+};
+
+// A hand, its tool, the devices: what they would say of a machine that follows as the rig believes, or at
+// once.
+class World {
+ public:
+  World(const Scene& scene, Random& random) : scene_(scene), random_(random), lags_(random.once_in(2)) {
+    k_.dt = from_seconds(scene.dt);
+    const Pose<'R', 'H'> zero = scene.reach.machine.zero();
+    at_ = sent_ = zero.p();
+    if (scene.impedance) {
+      joints_ = scene.impedance->arm.zero();
+      at_ = sent_ = scene.impedance->arm.tip(joints_).e();
+      in.withheld =
+          !lags_;  // half of the arms stay at home, and need not follow; the others are where they shall be
+    }
+    SpoilOne count{random, -1};
+    fields(count, in);
+    numbers_ = count.seen;
+    pace_ = random.in(0.0, 1.0);
+  }
+
+  // Before step(): what the devices say on this tick. False: something of it is wrong.
+  bool sense() {
+    if (k_.index % 2000 == 0) {  // another weather every 2 s
+      constexpr std::array<unsigned, 5> kSpoil{0, 0, 500, 20, 3};
+      spoil_every_ = kSpoil[random_.of(kSpoil.size())];
+      seen_ = !random_.once_in(4);
+      drift_ = random_.once_in(3) ? Vec3(0, 0, random_.in(-0.05, 0.05)) : Vec3(0, 0, 0);
+    }
+    move_hand();
+    machine();
+    bool well = seen_ && spoil_every_ == 0 && zero_.norm() < 0.02;
+    in.missed = 0;
+    say_machine();
+    if (scene_.has_tracker && seen_ && k_.index % 8 == 0) say_tool();
+    if (scene_.has_display && k_.index % 16 == 0) in.dent = {DentSample{}, k_.t, Health::ok};
+    if (spoil_every_ != 0 && random_.engine() % spoil_every_ == 0) {
+      SpoilOne one{random_, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
+      fields(one, in);
+      in.withheld = scene_.impedance && !lags_;
+      well = false;
+    }
+    return well;
+  }
+  void told(const Outputs& out, const State& state) {
+    if (scene_.impedance && lags_ && state.reaching.target.finite())
+      (void)scene_.impedance->arm.inverse(scene_.X_WR.inverse() * state.reaching.target, joints_);
+    if (!scene_.impedance && state.started) sent_ = out.tip.p();
+    ++k_.index;
+    k_.t += k_.dt;
+  }
+  [[nodiscard]] const Tick& tick() const { return k_; }
+  Inputs in;
+
+ private:
+  // Glides over the objects, stands, leaps; slowly or as fast as a hand can.
+  void move_hand() {
+    if (random_.once_in(pace_ < 0.5 ? 1500 : 300)) {
+      aim_ = Vec3(random_.in(-0.07, 0.07), random_.in(-0.07, 0.07), random_.in(-0.03, 0.05));
+      speed_ = random_.once_in(4) ? 1.0 : random_.in(0.005, 0.2);
+      if (random_.once_in(8)) aim_.z() += 0.15;
+    }
+    if (random_.once_in(5000)) hand_ = aim_;
+    const Vec3 way = aim_ - hand_;
+    const double far = way.norm();
+    if (far > 1e-9) hand_ += way * std::min(1.0, speed_ * scene_.dt / far);
+    zero_ += drift_ * scene_.dt;
+    if (random_.once_in(4000)) junk_ = random_.once_in(2) ? Vec3(0, 0, 0) : Vec3(random_.vec(6.0));
+  }
+  void machine() {
+    if (scene_.impedance) return;
+    if (!lags_) {
+      velocity_ = (sent_ - at_) / scene_.dt;
+      at_ = sent_;
+      return;
+    }
+    const double w = scene_.servo.frequency, dt = scene_.dt;
+    velocity_ += dt * (w * w * (sent_ - at_) - 2.0 * scene_.servo.damping * w * velocity_);
+    at_ += dt * velocity_;
+  }
+  void say_machine() {
+    if (scene_.impedance) {
+      in.arm = {{joints_, {}, scene_.impedance->arm.tip(joints_), Vec<'R'>::zero()}, k_.t, Health::ok};
+      return;
+    }
+    const Pose<'R', 'H'> pose(scene_.X_WR.q().conjugate(), at_);
+    in.tip = {{pose, Vec<'R'>(velocity_), Vec<'R'>::zero()}, k_.t, Health::ok};
+    const Pose<'W', 'H'> X_WH = scene_.X_WR * pose;
+    // The tool presses the tip where they meet, with 2 N/mm; or something else does.
+    Vec3 force = junk_;
+    if (!scene_.tools.empty()) {
+      const Vec3 apart = X_WH.p() - hand_;
+      const double deep = scene_.tip_radius + scene_.tools[0].tip.radius - apart.norm();
+      if (deep > 0.0 && apart.norm() > 1e-9) force += std::min(40.0, 2000.0 * deep) * apart.normalized();
+    }
+    const Vec<'W'> dead = scene_.force.mass * Vec<'W'>(0, 0, -9.80665);
+    in.wrench = {
+        {(X_WH * scene_.X_HF).inverse() * (Vec<'W'>(force) + dead) + Vec<'F'>(zero_), Vec<'F'>::zero()},
+        k_.t,
+        Health::ok};
+  }
+  void say_tool() {
+    const Vec3 noisy = hand_ + random_.vec(20e-6);
+    const Pose<'W', 'T'> X_WT(Quat::Identity(), noisy - scene_.tools[0].tip.centre.e());
+    in.tool = {{0, scene_.X_WC.inverse() * X_WT}, k_.t - Duration(15'000'000), Health::ok};
+  }
+
+  const Scene& scene_;
+  Random& random_;
+  bool lags_;
+  Tick k_;
+  int numbers_ = 0;
+  double pace_ = 0.0;
+  Vec3 hand_{0, 0, 0.04}, aim_{0, 0, 0.04}, junk_{0, 0, 0}, zero_{0, 0, 0}, drift_{0, 0, 0};
+  Vec3 at_, sent_, velocity_{0, 0, 0};
+  PerJoint joints_{};
+  double speed_ = 0.05;
+  unsigned spoil_every_ = 0;
+  bool seen_ = true;
+};
+
+// Commands of a position-controlled machine; targets of an arm.
+class Limits {
+ public:
+  std::string judge(const Scene& scene, const State& state, const Outputs& out) {
+    return scene.impedance ? judge_arm(scene, state, out) : judge_machine(scene, state, out);
+  }
+
+ private:
+  std::string judge_machine(const Scene& scene, const State& state, const Outputs& out) {
+    if (!state.started) return {};
+    if (!out.tip.valid()) return "the command is not a pose";
+    if (!scene.reach.contains(out.tip)) return "the command is out of reach";
+    const Vec3 at = out.tip.p();
+    if (!known_) before_ = at - scene.dt * state.command_velocity.e();
+    const Vec3 velocity = (at - before_) / scene.dt;
+    const double change = (velocity - velocity_).norm() / scene.dt;
+    known_ = true;
+    before_ = at;
+    velocity_ = velocity;
+    if (velocity.norm() > scene.reach.speed * (1 + 1e-9)) return fmt::format("{} m/s", velocity.norm());
+    if (change > scene.reach.acceleration * (1 + 1e-6)) return fmt::format("{} m/s^2", change);
+    if (!state.entered || state.object < 0) return {};
+    const Object& object = scene.objects[static_cast<std::size_t>(state.object)];
+    const double outside =
+        object.surface.nearest(object.X_WO.inverse() * (scene.X_WR * state.command)).distance +
+        scene.tip_radius;
+    if (outside > kGuard) return fmt::format("the tip is sent {:.1f} um outside", outside * 1e6);
+    return {};
+  }
+  std::string judge_arm(const Scene& scene, const State& state, const Outputs& out) {
+    if (!out.arm_force.finite()) return {};
+    const ArmRig& rig = scene.impedance->rig;
+    if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
+    const Vec3 velocity = state.reaching.velocity.e(), at = state.reaching.target.e();
+    if (velocity.norm() > rig.speed * (1 + 1e-9)) return fmt::format("target at {} m/s", velocity.norm());
+    std::string what;
+    // A hold, or an arm that was not heard of, begins anew where the arm is.
+    if (known_ && !anew(out) && (at - before_).norm() > rig.speed * scene.dt * (1 + 1e-6))
+      what = fmt::format("target leaps by {} mm", 1e3 * (at - before_).norm());
+    if (known_ && !anew(out) && (velocity - velocity_).norm() > rig.acceleration * scene.dt * (1 + 1e-6))
+      what = fmt::format("target at {} m/s^2", (velocity - velocity_).norm() / scene.dt);
+    known_ = state.reaching.target.finite() && !anew(out);
+    before_ = at;
+    velocity_ = velocity;
+    return what;
+  }
+  static bool anew(const Outputs& out) { return out.mode == Mode::hold || (out.why & kUnreachable) != 0; }
+
+  bool known_ = false;
+  Vec3 before_{0, 0, 0}, velocity_{0, 0, 0};
+};
+
+std::string fuzz(std::uint64_t seed, double length, Tally& tally) {
+  Random random{std::mt19937_64(seed)};
+  const Drawn drawn = draw(seed, random);
+  const Scene& scene = drawn.scene;
+  World world(scene, random);
+  State state;
+  Outputs out;
+  Modes modes;
+  Limits limits;
+  const auto ticks = static_cast<std::int64_t>(length / scene.dt);
+  for (std::int64_t i = 0; i < ticks; ++i) {
+    const bool well = world.sense();
+    step(scene, world.tick(), world.in, state, out);
+    ++tally.ticks[static_cast<std::size_t>(out.mode)];
+    tally.inside += state.entered ? 1 : 0;
+    std::string bad = limits.judge(scene, state, out);
+    if (bad.empty()) bad = modes.judge(scene, state, out, well);
+    if (!bad.empty())
+      return fmt::format("seed {} ({}), tick {}, {} ({}): {}", seed, drawn.what, i, mode_name(out.mode),
+                         why_text(out.why), bad);
+    world.told(out, state);
+  }
+  return {};
+}
+
+std::uint64_t number_of(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+class StepFuzz : public testing::TestWithParam<int> {};
+
+// In shards, so that ctest runs them side by side.
+TEST_P(StepFuzz, StaysWithinLimitsInsideAndWithinItsModes) {
+  constexpr std::uint64_t kShards = 4;
+  const std::uint64_t scenes = number_of("ENCOUNTER_FUZZ_SCENES", 24);
+  const std::uint64_t first = number_of("ENCOUNTER_FUZZ_SEED", 1);
+  const double length = scenes > 100 ? 20.0 : 6.0;
+  const auto start = std::chrono::steady_clock::now();
+  Tally tally;
+  int bad = 0;
+  const auto shard = static_cast<std::uint64_t>(GetParam());
+  for (std::uint64_t i = shard; i < scenes; i += kShards) {
+    const std::string what = fuzz(first + i, length, tally);
+    bad += what.empty() ? 0 : 1;
+    EXPECT_EQ(what, "");
+  }
+  std::string seen;
+  for (int i = 0; i < kModes; ++i)
+    seen += fmt::format(" {} {}", mode_name(static_cast<Mode>(i)), tally.ticks[static_cast<std::size_t>(i)]);
+  fmt::print("fuzz: seeds {}..{} (each {}th), {} s each, {} bad; ticks:{}; inside {}; {:.1f} s\n",
+             first + shard, first + scenes - 1, kShards, length, bad, seen, tally.inside,
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  EXPECT_GT(tally.inside, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Shard, StepFuzz, testing::Range(0, 4));
+
+}  // namespace
+}  // namespace enc
