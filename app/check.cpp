@@ -15,7 +15,7 @@ namespace {
 // Where an object has no room for the tip under its surface, the tip waits beside.
 std::string thin_text(const std::string& name, const Scene& scene, const Object& object) {
   const double margin = room_margin(scene);
-  const Room room = room_in(object, margin, 0);
+  const Room room = room_in(object, margin, true);
   if (room.thin == 0.0) return {};
   const Point<'W'> at = object.X_WO * room.thin_at;
   return fmt::format(

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include <encounter_version.h>
@@ -47,9 +48,16 @@ std::unique_ptr<RecordWriter> record_for(const RunOptions& options, const models
   return std::make_unique<RecordWriter>(options.record, texts);
 }
 
+// Whoever reads may be gone: stopped by the same Ctrl-C, or hung up.
+bool printed(const std::string& text) {
+  const std::size_t all = std::fwrite(text.data(), 1, text.size(), stdout);
+  return all == text.size() && std::fflush(stdout) == 0;
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
+  const StopSignals signals;  // from here on: devices are let go, whenever it comes
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
@@ -68,7 +76,6 @@ int run(const RunOptions& options) {
     fingers.see(glance);
   };
   trial_options.stop = [] { return StopSignals::caught() != 0; };
-  const StopSignals signals;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) trial_options.progress = show_progress;
   trial::Trial trial(
@@ -89,7 +96,8 @@ int run(const RunOptions& options) {
                          fingers,
                          trial.has_world() ? trial.world().physics().elements() : 0,
                          started};
-  fmt::print("{}", options.json ? run_json(report) : run_text(report));
+  if (!printed(options.json ? run_json(report) : run_text(report)) && StopSignals::caught() == 0)
+    throw Error("standard output: the report could not be written; is the disk full, or the reader gone?");
   if (record && record->full()) throw Error(record->error());
   if (result.diverged_at >= 0)
     throw Error(

@@ -211,17 +211,20 @@ std::string run_text(const RunReport& r) {
   text += fmt::format("modes       {}; {} contacts\n", modes_line(r.result), r.result.contacts);
   for (const auto& [t, why] : r.result.holds) {
     text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
-    if (&why == &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) break;
+    if (&why != &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) continue;
+    if (r.result.holds.size() > 3)
+      text += fmt::format("hold        and more often; {:.3f} s in all\n",
+                          r.result.mode_time[static_cast<std::size_t>(Mode::hold)]);
+    break;
   }
   if (r.result.withheld > 0)
     text += fmt::format("dry         {} commands were withheld from the machine; --armed sends them\n",
                         r.result.withheld);
   if (r.result.missed > 0)
-    text +=
-        fmt::format("late        {} cycles were lost to the wall clock, in {} stalls; the longest {:.3f} s\n",
-                    r.result.missed, r.result.lateness.times, r.result.lateness.longest);
+    text += fmt::format("late        cycles lost to the wall clock: {}; stalls: {}, the longest {:.3f} s\n",
+                        r.result.missed, r.result.lateness.times, r.result.lateness.longest);
   else if (r.result.lateness.times > 0)
-    text += fmt::format("late        {:.3f} s behind the wall clock, in {} stalls; nothing was lost\n",
+    text += fmt::format("late        {:.3f} s behind the wall clock; stalls: {}; nothing was lost\n",
                         r.result.lateness.total, r.result.lateness.times);
   if (r.result.interrupted) text += "stopped     by a signal, before its end\n";
   text += weak_text(r.setup, r.scene);

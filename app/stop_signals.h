@@ -4,8 +4,9 @@
 
 namespace enc::app {
 
-// While one of these lives, SIGINT, SIGTERM and SIGHUP are only noted. A second signal of a kind kills, as
-// ever. What was ignored before (nohup) stays ignored.
+// While one of these lives, SIGINT, SIGTERM and SIGHUP are only noted, and a pipe that nobody reads (SIGPIPE)
+// is an error of that pipe. A second signal of a kind kills, as ever. What was ignored before (nohup) stays
+// ignored.
 class StopSignals {
  public:
   StopSignals();

@@ -51,21 +51,28 @@ void begin_contact(Walk& walk, State& state, bool by_force) {
 
 // Until force is felt with the tip under the tool, the anchor goes where the tool goes: a fast or slanted
 // touch meets the tip beside its middle, and a tip that stayed there would be pushed out from under the tool.
-void anchor(Walk& walk, State& state, double force) {
+void anchor(Walk& walk, State& state) {
   constexpr double kUnder = 0.5e-3;  // m
   state.contact.X_WN = frame_under_tool(walk, state);
+  const double force = pressing_force(walk, state.contact.X_WN * Vec<'N'>(0, 0, 1));
   const Vec3 beside = (state.contact.X_WN.inverse() * walk.X_WH.origin()).e();
   state.contact.anchored = force >= walk.scene.force.contact && beside.head<2>().norm() <= kUnder;
 }
 
 void in_contact(Walk& walk, State& state) {
-  const Vec<'W'> normal = state.contact.X_WN * Vec<'N'>(0, 0, 1);
-  const double force = pressing_force(walk, normal);
   const bool changed = changed_tool(walk, state);
-  if (!state.contact.anchored && !changed) anchor(walk, state, force);
+  if (!state.contact.anchored && !changed) anchor(walk, state);
+  const double force = pressing_force(walk, state.contact.X_WN * Vec<'N'>(0, 0, 1));
   // Nothing but the force speaks for the contact of a tool that is no longer seen: it has to be a whole one.
   const double least = (changed ? 1.0 : 0.5) * walk.scene.force.contact;
-  if (force >= least && (changed || !too_far(walk))) state.contact.loaded = walk.tick.t;
+  // What is felt while the tool is seen to be clear for so long is an error of the zero, which is learnt
+  // anew.
+  const bool clear =
+      walk.tool_known && walk.tool_fresh && !changed && walk.gap > walk.scene.force.tare_clearance;
+  state.contact.clear = clear ? state.contact.clear + walk.scene.dt : 0.0;
+  const bool drifted = state.contact.clear >= kMeeting;
+  if (drifted && force >= least) state.tared = 0.0;
+  if (force >= least && !drifted && (changed || !too_far(walk))) state.contact.loaded = walk.tick.t;
   const double without = age(walk.tick.t, state.contact.loaded);  // force, s
   // Behind a damper the tip comes back slowly; what pushed it may wait there.
   const bool returning = walk.scene.damping && !too_far(walk) && without < kReturning &&

@@ -11,10 +11,11 @@ namespace enc {
 //
 //   follow   a tool that is known is within the pause distance                                   at once
 //   contact  force is felt with the tool within 10 mm, or the tool is within the leave gap;      leave time
-//            until force was first felt: within 10 mm, for 0.5 s;
+//            until force was first felt: within 10 mm, for 0.5 s; force that is felt of a tool
+//            that is seen to be clear (tare_clearance) counts for 0.5 s
 //            behind a damper, the tip is deeper than the leave gap and no tool is 10 mm away     5 s
 //   restore  the tip is on its way to the buffered point                                         2 s
-//   hold     a reason to hold; of an arm that is stuck: the finger is still there                at once
+//   hold     a reason to hold; of a machine that did not follow: the tool is still there         at once
 //
 // (the last column: how long a mode may outlive its cause).
 enum class Mode : std::uint8_t {

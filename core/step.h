@@ -21,6 +21,7 @@ struct Contact {
   bool anchored = false;   // true once force was felt with the tip under the tool: the anchor no longer moves
   Time loaded{};           // last tick on which force was felt; the start of time: never
   Time began{}, left{};    // when it began, and when the tip was sent back
+  double clear = 0.0;      // s for which its tool has been seen to be clear of the object
   ResponseState response;
   Swing swing;
   Vec<'N'> displacement = Vec<'N'>::zero();

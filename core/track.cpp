@@ -127,7 +127,7 @@ void track_tip(Walk& walk, State& state) {
     state.following = Following{};
   else if (!follows(walk.scene.servo, state.command, state.command_velocity, tip.X_RH.origin(), walk.scene.dt,
                     state.following))
-    walk.why |= kNotFollowing;
+    state.following.lost = true;
 }
 
 }  // namespace

@@ -148,14 +148,15 @@ struct Comparison {
 };
 
 constexpr double kMm = 1e-3, kDegree = M_PI / 180.0;
-constexpr double kLength = 10e-6;  // m: better than a machine of this kind is measured
-constexpr double kAngle = 1e-4;    // rad
+constexpr double kLength = 10e-6;   // m: better than a machine of this kind is measured
+constexpr double kAngle = 1e-4;     // rad
+constexpr double kMassShare = 0.1;  // of a mass: what a sheet and a scale may be apart
 
 void check_machine(const Reach& reach, const ManipulatorRig& rig) {
   const Comparison machine{"machine"};
   machine.able(reach.speed, rig.speed, "speed in mm/s", "rig.manipulator.speed_mm_s", kMm);
-  machine.able(reach.acceleration, rig.acceleration, "acceleration in mm/s2",
-               "rig.manipulator.acceleration_mm_s2", kMm);
+  machine.able(reach.acceleration, rig.acceleration, "acceleration in m/s2",
+               "rig.manipulator.acceleration_m_s2", 1.0);
   const HexapodGeometry& is = reach.machine.geometry();
   const HexapodGeometry& promised = rig.geometry;
   machine.able(is.stroke, promised.stroke, "stroke in mm", "rig.manipulator.geometry.stroke_mm", kMm);
@@ -191,6 +192,34 @@ void check_arm(const ArmAbility& is, const ArmRig& rig) {
     };
     length(&PhantomGeometry::l1, "l1 in mm");
     length(&PhantomGeometry::l2, "l2 in mm");
+    length(&PhantomGeometry::l3, "l3 in mm");
+    length(&PhantomGeometry::l5, "l5 in mm");
+    length(&PhantomGeometry::l6, "l6 in mm");
+    const PhantomGeometry& g = is.machine.phantom;
+    arm.able(-g.coupled_low, -promised.phantom.coupled_low, "way of q2 - q3 below 0 in degrees",
+             "rig.arm.machine.coupled_low_deg", -kDegree);
+    arm.able(g.coupled_high, promised.phantom.coupled_high, "way of q2 - q3 above 0 in degrees",
+             "rig.arm.machine.coupled_high_deg", kDegree);
+    for (double PhantomGeometry::*mass :
+         {&PhantomGeometry::m_a, &PhantomGeometry::m_c, &PhantomGeometry::m_be, &PhantomGeometry::m_df})
+      arm.same(g.*mass, promised.phantom.*mass, kMassShare * promised.phantom.*mass, "a mass in kg",
+               "rig.arm.machine", 1.0);
+  } else {
+    arm.same((is.machine.tip - promised.tip).norm(), 0.0, kLength, "the tip's place in mm from it",
+             "rig.arm.machine.tip_mm", kMm);
+    for (std::size_t i = 0; i < promised.links.size(); ++i) {
+      const ChainLink &link = is.machine.links[i], &of = promised.links[i];
+      if (link.kind != of.kind)
+        throw Error(fmt::format("the arm is another one than the rig file says: link {} is of another kind; "
+                                "correct rig.arm.machine",
+                                i + 1),
+                    {}, ErrorKind::device);
+      arm.same((link.origin - of.origin).norm(), 0.0, kLength, "a link's origin in mm from it",
+               "rig.arm.machine", kMm);
+      arm.same((link.axis.normalized() - of.axis.normalized()).norm(), 0.0, kAngle,
+               "a link's axis in degrees from it", "rig.arm.machine", kDegree);
+      arm.same(link.mass, of.mass, kMassShare * of.mass, "a link's mass in kg", "rig.arm.machine", 1.0);
+    }
   }
   const std::size_t joints = promised.kind == ArmKind::phantom ? kMostJoints : promised.links.size();
   for (std::size_t i = 0; i < joints; ++i) {

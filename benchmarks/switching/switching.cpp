@@ -187,7 +187,7 @@ void timing(const BenchContext& context, BenchResult& result, const Adder& add) 
       kUnset, kUnset);
   add("tick_1000.p99_9", worst.y.back(), "us", "the same", kUnset, kUnset);
   add("tick_1000.over_yardstick.median", 1e-6 * ours.y.back() / yardstick.seconds(), "x",
-      "the median over a fixed piece of work of the same run (kit/yardstick.h)", kUnset, 8.0);
+      "the median over a fixed piece of work of the same run (kit/yardstick.h)", kUnset, 4.0);
   add("brute_over_tick_1000.median", ratio, "x", "asking every object over the whole of step()", 2.0, kUnset);
   add("farther_than_nearest.max", 1e3 * wrong, "mm",
       "the chosen object beyond the nearest: the hysteresis, or what is "

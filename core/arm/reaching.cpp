@@ -69,12 +69,8 @@ Goal goal_of(const Walk& walk, const State& state, const Object& object) {
   ObjectHint hint = state.hints.tool[0];
   const Point<'W'> now = walk.tool_tip - shift;
   const Point<'W'> at = nearest(walk.scene, state.object, now, hint).point;
-  const Vec<'W'> beside = finger - face;
-  const Vec<'W'> along = (1.0 / dt) * (nearest(walk.scene, state.object, now + dt * beside, hint).point - at);
-  // In a hollow the projection is faster than the finger; where it leaps to another part it has no speed.
-  constexpr double kHollow = 3.0;
-  const bool leaps = along.norm() > kHollow * beside.norm();
-  return {walk.surface_point, leaps ? face : face + along};
+  const Point<'W'> then = nearest(walk.scene, state.object, now + dt * (finger - face), hint).point;
+  return {walk.surface_point, face + (1.0 / dt) * (then - at)};
 }
 
 // Where the nearest point leaps to another part of the object, the straight way may leave a hollow one, and
@@ -125,6 +121,7 @@ void move_target(Walk& walk, State& state, const Goal& goal, const Object* objec
 void check_following(Walk& walk, State& state) {
   constexpr double kFriction = 5e-3;  // m: what friction and a wrong weight may hold it off
   constexpr double kLags = 2.0;       // it may be so much slower than the rig says
+  constexpr double kSlowest = 0.2;    // s: no belief makes the arm slower than this
   constexpr double kBeside = 0.030;   // m: from the finger to the prop's middle
   constexpr double kPatience = 0.25;  // s
   Reaching& now = state.reaching;
@@ -133,7 +130,7 @@ void check_following(Walk& walk, State& state) {
     return;
   }
   const ArmRig& rig = walk.scene.impedance->rig;
-  const double lag = rig.damping / rig.stiffness;
+  const double lag = std::min(rig.damping / rig.stiffness, kSlowest);
   const double dt = walk.scene.dt;
   now.fastest = std::max(now.velocity.norm(), now.fastest * std::max(0.0, 1.0 - dt / lag));
   double near = kFriction + kLags * lag * now.fastest;
@@ -143,7 +140,7 @@ void check_following(Walk& walk, State& state) {
     near += law.arm.force(walk.jacobian, weight).norm() / rig.stiffness;  // it hangs from its target
   }
   const bool free = !walk.tool_known || (walk.tool_tip - walk.X_WH.origin()).norm() > kBeside;
-  const bool off = free && state.mode != Mode::contact && (now.target - walk.X_WH.origin()).norm() > near;
+  const bool off = free && (now.target - walk.X_WH.origin()).norm() > near;
   now.off = off ? now.off + dt : 0.0;
   if (now.off < kPatience) return;
   now.stuck = true;
@@ -268,7 +265,8 @@ void encounter(Walk& walk, State& state) noexcept {
       move_target(walk, state, goal, object);
     } else {
       walk.why |= kUnreachable;
-      now.velocity = Vec<'W'>::zero();
+      now.caught_up = false;
+      move_target(walk, state, {now.target}, nullptr);  // it stops
       now.caught_up = false;
     }
   }

@@ -27,8 +27,14 @@ bool follows(const ServoModel& servo, const Point<'R'>& command, const Vec<'R'>&
   state.velocity = Vec<'R'>(Vec3((state.velocity.e() + pull) / (1.0 + 2.0 * servo.damping * w + w * w)));
   state.expected = state.expected + dt * state.velocity;
   state.fastest = std::max(velocity.norm(), state.fastest * std::max(0.0, 1.0 - dt / servo.lag()));
+  // The model may lag by no more than the believed lag allows, or a rig that believes in a servo of 1e-6 Hz
+  // would never find out a machine that stands.
+  const double allowed = kTolerance + kLags * servo.lag() * state.fastest;
+  const Vec3 behind = (state.expected - command).e();
+  if (behind.norm() > allowed)
+    state.expected = Point<'R'>(Vec3(command.e() + behind * (allowed / behind.norm())));
   const double away = distance_to_segment(measured.e(), state.expected.e(), command.e());
-  const bool near = away <= kTolerance + kLags * servo.lag() * state.fastest;
+  const bool near = away <= allowed;
   state.off = near ? 0.0 : state.off + dt;
   return state.off < kPatience;
 }

@@ -8,10 +8,15 @@ namespace enc {
 
 // What a position-controlled machine answers with, as the rig believes.
 struct ServoModel {
-  double frequency = kUnset;                                                      // natural, rad/s
-  double damping = kUnset;                                                        // ratio
-  double delay = 0.0;                                                             // s
-  [[nodiscard]] double lag() const { return 2.0 * damping / frequency + delay; }  // s, of an even motion
+  double frequency = kUnset;  // natural, rad/s
+  double damping = kUnset;    // ratio
+  double delay = 0.0;         // s
+  // s, of an even motion; no belief makes a machine slower than kSlowest.
+  static constexpr double kSlowest = 0.1;
+  [[nodiscard]] double lag() const {
+    const double lag = 2.0 * damping / frequency + delay;
+    return lag < kSlowest ? lag : kSlowest;
+  }
 };
 
 // What is remembered. The fastest command counts for as long as the machine may lag behind it.
@@ -20,6 +25,7 @@ struct Following {
   Vec<'R'> velocity = Vec<'R'>::zero();
   double fastest = 0.0;  // m/s
   double off = 0.0;      // s for which the machine has been elsewhere
+  bool lost = false;     // it was for too long: until the tool has gone
 };
 
 // A tick: `command` is what was sent for it, `measured` where the machine says it is. False: it has been

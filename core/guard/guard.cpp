@@ -188,7 +188,24 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
 
 }  // namespace
 
+namespace {
+
+// A machine that did not follow may go on at any time: the hold lasts until the tool has gone, and where
+// nobody sees one, to the end.
+void hold_lost(Walk& walk, State& state) {
+  if (!state.following.lost) return;
+  if (walk.scene.has_tracker && walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.follow.pause) {
+    state.following = Following{};
+    state.mode = Mode::away;
+  } else {
+    walk.why |= kNotFollowing;
+  }
+}
+
+}  // namespace
+
 void check_tip(Walk& walk, State& state) noexcept {
+  hold_lost(walk, state);
   if (walk.scene.probe) return;  // a real surface is not ours to keep inside of
   if (!walk.X_WH.valid() || state.object < 0) return;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
@@ -224,6 +241,11 @@ Vec3 commanded(Walk& walk, State& state, const Vec3& before) {
   const double acceleration = walk.scene.reach.acceleration;
   const Walls walls = walls_around(walk, state);
   const Vec3 straight = slowed(before, acceleration * dt);
+  if ((walk.why & kNotFollowing) != 0 && walk.X_WH.valid())
+    // Back to where the machine is, or it would leap to the command as soon as it can.
+    return kept_inside(
+        walk, state, walls,
+        next_velocity(walk, walls, walk.X_WH.p() - (walk.scene.X_WR * state.command).e(), before));
   if (holding(walk)) {
     // Straight to a standstill, unless that would carry the tip out of the object; a tip that is outside is
     // brought back in.

@@ -88,13 +88,12 @@ bool project(const std::array<Wall, kWalls>& walls, std::size_t count, const Vec
 
 Inside::Inside(const Scene& scene, std::int32_t object, double margin, const Vec<'W'>& shift,
                ObjectHint& hint)
-    : surface_(scene.objects[static_cast<std::size_t>(object)].surface),
-      X_OW_(scene.objects[static_cast<std::size_t>(object)].X_WO.inverse()),
-      margin_(margin),
-      shift_(shift),
-      hint_(hint) {
+    : Inside(scene.objects[static_cast<std::size_t>(object)], margin, shift, hint) {
   if (hint_.object != object) hint_ = {object, -1};
 }
+
+Inside::Inside(const Object& object, double margin, const Vec<'W'>& shift, ObjectHint& hint)
+    : surface_(object.surface), X_OW_(object.X_WO.inverse()), margin_(margin), shift_(shift), hint_(hint) {}
 
 Nearest Inside::at(const Point<'O'>& p) noexcept {
   const Nearest found = surface_.nearest(p, hint_.feature);

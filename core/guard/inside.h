@@ -22,6 +22,7 @@ class Inside {
  public:
   // `shift`: of an object that has moved. `hint` as in surface.h; it is kept up to date.
   Inside(const Scene& scene, std::int32_t object, double margin, const Vec<'W'>& shift, ObjectHint& hint);
+  Inside(const Object& object, double margin, const Vec<'W'>& shift, ObjectHint& hint);
 
   // m; negative: p is outside.
   [[nodiscard]] double depth(const Point<'W'>& p) noexcept { return -at(local(p)).distance; }

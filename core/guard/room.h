@@ -18,8 +18,11 @@ struct Room {
   Point<'O'> thin_at;     // where it is thinnest,
   double thinnest = 0.0;  // and how thin, m
 };
-// Looks at `samples` places at most, evenly over the triangles of a mesh; 0: at each. A plane has room.
-[[nodiscard]] Room room_in(const Object& object, double margin, std::size_t samples);
+// A plane has room. `thin`: also look where the object is too thin, at each triangle.
+[[nodiscard]] Room room_in(const Object& object, double margin, bool thin);
+// Whether it is thick enough under a place of its surface.
+[[nodiscard]] bool room_under(const Object& object, double margin, const Point<'W'>& on,
+                              const Vec<'W'>& normal);
 
 // A part of prepare(): throws Error (key: that of the object's shape) where an object has no room for the tip
 // and its inset, so that nothing could be touched.

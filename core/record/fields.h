@@ -143,6 +143,7 @@ void fields(F& f, Contact& c) {
   f("loaded", c.loaded);
   f("contact_began", c.began);
   f("contact_left", c.left);
+  f("contact_clear", c.clear);
   f("response_deflection", c.response.deflection);
   f("response_alpha", c.response.alpha);
   fields(f, "response_stop", c.response.stop);
@@ -227,6 +228,7 @@ void fields(F& f, State& s) {
   fields(f, "expected_velocity_R", s.following.velocity);
   f("fastest_command", s.following.fastest);
   f("off_course", s.following.off);
+  f("lost", s.following.lost);
   fields(f, "last_query_W", s.last_query);
   fields(f, "last_point_W", s.last_point);
   fields(f, "nearest_hint", s.hints.tool[0]);

@@ -21,10 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 using Json = nlohmann::json;
 
 using test::bytes_of;
@@ -130,6 +132,32 @@ TEST(Bench, FiguresFollowFromSeedAndOverridesAlone) {
   EXPECT_NE(figures({"--seed", "2"}), first);
   EXPECT_NE(figures({"--set", "truth.tracker.bias_mm=[0,0,0.3]"}), first);
   EXPECT_THAT(bytes_of(folder.path() / "out/report.html"), HasSubstr("truth.tracker.bias_mm=[0,0,0.3]"));
+}
+
+// A busy machine is no reason for a figure to be out of bounds: what took how long is bounded as a ratio
+// alone.
+TEST(Bench, NoTimeOfTheMachineIsBounded) {
+  const test::TemporaryFolder folder;
+  const Result r = run_program(
+      {"bench", "speed", "switching", "gravity", "nearest", "--quick", "--out", folder.file("out")});
+  EXPECT_THAT(r.code, AnyOf(0, 1)) << r.err;
+  const Json json = Json::parse(bytes_of(folder.path() / "out/results.json"));
+  int times = 0;
+  for (const Json& benchmark : json["benchmarks"])
+    for (const Json& figure : benchmark["figures"]) {
+      if (figure["unit"] != "us" && figure["unit"] != "ns") continue;
+      ++times;
+      EXPECT_TRUE(figure["low"].is_null() && figure["high"].is_null()) << figure["id"];
+    }
+  EXPECT_GT(times, 5);
+}
+
+// The last line names what fell short: the rest may have scrolled away.
+TEST(Bench, WhatFellShortIsNamedAtTheEnd) {
+  const Result r = run_program({"bench", "press", "--repeats=1", "--set", "truth.hexapod.servo_hz=1e-6"});
+  EXPECT_EQ(r.code, 1) << r.err;
+  const std::string last = r.out.substr(r.out.rfind('\n', r.out.size() - 2) + 1);
+  EXPECT_THAT(last, AllOf(StartsWith("out of bounds: "), HasSubstr("press.")));
 }
 
 // Stopped when the first benchmark is complete, in the middle of the second, which would take minutes.

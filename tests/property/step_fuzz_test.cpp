@@ -375,7 +375,7 @@ class Limits {
     velocity_ = velocity;
     return what;
   }
-  static bool anew(const Outputs& out) { return out.mode == Mode::hold || (out.why & kUnreachable) != 0; }
+  static bool anew(const Outputs& out) { return out.mode == Mode::hold; }
 
   bool known_ = false;
   Vec3 before_{0, 0, 0}, velocity_{0, 0, 0};

@@ -103,7 +103,11 @@ void run_wild(std::uint64_t seed, unsigned spoil_every, int ticks) {
     ASSERT_TRUE(loop.scene.reach.contains(loop.out.tip)) << "tick " << i << " z " << loop.tip().xyz[2];
     ASSERT_LE(loop.worst_speed, 1.0 + 1e-9) << "tick " << i;
     ASSERT_LE(loop.worst_acceleration, 1.0 + 1e-9) << "tick " << i;
+    ASSERT_LE(loop.worst_outside, 50e-6) << "tick " << i;
   }
+  EXPECT_GT(loop.worst_speed, 0.9);  // it did go to its limits
+  EXPECT_GT(loop.worst_acceleration, 0.9);
+  EXPECT_GT(loop.worst_outside, -1e-3);
   // Faults may keep a mode for long; without them all but those of the two programmes occur.
   for (int mode = 0; mode < kModes && spoil_every == 0; ++mode) {
     if (static_cast<Mode>(mode) == Mode::probe || static_cast<Mode>(mode) == Mode::travel) continue;
@@ -130,6 +134,8 @@ TEST(StepProperty, TheTipNeverLeavesTheObjectHoweverTheToolMoves) {
     ASSERT_LT(loop.worst_outside, 0.0) << "tick " << i;
     ASSERT_NE(loop.out.mode, Mode::hold) << why_text(loop.out.why);
   }
+  EXPECT_GT(loop.worst_outside, -0.5e-3);  // as near to the surface as it waits: the inset
+  EXPECT_GT(loop.worst_speed, 0.99);
 }
 
 TEST(StepProperty, TheSameInputsGiveTheSameState) {

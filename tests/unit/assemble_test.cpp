@@ -127,7 +127,7 @@ TEST_F(Assemble, AMachineIsAskedForAllThatTheRigPromises) {
               testing::HasSubstr("speed_mm_s"));
   EXPECT_THAT(refused([](Reach& r, HexapodGeometry&) { r.speed *= 0.5; }), testing::HasSubstr("speed_mm_s"));
   EXPECT_THAT(refused([](Reach& r, HexapodGeometry&) { r.acceleration = kUnset; }),
-              testing::HasSubstr("acceleration_mm_s2"));
+              testing::HasSubstr("acceleration_m_s2"));
   EXPECT_THAT(refused([](Reach&, HexapodGeometry& g) { g.stroke *= 0.9; }), testing::HasSubstr("stroke_mm"));
   EXPECT_THAT(refused([](Reach&, HexapodGeometry& g) { g.tilt_limit *= 0.5; }),
               testing::HasSubstr("tilt_limit_deg"));
@@ -159,6 +159,10 @@ TEST_F(Assemble, AnArmIsAskedToo) {
   EXPECT_THAT(refused([](ArmAbility& a) { a.machine.kind = ArmKind::chain; }),
               testing::HasSubstr("another one than the rig file says"));
   EXPECT_THAT(refused([](ArmAbility& a) { a.machine.phantom.l1 += 0.01; }), testing::HasSubstr("l1"));
+  EXPECT_THAT(refused([](ArmAbility& a) { a.machine.phantom.coupled_high = 0.01; }),
+              testing::HasSubstr("coupled_high_deg"));
+  EXPECT_THAT(refused([](ArmAbility& a) { a.machine.phantom.m_a = 5.0; }),
+              testing::HasSubstr("a mass in kg"));
   EXPECT_THAT(refused([](ArmAbility& a) { a.machine.drives[1].high -= 0.5; }),
               testing::HasSubstr("rig.arm.machine.joint_high"));
   EXPECT_THAT(refused([](ArmAbility& a) { a.machine.drives[2].low += 0.1; }),

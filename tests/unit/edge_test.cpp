@@ -235,6 +235,9 @@ TEST(Room, WhatIsThinnerThanTheTipIsRefusedWithItsPlace) {
   const std::string needle = refusal(test::mesh_scene(test::box(0.004, 0.004, 0.06), -0.022));
   EXPECT_THAT(needle, HasSubstr("it is 4.0 mm"));
   EXPECT_EQ(refusal(test::mesh_scene(test::box(0.06, 0.06, 0.012), 0.002)), "");
+  for (const double side : {0.0115, 0.012, 0.016, 0.0165})  // however coarse the mesh
+    EXPECT_EQ(refusal(test::mesh_scene(test::box(side, side, side), 0.0)), "") << side;
+  EXPECT_THAT(refusal(test::mesh_scene(test::box(0.0105, 0.03, 0.03), 0.0)), HasSubstr("it is 10.5 mm"));
   SceneSpec ball = test::ball_scene();
   ball.objects[0].radius = 0.005;
   EXPECT_THAT(refusal(ball), HasSubstr("thinner than the haptic-tip"));
@@ -253,14 +256,14 @@ TEST(Room, APartThatIsTooThinIsFound) {
                                 {-0.03, -0.03}},
                                0.06);
   const Scene scene = prepare(test::mesh_scene(fin, 0.0), RigSpec{});
-  const Room room = room_in(scene.objects[0], room_margin(scene), 0);
+  const Room room = room_in(scene.objects[0], room_margin(scene), true);
   EXPECT_GE(room.deepest, room_margin(scene));
   EXPECT_GT(room.thin, 0.05);
   EXPECT_LT(room.thin, 0.5);
   EXPECT_NEAR(room.thinnest, 0.004, 1e-6);
   EXPECT_GT(room.thin_at.xyz[2], 0.0);
   const Scene cube = prepare(test::mesh_scene(test::box(0.06, 0.06, 0.06), kHigh), RigSpec{});
-  EXPECT_EQ(room_in(cube.objects[0], room_margin(cube), 0).thin, 0.0);  // an edge is not thin
+  EXPECT_EQ(room_in(cube.objects[0], room_margin(cube), true).thin, 0.0);  // an edge is not thin
 }
 
 }  // namespace

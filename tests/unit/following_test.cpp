@@ -2,6 +2,8 @@
 // not.
 #include "core/guard/following.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "models/scene_file.h"
@@ -75,7 +77,7 @@ TEST(Following, AMachineAtAnotherScaleIsFoundOut) {
   EXPECT_FALSE(follows_still);
 }
 
-TEST(Following, AMachineThatStandsIsHeldAndOneThatGoesOnIsReleased) {
+TEST(Following, AMachineThatStandsIsHeldUntilTheToolHasGone) {
   Loop loop(prepare(test::plane_scene(), test::exact_rig()));
   loop.tool_tip = Point<'W'>(0.02, 0, 0.03);
   Stamped<TipSample> stands;
@@ -84,14 +86,43 @@ TEST(Following, AMachineThatStandsIsHeldAndOneThatGoesOnIsReleased) {
     stands.t = in.tip.t;
     in.tip = stands;
   };
-  loop.tick(1000);
+  double farthest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    loop.tick();
+    farthest = std::max(farthest, loop.tip().xyz[0]);
+  }
   EXPECT_EQ(loop.out.mode, Mode::hold);
   EXPECT_NE(loop.out.why & kNotFollowing, 0U) << why_text(loop.out.why);
-  EXPECT_LT(loop.tip().xyz[0], 0.006);
+  EXPECT_LT(farthest, 0.008);
+  EXPECT_LT(loop.tip().e().norm(),
+            1e-4);  // the command has come back to it: nothing leaps when it is free again
+  EXPECT_LE(loop.worst_speed, 1.0 + 1e-9);
+  EXPECT_LE(loop.worst_acceleration, 1.0 + 1e-9);
   loop.spoil = {};
+  loop.tick(1000);
+  EXPECT_EQ(loop.out.mode, Mode::hold);
+  loop.tool_tip = Point<'W'>(0.02, 0, 0.15);
+  loop.tick(10);
+  EXPECT_EQ(loop.out.mode, Mode::away) << why_text(loop.out.why);
+  loop.tool_tip = Point<'W'>(0.02, 0, 0.03);
   loop.tick(1000);
   EXPECT_EQ(loop.out.mode, Mode::follow);
   EXPECT_NEAR(loop.tip().xyz[0], 0.02, 1e-6);
+}
+
+// No belief of the rig switches it off.
+TEST(Following, ARigThatBelievesInASlowMachineFindsOutAllTheSame) {
+  for (const double hz : {1e-6, 0.01, 1.0}) {
+    const ServoModel believed{2.0 * M_PI * hz, 0.8, 0.004};
+    Following state;
+    bool found = false;
+    for (int i = 0; i < 3000 && !found; ++i) {
+      const double v = i < 1000 ? 0.05 : 0.0;
+      found = !follows(believed, Point<'R'>(5e-5 * std::min(i, 1000), 0, 0), Vec<'R'>(v, 0, 0),
+                       Point<'R'>(0, 0, 0), 1e-3, state);
+    }
+    EXPECT_TRUE(found) << hz;
+  }
 }
 
 // What is withheld cannot be followed.
@@ -125,6 +156,17 @@ TEST(Following, ATwinWithADeadServoEndsInHold) {
 }
 
 // An arm that stays at home, whatever it is told; the finger is at another place of the wall.
+TEST(Following, AnArmThatIsStuckIsFoundOutUnderATouchToo) {
+  const std::vector<std::string> exact{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
+  trial::FingerLoop loop(
+      trial::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", exact)));
+  loop.in.withheld = false;
+  for (int i = 0; i < 200; ++i) loop.tick(Point<'W'>(0.060, 0.0, 0.058));
+  for (int i = 0; i < 1000; ++i) loop.tick(Point<'W'>(0.060, 0.0, 0.005));  // 3 mm deep, 60 mm from the tip
+  EXPECT_EQ(loop.out.mode, Mode::hold);
+  EXPECT_NE(loop.out.why & kNotFollowing, 0U) << why_text(loop.out.why);
+}
+
 TEST(Following, AnArmThatIsStuckIsHeldUntilTheFingerHasGone) {
   const std::vector<std::string> exact{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
   trial::FingerLoop loop(

@@ -65,6 +65,28 @@ TEST(ModeEnds, AContactInWhichNoForceWasFelt) {
   EXPECT_EQ(loop.out.mode, Mode::follow);
 }
 
+// A zero that drifts during a press, and a tool that then waits 8.5 mm away: what is felt of it is no touch.
+TEST(ModeEnds, AContactOfAToolThatIsSeenToBeClear) {
+  for (const double drift : {0.06, 0.1, 0.2, 1.0}) {
+    Loop loop(prepare(test::plane_scene(), test::exact_rig()));
+    loop.tool_tip = at_gap(0.02);
+    loop.tick(1500);
+    loop.tool_tip = at_gap(-0.002);
+    loop.force = Vec<'W'>(0, 0, -5.0);
+    loop.tick(1000);
+    ASSERT_EQ(loop.out.mode, Mode::contact);
+    loop.force_zero = Vec<'F'>(0, 0, -drift);
+    loop.force = Vec<'W'>::zero();
+    loop.tool_tip = at_gap(0.0085);
+    loop.tick(1500);
+    EXPECT_EQ(loop.out.mode, Mode::follow) << drift;
+    EXPECT_NEAR(loop.state.force_zero.xyz[2], -drift, 0.02) << drift;  // and it is learnt anew
+    const std::int32_t contacts = loop.out.contacts;
+    loop.tick(5000);
+    EXPECT_EQ(loop.out.contacts, contacts) << drift;
+  }
+}
+
 // A tip that never gets to where it was, and never stands still: noise of a machine, or a surface that is in
 // the way.
 TEST(ModeEnds, RestoringATipThatNeverStands) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/scenes.h"
 #include "trial/finger_loop.h"
 #include "trial/trial.h"
 
@@ -82,6 +83,63 @@ TEST(Reaching, TheTargetGoesToTheProjectionWithinItsLimits) {
   }
   EXPECT_NEAR(before.x(), 0.030, 1e-5);
   EXPECT_NEAR(before.z(), 0.0, 1e-9);
+}
+
+// A block with a groove in place of the wall, and a finger that goes through the groove: from the right wall
+// the nearest point leaps to the left one, 12 mm away and more.
+trial::FingerLoop over_a_groove() {
+  models::Setup setup =
+      models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "",
+                   {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.measurement_noise_mm=0.01",
+                    "rig.tracker.usual_age_ms=20"});
+  ObjectSpec& object = setup.scene.objects[0];
+  object.shape = ShapeKind::mesh;
+  object.surface = std::make_shared<const Mesh>(test::prism({{0.0, -0.06},
+                                                             {0.06, -0.06},
+                                                             {0.06, 0.0},
+                                                             {0.025, 0.0},
+                                                             {0.0, -0.035},
+                                                             {-0.025, 0.0},
+                                                             {-0.06, 0.0},
+                                                             {-0.06, -0.06}},
+                                                            0.12));
+  return trial::FingerLoop(trial::prepare_setup(setup));
+}
+
+TEST(Reaching, ATargetThatLeapsKeepsItsLimitsAndWaitsInside) {
+  trial::FingerLoop loop = over_a_groove();
+  const ArmRig& rig = loop.scene.impedance->rig;
+  const double dt = loop.scene.dt;
+  Vec3 before = Vec3::Zero(), speed = Vec3::Zero();
+  double outside = -1.0, widest = 0.0;
+  bool caught_up = false, waited = false;
+  for (int i = 0; i < 6000; ++i) {
+    // Down along the right wall until the target is there, then at 50 to 300 mm/s to and fro across the
+    // groove.
+    const double t = 1e-3 * i;
+    const double x = i < 1500 ? 0.008 : 0.008 * std::cos(2.0 * M_PI * (t - 1.5) * (1.0 + (t - 1.5)));
+    loop.tick(Point<'W'>(x, 0.0, 0.004));
+    const Reaching& now = loop.state.reaching;
+    const Vec3 velocity = (now.target.e() - before) / dt;
+    before = now.target.e();
+    if (i == 0) speed = now.velocity.e();
+    if (i == 0) continue;
+    ASSERT_LE(now.velocity.norm(), rig.speed * (1 + 1e-9)) << i;
+    ASSERT_LE(velocity.norm(), rig.speed * (1 + 1e-9)) << i;
+    ASSERT_LE((velocity - speed).norm() / dt, rig.acceleration * (1 + 1e-6)) << i;
+    speed = velocity;
+    caught_up = caught_up || now.caught_up;
+    widest = std::max(widest, std::abs(x));
+    if (loop.state.entered) {
+      const double out =
+          loop.scene.objects[0].surface.nearest(loop.scene.objects[0].X_WO.inverse() * now.target).distance;
+      outside = std::max(outside, out);
+      waited = waited || (!now.caught_up && now.velocity.norm() < 1e-3);
+    }
+  }
+  EXPECT_TRUE(caught_up);
+  EXPECT_TRUE(waited);         // the straight way is not free
+  EXPECT_LT(outside, 0.6e-3);  // and is not taken
 }
 
 TEST(Reaching, AWallIsASpringOfLambdaKp) {
