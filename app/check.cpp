@@ -12,7 +12,7 @@
 namespace enc::app {
 namespace {
 
-// Where an object has no room for the tip under its surface, the tip waits beside.
+// Where an object has no room for the tip under its surface, the tip waits as near as it has room.
 std::string thin_text(const std::string& name, const Scene& scene, const Object& object) {
   const double margin = room_margin(scene);
   const Room room = room_in(object, margin, true);
@@ -20,7 +20,8 @@ std::string thin_text(const std::string& name, const Scene& scene, const Object&
   const Point<'W'> at = object.X_WO * room.thin_at;
   return fmt::format(
       "  object '{}': {:.2g} % of its surface lies over what is thinner than the haptic-tip and its inset, "
-      "{:.1f} mm; thinnest, {:.2f} mm, at ({:.1f}, {:.1f}, {:.1f}) mm; there the tip waits beside\n",
+      "{:.1f} mm; thinnest, {:.2f} mm, at ({:.1f}, {:.1f}, {:.1f}) mm; there the tip waits as near as it has "
+      "room\n",
       name, room.thin * 100.0, 2e3 * margin, room.thinnest * 1e3, at.xyz[0] * 1e3, at.xyz[1] * 1e3,
       at.xyz[2] * 1e3);
 }

@@ -190,11 +190,15 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
 
 namespace {
 
-// A machine that did not follow may go on at any time: the hold lasts until the tool has gone, and where
-// nobody sees one, to the end.
+// A machine that did not follow may go on at any time: the hold lasts until the tool has gone and the command
+// is back where the machine is; where nobody sees a tool, to the end.
 void hold_lost(Walk& walk, State& state) {
   if (!state.following.lost) return;
-  if (walk.scene.has_tracker && walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.follow.pause) {
+  constexpr double kBack = 1e-3;                                                            // m
+  const bool back = (walk.X_WH.origin() - walk.scene.X_WR * state.command).norm() < kBack;  // false for NaN
+  const bool gone =
+      walk.scene.has_tracker && walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.follow.pause;
+  if (gone && back) {
     state.following = Following{};
     state.mode = Mode::away;
   } else {

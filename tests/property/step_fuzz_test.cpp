@@ -160,13 +160,16 @@ Drawn draw(std::uint64_t seed, Random& random) {
 // Ticks for which a mode has gone on without its cause (mode.h), by what the core itself believes.
 class Modes {
  public:
+  std::int64_t judged = 0;  // ticks on which a hold would have been one too many
   std::string judge(const Scene& scene, const State& state, const Outputs& out, bool well) {
     const bool tool_known = std::isfinite(out.gap);
     const double dt = scene.dt;
     well_ = well ? well_ + dt : 0.0;
+    judged += well_ > 1.5 ? 1 : 0;
     // After all has been well for so long, nothing is held: but an arm that is stuck, while the finger is
     // there, and a tip that is outside and on its way back.
-    if (out.mode == Mode::hold && well_ > 1.5 && !state.reaching.stuck && (out.why & kOutsideObject) == 0)
+    if (out.mode == Mode::hold && well_ > 1.5 && !state.reaching.stuck && !state.following.lost &&
+        (out.why & kOutsideObject) == 0)
       return "hold goes on: " + why_text(out.why);
     if ((out.mode == Mode::hold) != ((out.why & kHoldReasons) != 0))
       return "hold without a reason, or a reason without";
@@ -206,7 +209,7 @@ class Modes {
 
 struct Tally {
   std::array<std::int64_t, kModes> ticks{};
-  std::int64_t inside = 0;
+  std::int64_t inside = 0, well = 0, not_following = 0;
 };
 
 // A hand, its tool, the devices: what they would say of a machine that follows as the rig believes, or at
@@ -220,9 +223,12 @@ class World {
     if (scene.impedance) {
       joints_ = scene.impedance->arm.zero();
       at_ = sent_ = scene.impedance->arm.tip(joints_).e();
-      in.withheld =
-          !lags_;  // half of the arms stay at home, and need not follow; the others are where they shall be
+      // Half of the arms are where they shall be; the others stay at home, and half of these need not follow.
+      stuck_ = !lags_ && random.once_in(2);
+      in.withheld = !lags_ && !stuck_;
     }
+    honest_ = random.once_in(3);  // the devices say what is so, the hand alone touches the tip
+    jams_ = !scene.impedance && random.once_in(4);
     SpoilOne count{random, -1};
     fields(count, in);
     numbers_ = count.seen;
@@ -237,17 +243,24 @@ class World {
       seen_ = !random_.once_in(4);
       drift_ = random_.once_in(3) ? Vec3(0, 0, random_.in(-0.05, 0.05)) : Vec3(0, 0, 0);
     }
+    if (honest_) spoil_every_ = 0;
+    if (zero_.norm() > 0.1) drift_ = -0.5 * zero_;
+    if (random_.once_in(1500)) gone_until_ = k_.index + 50 + static_cast<std::int64_t>(random_.of(450));
+    if (jams_ && random_.once_in(3000))
+      jammed_until_ = k_.index + 200 + static_cast<std::int64_t>(random_.of(1800));
+    const bool seen = seen_ && k_.index >= gone_until_;
     move_hand();
     machine();
-    bool well = seen_ && spoil_every_ == 0 && zero_.norm() < 0.02;
+    bool well = seen && spoil_every_ == 0 && zero_.norm() < 0.05;
+    clean_ = seen && spoil_every_ == 0 ? clean_ + scene_.dt : 0.0;
     in.missed = 0;
     say_machine();
-    if (scene_.has_tracker && seen_ && k_.index % 8 == 0) say_tool();
+    if (scene_.has_tracker && seen && k_.index % 8 == 0) say_tool();
     if (scene_.has_display && k_.index % 16 == 0) in.dent = {DentSample{}, k_.t, Health::ok};
     if (spoil_every_ != 0 && random_.engine() % spoil_every_ == 0) {
       SpoilOne one{random_, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
       fields(one, in);
-      in.withheld = scene_.impedance && !lags_;
+      in.withheld = scene_.impedance && !lags_ && !stuck_;
       well = false;
     }
     return well;
@@ -259,6 +272,32 @@ class World {
     ++k_.index;
     k_.t += k_.dt;
   }
+  // What the core believes against what is so; and a machine that does not follow.
+  std::string judge(const State& state, const Outputs& out) {
+    if (scene_.has_tracker && clean_ > 0.4 && std::isfinite(out.gap)) {
+      const double wrong = (out.view.tip.e() - hand_).norm();
+      // A finger that vision sees with 0.5 mm of noise is believed less well than a tool.
+      if (wrong > (scene_.impedance ? 4e-3 + 0.2 * fastest_ : 1.5e-3 + 0.08 * fastest_))
+        return fmt::format("the tool is {:.2f} mm from where it is believed", 1e3 * wrong);
+    }
+    if (honest_ && scene_.has_force && scene_.has_tracker)
+      for (int i = 0; i < 3; ++i)
+        if (state.force_zero.e()[i] < zero_low_[i] - 0.05 || state.force_zero.e()[i] > zero_high_[i] + 0.05)
+          return fmt::format("a zero of {:.3f} N is believed, which was {:.3f} to {:.3f} N",
+                             state.force_zero.e()[i], zero_low_[i], zero_high_[i]);
+    const bool held = out.mode == Mode::hold;
+    if (scene_.impedance) {
+      const bool off =
+          stuck_ && state.reaching.target.finite() && state.reaching.velocity.norm() < 1e-3 &&
+          (state.reaching.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 6.5e-3 &&
+          (hand_ - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 0.05;
+      off_ = off && !held && out.arm_force.finite() ? off_ + scene_.dt : 0.0;
+      return off_ > 0.8 ? "an arm that is stuck goes unnoticed" : "";
+    }
+    const double most = 1e-3 + 2.0 * scene_.servo.lag() * scene_.reach.speed;
+    off_ = (sent_ - at_).norm() > most && !held ? off_ + scene_.dt : 0.0;
+    return off_ > 0.1 ? "a machine that is jammed goes unnoticed" : "";
+  }
   [[nodiscard]] const Tick& tick() const { return k_; }
   Inputs in;
 
@@ -267,18 +306,31 @@ class World {
   void move_hand() {
     if (random_.once_in(pace_ < 0.5 ? 1500 : 300)) {
       aim_ = Vec3(random_.in(-0.07, 0.07), random_.in(-0.07, 0.07), random_.in(-0.03, 0.05));
-      speed_ = random_.once_in(4) ? 1.0 : random_.in(0.005, 0.2);
+      // A hand that is faster has pressed before it is seen to be near.
+      speed_ = honest_ ? random_.in(0.005, 0.1) : random_.once_in(4) ? 1.0 : random_.in(0.005, 0.2);
       if (random_.once_in(8)) aim_.z() += 0.15;
     }
-    if (random_.once_in(5000)) hand_ = aim_;
+    if (!honest_ && random_.once_in(5000)) {
+      hand_ = aim_;
+      clean_ = 0.0;
+    }
     const Vec3 way = aim_ - hand_;
     const double far = way.norm();
-    if (far > 1e-9) hand_ += way * std::min(1.0, speed_ * scene_.dt / far);
+    const double share = far > 1e-9 ? std::min(1.0, speed_ * scene_.dt / far) : 0.0;
+    hand_ += share * way;
+    fastest_ = std::max(share * far / scene_.dt, fastest_ - 1.0 * scene_.dt);
     zero_ += drift_ * scene_.dt;
-    if (random_.once_in(4000)) junk_ = random_.once_in(2) ? Vec3(0, 0, 0) : Vec3(random_.vec(6.0));
+    zero_low_ = zero_low_.cwiseMin(zero_);
+    zero_high_ = zero_high_.cwiseMax(zero_);
+    if (!honest_ && random_.once_in(4000))
+      junk_ = random_.once_in(2) ? Vec3(0, 0, 0) : Vec3(random_.vec(6.0));
   }
   void machine() {
     if (scene_.impedance) return;
+    if (k_.index < jammed_until_) {
+      velocity_ = Vec3::Zero();
+      return;
+    }
     if (!lags_) {
       velocity_ = (sent_ - at_) / scene_.dt;
       at_ = sent_;
@@ -324,9 +376,11 @@ class World {
   Vec3 hand_{0, 0, 0.04}, aim_{0, 0, 0.04}, junk_{0, 0, 0}, zero_{0, 0, 0}, drift_{0, 0, 0};
   Vec3 at_, sent_, velocity_{0, 0, 0};
   PerJoint joints_{};
-  double speed_ = 0.05;
+  Vec3 zero_low_{0, 0, 0}, zero_high_{0, 0, 0};
+  double speed_ = 0.05, fastest_ = 0.0, clean_ = 0.0, off_ = 0.0;
   unsigned spoil_every_ = 0;
-  bool seen_ = true;
+  std::int64_t gone_until_ = 0, jammed_until_ = 0;
+  bool seen_ = true, honest_ = false, jams_ = false, stuck_ = false;
 };
 
 // Commands of a position-controlled machine; targets of an arm.
@@ -396,13 +450,16 @@ std::string fuzz(std::uint64_t seed, double length, Tally& tally) {
     step(scene, world.tick(), world.in, state, out);
     ++tally.ticks[static_cast<std::size_t>(out.mode)];
     tally.inside += state.entered ? 1 : 0;
+    tally.not_following += (out.why & kNotFollowing) != 0 ? 1 : 0;
     std::string bad = limits.judge(scene, state, out);
     if (bad.empty()) bad = modes.judge(scene, state, out, well);
+    if (bad.empty()) bad = world.judge(state, out);
     if (!bad.empty())
       return fmt::format("seed {} ({}), tick {}, {} ({}): {}", seed, drawn.what, i, mode_name(out.mode),
                          why_text(out.why), bad);
     world.told(out, state);
   }
+  tally.well += modes.judged;
   return {};
 }
 
@@ -431,10 +488,22 @@ TEST_P(StepFuzz, StaysWithinLimitsInsideAndWithinItsModes) {
   std::string seen;
   for (int i = 0; i < kModes; ++i)
     seen += fmt::format(" {} {}", mode_name(static_cast<Mode>(i)), tally.ticks[static_cast<std::size_t>(i)]);
-  fmt::print("fuzz: seeds {}..{} (each {}th), {} s each, {} bad; ticks:{}; inside {}; {:.1f} s\n",
-             first + shard, first + scenes - 1, kShards, length, bad, seen, tally.inside,
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  fmt::print(
+      "fuzz: seeds {}..{} (each {}th), {} s each, {} bad; ticks:{}; inside {}, well {}, not following {}; "
+      "{:.1f} s\n",
+      first + shard, first + scenes - 1, kShards, length, bad, seen, tally.inside, tally.well,
+      tally.not_following, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   EXPECT_GT(tally.inside, 0);
+  EXPECT_GT(tally.well, 0);
+  const auto ticks = [&](Mode mode) { return tally.ticks[static_cast<std::size_t>(mode)]; };
+  for (const Mode mode : {Mode::away, Mode::follow, Mode::contact, Mode::hold})
+    EXPECT_GT(ticks(mode), 100) << mode_name(mode);
+  if ((first + shard) % 4 != 3) {  // that one is the arms'
+    EXPECT_GT(ticks(Mode::restore), 100);
+  }
+  if (scenes > 100) {
+    EXPECT_GT(tally.not_following, 100);
+  }
 }
 INSTANTIATE_TEST_SUITE_P(Shard, StepFuzz, testing::Range(0, 4));
 
