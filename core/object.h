@@ -21,7 +21,8 @@ struct Object {
   double wanted =
       kUnset;  // what object, behaviour and response ask for; more only where the machine is too weak
   Tangential tangential = Tangential::stick;
-  double tangential_stiffness = kUnset;               // N/m
+  double tangential_stiffness = kUnset;  // N/m
+  Pose<'O', 'W'> X_OW = X_WO.inverse();
   Point<'W'> centre = X_WO * surface.bound().centre;  // of a ball that holds the object
   double radius = surface.bound().radius;             // m; infinite for a half space
   ContactLimits limits{};                             // of contacts that have their own

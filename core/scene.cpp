@@ -111,7 +111,7 @@ PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
     throw Error("the push is deeper than the deflection limit of object '" + spec.objects[index].name +
                     "'; lower it, or raise that limit",
                 "pusher.depth");
-  const Nearest near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0));
+  const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
   ResponseState rest;
   const double depth = object.response.deflection(rest, pusher.force, std::min(pusher.depth, object.limit));
   return {{object.X_WO * near.point, object.X_WO * near.normal}, depth, object.response.press(depth)};
@@ -135,10 +135,9 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.probe && scene.probe->object == static_cast<std::int32_t>(i)) continue;  // make_probe() looks
     const Object& object = scene.objects[i];
-    const Nearest near = object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0.0));
+    const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.0));
     const Point<'O'> top_O =
-        near.distance < 0 ? near.point
-                          : object.surface.nearest(object.X_WO.inverse() * Point<'W'>(0, 0, 0.1)).point;
+        near.distance < 0 ? near.point : object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.1)).point;
     const Nearest top = object.surface.nearest(top_O);
     if (!carried_to(scene, {object.X_WO * near.point, object.X_WO * near.normal}, 0.0) &&
         !carried_to(scene, {object.X_WO * top.point, object.X_WO * top.normal}, 0.0))
@@ -269,8 +268,6 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   if (spec.arm) return prepare_arm(spec, rig);
   Scene scene;
   scene.reach = reach_of(rig);
-  scene.servo = {2.0 * std::numbers::pi * rig.manipulator.servo, rig.manipulator.servo_damping,
-                 rig.manipulator.delay};
   scene.X_WR = Pose<'W', 'H'>::identity() * scene.reach.machine.zero().inverse();
   scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
   scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);
@@ -284,6 +281,8 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   scene.loop = rig.loop;
   scene.tip_radius = spec.probe ? spec.probe->radius : rig.manipulator.tip_radius;
   scene.dt = 1.0 / rig.loop.rate;
+  scene.servo = {2.0 * std::numbers::pi * rig.manipulator.servo, rig.manipulator.servo_damping,
+                 rig.manipulator.delay, scene.dt};
   scene.filter_gain = 1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter * scene.dt);
   if (rig.admittance.damping == Damping::observed)
     scene.damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,

@@ -53,10 +53,9 @@ struct Reaching {
   double sunk = 0.0;       // m: how far the target is behind the surface, in a button
   bool caught_up = false;  // the target is where the finger's projection is
   bool triggered = false;
-  double blind = 0.0;    // s since the machine last said where it is
-  double fastest = 0.0;  // m/s, of the target, for as long as the tip may lag behind it
-  double off = 0.0;      // s for which nothing but the arm itself can have kept the tip from the target
-  bool stuck = false;    // and it was for too long: until the finger has gone
+  double blind = 0.0;  // s since the machine last said where it is
+  Straying straying;   // from the target, where nothing but the arm itself can be why
+  bool stuck = false;  // and it was for too long: until the finger has gone
 };
 
 // How far an object that moves has got, and what its finger does (moving.h).

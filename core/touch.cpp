@@ -9,15 +9,14 @@
 namespace enc::stages {
 
 NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept {
-  const Nearest found = object.surface.nearest(object.X_WO.inverse() * p);
+  const Nearest found = object.surface.nearest(object.X_OW * p);
   return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
 }
 
 NearestInWorld nearest(const Scene& scene, std::int32_t index, const Point<'W'>& p,
                        ObjectHint& hint) noexcept {
   const Object& object = scene.objects[static_cast<std::size_t>(index)];
-  const Nearest found =
-      object.surface.nearest(object.X_WO.inverse() * p, hint.object == index ? hint.feature : -1);
+  const Nearest found = object.surface.nearest(object.X_OW * p, hint.object == index ? hint.feature : -1);
   hint = {index, found.feature};
   return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
 }
@@ -127,7 +126,7 @@ NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHin
   Query over = query;
   if (is_button(query, index)) {
     const Vec<'W'> shift = shift_of(object, query.moved);
-    const Point<'O'> p = object.X_WO.inverse() * (query.p - shift);
+    const Point<'O'> p = object.X_OW * (query.p - shift);
     over.p = object.X_WO * object.surface.over_face(p, query.scene.contact.leave_gap) + shift;
   }
   return nearest(over, index, hint);

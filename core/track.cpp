@@ -125,7 +125,7 @@ void track_tip(Walk& walk, State& state) {
   // What is withheld needs no following, and is forgotten.
   if (walk.in.withheld)
     state.following = Following{};
-  else if (!follows(walk.scene.servo, state.command, state.command_velocity, tip.X_RH.origin(), walk.scene.dt,
+  else if (!follows(walk.scene.servo, state.command, state.command_velocity, tip.X_RH.origin(),
                     state.following))
     state.following.lost = true;
 }

@@ -107,7 +107,7 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const Point<'W'> home(0, 0, 0);
-    const Nearest near = object.surface.nearest(object.X_WO.inverse() * home);
+    const Nearest near = object.surface.nearest(object.X_OW * home);
     if (gets_to(scene, object.met_in_its_middle() ? object.X_WO.origin() : object.X_WO * near.point))
       continue;
     throw Error("the arm does not get to object '" + spec.objects[i].name +

@@ -120,20 +120,18 @@ void move_target(Walk& walk, State& state, const Goal& goal, const Object* objec
 // near does the distance tell. Believed: an even motion lags by K_v / K_p.
 void check_following(Walk& walk, State& state) {
   constexpr double kFriction = 5e-3;  // m: what friction and a wrong weight may hold it off
-  constexpr double kLags = 2.0;       // it may be so much slower than the rig says
   constexpr double kSlowest = 0.2;    // s: no belief makes the arm slower than this
   constexpr double kBeside = 0.030;   // m: from the finger to the prop's middle
   constexpr double kPatience = 0.25;  // s
   Reaching& now = state.reaching;
   if (walk.in.withheld) {
-    now.off = now.fastest = 0.0;
+    now.straying = Straying{};
     return;
   }
   const ArmRig& rig = walk.scene.impedance->rig;
   const double lag = std::min(rig.damping / rig.stiffness, kSlowest);
   const double dt = walk.scene.dt;
-  now.fastest = std::max(now.velocity.norm(), now.fastest * std::max(0.0, 1.0 - dt / lag));
-  double near = kFriction + kLags * lag * now.fastest;
+  double near = kFriction + now.straying.excused(now.velocity.norm(), lag, dt);
   if (rig.gravity == GravityForm::none) {
     const Impedance& law = *walk.scene.impedance;
     const PerJoint weight = law.arm.gravity(walk.in.arm.value.joints, law.prop_mass, Payload::exact);
@@ -141,8 +139,7 @@ void check_following(Walk& walk, State& state) {
   }
   const bool free = !walk.tool_known || (walk.tool_tip - walk.X_WH.origin()).norm() > kBeside;
   const bool off = free && (now.target - walk.X_WH.origin()).norm() > near;
-  now.off = off ? now.off + dt : 0.0;
-  if (now.off < kPatience) return;
+  if (!now.straying.too_long(off, kPatience, dt)) return;
   now.stuck = true;
   walk.why |= kNotFollowing;
 }

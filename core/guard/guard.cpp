@@ -137,12 +137,6 @@ Walls walls_around(const Walk& walk, State& state) {
   return walls;
 }
 
-// A velocity with its size reduced by `less`, not below zero.
-Vec3 slowed(const Vec3& velocity, double less) {
-  const double size = velocity.norm();
-  return size > less ? Vec3(velocity * (1.0 - less / size)) : Vec3(Vec3::Zero());
-}
-
 // Speed towards something at a distance, such that the machine can still stop there.
 double approach_speed(double distance, double acceleration, double dt) {
   return std::min(0.5 * distance / dt, braking_speed(distance, acceleration, dt));
@@ -213,7 +207,7 @@ void check_tip(Walk& walk, State& state) noexcept {
   if (walk.scene.probe) return;  // a real surface is not ours to keep inside of
   if (!walk.X_WH.valid() || state.object < 0) return;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
-  const Point<'O'> centre = object.X_WO.inverse() * walk.X_WH.origin();
+  const Point<'O'> centre = object.X_OW * walk.X_WH.origin();
   ObjectHint& hint = state.hints.tip;
   walk.at_tip = object.surface.nearest(centre, hint.object == state.object ? hint.feature : -1);
   hint = {state.object, walk.at_tip.feature};
@@ -293,7 +287,7 @@ void limit_command(Walk& walk, State& state) noexcept {
   Vec3 after = q_RH * commanded(walk, state, q_WR * before);
   // Where the machine would come to rest if it braked from the next tick on: that must be within reach, and
   // the way there, too.
-  const Vec3 way = dt * after + after * (after.norm() / (2.0 * acceleration));
+  const Vec3 way = braking_way(after, acceleration, dt);
   const Reach& reach = walk.scene.reach;
   const Pose<'R', 'H'> from(q_RH, state.command);
   const bool safe = reach.contains(Pose<'R', 'H'>(q_RH, state.command + Vec<'R'>(way))) &&

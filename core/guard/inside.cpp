@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/mesh/mesh_tree.h"
+#include "core/guard/braking.h"
 #include "core/scene.h"
 
 namespace enc::stages {
@@ -93,10 +93,10 @@ Inside::Inside(const Scene& scene, std::int32_t object, double margin, const Vec
 }
 
 Inside::Inside(const Object& object, double margin, const Vec<'W'>& shift, ObjectHint& hint)
-    : surface_(object.surface), X_OW_(object.X_WO.inverse()), margin_(margin), shift_(shift), hint_(hint) {}
+    : object_(object), margin_(margin), shift_(shift), hint_(hint) {}
 
 Nearest Inside::at(const Point<'O'>& p) noexcept {
-  const Nearest found = surface_.nearest(p, hint_.feature);
+  const Nearest found = object_.surface.nearest(p, hint_.feature);
   hint_.feature = found.feature;
   return found;
 }
@@ -113,7 +113,7 @@ Point<'W'> Inside::nearest_to(const Point<'W'>& wanted) noexcept {
     const Nearest near = at(p);
     if (!std::isfinite(near.distance)) return wanted;
     const double depth = -near.distance;
-    if (depth >= margin_ - kClose) return i == 0 ? wanted : X_OW_.inverse() * p + shift_;
+    if (depth >= margin_ - kClose) return i == 0 ? wanted : object_.X_WO * p + shift_;
     if (depth > best) {
       best = depth;
       best_p = p;
@@ -130,20 +130,20 @@ Point<'W'> Inside::nearest_to(const Point<'W'>& wanted) noexcept {
     }
     p = Point<'O'>(to);
   }
-  return X_OW_.inverse() * best_p + shift_;
+  return object_.X_WO * best_p + shift_;
 }
 
 // Whether it may go at v: where it would come to rest is deep enough, and so is the way there. `met`: what is
 // nearest to the place that is not.
 bool Inside::stops_inside(const Brake& brake, double depth, const Vec3& v, Nearest& met) noexcept {
-  const Vec3 way = brake.way(v);
+  const Vec3 way = braking_way(v, brake.acceleration, brake.dt);
   const double length = way.norm();
   const double least = stop_depth(depth);
   if (depth - length >= least) return true;  // no depth changes faster than the place
   met = at(local(Point<'W'>(Vec3(brake.at.e() + way))));
   if (!(-met.distance >= least)) return false;
-  if (0.5 * (depth - met.distance - length) >= least) return true;          // as above, from both ends
-  if (!std::holds_alternative<MeshSurface>(surface_.shape())) return true;  // the others are convex
+  if (0.5 * (depth - met.distance - length) >= least) return true;                 // as above, from both ends
+  if (!std::holds_alternative<MeshSurface>(object_.surface.shape())) return true;  // the others are convex
   // Along the way: where it is after this tick, for then it may think better of it; and on, in steps that no
   // side can come into. At a hollow edge what is deep enough ends in an arc of the tip's radius, of which a
   // step cuts off 9 um.
@@ -176,7 +176,7 @@ Vec3 Inside::velocity(const Brake& brake, double here, const Vec3& wanted) noexc
   const double least = stop_depth(here);
   Vec3 v = wanted;
   for (int i = 0; i < 3; ++i) {  // along the wall that is met, and along the next
-    const Vec3 normal = X_OW_.q().conjugate() * met.normal.e();
+    const Vec3 normal = object_.X_WO.q() * met.normal.e();
     const double lever = brake.dt + v.norm() / (2.0 * brake.acceleration);
     v -= (least + met.distance) / lever * normal;
     const Vec3 change = v - brake.velocity;
@@ -185,8 +185,7 @@ Vec3 Inside::velocity(const Brake& brake, double here, const Vec3& wanted) noexc
     if (stops_inside(brake, here, v, met)) return v;
   }
   // To brake was possible a tick ago, so it is now.
-  const double size = brake.velocity.norm();
-  const Vec3 braked = size > most ? Vec3(brake.velocity * (1.0 - most / size)) : Vec3(Vec3::Zero());
+  const Vec3 braked = slowed(brake.velocity, most);
   double good = 0.0;
   for (double bad = 1.0; bad - good > 0.1;) {
     const double share = 0.5 * (good + bad);

@@ -14,8 +14,6 @@ struct Brake {
   Vec3 velocity{0, 0, 0};                  // m/s
   double acceleration = 0.0, speed = 0.0;  // what it has, m/s^2 and m/s
   double dt = 0.0;                         // s
-  // Where it comes to rest if it goes at `v` for this tick and brakes from then on.
-  [[nodiscard]] Vec3 way(const Vec3& v) const { return dt * v + v * (v.norm() / (2.0 * acceleration)); }
 };
 
 class Inside {
@@ -39,13 +37,12 @@ class Inside {
   }
 
  private:
-  [[nodiscard]] Point<'O'> local(const Point<'W'>& p) const { return X_OW_ * (p - shift_); }
+  [[nodiscard]] Point<'O'> local(const Point<'W'>& p) const { return object_.X_OW * (p - shift_); }
   [[nodiscard]] Nearest at(const Point<'O'>& p) noexcept;
   [[nodiscard]] double stop_depth(double here) const;
   [[nodiscard]] bool stops_inside(const Brake& brake, double depth, const Vec3& v, Nearest& met) noexcept;
 
-  const Surface& surface_;
-  Pose<'O', 'W'> X_OW_;
+  const Object& object_;
   double margin_;
   Vec<'W'> shift_;
   ObjectHint& hint_;

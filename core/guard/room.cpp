@@ -31,7 +31,7 @@ bool place_of_depth(const Object& object, double depth, const Vec3& p, Point<'O'
   ObjectHint hint;
   stages::Inside inside(object, depth, Vec<'W'>::zero(), hint);
   const Point<'W'> found = inside.nearest_to(object.X_WO * Point<'O'>(p));
-  at = object.X_WO.inverse() * found;
+  at = object.X_OW * found;
   return inside.depth(found) >= depth - 1e-6;
 }
 
@@ -110,7 +110,7 @@ Room room_in(const Object& object, double margin, bool thin) {
 }
 
 bool room_under(const Object& object, double margin, const Point<'W'>& on, const Vec<'W'>& normal) {
-  const Nearest near = object.surface.nearest(object.X_WO.inverse() * (on - margin * normal));
+  const Nearest near = object.surface.nearest(object.X_OW * (on - margin * normal));
   return -near.distance >= margin - 1e-6 || dot(object.X_WO * near.normal, normal) >= -0.5;
 }
 

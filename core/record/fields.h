@@ -181,8 +181,8 @@ void fields(F& f, Reaching& r) {
   f("sunk", r.sunk);
   f("caught_up", r.caught_up);
   f("blind", r.blind);
-  f("target_fastest", r.fastest);
-  f("arm_off", r.off);
+  f("target_fastest", r.straying.fastest);
+  f("arm_off", r.straying.off);
   f("stuck", r.stuck);
   f("triggered", r.triggered);
 }
@@ -226,8 +226,8 @@ void fields(F& f, State& s) {
   fields(f, "command_velocity_R", s.command_velocity);
   fields(f, "expected_R", s.following.expected);
   fields(f, "expected_velocity_R", s.following.velocity);
-  f("fastest_command", s.following.fastest);
-  f("off_course", s.following.off);
+  f("fastest_command", s.following.straying.fastest);
+  f("off_course", s.following.straying.off);
   f("lost", s.following.lost);
   fields(f, "last_query_W", s.last_query);
   fields(f, "last_point_W", s.last_point);

@@ -14,6 +14,7 @@
 #include "models/shapes/hare.h"
 #include "models/shapes/shapes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/spoil.h"
 #include "trial/prepare.h"
 
 namespace enc {
@@ -29,41 +30,8 @@ struct Random {
   std::size_t of(std::size_t n) { return static_cast<std::size_t>(engine() % n); }
 };
 
-// Puts nonsense in one number of the inputs.
-struct SpoilOne {
-  Random& random;
-  int wanted, seen = 0;
-  template <class T>
-  void operator()(std::string_view name, T& x) {
-    if (name == "withheld" || seen++ != wanted) return;
-    if constexpr (std::is_same_v<T, double>) {
-      constexpr double kInf = std::numeric_limits<double>::infinity();
-      const std::array<double, 12> bad{kUnset, kInf, -kInf, 1e12,   -1e12,  1e308,
-                                       0.0,    1.0,  -1.0,  1e-300, 5e-324, x * (1.0 + random.in(-0.1, 0.1))};
-      x = bad[random.of(bad.size())];
-    } else if constexpr (std::is_same_v<T, Time>) {
-      x = Time(Duration(static_cast<std::int64_t>(random.engine() % 2'000'000'000'000) - 1'000'000'000'000));
-    } else if constexpr (std::is_same_v<T, Health>) {
-      x = static_cast<Health>(random.of(6));
-    } else {
-      x = static_cast<T>(static_cast<std::int64_t>(random.of(2001)) - 1000);
-    }
-  }
-};
-
 // ---- scenes ---------------------------------------------------------------------------------------------
 
-Mesh groove() {
-  return test::prism({{0.0, -0.03},
-                      {0.045, -0.03},
-                      {0.045, 0.03},
-                      {0.025, 0.03},
-                      {0.0, -0.005},
-                      {-0.025, 0.03},
-                      {-0.045, 0.03},
-                      {-0.045, -0.03}},
-                     0.06);
-}
 Mesh wedge(double half_angle) {
   const double half = 0.08 * std::tan(half_angle);
   return test::prism({{-half, -0.05}, {half, -0.05}, {0.0, 0.03}}, 0.06);
@@ -82,13 +50,7 @@ SceneSpec hexapod_scene(Random& random, std::string& what) {
   switch (random.of(8)) {
     case 0: {
       what = "two balls, display";
-      SceneSpec spec = test::ball_scene(behaviour);
-      spec.objects.push_back(spec.objects[0]);
-      spec.objects[0].position.x() = -0.034;
-      spec.objects[1].position.x() = 0.034;
-      spec.objects[1].name = "other";
-      spec.display.emplace();
-      return spec;
+      return test::two_balls(behaviour);
     }
     case 1:
       what = "plane";
@@ -111,7 +73,7 @@ SceneSpec hexapod_scene(Random& random, std::string& what) {
       return test::mesh_scene(wedge(random.in(0.25, 0.8)), -0.02, Vec3(0, 0, turn.z()), behaviour);
     case 6:
       what = "groove";
-      return test::mesh_scene(groove(), -0.01, Vec3(0, 0, turn.z()), behaviour);
+      return test::mesh_scene(test::groove(), -0.01, Vec3(0, 0, turn.z()), behaviour);
     default: {
       static const Mesh hare = models::hare_mesh();
       what = "hare";
@@ -229,7 +191,7 @@ class World {
     }
     honest_ = random.once_in(3);  // the devices say what is so, the hand alone touches the tip
     jams_ = !scene.impedance && random.once_in(4);
-    SpoilOne count{random, -1};
+    test::SpoilOne count{random.engine, -1};
     fields(count, in);
     numbers_ = count.seen;
     pace_ = random.in(0.0, 1.0);
@@ -258,7 +220,7 @@ class World {
     if (scene_.has_tracker && seen && k_.index % 8 == 0) say_tool();
     if (scene_.has_display && k_.index % 16 == 0) in.dent = {DentSample{}, k_.t, Health::ok};
     if (spoil_every_ != 0 && random_.engine() % spoil_every_ == 0) {
-      SpoilOne one{random_, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
+      test::SpoilOne one{random_.engine, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
       fields(one, in);
       in.withheld = scene_.impedance && !lags_ && !stuck_;
       well = false;
@@ -294,7 +256,7 @@ class World {
       off_ = off && !held && out.arm_force.finite() ? off_ + scene_.dt : 0.0;
       return off_ > 0.8 ? "an arm that is stuck goes unnoticed" : "";
     }
-    const double most = 1e-3 + 2.0 * scene_.servo.lag() * scene_.reach.speed;
+    const double most = 1e-3 + 2.0 * scene_.servo.lag * scene_.reach.speed;
     off_ = (sent_ - at_).norm() > most && !held ? off_ + scene_.dt : 0.0;
     return off_ > 0.1 ? "a machine that is jammed goes unnoticed" : "";
   }

@@ -13,6 +13,7 @@
 #include "core/dent/dent.h"
 #include "core/step.h"
 #include "tests/support/scenes.h"
+#include "tests/support/spoil.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define ENC_SANITIZED 1  // their runtime calls the system by itself
@@ -24,37 +25,6 @@ namespace enc {
 namespace {
 
 using test::Loop;
-
-struct SpoilOne {
-  std::mt19937_64& random;
-  int wanted;
-  int seen = 0;
-  template <class T>
-  void operator()(std::string_view, T& x) {
-    if (seen++ != wanted) return;
-    if constexpr (std::is_same_v<T, double>) {
-      constexpr double kInf = std::numeric_limits<double>::infinity();
-      const std::array<double, 9> bad{kUnset, kInf, -kInf, 1e12, -1e12, 0.0, 1.0, -1.0, 1e-300};
-      x = bad[random() % bad.size()];
-    } else if constexpr (std::is_same_v<T, Time>) {
-      x = Time(Duration(static_cast<std::int64_t>(random() % 2'000'000'000'000) - 1'000'000'000'000));
-    } else if constexpr (std::is_same_v<T, Health>) {
-      x = static_cast<Health>(random() % 6);
-    } else {
-      x = static_cast<T>(static_cast<std::int64_t>(random() % 2001) - 1000);
-    }
-  }
-};
-
-SceneSpec two_objects() {
-  SceneSpec spec = test::ball_scene(test::lossy_ball());
-  spec.objects.push_back(spec.objects[0]);
-  spec.objects[0].position.x() = -0.034;
-  spec.objects[1].position.x() = 0.034;
-  spec.objects[1].name = "other";
-  spec.display.emplace();
-  return spec;
-}
 
 // The tool wanders over the objects and leaps now and then; forces come and go; one input in `spoil_every` is
 // spoilt.
@@ -77,11 +47,11 @@ struct Wander {
 };
 
 void run_wild(std::uint64_t seed, unsigned spoil_every, int ticks) {
-  Loop loop(prepare(two_objects(), RigSpec{}));
+  Loop loop(prepare(test::two_balls(), RigSpec{}));
   Wander wander{
       std::mt19937_64(seed), {0, 0, 0.05}, {0, 0, 0.05}, std::uniform_real_distribution<double>(-1.0, 1.0)};
   Inputs probe;
-  SpoilOne count{wander.random, -1};
+  test::SpoilOne count{wander.random, -1};
   fields(count, probe);
   loop.spoil = [&](Inputs& in) {
     const auto index = static_cast<std::size_t>(wander.random() % 2);
@@ -91,7 +61,7 @@ void run_wild(std::uint64_t seed, unsigned spoil_every, int ticks) {
                          {object.X_WO.inverse() * loop.tool_tip, test::kToolRadius}),
                  loop.now() - Duration(15'000'000), Health::ok};
     if (spoil_every == 0 || wander.random() % spoil_every != 0) return;
-    SpoilOne one{wander.random, static_cast<int>(wander.random() % static_cast<unsigned>(count.seen))};
+    test::SpoilOne one{wander.random, static_cast<int>(wander.random() % static_cast<unsigned>(count.seen))};
     fields(one, in);
   };
   std::array<int, kModes> modes{};
@@ -141,7 +111,7 @@ TEST(StepProperty, TheTipNeverLeavesTheObjectHoweverTheToolMoves) {
 TEST(StepProperty, TheSameInputsGiveTheSameState) {
   std::array<std::uint64_t, 2> hashes{};
   for (std::uint64_t& value : hashes) {
-    Loop loop(prepare(two_objects(), RigSpec{}));
+    Loop loop(prepare(test::two_balls(), RigSpec{}));
     Wander wander{
         std::mt19937_64(9), {0, 0, 0.05}, {0, 0, 0.05}, std::uniform_real_distribution<double>(-1.0, 1.0)};
     StateHash hash;

@@ -86,6 +86,28 @@ Mesh box(double x, double y, double z) {
   return prism({{-a, -c}, {a, -c}, {a, c}, {-a, c}}, y);
 }
 
+Mesh groove() {
+  return prism({{0.0, -0.03},
+                {0.045, -0.03},
+                {0.045, 0.03},
+                {0.025, 0.03},
+                {0.0, -0.005},
+                {-0.025, 0.03},
+                {-0.045, 0.03},
+                {-0.045, -0.03}},
+               0.06);
+}
+
+SceneSpec two_balls(const BehaviourSpec& behaviour) {
+  SceneSpec spec = ball_scene(behaviour);
+  spec.objects.push_back(spec.objects[0]);
+  spec.objects[0].position.x() = -0.034;
+  spec.objects[1].position.x() = 0.034;
+  spec.objects[1].name = "other";
+  spec.display.emplace();
+  return spec;
+}
+
 SceneSpec rig_scene() {
   SceneSpec spec = ball_scene();
   spec.behaviours.clear();

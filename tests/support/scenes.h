@@ -28,6 +28,9 @@ namespace enc::test {
 // 10 mm radius, which first touches it at 52 - 33 - 10 = 9 mm.
 [[nodiscard]] SceneSpec rig_scene();
 
+// Two balls beside each other, and a display.
+[[nodiscard]] SceneSpec two_balls(const BehaviourSpec& behaviour = lossy_ball());
+
 // For a tracker that is exact and never late, and tools that leap: what it says is taken as it is.
 [[nodiscard]] inline RigSpec exact_rig() {
   RigSpec rig;
@@ -42,6 +45,8 @@ namespace enc::test {
 // `length`, m. `corners` are triangulated as a fan from the first, so each must be seen from there.
 [[nodiscard]] Mesh prism(const std::vector<std::array<double, 2>>& corners, double length);
 [[nodiscard]] Mesh box(double x, double y, double z);  // around its middle, m
+// A block with a groove, 50 mm wide at its top and 35 mm deep: across it the nearest wall changes.
+[[nodiscard]] Mesh groove();
 
 inline constexpr double kTop = 0.008;         // m, of ball and plane above W's origin
 inline constexpr double kBallRadius = 0.033;  // m

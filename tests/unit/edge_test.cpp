@@ -77,29 +77,16 @@ TEST(Edges, TheWholeTipStaysInsideOfAWedge) {
   }
 }
 
-// A block with a groove, 50 mm wide at its top and 35 mm deep: across it the nearest wall changes.
-Mesh groove() {
-  return test::prism({{0.0, -0.03},
-                      {0.045, -0.03},
-                      {0.045, 0.03},
-                      {0.025, 0.03},
-                      {0.0, -0.005},
-                      {-0.025, 0.03},
-                      {-0.045, 0.03},
-                      {-0.045, -0.03}},
-                     0.06);
-}
-
 TEST(Edges, TheWholeTipStaysInsideOfAGroove) {
   for (const double speed : {0.011, 0.2}) {
-    Loop loop = loop_of(test::mesh_scene(groove(), -0.01));
+    Loop loop = loop_of(test::mesh_scene(test::groove(), -0.01));
     glide(loop, speed, 20'000, 6, 0.03, -0.01, 0.04);
   }
 }
 
 // The straight way from wall to wall leads through the groove: the tip waits inside.
 TEST(Edges, WhereTheNearestPointLeapsAcrossAGrooveTheTipWaitsInside) {
-  Loop loop = loop_of(test::mesh_scene(groove(), -0.01));
+  Loop loop = loop_of(test::mesh_scene(test::groove(), -0.01));
   loop.tool_tip = Point<'W'>(0.004, 0, 0.012);
   loop.tick(1500);
   const double right = loop.tip().xyz[0];

@@ -3,6 +3,7 @@
 #include "core/guard/following.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -38,14 +39,14 @@ struct Servo {
 
 // s after which a machine is found not to follow an even motion of 50 mm/s over 10 mm; -1: it follows.
 double found_out(Servo servo) {
-  const ServoModel believed{2.0 * M_PI * 15.0, 0.8, 0.004};
+  const ServoModel believed{2.0 * M_PI * 15.0, 0.8, 0.004, 1e-3};
   Following state;
   double c = 0.0;
   for (int i = 0; i < 1000; ++i) {
     const double v = i < 200 ? 0.05 : 0.0;
     c += 1e-3 * v;
     const double x = servo.hz > 0.0 ? servo.tick(c) : 0.0;
-    if (!follows(believed, Point<'R'>(c, 0, 0), Vec<'R'>(v, 0, 0), Point<'R'>(x, 0, 0), 1e-3, state))
+    if (!follows(believed, Point<'R'>(c, 0, 0), Vec<'R'>(v, 0, 0), Point<'R'>(x, 0, 0), state))
       return 1e-3 * i;
   }
   return -1.0;
@@ -65,27 +66,32 @@ TEST(Following, AMachineThatStandsOrCrawlsIsFoundOut) {
 }
 
 TEST(Following, AMachineAtAnotherScaleIsFoundOut) {
-  const ServoModel believed{2.0 * M_PI * 15.0, 0.8, 0.004};
+  const ServoModel believed{2.0 * M_PI * 15.0, 0.8, 0.004, 1e-3};
   Following state;
   bool follows_still = true;
   for (int i = 0; i < 1000; ++i) {
     const double c = 1e-5 * std::min(i, 500);  // 5 mm at 10 mm/s
     follows_still = follows(believed, Point<'R'>(c, 0, 0), Vec<'R'>(i < 500 ? 0.01 : 0.0, 0, 0),
-                            Point<'R'>(0.5 * c, 0, 0), 1e-3, state);
+                            Point<'R'>(0.5 * c, 0, 0), state);
     if (!follows_still) break;
   }
   EXPECT_FALSE(follows_still);
 }
 
-TEST(Following, AMachineThatStandsIsHeldUntilTheToolHasGone) {
-  Loop loop(prepare(test::plane_scene(), test::exact_rig()));
-  loop.tool_tip = Point<'W'>(0.02, 0, 0.03);
-  Stamped<TipSample> stands;
-  loop.spoil = [&](Inputs& in) {
+// A machine that stays where it is first heard of, whatever it is told.
+std::function<void(Inputs&)> standing(bool withheld) {
+  return [withheld, stands = Stamped<TipSample>{}](Inputs& in) mutable {
     if (stands.health == Health::absent) stands = in.tip;
     stands.t = in.tip.t;
     in.tip = stands;
+    in.withheld = withheld;
   };
+}
+
+TEST(Following, AMachineThatStandsIsHeldUntilTheToolHasGone) {
+  Loop loop(prepare(test::plane_scene(), test::exact_rig()));
+  loop.tool_tip = Point<'W'>(0.02, 0, 0.03);
+  loop.spoil = standing(false);
   double farthest = 0.0;
   for (int i = 0; i < 1000; ++i) {
     loop.tick();
@@ -113,13 +119,13 @@ TEST(Following, AMachineThatStandsIsHeldUntilTheToolHasGone) {
 // No belief of the rig switches it off.
 TEST(Following, ARigThatBelievesInASlowMachineFindsOutAllTheSame) {
   for (const double hz : {1e-6, 0.01, 1.0}) {
-    const ServoModel believed{2.0 * M_PI * hz, 0.8, 0.004};
+    const ServoModel believed{2.0 * M_PI * hz, 0.8, 0.004, 1e-3};
     Following state;
     bool found = false;
     for (int i = 0; i < 3000 && !found; ++i) {
       const double v = i < 1000 ? 0.05 : 0.0;
       found = !follows(believed, Point<'R'>(5e-5 * std::min(i, 1000), 0, 0), Vec<'R'>(v, 0, 0),
-                       Point<'R'>(0, 0, 0), 1e-3, state);
+                       Point<'R'>(0, 0, 0), state);
     }
     EXPECT_TRUE(found) << hz;
   }
@@ -129,13 +135,7 @@ TEST(Following, ARigThatBelievesInASlowMachineFindsOutAllTheSame) {
 TEST(Following, ADryRunIsNotHeld) {
   Loop loop(prepare(test::plane_scene(), test::exact_rig()));
   loop.tool_tip = Point<'W'>(0.02, 0, 0.03);
-  Stamped<TipSample> stands;
-  loop.spoil = [&](Inputs& in) {
-    if (stands.health == Health::absent) stands = in.tip;
-    stands.t = in.tip.t;
-    in.tip = stands;
-    in.withheld = true;
-  };
+  loop.spoil = standing(true);
   loop.tick(1000);
   EXPECT_EQ(loop.out.mode, Mode::follow) << why_text(loop.out.why);
 }

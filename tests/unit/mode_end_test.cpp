@@ -12,6 +12,17 @@ using test::Loop;
 
 Point<'W'> at_gap(double gap) { return {0, 0, kTop + kToolRadius + gap}; }
 
+// A tool that was clear, and now presses with 5 N at this gap.
+Loop pressed(double gap) {
+  Loop loop(prepare(test::plane_scene(), test::exact_rig()));
+  loop.tool_tip = at_gap(0.02);
+  loop.tick(1500);
+  loop.tool_tip = at_gap(gap);
+  loop.force = Vec<'W'>(0, 0, -5.0);
+  loop.tick(1000);
+  return loop;
+}
+
 // A sensor whose zero drifts by 0.02 N during a press, on an object so soft that this is more than the leave
 // gap; behind the damper that such an object needs.
 TEST(ModeEnds, AContactBehindADamperWhoseZeroHasDrifted) {
@@ -68,12 +79,7 @@ TEST(ModeEnds, AContactInWhichNoForceWasFelt) {
 // A zero that drifts during a press, and a tool that then waits 8.5 mm away: what is felt of it is no touch.
 TEST(ModeEnds, AContactOfAToolThatIsSeenToBeClear) {
   for (const double drift : {0.06, 0.1, 0.2, 1.0}) {
-    Loop loop(prepare(test::plane_scene(), test::exact_rig()));
-    loop.tool_tip = at_gap(0.02);
-    loop.tick(1500);
-    loop.tool_tip = at_gap(-0.002);
-    loop.force = Vec<'W'>(0, 0, -5.0);
-    loop.tick(1000);
+    Loop loop = pressed(-0.002);
     ASSERT_EQ(loop.out.mode, Mode::contact);
     loop.force_zero = Vec<'F'>(0, 0, -drift);
     loop.force = Vec<'W'>::zero();
@@ -90,12 +96,7 @@ TEST(ModeEnds, AContactOfAToolThatIsSeenToBeClear) {
 // A tip that never gets to where it was, and never stands still: noise of a machine, or a surface that is in
 // the way.
 TEST(ModeEnds, RestoringATipThatNeverStands) {
-  Loop loop(prepare(test::plane_scene(), test::exact_rig()));
-  loop.tool_tip = at_gap(0.02);
-  loop.tick(1500);
-  loop.tool_tip = at_gap(-0.001);
-  loop.force = Vec<'W'>(0, 0, -5.0);
-  loop.tick(1000);
+  Loop loop = pressed(-0.001);
   ASSERT_EQ(loop.out.mode, Mode::contact);
   loop.force = Vec<'W'>::zero();
   loop.tool_tip = at_gap(0.02);
