@@ -1,16 +1,19 @@
 // The command line. Each subcommand is one function in a file of its own (options.h). Exit codes: 0 yes, 1
-// the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold; 129, 130 and 143 after a
-// clean end by SIGHUP, SIGINT and SIGTERM.
+// the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold or diverged; 129, 130 and 143
+// after a clean end by SIGHUP, SIGINT and SIGTERM.
 #include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <new>
 
 #include <CLI/CLI.hpp>
 #include <encounter_version.h>
 
 #include "app/options.h"
+#include "app/process.h"
 #include "core/error.h"
 #include "models/wording.h"
 
@@ -23,6 +26,15 @@ std::string bad_seed(const std::string& text) {
   const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (bad == std::errc() && end == text.data() + text.size()) return {};
   return "--seed: expected a whole number from 0 to 18446744073709551615";
+}
+
+// "" is what a script gives whose variable is not set.
+std::string unnamed(const std::string& text) {
+  return text.empty() ? "expected a name, and this one is empty" : std::string();
+}
+
+void force_option(CLI::App* command, bool& force) {
+  command->add_flag("--force", force, "replace files that are there");
 }
 
 void scene_options(CLI::App* command, SceneOptions& options) {
@@ -46,11 +58,13 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       ->capture_default_str();
   run_command->add_option("--for-s", run_options.seconds,
                           "length, s of experiment; default: until the user or the probe is done");
-  run_command->add_option("--record", run_options.record,
-                          "write inputs and outputs of every tick to this file");
+  run_command
+      ->add_option("--record", run_options.record, "write inputs and outputs of every tick to this file")
+      ->check(unnamed);
   run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
   run_command->add_flag("--armed", run_options.armed,
                         "send commands to real devices; without it they are only computed and recorded");
+  force_option(run_command, run_options.force);
   run_command->callback([&] { code = run(run_options); });
 
   SceneOptions check_options;
@@ -71,17 +85,20 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       app.add_subcommand("export", "a record as a table: tip, force, deflection of every tick (CSV)");
   export_command->add_option("record", export_options.record, "file written by run --record")->required();
   export_command->add_option("--csv", export_options.csv, "file to write; -: standard output")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(unnamed);
   export_command->add_flag("--partial", export_options.partial, "export what a cut-off record still holds");
+  force_option(export_command, export_options.force);
   export_command->callback([&] { code = export_record(export_options); });
 
   ViewOptions view_options;
   CLI::App* view_command = app.add_subcommand("view", "picture of a scene at a moment");
   scene_options(view_command, view_options);
-  view_command->add_option("--shot", view_options.shot, "PNG file to write");
+  view_command->add_option("--shot", view_options.shot, "PNG file to write")->check(unnamed);
   view_command->add_option("--at-s", view_options.at,
                            "moment, s of experiment; default: the first press at its deepest");
   view_command->add_flag("--close-up", view_options.close_up, "the contact instead of the whole machine");
+  force_option(view_command, view_options.force);
   view_command->callback([&] { code = view(view_options); });
 
   ParamsOptions params_options;
@@ -96,8 +113,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       app.add_subcommand("bench", "run benchmarks; exit 1 where a figure is out of bounds");
   bench_command->add_option("names", bench_options.names,
                             "benchmarks, groups, or figures such as press.restore; none: all benchmarks");
-  bench_command->add_option("--out", bench_options.out,
-                            "folder for report.html, REPORT.md, results.json, pictures and tables");
+  bench_command
+      ->add_option("--out", bench_options.out,
+                   "folder for report.html, REPORT.md, results.json, pictures and tables")
+      ->check(unnamed);
   bench_command->add_option("--seed", bench_options.seed, "first seed")
       ->capture_default_str()
       ->check(bad_seed);
@@ -108,6 +127,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   bench_command->add_flag("--full", bench_options.full,
                           "also what takes minutes: what each part does, error against run time");
   bench_command->add_flag("--list", bench_options.list, "only print the benchmarks and what they show");
+  force_option(bench_command, bench_options.force);
   bench_command->callback([&] { code = bench(bench_options); });
 
   FitOptions fit_options;
@@ -115,7 +135,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       "fit", "turn a measured loop (CSV) into a response file, or into the ball behind it");
   fit_command->add_option("loop", fit_options.loops, "CSV with time_s, deflection_mm, force_N, repeat")
       ->required();
-  fit_command->add_option("--out", fit_options.out, "response file to write, models/responses/NAME.toml");
+  fit_command->add_option("--out", fit_options.out, "response file to write, models/responses/NAME.toml")
+      ->check(unnamed);
   fit_command->add_option("--limit-mm", fit_options.limit_mm, "deflection up to which the response holds")
       ->capture_default_str();
   fit_command->add_option("--rig", fit_options.rig, "rig that will render it: sets how soft it may be")
@@ -128,6 +149,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   fit_command->add_option("--hold", fit_options.hold, "of the ball: NAME or NAME=VALUE that is known");
   fit_command->add_option("--free", fit_options.free, "of the ball: NAME to be found that is held otherwise");
   fit_command->add_flag("--json", fit_options.json, "of the ball: one JSON object instead of text");
+  force_option(fit_command, fit_options.force);
   fit_command->callback([&] { code = fit(fit_options); });
 
   CalibrateOptions calibrate_options;
@@ -144,7 +166,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   calibrate_command->add_option("--rate-Hz", calibrate_options.rate,
                                 "of a log: rows a second that it shall have; default: any");
   calibrate_command->add_flag("--json", calibrate_options.json, "one JSON object instead of text");
-  calibrate_command->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to");
+  calibrate_command->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to")
+      ->check(unnamed);
   calibrate_command->add_option("--pairs", calibrate_options.pairs, "of a rig: places of the tip")
       ->check(CLI::Range(4, 1000))
       ->capture_default_str();
@@ -155,6 +178,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       ->capture_default_str()
       ->check(bad_seed);
   calibrate_command->add_option("--set", calibrate_options.set, "of a rig: override, as for run");
+  force_option(calibrate_command, calibrate_options.force);
   calibrate_command->callback([&] { code = calibrate(calibrate_options); });
 
   NearestOptions nearest_options;
@@ -172,9 +196,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   MeshOptions mesh_options;
   CLI::App* mesh_command = app.add_subcommand("mesh", "write a mesh of our own (.glb, .obj or .stl)");
   mesh_command->add_option("name", mesh_options.name, "ball, cube, hare, knot or turned_part")->required();
-  mesh_command->add_option("--out", mesh_options.out, "file")->required();
+  mesh_command->add_option("--out", mesh_options.out, "file")->required()->check(unnamed);
   mesh_command->add_option("--fine", mesh_options.fine,
                            "3 to 400: how finely it is cut; a ball has 20 n^2 triangles");
+  force_option(mesh_command, mesh_options.force);
   mesh_command->callback([&] { code = mesh(mesh_options); });
 
   QuestionnaireOptions questionnaire_options;
@@ -183,17 +208,25 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   questionnaire_command
       ->add_option("form", questionnaire_options.form, "a name in models/questionnaires, or a file")
       ->capture_default_str();
-  questionnaire_command->add_option("--store", questionnaire_options.store,
-                                    "CSV file that the answers are added to; what is in it stays");
-  questionnaire_command->add_option("--answers", questionnaire_options.answers,
-                                    "CSV file with answers of many, in place of asking");
+  questionnaire_command
+      ->add_option("--store", questionnaire_options.store,
+                   "CSV file that the answers are added to; what is in it stays")
+      ->check(unnamed);
+  questionnaire_command
+      ->add_option("--answers", questionnaire_options.answers,
+                   "CSV file with answers of many, in place of asking")
+      ->check(unnamed);
   questionnaire_command->add_option("--participant", questionnaire_options.participant,
                                     "number or code; default: the next number");
-  questionnaire_command->add_option("--out", questionnaire_options.out, "folder for picture and tables");
-  questionnaire_command->add_option("--results", questionnaire_options.results,
-                                    "results.json of a bench run: shows its figures beside the items");
+  questionnaire_command->add_option("--out", questionnaire_options.out, "folder for picture and tables")
+      ->check(unnamed);
+  questionnaire_command
+      ->add_option("--results", questionnaire_options.results,
+                   "results.json of a bench run: shows its figures beside the items")
+      ->check(unnamed);
   questionnaire_command->add_flag("--date", questionnaire_options.date, "keep the date, too");
   questionnaire_command->add_flag("--json", questionnaire_options.json, "one JSON object instead of text");
+  force_option(questionnaire_command, questionnaire_options.force);
   questionnaire_command->callback([&] { code = questionnaire(questionnaire_options); });
 
   CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
@@ -209,6 +242,21 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   return code;
 }
 
+// After a signal whoever reads may be gone: stopped by the same Ctrl-C, or hung up.
+int whole(int code) {
+  if (code <= 128) check_output();
+  return code;
+}
+
+// Help and version are no errors, but are printed by them.
+int shown(const CLI::App& app, const CLI::ParseError& e) {
+  if (app.exit(e) != 0) return 2;
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0) return 0;
+  std::fprintf(stderr, "encounter: standard output: cannot be written\n");
+  return 2;
+}
+
 }  // namespace
 
 int command_line(int argc, char** argv) {
@@ -220,14 +268,18 @@ int command_line(int argc, char** argv) {
     return "encounter: " + std::string(e.what()) + "; see encounter --help\n";
   });
   try {
-    return dispatch(app, argc, argv);
+    return whole(dispatch(app, argc, argv));
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    return shown(app, e);
   } catch (const enc::Error& e) {
     std::fprintf(stderr, "encounter: %s\n", e.what());
     return static_cast<int>(e.kind());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "encounter: there is not enough memory for this; give it less to do\n");
+    return 2;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "encounter: %s\n", e.what());
+    const bool output = std::ferror(stdout) != 0;  // fmt throws what it cannot print
+    std::fprintf(stderr, "encounter: %s%s\n", output ? "standard output: " : "", e.what());
     return 2;
   }
 }

@@ -1,16 +1,14 @@
 // A record as a table, for programs that know nothing of Encounter (docs/rig.md). Row by row: a long record
 // is never in memory as a whole.
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
-#include <filesystem>
+#include <optional>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/options.h"
-#include "core/error.h"
+#include "app/process.h"
+#include "models/files.h"
 #include "trial/measure/record_table.h"
 #include "trial/prepare.h"
 
@@ -20,48 +18,46 @@ namespace {
 // The file, or standard output for "-".
 class Output {
  public:
-  explicit Output(const std::string& path)
-      : path_(path), file_(path == "-" ? stdout : std::fopen(path.c_str(), "wb")) {
-    if (file_ == nullptr) fail();
+  Output(const std::string& path, models::Existing existing) {
+    if (path != "-") file_.emplace(path, existing);
   }
-  ~Output() {
-    if (file_ != nullptr && file_ != stdout) std::fclose(file_);
-  }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-
   void write(std::string_view text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail();
+    buffer_ += text;
+    if (buffer_.size() > 1U << 16U) flush();
   }
-  void close() {
-    std::FILE* file = std::exchange(file_, nullptr);
-    if ((file == stdout ? std::fflush(file) : std::fclose(file)) != 0) fail();
+  void end() {
+    flush();
+    if (file_) file_->keep();
   }
 
  private:
-  [[noreturn]] void fail() const {
-    throw Error(fmt::format("{}: cannot be written: {}; choose a file in a folder that is yours and has room",
-                            path_ == "-" ? "standard output" : path_, std::strerror(errno)));
+  void flush() {
+    if (file_)
+      file_->write(buffer_);
+    else if (std::fwrite(buffer_.data(), 1, buffer_.size(), stdout) != buffer_.size())
+      fail_output();
+    buffer_.clear();
   }
-  std::string path_;
-  std::FILE* file_;
+  std::optional<models::OutFile> file_;
+  std::string buffer_;
 };
 
 }  // namespace
 
 int export_record(const ExportOptions& options) {
-  std::error_code none;
-  if (std::filesystem::equivalent(options.record, options.csv, none))
-    throw Error(options.csv + ": is the record itself; choose another file for the table");
+  models::note_input(options.record);
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = trial::prepare_setup(setup);
-  Output output(options.csv);
+  Output output(options.csv, models::existing(options.force));
   trial::RecordTable table(setup, scene);
   output.write(trial::RecordTable::header());
   for (RecordedTick frame; record.next(frame);) output.write(table.row(frame.tick, frame.in, frame.out));
-  output.close();
-  return 0;
+  output.end();
+  if (!record.damage().empty())
+    fmt::print(stderr, "encounter: {}: {}; only the {} ticks before it are in the table\n", options.record,
+               record.damage(), record.ticks());
+  return record.damage().empty() ? 0 : 1;
 }
 
 }  // namespace enc::app

@@ -39,7 +39,7 @@ int mesh(const MeshOptions& options) {
     if (options.fine && (fine < 3 || fine > kFinest))
       throw Error("--fine: expected a whole number from 3 to 400");
     const Mesh made = maker.make(fine);
-    models::write_mesh(made, options.out);
+    models::write_mesh(made, options.out, models::existing(options.force));
     fmt::print("{}: {} vertices, {} triangles\n", options.out, made.vertices.size(), made.triangles.size());
     return 0;
   }

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <fstream>
+#include <cmath>
 #include <iterator>
 #include <memory>
 
@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "core/error.h"
 #include "core/mesh/mesh_tree.h"
+#include "models/csv_reader.h"
 #include "models/mesh_check.h"
 #include "models/mesh_file.h"
 #include "models/wording.h"
@@ -24,7 +25,7 @@ struct Placed {
 };
 
 Placed object_of(const std::string& scene_path, const std::string& name) {
-  const models::Setup setup = models::load(scene_path, "sim");
+  const models::Setup setup = models::load(scene_path, "");
   print_notes(setup.notes);
   const Scene scene = trial::prepare_setup(setup);
   std::vector<std::string> names;
@@ -44,13 +45,12 @@ Placed placed(const std::string& what) {
   return {Surface(MeshSurface{std::make_shared<const MeshTree>(solid.mesh)})};
 }
 
+constexpr double kFarthest = 1e6;  // m: beyond, squares of double cannot tell a mesh from a point
+
 class PointsReader {
  public:
   explicit PointsReader(const std::string& path) : path_(path) {
-    std::ifstream file(path, std::ios::binary);
-    text_.assign(std::istreambuf_iterator<char>(file), {});
-    if (!file.is_open() || file.bad() || text_.empty())
-      fail(1, "cannot read any points; expected a CSV file with the header x_m,y_m,z_m; give its path");
+    text_ = models::csv_text(path, "list of points", "a CSV file with the header x_m,y_m,z_m");
     if (line() != "x_m,y_m,z_m")
       fail(1, fmt::format("the header is {}; expected x_m,y_m,z_m; write it in the first line",
                           models::quoted(line_)));
@@ -70,6 +70,9 @@ class PointsReader {
       if (!models::read_number(std::string_view(line_).substr(from, to - from), point[i]))
         fail(from + 1, fmt::format("{} is no number; expected x,y,z in metres; correct the line",
                                    models::quoted(line_.substr(from, to - from))));
+      if (std::abs(point[i]) > kFarthest)
+        fail(from + 1, fmt::format("{} m is farther than {:g} m; expected x,y,z in metres; correct the line",
+                                   line_.substr(from, to - from), kFarthest));
       from = std::min(to + 1, line_.size());
       if (i == 2 && to < line_.size())
         fail(to + 1, "more than three numbers; expected x,y,z; correct the line");

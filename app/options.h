@@ -25,11 +25,12 @@ struct RunOptions : SceneOptions {
   std::string record;
   bool json = false;
   bool armed = false;
+  bool force = false;  // replaces a file that is there; so below
 };
 struct ViewOptions : SceneOptions {
   std::string shot;
   std::optional<double> at;  // s; none: in the middle of the first hold
-  bool close_up = false;
+  bool close_up = false, force = false;
 };
 struct ReplayOptions {
   std::string record;
@@ -38,7 +39,7 @@ struct ReplayOptions {
 struct ExportOptions {
   std::string record;
   std::string csv = "-";  // file; "-": standard output
-  bool partial = false;
+  bool partial = false, force = false;
 };
 struct ParamsOptions : SceneOptions {
   bool json = false;
@@ -50,6 +51,7 @@ struct FitOptions {
   std::string rig = "sim";
   double limit_mm = 6.0;
   std::optional<double> ceiling;  // N/mm
+  bool force = false;
   // The ball behind the loops instead of a response.
   bool ball = false, json = false;
   std::vector<std::string> hold, free;  // "wall_mm=3.4", "wall_mm"
@@ -60,6 +62,7 @@ struct CalibrateOptions {
   bool json = false;
   // Of a rig: the guided procedure.
   std::string out;
+  bool force = false;
   std::size_t pairs = 8, frames = 20;
   std::uint64_t seed = 1;
   std::vector<std::string> set;
@@ -72,6 +75,7 @@ using trial::QuestionnaireOptions;
 struct MeshOptions {
   std::string name, out;
   std::optional<int> fine;
+  bool force = false;
 };
 
 // main(): the words of the command line to an exit code.

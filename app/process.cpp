@@ -1,12 +1,30 @@
 #include "app/process.h"
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <set>
 #include <string>
 
+#include "core/error.h"
+
 namespace enc::app {
+
+void fail_output() {
+  throw Error(std::string("standard output: cannot be written: ") +
+              (errno != 0 ? std::strerror(errno) : "a part is missing") +
+              "; is the disk full, or the reader gone?");
+}
+
+void check_output() {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) fail_output();
+}
 
 int thread_count() {
   int count = 0;

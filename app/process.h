@@ -1,11 +1,15 @@
 // What this process has mapped and started, as the kernel tells it: so that "left out" can be checked, not
-// only said.
+// only said. And whether what it has printed went anywhere.
 #pragma once
 
 #include <string>
 #include <vector>
 
 namespace enc::app {
+
+// Throws Error unless all that was printed has got where it should.
+void check_output();
+[[noreturn]] void fail_output();
 
 [[nodiscard]] int thread_count();
 [[nodiscard]] double peak_memory_mb();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "core/error.h"
 #include "trial/prepare.h"
 
 namespace enc::app {
@@ -11,14 +12,19 @@ int replay(const ReplayOptions& options) {
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = trial::prepare_setup(setup);
+  if (record.ticks() == 0)
+    throw Error(fmt::format("{}: holds no whole tick{}; there is nothing to run again; record it again",
+                            options.record, record.damage().empty() ? "" : " (" + record.damage() + ")"));
   const ReplayResult result = enc::replay(scene, record);
   if (result.first_difference >= 0) {
     fmt::print("differs from tick {} on: {}\n", result.first_difference, result.what);
     return 1;
   }
   fmt::print("{} ticks run again, equal to the bit; state hash {:016x}{}\n", result.ticks, result.hash,
-             record.sealed() ? "" : " (record not sealed: it was cut off)");
-  return 0;
+             record.sealed()           ? ""
+             : record.damage().empty() ? " (record not sealed: it was cut off)"
+                                       : "; damaged behind that, and not read: " + record.damage());
+  return record.damage().empty() ? 0 : 1;
 }
 
 }  // namespace enc::app

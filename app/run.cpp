@@ -15,6 +15,7 @@
 #include "app/run_report.h"
 #include "app/stop_signals.h"
 #include "core/error.h"
+#include "models/files.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/probe_measure.h"
 #include "trial/trial.h"
@@ -38,20 +39,35 @@ void show_progress(double share) {
   std::fflush(stderr);
 }
 
-std::unique_ptr<RecordWriter> record_for(const RunOptions& options, const models::Setup& setup) {
+// A record, beside its place until it is sealed.
+struct Recording {
+  models::OutFile file;
+  RecordWriter writer;
+
+  Recording(const RunOptions& options, const RecordTexts& texts)
+      : file(options.record, models::existing(options.force)), writer(file.aside(), texts) {
+    file.spare();  // what a run that does not end has recorded is readable
+  }
+  void end() {
+    writer.close();
+    if (!writer.full()) file.keep();
+  }
+};
+
+std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup) {
   if (options.record.empty()) return nullptr;
   RecordTexts texts = models::record_texts(setup);
   texts["scene"] = options.scene;
   texts["rig"] = setup.rig_path;
   texts["seed"] = std::to_string(options.seed);
   texts["version"] = ENCOUNTER_VERSION;
-  return std::make_unique<RecordWriter>(options.record, texts);
+  return std::make_unique<Recording>(options, texts);
 }
 
-// Whoever reads may be gone: stopped by the same Ctrl-C, or hung up.
-bool printed(const std::string& text) {
-  const std::size_t all = std::fwrite(text.data(), 1, text.size(), stdout);
-  return all == text.size() && std::fflush(stdout) == 0;
+int diverged(const trial::TrialResult& result, const models::Setup& setup) {
+  fmt::print(stderr, "encounter: the physics diverged at tick {}: {}; try a smaller {}.timestep_us\n",
+             result.diverged_at, result.divergence, setup.twin.stepping(setup.scene.arm.has_value()).table);
+  return 4;
 }
 
 }  // namespace
@@ -80,12 +96,11 @@ int run(const RunOptions& options) {
   if (terminal) trial_options.progress = show_progress;
   trial::Trial trial(
       setup, trial_options);  // everything that can be refused is refused here, before a record is begun
-  const std::unique_ptr<RecordWriter> record = record_for(options, setup);
+  const std::unique_ptr<Recording> record = record_for(options, setup);
   print_notes(setup.notes);  // of a scene that is not refused
-  trial.record_to(record.get());
+  trial.record_to(record ? &record->writer : nullptr);
   const double started = cpu_seconds();
   const trial::TrialResult result = trial.run();
-  if (record) record->close();
   if (terminal) fmt::print(stderr, "\r        \r");
 
   const RunReport report{setup,
@@ -96,14 +111,13 @@ int run(const RunOptions& options) {
                          fingers,
                          trial.has_world() ? trial.world().physics().elements() : 0,
                          started};
-  if (!printed(options.json ? run_json(report) : run_text(report)) && StopSignals::caught() == 0)
-    throw Error("standard output: the report could not be written; is the disk full, or the reader gone?");
-  if (record && record->full()) throw Error(record->error());
-  if (result.diverged_at >= 0)
-    throw Error(
-        fmt::format("the physics diverged at tick {}: {}; try a smaller {}.timestep_us", result.diverged_at,
-                    result.divergence, setup.twin.stepping(setup.scene.arm.has_value()).table),
-        {}, ErrorKind::device);
+  const std::string text = options.json ? run_json(report) : run_text(report);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);  // while a pipe without a reader is an error only
+  if (record) record->end();
+  if (record && record->writer.full())
+    throw Error(record->writer.error() + "; replay --partial reads what was written");
+  if (result.diverged_at >= 0) return diverged(result, setup);
   if (StopSignals::caught() != 0) return 128 + StopSignals::caught();
   return result.last_mode == Mode::hold ? 4 : 0;
 }

@@ -9,6 +9,7 @@
 #include "app/built.h"
 #include "app/modules.h"
 #include "core/error.h"
+#include "models/files.h"
 #include "models/scene_file.h"
 #include "sim/seen_surface.h"
 #include "sim/view/view.h"
@@ -58,16 +59,14 @@ trial::TrialOptions options_of(const ViewOptions& options, double rate, bool per
   return trial;
 }
 
-// Runs until its end, or until the person has held the first press for half of its time.
-void run_until(trial::Trial& trial, const Moment& m, bool waits_for_hold) {
+// Runs until its end, or until the person has held the first press for half of its time. False: it diverged.
+bool run_until(trial::Trial& trial, const Moment& m, bool waits_for_hold) {
   double held = 0.0;
   while (trial.tick()) {
-    if (m.world.diverged_at() >= 0)
-      throw Error(
-          fmt::format("the physics diverged at tick {}: {}", m.world.diverged_at(), m.world.divergence()), {},
-          ErrorKind::device);
-    if (waits_for_hold && deepest(m, held)) return;
+    if (m.world.diverged_at() >= 0) return false;
+    if (waits_for_hold && deepest(m, held)) break;
   }
+  return true;
 }
 
 // Crank and link of a PHANToM, which are no bodies of the simulated arm.
@@ -262,10 +261,15 @@ int picture(const ViewOptions& options, Look look) {
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
   const models::Setup setup = models::load(options.scene, options.rig, options.set);
   const bool person = setup.scene.user.has_value() && !setup.scene.tools.empty();
+  models::OutFile file(options.shot, models::existing(options.force));
   trial::Trial trial(setup, options_of(options, setup.rig.loop.rate, person));
   print_notes(setup.notes);
   const Moment moment{setup, trial.scene(), trial.world(), trial.state(), trial.outputs(), trial.now()};
-  run_until(trial, moment, person && !options.at);
+  if (!run_until(trial, moment, person && !options.at)) {
+    fmt::print(stderr, "encounter: the physics diverged at tick {}: {}\n", moment.world.diverged_at(),
+               moment.world.divergence());
+    return 4;
+  }
 
   dent_object(moment);
   shift_objects(moment);
@@ -273,7 +277,7 @@ int picture(const ViewOptions& options, Look look) {
   sim::ViewRequest request;
   request.model = trial.world().physics().model();
   request.data = trial.world().physics().data();
-  request.path = options.shot;
+  request.path = file.aside();
   request.camera = camera_for(moment, close_up);
   if (!close_up)
     request.title =
@@ -284,6 +288,7 @@ int picture(const ViewOptions& options, Look look) {
   add_arrows(moment, request, close_up ? 0.5 : 1.0);
   add_labels(moment, request, marker);
   module->shot(request);
+  file.keep();
   fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
              seconds(moment.now.t.time_since_epoch()));
   return 0;

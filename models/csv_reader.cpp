@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "models/files.h"
 #include "models/wording.h"
 
 namespace enc::models {
@@ -46,6 +44,8 @@ std::size_t CsvReader::find(std::string_view column, bool needed) const {
   const auto found = std::find_if(cells_.begin(), cells_.end(), is);
   if (found == cells_.end()) {
     if (!needed) return cells_.size();
+    if (cells_.size() == 1 && cells_[0].text.find(';') != std::string_view::npos)
+      fail_line("the cells are parted by ';'; expected commas, and points in the numbers; export it so");
     std::vector<std::string> names;
     names.reserve(cells_.size());
     for (const Cell& cell : cells_) names.emplace_back(cell.text);
@@ -113,12 +113,13 @@ void CsvReader::fail_at(std::size_t line, std::size_t place, const std::string& 
 }
 
 std::string csv_text(const std::string& path, const std::string& kind, const std::string& wanted) {
-  std::error_code none;
-  std::ifstream file(path, std::ios::binary);
-  const bool good = file.is_open() && !std::filesystem::is_directory(path, none);
-  std::string text = good ? std::string{std::istreambuf_iterator<char>(file), {}} : "";
-  if (!good || file.bad())
-    throw Error(fmt::format("{}:1:1: cannot read this {}; expected {}; check the name", path, kind, wanted));
+  constexpr std::size_t kLongest = 1U << 30U;         // bytes
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // that some programs put before UTF-8
+  std::string why, text = read_file(path, kLongest, why);
+  if (!why.empty())
+    throw Error(
+        fmt::format("{}:1:1: cannot read this {}: {}; expected {}; check the name", path, kind, why, wanted));
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
   return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/scene.h"
+#include "models/files.h"
 #include "models/least_squares.h"
 #include "models/schema.h"
 #include "models/toml_reader.h"
@@ -56,9 +57,11 @@ std::vector<Direction> read_directions(const std::string& text, const std::strin
 }
 
 std::vector<Direction> load_directions(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw Error(path + ":1:1: cannot read these directions; expected a TOML file; restore it");
+  constexpr std::size_t kLongest = 1U << 20U;  // bytes
+  std::string why;
+  const std::string text = read_file(path, kLongest, why);
+  if (!why.empty())
+    throw Error(path + ":1:1: cannot read these directions; expected a TOML file; restore it");
   return read_directions(text, path);
 }
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "models/files.h"
 #include "models/wording.h"
 
 namespace enc::models {
@@ -37,6 +38,7 @@ std::string bytes_of(const std::string& path) {
   if (failed) refuse(failed.message());
   if (size == 0) refuse("it is empty");
   if (size >= kMostBytes) refuse("it has 2 GiB or more");
+  note_input(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::string bytes(size, '\0');

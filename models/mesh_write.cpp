@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -100,12 +99,8 @@ std::string mesh_bytes(const Mesh& mesh, const std::string& ending) {
                           quoted(ending)));
 }
 
-void write_mesh(const Mesh& mesh, const std::string& path) {
-  const std::string bytes = mesh_bytes(mesh, std::filesystem::path(path).extension().string());
-  std::ofstream file(path, std::ios::binary);
-  file << bytes;
-  file.close();
-  if (!file) throw Error(path + ": cannot be written; choose a folder that exists and is yours");
+void write_mesh(const Mesh& mesh, const std::string& path, Existing existing) {
+  write_file(path, mesh_bytes(mesh, std::filesystem::path(path).extension().string()), existing);
 }
 
 }  // namespace enc::models

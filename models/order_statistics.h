@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -20,6 +21,14 @@ template <class T>
 template <class T>
 [[nodiscard]] double median(const std::vector<T>& values) {
   return percentile(values, 0.5);
+}
+
+// Sum of the distances from the median: a size that outliers do not rule.
+[[nodiscard]] inline double spread(const std::vector<double>& values) {
+  const double middle = median(values);
+  double sum = 0.0;
+  for (const double x : values) sum += std::abs(x - middle);
+  return sum;
 }
 
 }  // namespace enc::models

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "models/directions.h"
+#include "models/files.h"
 #include "models/scene_check.h"
 #include "models/schema_walk.h"
 #include "models/units.h"
@@ -29,25 +30,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Empty and `why` filled if it cannot be read.
-std::string read_file(const std::string& path, std::string& why) {
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) {
-    why = "it is a folder";
-    return {};
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) why = errno != 0 ? std::strerror(errno) : "it cannot be read";
-  return text;
-}
+constexpr std::size_t kLongest = 16U << 20U;  // bytes: more is no text of ours
 
 // `what`: "scene"; `names`: files that are there.
 std::string text_of_file(const std::string& path, const std::string& what,
                          const std::vector<std::string>& names) {
   std::string why;
-  std::string text = read_file(path, why);
+  std::string text = read_file(path, kLongest, why);
   if (why.empty()) return text;
   throw Error(fmt::format("{}:1:1: cannot read this {}: {}; expected a TOML file; {}", path, what, why,
                           advice(fs::path(path).stem().string(), names)));
@@ -66,7 +55,7 @@ std::vector<std::string> paths_to(const fs::path& folder, std::vector<std::strin
 
 void read_scene(Setup& setup) {
   std::string why;
-  const std::string text = read_file(setup.scene_path, why);
+  const std::string text = read_file(setup.scene_path, kLongest, why);
   if (!why.empty()) {
     const fs::path folder = fs::path(models_dir(setup.scene_path)) / "scenes";
     const std::vector<std::string> names = files_in(folder.parent_path().string(), "scenes");

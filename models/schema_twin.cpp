@@ -8,6 +8,8 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
+constexpr Range kRates{0.1, 1e5};  // of what comes again and again: a clock can count it
+
 constexpr std::array<std::string_view, 5> kIntegrators{"euler", "rk4", "implicit", "implicitfast",
                                                        "discrete"};  // of MuJoCo
 constexpr std::array<std::string_view, 2> kForms{"control", "structural"};
@@ -117,13 +119,13 @@ void describe(Visitor& v, sim::ForceTruth& f) {
 }
 
 void describe(Visitor& v, sim::TrackerTruth& t) {
-  v.value({"rate_hz", "exposures, free-running", "[VHMR 2]", published, kPositive}, &t.rate);
+  v.value({"rate_hz", "exposures, free-running", "[VHMR 2]", published, kRates}, &t.rate);
   v.value({"latency_ms", "from exposure to the server", "parameters 6.3", derived, kNotNegative}, &t.latency);
   choice(v,
          {"packets", "polled: newest pose at the server's rate; event: each pose when ready", "[VHMR 2]",
           published},
          kPackets, t.packets);
-  v.value({"server_rate_hz", "how often the server sends polled packets", "[VHMR 2]", published, kPositive},
+  v.value({"server_rate_hz", "how often the server sends polled packets", "[VHMR 2]", published, kRates},
           &t.server_rate);
   choice(v,
          {"clocks", "free: exposures and server ticks begin at any time; aligned: both begin with the loop",
@@ -163,7 +165,7 @@ void describe(Visitor& v, sim::CameraTruth& c) {
   v.value({"focal_px", "of both, 7.5 mm lenses at 640 x 480", "parameters 7", derived, kPositive}, &c.focal);
   v.value({"width_px", "of an image", "parameters 7", assumed, {1.0, 10000.0}}, &c.width);
   v.value({"height_px", "of an image", "parameters 7", assumed, {1.0, 10000.0}}, &c.height);
-  v.value({"rate_hz", "frames", "[VisHap 2.3.1]", published, kPositive}, &c.rate);
+  v.value({"rate_hz", "frames", "[VisHap 2.3.1]", published, kRates}, &c.rate);
   v.value({"matching_px", "rms of a frame, of the disparity", "parameters 7", assumed, kNotNegative},
           &c.matching);
   v.value({"pointing_px", "rms of a frame, of the place in the left image", "docs/registration.md", assumed,
@@ -178,7 +180,7 @@ void describe(Visitor& v, sim::CameraTruth& c) {
 }
 
 void describe(Visitor& v, sim::DisplayTruth& d) {
-  v.value({"rate_hz", "frames", "parameters 6.1", assumed, kPositive}, &d.rate);
+  v.value({"rate_hz", "frames", "parameters 6.1", assumed, kRates}, &d.rate);
   v.value({"latency_ms", "from a frame to its surface at the core", "parameters 6.1", assumed, kNotNegative},
           &d.latency);
 }

@@ -16,12 +16,12 @@ struct BenchOptions {
   std::string out;
   std::uint64_t seed = 1;
   std::int64_t repeats = 0;  // 0: the benchmark's own
-  bool quick = false, full = false, list = false;
+  bool quick = false, full = false, list = false, force = false;
 };
 struct QuestionnaireOptions {
   std::string form = "vhmr_2020";
   std::string store, answers, participant, out, results;
-  bool date = false, json = false;
+  bool date = false, json = false, force = false;
 };
 
 // A module of the program by its name; null where it was not built.

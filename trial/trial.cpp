@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/probe.h"
 #include "core/travel.h"
@@ -59,6 +61,12 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   }
   const double programme = world_ ? world_->programme_time() : programme_of(scene_);
   const double length = std::isnan(options_.seconds) ? programme : options_.seconds;
+  constexpr double kLongest = 1e6;  // s
+  if (!(length < kLongest))
+    throw Error(
+        fmt::format("{}:1:1: the scene lasts {:.3g} s; expected less than {:g} s; shorten or repeat "
+                    "less what it does, or give --for-s",
+                    setup_.scene_path, length, kLongest));
   last_tick_ = std::llround(length / scene_.dt);
   result_.step_ns.reserve(static_cast<std::size_t>(last_tick_) + 1);
 }

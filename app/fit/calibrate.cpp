@@ -165,6 +165,18 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
   return json.dump(2);
 }
 
+// A tool that goes its own way tells nothing about the tracker, whatever the numbers are.
+void check_carried(const LatencyFit& fit, const std::string& name) {
+  constexpr double kMost = 0.5;  // of the tool's motion
+  if (fit.in_range && !(fit.unexplained > kMost)) return;
+  throw Error(
+      fmt::format("{}:1:1: the tip explains {:.0f} % of the tool's motion{}; expected a tool that the "
+                  "machine carries; clamp "
+                  "the tool and move the machine, or see to the order of the rows",
+                  name, 100.0 * std::max(0.0, 1.0 - fit.unexplained),
+                  fit.in_range ? "" : ", with an age outside of -100 to 600 ms"));
+}
+
 }  // namespace
 
 int calibrate_command(const CalibrateOptions& options) {
@@ -179,6 +191,7 @@ int calibrate_command(const CalibrateOptions& options) {
   if (trial::is_point_set(csv)) return calibrate_points(csv, options);
   const TrackerLog log = models::parse_tracker_log(csv, options.log, options.rate.value_or(kUnset));
   const LatencyFit fit = models::fit_latency(log);
+  check_carried(fit, options.log);
   if (options.json) {
     fmt::print("{}\n", json_text(log, fit));
     return 0;

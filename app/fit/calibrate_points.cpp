@@ -3,7 +3,7 @@
 // places.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,6 +11,7 @@
 #include "app/fit/commands.h"
 #include "core/error.h"
 #include "core/rotation.h"
+#include "models/files.h"
 #include "models/scene_file.h"
 #include "trial/fit/point_study.h"
 #include "trial/guided/driven_arm.h"
@@ -163,14 +164,6 @@ Vec3 mean_error(const PointStudy& study, const Pose<'W', 'C'>& X_WC, const std::
   return mean;
 }
 
-void write_points(const PointSet& places, const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
-  file << trial::points_text(places);
-  if (!file.flush())
-    throw Error(fmt::format(
-        "{}:1:1: cannot write the points; expected a file in a folder that exists; see --out", path));
-}
-
 }  // namespace
 
 int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
@@ -183,6 +176,8 @@ int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
 int calibrate_rig(const CalibrateOptions& options) {
   const models::Setup setup = models::load_rig_setup(options.log, options.set);
   const trial::RegistrationRig rig = trial::registration_rig(setup);
+  std::optional<models::OutFile> file;  // refused before the arm moves
+  if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   trial::DrivenArm arm(setup);
   const trial::RegistrationPlaces places = trial::places_of(rig, options.pairs);
   const std::vector<trial::TipVisit> visits =
@@ -193,7 +188,10 @@ int calibrate_rig(const CalibrateOptions& options) {
         "{}: {} places of the arm were seen and {} are wanted; expected the camera to look at the "
         "arm; see truth.frames.W_C and truth.arm.misplaced_mm, or ask for fewer --pairs",
         models::place_of(setup, "truth.frames.W_C"), run.points.size(), options.pairs));
-  if (!options.out.empty()) write_points(run.points, options.out);
+  if (file) {
+    file->write(trial::points_text(run.points));
+    file->keep();
+  }
   const PointStudy study = trial::study_points(run.points, options.seed);
   const Vec3 error = mean_error(study, rig.X_WC, places.targets);
   const Vec3 apart = mean_error(study, arm.as_it_believes(rig.X_WC), places.targets);

@@ -1,6 +1,6 @@
 // `encounter fit LOOP.csv`: a measured loop becomes a response file, and what is known about it is said.
 #include <cmath>
-#include <fstream>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/scene.h"
 #include "models/csv_reader.h"
+#include "models/files.h"
 #include "models/fit/loop_fit.h"
 #include "models/response_file.h"
 #include "models/scene_file.h"
@@ -100,6 +101,8 @@ int fit_loop(const FitOptions& options) {
   const models::LoopData loop = models::parse_loop(
       models::csv_text(file_name, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
       file_name, how.limit);
+  std::optional<models::OutFile> file;  // refused before the work, not after it
+  if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   LoopFit fit;
   try {
     fit = models::fit_loop(loop, how);
@@ -108,11 +111,9 @@ int fit_loop(const FitOptions& options) {
         fmt::format("{}:1:1: {}; record the loop again, or give another --limit-mm", file_name, e.what()));
   }
   fmt::print("{}", report(fit));
-  if (options.out.empty()) return 0;
-  std::ofstream file(options.out, std::ios::binary);
-  file << models::response_text(fit.response, fit.source);
-  file.close();
-  if (!file) throw Error(options.out + ": cannot be written; choose a folder that exists and is yours");
+  if (!file) return 0;
+  file->write(models::response_text(fit.response, fit.source));
+  file->keep();
   return 0;
 }
 

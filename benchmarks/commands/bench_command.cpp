@@ -4,7 +4,10 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <future>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,6 +18,7 @@
 #include "benchmarks/report/choice.h"
 #include "benchmarks/report/report.h"
 #include "core/error.h"
+#include "models/files.h"
 #include "models/scene_file.h"
 
 namespace enc::bench {
@@ -99,11 +103,29 @@ class Teller {
   bool said_ = false;
 };
 
+// New, empty, or with what an earlier `bench` has put there: then it may be used again.
+void check_folder(const std::string& path, bool force) {
+  namespace fs = std::filesystem;
+  if (force || fs::is_empty(path)) return;
+  constexpr std::string_view kOurs = "{\n  \"encounter\"";
+  std::string start(kOurs.size(), ' ');
+  std::ifstream(fs::path(path) / "results.json")
+      .read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != kOurs)
+    throw Error(path +
+                ": holds other files; expected a new folder, an empty one or one of `encounter bench`; "
+                "choose one, or give --force to write over what has the same names");
+}
+
 // The work is done in a thread of its own, so that this one can tell, and can stop whatever the other does.
 class Session {
  public:
   Session(const trial::BenchOptions& options, const trial::ModuleFinder& modules)
       : options_(options), choices_(chosen(options.names)) {
+    if (!options.out.empty()) {
+      folder_.emplace(options.out);
+      check_folder(options.out, options.force);
+    }
     report_.command = command_of(options);
     report_.seed = options.seed;
     report_.set = options.set;
@@ -185,6 +207,7 @@ class Session {
 
   const trial::BenchOptions& options_;
   const std::vector<Choice> choices_;
+  std::optional<models::OutFolder> folder_;
   const Signals signals_;
   Report report_;
   BenchContext context_;
@@ -206,7 +229,8 @@ int list_benchmarks() {
 
 int bench_command(const trial::BenchOptions& options, const trial::ModuleFinder& modules) {
   if (options.list) return list_benchmarks();
-  if (options.repeats < 0) throw Error("--repeats: expected a positive number");
+  if (options.repeats < 0 || options.repeats > 1'000'000)
+    throw Error("--repeats: expected a whole number from 1 to 1000000");
   if (options.quick && options.full) throw Error("--quick and --full exclude each other; give one of them");
   return Session(options, modules).run();
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 
@@ -20,6 +19,7 @@
 #include "benchmarks/report/plot.h"
 #include "core/error.h"
 #include "models/csv_reader.h"
+#include "models/files.h"
 #include "models/scene_file.h"
 #include "models/wording.h"
 
@@ -54,7 +54,7 @@ void check_participant(const std::string& code) {
                     models::quoted(code)));
 }
 
-// A store of another form is refused before somebody has answered eleven questions.
+// What can be refused is refused before somebody has answered fourteen questions.
 Answers collect(const trial::QuestionnaireOptions& o, const questionnaire::Form& form) {
   if (!o.answers.empty()) {
     Answers given = read_answers(o.answers, form);
@@ -64,13 +64,14 @@ Answers collect(const trial::QuestionnaireOptions& o, const questionnaire::Form&
     throw Error(
         "nothing to ask for: expected --store FILE.csv (asks, and keeps the answers there) or --answers "
         "FILE.csv (reads them)");
-  std::error_code none;
-  if (fs::exists(o.store, none) && fs::file_size(o.store, none) > 0)
-    static_cast<void>(read_answers(o.store, form));
+  Answer draft;
+  draft.participant = o.participant;
+  if (o.date) draft.date = today();
+  questionnaire::check_store(o.store, form, draft);
   Answer answer =
       questionnaire::ask(form, std::cin, o.json ? std::cerr : std::cout, isatty(STDIN_FILENO) != 0);
-  answer.participant = o.participant;
-  if (o.date) answer.date = today();
+  answer.participant = draft.participant;
+  answer.date = draft.date;
   return questionnaire::append_answers(o.store, form, {std::move(answer)});
 }
 
@@ -170,20 +171,14 @@ std::string json_text(const questionnaire::Form& form, const std::vector<questio
   return json.dump(2);
 }
 
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(path.string() + ": cannot be written; choose a folder that is yours and has room");
-}
-
 void write_pictures(const std::string& folder, const questionnaire::Form& form,
-                    const std::vector<questionnaire::ItemReference>& items, const std::vector<Answer>& rows) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed)
-    throw Error(folder + ": cannot be made (" + failed.message() + "); choose a folder that is yours");
+                    const std::vector<questionnaire::ItemReference>& items, const std::vector<Answer>& rows,
+                    bool force) {
+  const models::OutFolder alone(folder);
   const fs::path at = folder;
+  const auto write = [&](const fs::path& path, const std::string& text) {
+    models::write_file(path.string(), text, models::existing(force));
+  };
   const Plot plot = questionnaire::opinion_plot(form, items, rows);
   for (const Table& t :
        {questionnaire::opinion_table(form, items, rows), questionnaire::experience_table(form, rows)})
@@ -206,7 +201,7 @@ int questionnaire_command(const trial::QuestionnaireOptions& options) {
   const std::map<std::string, std::string> verdicts = verdicts_of(options.results);
   const Answers answers = collect(options, form);
   const std::vector<Contradiction> found = doubts(form, models);
-  if (!options.out.empty()) write_pictures(options.out, form, items, answers.rows);
+  if (!options.out.empty()) write_pictures(options.out, form, items, answers.rows, options.force);
   if (options.json) {
     fmt::print("{}\n", json_text(form, items, answers.rows, found));
     return 0;

@@ -53,7 +53,7 @@ BenchResult run(const BenchContext& context) {
   BenchResult result{"mesh", "tennis_ball", 0, 0, {}};
   std::optional<TemporaryFile> file(std::in_place);
   const Mesh made = models::geodesic_ball(224);
-  models::write_mesh(made, file->path.string());
+  models::write_mesh(made, file->path.string(), models::Existing::replace);
   const double cpu_start = thread_seconds();
   const double start = wall_seconds();
   models::CheckedMesh solid = models::load_solid(file->path.string());

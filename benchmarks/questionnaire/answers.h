@@ -34,6 +34,9 @@ struct Answers {
 // date. Throws Error, and writes nothing, where the file is of another form or a participant is there twice.
 Answers append_answers(const std::string& path, const Form& form, std::vector<Answer> rows);
 
+// Throws Error where append_answers() would refuse such an answer or could not write it. Writes nothing.
+void check_store(const std::string& path, const Form& form, const Answer& draft);
+
 // 1 more than the largest number among the participants.
 [[nodiscard]] std::string next_participant(const Answers& answers);
 

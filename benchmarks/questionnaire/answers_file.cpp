@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 
 #include "benchmarks/questionnaire/answers.h"
 #include "core/error.h"
+#include "models/files.h"
 #include "models/wording.h"
 
 namespace enc::bench::questionnaire {
@@ -24,7 +26,10 @@ class LockedFile {
       : path_(std::move(path)), fd_(open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0644)) {
     if (fd_ < 0) fail();
     struct stat kind {};
-    if (fstat(fd_, &kind) == 0 && S_ISREG(kind.st_mode) && flock(fd_, LOCK_EX) == 0) return;
+    if (fstat(fd_, &kind) == 0 && S_ISREG(kind.st_mode) && flock(fd_, LOCK_EX) == 0) {
+      models::note_input(path_);  // no other output of this command goes over it
+      return;
+    }
     if (!S_ISREG(kind.st_mode)) errno = EINVAL;  // a device or a pipe keeps nothing
     const int why = errno;
     close(fd_);
@@ -91,14 +96,11 @@ bool in_file(const Answers& answers, const std::string& participant) {
                      [&](const Answer& a) { return a.participant == participant; });
 }
 
-}  // namespace
-
-Answers append_answers(const std::string& path, const Form& form, std::vector<Answer> rows) {
-  const LockedFile file(path);
-  const std::string before = file.text();
+// What the file holds with `rows`; `text` is what is to be put at its end.
+Answers joined(const std::string& before, const std::string& path, const Form& form,
+               std::vector<Answer>&& rows, std::string& text) {
   const bool dates = std::any_of(rows.begin(), rows.end(), [](const Answer& a) { return !a.date.empty(); });
   Answers all;
-  std::string text;
   if (before.empty()) {
     all.dated = dates;
     text = fmt::format("{}\n", fmt::join(answer_columns(form, dates), ","));
@@ -121,8 +123,40 @@ Answers append_answers(const std::string& path, const Form& form, std::vector<An
     text += line_of(a, all.dated);
     all.rows.push_back(std::move(a));
   }
-  file.append(text, before.size());
   return all;
+}
+
+}  // namespace
+
+Answers append_answers(const std::string& path, const Form& form, std::vector<Answer> rows) {
+  std::string text;
+  try {
+    const LockedFile file(path);
+    const std::string before = file.text();
+    Answers all = joined(before, path, form, std::vector<Answer>(rows), text);
+    file.append(text, before.size());
+    return all;
+  } catch (const Error& e) {
+    if (rows.size() != 1) throw;  // many are in a file of their own
+    std::string line = line_of(rows.front(), !rows.front().date.empty());
+    line.pop_back();
+    throw Error(fmt::format("{}; the answers were {}", e.what(), line));
+  }
+}
+
+void check_store(const std::string& path, const Form& form, const Answer& draft) {
+  struct stat there {};
+  if (stat(path.c_str(), &there) != 0) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (errno == ENOENT && access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) == 0) return;
+    throw Error(
+        fmt::format("{}: cannot be written: {}; expected a file in a folder that exists and is yours; "
+                    "choose another",
+                    path, std::strerror(errno)));
+  }
+  std::string text;
+  const LockedFile file(path);
+  static_cast<void>(joined(file.text(), path, form, {draft}, text));
 }
 
 }  // namespace enc::bench::questionnaire

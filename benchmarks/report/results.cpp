@@ -14,6 +14,7 @@
 #include "benchmarks/report/plot.h"
 #include "benchmarks/report/report.h"
 #include "core/error.h"
+#include "models/files.h"
 #include "sim/mujoco.h"
 
 namespace enc::bench {
@@ -78,14 +79,7 @@ Json judged_json(const Judged& j) {
 }
 
 void write_whole(const fs::path& path, const std::string& text) {
-  const fs::path aside = path.string() + ".part";
-  std::ofstream file(aside, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code failed;
-  if (file) fs::rename(aside, path, failed);
-  if (!file || failed)
-    throw Error(path.string() + ": cannot be written; choose a folder that is yours and has room");
+  models::write_file(path.string(), text, models::Existing::replace);
 }
 
 }  // namespace

@@ -264,14 +264,17 @@ void RecordReader::read_header() {
 bool RecordReader::read_chunk() {
   if (done_) return false;
   const std::uint64_t at = byte_;
-  const auto stop = [&](std::uint64_t byte, const std::string& what) {
+  const auto stop = [&](std::uint64_t byte, const std::string& what, bool cut = false) {
     if (partial_ == Partial::no) fail(byte, what);
+    if (!cut) damage_ = "byte " + std::to_string(byte) + ": " + what;
     done_ = true;
     return false;
   };
-  static const std::string kCut = "the record is cut off here, or the run was not ended: it has no seal";
+  static const std::string kCut =
+      "the record is cut off here, or the run was not ended: it has no seal; give --partial for what is "
+      "whole";
   std::uint64_t start = 0, checksum = 0;
-  if (!get(&start, kWord)) return stop(at, kCut);
+  if (!get(&start, kWord)) return stop(at, kCut, true);
   const auto tag = static_cast<std::uint32_t>(start);
   const std::size_t size = start >> 32;
   const bool possible =
@@ -279,7 +282,7 @@ bool RecordReader::read_chunk() {
                    : tag == kChunk && size > 0 && size <= kChunkBytes && size % (frame_words() * kWord) == 0;
   if (!possible) return stop(at, "the record is damaged: neither a chunk nor the seal");
   chunk_.resize(size / kWord);
-  if (!get(chunk_.data(), size) || !get(&checksum, kWord)) return stop(at, kCut);
+  if (!get(chunk_.data(), size) || !get(&checksum, kWord)) return stop(at, kCut, true);
   for (const std::uint64_t word : chunk_) chain_.add(word);
   chain_.add(start);
   if (checksum != chain_.value)

@@ -69,6 +69,8 @@ class RecordReader {
   [[nodiscard]] const RecordTexts& texts() const { return texts_; }
   [[nodiscard]] std::int64_t ticks() const { return ticks_; }
   [[nodiscard]] bool sealed() const { return sealed_; }
+  // Of a partial record that was not only cut off: what is wrong, with the byte; no tick behind it is read.
+  [[nodiscard]] const std::string& damage() const { return damage_; }
   // The next frame; false after the last.
   bool next(RecordedTick& frame);
   void rewind();
@@ -89,6 +91,7 @@ class RecordReader {
   StateHash chain_, header_chain_;
   std::int64_t ticks_ = 0;
   bool sealed_ = false, done_ = false;
+  std::string damage_;
 };
 
 }  // namespace enc

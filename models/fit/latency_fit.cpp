@@ -324,6 +324,19 @@ class Fit {
     return fast >= kFewest && slow >= 0.2 * fast;
   }
 
+  // Outliers included: a log of nothing else must not look good.
+  [[nodiscard]] double unexplained(std::size_t a) const {
+    const auto i = static_cast<Eigen::Index>(a);
+    std::vector<double> tool, left;
+    for (std::size_t k = 0; k < times_->size(); ++k) {
+      const double t = (*times_)[k] - age_;
+      if (!path_.knows(t)) continue;
+      tool.push_back(log_.packets[k].tool(i));
+      left.push_back(tool.back() - path_.position(t)(i));
+    }
+    return spread(left) / spread(tool);
+  }
+
   [[nodiscard]] LatencyFit result() const {
     LatencyFit out;
     for (std::size_t a = 0; a < 3; ++a) out.axes[a] = axis(a);
@@ -332,6 +345,9 @@ class Fit {
       out.latency = {age_ + shared.value, shared.half};
       out.scatter = scatter();
       out.axes_agree = agree(shared.value);
+      out.in_range = out.latency.value > kEarliest && out.latency.value < kLatest;
+      for (std::size_t a = 0; a < 3; ++a)
+        if (moved_[a]) out.unexplained = std::fmax(out.unexplained, unexplained(a));
     }
     out.packets = index_.size();
     out.outliers = static_cast<std::size_t>(std::count(left_out_.begin(), left_out_.end(), true));

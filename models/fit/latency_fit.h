@@ -33,9 +33,13 @@ struct AxisLatency {
 
 struct LatencyFit {
   std::array<AxisLatency, 3> axes;
-  Interval latency;          // s: of all axes together
-  Interval scatter;          // s: standard deviation of the age, if timing is all that a moving tool adds
-  bool axes_agree = true;    // no axis differs from it by more than chance, at 5 %
+  Interval latency;        // s: of all axes together
+  Interval scatter;        // s: standard deviation of the age, if timing is all that a moving tool adds
+  bool axes_agree = true;  // no axis differs from it by more than chance, at 5 %
+  // Part of the tool's motion that the tip's motion does not explain, of the moved axis that has most of it:
+  // 0 the machine carries the tool, 1 it has nothing to do with it. Unset: nothing moved.
+  double unexplained = kUnset;
+  bool in_range = true;      // the latency is among those that were looked for
   std::size_t packets = 0;   // used
   std::size_t outliers = 0;  // left out: farther than 6 standard deviations
   Interval stamp_age;        // s: mean age that the stamps tell, and twice its scatter; unset: no stamps

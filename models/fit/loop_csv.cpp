@@ -76,10 +76,28 @@ std::vector<LoopPoint> branches(std::vector<LoopPoint>& press) {
   return moving;
 }
 
+// A line through force over deflection of what is pressed: how far the force rises along it up to the limit,
+// and what scatters about it.
+struct Rise {
+  double force = 0.0, scatter = 0.0;  // N
+};
+Rise rise_of(const std::vector<std::vector<LoopPoint>>& moving, double limit) {
+  double n = 0, d = 0, f = 0, dd = 0, df = 0, ff = 0;
+  for (const auto& press : moving)
+    for (const LoopPoint& p : press) {
+      if (!p.pressing) continue;
+      n += 1, d += p.deflection, f += p.force;
+      dd += p.deflection * p.deflection, df += p.deflection * p.force, ff += p.force * p.force;
+    }
+  const double spread = dd - d * d / n, slope = (df - d * f / n) / spread;
+  return {slope * limit, std::sqrt(std::max(0.0, ff - f * f / n - slope * slope * spread) / n)};
+}
+
 // What the whole file must say; `where` is its end.
 void check(const CsvReader& where, const LoopData& loop, double limit) {
   constexpr std::ptrdiff_t kFewest = 20;
-  constexpr double kNear = 0.05e-3;  // m (decisions 6)
+  constexpr double kNear = 0.05e-3;     // m (decisions 6)
+  constexpr double kLeastForce = 1e-3;  // N: less is no reading of a force sensor
   double deepest = 0.0;
   std::ptrdiff_t pressing = 0;
   std::ptrdiff_t releasing = 0;
@@ -101,6 +119,12 @@ void check(const CsvReader& where, const LoopData& loop, double limit) {
         "there are {} readings while {}; expected at least {} on either branch; record the "
         "whole loop",
         pressing < kFewest ? pressing : releasing, pressing < kFewest ? "pressing" : "releasing", kFewest));
+  const Rise rise = rise_of(loop.moving, limit);
+  if (!(rise.force > rise.scatter) || !(rise.force > kLeastForce))
+    where.fail_line(fmt::format(
+        "pressed to {:g} mm the force rises by {:.3f} N and scatters by {:.3f} N; expected a force "
+        "that rises with the deflection; see to the sign and the column of force_N",
+        limit * 1e3, rise.force, rise.scatter));
 }
 
 }  // namespace

@@ -110,6 +110,21 @@ TEST(Bench, AFolderThatCannotBeWrittenIsRefusedBeforeTheRun) {
   EXPECT_THAT(r.err, HasSubstr("file/out: cannot be made"));
 }
 
+TEST(Bench, AFolderOfOtherThingsStaysAsItIs) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.file("REPORT.md")) << "mine";
+  const std::vector<std::string> args{"bench", "dent.volume_change", "--quick", "--out",
+                                      folder.path().string()};
+  const Result r = run_program(args);
+  EXPECT_EQ(r.code, 2);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("holds other files"), HasSubstr("--force")));
+  EXPECT_EQ(bytes_of(folder.path() / "REPORT.md"), "mine");
+  std::vector<std::string> forced = args;
+  forced.emplace_back("--force");
+  EXPECT_EQ(run_program(forced).code, 0);
+  EXPECT_EQ(run_program(args).code, 0);  // of its own now
+}
+
 TEST(Bench, WithoutGnuplotItSaysSoInOneLine) {
   const test::TemporaryFolder folder;
   const Result r =

@@ -69,6 +69,33 @@ TEST_F(Questionnaire, AnInputThatEndsInTheMiddleStoresNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("a.csv")));
 }
 
+// Refused before the first question, not after the last: a folder that is not there, a participant who is.
+TEST_F(Questionnaire, WhatCannotBeStoredIsNotAsked) {
+  const std::string there = write("there.csv", kHeader + "7,yes,no,no,6,4,6,6,5,5,5,4,6,6,5\n");
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--store", path("none/a.csv")},
+                                             {"--store", "/dev/full"},
+                                             {"--store", there, "--participant", "7"},
+                                             {"--store", there, "--date"}}) {
+    std::vector<std::string> args{"questionnaire"};
+    args.insert(args.end(), more.begin(), more.end());
+    const Result r = run_program(args, kModels);
+    expect_line(r);
+    EXPECT_EQ(r.out, "") << "it was asked";
+  }
+}
+
+TEST_F(Questionnaire, APictureIsNotWrittenOverTheAnswers) {
+  const std::string row = "a,no,yes,no,1,2,3,4,5,6,7,1,2,3,4\n";
+  const std::string file = write("answers.csv", kHeader + row);  // the name of one of its tables
+  const std::string folder = std::filesystem::path(file).parent_path();
+  for (const char* force : {"--json", "--force"}) {
+    const Result r = run_program({"questionnaire", "--answers", file, "--out", folder, force}, kModels);
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err, HasSubstr("is read by this command"));
+  }
+}
+
 TEST_F(Questionnaire, AFileOfManyIsReadAndDrawn) {
   const std::string file = write("m.csv", kHeader + "a,no,yes,no,1,2,3,4,5,6,7,1,2,3,4\n");
   const Result r = run_program({"questionnaire", "--answers", file, "--out", path("out")}, kModels);

@@ -35,8 +35,9 @@ void expect_fitted(const std::string& scene, const std::string& ball, const std:
   EXPECT_EQ(models::response_text(fit.response, fit.source), committed)
       << "if that is as it should be:\n  build/release/encounter run models/scenes/" << scene
       << ".toml --set truth.ball.set=" << ball
-      << " --record out/a.encrec && build/release/encounter export out/a.encrec --csv out/a.csv && "
-      << "build/release/encounter fit out/a.csv --out models/responses/" << response;
+      << " --force --record out/a.encrec && build/release/encounter export out/a.encrec --force --csv "
+         "out/a.csv && "
+      << "build/release/encounter fit out/a.csv --force --out models/responses/" << response;
 }
 
 TEST(ResponseGoldenLong, TennisBallIsReproduced) { expect_fitted("rig_A", "nominal", "tennis_ball.toml"); }

@@ -29,7 +29,7 @@ constexpr const char* kResolveAgain =
 constexpr const char* kRecordAgain =
     "If the change is meant (of the layout, or of what step() computes), record anew and commit it (from the "
     "root):\n"
-    "  build/release/encounter run models/scenes/tennis_ball.toml --for-s 1.2 --record "
+    "  build/release/encounter run models/scenes/tennis_ball.toml --for-s 1.2 --force --record "
     "tests/data/press.encrec "
     "--set rig.loop.rate_hz=500 --set user.approach_mm_s=[50] --set user.approach_from_mm=6 "
     "--set user.approach_tilt_deg=0 --set user.press_s=0.25 --set user.hold_s=0.02 --set user.release_s=0.15 "

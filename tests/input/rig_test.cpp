@@ -166,7 +166,7 @@ TEST_F(RigProgram, ExportSaysWhatIsWrong) {
   ASSERT_EQ(run_program({"run", scene("rig_A"), "--for-s", "0.5", "--record", path("a.encrec")}).code, 0);
   const std::string before = bytes_of(path("a.encrec"));
   EXPECT_THAT(line({"export", path("a.encrec"), "--csv", path("a.encrec")}),
-              HasSubstr("is the record itself"));
+              HasSubstr("is read by this command"));
   EXPECT_EQ(bytes_of(path("a.encrec")), before);
   EXPECT_THAT(line({"export", path("a.encrec"), "--csv", path("none/a.csv")}),
               HasSubstr("cannot be written"));

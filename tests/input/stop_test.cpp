@@ -83,7 +83,8 @@ TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
     const test::TemporaryFolder folder;
     const std::string record = (folder.path() / "r.encrec").string();
     const Started run({"run", scene("tennis_ball"), "--pace", "wall", "--record", record});
-    while (!std::filesystem::exists(record) || std::filesystem::file_size(record) < 4096) after_ms(20);
+    const std::string aside = record + ".part";  // until it is sealed
+    while (!std::filesystem::exists(aside) || std::filesystem::file_size(aside) < 4096) after_ms(20);
     after_ms(300);
     run.send(signal);
     EXPECT_EQ(run.wait(), code);

@@ -72,7 +72,7 @@ std::string_view RecordTable::header() {
 std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
   constexpr double kMillimetres = 1e3;
   std::string row = fmt::format("{},{}", seconds(tick.t.time_since_epoch()), mode_name(out.mode));
-  const Point<'W'> tip = scene_.X_WR * in.tip.value.X_RH.origin();
+  const Point<'W'> tip = scene_.X_WR * (scene_.has_arm ? in.arm.value.tip : in.tip.value.X_RH.origin());
   for (const double x : tip.xyz) add(row, kMillimetres * x);
   for (const double x : out.felt.xyz) add(row, x);
   add(row, kMillimetres * out.deflection);

@@ -1,0 +1,233 @@
+#include "models/files.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/error.h"
+
+namespace enc::models {
+namespace {
+
+namespace fs = std::filesystem;
+using Identity = std::pair<dev_t, ino_t>;  // of a file, whatever it is called
+
+struct Inputs {
+  std::mutex mutex;
+  std::set<std::string> all;  // paths, which the program may write over as soon as they are gone
+};
+Inputs& inputs() {
+  static Inputs all;
+  return all;
+}
+Identity identity(const struct stat& s) { return {s.st_dev, s.st_ino}; }
+
+bool is_input(const std::string& path) {
+  struct stat s {};
+  if (stat(path.c_str(), &s) != 0) return false;
+  const std::lock_guard lock(inputs().mutex);
+  return std::any_of(inputs().all.begin(), inputs().all.end(), [&](const std::string& input) {
+    struct stat there {};
+    return stat(input.c_str(), &there) == 0 && identity(there) == identity(s);
+  });
+}
+
+void refuse_input(const std::string& path) {
+  if (is_input(path))
+    throw Error(fmt::format("{}: is read by this command; expected another file to write; choose one", path));
+}
+
+// A link is followed, so that it stays one.
+std::string target_of(const std::string& path) {
+  std::error_code none;
+  const fs::path target = fs::is_symlink(path, none) ? fs::canonical(path, none) : fs::path();
+  return none || target.empty() ? path : target.string();
+}
+
+// Unless something of that name is there. Not every file system can do it in one step.
+int rename_to_free(const std::string& from, const std::string& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return -1;
+  struct stat s {};
+  if (lstat(to.c_str(), &s) != 0) return std::rename(from.c_str(), to.c_str());
+  errno = EEXIST;
+  return -1;
+}
+
+}  // namespace
+
+void note_input(const std::string& path) {
+  std::error_code failed;
+  const fs::path whole = fs::canonical(path, failed);
+  if (failed || !fs::is_regular_file(whole, failed)) return;
+  const std::lock_guard lock(inputs().mutex);
+  inputs().all.insert(whole.string());
+}
+
+std::string read_file(const std::string& path, std::size_t most, std::string& why) {
+  std::error_code none;
+  if (fs::is_directory(path, none)) {
+    why = "it is a folder";
+    return {};
+  }
+  if (fs::is_character_file(path, none)) {
+    why = "it is a device";
+    return {};
+  }
+  errno = 0;
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) {
+    why = errno != 0 ? std::strerror(errno) : "it cannot be read";
+    return {};
+  }
+  note_input(path);
+  std::string text;
+  std::array<char, 65536> buffer{};
+  for (std::size_t n = 0; text.size() <= most && (n = std::fread(buffer.data(), 1, buffer.size(), file)) > 0;)
+    text.append(buffer.data(), n);
+  if (std::ferror(file) != 0) why = std::strerror(errno);
+  if (text.size() > most) why = fmt::format("it is longer than {} MiB", most >> 20U);
+  std::fclose(file);
+  return why.empty() ? text : std::string();
+}
+
+OutFile::OutFile(std::string path, Existing existing) : path_(std::move(path)), existing_(existing) {
+  struct stat s {};
+  const bool there = stat(path_.c_str(), &s) == 0;
+  if (there && S_ISDIR(s.st_mode)) fail(EISDIR);
+  if (there && !S_ISREG(s.st_mode)) {
+    aside_ = path_;
+    fd_ = open(aside_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (fd_ < 0) fail(errno);
+    return;
+  }
+  path_ = target_of(path_);
+  aside_ = path_ + ".part";
+  refuse_input(path_);
+  refuse_input(aside_);
+  while (!begin(existing)) close();
+}
+
+OutFile::~OutFile() {
+  if (fd_ < 0) return;
+  if (!spared_ && aside_ != path_ && is_ours()) unlink(aside_.c_str());
+  close();
+}
+
+bool OutFile::is_ours() const {
+  struct stat ours {
+  }, there{};
+  return fstat(fd_, &ours) == 0 && stat(aside_.c_str(), &there) == 0 && identity(ours) == identity(there);
+}
+
+bool OutFile::begin(Existing existing) {
+  struct stat s {};
+  const auto refuse_existing = [&] {
+    if (existing == Existing::replace || lstat(path_.c_str(), &s) != 0) return;
+    throw Error(
+        fmt::format("{}: is there already; expected a new file; choose another name, or give --force "
+                    "to replace it",
+                    path_));
+  };
+  refuse_existing();  // before anything is made
+  fd_ = open(aside_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (fd_ < 0) fail(errno);
+  if (flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close();
+    throw Error(
+        fmt::format("{}: another run is writing it; expected one at a time; choose another name, or "
+                    "wait for its end",
+                    path_));
+  }
+  if (!is_ours()) return false;
+  if (fstat(fd_, &s) == 0 && s.st_size > 0 && existing == Existing::keep) {
+    close();
+    throw Error(
+        fmt::format("{}: is left of a run that did not end; look at it, then remove it, or give "
+                    "--force to write over it",
+                    aside_));
+  }
+  try {
+    refuse_existing();  // that other run may have ended just now
+  } catch (const Error&) {
+    unlink(aside_.c_str());
+    close();
+    throw;
+  }
+  if (ftruncate(fd_, 0) != 0) fail(errno);
+  return true;
+}
+
+void OutFile::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(fd_, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail(n < 0 ? errno : EIO);
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void OutFile::keep() {
+  if (aside_ != path_) {
+    const int failed = existing_ == Existing::replace ? std::rename(aside_.c_str(), path_.c_str())
+                                                      : rename_to_free(aside_, path_);
+    if (failed != 0) {
+      spared_ = true;
+      throw Error(fmt::format("{}: cannot be put in its place: {}; it is whole in {}", path_,
+                              std::strerror(errno), aside_));
+    }
+  }
+  spared_ = true;
+  if (::close(std::exchange(fd_, -1)) != 0) fail(errno);
+}
+
+void OutFile::close() {
+  if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+}
+
+void OutFile::fail(int why) const {
+  throw Error(
+      fmt::format("{}: cannot be written: {}; choose a file in a folder that exists, is yours and has "
+                  "room",
+                  path_, std::strerror(why)));
+}
+
+void write_file(const std::string& path, std::string_view text, Existing existing) {
+  OutFile file(path, existing);
+  file.write(text);
+  file.keep();
+}
+
+OutFolder::OutFolder(const std::string& path) {
+  std::error_code failed;
+  fs::create_directories(path, failed);
+  if (failed)
+    throw Error(
+        fmt::format("{}: cannot be made ({}); choose a folder that is yours", path, failed.message()));
+  fd_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd_ >= 0 && flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(fd_);
+    throw Error(
+        fmt::format("{}: another run is writing there; expected one at a time; choose another folder, "
+                    "or wait for its end",
+                    path));
+  }
+}
+
+OutFolder::~OutFolder() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+}  // namespace enc::models

@@ -1,0 +1,238 @@
+// The program and its files: nothing is overwritten, nothing is lost, nothing silly is accepted.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/built.h"
+#include "tests/support/bytes_of.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+using test::bytes_of;
+using testing::AllOf;
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
+
+std::string scene(const std::string& name) { return ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml"; }
+
+class ProgramFiles : public testing::Test {
+ protected:
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+  [[nodiscard]] std::string plane() const { return write("p.toml", bytes_of(scene("plane"))); }
+  // A loop that is pressed to 6 mm and released.
+  template <class Force>
+  [[nodiscard]] std::string loop(const std::string& name, Force force) const {
+    std::string text = "time_s,deflection_mm,force_N,repeat\n";
+    for (int k = 0; k < 600; ++k) {
+      const double d = 6.0 * (k < 300 ? k : 600 - k) / 300.0;
+      text += fmt::format("{},{},{},1\n", k * 1e-3, d, force(d));
+    }
+    return write(name, text);
+  }
+  [[nodiscard]] std::string good_loop() const {
+    return loop("loop.csv", [](double d) { return 2.0 * d; });
+  }
+  // The one line on stderr of what is refused.
+  static std::string line(const Words& args, int code = 2, double timeout = 60.0) {
+    const Result r = run_program(args, kModels, timeout);
+    EXPECT_EQ(r.code, code) << args[0] << ": " << r.out << r.err;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    return r.err;
+  }
+  [[nodiscard]] std::string recorded(const std::string& seconds = "0.5") const {
+    const Result r =
+        run_program({"run", scene("plane"), "--for-s", seconds, "--record", path("r.encrec")}, kModels);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return path("r.encrec");
+  }
+  test::TemporaryFolder folder_;
+};
+
+// ---- nothing is overwritten
+TEST_F(ProgramFiles, AnInputIsNeverAnOutputEvenWithForce) {
+  const std::string p = plane(), csv = good_loop(), record = recorded();
+  const std::string view = module_folder() + "/encounter_view.so";
+  std::vector<Words> all{{"run", p, "--for-s", "0.1", "--record", p},
+                         {"fit", csv, "--out", csv},
+                         {"export", record, "--csv", record}};
+  if (std::filesystem::exists(view)) all.push_back({"view", p, "--at-s", "0.1", "--shot", p});
+  for (Words& args : all) {
+    const std::string file = args.back(), before = bytes_of(file);
+    args.emplace_back("--force");
+    EXPECT_THAT(line(args), HasSubstr("is read by this command"));
+    EXPECT_EQ(bytes_of(file), before) << args[0];
+  }
+}
+
+TEST_F(ProgramFiles, WhatIsThereStaysWithoutForce) {
+  const std::string csv = good_loop(), record = recorded();
+  const std::vector<Words> all{{"run", scene("plane"), "--for-s", "0.1", "--record"},
+                               {"export", record, "--csv"},
+                               {"fit", csv, "--out"},
+                               {"mesh", "cube", "--out"},
+                               {"calibrate", "vishap", "--pairs", "4", "--frames", "1", "--out"}};
+  for (Words args : all) {
+    const std::string file = write("kept.stl", "mine");
+    args.push_back(file);
+    EXPECT_THAT(line(args), AllOf(HasSubstr("is there already"), HasSubstr("--force")));
+    EXPECT_EQ(bytes_of(file), "mine") << args[0];
+    args.emplace_back("--force");
+    const Result r = run_program(args, kModels);
+    EXPECT_EQ(r.code, 0) << args[0] << r.err;
+    EXPECT_NE(bytes_of(file), "mine") << args[0];
+    EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+  }
+}
+
+TEST_F(ProgramFiles, TwoRunsDoNotRecordIntoOneFile) {
+  const Result r = run({"bash", "-c",
+                        "\"$1\" run \"$2\" --pace wall --for-s 3 --record \"$3\" >\"$3.out\" 2>&1 & "
+                        "while [ ! -s \"$3.part\" ]; do sleep 0.05; done; "
+                        "\"$1\" run \"$2\" --for-s 0.1 --force --record \"$3\"; echo second $?; wait $!; "
+                        "echo first $?; \"$1\" replay \"$3\"",
+                        "bash", program_file(), scene("plane"), path("r.encrec")},
+                       kModels);
+  EXPECT_THAT(r.out, AllOf(HasSubstr("second 2"), HasSubstr("first 0"), HasSubstr("3001 ticks run again")));
+  EXPECT_THAT(r.err, HasSubstr("another run is writing it"));
+}
+
+// ---- nothing is lost
+TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
+  const std::string record = recorded(), csv = good_loop();
+  const std::string points = write("points.csv", "x_m,y_m,z_m\n0,0,0.1\n");
+  const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
+  const std::vector<Words> all{{"run", scene("plane"), "--for-s", "0.1"},
+                               {"check", scene("plane")},
+                               {"params", scene("plane")},
+                               {"replay", record},
+                               {"export", record},
+                               {"nearest", mesh, points},
+                               {"fit", csv},
+                               {"calibrate", "vishap", "--pairs", "4", "--frames", "1"},
+                               {"doctor"},
+                               {"--help"},
+                               {"--version"}};
+  for (const Words& args : all) {
+    Words command{"bash", "-c", "\"$@\" >/dev/full", "bash", program_file()};
+    command.insert(command.end(), args.begin(), args.end());
+    const Result r = run(command, kModels);
+    EXPECT_EQ(r.code, 2) << args[0];
+    EXPECT_THAT(r.err, HasSubstr("standard output")) << args[0];
+  }
+}
+
+TEST_F(ProgramFiles, ANameThatIsEmptyIsNoName) {
+  for (const Words& args : std::vector<Words>{{"run", scene("plane"), "--for-s", "0.1", "--record", ""},
+                                              {"export", path("r.encrec"), "--csv", ""},
+                                              {"fit", path("l.csv"), "--out", ""},
+                                              {"mesh", "cube", "--out", ""}})
+    EXPECT_THAT(line(args), HasSubstr(args[args.size() - 2])) << args[0];
+}
+
+TEST_F(ProgramFiles, DamageIsNotCalledCutOff) {
+  const std::string record = recorded("2"), whole = bytes_of(record);
+  std::string bad = whole;
+  bad[whole.size() / 2] = static_cast<char>(bad[whole.size() / 2] ^ 1);
+  const std::string damaged = write("bad.encrec", bad);
+  const Result r = run_program({"replay", damaged, "--partial"}, kModels);
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.out, AllOf(HasSubstr("ticks run again"), HasSubstr("damaged"), HasSubstr("checksum failure"),
+                           testing::Not(HasSubstr("cut off"))));
+  EXPECT_THAT(line({"export", damaged, "--partial", "--csv", path("bad.csv")}, 1),
+              HasSubstr("checksum failure"));
+  const std::string cut = write("cut.encrec", whole.substr(0, whole.size() / 2));
+  EXPECT_EQ(run_program({"replay", cut, "--partial"}, kModels).code, 0);
+  EXPECT_THAT(line({"replay", cut}), HasSubstr("--partial"));
+  // The header is whole, the first chunk is not.
+  EXPECT_THAT(line({"replay", write("none.encrec", whole.substr(0, 30000)), "--partial"}),
+              HasSubstr("holds no whole tick"));
+}
+
+// ---- nothing silly is accepted
+TEST_F(ProgramFiles, ALoopWhoseForceDoesNotRiseIsNoLoop) {
+  for (const std::string& file : {loop("zero.csv", [](double) { return 0.0; }),
+                                  loop("falling.csv", [](double d) { return 6.0 - d; })}) {
+    EXPECT_THAT(line({"fit", file, "--out", path("f.toml")}), HasSubstr("the force rises by"));
+    EXPECT_FALSE(std::filesystem::exists(path("f.toml")));
+  }
+}
+
+TEST_F(ProgramFiles, AMarkBeforeTheTextIsReadOver) {
+  const std::string good = bytes_of(good_loop());
+  EXPECT_EQ(run_program({"fit", write("bom.csv", "\xEF\xBB\xBF" + good)}, kModels).code, 0);
+  std::string semicolons = good;
+  std::replace(semicolons.begin(), semicolons.end(), ',', ';');
+  EXPECT_THAT(line({"fit", write("semi.csv", semicolons)}), HasSubstr("parted by ';'"));
+  const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
+  EXPECT_EQ(run_program({"nearest", mesh, write("p.csv", "\xEF\xBB\xBFx_m,y_m,z_m\n0,0,0\n")}, kModels).code,
+            0);
+}
+
+TEST_F(ProgramFiles, NearestKnowsArmsAndHowFarIsTooFar) {
+  const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
+  EXPECT_THAT(line({"nearest", mesh, write("far.csv", "x_m,y_m,z_m\n0,1e300,0\n")}),
+              HasSubstr("far.csv:2:3: 1e300 m is farther than"));
+  const Result arm =
+      run_program({"nearest", scene("wall") + "#wall", write("p.csv", "x_m,y_m,z_m\n0.1,0,0\n")}, kModels);
+  EXPECT_EQ(arm.code, 0) << arm.err;
+  EXPECT_THAT(arm.out, HasSubstr("\n0,0.1,0,0,0,0,1,"));
+}
+
+TEST_F(ProgramFiles, WhatNeverEndsIsRefused) {
+  std::filesystem::create_symlink("/dev/zero", path("zero.toml"));
+  for (const Words& args : std::vector<Words>{
+           {"run", scene("tennis_ball"), "--set", "user.hold_s=1e12"},
+           {"run", scene("wall"), "--set", "user.hold_s=1e12"},
+           {"run", scene("rig_A"), "--set", "probe.repeats=1000000"},
+           {"run", scene("tennis_ball"), "--for-s", "0.1", "--set", "truth.tracker.rate_hz=1e-12"},
+           {"run", scene("tennis_ball"), "--for-s", "0.1", "--set", "truth.tracker.server_rate_hz=1e-12"},
+           {"run", scene("tennis_ball"), "--for-s", "0.1", "--set", "truth.display.rate_hz=1e-12"},
+           {"run", path("zero.toml")},
+           {"run", scene("plane"), "--rig", path("zero.toml")},
+           {"fit", "/dev/zero"},
+           {"calibrate", "/dev/zero"},
+           {"nearest", ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb", "/dev/zero"}})
+    EXPECT_THAT(line(args, 2, 30.0), AllOf(HasSubstr("expected "), testing::Not(HasSubstr("bad_alloc"))));
+}
+
+TEST_F(ProgramFiles, DivergedPhysicsIsNoDevice) {
+  const Result r =
+      run_program({"run", scene("tennis_ball"), "--for-s", "1", "--set", "truth.hand.mass_kg=1e-9"}, kModels);
+  EXPECT_EQ(r.code, 4) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("the physics diverged at tick"));
+}
+
+TEST_F(ProgramFiles, AnArmsTableHasItsTip) {
+  ASSERT_EQ(run_program({"run", scene("wall"), "--for-s", "5", "--record", path("w.encrec")}, kModels).code,
+            0);
+  std::istringstream rows(run_program({"export", path("w.encrec")}, kModels).out);
+  std::string row;
+  std::getline(rows, row);
+  double least = 1e9, most = -1e9;  // of tip_x_mm
+  while (std::getline(rows, row)) {
+    const std::size_t cell = row.find(',', row.find(',') + 1) + 1;
+    ASSERT_NE(row[cell], ',') << row;
+    least = std::min(least, std::stod(row.substr(cell)));
+    most = std::max(most, std::stod(row.substr(cell)));
+  }
+  EXPECT_GT(most - least, 1.0);
+}
+
+}  // namespace
+}  // namespace enc::tests
