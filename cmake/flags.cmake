@@ -11,8 +11,8 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG -g1")
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1 -D_GLIBCXX_ASSERTIONS") # -g builds a third longer; -O0 shorter, but its tests take ten times as long
 
-# A replay gives the same bits on every machine: no fused multiply-add, never -ffast-math, never -march. The two others
-# change no result; they only say that nobody reads errno or traps.
+# A replay gives the same bits on every machine (core/math/README.md): no fused multiply-add, never -ffast-math, never
+# -march. The two others change no result; they only say that nobody reads errno or traps.
 add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
 
 # -Wfloat-conversion rather than all of -Wconversion, which with Eigen's indices says too much.

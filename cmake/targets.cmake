@@ -14,6 +14,14 @@ function(enc_library name folders) # enc_library(name "folder;folder/part" libra
   endif()
 endfunction()
 
+# A program, with the elementary functions of core/math in place of libm's.
+function(enc_program name) # enc_program(name sources...)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE enc_math)
+  target_link_options(${name} PRIVATE LINKER:--dynamic-list=${PROJECT_SOURCE_DIR}/core/math/export.list)
+  set_target_properties(${name} PROPERTIES LINK_DEPENDS ${PROJECT_SOURCE_DIR}/core/math/export.list)
+endfunction()
+
 set(module_dir ${PROJECT_BINARY_DIR}/modules)
 function(enc_module name group sources) # enc_module(name target "sources" libraries...)
   add_library(encounter_${name} MODULE ${sources})

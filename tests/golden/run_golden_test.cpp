@@ -1,11 +1,13 @@
 // What a scene resolves to, and what step() makes of a recorded press, kept as files: a change that nobody
 // meant shows here.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <memory>
+#include <ostream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -20,20 +22,41 @@ namespace enc {
 namespace {
 
 constexpr const char* kResolved = ENCOUNTER_SOURCE_DIR "/tests/golden/tennis_ball.resolved.toml";
-constexpr const char* kRecord = ENCOUNTER_SOURCE_DIR "/tests/data/press.encrec";
+const std::string kData = ENCOUNTER_SOURCE_DIR "/tests/data/";
 constexpr const char* kResolveAgain =
     "If the change is meant, write it anew, look at the difference, and commit it (from the root):\n"
     "  build/release/encounter check models/scenes/tennis_ball.toml | sed '1,/^resolved scene$/d' > "
     "tests/golden/tennis_ball.resolved.toml\n";
-// A press of 2 mm, met 0.7 s after the start. At 500 Hz, so that touch, press and release fit into 600 kB.
-constexpr const char* kRecordAgain =
-    "If the change is meant (of the layout, or of what step() computes), record anew and commit it (from the "
-    "root):\n"
-    "  build/release/encounter run models/scenes/tennis_ball.toml --for-s 1.2 --force --record "
-    "tests/data/press.encrec "
-    "--set rig.loop.rate_hz=500 --set user.approach_mm_s=[50] --set user.approach_from_mm=6 "
-    "--set user.approach_tilt_deg=0 --set user.press_s=0.25 --set user.hold_s=0.02 --set user.release_s=0.15 "
-    "--set user.depth_mm=2\n";
+
+// A press that touches and lets go within 1.2 s. At 500 Hz, so that it fits into 600 kB.
+struct Press {
+  const char* record;
+  const char* options;
+  double depth, force;  // both are more than this, in m and N
+};
+void PrintTo(const Press& press, std::ostream* out) { *out << press.record; }
+
+const Press kHexapod{
+    "press.encrec",
+    "models/scenes/tennis_ball.toml --set user.approach_mm_s=[50] --set user.approach_from_mm=6 "
+    "--set user.approach_tilt_deg=0 --set user.press_s=0.25 --set user.hold_s=0.02 "
+    "--set user.release_s=0.15 --set user.depth_mm=2",
+    1e-3, 1.0};
+const Press kArm{
+    "arm_press.encrec",
+    "models/scenes/wall.toml --set user.approach_mm_s=[200] --set user.approach_from_mm=40 "
+    "--set user.press_s=0.4 --set user.hold_s=0.02 --set user.release_s=0.2 --set user.depth_mm=5",
+    2e-3, 1.0};
+
+std::string record_again(const Press& press) {
+  return std::string(
+             "If the change is meant (of the layout, or of what step() computes), record anew and commit it "
+             "(from "
+             "the root):\n  build/release/encounter run --for-s 1.2 --set rig.loop.rate_hz=500 --force "
+             "--record "
+             "tests/data/") +
+         press.record + " " + press.options + "\n";
+}
 
 TEST(ResolvedGolden, TennisBall) {
   std::ifstream file(kResolved, std::ios::binary);
@@ -54,38 +77,38 @@ TEST(ResolvedGolden, TheCommittedTextStandsAlone) {
   EXPECT_EQ(setup.rig.loop.rate, 1000.0);
 }
 
-class StepGolden : public ::testing::Test {
+class StepGolden : public ::testing::TestWithParam<Press> {
  protected:
   // Null where the layout is another one, with the words for it.
   std::unique_ptr<RecordReader> open() {
     try {
-      return std::make_unique<RecordReader>(kRecord);
+      return std::make_unique<RecordReader>(kData + GetParam().record);
     } catch (const Error& e) {
-      ADD_FAILURE() << e.what() << "\n" << kRecordAgain;
+      ADD_FAILURE() << e.what() << "\n" << record_again(GetParam());
       return nullptr;
     }
   }
 };
 
-TEST_F(StepGolden, TheRecordedPressGivesTheSameBits) {
+TEST_P(StepGolden, TheRecordedPressGivesTheSameBits) {
   const auto record = open();
   ASSERT_TRUE(record);
-  const models::Setup setup = models::parse_resolved(record->texts().at("resolved"), kRecord);
+  const models::Setup setup = models::parse_resolved(record->texts().at("resolved"), GetParam().record);
   const ReplayResult result = replay(trial::prepare_setup(setup), *record);
-  EXPECT_EQ(result.first_difference, -1) << result.what << "\n" << kRecordAgain;
+  EXPECT_EQ(result.first_difference, -1) << result.what << "\n" << record_again(GetParam());
   EXPECT_EQ(result.ticks, 601);  // tick 0 and 1.2 s of 500 Hz
   RecordedTick frame;
   record->rewind();
   while (record->next(frame)) {
   }
-  EXPECT_EQ(result.hash, frame.hash) << kRecordAgain;
+  EXPECT_EQ(result.hash, frame.hash) << record_again(GetParam());
 }
 
-// It is worth replaying: the tool comes, presses beyond 1 mm and 1 N, and the record is small.
-TEST_F(StepGolden, TheRecordHoldsAPress) {
+// It is worth replaying: the tool comes and presses, and the record is small.
+TEST_P(StepGolden, TheRecordHoldsAPress) {
   const auto record = open();
   ASSERT_TRUE(record);
-  EXPECT_LT(std::filesystem::file_size(kRecord), 600'000U);
+  EXPECT_LT(std::filesystem::file_size(kData + GetParam().record), 600'000U);
   std::map<Mode, int> ticks;
   double deepest = 0.0;
   double strongest = 0.0;
@@ -93,15 +116,18 @@ TEST_F(StepGolden, TheRecordHoldsAPress) {
   while (record->next(frame)) {
     ++ticks[frame.out.mode];
     deepest = std::max(deepest, frame.out.deflection);
-    strongest = std::max(strongest, -frame.out.force.xyz[2]);
+    strongest = std::max(strongest, std::fabs(frame.out.force.xyz[2]));
   }
   EXPECT_GT(ticks[Mode::follow], 100);
   EXPECT_GT(ticks[Mode::contact], 100);
   EXPECT_EQ(ticks[Mode::hold], 0);
   EXPECT_EQ(frame.out.contacts, 1);
-  EXPECT_GT(deepest, 1e-3);
-  EXPECT_GT(strongest, 1.0);
+  EXPECT_GT(deepest, GetParam().depth);
+  EXPECT_GT(strongest, GetParam().force);
 }
+
+INSTANTIATE_TEST_SUITE_P(Machines, StepGolden, testing::Values(kHexapod, kArm),
+                         [](const auto& press) { return press.index == 0 ? "Hexapod" : "Arm"; });
 
 }  // namespace
 }  // namespace enc
