@@ -14,6 +14,7 @@
 #include "app/process.h"
 #include "app/run_report.h"
 #include "app/stop_signals.h"
+#include "app/verdict.h"
 #include "core/error.h"
 #include "models/files.h"
 #include "trial/measure/press_measure.h"
@@ -80,6 +81,7 @@ int run(const RunOptions& options) {
   trial::PressMeasure presses(setup);
   trial::ProbeMeasure pushes;
   trial::FingerMeasure fingers;
+  trial::TouchMeasure touches;
   trial::TrialOptions trial_options;
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
@@ -90,6 +92,7 @@ int run(const RunOptions& options) {
     presses.see(glance);
     pushes.see(glance);
     fingers.see(glance);
+    touches.see(glance);
   };
   trial_options.stop = [] { return StopSignals::caught() != 0; };
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -103,14 +106,10 @@ int run(const RunOptions& options) {
   const trial::TrialResult result = trial.run();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const RunReport report{setup,
-                         trial.scene(),
-                         result,
-                         presses,
-                         pushes,
-                         fingers,
-                         trial.has_world() ? trial.world().physics().elements() : 0,
-                         started};
+  const RunReport report{
+      setup,  trial.scene(), result,  presses,
+      pushes, fingers,       touches, trial.has_world() ? trial.world().physics().elements() : 0,
+      started};
   const std::string text = options.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);  // while a pipe without a reader is an error only
@@ -119,7 +118,8 @@ int run(const RunOptions& options) {
     throw Error(record->writer.error() + "; replay --partial reads what was written");
   if (result.diverged_at >= 0) return diverged(result, setup);
   if (StopSignals::caught() != 0) return 128 + StopSignals::caught();
-  return result.last_mode == Mode::hold ? 4 : 0;
+  if (result.last_mode == Mode::hold) return 4;
+  return crossed(report).empty() ? 0 : 1;
 }
 
 }  // namespace enc::app

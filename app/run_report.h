@@ -6,6 +6,7 @@
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/probe_measure.h"
+#include "trial/measure/touch_measure.h"
 #include "trial/trial.h"
 
 namespace enc::app {
@@ -17,6 +18,7 @@ struct RunReport {
   const trial::PressMeasure& presses;
   const trial::ProbeMeasure& pushes;
   const trial::FingerMeasure& fingers;
+  const trial::TouchMeasure& touches;
   int elements = 0;      // of the simulated world
   double started = 0.0;  // CPU s from the start of the process to the first tick
 };

@@ -57,6 +57,7 @@ enum Why : std::uint32_t {
   kTaring = 1U << 21,         // force zero not known yet
   kToolUnseen = 1U << 22,     // no tool in the tracker's view
   kOverload = 1U << 24,       // pressed harder than the machine carries: it stands at the deflection limit
+  kHot = 1U << 25,            // pushed less than it should: the motors are warm
   kSurfaceJump = 1U << 23,    // the surface point under the tool jumped: it is as near to another part
 };
 inline constexpr std::uint32_t kHoldReasons = 0xFFFFU;

@@ -35,6 +35,7 @@ std::string why_text(std::uint32_t why) {
        {kByForce, "contact by force"},
        {kTaring, "force zero not known yet"},
        {kToolUnseen, "no tool in view"},
+       {kHot, "motors warm: pushed less than it should"},
        {kOverload, "pressed harder than the machine carries"},
        {kSurfaceJump, "nearest point jumped"}});
   std::string text;

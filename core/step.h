@@ -97,6 +97,7 @@ struct State {
   Probing probing;
   Travelling travelling;
   Reaching reaching;
+  Heat heat;  // of an arm's motors, as it is believed
   std::array<Moved, kMostMoving> moved;
   Point<'R'> command;  // last set-point
   Vec<'R'> command_velocity = Vec<'R'>::zero();

@@ -81,6 +81,19 @@ void describe(Visitor& v, ArmMachine& m) {
 
 }  // namespace
 
+void describe(Visitor& v, Thermal& t) {
+  v.value({"winding_time_s", "thermal, of each motor's winding", "parameters 1.3", published, kPositive},
+          &t.winding_time);
+  v.value({"housing_time_s", "thermal, of each motor's housing", "parameters 1.3", published, kPositive},
+          &t.housing_time);
+  v.value({"winding_share",
+           "of a winding's rise over the room that is over its housing: 3.1 of 17.1 K/W",
+           "parameters 1.3",
+           published,
+           {0.0, 1.0}},
+          &t.winding_share);
+}
+
 void describe(Visitor& v, ArmRig& a) {
   v.value({"driver", "sim, a folder of hw_drivers, or none", "rig", chosen, kAny, needed}, &a.driver);
   choice(v,
@@ -94,6 +107,11 @@ void describe(Visitor& v, ArmRig& a) {
           &a.filter);
   v.value({"peak_N", "what the tip pushes with at most", "parameters 1.1", published, kPositive}, &a.peak);
   v.value({"continuous_N", "and for hours", "parameters 1.1", published, kPositive}, &a.continuous);
+  per_joint(v, {"peak_torque_Nm", "of each motor, as is believed", "parameters 1.3", published, kPositive},
+            a.peak_torque);
+  per_joint(v, {"continuous_torque_Nm", "of each motor, for hours", "parameters 1.3", published, kPositive},
+            a.continuous_torque);
+  describe(v, a.thermal);
   v.value({"speed_mm_s", "of the target on its way to where the finger will touch", "docs/reaching.md",
            chosen, kPositive},
           &a.speed);
@@ -136,16 +154,7 @@ void describe(Visitor& v, sim::ArmTruth& a) {
   each({"peak_torque_Nm", "of each motor", "parameters 1.3", published, kPositive}, a.peak_torque);
   each({"continuous_torque_Nm", "of each motor, for hours", "parameters 1.3", published, kPositive},
        a.continuous_torque);
-  v.value({"winding_time_s", "thermal, of each motor's winding", "parameters 1.3", published, kPositive},
-          &a.winding_time);
-  v.value({"housing_time_s", "thermal, of each motor's housing", "parameters 1.3", published, kPositive},
-          &a.housing_time);
-  v.value({"winding_share",
-           "of a winding's rise over the room that is over its housing: 3.1 of 17.1 K/W",
-           "parameters 1.3",
-           published,
-           {0.0, 1.0}},
-          &a.winding_share);
+  describe(v, a.thermal);
   v.value({"velocity_window_ms", "over which the device differences its encoders", "docs/phantom_twin.md",
            assumed, kPositive},
           &a.velocity_window);

@@ -38,6 +38,7 @@ struct ContactTruth {
 struct HandTruth {
   double mass = 1.35;             // kg, arm endpoint and hand
   double damping = 12.0;          // N s/m
+  double strength = 50.0;         // N: no arm pushes harder with a fingertip or a light tool
   double stiffness = 250.0;       // N/m
   double grip_stiffness = 700.0;  // N/m
   double grip_damping = 4.0;      // N s/m

@@ -10,6 +10,7 @@
 #include "core/probe.h"
 #include "core/travel.h"
 #include "sim/clock.h"
+#include "trial/prepare.h"
 
 namespace enc::trial {
 namespace {
@@ -35,12 +36,24 @@ double pace_of(const TrialOptions& options, bool real) {
   return 1.0;
 }
 
+// What a simulated machine only says, a real one does not begin (decisions 43).
+void refuse_limits(const models::Setup& setup, const Scene& scene) {
+  for (const Unsteady& object : unsteady_objects(setup, scene))
+    throw Error(models::place_of(setup, "object." + object.object + ".behaviour") + ": " +
+                unsteady_text(setup, object) + "; a real machine is not armed for it");
+  for (const ArmStrength& at : arm_strengths(setup, scene))
+    if (const std::string beyond = beyond_text(at); !beyond.empty())
+      throw Error(models::place_of(setup, "object." + at.object + ".behaviour") + ": " + beyond +
+                  "; a real machine is not armed for it");
+}
+
 }  // namespace
 
 Trial::Trial(models::Setup setup, TrialOptions options)
     : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
   const Slots slots = options_.drivers ? slots_of(setup_) : Slots{};
   const double pace = pace_of(options_, slots.real);
+  if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
   if (slots.simulated || !slots.real) {
     world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
     rig_ = world_->rig();

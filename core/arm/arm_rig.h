@@ -16,6 +16,14 @@ enum class GravityForm : std::uint8_t {
   exact       // and the prop where it is, at the tip
 };
 
+// How a motor gets warm.
+struct Thermal {
+  double winding_time = 12.0;   // s, of a winding against its housing (parameters 1.3, published)
+  double housing_time = 612.0;  // s, and of the housing against the room (published)
+  double winding_share =
+      3.1 / (3.1 + 14.0);  // of the rise over the room that is over the housing (published)
+};
+
 struct ArmRig {
   std::string driver = "none";
   ArmMachine machine;
@@ -25,8 +33,11 @@ struct ArmRig {
   // Corner of the low-pass on e and its rate [eq. 3], Hz: 2 pi f is the `a` of a / (s + a); 2 pi f dt that of
   // y = (a x + y_before) / (1 + a).
   double filter = 60.0;
-  double peak = 8.5;              // N: what the tip can push with [PHANToM sheet]
-  double continuous = 1.4;        // N: and for hours
+  double peak = 8.5;        // N: what the tip can push with [PHANToM sheet]
+  double continuous = 1.4;  // N: and for hours
+  // Of each motor, N m: for a moment, and for ever (parameters 1.3, published).
+  PerJoint peak_torque{0.129, 0.129, 0.129}, continuous_torque{0.0286, 0.0286, 0.0286};
+  Thermal thermal{};
   double speed = 0.6;             // of the target on its way to where the finger will touch, m/s
   double acceleration = 10.0;     // and of it, m/s^2
   double settle = 0.010;          // s, in which the target follows a leap of the finger that is seen

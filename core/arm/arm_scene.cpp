@@ -144,6 +144,7 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   const PerJoint home = law.arm.zero();
   law.home_mass = law.arm.felt_mass(law.arm.jacobian(home), law.arm.mass(home, law.prop_mass));
   check_damping(law);
+  law.motors = Motors(law.arm, rig.arm, scene.dt);
   scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
   scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
   scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);

@@ -7,7 +7,7 @@
 // Where lambda_z is constant that is a spring of lambda_z K_p along the normal.
 #pragma once
 
-#include "core/arm/arm_rig.h"
+#include "core/arm/motors.h"
 #include "core/interaction.h"
 
 namespace enc {
@@ -25,6 +25,11 @@ inline constexpr std::size_t kMostMoving = 16;  // objects of a scene that can m
 // Lambda = R diag R^T [eq. 7] about a unit normal: `along` on it, `across` at right angles to it.
 [[nodiscard]] Mat3 gain_matrix(const Vec3& normal, double across, double along);
 
+// N/m: the stiffest spring along a way on which the tip weighs `mass` that does not ring where nobody touches
+// it. A gain scales K_v as well as K_p, and its loop goes first: mass, filter of eq. 3, rates from the
+// encoders of two ticks, force that stays for one.
+[[nodiscard]] double stiffest(const ArmRig& rig, double mass, double dt);
+
 // An arm, its prop and its law.
 struct Impedance {
   Arm arm{ArmMachine{}};
@@ -33,6 +38,7 @@ struct Impedance {
   double prop_mass = 0.0;       // kg
   double filter_gain = kUnset;  // a of eq. 3, discrete
   double home_mass = kUnset;    // kg, felt at the tip at home
+  Motors motors{};
 };
 
 // Stiffness that is felt at a depth, and how far behind the surface the target is for it, N/m and m: the

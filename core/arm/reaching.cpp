@@ -188,16 +188,20 @@ Vec<'R'> against_gravity(const Walk& walk) {
 }
 
 // What the law asks for, as far as the machine can: here is the place of the passivity controller, between
-// the two.
-Vec3 guarded(Walk& walk, const Vec3& force) {
-  const double most = walk.scene.impedance->rig.peak;
+// the two. Gravity is held in full; of the rest each motor gives what it has, and the direction stays.
+Vec3 guarded(Walk& walk, const State& state, const Vec3& force) {
   if (!force.allFinite()) {
     walk.why |= kNotFinite;
     return Vec3::Zero();
   }
-  if (force.norm() <= most) return force;
-  walk.why |= kOverload;
-  return force * (most / force.norm());
+  const Impedance& law = *walk.scene.impedance;
+  const PerJoint held = law.arm.torque(walk.jacobian, walk.arm_force);
+  const PerJoint wanted = law.arm.torque(walk.jacobian, walk.scene.X_WR.inverse() * Vec<'W'>(force));
+  MotorLimit limit = MotorLimit::none;
+  const double share = law.motors.share(state.heat, held, wanted, limit);
+  if (limit == MotorLimit::peak) walk.why |= kOverload;
+  if (limit == MotorLimit::heat) walk.why |= kHot;
+  return share * force;
 }
 
 // While the finger is far the arm is motionless [VisHap 2]: what pushes it stays as it is, and friction holds
@@ -226,6 +230,36 @@ Vec3 going_along(const Walk& walk, const Mat3& mass) {
   const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
   const Vec<'R'> wanted = X_WR.inverse() * Vec<'W'>(walk.target_acceleration);
   return (X_WR * walk.scene.impedance->arm.force_to_accelerate(walk.jacobian, mass, wanted)).e();
+}
+
+void push_back(Walk& walk, State& state) {
+  const Impedance& law = *walk.scene.impedance;
+  Reaching& now = state.reaching;
+  walk.arm_force = against_gravity(walk);
+  walk.felt = Vec<'W'>::zero();
+  state.force = walk.felt;
+  if (holding(walk)) return;
+  const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
+  const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
+  const Vec3 rate = (now.velocity - walk.tip_velocity).e();
+  const bool rests = resting(state, error, walk.tip_velocity.e());
+  const Mat3 mass = law.arm.mass(walk.in.arm.value.joints, law.prop_mass);
+  const double a = law.filter_gain;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis), now.error.xyz[i]);
+    now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
+  }
+  // A real thing is held where it stands, sideways as well.
+  const Object* object = nearest_object(walk, state);
+  const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
+  const double across = real ? now.gain : 1.0;
+  const Vec3 f = going_along(walk, mass) + law.rig.stiffness * now.error.e() +
+                 damping_at(law, law.arm.felt_mass(walk.jacobian, mass)) * now.error_rate.e();  // [eq. 2]
+  const Vec3 pushed = guarded(walk, state, gain_matrix(normal, across, now.gain) * f);          // [eq. 7]
+  walk.felt = Vec<'W'>(Vec3(-pushed));
+  state.force = walk.felt;
+  walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
 }
 
 }  // namespace
@@ -271,34 +305,14 @@ void encounter(Walk& walk, State& state) noexcept {
 }
 
 void impede(Walk& walk, State& state) noexcept {
-  if (!walk.X_WH.valid()) return;  // nothing is known of the machine: nothing is said to it
+  // Where nothing is known of the machine nothing is said to it; what is withheld warms nothing, either.
   const Impedance& law = *walk.scene.impedance;
-  Reaching& now = state.reaching;
-  walk.arm_force = against_gravity(walk);
-  walk.felt = Vec<'W'>::zero();
-  state.force = walk.felt;
-  if (holding(walk)) return;
-  const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
-  const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
-  const Vec3 rate = (now.velocity - walk.tip_velocity).e();
-  const bool rests = resting(state, error, walk.tip_velocity.e());
-  const Mat3 mass = law.arm.mass(walk.in.arm.value.joints, law.prop_mass);
-  const double a = law.filter_gain;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis), now.error.xyz[i]);
-    now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
+  PerJoint torque{};
+  if (walk.X_WH.valid()) {
+    push_back(walk, state);
+    if (!walk.in.withheld) torque = law.arm.torque(walk.jacobian, walk.arm_force);
   }
-  // A real thing is held where it stands, sideways as well.
-  const Object* object = nearest_object(walk, state);
-  const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
-  const double across = real ? now.gain : 1.0;
-  const Vec3 f = going_along(walk, mass) + law.rig.stiffness * now.error.e() +
-                 damping_at(law, law.arm.felt_mass(walk.jacobian, mass)) * now.error_rate.e();  // [eq. 2]
-  const Vec3 pushed = guarded(walk, gain_matrix(normal, across, now.gain) * f);                 // [eq. 7]
-  walk.felt = Vec<'W'>(Vec3(-pushed));
-  state.force = walk.felt;
-  walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
+  law.motors.warm(state.heat, torque);
 }
 
 }  // namespace enc::stages

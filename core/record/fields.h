@@ -221,6 +221,8 @@ void fields(F& f, State& s) {
   fields(f, s.probing);
   fields(f, s.travelling);
   fields(f, s.reaching);
+  fields(f, "winding", s.heat.winding);
+  fields(f, "housing", s.heat.housing);
   for (Moved& moved : s.moved) fields(f, moved);
   fields(f, "command_R", s.command);
   fields(f, "command_velocity_R", s.command_velocity);

@@ -13,6 +13,7 @@ ArmPlant::ArmPlant(const ArmTruth& truth, const Arm& believed, double dt)
     : truth_(truth),
       believed_(believed),
       dt_(dt),
+      warming_(truth.thermal, dt),
       window_(std::max<std::int64_t>(1, std::llround(truth.velocity_window / dt))) {
   if (window_ >= static_cast<std::int64_t>(kLongestWindow))
     throw Error("the encoders are differenced over " + std::to_string(window_) +
@@ -55,21 +56,15 @@ void ArmPlant::drive_surface(double speed) noexcept {
   if (std::isfinite(speed)) state_.surface_wanted = speed;
 }
 
-// Beyond its peak a motor does not push. A winding at the temperature that the continuous torque would bring
-// it to gets no more than that torque until it is cooler. Heat is the square of the torque; it warms the
-// winding, which warms its housing.
+// Beyond its peak a motor does not push; a warm one gets less, and one at the temperature that the continuous
+// torque would bring it to gets no more than that.
 double ArmPlant::limited(std::size_t i, double torque) noexcept {
   const double ratio = truth_.machine.drives[i].ratio;
-  const double most =
-      warmth(i) < 1.0 ? truth_.peak_torque[i] : std::min(truth_.peak_torque[i], truth_.continuous_torque[i]);
+  const double continuous = truth_.continuous_torque[i];
+  const double most = folded_back(warmth(i), truth_.peak_torque[i], continuous);
   const double given = std::clamp(torque / ratio, -most, most);
   state_.clipped = state_.clipped || given != torque / ratio;
-  const double load = given / truth_.continuous_torque[i];
-  const double share = truth_.winding_share;
-  const double heat = load * load;
-  state_.winding[i] += (1.0 - std::exp(-dt_ / truth_.winding_time)) * (share * heat - state_.winding[i]);
-  state_.housing[i] +=
-      (1.0 - std::exp(-dt_ / truth_.housing_time)) * ((1.0 - share) * heat - state_.housing[i]);
+  warming_(given / continuous, state_.winding[i], state_.housing[i]);
   return given * ratio;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/arm/motors.h"
 #include "core/sample.h"
 #include "sim/arm/arm_spec.h"
 
@@ -67,6 +68,7 @@ class ArmPlant {
   ArmTruth truth_;
   Arm believed_;
   double dt_;
+  Warming warming_;
   std::int64_t window_;  // ticks
   PerJoint step_{};
   State state_;

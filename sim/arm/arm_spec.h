@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/arm/arm.h"
+#include "core/arm/arm_rig.h"
 
 namespace enc::sim {
 
@@ -28,17 +28,15 @@ struct ArmTruth {
   std::array<double, kMostJoints> viscous{0.0005, 0.0005, 0.0005};   // N m s/rad or N s/m
   std::array<double, kMostJoints> peak_torque{0.129, 0.129, 0.129};  // of the motor, N m
   std::array<double, kMostJoints> continuous_torque{0.0286, 0.0286, 0.0286};
-  double winding_time = 12.0;                 // s, thermal, of a winding against its housing
-  double housing_time = 612.0;                // s, and of the housing against the room
-  double winding_share = 3.1 / (3.1 + 14.0);  // of the winding's rise over the room that is over its housing
-  double velocity_window = 0.002;             // s, over which the device differences its encoders
-  double watchdog = 0.005;                    // s without a command, then the motors are off
-  double drum_time = 0.020;                   // s, of the motor that drives a prop's surface
-  double gimbal_time = 0.030;                 // s, in which the prop turns to another surface
-  double prop_friction = 0.6;                 // of a finger on the prop
-  double contact_time = 0.004;                // s, of the stop between finger and prop: a hard contact
-  Vec3 misplaced{0, 0, 0};                    // of the base against the believed X_WR, m
-  Vec3 turned{0, 0, 0};                       // rad
+  Thermal thermal{};
+  double velocity_window = 0.002;  // s, over which the device differences its encoders
+  double watchdog = 0.005;         // s without a command, then the motors are off
+  double drum_time = 0.020;        // s, of the motor that drives a prop's surface
+  double gimbal_time = 0.030;      // s, in which the prop turns to another surface
+  double prop_friction = 0.6;      // of a finger on the prop
+  double contact_time = 0.004;     // s, of the stop between finger and prop: a hard contact
+  Vec3 misplaced{0, 0, 0};         // of the base against the believed X_WR, m
+  Vec3 turned{0, 0, 0};            // rad
 };
 
 // The machine with the masses and inertias that it really has. Its motors are known.

@@ -244,6 +244,7 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
   // Intent: the plan, plus what experience says the ball will take, plus what the depth loop has found to be
   // missing.
   const double depth = dot(touch - tool_tip, normal);
+  const double before = state_.integral;
   if (touching && pressing && !pushing)
     state_.integral += p.load * h * (p.depth - depth) / hand_.integral_time;
   else
@@ -266,6 +267,12 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
     // Along the normal the arm is no longer a spring to a place but a force, damped.
     const double free = std::min(1.0, 4.0 * share);
     arm -= n * (free * (n.dot(arm) + hand_.damping * n.dot(state_.hand_velocity.e())) + spec_.push * share);
+  }
+  // Who pushes with all strength does not push harder because the depth is not reached.
+  const double effort = arm.norm();
+  if (effort > hand_.strength) {
+    arm *= hand_.strength / effort;
+    state_.integral = before;
   }
   const Vec3 velocity = state_.hand_velocity.e() + h * (arm - grip) / hand_.mass;
   state_.hand_velocity = Vec<'W'>(velocity);

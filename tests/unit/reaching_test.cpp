@@ -235,7 +235,12 @@ TEST(Reaching, TooMuchIsCutToThePeakAndTold) {
   bench.at(0.0005, 10);
   bench.press_tip(0.020);  // 12 N
   bench.at(0.020, 500);
-  EXPECT_NEAR(bench.loop.out.felt.norm(), 8.5, 1e-9);
+  // Each motor has its own peak; here the second is the first to reach it.
+  const Impedance& law = *bench.loop.scene.impedance;
+  const PerJoint torque =
+      law.arm.torque(law.arm.jacobian(bench.loop.in.arm.value.joints), bench.loop.out.arm_force);
+  EXPECT_NEAR(std::abs(torque[1]), 0.129 * 7.47, 1e-9);
+  EXPECT_LT(bench.loop.out.felt.norm(), 8.5);
   EXPECT_TRUE((bench.loop.out.why & kOverload) != 0);
 }
 

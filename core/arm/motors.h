@@ -1,0 +1,65 @@
+// What an arm's motors give: for a moment their peak, for ever what their windings bear. Between the two the
+// law folds back smoothly as a winding warms up, before the device's own protection cuts in.
+#pragma once
+
+#include "core/arm/arm_rig.h"
+
+namespace enc {
+
+// Rise of each winding over its housing, and of that over the room, as shares of what a winding may have over
+// the room for ever.
+struct Heat {
+  PerJoint winding{}, housing{};
+  [[nodiscard]] double of(std::size_t joint) const { return winding[joint] + housing[joint]; }
+};
+
+// At this share of what it may have a winding begins to get less than its peak (assumed).
+inline constexpr double kWarm = 0.8;
+
+// Torque that a motor gives at a warmth: peak, then less, and at 1 what it bears for ever.
+[[nodiscard]] double folded_back(double warmth, double peak, double continuous) noexcept;
+// A tick under a load, which is the torque over the continuous one.
+class Warming {
+ public:
+  Warming() = default;
+  Warming(const Thermal& thermal, double dt);
+  void operator()(double load, double& winding, double& housing) const noexcept;
+
+ private:
+  double winding_ = 0.0, housing_ = 0.0, share_ = 0.0;  // per tick, per tick, -
+};
+// s for which a cold motor bears a load until it begins to fold back; infinite up to about 0.9.
+[[nodiscard]] double bears_for(const Thermal& thermal, double load);
+
+// Which limit acts on a force.
+enum class MotorLimit : std::uint8_t { none, peak, heat };
+
+// The motors as the rig believes in them.
+class Motors {
+ public:
+  Motors() = default;  // none: nothing is given
+  Motors(const Arm& arm, const ArmRig& rig, double dt);
+
+  // Largest share, 0 to 1, of joint torques `wanted` that there is beside `held`, which goes on.
+  [[nodiscard]] double share(const Heat& heat, const PerJoint& held, const PerJoint& wanted,
+                             MotorLimit& limit) const noexcept;
+  void warm(Heat& heat, const PerJoint& torque) const noexcept;
+
+  // N: what the tip can push with along `way` (unit) at joints q, beside gravity: at the peak, and for ever.
+  struct Strength {
+    double peak = 0.0, lasting = 0.0;
+  };
+  [[nodiscard]] Strength strength(const Arm& arm, const PerJoint& q, const PerJoint& held,
+                                  const Vec<'R'>& way) const noexcept;
+  // s until the first of them begins to fold back under that force; infinite: never.
+  [[nodiscard]] double holds_for(const Arm& arm, const PerJoint& q, const PerJoint& held, const Vec<'R'>& way,
+                                 double force) const;
+
+ private:
+  std::size_t joints_ = 0;
+  PerJoint peak_{}, continuous_{};  // at the joints, N m or N
+  Thermal thermal_;
+  Warming warming_;
+};
+
+}  // namespace enc

@@ -1,0 +1,47 @@
+// Whether an object that is pushed and held stands still. The loop with its limits is simulated: what pushes,
+// sensor, filter, contact threshold, object, command limiter, dead time, servo. The linear bound of
+// loop_model.h leaves the limits of speed and acceleration out: the wider a swing, the more they lag, so a
+// loop that is stable for small swings can keep up a large one (docs/stiffness.md compares it with the twin).
+#pragma once
+
+#include <optional>
+
+#include "core/damping.h"
+#include "core/loop_model.h"
+#include "core/response.h"
+
+namespace enc {
+
+struct RigSpec;
+
+// A push of the hand that the rig expects, along the normal: in along a minimum-jerk ramp of 2 s, then held.
+class Steadiness {
+ public:
+  // m, peak to peak: what swings less stands still. Assumed: 0.3 mm are felt, but no motion of their own; and
+  // who pushes softly sways by the little that the contact threshold is.
+  [[nodiscard]] double still() const;
+
+  explicit Steadiness(const RigSpec& rig);
+  Steadiness(const RigSpec& rig, const LoopModel& loop);  // with another hand, or another machine
+
+  // m, peak to peak, of the tip in the last 3 s of a hold of 6 s. `depth`: that the hand wants, m; `limit`:
+  // of the object's deflection, m.
+  [[nodiscard]] double swing(const Response& object, double depth, double limit) const;
+  // The depth at which it swings most, of a few up to the limit; 0: it stands still at each.
+  struct Worst {
+    double depth = 0.0, swing = 0.0;  // m
+  };
+  [[nodiscard]] Worst worst(const Response& object, double limit) const;
+  // N/m: from this stiffness on a spring stands still, pushed until it is `depth` deep or pushes back with
+  // `force`, m and N.
+  [[nodiscard]] double softest(double depth, double force) const;
+
+ private:
+  LoopModel loop_;
+  double acceleration_, speed_;  // of commands along the normal, and of the machine's tip, m/s^2 and m/s
+  double filter_gain_, dt_;      // per tick; s
+  double threshold_, contact_;   // N
+  std::optional<DampingLaw> law_;
+};
+
+}  // namespace enc

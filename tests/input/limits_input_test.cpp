@@ -1,0 +1,87 @@
+// What is beyond a limit: said before, said afterwards with exit code 1, and refused where a real machine is
+// armed.
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/built.h"
+#include "tests/support/run_program.h"
+
+namespace enc::tests {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Words = std::vector<std::string>;
+
+std::string scene(const std::string& name) {
+  return std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + name + ".toml";
+}
+
+Words with(Words args, const Words& set) {
+  for (const std::string& one : set) {
+    args.emplace_back("--set");
+    args.push_back(one);
+  }
+  return args;
+}
+
+const Words kSoft{"behaviour.spring.stiffness_N_per_mm=0.15", "truth.pusher.stiffness_N_per_mm=0.7",
+                  "truth.pusher.damping_Ns_per_m=4"};
+
+TEST(Limits, ALimitCycleIsNamed) {
+  const Result run = run_program(with({"run", scene("stiffness")}, kSoft));
+  EXPECT_EQ(run.code, 1) << run.out;
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("unsteady    object 'wall'"), HasSubstr("LIMIT       object 'wall' swung")));
+  const Result damped =
+      run_program(with(with({"run", scene("stiffness")}, kSoft), {"rig.admittance.damping=observed"}));
+  EXPECT_EQ(damped.code, 0) << damped.out;
+}
+
+TEST(Limits, CheckNamesTheSoftestSpringAndWhatIsSofter) {
+  const Result check = run_program(with({"check", scene("stiffness")}, kSoft));
+  EXPECT_EQ(check.code, 0);
+  EXPECT_THAT(check.out,
+              AllOf(HasSubstr("UNSTEADY: object 'wall'"), HasSubstr("a spring stands still from 0.2")));
+  EXPECT_THAT(run_program({"check", scene("tennis_ball")}).out, Not(HasSubstr("UNSTEADY")));
+}
+
+TEST(Limits, AnArmedMachineIsNotGivenWhatItCannotHold) {
+  Words set = kSoft;
+  for (const char* slot : {"manipulator", "force"})
+    set.push_back(std::string("rig.") + slot + ".driver=\"sample\"");
+  const Result armed = run_program(with({"run", scene("stiffness"), "--for-s", "0.5", "--armed"}, set));
+  EXPECT_EQ(armed.code, 2) << armed.out;
+  EXPECT_THAT(armed.err, AllOf(HasSubstr("object 'wall'"), HasSubstr("not armed")));
+}
+
+TEST(Limits, APressBeyondTheMotorsIsSaidBeforeAndAfter) {
+  const Words deep{"behaviour.phantom_wall.stiffness_N_per_mm=0.7", "user.depth_mm=10", "user.hold_s=20"};
+  const Result check = run_program(with({"check", scene("wall")}, deep));
+  EXPECT_THAT(check.out, AllOf(HasSubstr("for hours"), HasSubstr("BEYOND: object")));
+  const Result run = run_program(with({"run", scene("wall")}, deep));
+  EXPECT_EQ(run.code, 1) << run.out;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("beyond      object"), HasSubstr("LIMIT       ")));
+}
+
+// Whoever pushes, pushes with what a hand has.
+TEST(Limits, AHandPushesNoHarderThanAHandDoes) {
+  const Result run =
+      run_program(with({"run", scene("wall"), "--json"}, {"behaviour.phantom_wall.stiffness_N_per_mm=1000"}));
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.out, HasSubstr("the law rings from"));
+}
+
+TEST(Limits, ContactsInWhichNothingIsFeltAreNamed) {
+  const Result biased =
+      run_program(with({"run", scene("tennis_ball")}, {"truth.tracker.bias_mm=[0, 0, -1000]"}));
+  EXPECT_EQ(biased.code, 1) << biased.out;
+  EXPECT_THAT(biased.out, HasSubstr("LIMIT       "));
+}
+
+}  // namespace
+}  // namespace enc::tests

@@ -1,0 +1,123 @@
+// What the motors of an arm give, against the simulated ones.
+#include "core/arm/motors.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/arm/impedance.h"
+#include "sim/arm/arm_plant.h"
+
+namespace enc {
+namespace {
+
+constexpr double kTick = 1e-3;
+
+struct Pose3 {
+  PerJoint q{};
+  Vec<'R'> way;
+};
+
+// Seeded poses that the arm works in, and ways to be pushed.
+Pose3 drawn(std::mt19937_64& random, const Arm& arm) {
+  const auto in = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (;;) {
+    Pose3 pose;
+    pose.q = {in(-0.8, 0.8), in(-0.5, 0.8), in(-0.3, 1.0)};
+    if (arm.within_limits(pose.q) && arm.dexterity(arm.jacobian(pose.q)) > 0.15) {
+      Vec3 way(in(-1, 1), in(-1, 1), in(-1, 1));
+      pose.way = Vec<'R'>(Vec3(way.normalized()));
+      return pose;
+    }
+  }
+}
+
+// The plant, thermal alone: the joints are held where they are.
+bool clips(const Arm& arm, const Pose3& pose, double force, double tick, int ticks) {
+  sim::ArmTruth truth;
+  truth.velocity_window = tick;
+  truth.watchdog = 1.0;
+  sim::ArmPlant plant(truth, arm, tick);
+  const Mat3 J = arm.jacobian(pose.q);
+  const Vec<'R'> gravity = arm.force(J, arm.gravity(pose.q, 0.0, Payload::exact));
+  for (int i = 0; i < ticks; ++i) {
+    plant.measure(Time(Duration(i)), pose.q);
+    plant.command(gravity + force * pose.way);
+    plant.begin_cycle();
+    if (plant.state().clipped) return true;
+  }
+  return false;
+}
+
+double strongest(const Arm& arm, const Pose3& pose, double tick, int ticks) {
+  double low = 0.0, high = 40.0;
+  for (int i = 0; i < 12; ++i) {
+    const double middle = 0.5 * (low + high);
+    (clips(arm, pose, middle, tick, ticks) ? high : low) = middle;
+  }
+  return high;
+}
+
+TEST(Motors, TheNamedForceIsTheSimulatedOneOverFiftyPoses) {
+  const ArmRig rig;
+  const Arm arm(rig.machine);
+  const Motors motors(arm, rig, kTick);
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 50; ++i) {
+    const Pose3 pose = drawn(random, arm);
+    const PerJoint held = arm.gravity(pose.q, 0.0, Payload::exact);
+    const Motors::Strength named = motors.strength(arm, pose.q, held, pose.way);
+    EXPECT_NEAR(named.peak, strongest(arm, pose, kTick, 5), 0.1 * named.peak) << i;
+    EXPECT_NEAR(named.lasting, strongest(arm, pose, 0.5, 10'000), 0.1 * named.lasting) << i;
+  }
+}
+
+TEST(Motors, AColdMotorBearsALoadAsLongAsItSays) {
+  const Thermal thermal;
+  for (const double load : {1.2, 2.0, 4.5}) {
+    const double time = bears_for(thermal, load);
+    double winding = 0.0, housing = 0.0;
+    const Warming warming(thermal, 0.01);
+    int ticks = 0;
+    for (; winding + housing < kWarm; ++ticks) warming(load, winding, housing);
+    EXPECT_NEAR(0.01 * ticks, time, 0.01 * time) << load;
+  }
+  EXPECT_TRUE(std::isinf(bears_for(thermal, 0.85)));
+}
+
+TEST(Motors, TheShareKeepsEachMotorWithinWhatItHas) {
+  const ArmRig rig;
+  const Arm arm(rig.machine);
+  const Motors motors(arm, rig, kTick);
+  Heat heat;
+  MotorLimit limit = MotorLimit::none;
+  EXPECT_EQ(motors.share(heat, {}, {0.1, 0.1, 0.1}, limit), 1.0);
+  EXPECT_EQ(limit, MotorLimit::none);
+  EXPECT_NEAR(motors.share(heat, {}, {0.0, 2.0, 0.0}, limit), 0.129 * 7.47 / 2.0, 1e-12);
+  EXPECT_EQ(limit, MotorLimit::peak);
+  heat.winding[1] = 1.0;
+  EXPECT_NEAR(motors.share(heat, {0.0, 0.05, 0.0}, {0.0, 2.0, 0.0}, limit), (0.0286 * 7.47 - 0.05) / 2.0,
+              1e-12);
+  EXPECT_EQ(limit, MotorLimit::heat);
+}
+
+// docs/plane_button.md has the eigenvalues of the same loop: 1213 to 2378 N/m.
+TEST(Motors, TheStiffestSpringIsThatOfTheDocumentedLoop) {
+  ArmRig rig;
+  rig.stiffness = 300.0;
+  rig.damping = 11.5;
+  const auto near = [&](double filter, double mass, double wanted) {
+    rig.filter = filter;
+    EXPECT_NEAR(stiffest(rig, mass, kTick), wanted, 0.05 * wanted) << filter << " Hz, " << mass << " kg";
+  };
+  near(30.0, 0.047, 1056.0);
+  near(60.0, 0.054, 1352.0);
+  near(60.0, 0.067, 1677.0);
+  near(120.0, 0.095, 2575.0);
+}
+
+}  // namespace
+}  // namespace enc

@@ -1,0 +1,96 @@
+#include "trial/measure/touch_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace enc::trial {
+namespace {
+
+constexpr double kSlowest = 1.0;  // Hz: slower changes are the user's own
+constexpr double kAverage = 0.3;  // s
+
+}  // namespace
+
+void TouchMeasure::see(const Glance& glance) {
+  if (glance.scene.impedance) see_motors(glance);
+  if (glance.scene.impedance || glance.out.mode == Mode::hold) return;
+  see_force(glance);
+  const bool known = glance.in.tip.value.X_RH.valid() && glance.out.force.finite();
+  if (known && glance.out.first_touch.finite()) see_swing(glance);
+}
+
+void TouchMeasure::see_motors(const Glance& glance) {
+  constexpr double kAtOnce = 0.020;  // s: an impact is over sooner
+  const double dt = glance.scene.dt;
+  const auto see = [&](Acted& limit, std::uint32_t why) {
+    limit.now = (glance.out.why & why) != 0 ? limit.now + dt : 0.0;
+    if (limit.now < kAtOnce) return;
+    if (std::isnan(limit.first)) limit.first = seconds(glance.tick.t.time_since_epoch()) - limit.now;
+    limit.total += limit.now - dt < kAtOnce ? limit.now : dt;
+  };
+  see(peak_, kOverload);
+  see(heat_, kHot);
+}
+
+void TouchMeasure::see_force(const Glance& glance) {
+  const bool touching = glance.out.mode == Mode::contact;
+  if (touching && !touching_) {
+    felt_ = false;
+    began_ = seconds(glance.tick.t.time_since_epoch());
+  }
+  if (!touching && touching_ && !felt_) empty_.push_back(began_);
+  touching_ = touching;
+  felt_ = felt_ || -glance.out.force.xyz[2] > glance.scene.force.contact;
+}
+
+// A wide swing leaves the contact and comes back to it.
+void TouchMeasure::see_swing(const Glance& glance) {
+  const Outputs& out = glance.out;
+  const double dt = glance.scene.dt;
+  away_ = touching_ ? 0.0 : away_ + dt;
+  if (away_ > kTime) {
+    depth_ = kUnset;
+    now_ = SwingFigures{};
+    return;
+  }
+  const double force = std::max(0.0, -out.force.xyz[2]);
+  const double depth = (glance.scene.X_WR * glance.in.tip.value.X_RH.origin() - out.first_touch).e().norm();
+  if (std::isnan(depth_)) {
+    depth_ = slow_depth_ = depth;
+    slow_force_ = force;
+    last_move_ = exchanged_ = moved_ = 0.0;
+  }
+  // The depth is late by what the force is, so that the two can be compared.
+  const double slow = 1.0 - std::exp(-2.0 * std::numbers::pi * kSlowest * dt);
+  const double average = 1.0 - std::exp(-dt / kAverage);
+  depth_ += glance.scene.filter_gain * (depth - depth_);
+  slow_force_ += slow * (force - slow_force_);
+  slow_depth_ += slow * (depth_ - slow_depth_);
+  const double change = force - slow_force_, move = depth_ - slow_depth_;
+  exchanged_ += average * (-change * move - exchanged_);
+  moved_ += average * (move * move - moved_);
+  const double way = 2.0 * std::sqrt(2.0 * moved_);
+  const double t = seconds(glance.tick.t.time_since_epoch());
+  if (!(exchanged_ > 0.0) || way < kWay) {
+    now_ = SwingFigures{};
+    return;
+  }
+  if (std::isnan(now_.from)) {
+    now_.from = t;
+    now_.object = out.object;
+    turns_ = 0;
+  }
+  if (move * last_move_ < 0.0) ++turns_;
+  last_move_ = move;
+  now_.until = t;
+  now_.way = std::max(now_.way, way);
+  if (t - now_.from < kTime) return;
+  now_.frequency = 0.5 * static_cast<double>(turns_) / (t - now_.from);
+  if (swings_.empty() || swings_.back().from != now_.from)
+    swings_.push_back(now_);
+  else
+    swings_.back() = now_;
+}
+
+}  // namespace enc::trial
