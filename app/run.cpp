@@ -106,10 +106,16 @@ int run(const RunOptions& options) {
   const trial::TrialResult result = trial.run();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const RunReport report{
-      setup,  trial.scene(), result,  presses,
-      pushes, fingers,       touches, trial.has_world() ? trial.world().physics().elements() : 0,
-      started};
+  const RunReport report{setup,
+                         trial.scene(),
+                         result,
+                         presses,
+                         pushes,
+                         fingers,
+                         touches,
+                         !options.seconds && !result.interrupted,
+                         trial.has_world() ? trial.world().physics().elements() : 0,
+                         started};
   const std::string text = options.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);  // while a pipe without a reader is an error only

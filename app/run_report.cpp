@@ -237,6 +237,9 @@ std::string run_text(const RunReport& r) {
       text += "beyond      " + beyond + "\n";
   text += press_lines(r) + push_lines(r) + pushed_lines(r);
   text += finger_lines(r);
+  if (r.result.contacts == 0 && r.setup.scene.user && !r.whole)
+    text += fmt::format("note        the user has not touched anything yet; last notice of the core: {}\n",
+                        r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
   for (const std::string& line : crossed(r)) text += "LIMIT       " + line + "\n";
   text += questionnaire_text(r.setup);
   const StepTimes times = step_times(r.result.step_ns);

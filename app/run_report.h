@@ -19,6 +19,7 @@ struct RunReport {
   const trial::ProbeMeasure& pushes;
   const trial::FingerMeasure& fingers;
   const trial::TouchMeasure& touches;
+  bool whole = true;     // not cut off by --for-s or a signal
   int elements = 0;      // of the simulated world
   double started = 0.0;  // CPU s from the start of the process to the first tick
 };

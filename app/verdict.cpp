@@ -42,7 +42,7 @@ void add_empty(const RunReport& r, Lines& lines) {
 }
 
 void add_untouched(const RunReport& r, Lines& lines) {
-  if (r.result.contacts > 0 || !r.setup.scene.user || r.result.interrupted) return;
+  if (r.result.contacts > 0 || !r.setup.scene.user || !r.whole) return;
   lines.push_back(fmt::format("the user never touched anything; last notice of the core: {}",
                               r.result.last_why == 0 ? "none" : why_text(r.result.last_why)));
 }

@@ -50,7 +50,7 @@ double bears_for(const Thermal& thermal, double load) {
 }
 
 Motors::Motors(const Arm& arm, const ArmRig& rig, double dt)
-    : joints_(arm.joints()), thermal_(rig.thermal), warming_(rig.thermal, dt) {
+    : joints_(arm.joints()), tip_(rig.peak), thermal_(rig.thermal), warming_(rig.thermal, dt) {
   for (std::size_t i = 0; i < joints_; ++i) {
     const double ratio = rig.machine.drives[i].ratio;
     peak_[i] = rig.peak_torque[i] * ratio;
@@ -80,7 +80,7 @@ void Motors::warm(Heat& heat, const PerJoint& torque) const noexcept {
 Motors::Strength Motors::strength(const Arm& arm, const PerJoint& q, const PerJoint& held,
                                   const Vec<'R'>& way) const noexcept {
   const PerJoint each = arm.torque(arm.jacobian(q), way);
-  Strength found{kInfinite, kInfinite};
+  Strength found{tip_, tip_};
   for (std::size_t i = 0; i < joints_; ++i) {
     found.peak = std::min(found.peak, fits(held[i], each[i], peak_[i]));
     // For ever is where the winding has folded back to: its torque and its warmth agree.

@@ -45,7 +45,8 @@ class Motors {
                              MotorLimit& limit) const noexcept;
   void warm(Heat& heat, const PerJoint& torque) const noexcept;
 
-  // N: what the tip can push with along `way` (unit) at joints q, beside gravity: at the peak, and for ever.
+  // N: what the tip can push with along `way` (unit) at joints q, beside gravity, at most the sheet's peak:
+  // for a moment, and for ever.
   struct Strength {
     double peak = 0.0, lasting = 0.0;
   };
@@ -58,6 +59,7 @@ class Motors {
  private:
   std::size_t joints_ = 0;
   PerJoint peak_{}, continuous_{};  // at the joints, N m or N
+  double tip_ = 0.0;                // N: nowhere more than this
   Thermal thermal_;
   Warming warming_;
 };

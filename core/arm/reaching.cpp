@@ -198,7 +198,12 @@ Vec3 guarded(Walk& walk, const State& state, const Vec3& force) {
   const PerJoint held = law.arm.torque(walk.jacobian, walk.arm_force);
   const PerJoint wanted = law.arm.torque(walk.jacobian, walk.scene.X_WR.inverse() * Vec<'W'>(force));
   MotorLimit limit = MotorLimit::none;
-  const double share = law.motors.share(state.heat, held, wanted, limit);
+  double share = law.motors.share(state.heat, held, wanted, limit);
+  if (share * force.norm() >
+      law.rig.peak) {  // where levers are short the motors could do more than the sheet says
+    share = law.rig.peak / force.norm();
+    limit = MotorLimit::peak;
+  }
   if (limit == MotorLimit::peak) walk.why |= kOverload;
   if (limit == MotorLimit::heat) walk.why |= kHot;
   return share * force;

@@ -50,15 +50,6 @@ TEST(Limits, CheckNamesTheSoftestSpringAndWhatIsSofter) {
   EXPECT_THAT(run_program({"check", scene("tennis_ball")}).out, Not(HasSubstr("UNSTEADY")));
 }
 
-TEST(Limits, AnArmedMachineIsNotGivenWhatItCannotHold) {
-  Words set = kSoft;
-  for (const char* slot : {"manipulator", "force"})
-    set.push_back(std::string("rig.") + slot + ".driver=\"sample\"");
-  const Result armed = run_program(with({"run", scene("stiffness"), "--for-s", "0.5", "--armed"}, set));
-  EXPECT_EQ(armed.code, 2) << armed.out;
-  EXPECT_THAT(armed.err, AllOf(HasSubstr("object 'wall'"), HasSubstr("not armed")));
-}
-
 TEST(Limits, APressBeyondTheMotorsIsSaidBeforeAndAfter) {
   const Words deep{"behaviour.phantom_wall.stiffness_N_per_mm=0.7", "user.depth_mm=10", "user.hold_s=20"};
   const Result check = run_program(with({"check", scene("wall")}, deep));

@@ -46,6 +46,24 @@ TEST_F(Assemble, SlotsAreThoseThatTheSceneNames) {
   EXPECT_TRUE(real.real);
 }
 
+// decisions 43: what a simulated machine only says, a real one does not begin.
+TEST_F(Assemble, AnArmedMachineIsNotGivenWhatItCannotHoldStill) {
+  models::Setup soft = scene("stiffness", {"behaviour.spring.stiffness_N_per_mm=0.15"});
+  soft.rig.manipulator.driver = soft.rig.force.driver = "sample";
+  soft.scene.pusher.reset();
+  TrialOptions armed = options();
+  EXPECT_NO_THROW(Trial(soft, armed));
+  armed.armed = true;
+  try {
+    Trial(soft, armed);
+    FAIL() << "armed";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(),
+                testing::AllOf(testing::HasSubstr("object 'wall'"), testing::HasSubstr("not armed")));
+    EXPECT_EQ(e.kind(), ErrorKind::input);
+  }
+}
+
 TEST_F(Assemble, WithoutASimulatedSlotThereIsNoWorldAndTimeIsTheWalls) {
   int looks = 0;
   TrialOptions made = options();

@@ -70,8 +70,9 @@ TEST(Motors, TheNamedForceIsTheSimulatedOneOverFiftyPoses) {
     const Pose3 pose = drawn(random, arm);
     const PerJoint held = arm.gravity(pose.q, 0.0, Payload::exact);
     const Motors::Strength named = motors.strength(arm, pose.q, held, pose.way);
-    EXPECT_NEAR(named.peak, strongest(arm, pose, kTick, 5), 0.1 * named.peak) << i;
-    EXPECT_NEAR(named.lasting, strongest(arm, pose, 0.5, 10'000), 0.1 * named.lasting) << i;
+    EXPECT_NEAR(named.peak, std::min(rig.peak, strongest(arm, pose, kTick, 5)), 0.1 * named.peak) << i;
+    EXPECT_NEAR(named.lasting, std::min(rig.peak, strongest(arm, pose, 0.5, 10'000)), 0.1 * named.lasting)
+        << i;
   }
 }
 

@@ -73,6 +73,9 @@ void TouchMeasure::see_swing(const Glance& glance) {
   const double way = 2.0 * std::sqrt(2.0 * moved_);
   const double t = seconds(glance.tick.t.time_since_epoch());
   if (!(exchanged_ > 0.0) || way < kWay) {
+    // What dies out soon is no swing that the loop keeps up.
+    const bool told = !swings_.empty() && swings_.back().from == now_.from;
+    if (told && touching_ && t - now_.from < kLong) swings_.pop_back();
     now_ = SwingFigures{};
     return;
   }

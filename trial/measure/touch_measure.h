@@ -22,7 +22,9 @@ struct SwingFigures {
 class TouchMeasure {
  public:
   static constexpr double kWay = 0.3e-3;  // m, peak to peak: less is no swing (steadiness.h)
-  static constexpr double kTime = 1.0;    // s, for which it goes on: a shorter one dies out
+  static constexpr double kTime = 1.0;    // s, for which it goes on, or until the contact is over
+
+  static constexpr double kLong = 4.0;  // s: who dies out sooner, in contact, was no limit cycle
 
   void see(const Glance& glance);
   [[nodiscard]] const std::vector<SwingFigures>& swings() const { return swings_; }
