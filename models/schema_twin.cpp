@@ -196,7 +196,9 @@ void describe(Visitor& v, sim::HandTruth& h) {
   v.value(
       {"integral_time_ms", "of the loop that the person closes on depth", "decisions 6", assumed, kPositive},
       &h.integral_time);
-  v.value({"strength_N", "pushes with no more", "parameters 5.1", assumed, kPositive}, &h.strength);
+  v.value({"strength_N", "pushes with no more: what a finger or a light tool is pushed with",
+           "docs/reaching.md", assumed, kPositive},
+          &h.strength);
   v.value({"tremor_mm", "rms", "parameters 5.2", assumed, kNotNegative}, &h.tremor);
   v.value({"tremor_rate_hz", "of the tremor", "parameters 5.2", published, kPositive}, &h.tremor_rate);
   v.value({"drift_mm", "rms, below 2 Hz", "parameters 5.2", assumed, kNotNegative}, &h.drift);

@@ -72,7 +72,7 @@ models::Setup even_hit(const BenchContext& context, double speed, double restitu
            {fmt::format("user.approach_mm_s=[{}]", 1e3 * speed), "user.approach_from_mm=140",
             "tool.finger.mass_kg=1", "truth.hand.grip_stiffness_N_per_mm=10",
             "truth.hand.grip_damping_Ns_per_m=1500", "truth.hand.mass_kg=20",
-            "truth.hand.stiffness_N_per_mm=5", "truth.hand.damping_Ns_per_m=500",
+            "truth.hand.stiffness_N_per_mm=5", "truth.hand.damping_Ns_per_m=500", "truth.hand.strength_N=1e6",
             fmt::format("behaviour.hit_ball.interaction.restitution={}", restitution)});
   BehaviourSpec wall = setup.scene.behaviours.front();
   wall.name = "behind";
