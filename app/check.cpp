@@ -8,6 +8,7 @@
 #include "core/arm/arm_scene.h"
 #include "core/guard/room.h"
 #include "core/steadiness.h"
+#include "trial/limits.h"
 #include "trial/prepare.h"
 
 namespace enc::app {
@@ -41,13 +42,13 @@ std::string limits(const models::Setup& setup, const Scene& scene) {
         scene.lowest_slope * 1e-3);
     text += thin_text(setup.scene.objects[i].name, scene, scene.objects[i]);
   }
-  for (const trial::Unsteady& object : trial::unsteady_objects(setup, scene))
+  const trial::Limits beyond = trial::limits_of(setup, scene);
+  for (const trial::Unsteady& object : beyond.unsteady)
     text += "  UNSTEADY: " + trial::unsteady_text(setup, object) + "\n";
   if (scene.has_force)
     text += fmt::format(
         "  a spring stands still from {:.3f} N/mm on, under a hand of {:g} N/mm that pushes it 15 mm deep or "
-        "by "
-        "30 N\n",
+        "by 30 N\n",
         Steadiness(setup.rig).softest(0.015, 30.0) * 1e-3, setup.rig.contact.hand_stiffness * 1e-3);
   return text + weak_text(setup, scene) +
          fmt::format("  commands up to {:g} mm/s and {:g} mm/s^2\n", scene.reach.speed * 1e3,
@@ -67,7 +68,8 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
                     setup.scene.objects[i].name, kKinds[static_cast<std::size_t>(object.interaction.kind)],
                     stiffness * 1e-3, stiffness / law.rig.stiffness);
   }
-  for (const trial::ArmStrength& at : trial::arm_strengths(setup, scene)) {
+  const trial::Limits can = trial::limits_of(setup, scene);
+  for (const trial::ArmStrength& at : can.strengths) {
     text += fmt::format(
         "  object '{}': pushes back with up to {:.2f} N, for hours {:.2f} N; stiffest {:.2f} N/mm", at.object,
         at.peak, at.lasting, at.stiffest * 1e-3);

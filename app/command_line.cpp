@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <new>
 
 #include <CLI/CLI.hpp>
@@ -249,12 +248,12 @@ int whole(int code) {
 }
 
 // Help and version are no errors, but are printed by them.
-int shown(const CLI::App& app, const CLI::ParseError& e) {
-  if (app.exit(e) != 0) return 2;
-  std::cout.flush();
-  if (std::cout && std::fflush(stdout) == 0) return 0;
-  std::fprintf(stderr, "encounter: standard output: cannot be written\n");
-  return 2;
+int answered(CLI::App& app, int argc, char** argv) {
+  try {
+    return dispatch(app, argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) != 0 ? 2 : 0;
+  }
 }
 
 }  // namespace
@@ -268,9 +267,7 @@ int command_line(int argc, char** argv) {
     return "encounter: " + std::string(e.what()) + "; see encounter --help\n";
   });
   try {
-    return whole(dispatch(app, argc, argv));
-  } catch (const CLI::ParseError& e) {
-    return shown(app, e);
+    return whole(answered(app, argc, argv));
   } catch (const enc::Error& e) {
     std::fprintf(stderr, "encounter: %s\n", e.what());
     return static_cast<int>(e.kind());

@@ -106,16 +106,19 @@ int run(const RunOptions& options) {
   const trial::TrialResult result = trial.run();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const RunReport report{setup,
-                         trial.scene(),
-                         result,
-                         presses,
-                         pushes,
-                         fingers,
-                         touches,
-                         !options.seconds && !result.interrupted,
-                         trial.has_world() ? trial.world().physics().elements() : 0,
-                         started};
+  const trial::Limits limits = trial::limits_of(setup, trial.scene());
+  RunReport report{setup,
+                   trial.scene(),
+                   result,
+                   presses,
+                   pushes,
+                   fingers,
+                   touches,
+                   limits,
+                   !options.seconds && !result.interrupted,
+                   trial.has_world() ? trial.world().physics().elements() : 0,
+                   started};
+  report.crossed = crossed(report);
   const std::string text = options.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);  // while a pipe without a reader is an error only
@@ -125,7 +128,7 @@ int run(const RunOptions& options) {
   if (result.diverged_at >= 0) return diverged(result, setup);
   if (StopSignals::caught() != 0) return 128 + StopSignals::caught();
   if (result.last_mode == Mode::hold) return 4;
-  return crossed(report).empty() ? 0 : 1;
+  return report.crossed.empty() ? 0 : 1;
 }
 
 }  // namespace enc::app

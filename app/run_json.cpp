@@ -4,7 +4,6 @@
 #include "app/built.h"
 #include "app/process.h"
 #include "app/run_report.h"
-#include "app/verdict.h"
 
 namespace enc::app {
 namespace {
@@ -99,7 +98,7 @@ std::string run_json(const RunReport& r) {
   json["withheld_commands"] = r.result.withheld;
   json["missed_cycles"] = r.result.missed;
   json["late_s"] = r.result.lateness.total;
-  json["limits_crossed"] = crossed(r);
+  json["limits_crossed"] = r.crossed;
   json["stopped"] = r.result.interrupted;
   json["ticks"] = r.result.ticks;
   json["diverged_at_tick"] = r.result.diverged_at;

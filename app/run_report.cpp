@@ -7,9 +7,7 @@
 
 #include "app/built.h"
 #include "app/process.h"
-#include "app/verdict.h"
 #include "models/order_statistics.h"
-#include "trial/prepare.h"
 
 namespace enc::app {
 namespace {
@@ -230,9 +228,9 @@ std::string run_text(const RunReport& r) {
                         r.result.lateness.total, r.result.lateness.times);
   if (r.result.interrupted) text += "stopped     by a signal, before its end\n";
   text += weak_text(r.setup, r.scene);
-  for (const trial::Unsteady& object : trial::unsteady_objects(r.setup, r.scene))
+  for (const trial::Unsteady& object : r.limits.unsteady)
     text += "unsteady    " + trial::unsteady_text(r.setup, object) + "\n";
-  for (const trial::ArmStrength& at : trial::arm_strengths(r.setup, r.scene))
+  for (const trial::ArmStrength& at : r.limits.strengths)
     if (const std::string beyond = trial::beyond_text(at); !beyond.empty())
       text += "beyond      " + beyond + "\n";
   text += press_lines(r) + push_lines(r) + pushed_lines(r);
@@ -240,7 +238,7 @@ std::string run_text(const RunReport& r) {
   if (r.result.contacts == 0 && r.setup.scene.user && !r.whole)
     text += fmt::format("note        the user has not touched anything yet; last notice of the core: {}\n",
                         r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
-  for (const std::string& line : crossed(r)) text += "LIMIT       " + line + "\n";
+  for (const std::string& line : r.crossed) text += "LIMIT       " + line + "\n";
   text += questionnaire_text(r.setup);
   const StepTimes times = step_times(r.result.step_ns);
   text += fmt::format("tick        step() p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.1f} us\n",

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "trial/limits.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/probe_measure.h"
@@ -19,9 +21,11 @@ struct RunReport {
   const trial::ProbeMeasure& pushes;
   const trial::FingerMeasure& fingers;
   const trial::TouchMeasure& touches;
-  bool whole = true;     // not cut off by --for-s or a signal
-  int elements = 0;      // of the simulated world
-  double started = 0.0;  // CPU s from the start of the process to the first tick
+  const trial::Limits& limits;
+  bool whole = true;                   // not cut off by --for-s or a signal
+  int elements = 0;                    // of the simulated world
+  double started = 0.0;                // CPU s from the start of the process to the first tick
+  std::vector<std::string> crossed{};  // verdict.h
 };
 
 // Percentiles of step() in ns: p50, p99, p99.9, max.

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "trial/prepare.h"
-
 namespace enc::app {
 namespace {
 
@@ -24,8 +22,8 @@ void add_swings(const RunReport& r, Lines& lines) {
                                        [](const auto& a, const auto& b) { return a.way < b.way; });
   lines.push_back(
       fmt::format("{} swung against what pushed it, {} time{}: from {:.2f} s to {:.2f} s by {:.2g} mm at "
-                  "{:.1f} Hz; it is "
-                  "softer than this machine holds still (check names the softest), or add admittance.damping "
+                  "{:.1f} Hz; it is softer than this machine holds still (check names the softest), or add "
+                  "admittance.damping "
                   "= \"observed\"",
                   name_of(r, widest->object), swings.size(), swings.size() == 1 ? "" : "s", widest->from,
                   widest->until, widest->way * 1e3, widest->frequency));
@@ -72,7 +70,7 @@ void add_motors(const RunReport& r, Lines& lines) {
 
 void add_ringing(const RunReport& r, Lines& lines) {
   if (r.result.contacts == 0) return;
-  for (const trial::ArmStrength& at : trial::arm_strengths(r.setup, r.scene))
+  for (const trial::ArmStrength& at : r.limits.strengths)
     if (at.stiffness > at.stiffest) lines.push_back(trial::beyond_text(at));
 }
 

@@ -28,9 +28,7 @@ DampingLaw::DampingLaw(const AdmittanceRig& rig, const LoopModel& loop, double g
       lag_(lag_of(loop, dt)),
       acceleration_(acceleration),
       dt_(dt),
-      low_(gain),
-      slow_(1.0 - std::exp(-2.0 * kPi * rig.slowest * dt)),
-      average_(1.0 - std::exp(-dt / rig.average_time)),
+      filter_{gain, 1.0 - std::exp(-2.0 * kPi * rig.slowest * dt), 1.0 - std::exp(-dt / rig.average_time)},
       calm_(std::exp(-dt / rig.calm_time)) {}
 
 Swing DampingLaw::begin(double slope, double force, double depth) const noexcept {
@@ -41,14 +39,18 @@ Swing DampingLaw::begin(double slope, double force, double depth) const noexcept
   return swing;
 }
 
-double DampingLaw::observe(Swing& swing, double force, double depth) const noexcept {
-  swing.depth += low_ * (depth - swing.depth);
-  swing.slow_force += slow_ * (force - swing.slow_force);
-  swing.slow_depth += slow_ * (swing.depth - swing.slow_depth);
+void SwingFilter::operator()(Swing& swing, double force, double depth) const noexcept {
+  swing.depth += low * (depth - swing.depth);
+  swing.slow_force += slow * (force - swing.slow_force);
+  swing.slow_depth += slow * (swing.depth - swing.slow_depth);
   const double change = force - swing.slow_force;
-  const double move = swing.depth - swing.slow_depth;
-  swing.exchanged += average_ * (-change * move - swing.exchanged);
-  swing.moved += average_ * (move * move - swing.moved);
+  const double move = swing.move();
+  swing.exchanged += average * (-change * move - swing.exchanged);
+  swing.moved += average * (move * move - swing.moved);
+}
+
+double DampingLaw::observe(Swing& swing, double force, double depth) const noexcept {
+  filter_(swing, force, depth);
   const double seen = swing.exchanged / (swing.moved + rig_.least_swing * rig_.least_swing);
   swing.stiffness = std::max(seen, calm_ * swing.stiffness);
   // Over a wide swing the machine is late by what the way takes at its acceleration, there and back to rest.

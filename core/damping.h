@@ -38,8 +38,17 @@ struct Swing {
   double slow_force = 0.0, slow_depth = 0.0;  // N, m: what is taken out as the user's own
   double exchanged = 0.0;                     // J: mean of -dF dd, twice what swings in the pusher
   double moved = 0.0;                         // m^2: mean of dd^2
-  double stiffness = 0.0;                     // N/m: k_seen
-  double carried = 0.0;                       // N: of the pressing force, what the object carries
+  [[nodiscard]] double move() const { return depth - slow_depth; }  // m
+  double stiffness = 0.0;                                           // N/m: k_seen
+  double carried = 0.0;  // N: of the pressing force, what the object carries
+};
+
+// How a swing is seen: force and depth, freed of what is slower than a swing, averaged.
+struct SwingFilter {
+  double low = 0.0, slow = 0.0,
+         average = 0.0;  // per tick: of the force, of what is the user's own, of the means
+  // A tick of contact. The depth is made as late as the force is, so that the two can be compared.
+  void operator()(Swing& swing, double force, double depth) const noexcept;
 };
 
 class DampingLaw {
@@ -64,7 +73,8 @@ class DampingLaw {
   AdmittanceRig rig_;
   double hand_stiffness_, stable_slope_;  // N/m
   double lag_, acceleration_, dt_;
-  double low_, slow_, average_, calm_;  // per tick
+  SwingFilter filter_;
+  double calm_;  // per tick
 };
 
 }  // namespace enc

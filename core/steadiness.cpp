@@ -1,7 +1,6 @@
 #include "core/steadiness.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "core/guard/braking.h"
+#include "core/minimum_jerk.h"
 #include "core/rig_spec.h"
 #include "core/scene.h"
 #include "core/stages.h"
@@ -34,16 +34,6 @@ struct Noise {
   }
 };
 
-// Where a minimum-jerk ramp of `way` is after t, and its speed there.
-struct Ramp {
-  double at, speed;
-  Ramp(double way, double t) {
-    const double s = std::min(1.0, t / kRamp);
-    at = way * s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
-    speed = way * 30.0 * s * s * (1.0 - s) * (1.0 - s) / kRamp;
-  }
-};
-
 // Second order with limits, as machines of this kind move.
 struct Machine {
   double at = 0.0, speed = 0.0;
@@ -61,7 +51,7 @@ struct Command {
   void go(double target, double acceleration, double most, double dt) {
     const double way = target - at, distance = std::abs(way);
     const double along = acceleration * stages::kAlongShare;
-    const double fast = std::min({0.5 * distance / dt, braking_speed(distance, along, dt), most});
+    const double fast = std::min(approach_speed(distance, along, dt), most);
     speed += std::clamp(std::copysign(fast, way) - speed, -along * dt, along * dt);
     at += dt * speed;
   }
@@ -75,10 +65,8 @@ LoopModel with_margin(LoopModel loop) {
 
 }  // namespace
 
-Steadiness::Steadiness(const RigSpec& rig) : Steadiness(rig, with_margin(loop_of(rig))) {}
-
-Steadiness::Steadiness(const RigSpec& rig, const LoopModel& loop)
-    : loop_(loop),
+Steadiness::Steadiness(const RigSpec& rig)
+    : loop_(with_margin(loop_of(rig))),
       acceleration_(rig.manipulator.acceleration),
       speed_(rig.manipulator.speed),
       filter_gain_(1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter / rig.loop.rate)),
@@ -86,7 +74,7 @@ Steadiness::Steadiness(const RigSpec& rig, const LoopModel& loop)
       threshold_(rig.force.threshold),
       contact_(rig.force.contact) {
   if (rig.admittance.damping == Damping::observed)
-    law_.emplace(rig.admittance, loop, filter_gain_, stages::kAlongShare * acceleration_, dt_);
+    law_.emplace(rig.admittance, loop_, filter_gain_, stages::kAlongShare * acceleration_, dt_);
 }
 
 double Steadiness::swing(const Response& object, double depth, double limit) const {
@@ -108,9 +96,9 @@ double Steadiness::swing(const Response& object, double depth, double limit) con
   for (std::size_t i = 0; i < ticks; ++i) {
     double& due = sent[i % late];
     for (int k = 0; k < steps; ++k) machine.move(due, loop_, acceleration_, speed_, h);
-    const Ramp hand(way, static_cast<double>(i) * dt_);
-    const double push = loop_.hand_stiffness * (hand.at - kWaits - machine.at) +
-                        loop_.hand_damping * (hand.speed - machine.speed);
+    const MinimumJerk hand(static_cast<double>(i) * dt_ / kRamp);
+    const double push = loop_.hand_stiffness * (way * hand.x - kWaits - machine.at) +
+                        loop_.hand_damping * (way * hand.v / kRamp - machine.speed);
     force += filter_gain_ * (std::max(0.0, push) + noise() * contact_ / kOverNoise - force);
     if (!seen && force > contact_)
       seen = law_ ? law_->begin(object.press(1e-3 * limit) / (1e-3 * limit), force, machine.at) : Swing{};
@@ -131,7 +119,7 @@ double Steadiness::swing(const Response& object, double depth, double limit) con
   return high - low;
 }
 
-double Steadiness::still() const { return std::max(0.3e-3, threshold_ / loop_.hand_stiffness); }
+double Steadiness::still() const { return std::max(kStill, threshold_ / loop_.hand_stiffness); }
 
 Steadiness::Worst Steadiness::worst(const Response& object, double limit) const {
   Worst worst;

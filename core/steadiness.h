@@ -17,12 +17,12 @@ struct RigSpec;
 // A push of the hand that the rig expects, along the normal: in along a minimum-jerk ramp of 2 s, then held.
 class Steadiness {
  public:
-  // m, peak to peak: what swings less stands still. Assumed: 0.3 mm are felt, but no motion of their own; and
-  // who pushes softly sways by the little that the contact threshold is.
+  // m, peak to peak: what swings less stands still. Assumed: 0.3 mm are felt, but no motion of their own.
+  static constexpr double kStill = 0.3e-3;
+  // Who pushes softly sways by the little that the contact threshold is.
   [[nodiscard]] double still() const;
 
   explicit Steadiness(const RigSpec& rig);
-  Steadiness(const RigSpec& rig, const LoopModel& loop);  // with another hand, or another machine
 
   // m, peak to peak, of the tip in the last 3 s of a hold of 6 s. `depth`: that the hand wants, m; `limit`:
   // of the object's deflection, m.

@@ -10,6 +10,7 @@
 #include "core/probe.h"
 #include "core/travel.h"
 #include "sim/clock.h"
+#include "trial/limits.h"
 #include "trial/prepare.h"
 
 namespace enc::trial {
@@ -38,10 +39,11 @@ double pace_of(const TrialOptions& options, bool real) {
 
 // What a simulated machine only says, a real one does not begin (decisions 43).
 void refuse_limits(const models::Setup& setup, const Scene& scene) {
-  for (const Unsteady& object : unsteady_objects(setup, scene))
+  const Limits limits = limits_of(setup, scene);
+  for (const Unsteady& object : limits.unsteady)
     throw Error(models::place_of(setup, "object." + object.object + ".behaviour") + ": " +
                 unsteady_text(setup, object) + "; a real machine is not armed for it");
-  for (const ArmStrength& at : arm_strengths(setup, scene))
+  for (const ArmStrength& at : limits.strengths)
     if (const std::string beyond = beyond_text(at); !beyond.empty())
       throw Error(models::place_of(setup, "object." + at.object + ".behaviour") + ": " + beyond +
                   "; a real machine is not armed for it");

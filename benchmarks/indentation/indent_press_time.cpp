@@ -8,7 +8,7 @@
 
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/kit/parallel.h"
-#include "sim/hand/minimum_jerk.h"
+#include "core/minimum_jerk.h"
 
 namespace enc::bench::indentation {
 namespace {
@@ -38,7 +38,7 @@ double predicted_rmse(const LagTheory& theory, double time) {
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < kSteps; ++i) {
-    const sim::MinimumJerk at((i + 0.5) / kSteps);
+    const MinimumJerk at((i + 0.5) / kSteps);
     const double d = theory.depth * at.x;
     if (d >= theory.felt.limit() - kNear) break;
     const double speed = theory.depth * at.v / time;

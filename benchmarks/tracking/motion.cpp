@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sim/hand/minimum_jerk.h"
+#include "core/minimum_jerk.h"
 #include "sim/random.h"
 
 namespace enc::bench::tracking {
@@ -39,8 +39,8 @@ struct Leg {
   }
 };
 
-double minimum_jerk_way(double s) { return sim::MinimumJerk(s).x; }
-double minimum_jerk_speed(double s) { return sim::MinimumJerk(s).v; }
+double minimum_jerk_way(double s) { return MinimumJerk(s).x; }
+double minimum_jerk_speed(double s) { return MinimumJerk(s).v; }
 
 double early_peak_way(double s) {
   return s * s * s * (35.0 + s * (-105.0 + s * (126.0 + s * (-70.0 + 15.0 * s))));

@@ -121,17 +121,20 @@ Vec<'R'> Arm::force(const Mat3& J, const PerJoint& torque) const noexcept {
   return Vec<'R'>(Vec3(J * (G.inverse() * Vec3(torque[0], torque[1], torque[2]))));
 }
 
-double Arm::felt_mass(const Mat3& J, const Mat3& mass) const noexcept {
+double Arm::felt_mass(const Mat3& J, const Mat3& mass, const Vec<'R'>& way) const noexcept {
   const auto n = static_cast<Eigen::Index>(joints_);
   Mat3 whole = Mat3::Identity();
   whole.topLeftCorner(n, n) = mass.topLeftCorner(n, n);
-  const Mat3 inverse = whole.inverse();  // joints are few, so Cramer's rule is exact enough
+  const Vec3 row = J.transpose() * way.e();
+  // Joints are few, so Cramer's rule is exact enough.
+  const double mobility = row.dot(whole.inverse() * row);  // J M^-1 J^T along the way
+  return mobility > 1e-6 ? 1.0 / mobility : 0.0;
+}
+
+double Arm::felt_mass(const Mat3& J, const Mat3& mass) const noexcept {
   double most = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 row = J.row(axis).transpose();
-    const double mobility = row.dot(inverse * row);  // J M^-1 J^T along the axis
-    if (mobility > 1e-6) most = std::max(most, 1.0 / mobility);
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    most = std::max(most, felt_mass(J, mass, Vec<'R'>(Vec3(Vec3::Unit(axis)))));
   return most;
 }
 

@@ -97,6 +97,8 @@ class Arm {
   // Mass that is felt at the tip, kg: the largest along the axes of R that the machine moves along; 0 where
   // it moves along none. `mass`: the mass matrix.
   [[nodiscard]] double felt_mass(const Mat3& jacobian, const Mat3& mass) const noexcept;
+  // And along one way (unit); 0 where it does not move along that.
+  [[nodiscard]] double felt_mass(const Mat3& jacobian, const Mat3& mass, const Vec<'R'>& way) const noexcept;
   // What the tip has to be pushed with, beyond gravity, to be accelerated so (m/s^2): N.
   [[nodiscard]] Vec<'R'> force_to_accelerate(const Mat3& jacobian, const Mat3& mass,
                                              const Vec<'R'>& acceleration) const noexcept;

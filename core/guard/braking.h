@@ -1,6 +1,7 @@
 // How fast something may be that has to stop in time.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/frames.h"
@@ -11,6 +12,11 @@ namespace enc {
 [[nodiscard]] inline double braking_speed(double distance, double acceleration, double dt) {
   const double unit = acceleration * dt;
   return unit * (std::sqrt(0.25 + 2.0 * distance / (unit * dt)) - 0.5);
+}
+
+// Speed towards something at a distance, such that a machine can still stop there.
+[[nodiscard]] inline double approach_speed(double distance, double acceleration, double dt) {
+  return std::min(0.5 * distance / dt, braking_speed(distance, acceleration, dt));
 }
 
 // The straight way to where something comes to rest that goes at `velocity` for one more tick and then

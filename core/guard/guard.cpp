@@ -137,11 +137,6 @@ Walls walls_around(const Walk& walk, State& state) {
   return walls;
 }
 
-// Speed towards something at a distance, such that the machine can still stop there.
-double approach_speed(double distance, double acceleration, double dt) {
-  return std::min(0.5 * distance / dt, braking_speed(distance, acceleration, dt));
-}
-
 // Speed and acceleration stay within the machine's limits. The way along the normal comes first and is
 // one-dimensional, so that the command can never overshoot the surface or the deflection limit, whatever the
 // target does; the sideways way gets the rest.

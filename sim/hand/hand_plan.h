@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/frames.h"
-#include "sim/hand/minimum_jerk.h"
+#include "core/minimum_jerk.h"
 
 namespace enc::sim {
 

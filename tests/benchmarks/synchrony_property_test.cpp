@@ -5,7 +5,7 @@
 
 #include "benchmarks/synchrony/lag.h"
 #include "benchmarks/synchrony/sync_trial.h"
-#include "sim/hand/minimum_jerk.h"
+#include "core/minimum_jerk.h"
 #include "sim/random.h"
 #include "tests/conformance/bench_world.h"
 #include "trial/trial.h"
@@ -27,7 +27,7 @@ TEST(SynchronyProperty, AnInjectedDelayIsFoundInNoise) {
         const double since = t - 0.5 - 2.5 * time * k;
         const double in = std::clamp(since / time, 0.0, 1.0);
         const double out = std::clamp((since - 1.2 * time) / time, 0.0, 1.0);
-        sum += (6.0 - 2.0 * k) * (sim::MinimumJerk(in).x - sim::MinimumJerk(out).x);
+        sum += (6.0 - 2.0 * k) * (MinimumJerk(in).x - MinimumJerk(out).x);
       }
       return sum;
     };

@@ -50,29 +50,25 @@ void TouchMeasure::see_swing(const Glance& glance) {
   const double dt = glance.scene.dt;
   away_ = touching_ ? 0.0 : away_ + dt;
   if (away_ > kTime) {
-    depth_ = kUnset;
+    swing_ = Swing{};
     now_ = SwingFigures{};
     return;
   }
   const double force = std::max(0.0, -out.force.xyz[2]);
   const double depth = (glance.scene.X_WR * glance.in.tip.value.X_RH.origin() - out.first_touch).e().norm();
-  if (std::isnan(depth_)) {
-    depth_ = slow_depth_ = depth;
-    slow_force_ = force;
-    last_move_ = exchanged_ = moved_ = 0.0;
+  if (std::isnan(swing_.depth)) {
+    swing_ = Swing{};
+    swing_.depth = swing_.slow_depth = depth;
+    swing_.slow_force = force;
+    last_move_ = 0.0;
   }
-  // The depth is late by what the force is, so that the two can be compared.
-  const double slow = 1.0 - std::exp(-2.0 * std::numbers::pi * kSlowest * dt);
-  const double average = 1.0 - std::exp(-dt / kAverage);
-  depth_ += glance.scene.filter_gain * (depth - depth_);
-  slow_force_ += slow * (force - slow_force_);
-  slow_depth_ += slow * (depth_ - slow_depth_);
-  const double change = force - slow_force_, move = depth_ - slow_depth_;
-  exchanged_ += average * (-change * move - exchanged_);
-  moved_ += average * (move * move - moved_);
-  const double way = 2.0 * std::sqrt(2.0 * moved_);
+  const SwingFilter filter{glance.scene.filter_gain, 1.0 - std::exp(-2.0 * std::numbers::pi * kSlowest * dt),
+                           1.0 - std::exp(-dt / kAverage)};
+  filter(swing_, force, depth);
+  const double move = swing_.move();
+  const double way = 2.0 * std::sqrt(2.0 * swing_.moved);
   const double t = seconds(glance.tick.t.time_since_epoch());
-  if (!(exchanged_ > 0.0) || way < kWay) {
+  if (!(swing_.exchanged > 0.0) || way < kWay) {
     // What dies out soon is no swing that the loop keeps up.
     const bool told = !swings_.empty() && swings_.back().from == now_.from;
     if (told && touching_ && t - now_.from < kLong) swings_.pop_back();

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "core/steadiness.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -21,9 +22,8 @@ struct SwingFigures {
 
 class TouchMeasure {
  public:
-  static constexpr double kWay = 0.3e-3;  // m, peak to peak: less is no swing (steadiness.h)
-  static constexpr double kTime = 1.0;    // s, for which it goes on, or until the contact is over
-
+  static constexpr double kWay = Steadiness::kStill;  // m, peak to peak: less is no swing
+  static constexpr double kTime = 1.0;                // s, for which it goes on, or until the contact is over
   static constexpr double kLong = 4.0;  // s: who dies out sooner, in contact, was no limit cycle
 
   void see(const Glance& glance);
@@ -47,10 +47,9 @@ class TouchMeasure {
   Acted peak_, heat_;
   SwingFigures now_;
   bool touching_ = false, felt_ = false;
-  double began_ = kUnset, away_ = kTime;                         // s
-  double depth_ = kUnset, slow_force_ = 0.0, slow_depth_ = 0.0;  // N, m
-  double exchanged_ = 0.0, moved_ = 0.0;                         // J and m^2, means
-  double last_move_ = 0.0;
+  double began_ = kUnset, away_ = kTime;  // s
+  Swing swing_;
+  double last_move_ = 0.0;  // m
   std::int64_t turns_ = 0;  // zero crossings since it began
 };
 

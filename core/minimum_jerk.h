@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace enc::sim {
+namespace enc {
 
 struct MinimumJerk {
   double x, v, a;  // position, velocity, acceleration
@@ -15,4 +15,4 @@ struct MinimumJerk {
   }
 };
 
-}  // namespace enc::sim
+}  // namespace enc

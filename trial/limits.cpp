@@ -1,0 +1,110 @@
+#include "trial/limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/steadiness.h"
+
+namespace enc::trial {
+namespace {
+
+PressPoint touched_point(const models::Setup& setup, const Scene& scene, std::size_t i, bool pressed) {
+  if (pressed) return press_point(setup.scene, *setup.scene.user);
+  const Object& object = scene.objects[i];
+  const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
+  return {object.X_WO * near.point, object.X_WO * near.normal};
+}
+
+// The force of a press to a depth, the most on the way.
+double asked_at(const Impedance& law, const Object& object, double depth) {
+  constexpr int kSteps = 50;
+  double most = 0.0;
+  for (int i = 1; i <= kSteps; ++i) {
+    const double d = depth * i / kSteps;
+    const Felt felt = felt_at(object.interaction, object.stiffness, law.rig.stiffness, d);
+    most = std::max(most, felt.stiffness * (d - felt.sunk));
+  }
+  return most;
+}
+
+ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::size_t i) {
+  const Impedance& law = *scene.impedance;
+  const Object& object = scene.objects[i];
+  const std::optional<UserSpec>& user = setup.scene.user;
+  const bool pressed =
+      user && user->kind == "press_release" && pressed_object(setup.scene.objects, user->object, "user") == i;
+  const PressPoint at = touched_point(setup, scene, i, pressed);
+  PerJoint q = law.arm.zero();
+  static_cast<void>(law.arm.inverse(scene.X_WR.inverse() * at.point, q));
+  const PerJoint held = law.arm.gravity(q, law.prop_mass, Payload::exact);
+  const Vec<'R'> out = scene.X_WR.inverse() * at.normal;
+  const Motors::Strength strength = law.motors.strength(law.arm, q, held, out);
+  ArmStrength found{
+      setup.scene.objects[i].name, strength.peak, strength.lasting,
+      stiffest(law.rig, law.arm.felt_mass(law.arm.jacobian(q), law.arm.mass(q, law.prop_mass), out),
+               scene.dt)};
+  const double floor = object.interaction.kind == Interaction::click ? object.interaction.floor : 0.0;
+  found.stiffness = std::max(std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness, floor);
+  if (!pressed || object.interaction.kind == Interaction::passive) return found;
+  const double deepest =
+      user->depths.empty() ? user->depth : *std::max_element(user->depths.begin(), user->depths.end());
+  found.asked = std::isnan(user->push) ? asked_at(law, object, deepest) : user->push;
+  found.asked_for = user->hold_time + 0.5 * (user->press_time + user->release_time);
+  found.holds_for = law.motors.holds_for(law.arm, q, held, out, found.asked);
+  return found;
+}
+
+std::vector<Unsteady> unsteady_objects(const models::Setup& setup, const Scene& scene) {
+  std::vector<Unsteady> found;
+  if (scene.impedance || !scene.has_force) return found;
+  const Steadiness loop(setup.rig);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (std::isnan(object.limit)) continue;  // real
+    const Steadiness::Worst worst = loop.worst(object.response, object.limit);
+    if (worst.swing > 0.0) found.push_back({setup.scene.objects[i].name, worst.depth, worst.swing});
+  }
+  return found;
+}
+
+std::vector<ArmStrength> arm_strengths(const models::Setup& setup, const Scene& scene) {
+  std::vector<ArmStrength> found;
+  if (scene.impedance)
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) found.push_back(strength_at(setup, scene, i));
+  return found;
+}
+
+}  // namespace
+
+Limits limits_of(const models::Setup& setup, const Scene& scene) {
+  return {unsteady_objects(setup, scene), arm_strengths(setup, scene)};
+}
+
+std::string unsteady_text(const models::Setup& setup, const Unsteady& object) {
+  return fmt::format(
+      "object '{}', pushed {:.1f} mm deep by a hand of {:g} N/mm, swings by {:.1f} mm: it is softer than "
+      "this machine holds still; make it stiffer, or set rig.admittance.damping=observed",
+      object.object, object.depth * 1e3, setup.rig.contact.hand_stiffness * 1e-3, object.swing * 1e3);
+}
+
+std::string beyond_text(const ArmStrength& at) {
+  if (at.stiffness > at.stiffest)
+    return fmt::format(
+        "object '{}' asks for {:g} N/mm, and the law rings from {:.2f} N/mm on; make it softer", at.object,
+        at.stiffness * 1e-3, at.stiffest * 1e-3);
+  if (at.asked > at.peak)
+    return fmt::format(
+        "object '{}' is pressed with {:.2f} N, and there the motors push with at most {:.2f} N; press "
+        "less deep, or make it softer",
+        at.object, at.asked, at.peak);
+  if (at.asked_for > at.holds_for)
+    return fmt::format(
+        "object '{}' is pressed with {:.2f} N for {:.0f} s, and cold motors hold that for {:.0f} s (for "
+        "ever {:.2f} N); press less deep, or shorter",
+        at.object, at.asked, at.asked_for, at.holds_for, at.lasting);
+  return {};
+}
+
+}  // namespace enc::trial
