@@ -32,7 +32,8 @@ struct Walk {
   Vec<'W'> felt;                 // the same before the low-pass
   Point<'W'> target;             // target: wanted tip centre
   Mat3 jacobian = Mat3::Zero();  // track: of an arm; and
-  Vec3 target_acceleration = Vec3::Zero();  // encounter: of its target
+  Vec3 target_acceleration = Vec3::Zero();  // encounter: of its target, on its way
+  Vec3 target_change = Vec3::Zero();        // and in any case, m/s^2
   Vec<'W'> tip_velocity;                    // of its tip
   Vec<'R'> arm_force;                       // impede: what an arm is told
 };

@@ -23,7 +23,7 @@ constexpr double kWaits = 2e-3;                             // m above the surfa
 constexpr double kOverNoise = 5.0;
 // What the twin and the loop here differ by, at most (derived: docs/stiffness.md).
 constexpr double kMargin = 1.1;
-constexpr double kCareful = 0.7;  // of what counts as still, for the same reason
+constexpr double kCareful = 0.75;  // of what counts as still, for the same reason
 
 // White noise of rms 1, the same in every run.
 struct Noise {
@@ -119,7 +119,7 @@ double Steadiness::swing(const Response& object, double depth, double limit) con
   return high - low;
 }
 
-double Steadiness::still() const { return std::max(kStill, threshold_ / loop_.hand_stiffness); }
+double Steadiness::still() const { return std::max(kStill, threshold_ * kMargin / loop_.hand_stiffness); }
 
 Steadiness::Worst Steadiness::worst(const Response& object, double limit) const {
   Worst worst;
@@ -136,12 +136,12 @@ double Steadiness::softest(double depth, double force) const {
     const Response spring({{k, 0, 0, 0}, {k, 0, 0, 0}, 1.5 * most}, 0.0);
     return swing(spring, most, 1.5 * most) <= kCareful * still();
   };
-  constexpr double kSteps = 1.15, kNear = 1.02, kSoftest = 1.0;
+  constexpr double kSteps = 1.15, kNear = 1.02;
   double high = 8.0 * loop_.hand_stiffness;  // of a loop that is of any use this is stable
   while (!stands(high) && high < 1e6) high *= 2.0;
   double low = high / kSteps;
   while (stands(low)) {
-    if (low < kSoftest) return low;
+    if (low < least_felt(depth)) return least_felt(depth);
     high = low;
     low /= kSteps;
   }

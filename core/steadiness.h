@@ -32,8 +32,10 @@ class Steadiness {
     double depth = 0.0, swing = 0.0;  // m
   };
   [[nodiscard]] Worst worst(const Response& object, double limit) const;
-  // N/m: from this stiffness on a spring stands still, pushed until it is `depth` deep or pushes back with
-  // `force`, m and N.
+  // N/m: what is softer pushes back with less than a contact is, `depth` m deep.
+  [[nodiscard]] double least_felt(double depth) const { return contact_ / depth; }
+  // N/m, no less than that: from this stiffness on a spring stands still, pushed until it is `depth` deep or
+  // pushes back with `force`, m and N.
   [[nodiscard]] double softest(double depth, double force) const;
 
  private:

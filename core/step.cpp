@@ -12,10 +12,11 @@ namespace {
 
 // Of a belt against its prop: a running surface goes on at its own speed while the prop that stands for it
 // moves along with the finger. On its way there it need not. Other props cannot run.
-double driven(const Object& object, const Impedance& law, const Reaching& now) {
+double driven(const Object& object, const Impedance& law, const Reaching& now, const Vec3& change) {
   if (object.interaction.kind != Interaction::spin || law.prop != PropKind::drum) return 0.0;
   const Vec<'W'> way = object.X_WO * Vec<'O'>(object.interaction.way);
-  return object.prop_speed() - (now.caught_up ? dot(now.velocity, way) : 0.0);
+  const Vec3 along = now.velocity.e() + law.rig.prop_lag * change;  // its motor is late
+  return object.prop_speed() - (now.caught_up ? way.e().dot(along) : 0.0);
 }
 
 // No force is measured: what the finger feels is what the arm is told beyond gravity.
@@ -26,9 +27,10 @@ void report_arm(const stages::Walk& walk, const State& state, Outputs& out) {
   out.gain = state.reaching.gain;
   const bool near = !stages::holding(walk) && state.object >= 0 &&
                     (state.mode == Mode::follow || state.mode == Mode::contact);
-  out.prop_speed = near ? driven(walk.scene.objects[static_cast<std::size_t>(state.object)],
-                                 *walk.scene.impedance, state.reaching)
-                        : 0.0;
+  out.prop_speed =
+      near ? driven(walk.scene.objects[static_cast<std::size_t>(state.object)], *walk.scene.impedance,
+                    state.reaching, state.mode == Mode::contact ? walk.target_change : Vec3::Zero())
+           : 0.0;
   const bool touched = state.mode == Mode::contact && walk.gap < 0.0;
   out.deflection = touched ? -walk.gap : 0.0;
 }

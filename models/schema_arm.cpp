@@ -119,6 +119,9 @@ void describe(Visitor& v, ArmRig& a) {
   v.value({"settle_ms", "in which the target follows a leap of the finger that is seen",
            "docs/plane_button.md", chosen, kPositive},
           &a.settle);
+  v.value({"prop_lag_ms", "of a driven prop's surface behind what it is told", "docs/objects.md", assumed,
+           kNotNegative},
+          &a.prop_lag);
   v.value({"stale_ms", "an older sample is lost", "architecture B10", assumed, kPositive}, &a.stale);
   v.value({"least_dexterity",
            "nearer to a singular pose no object may be",
@@ -168,6 +171,15 @@ void describe(Visitor& v, sim::ArmTruth& a) {
   v.value(
       {"drum_time_ms", "of the motor that drives a prop's surface", "docs/objects.md", assumed, kPositive},
       &a.drum_time);
+  v.value({"belt_time_ms", "of the stop between finger and the belt of a drum", "docs/objects.md", assumed,
+           kPositive},
+          &a.belt_time);
+  v.value({"belt_impedance", "of that stop, of MuJoCo; 1: it does not give", "docs/objects.md", assumed,
+           Range{0.5, 0.9999}},
+          &a.belt_impedance);
+  v.value({"belt_friction_time_ms", "in which friction takes out a slip on that belt", "docs/objects.md",
+           assumed, kPositive},
+          &a.belt_friction_time);
   v.value({"prop_friction", "of a finger on the prop", "parameters 5.1", assumed, kNotNegative},
           &a.prop_friction);
   v.value({"misplaced_mm", "of the base against where the rig says it is", "injected", chosen}, &a.misplaced);

@@ -32,9 +32,12 @@ void describe(Visitor& v, ManipulatorRig& m) {
   v.value({"gripper_radius_mm", "of gripper and sensor, round about H's z: the sensor's", "parameters 3",
            derived, kNotNegative},
           &m.gripper_radius);
-  v.value(
-      {"servo_hz", "believed natural frequency of the position loop", "parameters 2.1", assumed, kPositive},
-      &m.servo);
+  v.value({"servo_hz",
+           "believed natural frequency of the position loop",
+           "parameters 2.1",
+           assumed,
+           {0.0, 1000.0, true}},
+          &m.servo);
   v.value({"servo_damping", "believed ratio of it", "fidelity 1", assumed, kPositive}, &m.servo_damping);
   v.value({"delay_ms", "believed dead time, from command to servo", "fidelity 1", assumed, kNotNegative},
           &m.delay);

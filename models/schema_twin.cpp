@@ -35,8 +35,9 @@ void describe(Visitor& v, sim::HexapodTruth& h) {
          {"form", "control: the pose is prescribed; structural: legs with stiffness carry it", "fidelity 4",
           chosen},
          kForms, h.form);
-  v.value({"servo_hz", "natural frequency of the position loop", "parameters 2.1", assumed, kPositive},
-          &h.servo);
+  v.value(
+      {"servo_hz", "natural frequency of the position loop", "parameters 2.1", assumed, {0.0, 1000.0, true}},
+      &h.servo);
   v.value({"damping", "ratio, of the position loop", "fidelity 1", assumed, kPositive}, &h.damping);
   v.value({"delay_cycles", "from command to servo", "fidelity 1", assumed, {0.0, 1000.0}}, &h.delay_cycles);
   v.value({"speed_mm_s", "of the haptic-tip, at most", "[VHMR 2]", published, kPositive}, &h.speed);

@@ -75,9 +75,15 @@ Pose<'R', 'H'> HexapodPlant::true_pose() const noexcept {
   return {Quat(state_.pose.q()), Vec3(state_.pose.p() + state_.play.e())};
 }
 
+// The servo's period in no less than 40 steps: a fast servo in one step would be quicker than it is.
 void HexapodPlant::move(double timestep) noexcept {
-  follow_position(timestep);
-  follow_rotation(timestep);
+  const double steps = std::max(1.0, std::ceil(40.0 * truth_.servo * timestep));
+  const Vec3 before = state_.velocity.e();
+  for (int i = 0; i < static_cast<int>(steps); ++i) {
+    follow_position(timestep / steps);
+    follow_rotation(timestep / steps);
+  }
+  state_.acceleration = Vec<'R'>(Vec3((state_.velocity.e() - before) / timestep));
   const double gain = 1.0 - std::exp(-2.0 * std::numbers::pi * truth_.servo * timestep);
   state_.play = state_.play + gain * (state_.play_due - state_.play);
 }
@@ -89,7 +95,6 @@ void HexapodPlant::follow_position(double timestep) noexcept {
   const Vec3 pull =
       clipped(w * w * error - 2.0 * truth_.damping * w * state_.velocity.e(), truth_.acceleration);
   const Vec3 velocity = clipped(state_.velocity.e() + timestep * pull, truth_.speed);
-  state_.acceleration = Vec<'R'>(Vec3((velocity - state_.velocity.e()) / timestep));
   state_.velocity = Vec<'R'>(velocity);
   const Vec3 p = state_.pose.p() + timestep * velocity;
   std::copy_n(p.data(), 3, state_.pose.xyz.begin());

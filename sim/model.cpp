@@ -159,7 +159,7 @@ void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const
 
 // The only two that can touch: then no others are looked for (3 % of the instructions of a tick). Friction
 // and stop are those of the first.
-void only_pair(mjSpec* spec, const char* one, const char* other) {
+mjsPair* only_pair(mjSpec* spec, const char* one, const char* other) {
   mjsPair* pair = mjs_addPair(spec, nullptr);
   mjs_setString(pair->geomname1, one);
   mjs_setString(pair->geomname2, other);
@@ -170,6 +170,7 @@ void only_pair(mjSpec* spec, const char* one, const char* other) {
   std::copy_n(first->solref, mjNREF, pair->solref);
   std::copy_n(first->solimp, mjNIMP, pair->solimp);
   for (mjsGeom* geom : {first, second}) geom->contype = geom->conaffinity = 0;
+  return pair;
 }
 
 // A button or a piece of a plane, whose face is at z = 0 of O.
@@ -255,8 +256,13 @@ SpecPtr build_model(const ModelParts& parts) {
   else  // nothing can touch, and a hexapod has no other constraint
     spec->option.disableflags |= mjDSBL_CONTACT | (parts.scene.arm ? 0 : mjDSBL_CONSTRAINT);
   if (parts.other != nullptr) add_tool(spec.get(), parts, *parts.other, "other_tool");
-  if (parts.scene.arm && parts.scene.prop && parts.tool != nullptr)
-    only_pair(spec.get(), "prop_front", "tool_tip");
+  if (parts.scene.arm && parts.scene.prop && parts.tool != nullptr) {
+    mjsPair* pair = only_pair(spec.get(), "prop_front", "tool_tip");
+    if (parts.scene.prop->kind == PropKind::drum) {
+      pair->solreffriction[0] = parts.twin.arm.belt_friction_time;
+      pair->solreffriction[1] = 1.0;
+    }
+  }
   if (parts.draw_all) add_pictures(spec.get(), parts);
   return spec;
 }

@@ -59,14 +59,14 @@ void slow_figures(const PressTrace& trace, const InteractionSpec& law, double re
   const auto near = [&](const char* id, double value, double wanted, const char* unit, const char* note) {
     report.figure(id, value, unit, note, 0.98 * wanted, 1.02 * wanted);
   };
-  near("button.d1", 1e3 * fit.d1, 1e3 * law.trigger, "mm",
+  near("button.live.d1", 1e3 * fit.d1, 1e3 * law.trigger, "mm",
        "three lines fitted with free breaks: the trigger");
-  near("button.d2", 1e3 * fit.d2, 1e3 * law.bottom, "mm", "the bottom");
-  report.figure("button.gradual", 1e3 * fit.gradual, "mm", "over which one line becomes the next");
-  near("button.slope1", fit.slope[0], resistance, "N/m", "resistance before the trigger");
-  near("button.slope2", fit.slope[1], law.after, "N/m", "after it");
-  near("button.slope3", fit.slope[2], law.floor, "N/m", "at the bottom");
-  report.figure("button.fit.rms", 1e3 * fit.rms, "mN", "that the fit leaves");
+  near("button.live.d2", 1e3 * fit.d2, 1e3 * law.bottom, "mm", "the bottom");
+  report.figure("button.live.gradual", 1e3 * fit.gradual, "mm", "over which one line becomes the next");
+  near("button.live.slope1", fit.slope[0], resistance, "N/m", "resistance before the trigger");
+  near("button.live.slope2", fit.slope[1], law.after, "N/m", "after it");
+  near("button.live.slope3", fit.slope[2], law.floor, "N/m", "at the bottom");
+  report.figure("button.live.fit.rms", 1e3 * fit.rms, "mN", "that the fit leaves");
 }
 
 // Peak before the trigger and least force after it, N, while pressing.
@@ -84,22 +84,22 @@ Dip dip_of(const PressTrace& trace, const InteractionSpec& law) {
   return dip;
 }
 
-void late_figures(const PressTrace& trace, const InteractionSpec& law, double resistance,
-                  const Report& report) {
+void vision_figures(const PressTrace& trace, const InteractionSpec& law, double resistance,
+                    const Report& report) {
   const Line first = line_of(trace, Phase::press, Depth::truth, 0.7e-3, 0.95 * law.trigger);
   const Line last = line_of(mean_curve(trace, law.bottom + 1.1 * law.gradual, 5.9e-3, 0.02e-3));
   const Dip dip = dip_of(trace, law);
-  report.figure("button.live.slope1", first.slope, "N/m",
+  report.figure("button.vision.slope1", first.slope, "N/m",
                 "a hand that vision sees, 20 Hz, 50 ms old; pressed [fidelity F2]", resistance,
                 1.7 * resistance);
-  report.figure("button.live.slope3", last.slope, "N/m",
+  report.figure("button.vision.slope3", last.slope, "N/m",
                 "end stop [F2]: mean of press and release, because the hand brakes there", 0.95 * law.floor,
                 1.05 * law.floor);
-  report.figure("button.live.dip", 100.0 * (1.0 - dip.least / dip.peak), "%", "of the peak [F2]", 20.0,
+  report.figure("button.vision.dip", 100.0 * (1.0 - dip.least / dip.peak), "%", "of the peak [F2]", 20.0,
                 100.0);
-  report.figure("button.live.step", greatest_step(trace, 0.0), "N", "change of the force in a ms [F2]", 0.0,
+  report.figure("button.vision.step", greatest_step(trace, 0.0), "N", "change of the force in a ms [F2]", 0.0,
                 0.4);
-  report.figure("button.live.switch_step", greatest_step(trace, law.bottom - law.gradual), "N",
+  report.figure("button.vision.switch_step", greatest_step(trace, law.bottom - law.gradual), "N",
                 "the same where the target goes over to the bottom board [V33]", 0.0, 0.2);
 }
 
@@ -128,17 +128,18 @@ double given_back(const PressTrace& trace) {
 }
 
 void sudden_figures(const ButtonRuns& runs, const Report& report) {
-  report.figure("button.gradual.step", greatest_step(runs.gradual, 1e-3), "N",
+  report.figure("button.live.gradual.step", greatest_step(runs.gradual, 1e-3), "N",
                 "high gain (1000, 300, 1500 N/m), gradual change: in a ms", 0.0, 0.4);
-  report.figure("button.sudden.step", greatest_step(runs.sudden, 1e-3), "N",
+  report.figure("button.live.sudden.step", greatest_step(runs.sudden, 1e-3), "N",
                 "the same at once: the paper's warning", 0.4);
-  report.figure("button.sudden.triggers", triggers(runs.sudden), "", "leaps of the gain down while pressing");
-  report.figure("button.sudden.lost", losses(runs.sudden, 1e-3), "",
+  report.figure("button.live.sudden.triggers", triggers(runs.sudden), "",
+                "leaps of the gain down while pressing");
+  report.figure("button.live.sudden.lost", losses(runs.sudden, 1e-3), "",
                 "times that the finger is let go below 1 mm");
-  report.figure("button.gradual.lost", losses(runs.gradual, 1e-3), "", "with the gradual change");
-  report.figure("button.sudden.given_back", given_back(runs.sudden), "mJ",
+  report.figure("button.live.gradual.lost", losses(runs.gradual, 1e-3), "", "with the gradual change");
+  report.figure("button.live.sudden.given_back", given_back(runs.sudden), "mJ",
                 "energy that the prop gives the finger while this presses");
-  report.figure("button.gradual.given_back", given_back(runs.gradual), "mJ", "with the gradual change");
+  report.figure("button.live.gradual.given_back", given_back(runs.gradual), "mJ", "with the gradual change");
 }
 
 Series over_distance(const std::string& name, const PressTrace& trace, Phase phase) {
@@ -203,7 +204,7 @@ void measure_button(const BenchContext& context, const Report& report) {
   const ButtonRuns runs = button_runs(context);
   const Law law = law_of(context, "button");
   slow_figures(runs.slow, law.does, law.stiffness, report);
-  late_figures(runs.late, law.does, law.stiffness, report);
+  vision_figures(runs.late, law.does, law.stiffness, report);
   if (runs.sudden.size() > 0) sudden_figures(runs, report);
   button_plots(runs, law, law_of(context, "wall"), report);
   report.result().simulated += runs.slow.run.simulated + runs.late.run.simulated;

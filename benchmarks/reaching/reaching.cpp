@@ -17,7 +17,7 @@ using Adder = std::function<void(const std::string& id, double value, const char
                                  double high, const std::string& note)>;
 
 const char* name_of(Seen how) { return how == Seen::vision ? "seen at 20 Hz, 50 ms late" : "seen live"; }
-std::string key_of(Seen how) { return how == Seen::vision ? "" : "live."; }
+std::string key_of(Seen how) { return how == Seen::vision ? "vision." : "live."; }
 
 double percent(const std::vector<ReachOutcome>& reaches, const std::function<bool(const ReachOutcome&)>& is) {
   return 100.0 * static_cast<double>(std::count_if(reaches.begin(), reaches.end(), is)) /
@@ -71,11 +71,16 @@ void random_part(const BenchContext& context, BenchResult& result, const Adder& 
       far = std::max(far, one.far_speed);
       result.simulated += one.simulated;
     }
-    if (how == Seen::live)
-      add("lead_percent", 100.0 * in_time(joined(ran)), "%", 95.0, kUnset,
-          "of the reaches in which the machine is within 2 mm of where it is met before it is met: the "
-          "finger is "
-          "seen live, so that the machine's travel alone counts");
+    // By a quarter less than is measured: of 60 reaches, which are drawn.
+    add(key_of(how) + "lead_percent", 100.0 * in_time(joined(ran)), "%",
+        context.quick       ? kUnset
+        : how == Seen::live ? 95.0
+                            : 50.0,
+        kUnset,
+        how == Seen::live
+            ? "of the reaches in which the machine is within 2 mm of where it is met before it is "
+              "met: the finger is seen live, so that the machine's travel alone counts"
+            : "the same of a finger that vision sees at 20 Hz, 50 ms late");
     random_figures(ran, how, add);
     Plot plot{how == Seen::live ? "reaching_lead_live" : "reaching_lead",
               std::string("From \"prepare\" until they meet; the finger is ") + name_of(how),

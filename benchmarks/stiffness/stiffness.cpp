@@ -378,6 +378,7 @@ BenchResult run(const BenchContext& given) {
   add_level_table(all, result);
   add_motion_plot(context, extent, result);
   if (!context.quick) add_knee(context, result);
+  add_softest(context, result);
   add_beyond(
       context, [&](double done) { tell((0.8 + 0.2 * done) * share); }, result);
   if (context.full) {

@@ -37,6 +37,8 @@ struct Spread {
 
 // Both explanations of the knee at 0.3 N/mm beside each other, as figures and a table.
 void add_knee(const BenchContext& context, BenchResult& result);
+// What `check` says of the softest spring, against the twin over a grid of hands and machines.
+void add_softest(const BenchContext& context, BenchResult& result);
 // Each effect switched off alone: what it does to the boundary and to the error.
 void add_switches(const BenchContext& context, const Progress& progress, BenchResult& result);
 

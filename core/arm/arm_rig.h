@@ -41,6 +41,7 @@ struct ArmRig {
   double speed = 0.6;             // of the target on its way to where the finger will touch, m/s
   double acceleration = 10.0;     // and of it, m/s^2
   double settle = 0.010;          // s, in which the target follows a leap of the finger that is seen
+  double prop_lag = 0.020;        // s: of a driven prop's surface behind what it is told; assumed
   double stale = 0.005;           // s: an older sample is lost
   double least_dexterity = 0.15;  // nearer to a singular pose the tip is not sent
 };

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/rotation.h"
 #include "core/stages.h"
 
 namespace enc {
@@ -13,30 +14,57 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+// What a tile does on the way back.
+double tile_firmness(const Mover& mover, double rate, double deepest) {
+  return rate < 0.0 ? std::max(0.0, 1.0 + mover.bounce * rate / deepest) : 1.0;
+}
+
+// What a ball does: `deepest` is how deep the finger was when q was last lowered.
+double ball_firmness(const Mover& mover, const FingerPress& press, Moved& now) {
+  const double faster = -press.normal.e().dot(now.velocity.e()) - press.speed;
+  if (faster <= 0.0 || press.depth >= now.deepest) return now.firmness;
+  // Short of e by what the prop's speed is known to: energy is not gained.
+  constexpr double kShort = 0.95;
+  const double parting = kShort * mover.restitution * press.speed;
+  const double wanted = mover.mass * (parting * parting - faster * faster);
+  const double there = mover.stiffness * now.firmness * press.depth * press.depth;
+  const double share = std::clamp(wanted / there, 1e-3, 1.0);
+  return now.firmness * std::pow(press.depth / now.deepest, 2.0 / share - 2.0);
+}
+
 // What the law says of the finger in this object, and what it remembers for the next tick. Gives the force,
 // N.
-double pressed(const Mover& mover, double depth, double dt, Moved& now) {
-  const double rate = std::isnan(now.depth) ? 0.0 : (depth - now.depth) / dt;
-  now.depth = depth;
-  now.firmness = 1.0;
-  if (!(depth > 0.0)) {
+double pressed(const Mover& mover, const FingerPress& press, double dt, Moved& now) {
+  const double rate = std::isnan(now.depth) ? 0.0 : (press.depth - now.depth) / dt;
+  now.depth = press.depth;
+  if (!(press.depth > 0.0)) {
     now.deepest = 0.0;
+    now.firmness = 1.0;
     return 0.0;
   }
-  now.deepest = std::max(now.deepest, depth);
-  if (rate < 0.0) now.firmness = std::max(0.0, 1.0 + mover.bounce * rate / now.deepest);
-  return mover.stiffness * now.firmness * depth;
+  if (mover.kind == Interaction::hit) {
+    now.firmness = ball_firmness(mover, press, now);
+    const bool back = now.firmness < 1.0;
+    now.deepest = back ? std::min(now.deepest, press.depth) : std::max(now.deepest, press.depth);
+  } else {
+    now.deepest = std::max(now.deepest, press.depth);
+    now.firmness = tile_firmness(mover, rate, now.deepest);
+  }
+  return mover.stiffness * now.firmness * press.depth;
 }
 
 void fly(const Mover& mover, const Vec3& force, const FingerPress& press, double dt, Moved& now) {
   const Vec3 velocity = now.velocity.e() + force * (dt / mover.mass);
   const Vec3 shift = now.shift.e() + velocity * dt;
+  constexpr double kSlow = 0.020;  // m/s: it would be on its way for seconds
   const bool gone = shift.norm() >= mover.travel * (1.0 - 1e-9);
+  const bool slow = velocity.norm() < kSlow;
   now.velocity = gone ? Vec<'W'>::zero() : Vec<'W'>(velocity);
   now.shift = gone ? Vec<'W'>(Vec3(shift * (mover.travel / shift.norm()))) : Vec<'W'>(shift);
+  const bool apart = now.deepest == 0.0 && !press.late;
   const bool clear =
       !press.finger.finite() || (press.finger - mover.centre).norm() - mover.radius - press.radius > kClear;
-  if (gone && clear) now = Moved{};
+  if ((gone || slow) && apart && clear) now = Moved{};
 }
 
 // How far a box can go along `way` (in its own axes) until it meets the other; infinite where it passes by.
@@ -89,10 +117,71 @@ void slide(const Mover& mover, const Vec3& force, std::span<const Moved> moved, 
 
 }  // namespace
 
+namespace {
+
+// Whether the prop, which stands at the surface, is struck: pushed in faster and farther than noise is.
+// Vision says no more than that a finger may be there. What the arm does on its way home is no strike.
+bool struck(const stages::Walk& walk, State& state) {
+  constexpr double kNear = 0.030;       // m: a finger that is seen late is somewhere in here
+  constexpr double kSpeed = 0.025;      // m/s: two counts of an encoder in 2 ms are 0.014
+  constexpr double kMoved = 0.06e-3;    // m: two counts
+  constexpr double kFriction = 0.6e-3;  // m: what friction may hold the prop off the surface, at most
+  constexpr double kSettled = 0.100;    // s, after it has come
+  const double behind = dot(state.reaching.target - walk.X_WH.origin(), walk.normal);
+  const double speed = dot(state.reaching.velocity - walk.tip_velocity, walk.normal);
+  const bool there = state.mode == Mode::follow && state.reaching.caught_up && walk.tool_known;
+  const bool pushed = behind > kFriction || (behind > kMoved && speed > kSpeed);
+  if (!there) state.contact.left = walk.tick.t;
+  return there && age(walk.tick.t, state.contact.left) > kSettled && pushed && walk.gap < kNear;
+}
+
+// How a ball is hit says the prop that stands for it, each tick to 0.03 mm; a picture of the finger is 50 ms
+// old, and the hit is over by then. So the depth is that of the prop behind where it was struck, until they
+// part. A ball that has been hit is not hit again before it is back.
+double hit_depth(stages::Walk& walk, State& state, const Moved& now) {
+  Contact& contact = state.contact;
+  const bool pressed = state.mode == Mode::contact && contact.anchored && contact.object == state.object;
+  if (!pressed) {
+    const bool home = now.shift.e().isZero() && now.velocity.e().isZero();
+    if (!home || !struck(walk, state)) return kUnset;
+    contact = Contact{};
+    contact.object = state.object;
+    contact.tool = state.tool.value.tool;
+    contact.anchored = true;
+    contact.began = walk.tick.t;
+    contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.X_WH.origin());
+    state.mode = Mode::contact;
+    ++state.contacts;
+  }
+  walk.normal = contact.X_WN * Vec<'N'>(0, 0, 1);
+  const double depth = dot(contact.X_WN.origin() + now.shift - walk.X_WH.origin(), walk.normal);
+  constexpr double kBack = 0.1e-3;                                // m: it was no finger
+  if (depth < -kBack || (!(depth > 0.0) && now.deepest > 0.0)) {  // they part
+    contact.anchored = false;
+    contact.left = walk.tick.t;
+  }
+  walk.gap = -depth;
+  return contact.anchored ? depth : kUnset;
+}
+
+}  // namespace
+
 // Time stands still in a hold, here too.
 void stages::push(Walk& walk, State& state) noexcept {
-  if (walk.scene.movers.empty() || holding(walk)) return;
-  const FingerPress press{state.object, -walk.gap, walk.normal, walk.tool_tip, walk.tool_radius};
+  if (walk.scene.movers.empty()) return;
+  if (holding(walk)) {
+    state.contact.anchored = false;
+    return;
+  }
+  double depth = -walk.gap;
+  if (state.object >= 0) {
+    const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+    if (object.interaction.kind == Interaction::hit)
+      depth = hit_depth(walk, state, state.moved[static_cast<std::size_t>(object.moving)]);
+  }
+  const double speed = -dot(state.reaching.velocity, walk.normal);  // a prop that is struck: go_with
+  const bool late = age(walk.tick.t, state.contact.left) < walk.scene.tracker.usual_age;
+  const FingerPress press{state.object, depth, walk.normal, walk.tool_tip, walk.tool_radius, speed, late};
   move(walk.scene.movers, press, walk.scene.dt, state.moved);
 }
 
@@ -103,7 +192,7 @@ void move(std::span<const Mover> movers, const FingerPress& press, double dt,
     Moved& now = moved[i];
     Vec3 force = Vec3::Zero();
     if (mover.object == press.object && std::isfinite(press.depth)) {
-      force = -pressed(mover, press.depth, dt, now) * press.normal.e();
+      force = -pressed(mover, press, dt, now) * press.normal.e();
     } else {
       now.depth = kUnset;
       now.deepest = 0.0;
@@ -185,6 +274,7 @@ Mover make_mover(const ObjectSpec& spec, const Object& object) {
   mover.stiffness = object.stiffness;
   if (does.kind != Interaction::spin)
     mover.bounce = bounce_of(does.restitution) * std::sqrt(does.mass / object.stiffness);
+  mover.restitution = does.restitution;
   mover.mass = does.mass;
   mover.friction = does.friction;
   mover.way = object.X_WO * Vec<'O'>(Vec3(does.way.normalized()));

@@ -21,7 +21,7 @@ void lie_on_prop(Walk& walk, const State& state) {
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
   if (!state.reaching.caught_up) return;  // the prop is on its way to another place
   const Interaction kind = object->interaction.kind;
-  if (kind != Interaction::slide && kind != Interaction::click) return;
+  if (kind != Interaction::slide && kind != Interaction::click && kind != Interaction::spin) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
   const double slack = walk.scene.contact.leave_gap;
   const double beyond = walk.gap - prop;
@@ -31,11 +31,18 @@ void lie_on_prop(Walk& walk, const State& state) {
 // The gap alone says what is touched: an arm measures no force. "Prepare" is the way from away to follow.
 void choose_mode(const Walk& walk, State& state) {
   const FollowSpec& follow = walk.scene.follow;
-  if (state.object < 0 || !walk.tool_known) {
+  const Object* object = nearest_object(walk, state);
+  if (object == nullptr || !walk.tool_known) {
     state.mode = Mode::away;
     return;
   }
   if (state.mode == Mode::away && walk.gap < follow.resume) state.mode = Mode::follow;
+  if (object->interaction.kind ==
+      Interaction::hit) {  // when it is touched, and when no longer, says the prop
+    if (state.mode == Mode::contact && !state.contact.anchored) state.mode = Mode::follow;
+    if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
+    return;
+  }
   if (state.mode == Mode::contact && walk.gap > walk.scene.contact.leave_gap) state.mode = Mode::follow;
   if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
   if (state.mode == Mode::follow && walk.gap <= 0.0) {
@@ -54,14 +61,39 @@ struct Goal {
   Vec<'W'> velocity = Vec<'W'>::zero();
 };
 
+// The ball under a finger that has struck it.
+const Moved* hit_now(const Walk& walk, const State& state) {
+  const Object* object = nearest_object(walk, state);
+  const bool hit = object != nullptr && object->interaction.kind == Interaction::hit;
+  if (!hit || state.mode != Mode::contact) return nullptr;
+  return &state.moved[static_cast<std::size_t>(object->moving)];
+}
+
+// A ball that flies is no longer touched: its prop gets out of the finger's way, to where the ball will wait.
+Vec<'W'> rest_of_flight(const Walk& walk, const State& state, const Object& object) {
+  if (object.interaction.kind != Interaction::hit) return Vec<'W'>::zero();
+  const Moved& ball = state.moved[static_cast<std::size_t>(object.moving)];
+  const double flown = ball.shift.norm();
+  if (!(flown > 0.0)) return Vec<'W'>::zero();
+  return (walk.scene.movers[static_cast<std::size_t>(object.moving)].travel / flown - 1.0) * ball.shift;
+}
+
+bool touches_belt(const State& state, const Object* object) {
+  return state.mode == Mode::contact && object != nullptr && object->interaction.kind == Interaction::spin;
+}
+
 // The finger's projection on the surface, which goes along with it and with what moves. How fast, the surface
 // says: on a small ball the projection is slower than the finger, beyond the edge of a button it stands.
 Goal goal_of(const Walk& walk, const State& state, const Object& object) {
   if (object.met_in_its_middle()) return {object.X_WO.origin()};
   const Vec<'W'> none = Vec<'W'>::zero();
+  if (const Vec<'W'> rest = rest_of_flight(walk, state, object); !rest.e().isZero())
+    return {walk.surface_point + rest};
   const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
   const bool known = predicted && walk.tool_fresh && state.tip_motion.velocity.finite();
   const Vec<'W'> finger = known ? state.tip_motion.velocity : none;
+  // A belt is slower than pictures leap: a prop that runs goes along without haste, and is wide enough.
+  if (touches_belt(state, &object)) return {walk.surface_point};
   const bool shifts = object.moving >= 0 && object.interaction.kind != Interaction::spin;
   const Vec<'W'> face = shifts ? state.moved[static_cast<std::size_t>(object.moving)].velocity : none;
   const Vec<'W'> shift = shifts ? shift_of(object, state.moved) : none;
@@ -92,15 +124,18 @@ Vec3 not_through_a_hollow(const Walk& walk, State& state, const Object& object, 
 void move_target(Walk& walk, State& state, const Goal& goal, const Object* object) {
   constexpr double kThere = 0.2e-3;  // m
   constexpr double kLeap = 10e-3;    // m: another object, or another part of it
+  constexpr double kBelt = 0.060;    // s: of a prop whose surface runs
   Reaching& now = state.reaching;
   const ArmRig& rig = walk.scene.impedance->rig;
   const double dt = walk.scene.dt;
   const Vec3 way = (goal.point - now.target).e();
   const double far = way.norm();
-  if (far > kLeap) now.caught_up = false;
+  const bool runs = touches_belt(state, object);
+  if (far > kLeap && !runs) now.caught_up = false;
   // The share leaves room for a goal that moves.
   const double stops = std::min(0.9 * braking_speed(far, rig.acceleration, dt), far / dt);
-  const double speed = now.caught_up ? std::min(far / rig.settle, stops) : std::min(rig.speed, stops);
+  const double settle = runs ? kBelt : rig.settle;
+  const double speed = now.caught_up ? std::min(far / settle, stops) : std::min(rig.speed, stops);
   Vec3 velocity = goal.velocity.e();
   if (far > 0.0) velocity += way * (speed / far);
   if (velocity.norm() > rig.speed) velocity *= rig.speed / velocity.norm();
@@ -112,8 +147,21 @@ void move_target(Walk& walk, State& state, const Goal& goal, const Object* objec
     walk.target_acceleration = (velocity - now.velocity.e()) / dt;
     now.caught_up = far < kThere && change.norm() <= 2.0 * most;
   }
+  walk.target_change = (velocity - now.velocity.e()) / dt;
   now.velocity = Vec<'W'>(velocity);
   now.target = now.target + dt * now.velocity;
+}
+
+// While a ball is pressed the ball alone pushes its prop (impede), and along the normal the target is where
+// the finger has pushed it: so nothing leaps when they part. Its speed is that of the prop, smoothed.
+void go_with_prop(const Walk& walk, const Contact& contact, Reaching& now) {
+  constexpr double kTicks = 8.0;
+  const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
+  const double ticks = 1.0 + std::round(age(walk.tick.t, contact.began) / walk.scene.dt);
+  const double before = ticks > 1.0 ? normal.dot(now.velocity.e()) : 0.0;
+  const double speed = before + (normal.dot(walk.tip_velocity.e()) - before) / std::min(ticks, kTicks);
+  now.velocity = Vec<'W'>(Vec3(speed * normal));
+  now.target = now.target + Vec<'W'>(Vec3(normal * normal.dot((walk.X_WH.origin() - now.target).e())));
 }
 
 // Whether the arm does what it is told. A finger may push the tip away from its target, so only where none is
@@ -261,7 +309,12 @@ void push_back(Walk& walk, State& state) {
   const double across = real ? now.gain : 1.0;
   const Vec3 f = going_along(walk, mass) + law.rig.stiffness * now.error.e() +
                  damping_at(law, law.arm.felt_mass(walk.jacobian, mass)) * now.error_rate.e();  // [eq. 2]
-  const Vec3 pushed = guarded(walk, state, gain_matrix(normal, across, now.gain) * f);          // [eq. 7]
+  Vec3 wanted = gain_matrix(normal, across, now.gain) * f;                                      // [eq. 7]
+  if (const Moved* ball = hit_now(walk, state)) {
+    const double back = object->stiffness * ball->firmness * std::max(0.0, ball->depth);
+    wanted += normal * ((std::isnan(back) ? 0.0 : back) - normal.dot(wanted));
+  }
+  const Vec3 pushed = guarded(walk, state, wanted);
   walk.felt = Vec<'W'>(Vec3(-pushed));
   state.force = walk.felt;
   walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
@@ -289,7 +342,9 @@ void encounter(Walk& walk, State& state) noexcept {
   lie_on_prop(walk, state);
   choose_mode(walk, state);
   const Object* object = nearest_object(walk, state);
-  if (state.mode == Mode::away || object == nullptr) {
+  if (hit_now(walk, state) != nullptr) {
+    go_with_prop(walk, state.contact, now);
+  } else if (state.mode == Mode::away || object == nullptr) {
     move_target(walk, state, {walk.sent.finite() ? walk.sent : now.target}, nullptr);
   } else {
     Goal goal = goal_of(walk, state, *object);

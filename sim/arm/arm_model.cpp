@@ -236,6 +236,10 @@ void add_front(mjsBody* prop, const ArmParts& parts) {
   front->solref[0] = parts.truth.contact_time;
   front->solref[1] = 1.0;
   front->solimp[0] = front->solimp[1] = 0.999;
+  if (spec.kind == PropKind::drum) {
+    front->solref[0] = parts.truth.belt_time;
+    front->solimp[0] = front->solimp[1] = parts.truth.belt_impedance;
+  }
   std::copy(kProp.begin(), kProp.end(), front->rgba);
 }
 

@@ -35,8 +35,13 @@ struct ArmTruth {
   double gimbal_time = 0.030;      // s, in which the prop turns to another surface
   double prop_friction = 0.6;      // of a finger on the prop
   double contact_time = 0.004;     // s, of the stop between finger and prop: a hard contact
-  Vec3 misplaced{0, 0, 0};         // of the base against the believed X_WR, m
-  Vec3 turned{0, 0, 0};            // rad
+  // Of a drum's belt, which gives under a finger. MuJoCo's friction of what slips at the speed s lifts it off
+  // by s times friction times twice the time constant of that friction: from a hard belt a finger hops.
+  double belt_time = 0.005;           // s, of its stop: with the next, 0.2 mm/N under a finger of 20 g
+  double belt_impedance = 0.8;        // of its stop (MuJoCo's d)
+  double belt_friction_time = 0.030;  // s, of its friction
+  Vec3 misplaced{0, 0, 0};            // of the base against the believed X_WR, m
+  Vec3 turned{0, 0, 0};               // rad
 };
 
 // The machine with the masses and inertias that it really has. Its motors are known.

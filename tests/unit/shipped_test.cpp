@@ -1,0 +1,73 @@
+// Ball and drum as they are shipped: a tracker of 20 Hz, 50 ms late, judged by the truth.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+#include "trial/trial.h"
+
+namespace enc {
+namespace {
+
+trial::TrialOptions seeded(std::uint64_t seed) {
+  trial::TrialOptions options;
+  options.seed = seed;
+  return options;
+}
+models::Setup shipped(const std::string& scene) {
+  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene + ".toml", "", {});
+}
+
+TEST(ShippedBall, IsOneContactAHit) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    trial::Trial trial(shipped("hit_ball"), seeded(seed));
+    bool touched = false;
+    std::int32_t contacts = 0;
+    while (trial.tick()) {
+      touched = touched || trial.truth().touching;
+      if (trial.outputs().contacts == contacts) continue;
+      EXPECT_TRUE(touched) << "seed " << seed;
+      touched = false;
+      contacts = trial.outputs().contacts;
+    }
+    EXPECT_EQ(contacts, 3) << "100, 200 and 400 mm/s, seed " << seed;
+  }
+}
+
+// The ball gets no more than the finger has put in.
+TEST(ShippedBall, GainsNoEnergy) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    trial::Trial trial(shipped("hit_ball"), seeded(seed));
+    double work = 0.0;
+    while (trial.tick()) {
+      const sim::Truth& truth = trial.truth();
+      work += trial.scene().dt * dot(truth.contact_force, truth.tip_velocity);
+      const Moved& ball = trial.state().moved[0];
+      if (ball.shift.e().isZero()) continue;
+      EXPECT_LE(0.5 * 0.058 * ball.velocity.e().squaredNorm(), work) << "seed " << seed;
+    }
+  }
+}
+
+TEST(ShippedDrum, IsSmoothUnderTheFinger) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    trial::Trial trial(shipped("drum"), seeded(seed));
+    double before = 0.0, step = 0.0, sideways = 0.0, normal = 0.0;
+    while (trial.tick()) {
+      const Vec<'W'>& force = trial.truth().contact_force;
+      const double now = -force.xyz[2];
+      step = std::max(step, std::abs(now - before));
+      before = now;
+      if (now < 1.0) continue;
+      sideways += std::hypot(force.xyz[0], force.xyz[1]);
+      normal += now;
+    }
+    EXPECT_LE(step, 0.4) << "N in a ms, seed " << seed;
+    EXPECT_LE(sideways, 1.1 * 0.6 * normal) << "seed " << seed;
+    EXPECT_EQ(trial.outputs().contacts, 1);
+  }
+}
+
+}  // namespace
+}  // namespace enc
