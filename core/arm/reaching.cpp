@@ -153,15 +153,24 @@ void move_target(Walk& walk, State& state, const Goal& goal, const Object* objec
 }
 
 // While a ball is pressed the ball alone pushes its prop (impede), and along the normal the target is where
-// the finger has pushed it: so nothing leaps when they part. Its speed is that of the prop, smoothed.
+// the finger has pushed it: so nothing leaps when they part. Its speed is that of the prop, smoothed, and no
+// more than the way that it has come allows: one reading that is wrong sets nothing in motion. Sideways it
+// comes to rest.
 void go_with_prop(const Walk& walk, const Contact& contact, Reaching& now) {
   constexpr double kTicks = 8.0;
+  const ArmRig& rig = walk.scene.impedance->rig;
+  const double dt = walk.scene.dt;
   const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
-  const double ticks = 1.0 + std::round(age(walk.tick.t, contact.began) / walk.scene.dt);
+  const double ticks = 1.0 + std::round(age(walk.tick.t, contact.began) / dt);
+  const double way = normal.dot((walk.X_WH.origin() - contact.X_WN.origin()).e());
+  const double most = std::min(rig.speed, 2.0 * std::abs(way) / (ticks * dt));
   const double before = ticks > 1.0 ? normal.dot(now.velocity.e()) : 0.0;
   const double speed = before + (normal.dot(walk.tip_velocity.e()) - before) / std::min(ticks, kTicks);
-  now.velocity = Vec<'W'>(Vec3(speed * normal));
-  now.target = now.target + Vec<'W'>(Vec3(normal * normal.dot((walk.X_WH.origin() - now.target).e())));
+  Vec3 across = now.velocity.e() - normal * normal.dot(now.velocity.e());
+  across *= std::max(0.0, 1.0 - rig.acceleration * dt / std::max(across.norm(), 1e-9));
+  now.velocity = Vec<'W'>(Vec3(across + std::clamp(speed, -most, most) * normal));
+  now.target =
+      now.target + Vec<'W'>(Vec3(across * dt + normal * normal.dot((walk.X_WH.origin() - now.target).e())));
 }
 
 // Whether the arm does what it is told. A finger may push the tip away from its target, so only where none is

@@ -379,13 +379,20 @@ class Limits {
     const ArmRig& rig = scene.impedance->rig;
     if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
     const Vec3 velocity = state.reaching.velocity.e(), at = state.reaching.target.e();
+    // Along the normal of a ball that is hit the finger moves the prop, and the target is where that is.
+    const bool hit =
+        out.mode == Mode::contact && state.object >= 0 &&
+        scene.objects[static_cast<std::size_t>(state.object)].interaction.kind == Interaction::hit;
+    const Vec3 normal = hit ? Vec3(state.contact.X_WN.q() * Vec3::UnitZ()) : Vec3(Vec3::Zero());
+    const auto of_the_arm = [&](const Vec3& v) { return Vec3(v - normal * normal.dot(v)); };
     if (velocity.norm() > rig.speed * (1 + 1e-9)) return fmt::format("target at {} m/s", velocity.norm());
     std::string what;
     // A hold, or an arm that was not heard of, begins anew where the arm is.
-    if (known_ && !anew(out) && (at - before_).norm() > rig.speed * scene.dt * (1 + 1e-6))
+    if (known_ && !anew(out) && of_the_arm(at - before_).norm() > rig.speed * scene.dt * (1 + 1e-6))
       what = fmt::format("target leaps by {} mm", 1e3 * (at - before_).norm());
-    if (known_ && !anew(out) && (velocity - velocity_).norm() > rig.acceleration * scene.dt * (1 + 1e-6))
-      what = fmt::format("target at {} m/s^2", (velocity - velocity_).norm() / scene.dt);
+    const double change = of_the_arm(velocity - velocity_).norm();
+    if (known_ && !anew(out) && change > rig.acceleration * scene.dt * (1 + 1e-6))
+      what = fmt::format("target at {} m/s^2", change / scene.dt);
     known_ = state.reaching.target.finite() && !anew(out);
     before_ = at;
     velocity_ = velocity;
