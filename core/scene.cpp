@@ -35,7 +35,7 @@ double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
   if (!(smallest > 0.0) || limit > curve * (1.0 + 1e-12) || object.limits.size() > ContactLimits::kMost)
     throw Error("the deflection limit lies between 0 and that of the response, for at most 16 contacts",
                 "object." + object.name + (object.limits.empty() ? ".limit" : ".limits"));
-  return limit;
+  return std::min(limit, curve);
 }
 
 // The deflection, at most `wanted`, up to which the object pushes back with no more than `strength`: the

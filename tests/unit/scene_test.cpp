@@ -73,6 +73,8 @@ TEST(Prepare, RefusesALimitAboveTheResponses) {
   }
   spec.objects[0].limit = 0.004;
   EXPECT_EQ(prepare(spec, {}).objects[0].limit, 0.004);
+  spec.objects[0].limit = std::nextafter(0.006, 1.0);  // rounded, which is no deeper
+  EXPECT_EQ(prepare(spec, {}).objects[0].limit, 0.006);
 }
 
 TEST(Prepare, RefusesAResponseSofterThanTheLoopRenders) {
