@@ -1,14 +1,18 @@
-// Faces that pass through each other: a tree of boxes, walked against itself.
+// Faces that pass through each other or touch: a tree of boxes, walked against itself.
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/frames.h"
+#include "core/mesh/triangle.h"
 #include "models/mesh_check.h"
 
 namespace enc::models {
 namespace {
 
 constexpr std::size_t kLeaf = 4;
+constexpr double kTouching =
+    1e-12;  // of the mesh's size: below it the search takes two faces as equally near
 constexpr std::size_t kMostPairs = 100'000'000;  // of faces whose boxes meet: some seconds
 
 struct Box {
@@ -26,13 +30,33 @@ struct Box {
   }
 };
 
+// Least distance of two segments [Ericson 2005, 5.1.9].
+double between(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = d - c, w = a - c;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
+  const double sine = uu * vv - uv * uv;
+  double s = sine > 0.0 ? std::clamp((uv * vw - uw * vv) / sine, 0.0, 1.0) : 0.0;
+  const double t = std::clamp((uv * s + vw) / vv, 0.0, 1.0);
+  s = std::clamp((uv * t - uw) / uu, 0.0, 1.0);
+  return (w + s * u - t * v).norm();
+}
+
 class Toucher {
  public:
   explicit Toucher(const Mesh& mesh)
-      : mesh_(mesh), order_(mesh.triangles.size()), boxes_(order_.size()), bad_(order_.size()) {
+      : mesh_(mesh),
+        order_(mesh.triangles.size()),
+        boxes_(order_.size()),
+        crosses_(order_.size()),
+        touched_(order_.size(), static_cast<std::uint32_t>(order_.size())) {
+    Box all;
+    for (const auto& v : mesh.vertices) all.add(Vec3(v.data()));
+    near_ = kTouching * (all.high - all.low).norm();
     for (std::size_t i = 0; i < order_.size(); ++i) {
       order_[i] = static_cast<std::uint32_t>(i);
       for (std::size_t k = 0; k < 3; ++k) boxes_[i].add(corner(i, k));
+      boxes_[i].low.array() -= near_;
+      boxes_[i].high.array() += near_;
     }
     nodes_.reserve(order_.size());
     build(0, order_.size());
@@ -55,8 +79,11 @@ class Toucher {
         pairs.insert(pairs.end(), {{i, j + 1}, {i, b.child}});
       }
     }
-    for (std::size_t i = 0; i < bad_.size(); ++i)
-      if (bad_[i]) result_.faces.push_back(i);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      if (crosses_[i]) result_.crossing.push_back(i);
+      if (touched_[i] < order_.size()) result_.touching.push_back(i);
+    }
+    if (!result_.touching.empty()) result_.touched = touched_[result_.touching[0]];
     return std::move(result_);
   }
 
@@ -97,7 +124,8 @@ class Toucher {
         const std::size_t f = order_[i], g = order_[j];
         if (!boxes_[f].meets(boxes_[g])) continue;
         if (++tested_ > kMostPairs) result_.finished = false;
-        if (cross(f, g)) bad_[f] = bad_[g] = true;
+        if (cross(f, g)) crosses_[f] = crosses_[g] = true;
+        if (touch(f, g)) touched_[f] = order_[j], touched_[g] = order_[i];
       }
   }
 
@@ -149,10 +177,50 @@ class Toucher {
     return false;
   }
 
+  // All corners of `g` that `f` has not are on one side of its plane, and not near it.
+  [[nodiscard]] bool beside(std::size_t f, std::size_t g, const std::array<bool, 3>& shared) const {
+    const Vec3 a = corner(f, 0), normal = (corner(f, 1) - a).cross(corner(f, 2) - a);
+    const double near = near_ * normal.norm();
+    bool above = true, below = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (shared[k]) continue;
+      const double height = normal.dot(corner(g, k) - a);
+      above = above && height > near;
+      below = below && height < -near;
+    }
+    return above || below;
+  }
+
+  // A corner on a face or two sides that meet, beside what the faces have in common. Of neighbours folded()
+  // tells.
+  [[nodiscard]] bool touch(std::size_t f, std::size_t g) const {
+    const auto &s = mesh_.triangles[f], &t = mesh_.triangles[g];
+    std::array<bool, 3> of_f{}, of_g{};  // corners that the other has, too
+    for (std::size_t k = 0; k < 9; ++k)
+      if (s[k / 3] == t[k % 3]) of_f[k / 3] = of_g[k % 3] = true;
+    if (std::count(of_f.begin(), of_f.end(), true) > 1) return false;
+    if (beside(f, g, of_g) || beside(g, f, of_f)) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((!of_f[k] && on(corner(f, k), g)) || (!of_g[k] && on(corner(g, k), f))) return true;
+    for (std::size_t k = 0; k < 9; ++k) {
+      const std::size_t i = k / 3, j = k % 3, after_i = (i + 1) % 3, after_j = (j + 1) % 3;
+      const bool joined = (of_f[i] || of_f[after_i]) && (of_g[j] || of_g[after_j]);  // at the one they share
+      if (!joined && between(corner(f, i), corner(f, after_i), corner(g, j), corner(g, after_j)) <= near_)
+        return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool on(const Vec3& p, std::size_t face) const {
+    const std::array<Vec3, 3> corners{corner(face, 0), corner(face, 1), corner(face, 2)};
+    return nearest_on_triangle(p, corners, mesh_.triangles[face]).square <= near_ * near_;
+  }
+
   const Mesh& mesh_;
   std::vector<std::uint32_t> order_;
   std::vector<Box> boxes_;
-  std::vector<bool> bad_;
+  std::vector<bool> crosses_;
+  std::vector<std::uint32_t> touched_;  // by which face; as many as there are: by none
+  double near_ = 0.0;                   // m: at most so far apart is touching
   std::vector<Node> nodes_;
   std::size_t tested_ = 0;
   Touching result_;
