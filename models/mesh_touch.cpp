@@ -88,6 +88,7 @@ class Toucher {
   }
 
  private:
+  using Common = std::array<bool, 3>;  // corners of a face that another one has, too
   struct Node {
     Box box;
     std::size_t first, size;
@@ -121,12 +122,29 @@ class Toucher {
   void test_leaves(const Node& a, const Node& b, bool same) {
     for (std::size_t i = a.first; i < a.first + a.size; ++i)
       for (std::size_t j = same ? i + 1 : b.first; j < b.first + b.size; ++j) {
-        const std::size_t f = order_[i], g = order_[j];
+        const std::uint32_t f = order_[i], g = order_[j];
         if (!boxes_[f].meets(boxes_[g])) continue;
         if (++tested_ > kMostPairs) result_.finished = false;
-        if (cross(f, g)) crosses_[f] = crosses_[g] = true;
-        if (touch(f, g)) touched_[f] = order_[j], touched_[g] = order_[i];
+        compare(f, g);
       }
+  }
+
+  void compare(std::uint32_t f, std::uint32_t g) {
+    const auto &s = mesh_.triangles[f], &t = mesh_.triangles[g];
+    Common of_f{}, of_g{};
+    std::size_t common = 0;
+    for (std::size_t k = 0; k < 9; ++k)
+      if (s[k / 3] == t[k % 3]) of_f[k / 3] = of_g[k % 3] = true, ++common;
+    if (common >= 2) {
+      const auto apex = [](const Common& of) {
+        return static_cast<std::size_t>(std::find(of.begin(), of.end(), false) - of.begin());
+      };
+      if (common == 3 || folded(f, g, apex(of_f), apex(of_g))) crosses_[f] = crosses_[g] = true;
+      return;
+    }
+    if (beside(f, g, of_f, of_g) || beside(g, f, of_g, of_f)) return;
+    if (cross(f, g, of_f, of_g)) crosses_[f] = crosses_[g] = true;
+    if (touch(f, g, of_f, of_g)) touched_[f] = g, touched_[g] = f;
   }
 
   // Six times the volume of a tetrahedron; 0 where rounding decides its sign.
@@ -156,50 +174,45 @@ class Toucher {
     return up.dot(uq) > 0.0 && up.cross(uq).norm() <= 1e-12 * up.norm() * uq.norm();
   }
 
-  [[nodiscard]] bool cross(std::size_t f, std::size_t g) const {
-    const auto &s = mesh_.triangles[f], &t = mesh_.triangles[g];
-    const auto shared = [](const auto& of, std::int32_t v) {
-      return std::find(of.begin(), of.end(), v) != of.end();
-    };
-    std::size_t common = 0, apex_f = 0, apex_g = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      common += shared(t, s[k]) ? 1 : 0;
-      if (!shared(t, s[k])) apex_f = k;
-      if (!shared(s, t[k])) apex_g = k;
-    }
-    if (common >= 2) return folded(f, g, apex_f, apex_g);
+  // Of two faces with at most one common corner.
+  [[nodiscard]] bool cross(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
       // A side that begins at a common vertex cannot go through the inside.
-      if (!shared(t, s[k]) && !shared(t, s[l]) && pierces(corner(f, k), corner(f, l), g)) return true;
-      if (!shared(s, t[k]) && !shared(s, t[l]) && pierces(corner(g, k), corner(g, l), f)) return true;
+      if (!of_f[k] && !of_f[l] && pierces(corner(f, k), corner(f, l), g)) return true;
+      if (!of_g[k] && !of_g[l] && pierces(corner(g, k), corner(g, l), f)) return true;
     }
     return false;
   }
 
-  // All corners of `g` that `f` has not are on one side of its plane, and not near it.
-  [[nodiscard]] bool beside(std::size_t f, std::size_t g, const std::array<bool, 3>& shared) const {
-    const Vec3 a = corner(f, 0), normal = (corner(f, 1) - a).cross(corner(f, 2) - a);
+  // All corners of a face, but for those that both have, are above a plane and not near it. `rounding`: by
+  // how much each part of the normal may be wrong.
+  [[nodiscard]] bool above(const Vec3& on, const Vec3& normal, double rounding, std::size_t face,
+                           const Common& shared) const {
     const double near = near_ * normal.norm();
-    bool above = true, below = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (shared[k]) continue;
-      const double height = normal.dot(corner(g, k) - a);
-      above = above && height > near;
-      below = below && height < -near;
+      const Vec3 way = corner(face, k) - on;
+      if (!shared[k] && !(normal.dot(way) > near + rounding * way.lpNorm<1>())) return false;
     }
-    return above || below;
+    return true;
+  }
+  // `g` meets `f` at most where they have a corner in common: it is beside the plane of `f`, or beyond one of
+  // its sides (which has that corner).
+  [[nodiscard]] bool beside(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
+    const std::array<Vec3, 3> c{corner(f, 0), corner(f, 1), corner(f, 2)};
+    const Vec3 ab = c[1] - c[0], ac = c[2] - c[0], normal = ab.cross(ac);
+    const double long_side = ab.lpNorm<1>() + ac.lpNorm<1>();
+    const double rounding = 1e-15 * long_side * long_side;
+    if (above(c[0], normal, rounding, g, of_g) || above(c[0], -normal, rounding, g, of_g)) return true;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!of_f[(k + 2) % 3] &&
+          above(c[k], (c[(k + 1) % 3] - c[k]).cross(normal), 2.0 * rounding * long_side, g, of_g))
+        return true;
+    return false;
   }
 
-  // A corner on a face or two sides that meet, beside what the faces have in common. Of neighbours folded()
-  // tells.
-  [[nodiscard]] bool touch(std::size_t f, std::size_t g) const {
-    const auto &s = mesh_.triangles[f], &t = mesh_.triangles[g];
-    std::array<bool, 3> of_f{}, of_g{};  // corners that the other has, too
-    for (std::size_t k = 0; k < 9; ++k)
-      if (s[k / 3] == t[k % 3]) of_f[k / 3] = of_g[k % 3] = true;
-    if (std::count(of_f.begin(), of_f.end(), true) > 1) return false;
-    if (beside(f, g, of_g) || beside(g, f, of_f)) return false;
+  // A corner on a face or two sides that meet, beside what the faces have in common.
+  [[nodiscard]] bool touch(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
     for (std::size_t k = 0; k < 3; ++k)
       if ((!of_f[k] && on(corner(f, k), g)) || (!of_g[k] && on(corner(g, k), f))) return true;
     for (std::size_t k = 0; k < 9; ++k) {

@@ -249,7 +249,10 @@ TEST(MeshProperty, PartsThatTouchAreRefused) {
       ADD_FAILURE() << name << " was taken";
       compare(name, parts.mesh, 5, kFew);
     } catch (const Error& e) {
+      const std::string said = e.what();
       std::printf("%s\n", e.what());
+      EXPECT_TRUE(said.find("touching others") != said.npos || said.find("doubled") != said.npos ||
+                  said.find("(non-manifold)") != said.npos);
     }
   };
   const auto beside = [&](const Vec3& at) { return Parts().add(cube, {0, 0, 0}).add(cube, at); };

@@ -259,7 +259,16 @@ TEST(MeshCheck, HollowsAreAllowed) {
   EXPECT_THROW(check_mesh(wrong, "m"), Error);
 }
 
+// Two faces back to back, and a tetrahedron pressed flat.
+TEST(MeshCheck, WhatLiesFoldedIsRefused) {
+  EXPECT_THROW(check_mesh({tetrahedron().vertices, {{0, 1, 2}, {0, 2, 1}}}, "m"), Error);
+  Mesh flat = tetrahedron();
+  flat.vertices[3] = {0.3, 0.3, 0};
+  EXPECT_THROW(check_mesh(flat, "m"), Error);
+}
+
 TEST(MeshCheck, FacesAreNamed) {
+  EXPECT_EQ(face_list({12, 15}, true), "faces of lines 12 and 15");
   EXPECT_EQ(face_list({12}), "face 12");
   EXPECT_EQ(face_list({12, 15}), "faces 12 and 15");
   EXPECT_EQ(face_list({1, 2, 3}), "faces 1, 2 and 3");
