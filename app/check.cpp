@@ -97,8 +97,8 @@ int check(const SceneOptions& options) {
   print_notes(setup.notes);
   fmt::print("{}\n{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n{}\nresolved scene\n{}",
              setup.scene.title, parts_text(setup), questionnaire_text(setup), frame_graph(scene),
-             chain_residual(scene), scene.impedance ? arm_limits(setup, scene) : limits(setup, scene),
-             models::resolved(setup));
+             chain_residual(setup.scene, setup.rig, scene),
+             scene.impedance ? arm_limits(setup, scene) : limits(setup, scene), models::resolved(setup));
   return 0;
 }
 

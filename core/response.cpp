@@ -84,6 +84,7 @@ double Response::deflection(ResponseState& state, double force, double most) con
     if (force > 0.0)  // the last answer is the best guess
       u = force >= rise(end) ? end : crossing(rise, force, end, state.deflection / limit_);
     law.move(state, u);
+    if (u == end) state.deflection = std::min(most, limit_);  // end * limit may be one rounding off
     return state.deflection;
   });
 }

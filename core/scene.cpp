@@ -35,7 +35,7 @@ double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
   if (!(smallest > 0.0) || limit > curve * (1.0 + 1e-12) || object.limits.size() > ContactLimits::kMost)
     throw Error("the deflection limit lies between 0 and that of the response, for at most 16 contacts",
                 "object." + object.name + (object.limits.empty() ? ".limit" : ".limits"));
-  return limit;
+  return std::min(limit, curve);
 }
 
 // The deflection, at most `wanted`, up to which the object pushes back with no more than `strength`: the
@@ -312,34 +312,6 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   check_room(spec, scene);
   check_reach(spec, scene);
   return scene;
-}
-
-namespace {
-
-// H in the machine's base at its zero.
-Pose<'R', 'H'> home_of(const Scene& scene) {
-  if (!scene.impedance) return scene.reach.machine.zero();
-  const Arm& arm = scene.impedance->arm;
-  return {Quat::Identity(), arm.tip(arm.zero())};
-}
-
-}  // namespace
-
-double chain_residual(const Scene& scene) {
-  const Pose<'W', 'H'> X_WH = scene.X_WR * home_of(scene);
-  // As seen from W; the letter does not matter for the sum.
-  const auto from_W = [](const auto& X) { return Pose<'W', 'N'>(Quat(X.q()), Vec3(X.p())); };
-  std::vector<Pose<'W', 'N'>> seen{from_W(scene.X_WR), from_W(X_WH), from_W(X_WH * scene.X_HF),
-                                   from_W(scene.X_WC), from_W(scene.X_WS)};
-  for (const Object& object : scene.objects) seen.push_back(from_W(object.X_WO));
-  double worst = X_WH.p().norm() + X_WH.q().angularDistance(Quat::Identity());  // H is W at zero
-  for (const auto& X_WA : seen)
-    for (const auto& X_WB : seen) {
-      const Vec3 there = X_WA.inverse().q() * (X_WB.p() - X_WA.p());
-      const Vec3 back = X_WB.inverse().q() * (X_WA.p() - X_WB.p());
-      worst = std::max(worst, (X_WA.q() * there + X_WB.q() * back).norm());
-    }
-  return worst;
 }
 
 std::string frame_graph(const Scene& scene) {

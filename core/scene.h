@@ -91,9 +91,9 @@ template <char A, char B>
 
 // The frame graph of [VHMR Fig 4], one line for each edge, with constants and variables told apart.
 [[nodiscard]] std::string frame_graph(const Scene& scene);
-// Largest residual of the chains of that graph, there and back between each two frames at the machine's zero,
-// m (and rad).
-[[nodiscard]] double chain_residual(const Scene& scene);
+// Largest residual of the chains of that graph, m (N, rad): where the stages of a tick say that tool, tip,
+// force and objects are, against where plain matrices of the same specs put them (chains.cpp).
+[[nodiscard]] double chain_residual(const SceneSpec& spec, const RigSpec& rig, const Scene& scene);
 // Where the user of the scene presses: the surface point and its outward normal, in W.
 struct PressPoint {
   Point<'W'> point;

@@ -25,12 +25,18 @@ Vec3 corner(const Mesh& mesh, std::size_t face, std::size_t i) {
 
 class Checker {
  public:
-  Checker(Mesh mesh, const std::string& name)
-      : name_(name), result_{std::move(mesh), {}}, mesh_(result_.mesh) {}
+  Checker(Mesh mesh, const std::string& name, const std::vector<std::int32_t>& lines)
+      : name_(name),
+        result_{std::move(mesh), {}},
+        mesh_(result_.mesh),
+        number_(lines.begin(), lines.end()),
+        lines_(!lines.empty()) {}
 
   CheckedMesh check() {
-    number_.resize(mesh_.triangles.size());
-    std::iota(number_.begin(), number_.end(), std::size_t{0});
+    if (!lines_) {
+      number_.resize(mesh_.triangles.size());
+      std::iota(number_.begin(), number_.end(), std::size_t{0});
+    }
     drop_degenerate();
     check_areas();
     find_neighbours();
@@ -45,13 +51,15 @@ class Checker {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw Error(fmt::format("{}: {}", name_, what)); }
   void refuse_if(const Faces& faces, const std::string& what) const {
-    if (!faces.empty()) fail(fmt::format("{} {}", numbered(faces), what));
+    if (faces.empty()) return;
+    const std::string line = lines_ ? fmt::format(":{}", number_[faces[0]]) : "";
+    throw Error(fmt::format("{}{}: {} {}", name_, line, numbered(faces), what));
   }
   void note(const std::string& what) { result_.notes.push_back(fmt::format("{}: {}", name_, what)); }
-  // With the numbers that the faces have in the file.
+  // With the numbers that the faces have in the file. One of a file may be several here.
   [[nodiscard]] std::string numbered(Faces faces) const {
     for (std::size_t& face : faces) face = number_[face];
-    return face_list(faces);
+    return face_list(sorted(faces), lines_);
   }
 
   // A triangle with one vertex twice is an edge: without it the others close as before.
@@ -61,16 +69,16 @@ class Checker {
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const auto t = mesh_.triangles[i];
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-        dropped.push_back(i);
+        dropped.push_back(number_[i]);
         continue;
       }
-      number_[kept] = i;
+      number_[kept] = number_[i];
       mesh_.triangles[kept++] = t;
     }
     if (dropped.empty()) return;
     mesh_.triangles.resize(kept);
     number_.resize(kept);
-    note(fmt::format("removed {} of zero area", face_list(dropped)));
+    note(fmt::format("removed {} of zero area", face_list(sorted(dropped), lines_)));
     if (kept == 0) fail("no face has an area; expected a closed surface; export the mesh again");
   }
 
@@ -286,11 +294,9 @@ class Checker {
       const auto part = static_cast<std::size_t>(part_[f]);
       if (!wrong[part]) continue;
       if (!all && depth[part] > 0)
-        fail(
-            fmt::format("face {} belongs to a part inside another one and looks out; expected a hollow "
-                        "(faces looking into "
-                        "it) or one outer surface; remove the inner part, or turn its faces",
-                        number_[f]));
+        refuse_if({f},
+                  "belongs to a part inside another one and looks out; expected a hollow (faces looking "
+                  "into it) or one outer surface; remove the inner part, or turn its faces");
       turned.push_back(f);
     }
     for (const std::size_t face : turned) flip(face);
@@ -318,8 +324,13 @@ class Checker {
       return note(fmt::format("not looked whether the surface passes through itself: more than {} faces",
                               kMostTouchTested));
     const Touching touching = touching_faces(mesh_);
-    refuse_if(touching.faces,
+    refuse_if(touching.crossing,
               "passing through other faces; expected a surface that does not meet itself; unite the parts");
+    refuse_if(touching.touching,
+              fmt::format("touching others (the first {}), so that inside and outside are not told apart "
+                          "there; expected a surface that does not meet itself; unite the parts, or move "
+                          "them apart",
+                          numbered({touching.touched})));
     if (!touching.finished)
       note("gave up looking whether the surface passes through itself: too many faces lie close together");
   }
@@ -331,7 +342,8 @@ class Checker {
   const std::string& name_;
   CheckedMesh result_;
   Mesh& mesh_;
-  std::vector<std::size_t> number_;  // of each face in the file
+  std::vector<std::size_t> number_;  // of each face in the file, or its line there
+  bool lines_ = false;
   std::vector<std::array<Neighbour, 3>> neighbours_;
   std::vector<std::int32_t> part_;  // connected part of each face
   std::int32_t parts_ = 0;
@@ -339,9 +351,10 @@ class Checker {
 
 }  // namespace
 
-std::string face_list(const std::vector<std::size_t>& faces) {
+std::string face_list(const std::vector<std::size_t>& faces, bool lines) {
   constexpr std::size_t kShown = 3;
-  std::string list = faces.size() == 1 ? "face " : "faces ";
+  const std::string what = lines ? " of line" : "";
+  std::string list = faces.size() == 1 ? "face" + what + " " : "faces" + what + (lines ? "s " : " ");
   const std::size_t shown = faces.size() <= kShown ? faces.size() : kShown - 1;
   for (std::size_t i = 0; i < shown; ++i) {
     const bool last = i + 1 == faces.size();
@@ -350,8 +363,13 @@ std::string face_list(const std::vector<std::size_t>& faces) {
   return faces.size() > shown ? list + fmt::format(" and {} more", faces.size() - shown) : list;
 }
 
-CheckedMesh check_mesh(Mesh mesh, const std::string& name) { return Checker(std::move(mesh), name).check(); }
+CheckedMesh check_mesh(Mesh mesh, const std::string& name, const std::vector<std::int32_t>& lines) {
+  return Checker(std::move(mesh), name, lines).check();
+}
 
-CheckedMesh load_solid(const std::string& path) { return check_mesh(load_mesh(path), path); }
+CheckedMesh load_solid(const std::string& path) {
+  FileMesh file = load_faces(path);
+  return check_mesh(std::move(file.mesh), path, file.lines);
+}
 
 }  // namespace enc::models

@@ -111,28 +111,30 @@ std::uint64_t content_hash(const Mesh& mesh) {
   return hash;
 }
 
-Mesh load_mesh(const std::string& path) {
+FileMesh load_faces(const std::string& path) {
   const std::string bytes = bytes_of(path);
   const MeshBytes file{path, bytes};
   const std::string extension = extension_of(path);
-  Mesh mesh;
+  FileMesh read;
   if (extension == ".obj") {
-    mesh = read_obj(file);
+    read = read_obj(file);
   } else if (extension == ".stl") {
-    mesh = read_stl(file);
+    read.mesh = read_stl(file);
   } else if (extension == ".gltf" || extension == ".glb") {
-    mesh = read_gltf(file, extension == ".glb");
+    read.mesh = read_gltf(file, extension == ".glb");
   } else {
     throw Error(
         fmt::format("{}:1:1: {} is no ending of a mesh file; expected .obj, .stl, .gltf or .glb; "
                     "rename or convert it",
                     path, quoted(extension)));
   }
-  if (mesh.triangles.empty())
+  if (read.mesh.triangles.empty())
     throw Error(
         fmt::format("{}:1:1: the file has no triangles; expected a closed surface; export it again", path));
-  weld(mesh);
-  return mesh;
+  weld(read.mesh);
+  return read;
 }
+
+Mesh load_mesh(const std::string& path) { return load_faces(path).mesh; }
 
 }  // namespace enc::models

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/mesh/mesh.h"
 
@@ -14,9 +15,15 @@ namespace enc::models {
 // More is refused before anything of that size is allocated.
 inline constexpr std::size_t kMostTriangles = 20'000'000;
 
+struct FileMesh {
+  Mesh mesh;
+  std::vector<std::int32_t> lines{};  // of an OBJ: where the face of each triangle stands, from 1
+};
+
 // The triangles of a file, in its order and its axes, m; vertices at the same place are one. Nothing else is
 // repaired: that is check_mesh(). Throws Error of one line: file:line:column of a text, file: byte N of
 // bytes.
+[[nodiscard]] FileMesh load_faces(const std::string& path);
 [[nodiscard]] Mesh load_mesh(const std::string& path);
 
 // Parts of load_mesh(): each gives the vertices as they stand in the file.
@@ -28,7 +35,10 @@ struct MeshBytes {
   [[noreturn]] void fail_at_byte(std::size_t byte, const std::string& what) const;
   [[noreturn]] void fail_at_text(std::size_t byte, const std::string& what) const;  // as line and column
 };
-[[nodiscard]] Mesh read_obj(const MeshBytes& file);
+[[nodiscard]] FileMesh read_obj(const MeshBytes& file);
+// Adds the triangles of a polygon to a mesh. What is convex becomes a fan around its first corner, all else
+// is cut ear by ear. Gives what is wrong with a polygon that no plane surface fills; empty: nothing.
+[[nodiscard]] std::string add_polygon(Mesh& mesh, const std::vector<std::int32_t>& polygon);
 [[nodiscard]] Mesh read_stl(const MeshBytes& file);
 [[nodiscard]] Mesh read_gltf(const MeshBytes& file, bool binary);
 // The JSON of a .glb whose header and chunks fit the file. Checked here to the byte, because tinygltf 2.7

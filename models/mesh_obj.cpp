@@ -18,7 +18,7 @@ class ObjReader {
  public:
   explicit ObjReader(const MeshBytes& file) : file_(file), text_(file.bytes) {}
 
-  Mesh read() {
+  FileMesh read() {
     while (at_ < text_.size()) {
       take_line();
       const std::string_view what = word();
@@ -34,7 +34,7 @@ class ObjReader {
             quoted(std::string(what))));
       }
     }
-    return std::move(mesh_);
+    return {std::move(mesh_), std::move(lines_)};
   }
 
  private:
@@ -44,6 +44,7 @@ class ObjReader {
     line_ = text_.substr(at_, end - at_);
     line_start_ = word_start_ = at_;
     at_ = end + 1;
+    ++number_;
     line_ = line_.substr(0, line_.find('#'));
     while (!line_.empty() && is_space(line_.back())) line_.remove_suffix(1);
     cursor_ = 0;
@@ -96,7 +97,6 @@ class ObjReader {
     return static_cast<std::int32_t>(index > 0 ? index - 1 : count + index);
   }
 
-  // A polygon becomes a fan around its first corner.
   void face() {
     polygon_.clear();
     const std::size_t start = word_start_;
@@ -106,19 +106,21 @@ class ObjReader {
       fail(fmt::format("a face with {} corners; expected at least 3; correct the line", polygon_.size()));
     if (mesh_.triangles.size() + polygon_.size() > kMostTriangles)
       fail(fmt::format("more than {} triangles; expected fewer; make the mesh coarser", kMostTriangles));
-    for (std::size_t i = 2; i < polygon_.size(); ++i)
-      mesh_.triangles.push_back({polygon_[0], polygon_[i - 1], polygon_[i]});
+    const std::string wrong = add_polygon(mesh_, polygon_);
+    if (!wrong.empty()) fail(wrong);
+    lines_.resize(mesh_.triangles.size(), number_);
   }
 
   const MeshBytes& file_;
   std::string_view text_, line_;
   std::size_t at_ = 0, line_start_ = 0, word_start_ = 0, cursor_ = 0;
-  std::vector<std::int32_t> polygon_;
+  std::vector<std::int32_t> polygon_, lines_;
+  std::int32_t number_ = 0;  // of the line
   Mesh mesh_;
 };
 
 }  // namespace
 
-Mesh read_obj(const MeshBytes& file) { return ObjReader(file).read(); }
+FileMesh read_obj(const MeshBytes& file) { return ObjReader(file).read(); }
 
 }  // namespace enc::models

@@ -1,14 +1,18 @@
-// Faces that pass through each other: a tree of boxes, walked against itself.
+// Faces that pass through each other or touch: a tree of boxes, walked against itself.
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/frames.h"
+#include "core/mesh/triangle.h"
 #include "models/mesh_check.h"
 
 namespace enc::models {
 namespace {
 
 constexpr std::size_t kLeaf = 4;
+constexpr double kTouching =
+    1e-12;  // of the mesh's size: below it the search takes two faces as equally near
 constexpr std::size_t kMostPairs = 100'000'000;  // of faces whose boxes meet: some seconds
 
 struct Box {
@@ -26,13 +30,33 @@ struct Box {
   }
 };
 
+// Least distance of two segments [Ericson 2005, 5.1.9].
+double between(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = d - c, w = a - c;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
+  const double sine = uu * vv - uv * uv;
+  double s = sine > 0.0 ? std::clamp((uv * vw - uw * vv) / sine, 0.0, 1.0) : 0.0;
+  const double t = std::clamp((uv * s + vw) / vv, 0.0, 1.0);
+  s = std::clamp((uv * t - uw) / uu, 0.0, 1.0);
+  return (w + s * u - t * v).norm();
+}
+
 class Toucher {
  public:
   explicit Toucher(const Mesh& mesh)
-      : mesh_(mesh), order_(mesh.triangles.size()), boxes_(order_.size()), bad_(order_.size()) {
+      : mesh_(mesh),
+        order_(mesh.triangles.size()),
+        boxes_(order_.size()),
+        crosses_(order_.size()),
+        touched_(order_.size(), static_cast<std::uint32_t>(order_.size())) {
+    Box all;
+    for (const auto& v : mesh.vertices) all.add(Vec3(v.data()));
+    near_ = kTouching * (all.high - all.low).norm();
     for (std::size_t i = 0; i < order_.size(); ++i) {
       order_[i] = static_cast<std::uint32_t>(i);
       for (std::size_t k = 0; k < 3; ++k) boxes_[i].add(corner(i, k));
+      boxes_[i].low.array() -= near_;
+      boxes_[i].high.array() += near_;
     }
     nodes_.reserve(order_.size());
     build(0, order_.size());
@@ -55,12 +79,16 @@ class Toucher {
         pairs.insert(pairs.end(), {{i, j + 1}, {i, b.child}});
       }
     }
-    for (std::size_t i = 0; i < bad_.size(); ++i)
-      if (bad_[i]) result_.faces.push_back(i);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      if (crosses_[i]) result_.crossing.push_back(i);
+      if (touched_[i] < order_.size()) result_.touching.push_back(i);
+    }
+    if (!result_.touching.empty()) result_.touched = touched_[result_.touching[0]];
     return std::move(result_);
   }
 
  private:
+  using Common = std::array<bool, 3>;  // corners of a face that another one has, too
   struct Node {
     Box box;
     std::size_t first, size;
@@ -94,11 +122,29 @@ class Toucher {
   void test_leaves(const Node& a, const Node& b, bool same) {
     for (std::size_t i = a.first; i < a.first + a.size; ++i)
       for (std::size_t j = same ? i + 1 : b.first; j < b.first + b.size; ++j) {
-        const std::size_t f = order_[i], g = order_[j];
+        const std::uint32_t f = order_[i], g = order_[j];
         if (!boxes_[f].meets(boxes_[g])) continue;
         if (++tested_ > kMostPairs) result_.finished = false;
-        if (cross(f, g)) bad_[f] = bad_[g] = true;
+        compare(f, g);
       }
+  }
+
+  void compare(std::uint32_t f, std::uint32_t g) {
+    const auto &s = mesh_.triangles[f], &t = mesh_.triangles[g];
+    Common of_f{}, of_g{};
+    std::size_t common = 0;
+    for (std::size_t k = 0; k < 9; ++k)
+      if (s[k / 3] == t[k % 3]) of_f[k / 3] = of_g[k % 3] = true, ++common;
+    if (common >= 2) {
+      const auto apex = [](const Common& of) {
+        return static_cast<std::size_t>(std::find(of.begin(), of.end(), false) - of.begin());
+      };
+      if (common == 3 || folded(f, g, apex(of_f), apex(of_g))) crosses_[f] = crosses_[g] = true;
+      return;
+    }
+    if (beside(f, g, of_f, of_g) || beside(g, f, of_g, of_f)) return;
+    if (cross(f, g, of_f, of_g)) crosses_[f] = crosses_[g] = true;
+    if (touch(f, g, of_f, of_g)) touched_[f] = g, touched_[g] = f;
   }
 
   // Six times the volume of a tetrahedron; 0 where rounding decides its sign.
@@ -128,31 +174,66 @@ class Toucher {
     return up.dot(uq) > 0.0 && up.cross(uq).norm() <= 1e-12 * up.norm() * uq.norm();
   }
 
-  [[nodiscard]] bool cross(std::size_t f, std::size_t g) const {
-    const auto &s = mesh_.triangles[f], &t = mesh_.triangles[g];
-    const auto shared = [](const auto& of, std::int32_t v) {
-      return std::find(of.begin(), of.end(), v) != of.end();
-    };
-    std::size_t common = 0, apex_f = 0, apex_g = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      common += shared(t, s[k]) ? 1 : 0;
-      if (!shared(t, s[k])) apex_f = k;
-      if (!shared(s, t[k])) apex_g = k;
-    }
-    if (common >= 2) return folded(f, g, apex_f, apex_g);
+  // Of two faces with at most one common corner.
+  [[nodiscard]] bool cross(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
       // A side that begins at a common vertex cannot go through the inside.
-      if (!shared(t, s[k]) && !shared(t, s[l]) && pierces(corner(f, k), corner(f, l), g)) return true;
-      if (!shared(s, t[k]) && !shared(s, t[l]) && pierces(corner(g, k), corner(g, l), f)) return true;
+      if (!of_f[k] && !of_f[l] && pierces(corner(f, k), corner(f, l), g)) return true;
+      if (!of_g[k] && !of_g[l] && pierces(corner(g, k), corner(g, l), f)) return true;
     }
     return false;
+  }
+
+  // All corners of a face, but for those that both have, are above a plane and not near it. `rounding`: by
+  // how much each part of the normal may be wrong.
+  [[nodiscard]] bool above(const Vec3& on, const Vec3& normal, double rounding, std::size_t face,
+                           const Common& shared) const {
+    const double near = near_ * normal.norm();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 way = corner(face, k) - on;
+      if (!shared[k] && !(normal.dot(way) > near + rounding * way.lpNorm<1>())) return false;
+    }
+    return true;
+  }
+  // `g` meets `f` at most where they have a corner in common: it is beside the plane of `f`, or beyond one of
+  // its sides (which has that corner).
+  [[nodiscard]] bool beside(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
+    const std::array<Vec3, 3> c{corner(f, 0), corner(f, 1), corner(f, 2)};
+    const Vec3 ab = c[1] - c[0], ac = c[2] - c[0], normal = ab.cross(ac);
+    const double long_side = ab.lpNorm<1>() + ac.lpNorm<1>();
+    const double rounding = 1e-15 * long_side * long_side;
+    if (above(c[0], normal, rounding, g, of_g) || above(c[0], -normal, rounding, g, of_g)) return true;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!of_f[(k + 2) % 3] &&
+          above(c[k], (c[(k + 1) % 3] - c[k]).cross(normal), 2.0 * rounding * long_side, g, of_g))
+        return true;
+    return false;
+  }
+
+  // A corner on a face or two sides that meet, beside what the faces have in common.
+  [[nodiscard]] bool touch(std::size_t f, std::size_t g, const Common& of_f, const Common& of_g) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((!of_f[k] && on(corner(f, k), g)) || (!of_g[k] && on(corner(g, k), f))) return true;
+    for (std::size_t k = 0; k < 9; ++k) {
+      const std::size_t i = k / 3, j = k % 3, after_i = (i + 1) % 3, after_j = (j + 1) % 3;
+      const bool joined = (of_f[i] || of_f[after_i]) && (of_g[j] || of_g[after_j]);  // at the one they share
+      if (!joined && between(corner(f, i), corner(f, after_i), corner(g, j), corner(g, after_j)) <= near_)
+        return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool on(const Vec3& p, std::size_t face) const {
+    const std::array<Vec3, 3> corners{corner(face, 0), corner(face, 1), corner(face, 2)};
+    return nearest_on_triangle(p, corners, mesh_.triangles[face]).square <= near_ * near_;
   }
 
   const Mesh& mesh_;
   std::vector<std::uint32_t> order_;
   std::vector<Box> boxes_;
-  std::vector<bool> bad_;
+  std::vector<bool> crosses_;
+  std::vector<std::uint32_t> touched_;  // by which face; as many as there are: by none
+  double near_ = 0.0;                   // m: at most so far apart is touching
   std::vector<Node> nodes_;
   std::size_t tested_ = 0;
   Touching result_;

@@ -15,7 +15,10 @@
 #include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "core/mesh/mesh_tree.h"
+#include "models/mesh_check.h"
+#include "models/mesh_file.h"
 #include "models/shapes/shapes.h"
 
 namespace enc {
@@ -142,13 +145,13 @@ class Points {
   int count_ = 0;
 };
 
-void compare(const std::string& name, const Mesh& mesh, int medial_every = 5) {
+void compare(const std::string& name, const Mesh& mesh, int medial_every = 5, int points = kPoints) {
   const MeshTree tree(mesh);
   const Cgal cgal(mesh);
-  Points points(mesh, tree, medial_every);
+  Points next(mesh, tree, medial_every);
   const int windings =
-      std::min(kPoints, static_cast<int>(kWindings / static_cast<double>(mesh.triangles.size())));
-  int every = kPoints / windings;
+      std::min(points, static_cast<int>(kWindings / static_cast<double>(mesh.triangles.size())));
+  int every = points / windings;
   while (std::gcd(every, 2) != 1) ++every;  // so that all kinds of points get their turn
   std::int32_t hint = -1;
   double worst = 0.0;
@@ -157,8 +160,8 @@ void compare(const std::string& name, const Mesh& mesh, int medial_every = 5) {
   int signs = 0;
   int hinted = 0;
   int off = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    const Vec3 p = points.next();
+  for (int i = 0; i < points; ++i) {
+    const Vec3 p = next.next();
     const Nearest at = tree.nearest(Point<'O'>(p), hint);
     const Nearest again = tree.nearest(Point<'O'>(p));
     hinted += at.feature == again.feature && at.distance == again.distance &&
@@ -179,7 +182,7 @@ void compare(const std::string& name, const Mesh& mesh, int medial_every = 5) {
     wrong += (winding_number(mesh, p) > 0.5) == (at.distance < 0.0) ? 0 : 1;
   }
   std::printf("%s: %zu triangles, %d points, at most %.2g m from CGAL; %d signs, %d wrong\n", name.c_str(),
-              mesh.triangles.size(), kPoints, worst, signs, wrong);
+              mesh.triangles.size(), points, worst, signs, wrong);
   EXPECT_EQ(apart, 0);
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(signs, windings / 4);
@@ -193,6 +196,85 @@ TEST(MeshProperty, PartWithSlivers) { compare("turned part", models::turned_part
 TEST(MeshProperty, TorusKnot) { compare("knot", models::knot(400, 24)); }
 // Near the centre of a ball all triangles are as near, and CGAL tries each: 200 such points are enough.
 TEST(MeshProperty, BallOf100000) { compare("ball", models::geodesic_ball(71), 500); }
+
+// Parts put together as a file may hold them: `more` shifted, and inside out where it is a hollow.
+struct Parts {
+  Mesh mesh;
+  Parts& add(const Mesh& more, const Vec3& at, bool hollow = false) {
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    for (const auto& v : more.vertices)
+      mesh.vertices.push_back({v[0] + at.x(), v[1] + at.y(), v[2] + at.z()});
+    for (auto t : more.triangles) {
+      if (hollow) std::swap(t[1], t[2]);
+      mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    models::weld(mesh);
+    return *this;
+  }
+};
+
+constexpr int kFew = kPoints / 4;
+
+void expect_right(const std::string& name, const Mesh& mesh) {
+  const models::CheckedMesh checked = models::check_mesh(mesh, name);
+  EXPECT_TRUE(checked.notes.empty()) << name;
+  compare(name, checked.mesh, 5, kFew);
+}
+
+TEST(MeshProperty, PartsApart) {
+  const Mesh cube = models::cube(2, 0.02), ball = models::geodesic_ball(2, 0.01);
+  expect_right("two cubes", Parts().add(cube, {0, 0, 0}).add(cube, {0.025, 0.004, 0}).mesh);
+  expect_right("a gap of 1 um", Parts().add(cube, {0, 0, 0}).add(cube, {0.020001, 0.003, 0.001}).mesh);
+  expect_right("a gap of 1 nm", Parts().add(cube, {0, 0, 0}).add(ball, {0, 0.001, 0.020000001}).mesh);
+}
+
+TEST(MeshProperty, HollowAndNested) {
+  const Mesh out = models::cube(3, 0.06), in = models::cube(2, 0.04), ball = models::geodesic_ball(3, 0.012);
+  expect_right("hollow", Parts().add(out, {0, 0, 0}).add(in, {0.002, 0, 0.001}, true).mesh);
+  expect_right("two hollows", Parts()
+                                  .add(out, {0, 0, 0})
+                                  .add(ball, {0.014, 0, 0}, true)
+                                  .add(ball, {-0.014, 0.001, 0.002}, true)
+                                  .mesh);
+  expect_right("nested",
+               Parts().add(out, {0, 0, 0}).add(in, {0, 0, 0}, true).add(ball, {0.003, 0.002, 0}).mesh);
+}
+
+// Where parts touch, the nearest point is on both, and one of the two says out where the other says in.
+TEST(MeshProperty, PartsThatTouchAreRefused) {
+  const Mesh cube = models::cube(2, 0.02), ball = models::geodesic_ball(2, 0.01);
+  const auto refused = [&](const std::string& name, const Parts& parts) {
+    try {
+      (void)models::check_mesh(parts.mesh, name);
+      ADD_FAILURE() << name << " was taken";
+      compare(name, parts.mesh, 5, kFew);
+    } catch (const Error& e) {
+      const std::string said = e.what();
+      std::printf("%s\n", e.what());
+      EXPECT_TRUE(said.find("touching others") != said.npos || said.find("doubled") != said.npos ||
+                  said.find("(non-manifold)") != said.npos);
+    }
+  };
+  const auto beside = [&](const Vec3& at) { return Parts().add(cube, {0, 0, 0}).add(cube, at); };
+  refused("face to face", beside({0.02, 0.003, 0.001}));
+  refused("face to the same face", beside({0.02, 0, 0}));
+  refused("edge to edge", beside({0.02, 0.02, 0.003}));
+  refused("edge to the same edge", beside({0.02, 0.02, 0}));
+  refused("corner to corner", beside({0.02, 0.02, 0.02}));
+  refused("corner on a face", Parts().add(cube, {0, 0, 0}).add(ball, {0.001, 0.002, 0.02}));
+  refused("face in a hollow", Parts()
+                                  .add(models::cube(3, 0.06), {0, 0, 0})
+                                  .add(models::cube(2, 0.04), {0, 0, 0}, true)
+                                  .add(cube, {0.01, 0.001, 0.002}));
+  // Turned in space, so that the common plane is only so by rounding.
+  Mesh turned = beside({0.02, 0.003, 0.001}).mesh;
+  const Quat q = Quat(0.8, 0.3, -0.4, 0.2).normalized();
+  for (auto& v : turned.vertices) {
+    const Vec3 p = q * Vec3(v.data());
+    v = {p.x(), p.y(), p.z()};
+  }
+  refused("face to face, turned", Parts{turned});
+}
 
 }  // namespace
 }  // namespace enc

@@ -179,22 +179,38 @@ TEST(ArmWorld, ADrumRunsUnderTheFinger) {
   EXPECT_LT(sideways / ticks, -0.1);
 }
 
+// A slide along x that carries a hinge about y, 100 mm before H. About the hinge: 1e-4 of the link, 0.2 kg at
+// 50 mm, 20 g at 100 mm and the rotor, 1e-6 times 10^2: 9e-4 kg m^2.
 TEST(ArmWorld, ASlideAndAHingeAreAChain) {
+  constexpr double kLength = 0.1;
   ArmMachine stage;
   stage.kind = ArmKind::chain;
   stage.links.resize(2);
   stage.links[0] = {"x", JointKind::slide, Vec3::UnitX(), Vec3::Zero(), 0.3, Vec3::Zero(), Vec3::Ones()};
-  stage.links[1] = {"z", JointKind::slide, Vec3::UnitZ(), Vec3::Zero(), 0.2, Vec3::Zero(), Vec3::Ones()};
-  for (ArmDrive& drive : stage.drives) drive = {-0.1, 0.1, 200.0, 1e-6};
-  TwinSpec twin;
+  stage.links[1] = {"lever", JointKind::hinge, Vec3::UnitY(),      Vec3::Zero(),
+                    0.2,     Vec3(0.05, 0, 0), 1e-4 * Vec3::Ones()};
+  stage.tip = Vec3(kLength, 0, 0);
+  stage.drives[0] = {-0.1, 0.1, 200.0, 1e-6};
+  stage.drives[1] = {-1.0, 1.0, 10.0, 1e-6};
+  TwinSpec twin = frictionless();
   twin.arm.machine = stage;
-  twin.arm.friction = {};
   Room room(twin, false, 0.020, stage);
+  const auto expect_on_its_circle = [&] {
+    const Truth& truth = room.world->truth();
+    const double slid = truth.joints[0], turned = truth.joints[1];
+    EXPECT_NEAR(truth.tip.xyz[0], slid + kLength * (std::cos(turned) - 1.0), 1e-9);
+    EXPECT_NEAR(truth.tip.xyz[1], 0.0, 1e-9);
+    EXPECT_NEAR(truth.tip.xyz[2], -kLength * std::sin(turned), 1e-9);
+  };
   for (int i = 0; i < 200; ++i) room.tick(Vec3::Zero());
-  EXPECT_LT(room.world->truth().tip.e().norm(), 1e-9);
+  EXPECT_LT(room.world->truth().tip.e().norm(), 1e-4);
+  for (int i = 0; i < 100; ++i) room.tick({0, 0, 0.05});
+  expect_on_its_circle();
+  // 0.05 N on 0.1 m for 100 ms: half of 5.6 rad/s^2 times 0.01 s^2.
+  EXPECT_NEAR(room.world->truth().joints[1], -0.5 * (0.05 * kLength / 9e-4) * 0.01, 1e-3);
   for (int i = 0; i < 100; ++i) room.tick({0.1, 0, 0});
-  EXPECT_GT(room.world->truth().tip.xyz[0], 1e-4);
-  EXPECT_NEAR(room.world->truth().tip.xyz[2], 0.0, 1e-9);
+  expect_on_its_circle();
+  EXPECT_GT(room.world->truth().joints[0], 1e-4);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "core/frames.h"
 
 #include <concepts>
+#include <map>
 #include <random>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "core/rig_spec.h"
@@ -55,28 +57,62 @@ struct RandomPose {
   }
 };
 
+// Where every frame of [VHMR Fig 4] is, as plain matrices; the edges of the graph are read off them.
+class Truth {
+ public:
+  explicit Truth(RandomPose& random) {
+    for (const char frame : kFrames) {
+      const auto X = random.pose<'W', 'O'>();
+      if (frame != 'W') at_[frame] = (Eigen::Translation3d(X.p()) * X.q()).matrix();
+    }
+    at_['W'] = Eigen::Matrix4d::Identity();
+  }
+  [[nodiscard]] Eigen::Matrix4d matrix(char a, char b) const { return at_.at(a).inverse() * at_.at(b); }
+  template <char A, char B>
+  [[nodiscard]] Pose<A, B> edge() const {
+    const Eigen::Matrix4d M = matrix(A, B);
+    return {Quat(Mat3(M.topLeftCorner<3, 3>())), Vec3(M.topRightCorner<3, 1>())};
+  }
+  // Where a chain that somebody composed ends, against where it must.
+  template <char A, char B>
+  [[nodiscard]] double apart(const Pose<A, B>& X) const {
+    const Eigen::Matrix4d said = (Eigen::Translation3d(X.p()) * X.q()).matrix();
+    return (said - matrix(A, B)).norm();
+  }
+
+ private:
+  std::map<char, Eigen::Matrix4d> at_;
+};
+
 TEST(Frames, ChainsCloseTo1e9) {
   RandomPose random;
   for (int i = 0; i < 10'000; ++i) {
-    const auto X_WR = random.pose<'W', 'R'>();
-    const auto X_RH = random.pose<'R', 'H'>();
-    const auto X_HF = random.pose<'H', 'F'>();
-    const auto X_WC = random.pose<'W', 'C'>();
-    const Pose<'W', 'F'> X_WF = X_WR * X_RH * X_HF;
-    // Round the loop and back: W F H R W.
-    const Pose<'W', 'W'> round = X_WF * X_HF.inverse() * X_RH.inverse() * X_WR.inverse();
-    EXPECT_LT(round.p().norm(), 1e-9);
-    EXPECT_LT(round.q().angularDistance(Quat::Identity()), 1e-7);  // acos near 1 resolves no more
-    EXPECT_LT(round.q().coeffs().head<3>().norm(), 1e-9);
-    // The same point by two ways, and through matrices.
-    const Point<'F'> p_F(0.3, -0.2, 0.1);
-    const Point<'C'> one = X_WC.inverse() * (X_WF * p_F);
-    const Point<'C'> other = (X_WC.inverse() * X_WR) * (X_RH * (X_HF * p_F));
-    EXPECT_LT((one - other).norm(), 1e-9);
-    const Eigen::Vector4d by_matrix = (Eigen::Translation3d(X_WR.p()) * X_WR.q()).matrix() *
-                                      (Eigen::Translation3d(X_RH.p()) * X_RH.q()).matrix() *
-                                      Eigen::Vector4d(1, 2, 3, 1);
-    EXPECT_LT((by_matrix.head<3>() - (X_WR * X_RH * Point<'H'>(1, 2, 3)).e()).norm(), 1e-9);
+    const Truth truth(random);
+    const auto X_WR = truth.edge<'W', 'R'>();
+    const auto X_RH = truth.edge<'R', 'H'>();
+    const auto X_HF = truth.edge<'H', 'F'>();
+    const auto X_WC = truth.edge<'W', 'C'>();
+    const auto X_CT = truth.edge<'C', 'T'>();
+    const auto X_WO = truth.edge<'W', 'O'>();
+    const auto X_ON = truth.edge<'O', 'N'>();
+    const auto X_LT = truth.edge<'L', 'T'>();
+    // The tool by the tracker, by the headset and the hand tracker, and by what the machine would see of it.
+    const auto X_WL = truth.edge<'W', 'S'>() * truth.edge<'S', 'G'>() * truth.edge<'G', 'L'>();
+    const Pose<'F', 'T'> X_FT = truth.edge<'F', 'T'>();
+    EXPECT_LT(truth.apart(X_WC * X_CT), 1e-9);
+    EXPECT_LT(truth.apart(X_WL * X_LT), 1e-9);
+    EXPECT_LT(truth.apart(X_WR * X_RH * X_HF * X_FT), 1e-9);
+    // The tip as the tracker and as the object's surface would see it, against the flow of half the edges.
+    EXPECT_LT(truth.apart(X_CT.inverse() * X_WC.inverse() * X_WR * X_RH), 1e-9);
+    EXPECT_LT(truth.apart((X_WO * X_ON).inverse() * (X_WR * X_RH)), 1e-9);
+    EXPECT_LT(truth.apart(X_HF.inverse() * X_RH.inverse() * X_WR.inverse() * X_WC), 1e-9);
+    // A point and a vector of F, in C.
+    const Point<'F'> p(0.3, -0.2, 0.1);
+    const Vec<'F'> f(1, -2, 3);
+    const Eigen::Matrix4d C_F = truth.matrix('C', 'F');
+    const auto X_WF = X_WR * X_RH * X_HF;
+    EXPECT_LT(((X_WC.inverse() * (X_WF * p)).e() - (C_F * p.e().homogeneous()).head<3>()).norm(), 1e-9);
+    EXPECT_LT(((X_WC.inverse() * (X_WF * f)).e() - C_F.topLeftCorner<3, 3>() * f.e()).norm(), 1e-9);
     EXPECT_TRUE(X_WF.valid());
   }
 }

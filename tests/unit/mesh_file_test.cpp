@@ -68,7 +68,7 @@ TEST_F(MeshFiles, ObjInAllItsForms) {
       "# a comment\r\no thing\nvn 0 0 1\n" + kVertices +
       "vt 0 0\nf 1/1 3/1 2/1\nf 1//1 2//1 4//1 # more\nf -3/1/1 -2/1/1 -1/1/1\n\tf 1 4 3\n";
   EXPECT_EQ(load_mesh(file("a.obj", text)).triangles, tetrahedron().triangles);
-  // A square pyramid: its base is a fan around its first corner.
+  // A square pyramid: what is convex becomes a fan around its first corner.
   const Mesh fan = load_mesh(file("b.obj",
                                   "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv .5 .5 +1e0\nf 1 2 3 4\n"
                                   "f 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\n"));
@@ -76,6 +76,64 @@ TEST_F(MeshFiles, ObjInAllItsForms) {
   EXPECT_THAT(fan.triangles[1], ElementsAre(0, 2, 3));
   EXPECT_EQ(fan.vertices[4], (Point3{0.5, 0.5, 1.0}));
   EXPECT_TRUE(check_mesh(fan, "fan").notes.empty());
+}
+
+// A prism 1 high over a polygon of the x-y plane, as .obj; its first corner is `first`.
+std::string prism_obj(const std::vector<std::array<double, 2>>& corners, std::size_t first) {
+  std::string text, base = "f", top = "f";
+  const std::size_t n = corners.size();
+  for (const int z : {0, 1})
+    for (const auto& c : corners)
+      text += "v " + std::to_string(c[0]) + " " + std::to_string(c[1]) + " " + std::to_string(z) + "\n";
+  for (std::size_t i = 0; i < n; ++i) {
+    base += " " + std::to_string((first + n - i) % n + 1);
+    top += " " + std::to_string(n + (first + i) % n + 1);
+    const std::size_t a = i + 1, b = (i + 1) % n + 1;
+    text += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + n) + " " +
+            std::to_string(a + n) + "\n";
+  }
+  return text + base + "\n" + top + "\n";
+}
+
+// From whichever corner it begins: an L, a comb, a star, one with corners along its sides, a spiral.
+TEST_F(MeshFiles, PolygonsThatAreNotConvex) {
+  const std::vector<std::pair<std::vector<std::array<double, 2>>, double>> shapes{
+      {{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}, 4.0},
+      {{{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {4, 1}, {4, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},
+       13.0},
+      {{{0, -3}, {1, -1}, {3, 0}, {1, 1}, {0, 3}, {-1, 1}, {-3, 0}, {-1, -1}}, 12.0},
+      {{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}, 4.0},
+      {{{0, 0}, {5, 0}, {5, 5}, {1, 5}, {1, 2}, {3, 2}, {3, 3}, {2, 3}, {2, 4}, {4, 4}, {4, 1}, {0, 1}},
+       15.0}};
+  for (const auto& [corners, area] : shapes)
+    for (std::size_t first = 0; first < corners.size(); ++first) {
+      const CheckedMesh checked = load_solid(file("a.obj", prism_obj(corners, first)));
+      EXPECT_TRUE(checked.notes.empty());
+      EXPECT_EQ(checked.mesh.triangles.size(), 2 * (corners.size() - 2) + 2 * corners.size());
+      EXPECT_NEAR(volume(checked.mesh), area, 1e-12);
+    }
+}
+
+TEST_F(MeshFiles, FacesOfAnObjAreNamedByTheirLines) {
+  const std::string text = prism_obj({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}, 0);
+  const auto said = [&](const std::string& content) -> std::string {
+    try {
+      (void)load_solid(file("a.obj", content));
+    } catch (const Error& e) {
+      return std::string(e.what()).substr(folder_.string().size() + 1);
+    }
+    return "taken";
+  };
+  // Without its last face, the top: the walls of lines 13 to 18 end at a hole.
+  EXPECT_THAT(said(text.substr(0, text.rfind("f "))),
+              ::testing::StartsWith("a.obj:13: faces of lines 13, 14 and 4 more at a hole"));
+  // The base twice: two triangles and more of one line are one face.
+  const std::size_t base = text.rfind("f ", text.rfind("f ") - 1), end = text.rfind("f ");
+  EXPECT_THAT(said(text + text.substr(base, end - base)),
+              ::testing::StartsWith("a.obj:21: face of line 21 doubled"));
+  const CheckedMesh checked =
+      load_solid(file("b.obj", kVertices + "f 1 3 2\nf 1 2 4\nf 1 1 1\nf 2 3 4\nf 1 4 3\n"));
+  EXPECT_THAT(checked.notes, ElementsAre(HasSubstr("removed face of line 7 of zero area")));
 }
 
 TEST_F(MeshFiles, StlAsText) {
@@ -201,7 +259,16 @@ TEST(MeshCheck, HollowsAreAllowed) {
   EXPECT_THROW(check_mesh(wrong, "m"), Error);
 }
 
+// Two faces back to back, and a tetrahedron pressed flat.
+TEST(MeshCheck, WhatLiesFoldedIsRefused) {
+  EXPECT_THROW(check_mesh({tetrahedron().vertices, {{0, 1, 2}, {0, 2, 1}}}, "m"), Error);
+  Mesh flat = tetrahedron();
+  flat.vertices[3] = {0.3, 0.3, 0};
+  EXPECT_THROW(check_mesh(flat, "m"), Error);
+}
+
 TEST(MeshCheck, FacesAreNamed) {
+  EXPECT_EQ(face_list({12, 15}, true), "faces of lines 12 and 15");
   EXPECT_EQ(face_list({12}), "face 12");
   EXPECT_EQ(face_list({12, 15}), "faces 12 and 15");
   EXPECT_EQ(face_list({1, 2, 3}), "faces 1, 2 and 3");

@@ -42,6 +42,60 @@ TEST(Prepare, HIsWAtTheMachinesZero) {
   EXPECT_LT(X_WH.q().coeffs().head<3>().norm(), 1e-15);
 }
 
+RigSpec turned_rig() {
+  RigSpec rig;
+  rig.frames.W_S.rotation = {0.1, -0.2, 0.3};
+  rig.frames.W_C.rotation = {-0.4, 0.5, 2.0};
+  rig.frames.G_L.rotation = {0.2, 0.3, -0.1};
+  rig.frames.H_F.rotation = {0.1, 0.2, 0.6};
+  return rig;
+}
+
+TEST(Chains, CloseOverTrackerMachineForceAndObjects) {
+  for (const SceneSpec& spec : {test::ball_scene(), test::plane_scene(), test::two_balls(), test::rig_scene(),
+                                test::mesh_scene(test::box(0.06, 0.05, 0.04), -0.012, {0.1, -0.2, 0.3})})
+    EXPECT_LT(chain_residual(spec, turned_rig(), prepare(spec, turned_rig())), 1e-9);
+}
+
+// A frame that is off by a micrometre or turned by a microradian shows, and so do two that are swapped.
+TEST(Chains, AWrongFrameShows) {
+  const SceneSpec spec = test::mesh_scene(test::box(0.06, 0.05, 0.04), -0.012, {0.1, -0.2, 0.3});
+  const RigSpec rig = turned_rig();
+  const Scene right = prepare(spec, rig);
+  const auto shows = [&](const char* what, const auto& spoil) {
+    Scene wrong = right;
+    spoil(wrong);
+    EXPECT_GT(chain_residual(spec, rig, wrong), 0.5e-6) << what;
+  };
+  const auto each = [&](const char* what, auto frame_of) {
+    shows(what, [&](Scene& s) { frame_of(s).xyz[1] += 1e-6; });
+    shows(what, [&](Scene& s) {
+      auto& X = frame_of(s);
+      X = {X.q() * Quat(1.0, 0.0, 0.5e-6, 0.0), Vec3(X.p())};
+    });
+  };
+  each(
+      "X_WR", [](Scene & s) -> auto& { return s.X_WR; });
+  each(
+      "X_WC", [](Scene & s) -> auto& { return s.X_WC; });
+  each(
+      "X_WS", [](Scene & s) -> auto& { return s.X_WS; });
+  each(
+      "X_GL", [](Scene & s) -> auto& { return s.X_GL; });
+  each(
+      "X_HF", [](Scene & s) -> auto& { return s.X_HF; });
+  each(
+      "X_WO", [](Scene & s) -> auto& { return s.objects[0].X_WO; });
+  each(
+      "X_OW", [](Scene & s) -> auto& { return s.objects[0].X_OW; });
+  shows("X_WC for X_WS", [](Scene& s) { s.X_WC = {Quat(s.X_WS.q()), Vec3(s.X_WS.p())}; });
+  shows("X_CW for X_WC", [](Scene& s) {
+    const auto X_CW = s.X_WC.inverse();
+    s.X_WC = {Quat(X_CW.q()), Vec3(X_CW.p())};
+  });
+  shows("a tool's tip", [](Scene& s) { s.tools[0].tip.centre.xyz[2] += 1e-6; });
+}
+
 TEST(Prepare, RefusesAnObjectOutOfReach) {
   SceneSpec spec = test::ball_scene();
   spec.objects[0].position.x() = 0.5;
@@ -73,6 +127,8 @@ TEST(Prepare, RefusesALimitAboveTheResponses) {
   }
   spec.objects[0].limit = 0.004;
   EXPECT_EQ(prepare(spec, {}).objects[0].limit, 0.004);
+  spec.objects[0].limit = std::nextafter(0.006, 1.0);  // rounded, which is no deeper
+  EXPECT_EQ(prepare(spec, {}).objects[0].limit, 0.006);
 }
 
 TEST(Prepare, RefusesAResponseSofterThanTheLoopRenders) {

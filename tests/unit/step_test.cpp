@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/dent/dent.h"
+#include "core/stages.h"
 #include "tests/support/scenes.h"
 
 // This test program counts its allocations.
@@ -281,6 +282,37 @@ TEST(Contact, SlidingOffTheTipEndsItWithoutAGap) {
   loop.force = Vec<'W'>::zero();
   for (int i = 0; i < 1000 && loop.out.mode == Mode::contact; ++i) loop.tick();
   EXPECT_NE(loop.out.mode, Mode::contact);
+}
+
+// 0.1 to 20.0 mm, written as a scene does, of responses that end there or go on to 6 or 20 mm: a press that
+// is held at the limit says so, and its deflection is the limit to the bit.
+TEST(Contact, EveryLimitIsReached) {
+  Scene scene = prepare(test::ball_scene(), test::exact_rig());
+  Object& object = scene.objects[0];
+  for (const Reversal reversal : {Reversal::energy_stop, Reversal::prandtl_ishlinskii})
+    for (int tenths = 1; tenths <= 200; ++tenths) {
+      const double limit = 1e-3 * (tenths / 10.0);
+      for (const double curve : {limit, 0.006, 0.020}) {
+        if (curve < limit) continue;
+        ResponseSpec spec{.press = {2000.0}, .release = {1500.0}, .limit = curve};
+        spec.stops = StopsSpec{{2000.0 * curve}, {0.001}, {100.0}};
+        object.response = Response(spec, 100.0, reversal);
+        object.limit = limit;
+        const Tick tick;
+        const Inputs in;
+        State state;
+        state.mode = Mode::contact;
+        state.contact.object = 0;
+        state.contact.X_WN = Pose<'W', 'N'>::identity();
+        for (int i = 0; i < 3; ++i) {
+          stages::Walk walk(scene, tick, in);
+          walk.force = Vec<'W'>(0, 0, -1000.0);
+          stages::model(walk, state);
+          EXPECT_TRUE(walk.why & kAtLimit) << tenths << " of " << curve;
+          EXPECT_EQ(state.contact.displacement.xyz[2], -limit) << tenths << " of " << curve;
+        }
+      }
+    }
 }
 
 TEST(Contact, TheLimitIsHeldWhateverTheForce) {
