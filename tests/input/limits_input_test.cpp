@@ -56,7 +56,12 @@ TEST(Limits, APressBeyondTheMotorsIsSaidBeforeAndAfter) {
   EXPECT_THAT(check.out, AllOf(HasSubstr("for hours"), HasSubstr("BEYOND: object")));
   const Result run = run_program(with({"run", scene("wall")}, deep));
   EXPECT_EQ(run.code, 1) << run.out;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("beyond      object"), HasSubstr("LIMIT       ")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("beyond      object"), HasSubstr("LIMIT       the motors were warm")));
+  const Words deeper{"behaviour.phantom_wall.stiffness_N_per_mm=1.2", "user.depth_mm=14", "user.hold_s=1"};
+  const Result peak = run_program(with({"run", scene("wall")}, deeper));
+  EXPECT_EQ(peak.code, 1) << peak.out;
+  EXPECT_THAT(peak.out,
+              AllOf(HasSubstr("there the motors push with at most"), HasSubstr("LIMIT       a motor")));
 }
 
 // Whoever pushes, pushes with what a hand has.

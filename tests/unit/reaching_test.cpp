@@ -366,6 +366,22 @@ TEST(HitBall, IsHitByThePropAndNotByWhatIsBelieved) {
   EXPECT_EQ(struck.loop.out.contacts, 1) << "a ball that flies is not hit again";
 }
 
+// Two counts and one reading of 0.8 m/s: the prop does not run off with it.
+TEST(HitBall, OneWrongReadingSetsNothingInMotion) {
+  Ball ball;
+  ball.press_tip(0.08e-3);
+  ball.loop.in.arm.value.velocity = Vec<'R'>(0, 0, -0.8);
+  ball.at(-0.002);
+  EXPECT_EQ(ball.loop.out.mode, Mode::contact);
+  ball.loop.in.arm.value.velocity = Vec<'R'>::zero();
+  double fastest = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    ball.at(-0.002);
+    fastest = std::max(fastest, ball.loop.state.reaching.velocity.norm());
+  }
+  EXPECT_LT(fastest, 0.050);
+}
+
 // What the arm is told along the normal is what the ball gets.
 TEST(HitBall, ItsMomentumIsTheImpulseOfWhatTheArmIsTold) {
   Ball ball;
