@@ -28,6 +28,19 @@ std::string thin_text(const std::string& name, const Scene& scene, const Object&
       at.xyz[2] * 1e3);
 }
 
+std::string softest_text(const models::Setup& setup, const Scene& scene) {
+  const Steadiness loop(setup.rig);
+  const auto softest = [&](double ramp) {
+    return std::max(scene.lowest_slope, loop.softest(0.015, 30.0, ramp)) * 1e-3;
+  };
+  return fmt::format(
+      "  a spring stands still from {:.3f} N/mm on, under a hand of {:g} N/mm that pushes it up to 15 mm "
+      "deep "
+      "or by 30 N in {:g} s; from {:.3f} N/mm on in {:g} s\n",
+      softest(Steadiness::kSlow), setup.rig.contact.hand_stiffness * 1e-3, Steadiness::kSlow,
+      softest(Steadiness::kQuick), Steadiness::kQuick);
+}
+
 std::string limits(const models::Setup& setup, const Scene& scene) {
   std::string text;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -45,11 +58,7 @@ std::string limits(const models::Setup& setup, const Scene& scene) {
   const trial::Limits beyond = trial::limits_of(setup, scene);
   for (const trial::Unsteady& object : beyond.unsteady)
     text += "  UNSTEADY: " + trial::unsteady_text(setup, object) + "\n";
-  if (scene.has_force)
-    text += fmt::format(
-        "  a spring stands still from {:.3f} N/mm on, under a hand of {:g} N/mm that pushes it 15 mm deep or "
-        "by 30 N\n",
-        Steadiness(setup.rig).softest(0.015, 30.0) * 1e-3, setup.rig.contact.hand_stiffness * 1e-3);
+  if (scene.has_force) text += softest_text(setup, scene);
   return text + weak_text(setup, scene) +
          fmt::format("  commands up to {:g} mm/s and {:g} mm/s^2\n", scene.reach.speed * 1e3,
                      scene.reach.acceleration * 1e3);

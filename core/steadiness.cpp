@@ -16,8 +16,8 @@
 namespace enc {
 namespace {
 
-constexpr double kRamp = 2.0, kHold = 6.0, kWatched = 3.0;  // s
-constexpr double kWaits = 2e-3;                             // m above the surface, where the push begins
+constexpr double kHold = 6.0, kWatched = 3.0;  // s
+constexpr double kWaits = 2e-3;                // m above the surface, where the push begins
 // The contact threshold over what wakes a swing that the loop could keep up, rms: 0.1 N over 0.02 N, the
 // noise of the paper's sensor (0.0144 N with its steps) and the tremor of who pushes.
 constexpr double kOverNoise = 5.0;
@@ -77,15 +77,15 @@ Steadiness::Steadiness(const RigSpec& rig)
     law_.emplace(rig.admittance, loop_, filter_gain_, stages::kAlongShare * acceleration_, dt_);
 }
 
-double Steadiness::swing(const Response& object, double depth, double limit) const {
+double Steadiness::swing(const Response& object, double depth, double limit, double ramp) const {
   // The servo's period in no less than 40 steps; 1 ms in no less than 4.
   const auto steps = static_cast<int>(std::ceil(dt_ * std::max(4e3, 40.0 * loop_.servo_hz)));
   const double h = dt_ / steps;
   const auto late = static_cast<std::size_t>(std::max<std::int64_t>(1, std::llround(loop_.delay / dt_)));
   std::vector<double> sent(late, 0.0);
   const double way = depth + object.press(depth) / loop_.hand_stiffness + kWaits;
-  const auto ticks = static_cast<std::size_t>((kRamp + kHold) / dt_);
-  const auto watched = static_cast<std::size_t>((kRamp + kHold - kWatched) / dt_);
+  const auto ticks = static_cast<std::size_t>((ramp + kHold) / dt_);
+  const auto watched = static_cast<std::size_t>((ramp + kHold - kWatched) / dt_);
   Machine machine;
   Command command;
   Noise noise;
@@ -96,9 +96,9 @@ double Steadiness::swing(const Response& object, double depth, double limit) con
   for (std::size_t i = 0; i < ticks; ++i) {
     double& due = sent[i % late];
     for (int k = 0; k < steps; ++k) machine.move(due, loop_, acceleration_, speed_, h);
-    const MinimumJerk hand(static_cast<double>(i) * dt_ / kRamp);
+    const MinimumJerk hand(static_cast<double>(i) * dt_ / ramp);
     const double push = loop_.hand_stiffness * (way * hand.x - kWaits - machine.at) +
-                        loop_.hand_damping * (way * hand.v / kRamp - machine.speed);
+                        loop_.hand_damping * (way * hand.v / ramp - machine.speed);
     force += filter_gain_ * (std::max(0.0, push) + noise() * contact_ / kOverNoise - force);
     if (!seen && force > contact_)
       seen = law_ ? law_->begin(object.press(1e-3 * limit) / (1e-3 * limit), force, machine.at) : Swing{};
@@ -121,22 +121,24 @@ double Steadiness::swing(const Response& object, double depth, double limit) con
 
 double Steadiness::still() const { return std::max(kStill, threshold_ * kMargin / loop_.hand_stiffness); }
 
-Steadiness::Worst Steadiness::worst(const Response& object, double limit) const {
+Steadiness::Worst Steadiness::worst(const Response& object, double limit, double ramp) const {
   Worst worst;
-  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-    const double here = swing(object, share * limit, limit);
+  for (const double share : {1.0, 0.75, 0.5, 0.25}) {
+    const double here = swing(object, share * limit, limit, ramp);
     if (here > kCareful * still() && here > worst.swing) worst = {share * limit, here};
   }
   return worst;
 }
 
-double Steadiness::softest(double depth, double force) const {
+double Steadiness::softest(double depth, double force, double ramp) const {
   const auto stands = [&](double k) {
-    const double most = std::min(depth, force / k);
-    const Response spring({{k, 0, 0, 0}, {k, 0, 0, 0}, 1.5 * most}, 0.0);
-    return swing(spring, most, 1.5 * most) <= kCareful * still();
+    const double most = std::min(depth, force / k), limit = 1.5 * most;
+    const Response spring({{k, 0, 0, 0}, {k, 0, 0, 0}, limit}, 0.0);
+    for (const double share : {1.0, 0.75, 0.5, 0.25})
+      if (swing(spring, share * most, limit, ramp) > kCareful * still()) return false;
+    return true;
   };
-  constexpr double kSteps = 1.15, kNear = 1.02;
+  constexpr double kSteps = 1.3, kNear = 1.02;
   double high = 8.0 * loop_.hand_stiffness;  // of a loop that is of any use this is stable
   while (!stands(high) && high < 1e6) high *= 2.0;
   double low = high / kSteps;

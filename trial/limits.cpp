@@ -53,18 +53,32 @@ ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::siz
   found.asked = std::isnan(user->push) ? asked_at(law, object, deepest) : user->push;
   found.asked_for = user->hold_time + 0.5 * (user->press_time + user->release_time);
   found.holds_for = law.motors.holds_for(law.arm, q, held, out, found.asked);
+  found.presses = static_cast<std::int64_t>(user->approach.size()) * user->repeats;
+  const double fastest = *std::max_element(user->approach.begin(), user->approach.end());
+  const double pause = user->rest_time + user->approach_from / fastest;
+  found.gives_way_in =
+      law.motors.gives_way_in(law.arm, q, held, out, found.asked, {found.asked_for, pause, found.presses});
   return found;
+}
+
+// How quickly the scene's own hand pushes; a real one pushes as quickly as it likes.
+double ramp_of(const models::Setup& setup) {
+  const std::optional<UserSpec>& user = setup.scene.user;
+  if (setup.scene.pusher) return std::min(Steadiness::kSlow, setup.scene.pusher->ramp_time);
+  if (user && !user->session && !user->reaches) return std::min(Steadiness::kSlow, user->press_time);
+  return Steadiness::kQuick;
 }
 
 std::vector<Unsteady> unsteady_objects(const models::Setup& setup, const Scene& scene) {
   std::vector<Unsteady> found;
   if (scene.impedance || !scene.has_force) return found;
   const Steadiness loop(setup.rig);
+  const double ramp = ramp_of(setup);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (std::isnan(object.limit)) continue;  // real
-    const Steadiness::Worst worst = loop.worst(object.response, object.limit);
-    if (worst.swing > 0.0) found.push_back({setup.scene.objects[i].name, worst.depth, worst.swing});
+    const Steadiness::Worst worst = loop.worst(object.response, object.limit, ramp);
+    if (worst.swing > 0.0) found.push_back({setup.scene.objects[i].name, worst.depth, worst.swing, ramp});
   }
   return found;
 }
@@ -84,9 +98,11 @@ Limits limits_of(const models::Setup& setup, const Scene& scene) {
 
 std::string unsteady_text(const models::Setup& setup, const Unsteady& object) {
   return fmt::format(
-      "object '{}', pushed {:.1f} mm deep by a hand of {:g} N/mm, swings by {:.1f} mm: it is softer than "
-      "this machine holds still; make it stiffer, or set rig.admittance.damping=observed",
-      object.object, object.depth * 1e3, setup.rig.contact.hand_stiffness * 1e-3, object.swing * 1e3);
+      "object '{}', pushed {:.1f} mm deep in {:g} s by a hand of {:g} N/mm, swings by {:.1f} mm: it is "
+      "softer "
+      "than this machine holds still; make it stiffer, or set rig.admittance.damping=observed",
+      object.object, object.depth * 1e3, object.ramp, setup.rig.contact.hand_stiffness * 1e-3,
+      object.swing * 1e3);
 }
 
 std::string beyond_text(const ArmStrength& at) {
@@ -99,11 +115,13 @@ std::string beyond_text(const ArmStrength& at) {
         "object '{}' is pressed with {:.2f} N, and there the motors push with at most {:.2f} N; press "
         "less deep, or make it softer",
         at.object, at.asked, at.peak);
-  if (at.asked_for > at.holds_for)
+  if (at.gives_way_in > 0)
     return fmt::format(
-        "object '{}' is pressed with {:.2f} N for {:.0f} s, and cold motors hold that for {:.0f} s (for "
-        "ever {:.2f} N); press less deep, or shorter",
-        at.object, at.asked, at.asked_for, at.holds_for, at.lasting);
+        "object '{}' is pressed with {:.2f} N for {:.0f} s{}, and cold motors hold that for {:.0f} s (for "
+        "ever {:.2f} N); press less deep, or shorter{}",
+        at.object, at.asked, at.asked_for,
+        at.presses > 1 ? fmt::format(", press {} of {}", at.gives_way_in, at.presses) : "", at.holds_for,
+        at.lasting, at.presses > 1 ? ", or rest longer" : "");
   return {};
 }
 

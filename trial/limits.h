@@ -14,6 +14,7 @@ namespace enc::trial {
 struct Unsteady {
   std::string object;
   double depth = 0.0, swing = 0.0;  // m: pushed so deep it swings so far, peak to peak
+  double ramp = kUnset;             // s: and so quickly
 };
 // One line each, without an end.
 [[nodiscard]] std::string unsteady_text(const models::Setup& setup, const Unsteady& object);
@@ -27,7 +28,9 @@ struct ArmStrength {
   double stiffness = kUnset;         // N/m, the most that the object asks for
   double asked = kUnset;             // N, of the user's press; unset: nobody presses it to a depth
   double asked_for = 0.0;            // s
-  double holds_for = 0.0;            // s, of that force, until warm motors give less; infinite: for ever
+  double holds_for = 0.0;            // s, of that force, until cold motors give less; infinite: for ever
+  std::int64_t presses = 1;          // of the user
+  std::int64_t gives_way_in = 0;     // the press in which warm motors give less; 0: none
 };
 // What of it is beyond a limit; empty: nothing.
 [[nodiscard]] std::string beyond_text(const ArmStrength& at);

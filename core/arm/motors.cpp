@@ -33,18 +33,23 @@ void Warming::operator()(double load, double& winding, double& housing) const no
   housing += housing_ * ((1.0 - share_) * heat - housing);
 }
 
-double bears_for(const Thermal& thermal, double load) {
+double folds_at(double torque, double peak, double continuous) noexcept {
+  if (torque >= peak || !(peak > continuous)) return kWarm;
+  return 1.0 - (1.0 - kWarm) * std::max(0.0, torque - continuous) / (peak - continuous);
+}
+
+double bears_for(const Thermal& thermal, double load, double warm) {
   const double heat = load * load;
   const auto warmth = [&](double t) {
     return heat * (thermal.winding_share * (1.0 - std::exp(-t / thermal.winding_time)) +
                    (1.0 - thermal.winding_share) * (1.0 - std::exp(-t / thermal.housing_time)));
   };
-  if (heat <= kWarm) return kInfinite;
+  if (heat <= warm) return kInfinite;
   double low = 0.0, high = thermal.winding_time + thermal.housing_time;
-  while (warmth(high) < kWarm && high < 1e9) high *= 2.0;
+  while (warmth(high) < warm && high < 1e9) high *= 2.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (warmth(middle) < kWarm ? low : high) = middle;
+    (warmth(middle) < warm ? low : high) = middle;
   }
   return high;
 }
@@ -101,9 +106,32 @@ double Motors::holds_for(const Arm& arm, const PerJoint& q, const PerJoint& held
   double time = kInfinite;
   for (std::size_t i = 0; i < joints_; ++i) {
     const double torque = std::abs(held[i] + force * each[i]);
-    time = std::min(time, torque > peak_[i] ? 0.0 : bears_for(thermal_, torque / continuous_[i]));
+    const double warm = folds_at(torque, peak_[i], continuous_[i]);
+    time = std::min(time, torque > peak_[i] ? 0.0 : bears_for(thermal_, torque / continuous_[i], warm));
   }
   return time;
+}
+
+std::int64_t Motors::gives_way_in(const Arm& arm, const PerJoint& q, const PerJoint& held,
+                                  const Vec<'R'>& way, double force, const Presses& presses) const {
+  constexpr double kStep = 0.02;  // s
+  constexpr std::int64_t kMost = 1'000;
+  const PerJoint each = arm.torque(arm.jacobian(q), way);
+  const Warming warming(thermal_, kStep);
+  const auto steps = [](double time) { return static_cast<std::int64_t>(std::ceil(time / kStep)); };
+  Heat heat;
+  for (std::int64_t press = 1; press <= std::min(presses.number, kMost); ++press) {
+    for (std::int64_t k = 0; k < steps(presses.pressed); ++k)
+      for (std::size_t i = 0; i < joints_; ++i) {
+        const double torque = std::abs(held[i] + force * each[i]);
+        if (folded_back(heat.of(i), peak_[i], continuous_[i]) < torque * (1.0 - 1e-9)) return press;
+        warming(torque / continuous_[i], heat.winding[i], heat.housing[i]);
+      }
+    for (std::int64_t k = 0; k < steps(presses.pause); ++k)
+      for (std::size_t i = 0; i < joints_; ++i)
+        warming(held[i] / continuous_[i], heat.winding[i], heat.housing[i]);
+  }
+  return 0;
 }
 
 }  // namespace enc

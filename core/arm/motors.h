@@ -28,8 +28,10 @@ class Warming {
  private:
   double winding_ = 0.0, housing_ = 0.0, share_ = 0.0;  // per tick, per tick, -
 };
-// s for which a cold motor bears a load until it begins to fold back; infinite up to about 0.9.
-[[nodiscard]] double bears_for(const Thermal& thermal, double load);
+// The warmth from which on a motor gives no more than a torque that is between the two.
+[[nodiscard]] double folds_at(double torque, double peak, double continuous) noexcept;
+// s for which a cold motor bears a load until it is so warm; infinite: it never is.
+[[nodiscard]] double bears_for(const Thermal& thermal, double load, double warmth);
 
 // Which limit acts on a force.
 enum class MotorLimit : std::uint8_t { none, peak, heat };
@@ -52,9 +54,18 @@ class Motors {
   };
   [[nodiscard]] Strength strength(const Arm& arm, const PerJoint& q, const PerJoint& held,
                                   const Vec<'R'>& way) const noexcept;
-  // s until the first of them begins to fold back under that force; infinite: never.
+  // s until the first of them, cold at first, gives less than that force; infinite: never.
   [[nodiscard]] double holds_for(const Arm& arm, const PerJoint& q, const PerJoint& held, const Vec<'R'>& way,
                                  double force) const;
+
+  // The same of presses with pauses, in which gravity alone is held, s: the press in which a motor gives
+  // less, 1 for the first; 0: none.
+  struct Presses {
+    double pressed = 0.0, pause = 0.0;  // s
+    std::int64_t number = 1;
+  };
+  [[nodiscard]] std::int64_t gives_way_in(const Arm& arm, const PerJoint& q, const PerJoint& held,
+                                          const Vec<'R'>& way, double force, const Presses& presses) const;
 
  private:
   std::size_t joints_ = 0;

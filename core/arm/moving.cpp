@@ -119,26 +119,34 @@ void slide(const Mover& mover, const Vec3& force, std::span<const Moved> moved, 
 
 namespace {
 
-// Whether the prop, which stands at the surface, is struck: pushed in faster and farther than noise is.
-// Vision says no more than that a finger may be there. What the arm does on its way home is no strike.
+// Whether the prop, which stands at the surface, is struck: pushed in faster and farther than noise is, and
+// than an arm lags that has just been sent somewhere. Vision says no more than that a finger may be there.
+// What the arm does on its way home is no strike.
 bool struck(const stages::Walk& walk, State& state) {
   constexpr double kNear = 0.030;       // m: a finger that is seen late is somewhere in here
   constexpr double kSpeed = 0.025;      // m/s: two counts of an encoder in 2 ms are 0.014
   constexpr double kMoved = 0.06e-3;    // m: two counts
   constexpr double kFriction = 0.6e-3;  // m: what friction may hold the prop off the surface, at most
   constexpr double kSettled = 0.100;    // s, after it has come
+  constexpr double kLate = 0.004;       // s: an arm that moves is behind its target by some of this
+  constexpr double kUneven = 0.12;      // of the target's speed
   const double behind = dot(state.reaching.target - walk.X_WH.origin(), walk.normal);
   const double speed = dot(state.reaching.velocity - walk.tip_velocity, walk.normal);
   const bool there = state.mode == Mode::follow && state.reaching.caught_up && walk.tool_known;
-  const bool pushed = behind > kFriction || (behind > kMoved && speed > kSpeed);
+  const double fastest = state.reaching.straying.fastest;  // of late
+  const bool pushed =
+      behind > kFriction + kLate * fastest || (behind > kMoved && speed > kSpeed + kUneven * fastest);
   if (!there) state.contact.left = walk.tick.t;
   return there && age(walk.tick.t, state.contact.left) > kSettled && pushed && walk.gap < kNear;
 }
 
 // How a ball is hit says the prop that stands for it, each tick to 0.03 mm; a picture of the finger is 50 ms
 // old, and the hit is over by then. So the depth is that of the prop behind where it was struck, until they
-// part. A ball that has been hit is not hit again before it is back.
-double hit_depth(stages::Walk& walk, State& state, const Moved& now) {
+// part, or nothing has been felt for a while, or the ball is where it waits. A ball that has been hit is not
+// hit again before it is back.
+double hit_depth(stages::Walk& walk, State& state, const Mover& mover, const Moved& now) {
+  constexpr double kFelt = 0.05;   // N: less is lost in the arm's friction
+  constexpr double kEmpty = 0.10;  // s
   Contact& contact = state.contact;
   const bool pressed = state.mode == Mode::contact && contact.anchored && contact.object == state.object;
   if (!pressed) {
@@ -155,8 +163,12 @@ double hit_depth(stages::Walk& walk, State& state, const Moved& now) {
   }
   walk.normal = contact.X_WN * Vec<'N'>(0, 0, 1);
   const double depth = dot(contact.X_WN.origin() + now.shift - walk.X_WH.origin(), walk.normal);
-  constexpr double kBack = 0.1e-3;                                // m: it was no finger
-  if (depth < -kBack || (!(depth > 0.0) && now.deepest > 0.0)) {  // they part
+  constexpr double kBack = 0.1e-3;  // m: it was no finger
+  const bool felt = mover.stiffness * now.firmness * depth > kFelt;
+  contact.clear = felt ? 0.0 : contact.clear + walk.scene.dt;
+  const bool gone = now.shift.norm() >= mover.travel * (1.0 - 1e-9);
+  const bool apart = depth < -kBack || (!(depth > 0.0) && now.deepest > 0.0);
+  if (apart || gone || contact.clear > kEmpty) {
     contact.anchored = false;
     contact.left = walk.tick.t;
   }
@@ -177,7 +189,8 @@ void stages::push(Walk& walk, State& state) noexcept {
   if (state.object >= 0) {
     const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
     if (object.interaction.kind == Interaction::hit)
-      depth = hit_depth(walk, state, state.moved[static_cast<std::size_t>(object.moving)]);
+      depth = hit_depth(walk, state, walk.scene.movers[static_cast<std::size_t>(object.moving)],
+                        state.moved[static_cast<std::size_t>(object.moving)]);
   }
   const double speed = -dot(state.reaching.velocity, walk.normal);  // a prop that is struck: go_with
   const bool late = age(walk.tick.t, state.contact.left) < walk.scene.tracker.usual_age;

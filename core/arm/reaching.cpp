@@ -14,8 +14,8 @@ const Object* nearest_object(const Walk& walk, const State& state) {
 }
 
 // A finger that presses lies on the prop for as long as it is seen within leave_gap of it: each tick the arm
-// knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. How deep a finger is
-// says the prop, whether it is there the camera.
+// knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. The prop says how
+// deep a finger is, the camera whether it is there.
 void lie_on_prop(Walk& walk, const State& state) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;

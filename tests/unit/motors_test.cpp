@@ -76,17 +76,36 @@ TEST(Motors, TheNamedForceIsTheSimulatedOneOverFiftyPoses) {
   }
 }
 
+// Until it gives less than is asked, tick by tick, and not until it is warm.
 TEST(Motors, AColdMotorBearsALoadAsLongAsItSays) {
   const Thermal thermal;
-  for (const double load : {1.2, 2.0, 4.5}) {
-    const double time = bears_for(thermal, load);
+  constexpr double kPeak = 4.5, kStep = 0.01;
+  for (const double load : {1.2, 2.0, 3.0, 4.4}) {
+    const double time = bears_for(thermal, load, folds_at(load, kPeak, 1.0));
     double winding = 0.0, housing = 0.0;
-    const Warming warming(thermal, 0.01);
+    const Warming warming(thermal, kStep);
     int ticks = 0;
-    for (; winding + housing < kWarm; ++ticks) warming(load, winding, housing);
-    EXPECT_NEAR(0.01 * ticks, time, 0.01 * time) << load;
+    for (; folded_back(winding + housing, kPeak, 1.0) >= load; ++ticks) warming(load, winding, housing);
+    EXPECT_NEAR(kStep * ticks, time, 0.01 * time) << load;
   }
-  EXPECT_TRUE(std::isinf(bears_for(thermal, 0.85)));
+  EXPECT_TRUE(std::isinf(bears_for(thermal, 0.99, folds_at(0.99, kPeak, 1.0))));
+}
+
+TEST(Motors, PressesWithTooLittleRestGiveWayInALaterOne) {
+  const ArmRig rig;
+  const Arm arm(rig.machine);
+  const Motors motors(arm, rig, kTick);
+  const Vec<'R'> up(0, 0, 1);
+  const PerJoint q = arm.zero();
+  const double force = 0.9 * motors.strength(arm, q, {}, up).peak;
+  const double holds = motors.holds_for(arm, q, {}, up, force);
+  ASSERT_TRUE(std::isfinite(holds));
+  EXPECT_EQ(motors.gives_way_in(arm, q, {}, up, force, {1.1 * holds, 100.0, 1}), 1);
+  EXPECT_EQ(motors.gives_way_in(arm, q, {}, up, force, {0.8 * holds, 0.1, 1}), 0);
+  EXPECT_EQ(motors.gives_way_in(arm, q, {}, up, force, {0.8 * holds, 0.1, 4}), 2);
+  EXPECT_EQ(motors.gives_way_in(arm, q, {}, up, force, {0.8 * holds, 100.0, 2}), 0);
+  // For ever is for ever.
+  EXPECT_TRUE(std::isinf(motors.holds_for(arm, q, {}, up, 0.999 * motors.strength(arm, q, {}, up).lasting)));
 }
 
 TEST(Motors, TheShareKeepsEachMotorWithinWhatItHas) {

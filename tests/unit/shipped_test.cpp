@@ -35,6 +35,48 @@ TEST(ShippedBall, IsOneContactAHit) {
   }
 }
 
+// Contacts that begin though nothing has touched lately, and s of contact with nothing there.
+struct Unfounded {
+  int begun = 0;
+  double lasting = 0.0;
+};
+Unfounded unfounded_of(trial::Trial& trial) {
+  constexpr double kBefore = 0.05, kAfter = 0.15;  // s
+  Unfounded found;
+  double away = 1.0;
+  std::int32_t contacts = 0;
+  while (trial.tick()) {
+    away = trial.truth().touching ? 0.0 : away + trial.scene().dt;
+    found.begun += trial.outputs().contacts > contacts && away > kBefore ? 1 : 0;
+    contacts = trial.outputs().contacts;
+    if (trial.outputs().mode == Mode::contact && away > kAfter) found.lasting += trial.scene().dt;
+  }
+  return found;
+}
+
+// Beside the ball the prop goes along with the finger, and lags: that is no hit.
+TEST(ShippedBall, IsNotHitByTheArmsOwnLag) {
+  for (const char* tilt : {"45", "60"})
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      trial::Trial trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/hit_ball.toml", "",
+                                      {std::string("user.approach_tilt_deg=") + tilt}),
+                         seeded(seed));
+      EXPECT_EQ(unfounded_of(trial).begun, 0) << tilt << " degrees, seed " << seed;
+      EXPECT_EQ(trial.outputs().contacts, 3) << tilt << " degrees, seed " << seed;
+    }
+}
+
+// A ball that is hardly pushed, that is soon where it waits, and one that is too heavy to go.
+TEST(ShippedBall, IsLetGoWhenNothingIsFelt) {
+  for (const char* hard : {"user.approach_mm_s=[2]", "behaviour.hit_ball.interaction.travel_mm=10",
+                           "behaviour.hit_ball.interaction.mass_kg=100"}) {
+    trial::Trial trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/hit_ball.toml", "", {hard}),
+                       seeded(1));
+    EXPECT_LT(unfounded_of(trial).lasting, 0.05) << hard;
+    EXPECT_NE(trial.outputs().mode, Mode::contact) << hard;
+  }
+}
+
 // The ball gets no more than the finger has put in.
 TEST(ShippedBall, GainsNoEnergy) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
