@@ -119,8 +119,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   bench_command->add_option("--seed", bench_options.seed, "first seed")
       ->capture_default_str()
       ->check(bad_seed);
-  bench_command->add_option("--repeats", bench_options.repeats,
-                            "seeds per row; default: the benchmark's own");
+  bench_command->add_option("--repeats", bench_options.repeats, "seeds per row; default: the benchmark's own")
+      ->check(CLI::Range(1, 1'000'000));
   bench_command->add_option("--set", bench_options.set, "override, as for run");
   bench_command->add_flag("--quick", bench_options.quick, "fewer repeats; all of them in 15 s");
   bench_command->add_flag("--full", bench_options.full,
@@ -167,14 +167,14 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   calibrate_command->add_flag("--json", calibrate_options.json, "one JSON object instead of text");
   calibrate_command->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to")
       ->check(unnamed);
-  calibrate_command->add_option("--pairs", calibrate_options.pairs, "of a rig: places of the tip")
-      ->check(CLI::Range(4, 1000))
-      ->capture_default_str();
-  calibrate_command->add_option("--frames", calibrate_options.frames, "of a rig: averaged at each place")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  calibrate_command->add_option("--seed", calibrate_options.seed, "of the camera's noise")
-      ->capture_default_str()
+  calibrate_command->add_option("--pairs", calibrate_options.pairs, "of a rig: places of the tip; default: 8")
+      ->check(CLI::Range(4, 1000));
+  calibrate_command
+      ->add_option("--frames", calibrate_options.frames, "of a rig: averaged at each place; default: 20")
+      ->check(CLI::Range(1, 1000));
+  calibrate_command
+      ->add_option("--seed", calibrate_options.seed,
+                   "of a rig: of the camera's noise; of points: of what is drawn from them; default: 1")
       ->check(bad_seed);
   calibrate_command->add_option("--set", calibrate_options.set, "of a rig: override, as for run");
   force_option(calibrate_command, calibrate_options.force);

@@ -8,6 +8,7 @@
 
 #include "app/options.h"
 #include "app/process.h"
+#include "app/stop_signals.h"
 #include "models/files.h"
 #include "trial/measure/record_table.h"
 #include "trial/prepare.h"
@@ -49,10 +50,16 @@ int export_record(const ExportOptions& options) {
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = trial::prepare_setup(setup);
+  // A pipe without a reader ends this as it ends others.
+  std::optional<StopSignals> signals;
+  if (options.csv != "-") signals.emplace();
   Output output(options.csv, models::existing(options.force));
   trial::RecordTable table(setup, scene);
   output.write(trial::RecordTable::header());
-  for (RecordedTick frame; record.next(frame);) output.write(table.row(frame.tick, frame.in, frame.out));
+  for (RecordedTick frame; record.next(frame);) {
+    output.write(table.row(frame.tick, frame.in, frame.out));
+    if (signals && StopSignals::caught() != 0) return 128 + StopSignals::caught();  // half a table is none
+  }
   output.end();
   if (!record.damage().empty())
     fmt::print(stderr, "encounter: {}: {}; only the {} ticks before it are in the table\n", options.record,

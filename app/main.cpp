@@ -1,4 +1,8 @@
 // Everything but this is a library, so that tests can link it.
 #include "app/options.h"
+#include "app/process.h"
 
-int main(int argc, char** argv) { return enc::app::command_line(argc, argv); }
+int main(int argc, char** argv) {
+  enc::app::fill_streams();  // before any file is opened
+  return enc::app::command_line(argc, argv);
+}

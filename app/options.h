@@ -63,8 +63,8 @@ struct CalibrateOptions {
   // Of a rig: the guided procedure.
   std::string out;
   bool force = false;
-  std::size_t pairs = 8, frames = 20;
-  std::uint64_t seed = 1;
+  std::optional<std::size_t> pairs, frames;
+  std::optional<std::uint64_t> seed;
   std::vector<std::string> set;
 };
 struct NearestOptions {

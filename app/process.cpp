@@ -10,9 +10,19 @@
 #include <set>
 #include <string>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "core/error.h"
 
 namespace enc::app {
+
+void fill_streams() {
+  // The lowest that is free is given out.
+  int fd = 0;
+  while (fd >= 0 && fd <= STDERR_FILENO) fd = open("/dev/null", O_RDONLY);
+  if (fd > STDERR_FILENO) close(fd);
+}
 
 void fail_output() {
   throw Error(std::string("standard output: cannot be written: ") +

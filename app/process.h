@@ -7,6 +7,9 @@
 
 namespace enc::app {
 
+// Of standard input, output and error those that are closed get something that cannot be written: otherwise
+// the next file that is opened takes their place, and what is printed goes into it.
+void fill_streams();
 // Throws Error unless all that was printed has got where it should.
 void check_output();
 [[noreturn]] void fail_output();

@@ -6,6 +6,7 @@
 
 #include <encounter_version.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "app/built.h"
@@ -40,6 +41,16 @@ void show_progress(double share) {
   std::fflush(stderr);
 }
 
+// The report would be written into it. What throws away both is no harm.
+void refuse_output(const std::string& path) {
+  struct stat output {
+  }, there{};
+  if (fstat(STDOUT_FILENO, &output) != 0 || stat(path.c_str(), &there) != 0) return;
+  if (output.st_dev != there.st_dev || output.st_ino != there.st_ino) return;
+  if (S_ISCHR(output.st_mode) && isatty(STDOUT_FILENO) == 0) return;
+  throw Error(path + ": is standard output, where the report goes; expected another file; choose one");
+}
+
 // A record, beside its place until it is sealed.
 struct Recording {
   models::OutFile file;
@@ -57,6 +68,7 @@ struct Recording {
 
 std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup) {
   if (options.record.empty()) return nullptr;
+  for (const std::string& path : {options.record, options.record + ".part"}) refuse_output(path);
   RecordTexts texts = models::record_texts(setup);
   texts["scene"] = options.scene;
   texts["rig"] = setup.rig_path;
@@ -115,7 +127,8 @@ int run(const RunOptions& options) {
                    fingers,
                    touches,
                    limits,
-                   !options.seconds && !result.interrupted,
+                   options,
+                   !options.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0,
                    trial.has_world() ? trial.world().physics().elements() : 0,
                    started};
   report.crossed = crossed(report);

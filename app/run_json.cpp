@@ -1,3 +1,4 @@
+#include <encounter_version.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -68,7 +69,12 @@ void press_figures(Json& json, const trial::PressMeasure& presses) {
 
 std::string run_json(const RunReport& r) {
   Json json;
+  json["encounter"] = ENCOUNTER_VERSION;
   json["scene"] = r.setup.scene_path;
+  json["rig"] = r.setup.rig_path;
+  json["seed"] = r.asked.seed;
+  json["set"] = r.asked.set;
+  json["for_s"] = r.asked.seconds ? Json(*r.asked.seconds) : Json(nullptr);
   json["title"] = r.setup.scene.title;
   json["built"] = Json::object();
   json["left_out"] = Json::object();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <encounter_version.h>
 #include <fmt/format.h>
 
 #include "app/built.h"
@@ -188,6 +189,15 @@ std::string finger_lines(const RunReport& r) {
               : "sideways    not measured: never more than 1 N along the normal\n");
 }
 
+// Who repeats this gets the same report.
+std::string made_line(const RunReport& r) {
+  std::string text = fmt::format("made by     Encounter {}: {}, rig {}, seed {}", ENCOUNTER_VERSION,
+                                 r.setup.scene_path, r.setup.rig_path, r.asked.seed);
+  if (r.asked.seconds) text += fmt::format(", --for-s {}", *r.asked.seconds);
+  for (const std::string& set : r.asked.set) text += ", --set " + set;
+  return text + "\n";
+}
+
 // What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
 std::string pushed_lines(const RunReport& r) {
   if (!r.setup.scene.pusher) return "";
@@ -207,7 +217,7 @@ StepTimes step_times(const std::vector<std::uint32_t>& ns) {
 }
 
 std::string run_text(const RunReport& r) {
-  std::string text = r.setup.scene.title + "\n" + parts_text(r.setup);
+  std::string text = r.setup.scene.title + "\n" + made_line(r) + parts_text(r.setup);
   text += fmt::format("modes       {}; {} contacts\n", modes_line(r.result), r.result.contacts);
   for (const auto& [t, why] : r.result.holds) {
     text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options.h"
 #include "trial/limits.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/press_measure.h"
@@ -22,9 +23,10 @@ struct RunReport {
   const trial::FingerMeasure& fingers;
   const trial::TouchMeasure& touches;
   const trial::Limits& limits;
-  bool whole = true;                   // not cut off by --for-s or a signal
-  int elements = 0;                    // of the simulated world
-  double started = 0.0;                // CPU s from the start of the process to the first tick
+  const RunOptions& asked;
+  bool whole = true;     // not cut off by --for-s, a signal, a full disk or physics that diverged
+  int elements = 0;      // of the simulated world
+  double started = 0.0;  // CPU s from the start of the process to the first tick
   std::vector<std::string> crossed{};  // verdict.h
 };
 

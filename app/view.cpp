@@ -277,7 +277,6 @@ int picture(const ViewOptions& options, Look look) {
   sim::ViewRequest request;
   request.model = trial.world().physics().model();
   request.data = trial.world().physics().data();
-  request.path = file.aside();
   request.camera = camera_for(moment, close_up);
   if (!close_up)
     request.title =
@@ -287,7 +286,7 @@ int picture(const ViewOptions& options, Look look) {
   add_tool_frame(moment, request, marker);
   add_arrows(moment, request, close_up ? 0.5 : 1.0);
   add_labels(moment, request, marker);
-  module->shot(request);
+  file.write(module->shot(request));
   file.keep();
   fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
              seconds(moment.now.t.time_since_epoch()));

@@ -22,8 +22,9 @@ void describe(Visitor& v, ManipulatorRig& m) {
   driver(v, m.driver);
   v.value({"speed_mm_s", "limit of commands", "[VHMR 2]", published, kPositive}, &m.speed);
   v.value({"acceleration_m_s2", "limit of commands", "decisions 1", derived, kPositive}, &m.acceleration);
-  v.value({"tip_radius_mm", "haptic-tip's sphere; H is its centre", "fidelity 5", assumed, kPositive},
-          &m.tip_radius);
+  v.value(
+      {"tip_radius_mm", "haptic-tip's sphere; H is its centre", "fidelity 5", assumed, {0.0, 1000.0, true}},
+      &m.tip_radius);
   v.value({"stem_radius_mm", "rod under the haptic-tip; in the way of a tool from below", "[VHMR 5]", assumed,
            kNotNegative},
           &m.stem_radius);

@@ -69,7 +69,7 @@ void describe(Visitor& v, ToolSpec& t) {
   v.value({"markers_mm", "at least 3 markers in T; the tool is recognised by them", "[VHMR 3.2]", chosen},
           &t.markers);
   v.value({"tip_mm", "centre of the tip's sphere in T", "[VHMR 3.2]", chosen, kAny, needed}, &t.tip);
-  v.value({"tip_radius_mm", "radius of the tip; 0: a point", kAuthor, chosen, kNotNegative}, &t.tip_radius);
+  v.value({"tip_radius_mm", "radius of the tip; 0: a point", kAuthor, chosen, {0.0, 1000.0}}, &t.tip_radius);
   choice(v, {"tip_shape", "what dents the seen surface", "[VHMR 3.5]", chosen}, kTips, t.tip_shape);
   if (t.tip_shape != TipShape::sphere)
     v.value({"tip_axis",

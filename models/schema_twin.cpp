@@ -47,7 +47,8 @@ void describe(Visitor& v, sim::HexapodTruth& h) {
   v.value({"repeatability_um", "rms along each axis, of where the same command ends", "[VHMR 2]", published,
            kNotNegative},
           &h.repeatability);
-  v.value({"tip_radius_mm", "haptic-tip's sphere", "fidelity 5", assumed, kPositive}, &h.tip_radius);
+  v.value({"tip_radius_mm", "haptic-tip's sphere", "fidelity 5", assumed, {0.0, 1000.0, true}},
+          &h.tip_radius);
   v.value({"mass_kg", "behind the sensor: gripper, adapters, tip", "parameters 2.3", assumed, kPositive},
           &h.mass);
   v.value({"misplaced_mm", "of the machine against where the rig says it is, in W", "injected", chosen},

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "models/csv_reader.h"
 #include "models/fit/latency_fit.h"
+#include "models/wording.h"
 #include "trial/fit/point_set.h"
 
 namespace enc::app {
@@ -31,6 +32,15 @@ std::string text(const Interval& i, double unit, int digits) {
 }
 std::string text(double x, double unit, int digits) {
   return std::isnan(x) ? "not known" : fmt::format("{:.{}f}", x * unit, digits);
+}
+// A tracker's scale is good to much less than this, and a length in wrong units is far beyond.
+bool scaled(const AxisLatency& x) { return std::abs(x.scale - 1.0) > 0.02; }
+bool scaled(const LatencyFit& fit) {
+  return std::any_of(fit.axes.begin(), fit.axes.end(), [](const AxisLatency& x) { return scaled(x); });
+}
+// The tool was seen where the tip was not yet.
+bool early(const LatencyFit& fit) {
+  return fit.latency.known() && fit.latency.value + fit.latency.half < 0.0;
 }
 bool differs_from_zero(const Interval& i) { return i.known() && std::abs(i.value) > i.half; }
 
@@ -87,6 +97,15 @@ std::string remarks_text(const TrackerLog& log, const LatencyFit& fit) {
           "{} moved one way only: what of its bias changes in motion counts as latency, {:.2g} ms "
           "for each 0.1 mm; move it back, too",
           name, 0.1e-3 / x.fastest * kMs));
+    if (x.adrift)
+      say(fmt::format(
+          "{} of the tip stood still and {} of the tool moved by {:.1f} mm: its bias is not in this log",
+          name, name, x.wander * kMm));
+    if (scaled(x))
+      say(
+          fmt::format("{} of the tool moved {:.3g} times as far as {} of the tip: no number here is to be "
+                      "believed; see to scale, units and axes",
+                      name, x.scale, name));
     if (x.at_rest < 10 && !std::isnan(x.bias.value))
       say(fmt::format("{} never stopped: its bias is from motion both ways, its noise is not known", name));
     else if (x.at_rest < 10)
@@ -100,6 +119,9 @@ std::string remarks_text(const TrackerLog& log, const LatencyFit& fit) {
       say(fmt::format("the bias of {} depends on the place: stops differ by up to {:.3f} mm", name,
                       x.places * kMm));
   }
+  if (early(fit))
+    say("the tool was seen where the tip was not yet: the times of the two are not of one clock, or the sign "
+        "of the motion is wrong");
   if (!fit.axes_agree)
     say("the axes' latencies differ by more than chance: something turns with the direction, or speeds "
         "differ");
@@ -107,6 +129,7 @@ std::string remarks_text(const TrackerLog& log, const LatencyFit& fit) {
 }
 
 std::string advice_text(const LatencyFit& fit) {
+  if (scaled(fit)) return "";
   std::string out;
   const auto& axes = fit.axes;
   const bool off =
@@ -118,7 +141,7 @@ std::string advice_text(const LatencyFit& fit) {
                          std::isnan(axes[a].bias.value) ? 0.0 : axes[a].bias.value * kMm);
     out += "] (or from the tool's tip_mm, if the bias turns with the tool)\n";
   }
-  if (fit.latency.known()) {
+  if (fit.latency.known() && !early(fit)) {
     const double usual = fit.latency.value + 3.0 * (fit.scatter.known() ? fit.scatter.value : 0.0);
     out += fmt::format("set         rig.tracker.usual_age_ms: above {:.0f}, three scatters over the mean\n",
                        std::ceil(usual * kMs));
@@ -154,6 +177,8 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
     axis["stops"] = x.stops;
     axis["moving"] = x.moving;
     axis["one_way"] = x.one_way;
+    axis["adrift"] = x.adrift;
+    axis["scale"] = number(x.scale, 1.0);
     json["axes"][std::string(1, kNames[a])] = axis;
   }
   put(json, "latency", "ms", fit.latency, kMs);
@@ -168,6 +193,11 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
 // A tool that goes its own way tells nothing about the tracker, whatever the numbers are.
 void check_carried(const LatencyFit& fit, const std::string& name) {
   constexpr double kMost = 0.5;  // of the tool's motion
+  if (!fit.carried)
+    throw Error(
+        fmt::format("{}:1:1: the tip stood still and the tool moved; expected a tool that the machine "
+                    "carries; clamp the tool and move the machine",
+                    name));
   if (fit.in_range && !(fit.unexplained > kMost)) return;
   throw Error(
       fmt::format("{}:1:1: the tip explains {:.0f} % of the tool's motion{}; expected a tool that the "
@@ -177,18 +207,39 @@ void check_carried(const LatencyFit& fit, const std::string& name) {
                   fit.in_range ? "" : ", with an age outside of -100 to 600 ms"));
 }
 
+// What an input has no use for is not passed over in silence.
+void refuse(bool given, const std::string& option, const std::string& of, const CalibrateOptions& options) {
+  if (given)
+    throw Error(fmt::format("{} is of {}; {} is none; expected the command without it; remove it", option, of,
+                            models::quoted(options.log)));
+}
+void refuse_rig_options(const CalibrateOptions& o) {
+  refuse(!o.out.empty(), "--out", "a rig", o);
+  refuse(o.force, "--force", "a rig", o);
+  refuse(o.pairs.has_value(), "--pairs", "a rig", o);
+  refuse(o.frames.has_value(), "--frames", "a rig", o);
+  refuse(!o.set.empty(), "--set", "a rig", o);
+}
+
 }  // namespace
 
 int calibrate_command(const CalibrateOptions& options) {
   if (options.rate && !(*options.rate > 0.0))
     throw Error("--rate-Hz: expected a positive number of rows a second");
   // Names of rigs have neither dot nor slash, and their files are TOML; all else is a table.
-  if (options.log.find_first_of("./") == std::string::npos || options.log.ends_with(".toml"))
+  if (options.log.find_first_of("./") == std::string::npos || options.log.ends_with(".toml")) {
+    refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
     return calibrate_rig(options);
+  }
+  refuse_rig_options(options);
   const std::string csv =
       models::csv_text(options.log, "log",
                        "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes");
-  if (trial::is_point_set(csv)) return calibrate_points(csv, options);
+  if (trial::is_point_set(csv)) {
+    refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
+    return calibrate_points(csv, options);
+  }
+  refuse(options.seed.has_value(), "--seed", "a rig or of points", options);
   const TrackerLog log = models::parse_tracker_log(csv, options.log, options.rate.value_or(kUnset));
   const LatencyFit fit = models::fit_latency(log);
   check_carried(fit, options.log);

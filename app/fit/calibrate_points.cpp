@@ -168,34 +168,36 @@ Vec3 mean_error(const PointStudy& study, const Pose<'W', 'C'>& X_WC, const std::
 
 int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
   const PointSet places = trial::parse_points(csv, options.log);
-  const PointStudy study = trial::study_points(places, options.seed);
+  const PointStudy study = trial::study_points(places, options.seed.value_or(1));
   fmt::print("{}\n", options.json ? study_json(places, study).dump(2) : study_text(places, study));
   return 0;
 }
 
 int calibrate_rig(const CalibrateOptions& options) {
+  const std::size_t pairs = options.pairs.value_or(8), frames = options.frames.value_or(20);
+  const std::uint64_t seed = options.seed.value_or(1);
   const models::Setup setup = models::load_rig_setup(options.log, options.set);
   const trial::RegistrationRig rig = trial::registration_rig(setup);
   std::optional<models::OutFile> file;  // refused before the arm moves
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   trial::DrivenArm arm(setup);
-  const trial::RegistrationPlaces places = trial::places_of(rig, options.pairs);
+  const trial::RegistrationPlaces places = trial::places_of(rig, pairs);
   const std::vector<trial::TipVisit> visits =
-      trial::visit_places(arm, places.visited, rig.camera.rate, options.frames);
-  const trial::GuidedRun run = trial::see_visits(visits, rig.X_WC, rig.camera, options.seed);
-  if (run.points.size() < options.pairs)
+      trial::visit_places(arm, places.visited, rig.camera.rate, frames);
+  const trial::GuidedRun run = trial::see_visits(visits, rig.X_WC, rig.camera, seed);
+  if (run.points.size() < pairs)
     throw Error(fmt::format(
         "{}: {} places of the arm were seen and {} are wanted; expected the camera to look at the "
         "arm; see truth.frames.W_C and truth.arm.misplaced_mm, or ask for fewer --pairs",
-        models::place_of(setup, "truth.frames.W_C"), run.points.size(), options.pairs));
+        models::place_of(setup, "truth.frames.W_C"), run.points.size(), pairs));
   if (file) {
     file->write(trial::points_text(run.points));
     file->keep();
   }
-  const PointStudy study = trial::study_points(run.points, options.seed);
+  const PointStudy study = trial::study_points(run.points, seed);
   const Vec3 error = mean_error(study, rig.X_WC, places.targets);
   const Vec3 apart = mean_error(study, arm.as_it_believes(rig.X_WC), places.targets);
-  const double time = run.seconds.back() + static_cast<double>(options.frames) / rig.camera.rate;
+  const double time = run.seconds.back() + static_cast<double>(frames) / rig.camera.rate;
   if (options.json) {
     Json json = study_json(run.points, study);
     json["true_error_mm"] = json_of(error, kMm);

@@ -64,6 +64,23 @@ std::string stops_text(const LoopFit& fit) {
   return text + fmt::format("  no weight {} mm\n", none.empty() ? "none of the radii" : none);
 }
 
+// More came back than was put in: no response can do that.
+std::string energy_text(const models::LoopData& loop) {
+  double in = 0.0, out = 0.0;  // J
+  for (const auto& press : loop.presses)
+    for (std::size_t k = 1; k < press.size(); ++k) {
+      const double work =
+          0.5 * (press[k].force + press[k - 1].force) * (press[k].deflection - press[k - 1].deflection);
+      (work > 0.0 ? in : out) += std::abs(work);
+    }
+  constexpr double kNoise = 1.02;  // and what a lag of the force makes of a loop without loss
+  if (!(out > kNoise * in)) return "";
+  return fmt::format(
+      "note        the release gives {:.2f} mJ back and the press took {:.2f} mJ: nothing passive does that; "
+      "see to the sign and the zero of the force, or to a force that comes late\n",
+      out * 1e3, in * 1e3);
+}
+
 std::string report(const LoopFit& fit) {
   return fmt::format("{} presses, {} readings; slope kept within {:.4f} and {:.3f} N/mm\n", fit.presses,
                      fit.readings, fit.floor * 1e-3, fit.ceiling * 1e-3) +
@@ -110,7 +127,7 @@ int fit_loop(const FitOptions& options) {
     throw Error(
         fmt::format("{}:1:1: {}; record the loop again, or give another --limit-mm", file_name, e.what()));
   }
-  fmt::print("{}", report(fit));
+  fmt::print("{}{}", report(fit), energy_text(loop));
   if (!file) return 0;
   file->write(models::response_text(fit.response, fit.source));
   file->keep();

@@ -142,7 +142,7 @@ class Session {
   }
 
   int run() {
-    write();  // an unwritable folder is refused before hours of work
+    begin();
     for (std::size_t i = 0; i < choices_.size(); ++i) {
       const Choice& choice = choices_[i];
       BenchResult result = measured(*choice.benchmark, i + 1);
@@ -191,6 +191,14 @@ class Session {
     std::fflush(stdout);
   }
 
+  // An unwritable folder is refused before hours of work. A report that is there stays until there is more to
+  // say than that all is missing.
+  void begin() const {
+    if (options_.out.empty()) return;
+    const std::string results = (std::filesystem::path(options_.out) / "results.json").string();
+    if (!std::filesystem::exists(results)) return write();
+    const models::OutFile writable(results, models::Existing::replace);
+  }
   void write() const {
     if (!options_.out.empty()) write_report(options_.out, report_);
   }

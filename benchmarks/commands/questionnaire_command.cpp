@@ -54,10 +54,28 @@ void check_participant(const std::string& code) {
                     models::quoted(code)));
 }
 
+// What write_pictures() will write, so that it is refused before anything is asked or stored.
+void check_pictures(const trial::QuestionnaireOptions& o, const questionnaire::Form& form,
+                    const std::vector<questionnaire::ItemReference>& items) {
+  if (o.out.empty()) return;
+  const models::OutFolder alone(o.out);
+  const std::string plot = questionnaire::opinion_plot(form, items, {}).id;
+  for (const std::string& name :
+       {questionnaire::opinion_table(form, items, {}).id + ".csv",
+        questionnaire::experience_table(form, {}).id + ".csv", plot + ".plot.csv", plot + ".svg"}) {
+    const fs::path path = fs::path(o.out) / name;
+    if (fs::weakly_canonical(path) == fs::weakly_canonical(o.store))
+      throw Error(o.store + ": is a table of --out, too; expected another file for the answers; choose one");
+    const models::OutFile writable(path.string(), models::existing(o.force));
+  }
+}
+
 // What can be refused is refused before somebody has answered fourteen questions.
-Answers collect(const trial::QuestionnaireOptions& o, const questionnaire::Form& form) {
+Answers collect(const trial::QuestionnaireOptions& o, const questionnaire::Form& form,
+                const std::vector<questionnaire::ItemReference>& items) {
   if (!o.answers.empty()) {
     Answers given = read_answers(o.answers, form);
+    check_pictures(o, form, items);
     return o.store.empty() ? given : questionnaire::append_answers(o.store, form, std::move(given.rows));
   }
   if (o.store.empty())
@@ -68,6 +86,7 @@ Answers collect(const trial::QuestionnaireOptions& o, const questionnaire::Form&
   draft.participant = o.participant;
   if (o.date) draft.date = today();
   questionnaire::check_store(o.store, form, draft);
+  check_pictures(o, form, items);
   Answer answer =
       questionnaire::ask(form, std::cin, o.json ? std::cerr : std::cout, isatty(STDIN_FILENO) != 0);
   answer.participant = draft.participant;
@@ -199,7 +218,7 @@ int questionnaire_command(const trial::QuestionnaireOptions& options) {
   const questionnaire::Form form = questionnaire::load_form(models, options.form);
   const std::vector<questionnaire::ItemReference> items = questionnaire::items_of(form, models);
   const std::map<std::string, std::string> verdicts = verdicts_of(options.results);
-  const Answers answers = collect(options, form);
+  const Answers answers = collect(options, form, items);
   const std::vector<Contradiction> found = doubts(form, models);
   if (!options.out.empty()) write_pictures(options.out, form, items, answers.rows, options.force);
   if (options.json) {

@@ -91,6 +91,12 @@ void check_order(const std::string& text, const std::string& path, const std::ve
   }
 }
 
+// Without the mark that some programs put before UTF-8.
+std::string unmarked(const std::string& text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
 bool in_file(const Answers& answers, const std::string& participant) {
   return std::any_of(answers.rows.begin(), answers.rows.end(),
                      [&](const Answer& a) { return a.participant == participant; });
@@ -133,7 +139,7 @@ Answers append_answers(const std::string& path, const Form& form, std::vector<An
   try {
     const LockedFile file(path);
     const std::string before = file.text();
-    Answers all = joined(before, path, form, std::vector<Answer>(rows), text);
+    Answers all = joined(unmarked(before), path, form, std::vector<Answer>(rows), text);
     file.append(text, before.size());
     return all;
   } catch (const Error& e) {
@@ -156,7 +162,7 @@ void check_store(const std::string& path, const Form& form, const Answer& draft)
   }
   std::string text;
   const LockedFile file(path);
-  static_cast<void>(joined(file.text(), path, form, {draft}, text));
+  static_cast<void>(joined(unmarked(file.text()), path, form, {draft}, text));
 }
 
 }  // namespace enc::bench::questionnaire

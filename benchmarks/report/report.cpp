@@ -55,9 +55,10 @@ std::string figures_line(const Report& report) {
     for (const Figure& f : result.figures)
       if (!f.ok()) broken.push_back(f.id);
   }
-  return fmt::format(
-      "{}, {} of them with bounds; {}", figures, with_bounds,
-      broken.empty() ? "all hold" : fmt::format("{} out of bounds: {}", broken.size(), joined(broken)));
+  return fmt::format("{}, {} of them with bounds; {}", figures, with_bounds,
+                     !broken.empty() ? fmt::format("{} out of bounds: {}", broken.size(), joined(broken))
+                     : report.missing.empty() ? "all hold"
+                                              : "none out of bounds so far, but not all were measured");
 }
 
 }  // namespace

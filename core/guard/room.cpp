@@ -123,7 +123,7 @@ void check_room(const SceneSpec& spec, const Scene& scene) {
     if (room.deepest >= margin - kRounding) continue;
     const Point<'W'> at = scene.objects[i].X_WO * room.at;
     const auto mm = [](double x) {  // no locale
-      const long tenths = std::lround(1e4 * x);
+      const long tenths = std::lround(std::clamp(1e4 * x, -1e15, 1e15));
       return (tenths < 0 ? "-" : "") + std::to_string(std::abs(tenths) / 10) + "." +
              std::to_string(std::abs(tenths) % 10);
     };

@@ -214,8 +214,11 @@ std::string RecordWriter::error() const {
 // ---- reading
 // ---------------------------------------------------------------------------------------------------------
 
-RecordReader::RecordReader(const std::string& path, Partial partial)
-    : path_(path), partial_(partial), file_(path, std::ios::binary) {
+RecordReader::RecordReader(const std::string& path, Partial partial) : path_(path), partial_(partial) {
+  std::error_code none;
+  if (std::filesystem::is_fifo(path, none))  // it is read twice
+    throw Error(path + ": is a pipe; expected a file; write the record into one");
+  file_.open(path, std::ios::binary);
   if (!file_) throw Error("cannot read the record '" + path + "': " + std::generic_category().message(errno));
   read_header();
   while (read_chunk()) ticks_ += static_cast<std::int64_t>(chunk_.size() / frame_words());

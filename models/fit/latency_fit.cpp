@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "models/fit/block_error.h"
+#include "models/fit/tool_motion.h"
 #include "models/order_statistics.h"
 
 namespace enc::models {
 namespace {
 
 constexpr double kEarliest = -0.1, kLatest = 0.6;  // s: ages looked for
-constexpr double kBlock = 0.25;                    // s: errors farther apart than this are independent
 constexpr double kStill = 1e-3;                    // m/s, and m of travel: less is no motion
 constexpr double kFewest = 10;                     // packets for anything
 constexpr double kOutlier = 6.0;                   // standard deviations
@@ -300,6 +300,12 @@ class Fit {
     out.one_way = moved_[a] && !both_[a];
     out.at_rest = rest_[a];
     stops(a, out);
+    const ToolMotion tool =
+        tool_motion(log_, path_, {*times_, age_, left_out_}, static_cast<Eigen::Index>(a));
+    out.wander = tool.wander;
+    out.adrift = !moved_[a] && tool.wander > std::max(kStill, 6.0 * tool.noise);
+    if (out.adrift) out.bias = {}, out.noise = kUnset;
+    if (moved_[a]) out.scale = tool.scale, out.unexplained = tool.unexplained;
     if (both_[a] && rest_[a] >= kFewest) {
       Blocks change = s.blocks[kMoving];
       for (std::size_t b = 0; b < blocks_; ++b) {
@@ -324,30 +330,19 @@ class Fit {
     return fast >= kFewest && slow >= 0.2 * fast;
   }
 
-  // Outliers included: a log of nothing else must not look good.
-  [[nodiscard]] double unexplained(std::size_t a) const {
-    const auto i = static_cast<Eigen::Index>(a);
-    std::vector<double> tool, left;
-    for (std::size_t k = 0; k < times_->size(); ++k) {
-      const double t = (*times_)[k] - age_;
-      if (!path_.knows(t)) continue;
-      tool.push_back(log_.packets[k].tool(i));
-      left.push_back(tool.back() - path_.position(t)(i));
-    }
-    return spread(left) / spread(tool);
-  }
-
   [[nodiscard]] LatencyFit result() const {
     LatencyFit out;
     for (std::size_t a = 0; a < 3; ++a) out.axes[a] = axis(a);
     const Interval shared = common();
-    if (moved_[0] || moved_[1] || moved_[2]) {
+    const bool moved = moved_[0] || moved_[1] || moved_[2];
+    for (const AxisLatency& x : out.axes) out.carried = out.carried && (moved || !x.adrift);
+    if (moved) {
       out.latency = {age_ + shared.value, shared.half};
       out.scatter = scatter();
       out.axes_agree = agree(shared.value);
       out.in_range = out.latency.value > kEarliest && out.latency.value < kLatest;
       for (std::size_t a = 0; a < 3; ++a)
-        if (moved_[a]) out.unexplained = std::fmax(out.unexplained, unexplained(a));
+        out.unexplained = std::fmax(out.unexplained, out.axes[a].unexplained);
     }
     out.packets = index_.size();
     out.outliers = static_cast<std::size_t>(std::count(left_out_.begin(), left_out_.end(), true));

@@ -1,9 +1,7 @@
 #include "sim/view/picture.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 #include <png.h>
 
@@ -52,16 +50,20 @@ Picture shrunk(const Picture& picture, int factor) {
   return small;
 }
 
-void write_png(const Picture& picture, const std::string& path) {
+// In memory: libpng takes away the file that it could not write, whatever that is.
+std::string png(const Picture& picture) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGB;
-  errno = 0;
-  if (png_image_write_to_file(&image, path.c_str(), 0, picture.rgb.data(), 0, nullptr) != 0) return;
-  throw Error(path + ": cannot be written (" + (errno != 0 ? std::strerror(errno) : image.message) +
-              "); give --shot a file in a folder that you may write to");
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.rgb.data(), 0, nullptr) == 0)
+    throw Error(std::string("the picture cannot be packed (") + image.message +
+                "); give the program more memory");
+  bytes.resize(size);
+  return bytes;
 }
 
 }  // namespace enc::sim

@@ -30,6 +30,6 @@ void stroke(Picture& picture, double x0, double y0, double x1, double y1, double
 // Inks the picture where the mask is bright.
 void ink_through(Picture& picture, const Picture& mask, Ink ink);
 [[nodiscard]] Picture shrunk(const Picture& picture, int factor);  // mean of factor x factor pixels
-void write_png(const Picture& picture, const std::string& path);   // throws Error
+[[nodiscard]] std::string png(const Picture& picture);             // its bytes; throws Error
 
 }  // namespace enc::sim

@@ -172,7 +172,7 @@ Picture drawn(Renderer& r, const ViewRequest& request) {
   return shrunk(picture, kFiner);
 }
 
-void shot(const ViewRequest& request) {
+std::string shot(const ViewRequest& request) {
   if (request.width < 64 || request.height < 64 || request.width > 4000 || request.height > 4000)
     throw Error("a picture is 64 to 4000 pixels wide and high");
   const OffscreenContext context;
@@ -181,7 +181,7 @@ void shot(const ViewRequest& request) {
   aim(renderer, model.get(), request);
   add_backdrop(renderer.scene);
   add_extras(renderer.scene, request);
-  write_png(drawn(renderer, request), request.path);
+  return png(drawn(renderer, request));
 }
 
 constexpr ViewModule kView{shot};

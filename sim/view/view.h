@@ -1,4 +1,4 @@
-// The view module: draws a picture of a simulated world off screen and writes it as PNG. It is a shared
+// The view module: draws a picture of a simulated world off screen, as the bytes of a PNG. It is a shared
 // object of its own, so that nothing but `encounter view` maps OpenGL.
 #pragma once
 
@@ -51,12 +51,11 @@ struct ViewRequest {
   std::vector<ViewArrow> arrows;
   std::vector<ViewLabel> labels;
   std::string title;  // top left; may be empty
-  std::string path;   // of the PNG
 };
 
 struct ViewModule {
-  // Throws Error: kind device where there is no EGL or Mesa, kind input where the file cannot be written.
-  void (*shot)(const ViewRequest& request) = nullptr;
+  // The PNG. Throws Error of the kind device where there is no EGL or Mesa.
+  std::string (*shot)(const ViewRequest& request) = nullptr;
 };
 
 }  // namespace enc::sim

@@ -64,6 +64,7 @@ TEST(Bench, IsFoundWhereverDriversAre) {
 TEST(Bench, WhatIsWrongIsSaidBeforeAnythingRuns) {
   EXPECT_THAT(refused({"encountr"}), AllOf(HasSubstr("'encountr'"), HasSubstr("encounter")));
   EXPECT_THAT(refused({"encounter", "--repeats=-1"}), HasSubstr("--repeats"));
+  EXPECT_THAT(refused({"encounter", "--repeats=0"}), HasSubstr("--repeats"));
   EXPECT_THAT(refused({"encounter", "--repeats=1", "--set", "user.dpth_mm=1"}), HasSubstr("depth_mm"));
 }
 
@@ -198,9 +199,25 @@ TEST_P(StoppedBench, LeavesWhatIsCompleteAndSaysWhatIsMissing) {
   EXPECT_THAT(json["benchmarks"][0]["figures"], Not(IsEmpty()));
   EXPECT_EQ(json["missing"], Json({"press"}));
   EXPECT_THAT(bytes_of(out / "report.html"), AllOf(HasSubstr("Missing: press"), EndsWith("</html>\n")));
-  EXPECT_THAT(bytes_of(out / "REPORT.md"), HasSubstr("- **Missing**: press\n"));
+  EXPECT_THAT(bytes_of(out / "REPORT.md"),
+              AllOf(HasSubstr("- **Missing**: press\n"), Not(HasSubstr("all hold"))));
   EXPECT_TRUE(fs::exists(out / "dent.csv"));
   EXPECT_FALSE(fs::exists(out / "press.csv"));
+}
+
+// A good report is worth more than one that all is missing.
+TEST(Bench, ARunWithoutABenchmarkLeavesTheReportThatIsThere) {
+  const test::TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  ASSERT_EQ(run_program({"bench", "dent", "--out", out}).code, 0);
+  const std::string before = bytes_of(folder.path() / "out" / "results.json");
+  const Result r = run({"bash", "-c",
+                        "set -m; \"$1\" bench press --repeats 1000000 --out \"$2\" & sleep 1; "
+                        "kill -INT $!; wait $!",
+                        "bash", program_file(), out});
+  EXPECT_EQ(r.code, 130) << r.err;
+  EXPECT_EQ(bytes_of(folder.path() / "out" / "results.json"), before);
+  EXPECT_THAT(bytes_of(folder.path() / "out" / "REPORT.md"), HasSubstr("all hold"));
 }
 
 INSTANTIATE_TEST_SUITE_P(By, StoppedBench, ::testing::Values(SIGINT, SIGTERM, SIGKILL));

@@ -85,6 +85,18 @@ TEST_F(Questionnaire, WhatCannotBeStoredIsNotAsked) {
   }
 }
 
+// Tables that are there: said before the first question, with nothing stored.
+TEST_F(Questionnaire, TablesThatAreThereAreSaidBeforeAnythingIsAsked) {
+  std::filesystem::create_directory(path("out"));
+  static_cast<void>(write("out/answers.csv", "mine"));
+  for (const std::string& store : {path("a.csv"), path("out/answers_experience.csv")}) {
+    const Result r = run_program({"questionnaire", "--store", store, "--out", path("out")}, kModels);
+    expect_line(r);
+    EXPECT_EQ(r.out, "") << "it was asked";
+    EXPECT_FALSE(std::filesystem::exists(store));
+  }
+}
+
 TEST_F(Questionnaire, APictureIsNotWrittenOverTheAnswers) {
   const std::string row = "a,no,yes,no,1,2,3,4,5,6,7,1,2,3,4\n";
   const std::string file = write("answers.csv", kHeader + row);  // the name of one of its tables

@@ -145,6 +145,13 @@ TEST_F(QuestionnaireFile, ALineWithoutItsEndGetsOne) {
   EXPECT_EQ(all.rows.size(), 3U);
 }
 
+TEST_F(QuestionnaireFile, AMarkBeforeTheTextIsReadOver) {
+  const std::string before = "\xEF\xBB\xBFparticipant,vr,item_1,item_2\n7,no,2,1\n";
+  write(before);
+  EXPECT_EQ(append_answers(path(), small_form(), {{"", {1}, {1, 3}}}).rows.size(), 2U);
+  EXPECT_EQ(bytes(), before + "8,yes,1,3\n");
+}
+
 TEST_F(QuestionnaireFile, NothingIsWrittenWhereSomethingIsWrong) {
   const std::string before = "participant,vr,item_1,item_2\n7,no,2,1\n";
   write(before);

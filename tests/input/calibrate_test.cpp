@@ -139,6 +139,66 @@ TEST_F(Calibrate, AToolThatGoesItsOwnWayTellsNothing) {
   EXPECT_THAT(line({"calibrate", path("p.csv")}), HasSubstr("of the tool's motion"));
 }
 
+// Rows of 1 kHz, a packet each 10 ms, 8 s; mm.
+template <class Tip, class Tool>
+std::string made_log(Tip tip, Tool tool) {
+  std::string text = "time_s,tip_x_mm,tip_y_mm,tip_z_mm,tool_x_mm,tool_y_mm,tool_z_mm\n";
+  for (int n = 0; n < 8000; ++n) {
+    const double t = n * 1e-3;
+    text += fmt::format("{:.3f},{:.4f},0,0,", t, tip(t));
+    text += n % 10 == 0 ? tool(t, 0.01 * (n / 10 % 3 - 1)) + "\n" : ",,\n";
+  }
+  return text;
+}
+double swing(double t) { return std::fmod(t, 4.0) < 2.0 ? 0.0 : 20.0 * std::sin(M_PI * t); }
+
+// A machine that stands still carries no tool that moves.
+TEST_F(Calibrate, AToolThatMovesAlongAStillTipTellsNothing) {
+  const auto step = [](double t, double noise) {
+    return fmt::format("23,{:.4f},{:.4f}", (t > 4.0 ? 5.0 : 0.0) + noise, noise);
+  };
+  EXPECT_THAT(line({"calibrate", write("s.csv", made_log([](double) { return 0.0; }, step))}),
+              HasSubstr("the tip stood still and the tool moved"));
+  const auto carried = [](double t, double noise) {
+    return fmt::format("{:.4f},{:.4f},{:.4f}", swing(t - 0.03) + noise, (t > 4.0 ? 5.0 : 0.0) + noise, noise);
+  };
+  const Result r = run_program({"calibrate", write("x.csv", made_log(swing, carried))}, kModels);
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("y of the tip stood still and y of the tool moved by 5.0 mm"),
+                           testing::Not(HasSubstr("z of the tip stood still"))));
+  EXPECT_THAT(r.out, testing::Not(testing::ContainsRegex("take away .*, [25]\\.")));
+}
+
+TEST_F(Calibrate, AScaleThatIsWrongAndATimeThatCannotBeAreSaid) {
+  const auto tool = [](double scale, double late) {
+    return [=](double t, double noise) {
+      return fmt::format("{:.4f},{:.4f},{:.4f}", scale * swing(t - late) + noise, noise, noise);
+    };
+  };
+  const auto told = [&](double scale, double late) {
+    return run_program({"calibrate", write("k.csv", made_log(swing, tool(scale, late)))}, kModels).out;
+  };
+  const std::string large = told(1.3, 0.03), early = told(1.0, -0.09), good = told(1.0, 0.03);
+  EXPECT_THAT(large, AllOf(HasSubstr("times as far as x of the tip"), testing::Not(HasSubstr("\nset "))));
+  EXPECT_THAT(early, AllOf(HasSubstr("where the tip was not yet"), testing::Not(HasSubstr("usual_age_ms"))));
+  EXPECT_THAT(good, AllOf(HasSubstr("usual_age_ms: above 3"), testing::Not(HasSubstr("as far as"))));
+}
+
+TEST_F(Calibrate, OptionsOfAnotherInputAreRefused) {
+  const std::string log = write("log.csv", log_text()), points = write("p.csv", kPointHeader + kPoints);
+  for (const std::vector<std::string>& args :
+       std::vector<std::vector<std::string>>{{log, "--out", path("o.csv")},
+                                             {points, "--out", path("o.csv")},
+                                             {log, "--pairs", "8"},
+                                             {log, "--seed", "1"},
+                                             {points, "--rate-Hz", "100"},
+                                             {"vishap", "--rate-Hz", "100"}}) {
+    std::vector<std::string> words{"calibrate"};
+    words.insert(words.end(), args.begin(), args.end());
+    EXPECT_THAT(line(words), HasSubstr(args[1] + " is of a "));
+  }
+}
+
 // The tool's places in another order: no age fits, whatever is found.
 TEST_F(Calibrate, ShuffledRowsTellNothing) {
   std::istringstream rows(log_text());

@@ -137,6 +137,84 @@ TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
   }
 }
 
+// With standard output closed, the next file that is opened would get its number, and the report.
+TEST_F(ProgramFiles, AClosedStandardOutputIsSaidAndTheRecordIsWhole) {
+  const Words closed{"bash", "-c", "\"$1\" run \"$2\" --for-s 0.1 --record \"$3\" >&-"};
+  Words command = closed;
+  for (const std::string& word : {std::string("bash"), program_file(), scene("plane"), path("c.encrec")})
+    command.push_back(word);
+  const Result r = run(command, kModels);
+  EXPECT_EQ(r.code, 2);
+  EXPECT_THAT(r.err, HasSubstr("standard output"));
+  EXPECT_THAT(run_program({"replay", path("c.encrec")}, kModels).out,
+              HasSubstr("101 ticks run again, equal"));
+}
+
+TEST_F(ProgramFiles, ARecordIsNotStandardOutput) {
+  for (const char* words :
+       {"/dev/stdout > \"$3\"", "\"$3\" --force > \"$3\"", "\"$3\" > \"$3.part\"", "/dev/stdout | cat"}) {
+    const Result r =
+        run({"bash", "-c", "set -o pipefail; \"$1\" run \"$2\" --for-s 0.1 --record " + std::string(words),
+             "bash", program_file(), scene("plane"), path("o.encrec")},
+            kModels);
+    EXPECT_EQ(r.code, 2) << words;
+    EXPECT_THAT(r.err, HasSubstr("is standard output, where the report goes")) << words;
+    std::filesystem::remove(path("o.encrec"));
+    std::filesystem::remove(path("o.encrec.part"));
+  }
+}
+
+TEST_F(ProgramFiles, APipeIsNoRecord) {
+  const Result r =
+      run({"bash", "-c", "\"$1\" replay <(cat \"$2\")", "bash", program_file(), recorded("0.1")}, kModels);
+  EXPECT_EQ(r.code, 2) << r.out;
+  EXPECT_THAT(r.err, HasSubstr("is a pipe; expected a file"));
+}
+
+// The run was not whole: that nothing was touched is not the user's doing.
+TEST_F(ProgramFiles, AFullDiskIsNoVerdictOnTheUser) {
+  const Result r = run({"bash", "-c", "ulimit -f 200; exec \"$1\" run \"$2\" --record \"$3\"", "bash",
+                        program_file(), scene("tennis_ball"), path("l.encrec")},
+                       kModels);
+  EXPECT_EQ(r.code, 2) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("has not touched anything yet"), testing::Not(HasSubstr("LIMIT"))));
+}
+
+TEST_F(ProgramFiles, ATipIsNotLargerThanTheMachine) {
+  for (const char* key : {"rig.manipulator", "tool.stylus", "truth.hexapod"})
+    EXPECT_THAT(
+        line({"run", scene("session"), "--for-s", "0.1", "--set", std::string(key) + ".tip_radius_mm=1e300"}),
+        HasSubstr("1000 in mm"))
+        << key;
+}
+
+TEST_F(ProgramFiles, AReportSaysHowItWasMade) {
+  const Words words{
+      "run", scene("plane"), "--for-s", "0.1", "--seed", "7", "--set", "rig.tracker.lost_age_ms=90"};
+  EXPECT_THAT(run_program(words, kModels).out,
+              AllOf(HasSubstr("\nmade by     Encounter "), HasSubstr("plane.toml, rig "),
+                    HasSubstr(", seed 7, --for-s 0.1, --set rig.tracker.lost_age_ms=90\n")));
+  Words json = words;
+  json.emplace_back("--json");
+  EXPECT_THAT(run_program(json, kModels).out,
+              AllOf(HasSubstr("\"encounter\": \""), HasSubstr("\"seed\": 7"), HasSubstr("\"for_s\": 0.1"),
+                    HasSubstr("\"rig.tracker.lost_age_ms=90\"")));
+}
+
+// A ball that gives more than it takes is none: with a loss nothing is said.
+TEST_F(ProgramFiles, ALoopThatGivesEnergyIsDoubted) {
+  std::string text = "time_s,deflection_mm,force_N,repeat\n";
+  for (int k = 0; k < 600; ++k) {
+    const double d = 6.0 * (k < 300 ? k : 600 - k) / 300.0;
+    text += fmt::format("{},{},{},1\n", k * 1e-3, d, (k < 300 ? 1.0 : 1.1) * d);
+  }
+  const Result gives = run_program({"fit", write("gives.csv", text)}, kModels);
+  EXPECT_THAT(gives.out, HasSubstr("nothing passive does that"));
+  const Result good = run_program({"fit", good_loop()}, kModels);
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_THAT(good.out, testing::Not(HasSubstr("passive")));
+}
+
 TEST_F(ProgramFiles, ANameThatIsEmptyIsNoName) {
   for (const Words& args : std::vector<Words>{{"run", scene("plane"), "--for-s", "0.1", "--record", ""},
                                               {"export", path("r.encrec"), "--csv", ""},

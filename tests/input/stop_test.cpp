@@ -95,6 +95,19 @@ TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
   }
 }
 
+// Half a table is worth nothing.
+TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
+  const test::TemporaryFolder folder;
+  const std::string record = folder.file("r.encrec"), csv = folder.file("t.csv");
+  ASSERT_EQ(run_program({"run", scene("tennis_ball"), "--for-s", "60", "--record", record}).code, 0);
+  const Started table({"export", record, "--csv", csv});
+  while (!std::filesystem::exists(csv + ".part") || std::filesystem::file_size(csv + ".part") == 0)
+    after_ms(1);
+  table.send(SIGINT);
+  EXPECT_EQ(table.wait(), 130);
+  EXPECT_FALSE(std::filesystem::exists(csv) || std::filesystem::exists(csv + ".part"));
+}
+
 // Also where the clock waits for hours, and where devices are real and armed.
 TEST(Stop, AlsoWhileTheClockWaits) {
   const Started slow({"run", scene("tennis_ball"), "--pace", "1e-6"});

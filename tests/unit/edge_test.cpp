@@ -230,6 +230,17 @@ TEST(Room, WhatIsThinnerThanTheTipIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(ball), HasSubstr("thinner than the haptic-tip"));
 }
 
+TEST(Room, AnImpossibleTipIsSaidInNumbers) {
+  RigSpec rig;
+  rig.manipulator.tip_radius = 1e297;
+  try {
+    (void)prepare(test::ball_scene(), rig);
+    FAIL() << "it is taken";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("expected at least 100000000000000.0 mm"));
+  }
+}
+
 TEST(Room, APartThatIsTooThinIsFound) {
   // A block with a fin of 4 mm on its top: 20 of 30 mm high, on both sides.
   const Mesh fin = test::prism({{0.0, -0.03},

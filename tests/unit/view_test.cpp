@@ -10,6 +10,7 @@
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc::test {
 namespace {
@@ -48,6 +49,21 @@ TEST(View, ShotIsAPngOfTheRightSizeWithAPictureInIt) {
   // A picture of one colour, or of the backdrop alone, packs into less than 10 kB.
   EXPECT_GT(png.size(), 30'000U);
   EXPECT_LT(png.size(), 300'000U);
+}
+
+// What cannot take the picture stays: a pipe whose reader has gone.
+TEST(View, ADeviceThatCannotTakeThePictureStays) {
+  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  const TemporaryFolder folder;
+  const std::string pipe = folder.file("pipe");
+  const tests::Result result = tests::run({"bash", "-c",
+                                           "trap '' PIPE; mkfifo \"$3\"; head -c 1 \"$3\" > /dev/null & "
+                                           "\"$1\" view \"$2\" --at-s 0.1 --shot \"$3\"",
+                                           "bash", tests::program_file(), kScene, pipe},
+                                          kNotOurLeaks);
+  EXPECT_EQ(result.code, 2) << result.out;
+  EXPECT_THAT(result.err, HasSubstr("cannot be written"));
+  EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 // A ball that is hit is not held: what is shown is the blow, not the finger before it sets out.
