@@ -56,6 +56,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   const Slots slots = options_.drivers ? slots_of(setup_) : Slots{};
   const double pace = pace_of(options_, slots.real);
   if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
+  simulated_ = !slots.real;
   if (slots.simulated || !slots.real) {
     world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
     rig_ = world_->rig();
@@ -127,7 +128,7 @@ bool Trial::tick() {
     record_->write(now_, in_, out_, hash_.value);
     result_.stopped = record_->full();
   }
-  if (options_.watch) options_.watch({scene_, now_, truth(), in_, out_});
+  if (options_.watch) options_.watch({scene_, now_, truth(), in_, out_, simulated_});
   if (world_) result_.diverged_at = world_->diverged_at();
   return true;
 }

@@ -26,6 +26,7 @@ struct Glance {
   const sim::Truth& truth;  // nothing in it is set where no slot is simulated
   const Inputs& in;
   const Outputs& out;
+  bool simulated = true;  // every slot: the truth knows what is touched
 };
 
 // Another law in place of step(), such as guide(), which moves an arm without a finger.
@@ -111,6 +112,7 @@ class Trial {
   TrialResult result_;
   std::int64_t last_tick_ = 0;
   RecordWriter* record_ = nullptr;
+  bool simulated_ = true;  // every slot
 };
 
 }  // namespace enc::trial

@@ -64,8 +64,7 @@ TEST(Limits, APressBeyondTheMotorsIsSaidBeforeAndAfter) {
               AllOf(HasSubstr("there the motors push with at most"), HasSubstr("LIMIT       a motor")));
 }
 
-// Whoever pushes, pushes with what a hand has.
-TEST(Limits, AHandPushesNoHarderThanAHandDoes) {
+TEST(Limits, AWallThatNoLawHoldsIsNamed) {
   const Result run =
       run_program(with({"run", scene("wall"), "--json"}, {"behaviour.phantom_wall.stiffness_N_per_mm=1000"}));
   EXPECT_EQ(run.code, 1);
@@ -73,10 +72,13 @@ TEST(Limits, AHandPushesNoHarderThanAHandDoes) {
 }
 
 TEST(Limits, ContactsInWhichNothingIsFeltAreNamed) {
-  const Result biased =
-      run_program(with({"run", scene("tennis_ball")}, {"truth.tracker.bias_mm=[0, 0, -1000]"}));
-  EXPECT_EQ(biased.code, 1) << biased.out;
-  EXPECT_THAT(biased.out, HasSubstr("LIMIT       "));
+  const Result pressed =
+      run_program(with({"run", scene("tennis_ball")}, {"truth.tracker.bias_mm=[0, 0, -5]"}));
+  EXPECT_EQ(pressed.code, 1) << pressed.out;
+  EXPECT_THAT(pressed.out, HasSubstr("LIMIT       nothing was felt in 3 of 5 contacts"));
+  const Result met = run_program(with({"run", scene("wall")}, {"truth.tracker.bias_mm=[60, 0, 0]"}));
+  EXPECT_EQ(met.code, 1) << met.out;
+  EXPECT_THAT(met.out, HasSubstr("LIMIT       nothing was touched in 3 of 3 contacts"));
 }
 
 }  // namespace

@@ -35,6 +35,11 @@ double miss_bound(const models::Setup& setup, double approach_speed) {
   return still + sideways * age + braking + outrun;
 }
 
+double response_lag(const RigSpec& rig) {
+  const double servo = 2.0 * rig.manipulator.servo_damping / (2.0 * M_PI * rig.manipulator.servo);
+  return 1.0 / (2.0 * M_PI * rig.force.filter) + servo + rig.manipulator.delay + 2.0 / rig.loop.rate;
+}
+
 // The tool's tip crosses the undeformed surface: is the haptic-tip there?
 void PressMeasure::meet(const Glance& glance, PressFigures& press, const Vec3& normal, double tool_gap) {
   if (std::isnan(press.miss) && tool_gap <= 0.0) {
@@ -62,6 +67,35 @@ void PressMeasure::compare(const Glance& glance, PressFigures& press, const Obje
     press_error_.add(force - object.response.press(deflection));
   if (glance.truth.phase == sim::Phase::release)
     release_error_.add(force - object.response.release(deflection));
+}
+
+// What the machine does is late, by filter and servo: it answers to the least or the most of what these still
+// hold. Between press and release curve the object may be anywhere.
+void PressMeasure::judge_law(const Glance& glance, const Object& object, double deflection, double force) {
+  const double pushed = glance.truth.touching ? force : 0.0;
+  const double share = glance.scene.dt / (glance.scene.dt + response_lag(setup_.rig));
+  least_ = std::min(pushed, least_ + share * (pushed - least_));
+  most_ = std::max(pushed, most_ + share * (pushed - most_));
+  const bool judged =
+      glance.out.mode == Mode::contact && glance.truth.touching && deflection < object.limit - kNearLimit;
+  const double depth = std::max(0.0, deflection);
+  const auto [low, high] = std::minmax({object.response.press(depth), object.response.release(depth)});
+  const double away = judged ? std::max(least_ - high, low - most_) : 0.0;
+  if (!(away > kOff)) {
+    off_ = Departure{};
+    return;
+  }
+  const double now = seconds(glance.truth.t.time_since_epoch());
+  if (std::isnan(off_.from)) off_.from = now;
+  off_.lasted = now - off_.from;
+  if (away > off_.away) {
+    off_.away = away;
+    off_.force = force;
+    off_.deflection = deflection;
+  }
+  if (off_.lasted < kLasting) return;
+  if (departures_.empty() || departures_.back().from != off_.from) departures_.emplace_back();
+  departures_.back() = off_;
 }
 
 // The press that a tick belongs to. It begins with the approach; waiting belongs to the press before.
@@ -105,7 +139,9 @@ void PressMeasure::see(const Glance& glance) {
       press->restore_error = (truth.tip - buffered_).norm();
     const stages::NearestInWorld at_tool = stages::nearest(object, truth.tool_tip);
     meet(glance, *press, at_tool.normal.e(), at_tool.distance - truth.tool_radius);
-    compare(glance, *press, object, deflection, -dot(truth.contact_force, at_tip.normal));
+    const double force = -dot(truth.contact_force, at_tip.normal);
+    compare(glance, *press, object, deflection, force);
+    if (!glance.scene.impedance && glance.simulated) judge_law(glance, object, deflection, force);
   }
   contacts_before_ = glance.out.contacts;
   mode_before_ = glance.out.mode;

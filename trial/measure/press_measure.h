@@ -30,6 +30,13 @@ struct PressFigures {
   std::int32_t contacts = 0;  // contact events of the core
 };
 
+// The true force was none that the object pushes back with at the true deflection, nor has been lately.
+struct Departure {
+  double from = kUnset, lasted = 0.0;    // s
+  double force = 0.0, deflection = 0.0;  // N, m: where it was farthest
+  double away = 0.0;                     // N
+};
+
 struct SquareMean {
   double sum = 0.0;
   std::int64_t n = 0;
@@ -42,6 +49,9 @@ struct SquareMean {
 
 class PressMeasure {
  public:
+  static constexpr double kOff = 0.5;      // N (docs/encounter.md)
+  static constexpr double kLasting = 0.5;  // s
+
   explicit PressMeasure(const models::Setup& setup) : setup_(setup) {}
 
   void see(const Glance& glance);
@@ -49,8 +59,10 @@ class PressMeasure {
   [[nodiscard]] const std::vector<PressFigures>& presses() const { return presses_; }
   [[nodiscard]] double rmse_press() const { return press_error_.root(); }      // N
   [[nodiscard]] double rmse_release() const { return release_error_.root(); }  // N
-  [[nodiscard]] double energy_in() const { return energy_in_; }                // J, tool to tip
-  [[nodiscard]] double energy_out() const { return energy_out_; }              // J, tip to tool
+  // Those of more than kOff for longer than kLasting.
+  [[nodiscard]] const std::vector<Departure>& departures() const { return departures_; }
+  [[nodiscard]] double energy_in() const { return energy_in_; }    // J, tool to tip
+  [[nodiscard]] double energy_out() const { return energy_out_; }  // J, tip to tool
   [[nodiscard]] double greatest_outside() const {
     return greatest_outside_;
   }  // m, of the tip outside the undeformed object, once it has been inside; NaN: it never was
@@ -62,8 +74,12 @@ class PressMeasure {
   void meet(const Glance& glance, PressFigures& press, const Vec3& normal, double tool_gap);
   void compare(const Glance& glance, PressFigures& press, const Object& object, double deflection,
                double force);
+  void judge_law(const Glance& glance, const Object& object, double deflection, double force);
 
   const models::Setup& setup_;
+  std::vector<Departure> departures_;
+  Departure off_;
+  double least_ = 0.0, most_ = 0.0;  // N: true force, of now and as the filter still holds it
   std::vector<PressFigures> presses_;
   SquareMean press_error_, release_error_;
   double energy_in_ = 0.0, energy_out_ = 0.0, greatest_outside_ = kUnset, greatest_tension_ = 0.0;
@@ -79,6 +95,10 @@ class PressMeasure {
 // How far the tip may be from the tool when it is met at an approach speed, from the numbers of rig and twin
 // alone: docs/encounter.md.
 [[nodiscard]] double miss_bound(const models::Setup& setup, double approach_speed);
+
+// By how much the machine answers late to a force, as the rig believes, s: filter, servo, dead time, two
+// cycles.
+[[nodiscard]] double response_lag(const RigSpec& rig);
 
 // One run of the set-up, looked on by a measure.
 [[nodiscard]] PressMeasure measured_run(const models::Setup& setup, std::uint64_t seed, double& simulated);

@@ -13,9 +13,11 @@ constexpr double kAverage = 0.3;  // s
 }  // namespace
 
 void TouchMeasure::see(const Glance& glance) {
+  plan_.see(glance);
   if (glance.scene.impedance) see_motors(glance);
-  if (glance.scene.impedance || glance.out.mode == Mode::hold) return;
-  see_force(glance);
+  see_contact(glance);
+  if (glance.scene.impedance) return;
+  if (glance.out.mode == Mode::hold) return forget_swing();
   const bool known = glance.in.tip.value.X_RH.valid() && glance.out.force.finite();
   if (known && glance.out.first_touch.finite()) see_swing(glance);
 }
@@ -33,15 +35,42 @@ void TouchMeasure::see_motors(const Glance& glance) {
   see(heat_, kHot);
 }
 
-void TouchMeasure::see_force(const Glance& glance) {
+// A hold in between makes no other contact.
+void TouchMeasure::see_contact(const Glance& glance) {
+  if (glance.out.mode == Mode::hold) return;
   const bool touching = glance.out.mode == Mode::contact;
+  if (touching_ && (!touching || glance.out.contacts != contact_.number)) end_contact(glance);
   if (touching && !touching_) {
-    felt_ = false;
-    began_ = seconds(glance.tick.t.time_since_epoch());
+    contact_ = Contact{};
+    contact_.number = glance.out.contacts;
+    contact_.began = seconds(glance.tick.t.time_since_epoch());
   }
-  if (!touching && touching_ && !felt_) empty_.push_back(began_);
-  touching_ = touching;
-  felt_ = felt_ || -glance.out.force.xyz[2] > glance.scene.force.contact;
+  if (!touching) return;
+  const double force = -glance.out.force.xyz[2];
+  contact_.lasted += glance.scene.dt;
+  contact_.touched = contact_.touched || glance.truth.touching;
+  contact_.felt = contact_.felt || force > glance.scene.force.contact;
+  contact_.told = contact_.told || !glance.in.withheld;
+  if (std::isfinite(force)) contact_.pushed += force * glance.scene.dt;
+  touching_ = true;
+}
+
+// An arm measures no force: it takes for touched what it believes to be. A belief that is wrong is mended by
+// the next pictures, so what lasts no longer than a finger may stay unseen is late, and not empty.
+void TouchMeasure::end_contact(const Glance& glance) {
+  touching_ = false;
+  const bool arm = glance.scene.impedance.has_value();
+  if (arm && contact_.lasted < glance.scene.tracker.lost_age) return;
+  const bool believed = arm ? !contact_.told || contact_.pushed > kHidden * contact_.lasted : contact_.felt;
+  if (glance.simulated ? !contact_.touched : !believed) empty_.push_back(contact_.began);
+}
+
+// A hold is no swing, nor what is before it.
+void TouchMeasure::forget_swing() {
+  if (!swings_.empty() && swings_.back().from == now_.from) swings_.pop_back();
+  swing_ = Swing{};
+  now_ = SwingFigures{};
+  away_ = kTime;
 }
 
 // A wide swing leaves the contact and comes back to it.
@@ -79,13 +108,16 @@ void TouchMeasure::see_swing(const Glance& glance) {
     now_.from = t;
     now_.object = out.object;
     turns_ = 0;
+    pressed_ = false;
   }
   if (move * last_move_ < 0.0) ++turns_;
   last_move_ = move;
+  pressed_ = pressed_ || (touching_ && force > glance.scene.force.contact);
   now_.until = t;
   now_.way = std::max(now_.way, way);
   if (t - now_.from < kTime) return;
   now_.frequency = 0.5 * static_cast<double>(turns_) / (t - now_.from);
+  if (turns_ < kTurns || now_.frequency < kSlowest || !pressed_) return;
   if (swings_.empty() || swings_.back().from != now_.from)
     swings_.push_back(now_);
   else
