@@ -225,6 +225,76 @@ TEST(Shape, EveryFrameLetterIsKnown) {
         }
 }
 
+// ---- where the numbers come from: docs/sources
+// --------------------------------------------------------------
+
+// Every text of the repository as one line: a reference may break within a comment.
+const std::map<std::string, std::string>& texts() {
+  static const std::map<std::string, std::string> kAll = [] {
+    const std::set<std::string> made{".git", ".deps", "build", "out"};  // not in the repository [.gitignore]
+    std::map<std::string, std::string> all;
+    fs::recursive_directory_iterator entry(kRoot);
+    for (; entry != fs::recursive_directory_iterator(); ++entry) {
+      if (entry.depth() == 0 && made.contains(entry->path().filename().string()))
+        entry.disable_recursion_pending();
+      if (!entry->is_regular_file()) continue;
+      std::string text;
+      std::ifstream in(entry->path());
+      for (std::string line; std::getline(in, line);) {
+        std::size_t start = line.find_first_not_of(" \t/#");
+        if (start != std::string::npos) text += " " + line.substr(start);
+      }
+      if (text.find('\0') == std::string::npos)  // else a picture, a mesh or a record
+        all[fs::relative(entry->path(), kRoot).generic_string()] = text;
+    }
+    return all;
+  }();
+  return kAll;
+}
+bool is_of_sources(const std::string& name) { return starts(name, "docs/sources/"); }
+
+// "arm 3" of every heading "## 3 ..." of docs/sources/arm.md.
+std::set<std::string> sections() {
+  static const std::regex kHeading("^## ([0-9]+) .+");
+  std::set<std::string> found;
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs/sources")) {
+    std::ifstream in(entry.path());
+    std::smatch match;
+    for (std::string line; std::getline(in, line);) {
+      if (!std::regex_match(line, match, kHeading)) continue;
+      const bool first = found.insert(entry.path().stem().string() + " " + std::string(match[1])).second;
+      EXPECT_TRUE(first) << entry.path() << " has it twice: " << line;
+    }
+  }
+  return found;
+}
+
+TEST(Shape, EverySourceIsThereAndIsReferredTo) {
+  // "docs/sources", "sources/" in a path or a link, and a file's name are no references.
+  static const std::regex kReference("\\bsources/([a-z_]+)(\\.md|/)?(?: ([0-9]+))?");
+  const std::set<std::string> there = sections();
+  std::set<std::string> unused = there;
+  EXPECT_GT(there.size(), 40U);
+  for (const auto& [name, text] : texts())
+    for (std::sregex_iterator match(text.begin(), text.end(), kReference), end; match != end; ++match) {
+      if ((*match)[2].matched) continue;
+      const std::string section = std::string((*match)[1]) + " " + std::string((*match)[3]);
+      EXPECT_TRUE(there.contains(section)) << name << ": '" << match->str() << "' is not in docs/sources";
+      if (!is_of_sources(name)) unused.erase(section);
+    }
+  for (const std::string& section : unused) ADD_FAILURE() << "nothing refers to sources/" << section;
+}
+
+// A reader does not have the notes that came before docs/sources.
+TEST(Shape, NothingRefersToTextsThatAreNotHere) {
+  static const std::regex kOld(
+      "\\b(parameters|fidelity|decisions?|features|architecture|performance|protocols)(\\.md)? [A-Z]?[0-9]");
+  for (const auto& [name, text] : texts())
+    for (std::sregex_iterator match(text.begin(), text.end(), kOld), end; match != end; ++match)
+      ADD_FAILURE() << name << ": '" << match->str()
+                    << "' is in no file here: name a section of docs/sources";
+}
+
 TEST(Shape, TheTopLevelIsTheAllowedList) {
   const std::set<std::string> allowed{"CMakeLists.txt",
                                       "CMakePresets.json",
