@@ -12,7 +12,7 @@ namespace enc {
 // Base joints at radius base_radius on angles k*120 deg -/+ base_half_angle, platform joints on k*120 + 60
 // +/- platform_half_angle; strut 2k joins base k*120+base_half to platform k*120+60-platform_half. Joint
 // planes are `height` apart at zero; the haptic-tip H is `tip_height` above the platform joint plane. R is
-// the centre of the base joint plane. Source: parameters 2.2 (derived from the catalogue travels and the
+// the centre of the base joint plane. Source: sources/hexapod 2 (derived from the catalogue travels and the
 // workspace of [VHMR 2]).
 struct HexapodGeometry {
   double base_radius = 0.140;

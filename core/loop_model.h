@@ -1,5 +1,5 @@
 // Linear model of the admittance loop: force sensor -> filter -> object -> machine -> hand. It predicts the
-// softest object that the loop renders stably [fidelity 1, VHMR Fig 3].
+// softest object that the loop renders stably [sources/hexapod 5, VHMR Fig 3].
 //
 //   1 + Z(s) G(s) H(s) e^{-s Td} / k = 0,   Z = m s^2 + b s + k_hand,  G = servo (2nd order),  H = force
 //   filter (1st order)

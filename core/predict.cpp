@@ -12,8 +12,8 @@ constexpr double kLeap = 5e-3;    // m
 // What is known of a tool that has just come into view.
 constexpr double kSpeed = 0.3;         // m/s rms
 constexpr double kAcceleration = 3.0;  // m/s^2 rms
-// After the longest prediction the tip is thought to come to rest within this time (decisions 8: 200 ms in
-// all).
+// After the longest prediction the tip is thought to come to rest within this time (sources/tracking 5: 200
+// ms in all).
 constexpr double kSlowDown = 0.1;  // s
 
 double square(double x) { return x * x; }

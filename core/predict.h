@@ -1,5 +1,5 @@
 // Where the tracked tool's tip is now: its poses are old when they come, so the tip's way is filtered and
-// extrapolated. Kalman filter on the tip's position in W, taken at the exposure stamps [fidelity 2].
+// extrapolated. Kalman filter on the tip's position in W, taken at the exposure stamps [sources/tracking 4].
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct TipMotion {
 }
 
 // Takes in the tip's position, exposed at `t`, which is later than any before. After a drop-out the belief is
-// at once where the data are: safety reads it, and it is the command that is smoothed (decisions 39). `calm`:
-// the tip lies on something, so that what looks like a surprise is noise.
+// at once where the data are: safety reads it, and it is the command that is smoothed (sources/choices 13).
+// `calm`: the tip lies on something, so that what looks like a surprise is noise.
 void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
              bool calm = false) noexcept;
 

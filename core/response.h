@@ -49,7 +49,7 @@ struct ResponseState {
 class EnergyStop {
  public:
   // m. While alpha moves, the object is stiffer by gap^2 / L <= largest gap / kBlend; a hand at rest that
-  // trembles by +-30 um must not feel more than 0.2 N of it (fidelity C6).
+  // trembles by +-30 um must not feel more than 0.2 N of it (sources/ball 6).
   static constexpr double kBlend = 1.5e-3;
 
   EnergyStop() = default;  // no force

@@ -40,13 +40,13 @@ struct ManipulatorRig {
   std::string driver = "sim";
   HexapodGeometry geometry;
   double speed = 0.050;        // of commands, m/s [VHMR 2]
-  double acceleration = 0.41;  // of commands, m/s^2 (decisions 1)
+  double acceleration = 0.41;  // of commands, m/s^2 (sources/hexapod 4)
   double payload = 98.1;       // N: 10 kg, what it carries and is pressed with, together [VHMR 2]
   double tip_radius = 0.005;   // of the haptic-tip's sphere, m; H is its centre
   // What carries the tip from below, round about H's z: a stem, then gripper and sensor, then the platform.
   double stem_radius = 0.004;      // m
   double stem_length = 0.040;      // from H down to the gripper, m
-  double gripper_radius = 0.0377;  // of gripper and sensor, m: that of the sensor (parameters 3)
+  double gripper_radius = 0.0377;  // of gripper and sensor, m: that of the sensor (sources/force_sensor 1)
   double servo = 15.0;             // what the rig is believed to answer with: natural frequency, Hz,
   double servo_damping = 0.8;      // damping ratio
   double delay = 0.004;            // and dead time, s; they set how soft an object may be (loop_model.h)
@@ -60,8 +60,8 @@ enum class Tare : std::uint8_t {
 
 struct ForceRig {
   std::string driver = "sim";
-  double filter = 5.0;      // corner of the low-pass, Hz (decisions 1)
-  double threshold = 0.05;  // taken off the pressing force, N (fidelity 1)
+  double filter = 5.0;      // corner of the low-pass, Hz (sources/hexapod 4)
+  double threshold = 0.05;  // taken off the pressing force, N (sources/force_sensor 3)
   double contact = 0.10;    // pressing force that is a contact, N
   double mass = 0.91;       // behind the sensor (gripper, adapters, tip), kg
   Tare tare = Tare::free;
@@ -80,7 +80,7 @@ struct ContactRig {
   double leave_time = 0.050;  // s
   double restored = 4e-6;     // m: back at the buffered point (the machine steps by 3e-6)
   double hand_stiffness =
-      700.0;  // N/m, hand_damping N s/m: of the person at the loop's limit frequency (parameters 5.1)
+      700.0;  // N/m, hand_damping N s/m: of the person at the loop's limit frequency (sources/hand 1)
   double hand_damping = 4.0;
   // N/m: softer objects are refused; unset: what that hand makes unstable (loop_model.h), 0: none is refused
   double softest = kUnset;

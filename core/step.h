@@ -1,4 +1,4 @@
-// The whole haptic core is one pure function: no I/O, no clock, no heap, no lock [architecture B4].
+// The whole haptic core is one pure function: no I/O, no clock, no heap, no lock [sources/choices 1].
 //   track -> touch -> sense -> mode -> model -> target -> guard
 #pragma once
 

@@ -1,5 +1,5 @@
-// Experiment time. It deliberately has no now(): time is an argument, and only a Clock makes it [architecture
-// B6].
+// Experiment time. It deliberately has no now(): time is an argument, and only a Clock makes it
+// [sources/choices 2].
 #pragma once
 
 #include <chrono>

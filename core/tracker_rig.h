@@ -19,11 +19,11 @@ struct TrackerRig {
   double acceleration_noise = 0.055;  // m/s^2/sqrt(Hz): what the hand does, to constant_velocity,
   // Up to here a pose that surprises raises the former, because the hand has changed its speed; 0: none does.
   double surprise_noise = 0.0;
-  double jerk_noise = 1.4;            // m/s^3/sqrt(Hz): and to constant_acceleration (fidelity 2)
-  double longest_prediction = 0.100;  // s, then it slows down and stops (decisions 8)
+  double jerk_noise = 1.4;            // m/s^3/sqrt(Hz): and to constant_acceleration (sources/tracking 4)
+  double longest_prediction = 0.100;  // s, then it slows down and stops (sources/tracking 5)
   double stamp_late = 0.0;            // s: stamps are this much later than the exposure
   double usual_age = 0.045;  // s: what latency, polling and jitter explain; older is predicted and flagged
-  double lost_age = 0.100;   // s: older is lost (decisions 8)
+  double lost_age = 0.100;   // s: older is lost (sources/tracking 5)
   double farthest = 3.0;     // m from C: beyond is not a tool
   // Sides along W of the box around its origin in which tools are followed, m: 75e-3 m^3 [VHMR 5]. The paper
   // gives the product alone.

@@ -92,7 +92,7 @@ void check_no_limit(const Setup& setup, const std::string& key) {
 
 }  // namespace
 
-// A fingertip has no markers and no orientation (decisions 12).
+// A fingertip has no markers and no orientation (sources/choices 12).
 void check_finger(const Setup& setup, const ToolSpec& tool) {
   if (!tool.markers.empty())
     fail(setup, fmt::format("tool.{}.markers_mm", tool.name),

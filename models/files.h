@@ -1,6 +1,6 @@
 // Files as the program reads and writes them: nothing that this run has read is ever written over, nothing at
 // all without --force; what is written stands beside its place until it is whole, and two runs never write
-// one file (decisions 40).
+// one file (sources/choices 14).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// models/responses/*.toml: how an object pushes back, as measured on a rig (decisions 20). Read by
+// models/responses/*.toml: how an object pushes back, as measured on a rig (sources/choices 9). Read by
 // load_response() of models/scene_file.h; written by `encounter fit` with response_text().
 //
 //   format = 1

@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 3> kMounted{"plate", "key", "drum"};
 constexpr std::array<std::string_view, 5> kIntegrators{"euler", "rk4", "implicit", "implicitfast",
                                                        "discrete"};  // of MuJoCo
 constexpr std::array<std::string_view, 2> kFriction{"dry", "smooth"};
-constexpr std::string_view kSet = "parameters 1.5: the published 1.5 scaled by 2/3";
+constexpr std::string_view kSet = "sources/arm 5: the published 1.5 scaled by 2/3";
 
 void describe(Visitor& v, PhantomGeometry& p) {
   v.value({"l1_mm", "upper arm", kSet, derived, kPositive}, &p.l1);
@@ -34,8 +34,8 @@ void describe(Visitor& v, PhantomGeometry& p) {
   v.value({"I_be_kgm2", "upper arm with motor, about the origin of R", kSet, derived, kPositive}, &p.I_be);
   v.value({"I_df_kgm2", "crank with motor, about the origin of R", kSet, derived, kPositive}, &p.I_df);
   v.value({"I_base_kgm2", "turret about its axis", kSet, derived, kPositive}, &p.I_base);
-  v.value({"coupled_low_deg", "least q2 - q3", "parameters 1.3", published, {-180.0, 0.0}}, &p.coupled_low);
-  v.value({"coupled_high_deg", "greatest q2 - q3", "parameters 1.3", published, {0.0, 180.0}},
+  v.value({"coupled_low_deg", "least q2 - q3", "sources/arm 3", published, {-180.0, 0.0}}, &p.coupled_low);
+  v.value({"coupled_high_deg", "greatest q2 - q3", "sources/arm 3", published, {0.0, 180.0}},
           &p.coupled_high);
 }
 
@@ -63,11 +63,11 @@ void describe_drives(Visitor& v, ArmMachine& m) {
     per_joint(v, key, all);
     for (std::size_t i = 0; i < kMostJoints; ++i) m.drives[i].*member = all[i];
   };
-  each({"joint_low", "least of each joint, rad or m", "parameters 1.3", published}, &ArmDrive::low);
-  each({"joint_high", "greatest of each joint, rad or m", "parameters 1.3", published}, &ArmDrive::high);
+  each({"joint_low", "least of each joint, rad or m", "sources/arm 3", published}, &ArmDrive::low);
+  each({"joint_high", "greatest of each joint, rad or m", "sources/arm 3", published}, &ArmDrive::high);
   each({"ratio", "rad of the motor for each rad or m of the joint", kSet, derived, kPositive},
        &ArmDrive::ratio);
-  each({"rotor_inertia_kgm2", "of each motor", "parameters 1.3", published, kNotNegative},
+  each({"rotor_inertia_kgm2", "of each motor", "sources/arm 3", published, kNotNegative},
        &ArmDrive::rotor_inertia);
 }
 
@@ -82,13 +82,13 @@ void describe(Visitor& v, ArmMachine& m) {
 }  // namespace
 
 void describe(Visitor& v, Thermal& t) {
-  v.value({"winding_time_s", "thermal, of each motor's winding", "parameters 1.3", published, kPositive},
+  v.value({"winding_time_s", "thermal, of each motor's winding", "sources/arm 3", published, kPositive},
           &t.winding_time);
-  v.value({"housing_time_s", "thermal, of each motor's housing", "parameters 1.3", published, kPositive},
+  v.value({"housing_time_s", "thermal, of each motor's housing", "sources/arm 3", published, kPositive},
           &t.housing_time);
   v.value({"winding_share",
            "of a winding's rise over the room that is over its housing: 3.1 of 17.1 K/W",
-           "parameters 1.3",
+           "sources/arm 3",
            published,
            {0.0, 1.0}},
           &t.winding_share);
@@ -105,11 +105,11 @@ void describe(Visitor& v, ArmRig& a) {
   v.value({"filter_hz", "a / 2 pi of eq. 3 in its s-domain form, a / (s + a)", "docs/plane_button.md", chosen,
            kPositive},
           &a.filter);
-  v.value({"peak_N", "what the tip pushes with at most", "parameters 1.1", published, kPositive}, &a.peak);
-  v.value({"continuous_N", "and for hours", "parameters 1.1", published, kPositive}, &a.continuous);
-  per_joint(v, {"peak_torque_Nm", "of each motor, as is believed", "parameters 1.3", published, kPositive},
+  v.value({"peak_N", "what the tip pushes with at most", "sources/arm 1", published, kPositive}, &a.peak);
+  v.value({"continuous_N", "and for hours", "sources/arm 1", published, kPositive}, &a.continuous);
+  per_joint(v, {"peak_torque_Nm", "of each motor, as is believed", "sources/arm 3", published, kPositive},
             a.peak_torque);
-  per_joint(v, {"continuous_torque_Nm", "of each motor, for hours", "parameters 1.3", published, kPositive},
+  per_joint(v, {"continuous_torque_Nm", "of each motor, for hours", "sources/arm 3", published, kPositive},
             a.continuous_torque);
   describe(v, a.thermal);
   v.value({"speed_mm_s", "of the target on its way to where the finger will touch", "docs/reaching.md",
@@ -122,7 +122,7 @@ void describe(Visitor& v, ArmRig& a) {
   v.value({"prop_lag_ms", "of a driven prop's surface behind what it is told", "docs/objects.md", assumed,
            kNotNegative},
           &a.prop_lag);
-  v.value({"stale_ms", "an older sample is lost", "architecture B10", assumed, kPositive}, &a.stale);
+  v.value({"stale_ms", "an older sample is lost", "sources/choices 5", assumed, kPositive}, &a.stale);
   v.value({"least_dexterity",
            "nearer to a singular pose no object may be",
            "docs/phantom.md",
@@ -133,40 +133,41 @@ void describe(Visitor& v, ArmRig& a) {
 }
 
 void describe(Visitor& v, sim::ArmTruth& a) {
-  v.value({"timestep_us", "of MuJoCo, of a world with an arm", "fidelity 4", chosen, {0.0, 5000.0, true}},
+  v.value({"timestep_us", "of MuJoCo, of a world with an arm", "sources/twin 1", chosen, {0.0, 5000.0, true}},
           &a.timestep);
-  v.value({"integrator", "of MuJoCo, likewise", "fidelity 4", chosen, kAny, defaulted, kIntegrators},
+  v.value({"integrator", "of MuJoCo, likewise", "sources/twin 1", chosen, kAny, defaulted, kIntegrators},
           &a.integrator);
   v.value({"mass_scale",
            "of all its masses and inertias against the machine's below",
-           "parameters 1.2",
+           "sources/arm 2",
            assumed,
            {0.01, 100.0}},
           &a.mass_scale);
   const auto each = [&](const Key& key, PerJoint& numbers) { per_joint(v, key, numbers); };
-  each({"counts", "of each encoder, for a turn of its motor", "parameters 1.3", published, {1.0}}, a.counts);
+  each({"counts", "of each encoder, for a turn of its motor", "sources/arm 3", published, {1.0}}, a.counts);
   choice(v,
          {"friction_form", "dry: holds what is at rest; smooth: c tanh(10 qd), at rest nothing",
-          "parameters 1.3", chosen},
+          "sources/arm 3", chosen},
          kFriction, a.friction_form);
-  each({"friction_Nm", "Coulomb's, at each joint; N of a slide", "parameters 1.3", published, kNotNegative},
+  each({"friction_Nm", "Coulomb's, at each joint; N of a slide", "sources/arm 3", published, kNotNegative},
        a.friction);
-  each({"viscous_Nms", "at each joint, for each rad/s; N s/m of a slide", "parameters 1.3", published,
+  each({"viscous_Nms", "at each joint, for each rad/s; N s/m of a slide", "sources/arm 3", published,
         kNotNegative},
        a.viscous);
-  each({"peak_torque_Nm", "of each motor", "parameters 1.3", published, kPositive}, a.peak_torque);
-  each({"continuous_torque_Nm", "of each motor, for hours", "parameters 1.3", published, kPositive},
+  each({"peak_torque_Nm", "of each motor", "sources/arm 3", published, kPositive}, a.peak_torque);
+  each({"continuous_torque_Nm", "of each motor, for hours", "sources/arm 3", published, kPositive},
        a.continuous_torque);
   describe(v, a.thermal);
   v.value({"velocity_window_ms", "over which the device differences its encoders", "docs/phantom_twin.md",
            assumed, kPositive},
           &a.velocity_window);
-  v.value({"watchdog_ms", "without a command, then the motors are off", "decisions 32", chosen, kPositive},
-          &a.watchdog);
+  v.value(
+      {"watchdog_ms", "without a command, then the motors are off", "sources/choices 16", chosen, kPositive},
+      &a.watchdog);
   v.value({"gimbal_time_ms", "in which the prop turns to another surface", "docs/phantom_twin.md", assumed,
            kPositive},
           &a.gimbal_time);
-  v.value({"contact_time_ms", "of the stop between finger and prop", "decisions 25", derived, kPositive},
+  v.value({"contact_time_ms", "of the stop between finger and prop", "sources/twin 3", derived, kPositive},
           &a.contact_time);
   v.value(
       {"drum_time_ms", "of the motor that drives a prop's surface", "docs/objects.md", assumed, kPositive},
@@ -180,7 +181,7 @@ void describe(Visitor& v, sim::ArmTruth& a) {
   v.value({"belt_friction_time_ms", "in which friction takes out a slip on that belt", "docs/objects.md",
            assumed, kPositive},
           &a.belt_friction_time);
-  v.value({"prop_friction", "of a finger on the prop", "parameters 5.1", assumed, kNotNegative},
+  v.value({"prop_friction", "of a finger on the prop", "sources/hand 1", assumed, kNotNegative},
           &a.prop_friction);
   v.value({"misplaced_mm", "of the base against where the rig says it is", "injected", chosen}, &a.misplaced);
   v.value({"turned_deg", "likewise, about W's axes", "injected", chosen, {-5.0, 5.0}}, &a.turned);

@@ -39,7 +39,7 @@ void describe(Visitor& v, ObjectSpec& o) {
   v.value(name_key("what --set, the user and the report call it"), &o.name);
   choice(v, {"shape", "its undeformed surface", kAuthor, chosen, kAny, needed}, kShapes, o.shape);
   if (o.shape == ShapeKind::sphere) {
-    v.value({"radius_mm", "radius of the sphere", "[VHMR 4.2], parameters 4.1", chosen, kPositive, needed},
+    v.value({"radius_mm", "radius of the sphere", "[VHMR 4.2], sources/ball 1", chosen, kPositive, needed},
             &o.radius);
   }
   if (o.shape == ShapeKind::mesh) describe_mesh(v, o);
@@ -89,16 +89,18 @@ void describe(Visitor& v, ToolSpec& t) {
              {0.0, 500.0, true},
              needed},
             &t.tip_edge);
-  v.value({"mass_kg", "tool with its markers", "parameters 5.1", assumed, kPositive}, &t.mass);
+  v.value({"mass_kg", "tool with its markers", "sources/hand 1", assumed, kPositive}, &t.mass);
 }
 
 void describe(Visitor& v, FollowSpec& f) {
-  v.value({"inset_mm", "how far inside the surface the haptic-tip waits", "decisions 11", chosen, kPositive},
+  v.value({"inset_mm", "how far inside the surface the haptic-tip waits", "sources/choices 11", chosen,
+           kPositive},
           &f.inset);
   v.value({"pause_mm", "a tool farther than this is not followed", "[VHMR 3.3]", published, kPositive},
           &f.pause);
-  v.value({"resume_mm", "and is followed again when nearer than this", "fidelity 5", assumed, kPositive},
-          &f.resume);
+  v.value(
+      {"resume_mm", "and is followed again when nearer than this", "sources/hexapod 7", assumed, kPositive},
+      &f.resume);
   v.value({"hysteresis_mm", "another object must be nearer by this to take over", "[VisHap 3]", assumed,
            kNotNegative},
           &f.hysteresis);
@@ -128,7 +130,7 @@ void describe(Visitor& v, ProbeSpec& p) {
       {"radius_mm", "of the sphere that the machine carries as its tip", "[VHMR 4.2]", published, kPositive},
       &p.radius);
   v.value({"depth_mm", "of a push, from the first touch", "[VHMR 4.2]", published, kPositive}, &p.depth);
-  v.value({"speed_mm_s", "of pushing and of going back", "parameters 4.4", assumed, kPositive}, &p.speed);
+  v.value({"speed_mm_s", "of pushing and of going back", "sources/ball 4", assumed, kPositive}, &p.speed);
   v.value(
       {"clear_mm", "distance to the first touch at which a push begins and ends", kAuthor, chosen, kPositive},
       &p.clear);
@@ -139,11 +141,11 @@ void describe(Visitor& v, ProbeSpec& p) {
 
 void describe(Visitor& v, PusherSpec& p) {
   v.value({"object", "pushed into, by name; empty: the first", kAuthor, chosen}, &p.object);
-  v.value({"depth_mm", "wanted deflection", "fidelity 1", assumed, kPositive}, &p.depth);
-  v.value({"force_max_N", "no deeper than where the object pushes back with this", "fidelity 1", assumed,
+  v.value({"depth_mm", "wanted deflection", "sources/hand 5", assumed, kPositive}, &p.depth);
+  v.value({"force_max_N", "no deeper than where the object pushes back with this", "sources/hand 5", assumed,
            kPositive},
           &p.force);
-  v.value({"ramp_s", "from clear to depth, and back", "fidelity 1", assumed, kPositive}, &p.ramp_time);
+  v.value({"ramp_s", "from clear to depth, and back", "sources/hand 5", assumed, kPositive}, &p.ramp_time);
   v.value({"hold_s", "at depth", kAuthor, chosen, kPositive}, &p.hold_time);
   v.value({"rest_s", "clear of the tip before each push", kAuthor, chosen, kPositive}, &p.rest_time);
   v.value({"repeats", "pushes", kAuthor, chosen, {1.0, 1e6}}, &p.repeats);
@@ -153,7 +155,7 @@ void describe(Visitor& v, TravelSpec& t) {
   v.value({"axes", "of W, travelled one after another, such as \"xyz\" or \"z\"", "[VHMR 4.1]", published},
           &t.axes);
   v.value({"start_mm", "where the travel along x, along y and along z begins; the other two axes stay at 0",
-           "decisions 21", chosen},
+           "sources/choices 10", chosen},
           &t.start);
   v.value({"stops_mm", "from the start, towards +, growing", "[VHMR 4.1]", published, kNotNegative},
           &t.stops);
@@ -247,21 +249,21 @@ void describe(Visitor& v, ResponseSpec& r) {
 void describe(Visitor& v, ResponseFile& r) {
   v.value({"format",
            "version of the response format; this program reads version 1",
-           "decisions 20",
+           "sources/choices 9",
            chosen,
            {1.0, 1.0},
            needed,
            {},
            true},
           &r.format);
-  v.value({"source", "where the numbers come from", "decisions 20", chosen, kAny, needed, {}, true},
+  v.value({"source", "where the numbers come from", "sources/choices 9", chosen, kAny, needed, {}, true},
           &r.source);
   describe(v, r.response);
 }
 
 void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
   v.value(name_key("what objects call it"), &b.name);
-  v.value({"response", "file in models/responses without .toml; empty: linear", "decisions 20", chosen},
+  v.value({"response", "file in models/responses without .toml; empty: linear", "sources/choices 9", chosen},
           &b.response);
   v.value({"stiffness_N_per_mm", "of a linear surface, press and release alike", "behaviours.toml", chosen,
            kPositive, optional},
@@ -272,7 +274,7 @@ void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
   choice(v,
          {"reversal",
           "what is felt where pressing turns to releasing; the second needs [stops] in the response file",
-          "fidelity 3", chosen},
+          "sources/ball 6", chosen},
          kReversals, b.reversal);
   choice(v,
          {"tangential", "what a sideways force does: nothing, or moves the contact point", "[VHMR 3.4]",

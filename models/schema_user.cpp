@@ -19,11 +19,11 @@ void describe_presses(Visitor& v, UserSpec& u) {
   v.value(
       {"push_N", "push with this force instead, whatever the depth", kAuthor, chosen, kPositive, optional},
       &u.push);
-  v.value({"press_s", "from touch to depth", "decisions 1", chosen, kPositive}, &u.press_time);
+  v.value({"press_s", "from touch to depth", "sources/hand 3", chosen, kPositive}, &u.press_time);
   v.value({"hold_s", "at depth", kAuthor, chosen, kNotNegative}, &u.hold_time);
-  v.value({"release_s", "from depth to touch", "decisions 1", chosen, kPositive}, &u.release_time);
+  v.value({"release_s", "from depth to touch", "sources/hand 3", chosen, kPositive}, &u.release_time);
   v.value({"rest_s", "between two presses", kAuthor, chosen, kNotNegative}, &u.rest_time);
-  v.value({"approach_mm_s", "speeds of the tool at the touch; one press for each", "parameters 5.2", chosen,
+  v.value({"approach_mm_s", "speeds of the tool at the touch; one press for each", "sources/hand 2", chosen,
            kPositive},
           &u.approach);
   v.value({"approach_from_mm", "distance of the start from the touched point", kAuthor, chosen, kPositive},
@@ -43,14 +43,14 @@ void describe_ranges(Visitor& v, ReachRanges& r) {
   v.value({"reach_mm", "from where a reach begins to the touched point: least, most", kAuthor, assumed,
            kPositive},
           &r.reach);
-  v.value({"peak_mm_s", "of the first, ballistic part of a reach: least, most", "parameters 5.2", published,
+  v.value({"peak_mm_s", "of the first, ballistic part of a reach: least, most", "sources/hand 2", published,
            kPositive},
           &r.peak_speed);
-  v.value({"touch_mm_s", "wanted at the surface: least, most", "parameters 5.2", assumed, kPositive},
+  v.value({"touch_mm_s", "wanted at the surface: least, most", "sources/hand 2", assumed, kPositive},
           &r.touch_speed);
   v.value({"depth_mm", "wanted deflection: least, most", "[VHMR 4.2]", assumed, kPositive}, &r.depth);
   v.value(
-      {"press_mm_s", "mean, of pressing and of releasing: least, most", "parameters 5.2", assumed, kPositive},
+      {"press_mm_s", "mean, of pressing and of releasing: least, most", "sources/hand 2", assumed, kPositive},
       &r.press_speed);
   v.value({"hold_s", "at depth: least, most", kAuthor, assumed, kNotNegative}, &r.hold);
   v.value({"rest_s", "over the next place: least, most", kAuthor, assumed, kNotNegative}, &r.rest);
@@ -108,7 +108,7 @@ void describe(Visitor& v, UserSpec& u) {
   describe_presses(v, u);
   choice(
       v,
-      {"tremor", "one sine for each axis, or a band of several that wax and wane", "parameters 5.2", assumed},
+      {"tremor", "one sine for each axis, or a band of several that wax and wane", "sources/hand 2", assumed},
       kTremors, u.tremor);
   part(v, "session", u.session, [&](SessionSpec& session) { describe(v, session); });
   part(v, "reaches", u.reaches, [&](ReachesSpec& reaches) { describe(v, reaches); });

@@ -1,5 +1,5 @@
 // The physical tennis ball under a spherical probe: what the twin's rig presses and what the response file is
-// computed from until a real ball has been measured. Formula and values: parameters.md 4.4 (fits a
+// computed from until a real ball has been measured. Formula and values: sources/ball 4 (fits a
 // finite-strain solver to 1.1 % rms).
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace enc::sim {
 
 // Set "S-nominal": a dead or vented ball, about 12 N at 6 mm. A regulation ball gives 45-52 N there
-// (parameters.md 4.3). Confidence: R = reported in reviews or data sheets, S = fitted to the solver, A =
+// (sources/ball 3). Confidence: R = reported in reviews or data sheets, S = fitted to the solver, A =
 // assumed.
 struct BallParameters {
   double outer_radius = 33.0e-3;    // [S] m; ITF 65.4-68.6 mm diameter, middle less 0.5 mm

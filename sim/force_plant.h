@@ -1,5 +1,5 @@
 // The force/torque sensor as it reads: what MuJoCo's sensor pair says, the inertia that a placed body does
-// not show, zero error and drift, noise, steps and range. [VHMR 2, parameters 3]
+// not show, zero error and drift, noise, steps and range. [VHMR 2, sources/force_sensor 1]
 #pragma once
 
 #include "core/sample.h"

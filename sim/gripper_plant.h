@@ -1,6 +1,6 @@
 // The gripper as it moves: jaws that close at a steady speed until they meet something or each other, then
-// press with the force that was set. [VHMR 4.1, parameters 3] The clamped tool is part of the tip's body from
-// the start: until the jaws are closed, somebody holds it there.
+// press with the force that was set. [VHMR 4.1, sources/force_sensor 4] The clamped tool is part of the tip's
+// body from the start: until the jaws are closed, somebody holds it there.
 #pragma once
 
 #include "core/sample.h"

@@ -9,7 +9,7 @@
 namespace enc::sim {
 namespace {
 
-constexpr double kTurnSpeed = 0.6;  // rad/s (parameters 2.1)
+constexpr double kTurnSpeed = 0.6;  // rad/s (sources/hexapod 1)
 
 Vec3 clipped(const Vec3& v, double longest) {
   const double size = v.norm();

@@ -1,6 +1,6 @@
 // The hexapod's servo as it moves: command delay, lag, speed and acceleration limits, its step, its stroke.
 // Control form: the pose is prescribed to the physics, which is right because the drives are not
-// back-drivable [fidelity 4]. Structural form: it sets the legs' free lengths (legs.h).
+// back-drivable [sources/twin 1]. Structural form: it sets the legs' free lengths (legs.h).
 #pragma once
 
 #include <array>

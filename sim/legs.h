@@ -1,6 +1,6 @@
 // The legs of the structural form: six tendons between base and platform joints, each a spring and a damper
 // in parallel whose free length the servo moves. The platform is a free body that hangs on them alone, so it
-// sags, vibrates and loads its legs; the servo in front (hexapod_plant.h) stays. [fidelity 4]
+// sags, vibrates and loads its legs; the servo in front (hexapod_plant.h) stays. [sources/twin 1]
 #pragma once
 
 #include "core/hexapod.h"

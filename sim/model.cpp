@@ -18,7 +18,7 @@ void set4(double* to, const Quat& q) {  // MuJoCo writes w first
   to[2] = q.y();
   to[3] = q.z();
 }
-// mjs_setName says -1 for a duplicate and the spec still compiles: check (decisions 26).
+// mjs_setName says -1 for a duplicate and the spec still compiles: check (sources/twin 4).
 void name(mjsElement* element, const std::string& text) {
   if (mjs_setName(element, text.c_str()) != 0)
     throw Error("two parts of the simulated world are called '" + text + "'");
@@ -74,7 +74,8 @@ void draw_finger(mjsBody* body, const Vec3& to_hand, double radius) {
   }
 }
 
-// A child of the tip's body: a weld to it would err by 128 um at 40 mm/s (decisions 24). It touches nothing.
+// A child of the tip's body: a weld to it would err by 128 um at 40 mm/s (sources/twin 3). It touches
+// nothing.
 void add_clamped_tool(mjsBody* behind_sensor, const ToolSpec& tool, const Pose<'H', 'T'>& X_HT) {
   mjsBody* body = mjs_addBody(behind_sensor, nullptr);
   name(body->element, "clamped_tool");

@@ -56,8 +56,8 @@ class Physics {
   DataPtr data_;
 };
 
-// Process-wide: mju_error would end the program with code 1, which reads as "the answer is no" (decisions
-// 18).
+// Process-wide: mju_error would end the program with code 1, which reads as "the answer is no"
+// (sources/twin 4).
 void install_mujoco_handlers();
 [[nodiscard]] std::string mujoco_version();
 

@@ -1,5 +1,5 @@
 // What pushes the haptic-tip from outside, such as a hand or a stand: a spring and a damper towards a point
-// that goes in, waits and comes back along a line. It can push and cannot pull [fidelity 1]:
+// that goes in, waits and comes back along a line. It can push and cannot pull [sources/hand 5]:
 //
 //   F = max(0, k (x_s - x) + b (v_s - v) + tremor)      x: of the tip's outermost point, in from the surface
 //

@@ -1,5 +1,5 @@
-// Named random streams: one for each device, so that adding a part changes nobody else's numbers (decisions
-// 15).
+// Named random streams: one for each device, so that adding a part changes nobody else's numbers
+// (sources/choices 7).
 #pragma once
 
 #include <cmath>

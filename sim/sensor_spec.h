@@ -52,7 +52,7 @@ struct TrackerTruth {
 
 // The stereo head of [VisHap 2], as far as it decides where a point is believed to be: a rectified pair of
 // pinholes. Its left camera is C: x along the image's rows, y down its columns, z into the scene. STH-MDCS
-// with 7.5 mm lenses, 1280 x 960 binned to 640 x 480 (parameters 7).
+// with 7.5 mm lenses, 1280 x 960 binned to 640 x 480 (sources/tracking 7).
 struct CameraTruth {
   double baseline = 0.090;             // m, from the left camera to the right one
   double focal = 721.0;                // px

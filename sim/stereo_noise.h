@@ -1,6 +1,6 @@
 // A stereo head that sees single points, with the errors of matching: a point in C becomes a place in the
-// left image and a disparity, and these a point again [VisHap 2.1; parameters 7]. There are no images here:
-// whatever finds the tip in them has done so, with the noise of CameraTruth.
+// left image and a disparity, and these a point again [VisHap 2.1; sources/tracking 7]. There are no images
+// here: whatever finds the tip in them has done so, with the noise of CameraTruth.
 #pragma once
 
 #include <cstdint>

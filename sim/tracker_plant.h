@@ -1,5 +1,5 @@
 // The optical tracker and the way of its data: exposure, host, server tick, process and UDP delay, loss [VHMR
-// 2, 4.1; parameters 6.3].
+// 2, 4.1; sources/tracking 3].
 #pragma once
 
 #include <array>

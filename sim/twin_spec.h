@@ -56,7 +56,7 @@ struct HandTruth {
   double tilt_rate = 0.5;       // Hz, of that
 };
 
-// Sets of ball_plant.h [parameters 4.4]: four others that also give 12 N at 6 mm, and a ball as played with.
+// Sets of ball_plant.h [sources/ball 4]: four others that also give 12 N at 6 mm, and a ball as played with.
 enum class BallSet : std::uint8_t { nominal, low_loss, high_loss, vented, kpa_20, regulation };
 
 // The real ball that a probe presses. Numbers that are unset come from the set.

@@ -1,5 +1,5 @@
 // What a machine can do at the objects of a scene, against what the scene asks of it: known before anything
-// moves. In simulation it is said and runs; a real machine that is armed refuses it (decisions 43).
+// moves. In simulation it is said and runs; a real machine that is armed refuses it (sources/choices 15).
 #pragma once
 
 #include <string>

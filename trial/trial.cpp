@@ -37,7 +37,7 @@ double pace_of(const TrialOptions& options, bool real) {
   return 1.0;
 }
 
-// What a simulated machine only says, a real one does not begin (decisions 43).
+// What a simulated machine only says, a real one does not begin (sources/choices 15).
 void refuse_limits(const models::Setup& setup, const Scene& scene) {
   const Limits limits = limits_of(setup, scene);
   for (const Unsteady& object : limits.unsteady)

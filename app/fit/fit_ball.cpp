@@ -106,7 +106,7 @@ std::string line(const BallFit& fit, const HeldNumber& held) {
 }
 
 std::string remarks(const BallFit& fit) {
-  constexpr double kUsualWalk = 0.01;  // N / sqrt(s): five times a sensor's (fidelity 1)
+  constexpr double kUsualWalk = 0.01;  // N / sqrt(s): five times a sensor's (sources/force_sensor 2)
   std::string text;
   for (const BallEstimate& e : fit.estimates)
     if (e.number != trial::kNearer && e.known() != trial::Known::well)

@@ -90,7 +90,7 @@ Table fig11_table(const std::vector<PressedShell>& probe, const std::vector<Pres
       "Made by: ./encounter bench deformation --full --out out  (out/{}.csv)\n"
       "Axisymmetric solid, neo-Hookean Q1P0, isothermal gas, Winkler felt, rigid frictionless probe from "
       "above, "
-      "clamped beyond {:g} deg of polar angle [parameters 4.2].\n"
+      "clamped beyond {:g} deg of polar angle [sources/ball 2].\n"
       "Ball: outer radius {:g} mm, wall {:g} mm, felt {:g} mm, rubber E {:g} MPa, gauge pressure {:g} kPa, "
       "felt "
       "E_f {:g} MPa (S-nominal).\n"

@@ -4,7 +4,8 @@
 // Rubber: neo-Hookean, four-node elements with one mean dilatation each (Q1P0), so that nearly incompressible
 // rubber does not lock. Gas: isothermal. Felt: independent springs (Winkler) of pressure E_f x / (1 - x) at
 // the compression x t_f, which is the felt's thickness less the gap between wall and probe. Felt locks at
-// x = 1, so it is also the barrier that keeps the rigid, frictionless probe out. [parameters 4.2, 4.3]
+// x = 1, so it is also the barrier that keeps the rigid, frictionless probe out. [sources/ball 2,
+// sources/ball 3]
 //
 // Section through the axis: r sideways, z upwards, origin in the ball's middle; the probe comes from above.
 #pragma once
@@ -30,7 +31,7 @@ struct ShellMesh {
 
 // The wall from the pole to the polar angle kClamped; below that the ball stands in its mount. Elements are
 // `fine` (m) long under the probe and grow farther away.
-inline constexpr double kClamped = 100.0;  // deg [parameters 4.2]
+inline constexpr double kClamped = 100.0;  // deg [sources/ball 2]
 [[nodiscard]] ShellMesh shell_mesh(const sim::BallParameters& ball, int through, double fine);
 
 class ShellEnergy {

@@ -143,7 +143,7 @@ Table case_table(const std::array<Trials, 6>& all) {
       "the felt answers for it. A wall that is not as thick as said moves the modulus far out of its "
       "interval, "
       "which knows of noise only. Widths are those of noise: the law itself is within 1.1 % rms of a solver "
-      "(parameters 4.4), and no real ball is the law.";
+      "(sources/ball 4), and no real ball is the law.";
   return table;
 }
 

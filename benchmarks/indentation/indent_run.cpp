@@ -14,7 +14,7 @@
 namespace enc::bench::indentation {
 namespace {
 
-constexpr double kNearLimit = 0.05e-3;  // m (decisions 6)
+constexpr double kNearLimit = 0.05e-3;  // m (sources/hand 3)
 
 // Looks at one press: the recorded deflection needs the point that the core has buffered at the first touch.
 class Recorder {

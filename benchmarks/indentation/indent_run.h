@@ -53,13 +53,13 @@ struct IndentRun {
   Response reference;
   double limit = kUnset;           // m
   double greatest = 0.0;           // m, true deflection
-  double force_at_limit = kUnset;  // N, true (decisions 6)
+  double force_at_limit = kUnset;  // N, true (sources/hand 3)
   double simulated = 0.0;          // s
   std::int32_t contacts = 0;
 };
 [[nodiscard]] IndentRun indent_run(const models::Setup& setup, std::uint64_t seed);
 
-// How a hand differs from one run to the next: each of these is drawn anew. [parameters 5.2]
+// How a hand differs from one run to the next: each of these is drawn anew. [sources/hand 2]
 struct HandSpread {
   double time = 0.10;       // of the press and the release time, log-normal: indentations differ by more
                             // (2 to 20 mm/s), one person repeating one press by less

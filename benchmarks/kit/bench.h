@@ -1,5 +1,5 @@
 // A benchmark = a scene + a measure + a reference. results.json is read by others: keep its form
-// (architecture B8).
+// (sources/choices 4).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ inline constexpr double kMm = 1e3;  // per m
 enum class Role : std::uint8_t { calibrated, predicted, ours };
 
 struct Figure {
-  std::string id;         // first token the benchmark, last token the statistic (decisions 21)
+  std::string id;         // first token the benchmark, last token the statistic (sources/choices 10)
   double paper = kUnset;  // unset: null
   double twin = kUnset;
   std::string unit;

@@ -90,7 +90,7 @@ void vision_figures(const PressTrace& trace, const InteractionSpec& law, double 
   const Line last = line_of(mean_curve(trace, law.bottom + 1.1 * law.gradual, 5.9e-3, 0.02e-3));
   const Dip dip = dip_of(trace, law);
   report.figure("button.vision.slope1", first.slope, "N/m",
-                "a hand that vision sees, 20 Hz, 50 ms old; pressed [fidelity F2]", resistance,
+                "a hand that vision sees, 20 Hz, 50 ms old; pressed [sources/twin 6]", resistance,
                 1.7 * resistance);
   report.figure("button.vision.slope3", last.slope, "N/m",
                 "end stop [F2]: mean of press and release, because the hand brakes there", 0.95 * law.floor,

@@ -132,7 +132,7 @@ void measure_step(const BenchContext& context, const Report& report) {
   report.figure("limit.rk4", limit[0], "N/m",
                 "lambda K_p at which the free prop begins to ring, no friction, RK4 at 1 ms");
   report.figure("limit.implicitfast", limit[1], "N/m",
-                "the same physics by a first-order integrator [fidelity 4]");
+                "the same physics by a first-order integrator [sources/twin 1]");
 }
 
 }  // namespace enc::bench::plane_button

@@ -14,7 +14,7 @@
 namespace enc::bench::registration {
 namespace {
 
-constexpr std::size_t kPairs = 8, kFrames = 20;  // of the figures (fidelity F3)
+constexpr std::size_t kPairs = 8, kFrames = 20;  // of the figures (sources/tracking 9)
 
 const std::vector<std::size_t> kPairCounts{4, 5, 6, 8, 12, 16, 20};
 const std::vector<std::size_t> kFrameCounts{1, 5, 20, 100};

@@ -1,5 +1,5 @@
-// The report of a bench run: results.json (architecture B8), report.html, REPORT.md, and a CSV of every table
-// and plot. Complete after each benchmark, and says what is missing.
+// The report of a bench run: results.json (sources/choices 4), report.html, REPORT.md, and a CSV of every
+// table and plot. Complete after each benchmark, and says what is missing.
 #pragma once
 
 #include <cstdint>

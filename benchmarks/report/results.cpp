@@ -1,4 +1,4 @@
-// The files of a report, and results.json, which others read: keep its form (architecture B8).
+// The files of a report, and results.json, which others read: keep its form (sources/choices 4).
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Felt or not: errors of the twin, and of the paper, beside what a person can tell [parameters 5.3]. The
+// Felt or not: errors of the twin, and of the paper, beside what a person can tell [sources/hand 6]. The
 // thresholds stand in benchmarks/reference/thresholds.csv with their sources; nothing else knows a number.
 #pragma once
 

@@ -15,7 +15,7 @@
 namespace enc::bench::stiffness {
 
 // The tip does not come to rest: its way in the second half of the hold, peak to peak, is longer than this, m
-// [fidelity A1].
+// [sources/twin 6].
 inline constexpr double kWander = 1e-3;
 
 [[nodiscard]] double peak_to_peak(std::span<const double> way);

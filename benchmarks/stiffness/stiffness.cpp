@@ -89,7 +89,7 @@ void add_error_figures(const std::vector<Level>& levels, const Paper& paper, Ben
 }
 
 void add_slope(const std::vector<Level>& levels, const Paper& paper, BenchResult& result) {
-  constexpr double kTolerance = 0.15;  // fidelity A5
+  constexpr double kTolerance = 0.15;  // sources/twin 6
   const auto add = [&](const char* id, double Push::*felt, double tolerance, const char* note) {
     const double slope =
         error_slope(levels, felt, paper.softest * kPerMm * 0.999, paper.within_from * kPerMm * 1.001);
@@ -143,7 +143,7 @@ void add_no_threshold(const BenchContext& context, const Extent& extent, BenchRe
 void add_boundary(const BenchContext& context, const Extent& extent, const Paper& paper,
                   BenchResult& result) {
   const models::Setup setup = push_setup(context.models, extent.set);
-  constexpr double kShare = 22.0 / 24.0;  // fidelity A2
+  constexpr double kShare = 22.0 / 24.0;  // sources/twin 6
   StabilityMap map(setup, context.seed + 1000, extent.presses, kShare);
   const double linear = lowest_stable_stiffness(pushed_loop(setup));
   const double at_20 = map.unstable_share(20), at_35 = map.unstable_share(35);

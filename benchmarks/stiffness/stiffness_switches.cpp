@@ -1,5 +1,5 @@
 // What explains Fig 3? Each effect is switched off alone; and the two explanations of the knee at 0.3 N/mm
-// stand beside each other [fidelity 1].
+// stand beside each other [sources/hexapod 5].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -69,7 +69,7 @@ const std::vector<std::string>& no_threshold_no_drift() {
                                              "truth.force.drift_N_per_push=0"};
   return kSet;
 }
-// The core does not know of the gripper's 0.51 kg (parameters 2.3).
+// The core does not know of the gripper's 0.51 kg (sources/hexapod 3).
 const std::vector<std::string>& uncompensated_gripper() {
   static const std::vector<std::string> kSet{"rig.force.mass_kg=0.4"};
   return kSet;

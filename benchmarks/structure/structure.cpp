@@ -241,9 +241,9 @@ void payload(const Report& report, const BenchContext& context) {
   const double both = expected + 100.0 / kz;
   report.add("structure.payload.pushed.sag", pushed * 1e6, "um", 0.99 * both * 1e6, 1.01 * both * 1e6,
              "and 100 N more, likewise");
-  report.add(
-      "structure.payload.leg_force.max", m.strongest, "N", 0, 171,
-      "10 kg, the platform and 100 N, on the way through the workspace; parameters 2.3 has 74 N for 100 N");
+  report.add("structure.payload.leg_force.max", m.strongest, "N", 0, 171,
+             "10 kg, the platform and 100 N, on the way through the workspace; sources/hexapod 3 has 74 N "
+             "for 100 N");
   report.result.simulated += m.simulated;
   report.add("structure.payload.diverged", static_cast<double>(m.world->diverged_at()), "tick", -1, -1,
              "-1: never");

@@ -1,5 +1,5 @@
 // Where the tool is now, when its newest pose is old: hold, constant velocity, constant acceleration, over
-// the paper's motion and over motions it does not have [decisions 21].
+// the paper's motion and over motions it does not have [sources/choices 10].
 #pragma once
 
 #include "benchmarks/kit/bench.h"

@@ -53,8 +53,8 @@ void add_wrong_stamps(std::vector<PredictionRow>& rows, const PredictionRow& rig
   }
 }
 
-// One way, along +, the registration error opposes the lag (decisions 3): the paper's Table 1. There and back
-// it is as often with the lag as against it, so a wrong latency costs as much as it does on average.
+// One way, along +, the registration error opposes the lag (sources/tracking 6): the paper's Table 1. There
+// and back it is as often with the lag as against it, so a wrong latency costs as much as it does on average.
 void add_paper(std::vector<PredictionRow>& rows, double acceleration, const Table1& paper) {
   const auto moves = [acceleration](double speed, bool both_ways) {
     return [=](std::uint64_t) { return paper_moves(speed, acceleration, both_ways); };

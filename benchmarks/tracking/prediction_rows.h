@@ -1,4 +1,4 @@
-// The motions on which predictions are compared [fidelity 2, 5].
+// The motions on which predictions are compared [sources/tracking 4, sources/tracking 5].
 #pragma once
 
 #include <cstdint>

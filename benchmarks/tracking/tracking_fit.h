@@ -27,7 +27,8 @@ struct AxisError {
 // Whose mean size and root mean square the column at rest prints.
 [[nodiscard]] std::array<AxisError, 3> axis_errors(const Table1& paper);
 
-// The two named hypotheses of decisions 3, and a third reading: motion along + of W, or along -, or both.
+// The two named hypotheses of sources/tracking 6, and a third reading: motion along + of W, or along -, or
+// both.
 enum class BiasSide : std::uint8_t { opposes, adds, both_ways };
 inline constexpr std::array<const char*, 3> kSides{"opposes", "adds", "both_ways"};
 [[nodiscard]] int way_of(BiasSide side);

@@ -36,7 +36,7 @@ struct MovesSpec {
 inline constexpr double kMoving = 1e-3;
 
 struct Errors {
-  double rmse = 0.0, mae = 0.0, bias = 0.0;  // m; decisions 21
+  double rmse = 0.0, mae = 0.0, bias = 0.0;  // m; sources/choices 10
 };
 [[nodiscard]] Errors at_stops(double bias, double noise);
 

@@ -20,7 +20,7 @@ struct PacketError {
   std::int32_t axis = 0;  // of W
 };
 
-// Sums of what counts, in the words of decisions 21.
+// Sums of what counts, in the words of sources/choices 10.
 class ErrorSum {
  public:
   void add(double error);

@@ -25,7 +25,7 @@ void add(BenchResult& result, const std::string& id, double paper, double twin, 
   result.figures.push_back(std::move(figure));
 }
 
-// The paper's box was used to find the machine's geometry (parameters 2.2), so it is no prediction.
+// The paper's box was used to find the machine's geometry (sources/hexapod 2), so it is no prediction.
 void add_box(BenchResult& result, const ReachVolume& reach) {
   constexpr std::array<double, 3> kPaper{160.0, 140.0, 50.0};  // mm [VHMR 2]
   const ReachVolume::Extents e = reach.extents();

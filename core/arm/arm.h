@@ -22,7 +22,7 @@ enum class ArmKind : std::uint8_t { phantom, chain };
 // link, be upper arm with motor, df crank with motor. q1 turret, q2 upper arm above horizontal, q3 forearm
 // from vertical (absolute). R is the centre of the gimbal of joints: the axes of turret and upper arm meet
 // there; x forwards and z upwards. Defaults: model 1.0A, scaled from the published 1.5 by 2/3
-// (parameters 1.5, derived).
+// (sources/arm 5, derived).
 struct PhantomGeometry {
   double l1 = 0.1397, l2 = 0.1130, l3 = 0.02167;  // upper arm, forearm, crank, m
   double l5 = -0.02453, l6 = 0.03513;             // centres of mass of be (signed) and df from the axis, m
@@ -33,7 +33,7 @@ struct PhantomGeometry {
   Vec3 I_a{1.441e-5, 5e-8, 1.441e-5}, I_c{2.841e-5, 2.841e-5, 1.5e-7}, I_be{4.929e-4, 4.471e-4, 2.63e-5},
       I_df{3.160e-4, 2.80e-5, 2.776e-4};
   double I_base = 5.276e-4;                         // turret about its axis, kg m^2
-  double coupled_low = -0.96, coupled_high = 1.13;  // limits of q2 - q3, rad: -55 and 65 deg (parameters 1.3)
+  double coupled_low = -0.96, coupled_high = 1.13;  // limits of q2 - q3, rad: -55 and 65 deg (sources/arm 3)
 };
 
 enum class JointKind : std::uint8_t { hinge, slide };
@@ -64,7 +64,7 @@ struct ArmMachine {
   Vec3 tip{0, 0, 0};             // of a chain: H in its last link, m
   std::array<ArmDrive, kMostJoints> drives{{{-M_PI / 2, M_PI / 2, 8.87},
                                             {-2.164, 2.077, 7.47},    // -124 and 119 deg
-                                            {-0.506, 3.735, 7.47}}};  // -29 and 214 deg (parameters 1.3)
+                                            {-0.506, 3.735, 7.47}}};  // -29 and 214 deg (sources/arm 3)
 };
 
 // How the mass of a prop at the tip enters eq. 5.

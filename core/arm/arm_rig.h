@@ -18,7 +18,7 @@ enum class GravityForm : std::uint8_t {
 
 // How a motor gets warm.
 struct Thermal {
-  double winding_time = 12.0;   // s, of a winding against its housing (parameters 1.3, published)
+  double winding_time = 12.0;   // s, of a winding against its housing (sources/arm 3, published)
   double housing_time = 612.0;  // s, and of the housing against the room (published)
   double winding_share =
       3.1 / (3.1 + 14.0);  // of the rise over the room that is over the housing (published)
@@ -35,7 +35,7 @@ struct ArmRig {
   double filter = 60.0;
   double peak = 8.5;        // N: what the tip can push with [PHANToM sheet]
   double continuous = 1.4;  // N: and for hours
-  // Of each motor, N m: for a moment, and for ever (parameters 1.3, published).
+  // Of each motor, N m: for a moment, and for ever (sources/arm 3, published).
   PerJoint peak_torque{0.129, 0.129, 0.129}, continuous_torque{0.0286, 0.0286, 0.0286};
   Thermal thermal{};
   double speed = 0.6;             // of the target on its way to where the finger will touch, m/s

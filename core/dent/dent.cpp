@@ -17,7 +17,7 @@ constexpr double kStiff = 0.116;
 constexpr double kSinking = 0.80;
 
 // The slope at which the surface leaves the tip: twice the slope sqrt(d/R) at the rim of the dimple of a thin
-// ball [parameters 4.2, Pogorelov]. A half space dents over a few depths: 10/3 d.
+// ball [sources/ball 2, Pogorelov]. A half space dents over a few depths: 10/3 d.
 double leaving_slope(double size, double depth, const DentSample& dent, const Vec3& n) {
   const double own = std::isfinite(size) ? 2.0 * std::sqrt(depth / size) : 0.75;
   if (dent.tip.shape != TipShape::cone) return own;

@@ -1,5 +1,5 @@
 // The fields of what walks through a tick, named once: the record, its layout hash and the state hash all go
-// through here, field by field and never over padding (decisions 17).
+// through here, field by field and never over padding (sources/choices 8).
 // A visitor is called with (name, leaf) for each number.
 #pragma once
 

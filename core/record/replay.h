@@ -1,4 +1,4 @@
-// Runs step() again over a record: the same inputs must give the same outputs, to the bit [architecture B1
+// Runs step() again over a record: the same inputs must give the same outputs, to the bit [sources/choices 1
 // 5].
 #pragma once
 

@@ -96,7 +96,7 @@ Rise rise_of(const std::vector<std::vector<LoopPoint>>& moving, double limit) {
 // What the whole file must say; `where` is its end.
 void check(const CsvReader& where, const LoopData& loop, double limit) {
   constexpr std::ptrdiff_t kFewest = 20;
-  constexpr double kNear = 0.05e-3;     // m (decisions 6)
+  constexpr double kNear = 0.05e-3;     // m (sources/hand 3)
   constexpr double kLeastForce = 1e-3;  // N: less is no reading of a force sensor
   double deepest = 0.0;
   std::ptrdiff_t pressing = 0;

@@ -1,5 +1,5 @@
 // A measured loop as a file: comma-separated columns time_s, deflection_mm, force_N, repeat, found by name;
-// others are ignored (decisions 20). A real rig's readings and the simulated rig's are read alike.
+// others are ignored (sources/choices 9). A real rig's readings and the simulated rig's are read alike.
 #pragma once
 
 #include <string>

@@ -136,7 +136,7 @@ ResponseFit fit_response(std::span<const LoopPoint> loop, double limit, double l
 
 double fit_floor(const LoopModel& loop) {
   // Two figures for the softest object that the loop renders stably: the linear theory, and 0.17 of the
-  // hand's stiffness (decisions 2: what simulated presses gave for a softer hand). The larger, and 5 % so
+  // hand's stiffness (sources/ball 5: what simulated presses gave for a softer hand). The larger, and 5 % so
   // that a file is not refused for its last digit.
   constexpr double kShare = 0.17;
   constexpr double kMargin = 1.05;

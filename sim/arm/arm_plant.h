@@ -1,6 +1,6 @@
 // The arm's electronics: encoders that count, a force command that becomes joint torques by J^T F, motors
 // with a peak torque and a winding that gets warm, a watchdog; and the prop's own gimbal and motor.
-// [parameters 1.3]
+// [sources/arm 3]
 #pragma once
 
 #include <array>

@@ -17,7 +17,7 @@ enum class ArmFriction : std::uint8_t {
 struct ArmTruth {
   bool there = false;  // the file has it
   double timestep =
-      0.001;  // s, of MuJoCo. First-order integrators move a wall's stability boundary (fidelity 4)
+      0.001;  // s, of MuJoCo. First-order integrators move a wall's stability boundary (sources/twin 1)
   std::string integrator = "rk4";
   ArmMachine machine;
   double mass_scale = 1.0;  // of all masses and inertias against the machine's: what the rig does not know

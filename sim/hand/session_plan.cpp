@@ -12,7 +12,7 @@ namespace {
 constexpr double kWait = 0.8;     // s before the first reach, at least: the force zero is found meanwhile
 constexpr double kAfter = 0.5;    // s after the last reach
 constexpr double kClear = 0.002;  // m above the surface where a release ends
-constexpr double kTakeUp = 0.15;  // s until the person has answered the touch with force [parameters 5.2]
+constexpr double kTakeUp = 0.15;  // s until the person has answered the touch with force [sources/hand 2]
 constexpr double kCarry = 1.2;    // s, of a tool to the tray or from it
 constexpr double kSwap = 0.8;     // s with an empty hand
 constexpr double kBeside = 0.08;  // m along y of W, from one tool's place on the tray to the other's

@@ -1,7 +1,7 @@
 // The person who holds the tool: plans a press, moves the arm (impedance and its own mass) and, through the
-// grip, the tool. While pressing, the person closes a slow loop on depth (decisions 6). Tremor and drift ride
-// on the plan. [parameters 5] What is pressed is a list of presses at one place, planned here, or drawn
-// (session_plan.h).
+// grip, the tool. While pressing, the person closes a slow loop on depth (sources/hand 3). Tremor and drift
+// ride on the plan. [sources/hand 1, sources/hand 2] What is pressed is a list of presses at one place,
+// planned here, or drawn (session_plan.h).
 #pragma once
 
 #include <array>

@@ -102,7 +102,7 @@ TEST(Shell, AThinShellIsAsStiffAsReissners) {
 
 TEST(Shell, GasStiffensAThinShellAsVellaSays) {
   // Vella et al. 2012, tau > 1: k = 4 pi D / l^2 sqrt(tau^2 - 1) / artanh(sqrt(1 - 1/tau^2))
-  // [parameters 4.2].
+  // [sources/ball 2].
   const sim::BallParameters ball = thin(0.5e-3, 1.5e3);
   const double bending = ball.rubber_modulus * std::pow(ball.wall, 3) / (12.0 * 0.75);
   const double membrane = ball.rubber_modulus * ball.wall;

@@ -151,7 +151,7 @@ TEST(ReportMarkdown, TextDoesNotBreakTheTable) {
   EXPECT_THAT(text, HasSubstr("Table 2, indentation A, release"));
 }
 
-// The form that others read [architecture B8], and what was added to it.
+// The form that others read [sources/choices 4], and what was added to it.
 TEST(ReportJson, KeepsItsForm) {
   const auto json = nlohmann::json::parse(results_json(small_report()));
   EXPECT_EQ(json["seed"], 7);

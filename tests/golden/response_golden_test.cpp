@@ -52,20 +52,20 @@ TEST(ResponseGoldenLong, RegulationBallIsReproduced) {
 }
 
 // What the file says after reading, whichever model is felt: 12 +- 1 N where the true deflection first comes
-// within 0.05 mm of the limit (decisions 6), and accepted with the fit's own floor although its coefficients
-// are rounded.
+// within 0.05 mm of the limit (sources/hand 3), and accepted with the fit's own floor although its
+// coefficients are rounded.
 TEST(ResponseGoldenLong, TennisBallFileIsAcceptedAndTwelveNewton) {
   const ResponseSpec spec = models::load_response(kResponses + "tennis_ball.toml");
   for (const Reversal reversal : {Reversal::energy_stop, Reversal::prandtl_ishlinskii}) {
     const Response ball(spec, floor_of_rig(), reversal);
     EXPECT_EQ(ball.limit(), kLimit);
     EXPECT_NEAR(ball.press(5.95e-3), 12.0, 1.0);
-    EXPECT_GT(ball.largest_gap(), 1.0);  // a loop of about 19 % (parameters 4.4)
+    EXPECT_GT(ball.largest_gap(), 1.0);  // a loop of about 19 % (sources/ball 4)
     EXPECT_LT(ball.largest_gap(), 2.5);
   }
 }
 
-// A regulation ball is four times as hard (parameters 4.3).
+// A regulation ball is four times as hard (sources/ball 3).
 TEST(ResponseGoldenLong, RegulationBallFileIsAcceptedAndFiftyNewton) {
   const ResponseSpec spec = models::load_response(kResponses + "regulation_ball.toml");
   for (const Reversal reversal : {Reversal::energy_stop, Reversal::prandtl_ishlinskii})

@@ -230,7 +230,7 @@ TEST_P(ResponseProperty, DeflectionRisesWithForce) {
   }
 }
 
-// A hand that rests is not still: +-30 um (fidelity C6). The energy stop keeps within 0.2 N wherever it
+// A hand that rests is not still: +-30 um (sources/ball 6). The energy stop keeps within 0.2 N wherever it
 // rests, reached from either side. The stops follow the ball closer where motion turns, and that is stiffer:
 // 0.25 N.
 TEST_P(ResponseProperty, NoiseAtRestStaysSmall) {

@@ -192,7 +192,7 @@ TEST(Shape, FilesAreShort) {
 }
 
 TEST(Shape, FoldersAreSmall) {
-  // core/ is one folder of several subsystems [architecture B2]: data and frames, the stages, models, specs
+  // core/ is one folder of several subsystems [sources/choices 3]: data and frames, the stages, models, specs
   // and record.
   const std::map<std::string, std::size_t> limits{{"core", 60}, {"models", 54}, {"sim", 44}, {"app", 28}};
   std::map<std::string, std::size_t> files;

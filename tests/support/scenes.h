@@ -14,7 +14,7 @@ namespace enc::test {
 
 // Linear spring, press and release alike.
 [[nodiscard]] BehaviourSpec spring(double stiffness = 2000.0, double limit = 0.006);
-// Near S-nominal of parameters.md 4.4: press 0.4 d + 1.07 d^2 - 0.22 d^3 + 0.0152 d^4 (N, mm), release 0.8 of
+// Near S-nominal of sources/ball 5: press 0.4 d + 1.07 d^2 - 0.22 d^3 + 0.0152 d^4 (N, mm), release 0.8 of
 // it.
 [[nodiscard]] BehaviourSpec lossy_ball();
 

@@ -60,7 +60,7 @@ TEST(ArmPlant, MakesTorqueOfForce) {
   EXPECT_FALSE(b.plant.state().clipped);
 }
 
-// 0.129 N m times 7.47 over 0.1397 m: 6.90 N upwards is all there is, as parameters 1.5 says.
+// 0.129 N m times 7.47 over 0.1397 m: 6.90 N upwards is all there is, as sources/arm 5 says.
 TEST(ArmPlant, ClipsAtTheMotorsPeak) {
   Bench b;
   b.push({0, 0, 20});

@@ -1,4 +1,4 @@
-// The arm against numbers worked by hand and those printed in parameters.md 1.4 and 1.5.
+// The arm against numbers worked by hand and those printed in sources/arm 4 and sources/arm 5.
 #include "core/arm/arm.h"
 
 #include <array>
@@ -13,9 +13,9 @@ namespace enc {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr double kStall = 0.129, kContinuous = 0.0286;  // of a motor, N m (parameters 1.3)
+constexpr double kStall = 0.129, kContinuous = 0.0286;  // of a motor, N m (sources/arm 3)
 
-// The model 1.5, whose numbers are published (parameters 1.2, 1.3: Cavusoglu's set).
+// The model 1.5, whose numbers are published (sources/arm 2, sources/arm 3: Cavusoglu's set).
 ArmMachine model_15() {
   ArmMachine m;
   m.phantom = {.l1 = 0.215,
@@ -66,7 +66,7 @@ TEST(Phantom, AtZeroTheForearmHangsFromTheLevelUpperArm) {
 
 TEST(Phantom, HasTheForcesOfItsMotors) {
   const Arm arm{ArmMachine{}};
-  // x: 0.129 * 7.47 / 0.1130; y: 0.129 * 8.87 / 0.1397; z: 0.129 * 7.47 / 0.1397; parameters 1.5.
+  // x: 0.129 * 7.47 / 0.1130; y: 0.129 * 8.87 / 0.1397; z: 0.129 * 7.47 / 0.1397; sources/arm 5.
   EXPECT_LT((push(arm, kStall) - Vec3(8.528, 8.191, 6.898)).cwiseAbs().maxCoeff(), 0.001);
   EXPECT_LT((push(arm, kStall) - Vec3(8.52, 8.19, 6.89)).cwiseAbs().maxCoeff(), 0.01);
   EXPECT_LT((push(arm, kContinuous) - Vec3(1.89, 1.82, 1.53)).cwiseAbs().maxCoeff(), 0.005);

@@ -46,7 +46,7 @@ TEST_F(Assemble, SlotsAreThoseThatTheSceneNames) {
   EXPECT_TRUE(real.real);
 }
 
-// decisions 43: what a simulated machine only says, a real one does not begin.
+// sources/choices 15: what a simulated machine only says, a real one does not begin.
 TEST_F(Assemble, AnArmedMachineIsNotGivenWhatItCannotHoldStill) {
   models::Setup soft = scene("stiffness", {"behaviour.spring.stiffness_N_per_mm=0.15"});
   soft.rig.manipulator.driver = soft.rig.force.driver = "sample";

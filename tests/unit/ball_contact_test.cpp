@@ -1,4 +1,4 @@
-// The real ball under the probe: figures of parameters.md 4.4.
+// The real ball under the probe: figures of sources/ball 4.
 #include "sim/ball_contact.h"
 
 #include <cmath>

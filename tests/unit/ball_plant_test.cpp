@@ -1,4 +1,4 @@
-// Figures of parameters.md 4.4.
+// Figures of sources/ball 4.
 #include "sim/ball_plant.h"
 
 #include <algorithm>

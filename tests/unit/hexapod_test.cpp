@@ -1,4 +1,4 @@
-// The geometry of parameters.md 2.2, against the numbers printed there.
+// The geometry of sources/hexapod 2, against the numbers printed there.
 #include "core/hexapod.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace enc {
 namespace {
 
-// The set of parameters 2.2, for which that page prints joints, excursions and travels.
+// The set of sources/hexapod 2, for which that page prints joints, excursions and travels.
 HexapodGeometry published() {
   HexapodGeometry g;
   g.base_radius = 0.140;
@@ -141,7 +141,7 @@ TEST(Hexapod, ConditionAtZeroIs425AboutThePivot) {
   geometry.tip_height = 0.030;  // H at the pivot
   const Hexapod machine{geometry};
   Hexapod::Jacobian J = machine.jacobian(machine.zero());
-  J.rightCols<3>() /= 0.100;  // rad per 100 mm, as parameters.md 2.3
+  J.rightCols<3>() /= 0.100;  // rad per 100 mm, as sources/hexapod 3
   const auto s = Eigen::JacobiSVD<Hexapod::Jacobian>(J).singularValues().eval();
   EXPECT_NEAR(s(0) / s(5), 4.25, 0.01);
   const std::array<double, 6> printed{2.28, 1.51, 1.51, 0.71, 0.54, 0.54};
@@ -157,7 +157,7 @@ TEST(Hexapod, ForwardSaysWhenThereIsNoAnswer) {
 }
 
 TEST(Hexapod, OwnGeometryReachesEveryCatalogueTravel) {
-  // parameters 2.1: X, Y +-50 mm, Z +-25 mm, tilts +-15 deg, yaw +-30 deg, each alone from zero, about the
+  // sources/hexapod 1: X, Y +-50 mm, Z +-25 mm, tilts +-15 deg, yaw +-30 deg, each alone from zero, about the
   // catalogue's pivot.
   const Hexapod machine{HexapodGeometry{}};
   const Vec3 pivot(0, 0, -(machine.geometry().tip_height - 0.030));  // in H

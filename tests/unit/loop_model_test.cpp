@@ -43,8 +43,8 @@ TEST(LoopModel, ScalesWithAPureSpringHand) {
   }
 }
 
-// fidelity.md 1, baseline: k_h 130 N/m, b_h 2.2 N s/m, f_s 15 Hz, zeta 0.8, n_d 4 cycles (+1), f_c 5 Hz ->
-// 0.022 N/mm.
+// sources/hexapod 5, baseline: k_h 130 N/m, b_h 2.2 N s/m, f_s 15 Hz, zeta 0.8, n_d 4 cycles (+1), f_c 5 Hz
+// -> 0.022 N/mm.
 TEST(LoopModel, GivesTheLinearBoundaryOfTheFidelityBaseline) {
   const LoopModel loop{.hand_stiffness = 130.0,
                        .hand_damping = 2.2,

@@ -121,8 +121,8 @@ TEST(Response, RefusesAFallingCurveAndNamesTheInterval) {
   EXPECT_THAT(refusal(spec), AllOf(HasSubstr("release curve falls"), HasSubstr("from 1.002 to 1.998")));
 }
 
-// The unconstrained polynomials printed in parameters.md 4.4 (their constants left out): the release slope
-// -0.6128 + 3.0338 d - 1.0848 d^2 + 0.1204 d^3 is 0 at 0.2187 mm (decisions 2).
+// The unconstrained polynomials printed in sources/ball 5 (their constants left out): the release slope
+// -0.6128 + 3.0338 d - 1.0848 d^2 + 0.1204 d^3 is 0 at 0.2187 mm (sources/ball 5).
 TEST(Response, RefusesThePolynomialsPrintedForTheBall) {
   const ResponseSpec spec{.press = per_mm({0.3767, 1.0669, -0.2232, 0.0152}),
                           .release = per_mm({-0.6128, 1.5169, -0.3616, 0.0301}),

@@ -482,7 +482,7 @@ TEST(TrialPress, TheLimitIsHeldUnderThirtyNewton) {
 
 // The ball dented by the true tool, as a mesh: rings of points around the tool's axis, each pushed radially
 // inwards along a raised cosine of the width that a thin ball dimples over, tip radius + sqrt(R depth)
-// [parameters 4.2], and further where it would still be inside the tool's tip. It passes through the tool's
+// [sources/ball 2], and further where it would still be inside the tool's tip. It passes through the tool's
 // lowest point. Made from the truth and nothing of dent.h.
 class DentedBall {
  public:

@@ -8,7 +8,7 @@
 namespace enc::trial {
 namespace {
 
-constexpr double kNearLimit = 0.05e-3;  // m (decisions 6)
+constexpr double kNearLimit = 0.05e-3;  // m (sources/hand 3)
 
 }  // namespace
 

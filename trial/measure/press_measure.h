@@ -24,7 +24,7 @@ struct PressFigures {
   double peak_deflection = 0.0;       // m, true, of the haptic-tip's outermost point
   double over_limit = -kInfinite;     // m: the largest of true deflection less the object's limit
   double force_at_limit =
-      kUnset;  // N, when the true deflection first reaches the limit - 0.05 mm (decisions 6)
+      kUnset;  // N, when the true deflection first reaches the limit - 0.05 mm (sources/hand 3)
   double restore_error =
       kUnset;  // m: true tip to the buffered first-touch point, when the core calls it restored
   std::int32_t contacts = 0;  // contact events of the core
