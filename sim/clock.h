@@ -15,7 +15,7 @@ enum class Late : std::uint8_t {
   wait,  // nothing is lost: experiment time goes on where it was, later. For what is simulated alone: a tick
          // happens at another moment and is the same
   skip   // they are lost, and missed() says how many: experiment time is that of the devices (sources/choices
-        // 6). What is simulated beside them follows
+         // 6). What is simulated beside them follows
 };
 
 class Paced final : public Clock {
