@@ -1,5 +1,5 @@
 // What an arm's motors give: for a moment their peak, for ever what their windings bear. Between the two the
-// law folds back smoothly as a winding warms up, before the device's own protection cuts in.
+// law folds back smoothly as a winding warms up; so the force keeps its direction.
 #pragma once
 
 #include "core/arm/arm_rig.h"
