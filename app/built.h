@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/scene_file.h"
 
 namespace enc::app {

@@ -5,9 +5,9 @@
 
 #include "app/built.h"
 #include "app/options.h"
-#include "core/arm/arm_scene.h"
-#include "core/guard/room.h"
-#include "core/steadiness.h"
+#include "core/machine/steadiness.h"
+#include "core/safety/room.h"
+#include "core/task/meet/arm_scene.h"
 #include "trial/limits.h"
 #include "trial/prepare.h"
 

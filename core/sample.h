@@ -4,10 +4,10 @@
 #include <array>
 #include <cstdint>
 
-#include "core/arm/arm.h"
 #include "core/frames.h"
+#include "core/machine/arm.h"
 #include "core/time.h"
-#include "core/tip.h"
+#include "core/world/tip.h"
 
 namespace enc {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "core/arm/guide.h"
-#include "core/fuse.h"
 #include "core/rotation.h"
-#include "core/stages.h"
+#include "core/task/meet/guide.h"
+#include "core/task/walk.h"
+#include "core/track/fuse.h"
 
 namespace enc {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <type_traits>
 
-#include "core/arm/impedance.h"
-#include "core/guard/following.h"
-#include "core/predict.h"
-#include "core/response.h"
-#include "core/scene.h"
+#include "core/response/response.h"
+#include "core/safety/following.h"
 #include "core/signals.h"
+#include "core/task/meet/impedance.h"
+#include "core/track/predict.h"
+#include "core/world/scene.h"
 
 namespace enc {
 

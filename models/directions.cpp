@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "core/error.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/files.h"
 #include "models/least_squares.h"
 #include "models/schema.h"

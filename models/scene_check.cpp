@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/contact_limits.h"
 #include "core/error.h"
-#include "core/probe.h"
+#include "core/task/measure/probe.h"
+#include "core/world/contact_limits.h"
 #include "models/scene_file.h"
 #include "models/units.h"
 #include "models/wording.h"

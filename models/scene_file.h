@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/record/record.h"
-#include "core/rig_spec.h"
-#include "core/scene_spec.h"
+#include "core/world/rig_spec.h"
+#include "core/world/scene_spec.h"
 #include "models/response_file.h"
 #include "models/toml_reader.h"
 #include "sim/twin_spec.h"

@@ -13,8 +13,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/rig_spec.h"
-#include "core/scene_spec.h"
+#include "core/world/rig_spec.h"
+#include "core/world/scene_spec.h"
 #include "models/response_file.h"
 #include "sim/twin_spec.h"
 

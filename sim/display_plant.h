@@ -5,8 +5,8 @@
 #include <array>
 
 #include "core/sample.h"
-#include "core/scene.h"
 #include "core/view.h"
+#include "core/world/scene.h"
 #include "sim/random.h"
 #include "sim/twin_spec.h"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/reach.h"
+#include "core/machine/reach.h"
 #include "core/sample.h"
 #include "sim/random.h"
 #include "sim/twin_spec.h"

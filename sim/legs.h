@@ -3,7 +3,7 @@
 // sags, vibrates and loads its legs; the servo in front (hexapod_plant.h) stays. [sources/twin 1]
 #pragma once
 
-#include "core/hexapod.h"
+#include "core/machine/hexapod.h"
 #include "sim/mujoco.h"
 #include "sim/twin_spec.h"
 

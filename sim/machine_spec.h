@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/hexapod.h"
+#include "core/machine/hexapod.h"
 
 namespace enc::sim {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "sim/mujoco.h"
 #include "sim/twin_spec.h"
 

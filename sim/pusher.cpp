@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/minimum_jerk.h"
+#include "core/track/minimum_jerk.h"
 
 namespace enc::sim {
 namespace {

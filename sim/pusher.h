@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "sim/random.h"
 #include "sim/truth.h"
 #include "sim/twin_spec.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "sim/mujoco.h"
 
 namespace enc::sim {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/arm/arm.h"
 #include "core/frames.h"
+#include "core/machine/arm.h"
 #include "core/time.h"
 
 namespace enc::sim {

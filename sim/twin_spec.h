@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/rig_spec.h"
+#include "core/world/rig_spec.h"
 #include "sim/arm/arm_spec.h"
 #include "sim/machine_spec.h"
 #include "sim/sensor_spec.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "sim/twin_spec.h"
 
 namespace enc::sim {

@@ -1,8 +1,8 @@
 // The core alone under a finger that goes where it is told: no physics, no noise, an arm that stays at home.
 #pragma once
 
-#include "core/scene.h"
 #include "core/step.h"
+#include "core/world/scene.h"
 
 namespace enc::trial {
 

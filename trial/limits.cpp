@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/steadiness.h"
+#include "core/machine/steadiness.h"
 
 namespace enc::trial {
 namespace {

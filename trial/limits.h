@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/scene_file.h"
 
 namespace enc::trial {
 
-// An object that would not stand still under the hand that the rig expects (core/steadiness.h).
+// An object that would not stand still under the hand that the rig expects (core/machine/steadiness.h).
 struct Unsteady {
   std::string object;
   double depth = 0.0, swing = 0.0;  // m: pushed so deep it swings so far, peak to peak
@@ -24,7 +24,7 @@ struct Unsteady {
 struct ArmStrength {
   std::string object;
   double peak = 0.0, lasting = 0.0;  // N, along the normal: for a moment and for ever, as the rig believes
-  double stiffest = 0.0;             // N/m: stiffer the law rings (core/arm/impedance.h)
+  double stiffest = 0.0;             // N/m: stiffer the law rings (core/task/meet/impedance.h)
   double stiffness = kUnset;         // N/m, the most that the object asks for
   double asked = kUnset;             // N, of the user's press; unset: nobody presses it to a depth
   double asked_for = 0.0;            // s

@@ -1,7 +1,7 @@
 // What step() needs of a set-up: all that a command asks for that moves nothing.
 #pragma once
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/scene_file.h"
 
 namespace enc::trial {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/probe.h"
-#include "core/travel.h"
+#include "core/task/carry/travel.h"
+#include "core/task/measure/probe.h"
 #include "sim/clock.h"
 #include "trial/limits.h"
 #include "trial/prepare.h"

@@ -6,7 +6,7 @@
 
 #include "app/fit/commands.h"
 #include "core/error.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/csv_reader.h"
 #include "models/files.h"
 #include "models/fit/loop_fit.h"

@@ -10,7 +10,7 @@
 
 #include "benchmarks/deformation/deformation_full.h"
 #include "benchmarks/kit/parallel.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/scene_file.h"
 
 namespace enc::bench::deformation {

@@ -12,7 +12,7 @@
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/statistics.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/scene_file.h"
 #include "models/shapes/shapes.h"
 

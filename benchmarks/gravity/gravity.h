@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "benchmarks/kit/bench.h"
-#include "core/arm/arm.h"
+#include "core/machine/arm.h"
 #include "models/scene_file.h"
 
 namespace enc::bench::gravity {

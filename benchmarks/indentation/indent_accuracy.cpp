@@ -7,7 +7,7 @@
 
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/stiffness/push_study.h"
-#include "core/loop_model.h"
+#include "core/machine/loop_model.h"
 #include "trial/trial.h"
 
 namespace enc::bench::indentation {
@@ -66,7 +66,8 @@ void add_price(const IndentStudy& study, const std::vector<Cell>& standard, cons
       {"devices", "largest RMSE of a consistent cell over the paper's", "lowest stable against a grip (N/mm)",
        "against a soft pusher (N/mm)", "tip at rest, peak to peak (um)", "force at rest, peak to peak (N)"},
       {},
-      "Lowest stable stiffness of the linear loop (core/loop_model.h); at rest: held at 3 mm by a hand "
+      "Lowest stable stiffness of the linear loop (core/machine/loop_model.h); at rest: held at 3 mm by a "
+      "hand "
       "without "
       "tremor, force before the filter."};
   for (const auto& [name, set, cells] :

@@ -8,7 +8,7 @@
 
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/kit/parallel.h"
-#include "core/probe.h"
+#include "core/task/measure/probe.h"
 #include "models/directions.h"
 #include "models/fit/loop_csv.h"
 #include "sim/ball_plant.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/parallel.h"
-#include "core/stages.h"
+#include "core/task/walk.h"
 #include "sim/random.h"
 #include "trial/trial.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/response.h"
+#include "core/response/response.h"
 #include "models/scene_file.h"
 
 namespace enc::bench::indentation {

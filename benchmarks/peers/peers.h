@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "core/arm/arm.h"
+#include "core/machine/arm.h"
 #include "core/mesh/mesh.h"
 
 namespace enc::bench {

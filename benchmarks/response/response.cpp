@@ -1,7 +1,7 @@
 // How well a response says what a ball does where the direction changes: both models, fitted to one full loop
 // alone, against the plant on minor loops; and what an admittance needs of them: no jump, no free energy,
 // little force for a tremor. Nothing here runs in a world: it is the model alone.
-#include "core/response.h"
+#include "core/response/response.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/bench.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/fit/loop_fit.h"
 #include "models/scene_file.h"
 #include "sim/ball_plant.h"

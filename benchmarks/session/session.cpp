@@ -11,7 +11,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/kit/work_precision.h"
 #include "core/mode.h"
-#include "core/stages.h"
+#include "core/task/walk.h"
 
 namespace enc::bench::session {
 namespace {

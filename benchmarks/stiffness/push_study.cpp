@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "benchmarks/kit/parallel.h"
-#include "core/stages.h"
+#include "core/task/walk.h"
 #include "trial/trial.h"
 
 namespace enc::bench::stiffness {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/loop_model.h"
+#include "core/machine/loop_model.h"
 #include "models/scene_file.h"
 
 namespace enc::bench::stiffness {

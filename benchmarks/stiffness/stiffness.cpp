@@ -169,9 +169,9 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
     if (map.unstable_share(k) == 0.0 && std::isnan(boundary.most)) boundary.most = k / kPerMm;
   }
   result.figures.push_back(std::move(boundary));
-  result.figures.push_back({"stiffness.linear.lowest_stable_N_per_mm", kUnset, linear / kPerMm, "N/mm",
-                            Role::ours, kUnset, kUnset,
-                            "of the loop without limits of speed and acceleration (core/loop_model.h)"});
+  result.figures.push_back(
+      {"stiffness.linear.lowest_stable_N_per_mm", kUnset, linear / kPerMm, "N/mm", Role::ours, kUnset, kUnset,
+       "of the loop without limits of speed and acceleration (core/machine/loop_model.h)"});
   Plot plot{"stiffness_instability",
             "Which stiffness makes the machine unstable",
             "commanded stiffness, N/mm",

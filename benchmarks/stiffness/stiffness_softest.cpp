@@ -1,5 +1,5 @@
-// How soft an object this machine holds still: what `check` says beforehand (core/steadiness.h) against the
-// twin, over hands, filters and machines.
+// How soft an object this machine holds still: what `check` says beforehand (core/machine/steadiness.h)
+// against the twin, over hands, filters and machines.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/stiffness/stiffness.h"
-#include "core/steadiness.h"
+#include "core/machine/steadiness.h"
 
 namespace enc::bench::stiffness {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 
 namespace enc::bench::switching {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/minimum_jerk.h"
+#include "core/track/minimum_jerk.h"
 #include "sim/random.h"
 
 namespace enc::bench::tracking {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmarks/tracking/motion.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "models/scene_file.h"
 
 namespace enc::bench::tracking {

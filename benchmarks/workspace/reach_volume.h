@@ -2,7 +2,7 @@
 // with all turns that the machine allows.
 #pragma once
 
-#include "core/hexapod.h"
+#include "core/machine/hexapod.h"
 
 namespace enc::bench::workspace {
 

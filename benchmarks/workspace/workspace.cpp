@@ -10,7 +10,7 @@
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/workspace/reach_volume.h"
-#include "core/press_check.h"
+#include "core/world/press_check.h"
 #include "models/scene_file.h"
 
 namespace enc::bench::workspace {

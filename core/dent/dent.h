@@ -14,7 +14,7 @@
 
 #include "core/mesh/mesh.h"
 #include "core/sample.h"
-#include "core/surface.h"
+#include "core/world/surface.h"
 
 namespace enc {
 

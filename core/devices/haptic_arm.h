@@ -1,7 +1,7 @@
 // A force-controlled arm that carries a prop to where a finger will touch: the PHANToM [VisHap 2.3].
 #pragma once
 
-#include "core/arm/arm_rig.h"
+#include "core/machine/arm_rig.h"
 #include "core/sample.h"
 
 namespace enc {

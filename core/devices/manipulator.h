@@ -1,7 +1,7 @@
 // A position-controlled machine that carries the haptic-tip: the hexapod [VHMR 2].
 #pragma once
 
-#include "core/reach.h"
+#include "core/machine/reach.h"
 #include "core/sample.h"
 
 namespace enc {

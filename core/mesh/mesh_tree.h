@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/mesh/mesh.h"
-#include "core/surface.h"
+#include "core/world/surface.h"
 
 namespace enc {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/record/record.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 
 namespace enc {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/loop_model.h"
-#include "core/response.h"
+#include "core/machine/loop_model.h"
+#include "core/response/response.h"
 #include "models/least_squares.h"
 
 namespace enc::models {

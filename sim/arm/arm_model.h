@@ -6,8 +6,8 @@
 #include <array>
 #include <optional>
 
-#include "core/arm/arm.h"
-#include "core/scene_spec.h"
+#include "core/machine/arm.h"
+#include "core/world/scene_spec.h"
 #include "sim/arm/arm_spec.h"
 #include "sim/mujoco.h"
 

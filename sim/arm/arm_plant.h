@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/arm/motors.h"
+#include "core/machine/motors.h"
 #include "core/sample.h"
 #include "sim/arm/arm_spec.h"
 

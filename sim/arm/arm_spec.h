@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/arm/arm_rig.h"
+#include "core/machine/arm_rig.h"
 
 namespace enc::sim {
 

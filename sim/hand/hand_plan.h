@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/frames.h"
-#include "core/minimum_jerk.h"
+#include "core/track/minimum_jerk.h"
 
 namespace enc::sim {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/press_check.h"
+#include "core/world/press_check.h"
 
 namespace enc::sim {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "sim/random.h"
 
 namespace enc::sim {

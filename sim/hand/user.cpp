@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/minimum_jerk.h"
 #include "core/rotation.h"
+#include "core/track/minimum_jerk.h"
 
 namespace enc::sim {
 namespace {

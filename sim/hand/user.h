@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "sim/hand/hand_plan.h"
 #include "sim/hand/session_plan.h"
 #include "sim/random.h"

@@ -1,5 +1,5 @@
 // What of the machine is in the way of a tool, worked by hand; and where the tip gets.
-#include "core/press_check.h"
+#include "core/world/press_check.h"
 
 #include <cmath>
 #include <string>

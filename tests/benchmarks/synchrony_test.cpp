@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/synchrony/lag.h"
-#include "core/contact_limits.h"
-#include "core/fuse.h"
+#include "core/track/fuse.h"
+#include "core/world/contact_limits.h"
 #include "sim/display_plant.h"
 #include "tests/support/scenes.h"
 

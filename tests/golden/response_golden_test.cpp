@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/response.h"
-#include "core/scene.h"
+#include "core/response/response.h"
+#include "core/world/scene.h"
 #include "models/fit/loop_fit.h"
 #include "models/response_file.h"
 #include "models/scene_file.h"

@@ -9,8 +9,8 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/arm/arm.h"
-#include "core/scene_spec.h"
+#include "core/machine/arm.h"
+#include "core/world/scene_spec.h"
 #include "sim/arm/arm_model.h"
 #include "sim/mujoco.h"
 

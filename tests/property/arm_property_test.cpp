@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "core/arm/arm.h"
+#include "core/machine/arm.h"
 
 namespace enc {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/response.h"
-#include "core/scene.h"
+#include "core/response/response.h"
+#include "core/world/scene.h"
 #include "models/directions.h"
 #include "models/fit/response_fit.h"
 #include "models/scene_file.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/hexapod.h"
+#include "core/machine/hexapod.h"
 
 namespace enc {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/predict.h"
+#include "core/track/predict.h"
 
 namespace enc {
 namespace {

@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "core/record/fields.h"
-#include "core/rig_spec.h"
-#include "core/scene.h"
-#include "core/scene_spec.h"
 #include "core/step.h"
+#include "core/world/rig_spec.h"
+#include "core/world/scene.h"
+#include "core/world/scene_spec.h"
 
 namespace enc::test {
 

@@ -1,5 +1,5 @@
 // The arm against numbers worked by hand and those printed in sources/arm 4 and sources/arm 5.
-#include "core/arm/arm.h"
+#include "core/machine/arm.h"
 
 #include <array>
 #include <cmath>

@@ -1,12 +1,12 @@
 // The damper beside a rendered object: its law worked by hand, what it sees, and how it forgets.
-#include "core/damping.h"
+#include "core/machine/damping.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "core/loop_model.h"
+#include "core/machine/loop_model.h"
 
 namespace enc {
 namespace {

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/arm/guide.h"
 #include "core/error.h"
+#include "core/task/meet/guide.h"
 #include "trial/guided/registration_rig.h"
 #include "trial/trial.h"
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/guard/inside.h"
-#include "core/guard/room.h"
+#include "core/safety/inside.h"
+#include "core/safety/room.h"
 #include "models/shapes/hare.h"
 #include "tests/support/scenes.h"
 #include "trial/trial.h"

@@ -1,6 +1,6 @@
 // A machine that does not do what it is told is found out, and one that is only slower than the rig says is
 // not.
-#include "core/guard/following.h"
+#include "core/safety/following.h"
 
 #include <algorithm>
 #include <functional>

@@ -8,8 +8,8 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "core/rig_spec.h"
-#include "core/scene.h"
+#include "core/world/rig_spec.h"
+#include "core/world/scene.h"
 
 namespace enc {
 namespace {

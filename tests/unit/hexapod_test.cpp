@@ -1,5 +1,5 @@
 // The geometry of sources/hexapod 2, against the numbers printed there.
-#include "core/hexapod.h"
+#include "core/machine/hexapod.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // The control law of an arm, piece by piece [VisHap eq. 2, 3, 6, 7; Fig 4].
-#include "core/arm/impedance.h"
+#include "core/task/meet/impedance.h"
 
 #include <complex>
 #include <numbers>

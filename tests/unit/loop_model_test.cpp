@@ -1,4 +1,4 @@
-#include "core/loop_model.h"
+#include "core/machine/loop_model.h"
 
 #include <gtest/gtest.h>
 

@@ -139,7 +139,7 @@ TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
        "Vec<'F'> pull;");  // far inside: module.h, rig.h, devices, sample.h
   const std::string other = hash();
   EXPECT_NE(other, before);
-  edit("core/reach.h", "double speed = kUnset;", "float speed = kUnset;");
+  edit("core/machine/reach.h", "double speed = kUnset;", "float speed = kUnset;");
   EXPECT_NE(hash(), other);
 }
 

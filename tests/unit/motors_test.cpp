@@ -1,12 +1,12 @@
 // What the motors of an arm give, against the simulated ones.
-#include "core/arm/motors.h"
+#include "core/machine/motors.h"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "core/arm/impedance.h"
+#include "core/task/meet/impedance.h"
 #include "sim/arm/arm_plant.h"
 
 namespace enc {

@@ -1,6 +1,6 @@
 // Objects that a finger moves, with a finger whose way is given: restitution, momentum, tiles, a surface that
 // runs.
-#include "core/arm/moving.h"
+#include "core/task/push/moving.h"
 
 #include <cmath>
 

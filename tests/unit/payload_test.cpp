@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/mode.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 #include "tests/support/scenes.h"
 
 namespace enc {

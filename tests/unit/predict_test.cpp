@@ -1,6 +1,6 @@
 // The prediction of the tool's tip: the filter against matrices and against gains worked by hand, its limits,
 // and what it makes of late, repeated, lost and impossible poses.
-#include "core/predict.h"
+#include "core/track/predict.h"
 
 #include <algorithm>
 #include <cmath>

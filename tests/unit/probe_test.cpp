@@ -1,5 +1,5 @@
 // The programme of the test rig, driven by hand: a machine that is where it was told to be.
-#include "core/probe.h"
+#include "core/task/measure/probe.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/response.h"
+#include "core/response/response.h"
 
 #include <array>
 #include <limits>

@@ -1,5 +1,5 @@
 // prepare(): what is made ready, and what is refused before anything moves.
-#include "core/scene.h"
+#include "core/world/scene.h"
 
 #include <sstream>
 

@@ -1,10 +1,10 @@
 // Whether an object stands still under a hand, of the loop with its limits.
-#include "core/steadiness.h"
+#include "core/machine/steadiness.h"
 
 #include <gtest/gtest.h>
 
-#include "core/rig_spec.h"
-#include "core/scene.h"
+#include "core/world/rig_spec.h"
+#include "core/world/scene.h"
 
 namespace enc {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/dent/dent.h"
-#include "core/stages.h"
+#include "core/task/walk.h"
 #include "tests/support/scenes.h"
 
 // This test program counts its allocations.

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/response.h"
+#include "core/response/response.h"
 
 namespace enc {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/surface.h"
+#include "core/world/surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The travel programme, driven by hand: a machine that is where it was told to be.
-#include "core/travel.h"
+#include "core/task/carry/travel.h"
 
 #include <gtest/gtest.h>
 

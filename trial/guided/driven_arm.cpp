@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "core/arm/guide.h"
 #include "core/error.h"
 #include "core/mode.h"
+#include "core/task/meet/guide.h"
 
 namespace enc::trial {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/arm/arm.h"
+#include "core/machine/arm.h"
 #include "sim/arm/arm_spec.h"
 #include "sim/stereo_noise.h"
 #include "trial/fit/point_set.h"

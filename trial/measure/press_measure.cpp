@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/stages.h"
+#include "core/task/walk.h"
 
 namespace enc::trial {
 namespace {

@@ -1,0 +1,38 @@
+// Where the tracked tool's tip is now: its poses are old when they come, so the tip's way is filtered and
+// extrapolated. Kalman filter on the tip's position in W, taken at the exposure stamps [sources/tracking 4].
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/frames.h"
+#include "core/time.h"
+#include "core/world/rig_spec.h"
+
+namespace enc {
+
+// What the filter knows of the tip at the newest exposure. The three axes have the same noise, so they share
+// one covariance: of position, velocity and acceleration along an axis, m, s.
+struct TipMotion {
+  std::int32_t tool = -1;  // -1: nothing is known
+  Time t{};
+  Point<'W'> position;
+  Vec<'W'> velocity, acceleration;
+  double xx = 0.0, xv = 0.0, xa = 0.0, vv = 0.0, va = 0.0, aa = 0.0;
+};
+
+// When a pose with this stamp was exposed, as the rig believes.
+[[nodiscard]] inline Time exposed(const TrackerRig& rig, Time stamp) {
+  return stamp - from_seconds(rig.stamp_late);
+}
+
+// Takes in the tip's position, exposed at `t`, which is later than any before. After a drop-out the belief is
+// at once where the data are: safety reads it, and it is the command that is smoothed (sources/choices 13).
+// `calm`: the tip lies on something, so that what looks like a surprise is noise.
+void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
+             bool calm = false) noexcept;
+
+// Where the tip is `now`.
+[[nodiscard]] Point<'W'> predict(const TrackerRig& rig, const TipMotion& motion, Time now) noexcept;
+
+}  // namespace enc
