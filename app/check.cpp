@@ -67,7 +67,7 @@ std::string limits(const models::Setup& setup, const Scene& scene) {
 // An arm has no deflection limit: it pushes with what it has.
 std::string arm_limits(const models::Setup& setup, const Scene& scene) {
   constexpr std::array<const char*, 7> kKinds{"press", "slide", "click", "passive", "hit", "shift", "spin"};
-  const Impedance& law = *scene.impedance;
+  const Impedance& law = *scene.impedance();
   std::string text;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
@@ -107,7 +107,7 @@ int check(const SceneOptions& options) {
   fmt::print("{}\n{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n{}\nresolved scene\n{}",
              setup.scene.title, parts_text(setup), questionnaire_text(setup), frame_graph(scene),
              chain_residual(setup.scene, setup.rig, scene),
-             scene.impedance ? arm_limits(setup, scene) : limits(setup, scene), models::resolved(setup));
+             scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene), models::resolved(setup));
   return 0;
 }
 

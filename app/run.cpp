@@ -56,8 +56,9 @@ struct Recording {
   models::OutFile file;
   RecordWriter writer;
 
-  Recording(const RunOptions& options, const RecordTexts& texts)
-      : file(options.record, models::existing(options.force)), writer(file.aside(), texts) {
+  Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene)
+      : file(options.record, models::existing(options.force)),
+        writer(file.aside(), texts, layout_hash(scene)) {
     file.spare();  // what a run that does not end has recorded is readable
   }
   void end() {
@@ -66,7 +67,8 @@ struct Recording {
   }
 };
 
-std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup) {
+std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup,
+                                      const Scene& scene) {
   if (options.record.empty()) return nullptr;
   for (const std::string& path : {options.record, options.record + ".part"}) refuse_output(path);
   RecordTexts texts = models::record_texts(setup);
@@ -74,7 +76,7 @@ std::unique_ptr<Recording> record_for(const RunOptions& options, const models::S
   texts["rig"] = setup.rig_path;
   texts["seed"] = std::to_string(options.seed);
   texts["version"] = ENCOUNTER_VERSION;
-  return std::make_unique<Recording>(options, texts);
+  return std::make_unique<Recording>(options, texts, scene);
 }
 
 int diverged(const trial::TrialResult& result, const models::Setup& setup) {
@@ -111,7 +113,7 @@ int run(const RunOptions& options) {
   if (terminal) trial_options.progress = show_progress;
   trial::Trial trial(
       setup, trial_options);  // everything that can be refused is refused here, before a record is begun
-  const std::unique_ptr<Recording> record = record_for(options, setup);
+  const std::unique_ptr<Recording> record = record_for(options, setup, trial.scene());
   print_notes(setup.notes);  // of a scene that is not refused
   trial.record_to(record ? &record->writer : nullptr);
   const double started = cpu_seconds();

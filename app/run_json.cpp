@@ -86,16 +86,16 @@ std::string run_json(const RunReport& r) {
   json["holds"] = Json::array();
   for (const auto& [t, why] : r.result.holds)
     json["holds"].push_back({{"time_s", seconds(t.time_since_epoch())}, {"why", why_text(why)}});
-  if (r.scene.impedance)
+  if (r.scene.impedance())
     json["meetings"] = meetings_json(r.fingers);
   else
     json["presses"] = presses_json(r.presses);
-  if (r.scene.probe) {
+  if (r.scene.probe()) {
     json["pushes"] = pushes_json(r.pushes);
     json["repeats_within_N"] = number(r.pushes.spread());
     json["force_error_N"] = number(r.pushes.force_error());
   }
-  if (!r.scene.impedance) press_figures(json, r.presses);
+  if (!r.scene.impedance()) press_figures(json, r.presses);
   const StepTimes times = step_times(r.result.step_ns);
   json["step_ns"] = {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
   json["simulated_s"] = r.result.simulated;

@@ -52,7 +52,7 @@ std::string range_text(const std::vector<trial::PressFigures>& presses) {
 }
 
 std::string press_lines(const RunReport& r) {
-  if (r.scene.impedance) return "";
+  if (r.scene.impedance()) return "";
   const auto& presses = r.presses.presses();
   const auto met = [](const trial::PressFigures& p) { return !std::isnan(p.miss); };
   if (std::none_of(presses.begin(), presses.end(), met)) return "";
@@ -101,11 +101,11 @@ std::string each_push(const std::vector<trial::PushFigures>& pushes, const F& fi
 }
 
 std::string push_lines(const RunReport& r) {
-  if (!r.scene.probe) return "";
+  if (!r.scene.probe()) return "";
   const auto& pushes = r.pushes.pushes();
   std::string text =
-      fmt::format("pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(), r.scene.probe->repeats,
-                  r.scene.probe->depth * 1e3, r.scene.probe->speed * 1e3);
+      fmt::format("pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(),
+                  r.scene.probe()->repeats, r.scene.probe()->depth * 1e3, r.scene.probe()->speed * 1e3);
   if (pushes.empty())
     return text + fmt::format("note        the machine never pushed; last notice of the core: {}\n",
                               r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
@@ -151,7 +151,7 @@ std::string spring_line(const RunReport& r) {
 
 // An arm that meets a bare finger [VisHap 3].
 std::string finger_lines(const RunReport& r) {
-  if (!r.scene.impedance) return "";
+  if (!r.scene.impedance()) return "";
   const auto& meetings = r.fingers.meetings();
   std::string text = fmt::format("far         tip speed at most {:.3f} mm/s\n", r.fingers.far_speed() * 1e3);
   const auto touched =

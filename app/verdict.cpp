@@ -36,7 +36,7 @@ void add_empty(const RunReport& r, Lines& lines) {
   lines.push_back(
       fmt::format("nothing was {} in {} of {} contacts, first at {:.2f} s: the tool is not where the tracker "
                   "says, or the machine did not get there",
-                  r.scene.impedance ? "touched" : "felt", empty.size(), r.result.contacts, empty.front()));
+                  r.scene.impedance() ? "touched" : "felt", empty.size(), r.result.contacts, empty.front()));
 }
 
 std::string last_notice(const RunReport& r) {
@@ -57,7 +57,7 @@ void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) 
 // At 20 Hz an arm loses a finger and finds it again within one press (docs/reaching.md).
 void add_repeated(const RunReport& r, Lines& lines) {
   const auto n = static_cast<std::int64_t>(r.touches.plan().tried().size());
-  if (r.scene.impedance || n == 0 || r.result.contacts <= n) return;
+  if (r.scene.impedance() || n == 0 || r.result.contacts <= n) return;
   lines.push_back(
       fmt::format("{} contacts of {} press{}: force was felt where nothing pushed, or the tip lost what "
                   "pushed it",
@@ -98,7 +98,7 @@ void add_beside(const RunReport& r, Lines& lines) {
 }
 
 void add_misses(const RunReport& r, Lines& lines) {
-  if (r.scene.impedance) return add_beside(r, lines);
+  if (r.scene.impedance()) return add_beside(r, lines);
   const auto& presses = r.presses.presses();
   const auto missed = [](const trial::PressFigures& p) { return p.miss > p.miss_bound; };
   const auto n = std::count_if(presses.begin(), presses.end(), missed);

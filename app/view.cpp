@@ -142,14 +142,14 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
     const Point<'W'> to = truth.tip + right;
     request.arrows.push_back({to - along, along, 0.0035 * scale, kForce});
     request.labels.push_back({fmt::format("force of the {}: {:.1f} N",
-                                          m.scene.probe     ? "ball"
-                                          : m.world.pusher  ? "pusher"
-                                          : m.scene.has_arm ? "finger"
-                                                            : "tool",
+                                          m.scene.probe()                  ? "ball"
+                                          : m.world.pusher                 ? "pusher"
+                                          : m.scene.impedance() != nullptr ? "finger"
+                                                                           : "tool",
                                           truth.contact_force.norm()),
                               to - 0.6 * along, false});
   }
-  const Contact& contact = m.state.contact;
+  const Contact& contact = contact_of(m.state);
   if (m.out.mode != Mode::contact || !contact.X_WN.valid()) return;
   const Vec<'W'> normal = contact.X_WN * Vec<'N'>(0, 0, scale * 0.06);
   const Point<'W'> from = contact.X_WN.origin() - right;
@@ -160,7 +160,7 @@ void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
 // What the finger has moved stands where it is now.
 void shift_objects(const Moment& m) {
   for (std::size_t i = 0; i < m.scene.objects.size(); ++i)
-    sim::shift_seen(m.world.physics(), i, shift_of(m.scene.objects[i], m.state.moved));
+    sim::shift_seen(m.world.physics(), i, shift_of(m.scene.objects[i], moved_in(m.state)));
 }
 
 // The surface as the eye should see it: dented by the true tool.
@@ -168,7 +168,7 @@ void dent_object(const Moment& m) {
   if (m.out.object < 0 || m.out.view.tool < 0 || !m.world.truth().tool_tip.finite()) return;
   const Tip<'T'>& tip = m.scene.tools[static_cast<std::size_t>(m.out.view.tool)].tip;
   const Pose<'W', 'T'> turned(m.world.q_WT(), Vec3(0, 0, 0));
-  const Vec<'W'> shift = shift_of(m.scene.objects[static_cast<std::size_t>(m.out.object)], m.state.moved);
+  const Vec<'W'> shift = shift_of(m.scene.objects[static_cast<std::size_t>(m.out.object)], moved_in(m.state));
   const Pose<'W', 'T'> X_WT(m.world.q_WT(),
                             m.world.truth().tool_tip - shift - turned * Vec<'T'>(Vec3(tip.centre.e())));
   sim::dent_seen(m.world.physics(), m.scene, static_cast<std::size_t>(m.out.object), X_WT * tip);
@@ -178,7 +178,7 @@ void dent_object(const Moment& m) {
 Point<'W'> flank(const Moment& m, std::size_t object) {
   const ObjectSpec& spec = m.setup.scene.objects[object];
   const Pose<'W', 'O'>& X_WO = m.scene.objects[object].X_WO;
-  const Vec<'W'> shift = shift_of(m.scene.objects[object], m.state.moved);
+  const Vec<'W'> shift = shift_of(m.scene.objects[object], moved_in(m.state));
   if (spec.shape == ShapeKind::mesh) {
     const Ball around = m.scene.objects[object].surface.bound();
     const Point<'O'> aside = around.centre + Vec<'O'>(Vec3(0.4 * around.radius * Vec3(0.75, -0.6, 0.1)));
@@ -195,7 +195,7 @@ void add_arm_labels(const Moment& m, sim::ViewRequest& request) {
   const sim::Truth& truth = m.world.truth();
   constexpr std::array<const char*, 3> kProps{"plate", "key", "drum"};
   request.labels.push_back(
-      {fmt::format("prop ({})", kProps[static_cast<std::size_t>(m.scene.impedance->prop)]), truth.tip,
+      {fmt::format("prop ({})", kProps[static_cast<std::size_t>(m.scene.impedance()->prop)]), truth.tip,
        false});
   for (std::size_t i = 0; i < std::min<std::size_t>(m.scene.objects.size(), 4); ++i)
     request.labels.push_back(
@@ -210,11 +210,11 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
   const auto in_H = [&](double x, double y, double z) {
     return m.world.X_WR() * m.world.machine->state().pose * Point<'H'>(x, y, z);
   };
-  request.labels.push_back({m.scene.probe ? "probe" : "haptic-tip", truth.tip, false});
+  request.labels.push_back({m.scene.probe() ? "probe" : "haptic-tip", truth.tip, false});
   for (std::size_t i = 0; i < m.setup.scene.objects.size(); ++i)
     request.labels.push_back(
         {fmt::format("{} ({})", m.setup.scene.objects[i].name,
-                     m.scene.probe && m.scene.probe->object == static_cast<int>(i) ? "real" : "virtual"),
+                     m.scene.probe() && m.scene.probe()->object == static_cast<int>(i) ? "real" : "virtual"),
          flank(m, i), false});
   if (truth.tool_tip.finite()) request.labels.push_back({"tool's tip", truth.tool_tip, true});
   if (request.title.empty()) return;  // a close-up

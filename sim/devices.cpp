@@ -88,7 +88,7 @@ Rig World::rig() {
   Rig rig;
   rig.clock = std::make_unique<SimClock>(*this);
   if (arm)
-    rig.arm = std::make_unique<SimArm>(*this, prepared_.impedance ? prepared_.impedance->rig : ArmRig{});
+    rig.arm = std::make_unique<SimArm>(*this, prepared_.impedance() ? prepared_.impedance()->rig : ArmRig{});
   if (machine) rig.manipulator = std::make_unique<SimManipulator>(*this, twin_.hexapod);
   if (force) rig.force = std::make_unique<SimForceSensor>(*this);
   if (tracker) rig.tracker = std::make_unique<SimTracker>(*this);

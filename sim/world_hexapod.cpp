@@ -15,7 +15,7 @@ BallContact probed_ball(const WorldSpec& spec) {
     throw Error("the simulated rig has a real ball and nothing else to press; expected shape = \"sphere\"",
                 "object." + object.name + ".shape");
   constexpr double kDeepest = 8e-3;  // m: the end of the plant's table
-  if (spec.prepared.probe->depth > kDeepest)
+  if (spec.prepared.probe()->depth > kDeepest)
     throw Error("the law of the simulated ball ends at 8 mm; lower depth_mm", "probe.depth");
   return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
 }
@@ -30,13 +30,13 @@ Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth) {
 
 void World::set_up_hexapod(const WorldSpec& spec) {
   machine.emplace(spec.twin.hexapod, spec.seed);
-  if (spec.prepared.probe) ball.emplace(probed_ball(spec));
+  if (spec.prepared.probe()) ball.emplace(probed_ball(spec));
   if (spec.scene.pusher)
     pusher.emplace(*spec.scene.pusher, spec.twin.pusher, pushed_point(spec.scene, spec.prepared),
                    spec.prepared.tip_radius, spec.seed);
   if (pusher) programme_time_ = pusher->duration();
   if (ball) programme_time_ = enc::programme_time(spec.prepared);
-  if (spec.prepared.travel) programme_time_ = spec.prepared.travel->duration();
+  if (spec.prepared.travel()) programme_time_ = spec.prepared.travel()->duration();
   const mjModel* m = physics_.model();
   const int platform = physics_.id(mjOBJ_JOINT, "platform");
   platform_qpos_ = m->jnt_qposadr[platform];

@@ -9,8 +9,8 @@ namespace enc::trial {
 class FingerLoop {
  public:
   explicit FingerLoop(Scene made) : scene(std::move(made)) {
-    const PerJoint home = scene.impedance->arm.zero();
-    in.arm.value = {home, {}, scene.impedance->arm.tip(home), Vec<'R'>::zero()};
+    const PerJoint home = scene.impedance()->arm.zero();
+    in.arm.value = {home, {}, scene.impedance()->arm.tip(home), Vec<'R'>::zero()};
     tick_.dt = from_seconds(scene.dt);
     tick_.index = -1;
     tick_.t = Time(-tick_.dt);

@@ -30,7 +30,7 @@ double asked_at(const Impedance& law, const Object& object, double depth) {
 }
 
 ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::size_t i) {
-  const Impedance& law = *scene.impedance;
+  const Impedance& law = *scene.impedance();
   const Object& object = scene.objects[i];
   const std::optional<UserSpec>& user = setup.scene.user;
   const bool pressed =
@@ -71,7 +71,7 @@ double ramp_of(const models::Setup& setup) {
 
 std::vector<Unsteady> unsteady_objects(const models::Setup& setup, const Scene& scene) {
   std::vector<Unsteady> found;
-  if (scene.impedance || !scene.has_force) return found;
+  if (scene.impedance() || !scene.has_force) return found;
   const Steadiness loop(setup.rig);
   const double ramp = ramp_of(setup);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -85,7 +85,7 @@ std::vector<Unsteady> unsteady_objects(const models::Setup& setup, const Scene& 
 
 std::vector<ArmStrength> arm_strengths(const models::Setup& setup, const Scene& scene) {
   std::vector<ArmStrength> found;
-  if (scene.impedance)
+  if (scene.impedance())
     for (std::size_t i = 0; i < scene.objects.size(); ++i) found.push_back(strength_at(setup, scene, i));
   return found;
 }

@@ -25,8 +25,8 @@ std::uint32_t nanoseconds(WallClock::duration d) {
 // s of what the machine does by itself; 10 where it only waits for a person. With a twin it is the twin's to
 // say.
 double programme_of(const Scene& scene) {
-  if (scene.probe) return programme_time(scene);
-  return scene.travel ? scene.travel->duration() : 10.0;
+  if (scene.probe() != nullptr) return programme_time(scene);
+  return scene.travel() != nullptr ? scene.travel()->duration() : 10.0;
 }
 
 // A share of wall time, or 0: as fast as it goes. Real devices live in wall time, and simulated ones then

@@ -28,8 +28,8 @@ std::vector<std::string> drawn_ball(const IdentificationCase& which, std::uint64
 
 // The ball in the world of a set-up.
 trial::StandingBall truth_of(const models::Setup& setup, const Scene& scene) {
-  const ObjectSpec& object = setup.scene.objects[static_cast<std::size_t>(scene.probe->object)];
-  const Vec<'W'> out = scene.probe->X_WN * Vec<'N'>(0, 0, 1);
+  const ObjectSpec& object = setup.scene.objects[static_cast<std::size_t>(scene.probe()->object)];
+  const Vec<'W'> out = scene.probe()->X_WN * Vec<'N'>(0, 0, 1);
   return {sim::ball_of(setup.twin.ball, object.radius), dot(Vec<'W'>(setup.twin.ball.misplaced), out)};
 }
 
@@ -47,7 +47,7 @@ trial::Pushes pushes_of_run(const models::Setup& setup, std::uint64_t seed, doub
     const Outputs& out = glance.out;
     if (out.mode != Mode::probe || out.contacts == 0 || !(out.deflection > 0.0) || !out.felt.finite()) return;
     pushes.resize(static_cast<std::size_t>(out.contacts));
-    const double force = dot(out.felt, glance.scene.probe->X_WN * Vec<'N'>(0, 0, 1));
+    const double force = dot(out.felt, glance.scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
     pushes.back().push_back({out.deflection, force, true, seconds(glance.tick.t.time_since_epoch())});
   };
   simulated += trial::Trial(setup, options).run().simulated;

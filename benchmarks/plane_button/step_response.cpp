@@ -75,7 +75,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
     n += 1.0;
   };
   trial::Trial trial(std::move(setup), std::move(options));
-  const Impedance& law = *trial.scene().impedance;
+  const Impedance& law = *trial.scene().impedance();
   leap.ratio = damping_ratio(law.rig, law.home_mass);
   trial.run();
   leap.speed = std::sqrt(sum / n);

@@ -19,7 +19,7 @@ std::vector<std::string> live(std::vector<std::string> more) {
 Law law_of(const BenchContext& context, const std::string& scene) {
   const Scene prepared = trial::prepare_setup(load_scene(context, scene));
   const Object& object = prepared.objects.front();
-  return {object.interaction, object.stiffness, prepared.impedance->rig.stiffness};
+  return {object.interaction, object.stiffness, prepared.impedance()->rig.stiffness};
 }
 
 PressTrace press_trace(const BenchContext& context, const std::string& scene, std::vector<std::string> own,

@@ -56,7 +56,8 @@ class Observer {
   [[nodiscard]] Vec<'W'> zero_error(const Pose<'W', 'H'>& X_WH, const State& state) const {
     const Pose<'W', 'F'> X_WF = X_WH * scene_.X_HF;
     const double unknown = setup_.twin.hexapod.mass - scene_.force.mass;
-    return X_WF * (world_.force->zero() - state.force_zero) + Vec<'W'>(0, 0, -unknown * kGravity);
+    return X_WF * (world_.force->zero() - recall<Commanded>(state).force_zero) +
+           Vec<'W'>(0, 0, -unknown * kGravity);
   }
 
   const Scene& scene_;

@@ -25,7 +25,6 @@ struct Watcher {
   Vec3 before = Vec3::Constant(kUnset);  // the error one tick ago, m
 
   Watcher(const Scene& from, Prediction prediction) : scene(from) {
-    scene.has_manipulator = false;
     scene.clamped_tool = -1;
     scene.tracker.prediction = prediction;
     state.mode = Mode::follow;
@@ -33,7 +32,7 @@ struct Watcher {
   // The error of this tick, or unset where the tool was not seen yet.
   Vec3 see(const Tick& tick, const Inputs& in, const Vec3& truth) {
     stages::Walk walk(scene, tick, in);
-    stages::track(walk, state);
+    stages::track_tool(walk, state, false);
     return walk.tool_tip.e() - truth;
   }
   void count(const Vec3& error, bool news) {

@@ -18,9 +18,9 @@ class TravelMeasure {
   void see() {
     const Scene& scene = trial_.scene();
     const Inputs& in = trial_.inputs();
-    const Travelling& now = trial_.state().travelling;
-    if (in.tip.health == Health::absent || !scene.travel->on_leg(now.leg)) return;
-    const TravelLeg& leg = scene.travel->legs[static_cast<std::size_t>(now.leg)];
+    const Travelling& now = recall<Travelling>(trial_.state());
+    if (in.tip.health == Health::absent || !scene.travel()->on_leg(now.leg)) return;
+    const TravelLeg& leg = scene.travel()->legs[static_cast<std::size_t>(now.leg)];
     const Vec3 velocity = (scene.X_WR * in.tip.value.velocity).e();
     const double t = seconds(in.tip.t.time_since_epoch());
     if (velocity.norm() > kMoving) moved_ = t;
@@ -32,7 +32,7 @@ class TravelMeasure {
     errors_.largest = std::max(errors_.largest, error.norm());
     // On the way to a start nothing counts but the stop at its end.
     const bool at_rest = now.phase == TravelPhase::dwell && t - moved_ > kSettled;
-    const std::int32_t axis = leg.axis >= 0 ? leg.axis : next_axis(*scene.travel, now.leg);
+    const std::int32_t axis = leg.axis >= 0 ? leg.axis : next_axis(*scene.travel(), now.leg);
     if (axis < 0 || (leg.axis < 0 && !at_rest)) return;
     count({t, tip.xyz[static_cast<std::size_t>(axis)], error[axis], Moving::stopped, axis}, velocity[axis],
           at_rest);
@@ -112,8 +112,8 @@ ChainSpec chain_of(const models::Setup& setup) {
 
 MovesSpec moves_of(const models::Setup& setup) {
   const sim::HexapodTruth& machine = setup.twin.hexapod;
-  return {setup.scene.travel->stops,
-          setup.scene.travel->speed,
+  return {setup.scene.travel()->stops,
+          setup.scene.travel()->speed,
           std::min(machine.acceleration, setup.rig.manipulator.acceleration),
           machine.servo,
           machine.damping,

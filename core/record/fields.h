@@ -10,23 +10,11 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/fields.h"
 #include "core/step.h"
 
 namespace enc {
 
-template <class F, class T, std::size_t N>
-void fields(F& f, std::string_view name, std::array<T, N>& a) {
-  for (T& x : a) f(name, x);
-}
-template <class F>
-void fields(F& f, std::string_view name, detail::Triple& v) {
-  fields(f, name, v.xyz);
-}
-template <class F, char A, char B>
-void fields(F& f, std::string_view name, Pose<A, B>& X) {
-  fields(f, name, X.xyzw);
-  fields(f, name, X.xyz);
-}
 template <class F>
 void fields(F& f, Tick& k) {
   f("index", k.index);
@@ -124,121 +112,6 @@ void fields(F& f, Outputs& out) {
   f("gain", out.gain);
   f("prop_speed", out.prop_speed);
 }
-template <class F>
-void fields(F& f, Swing& s) {
-  f("swing_depth", s.depth);
-  f("swing_slow_force", s.slow_force);
-  f("swing_slow_depth", s.slow_depth);
-  f("swing_exchanged", s.exchanged);
-  f("swing_moved", s.moved);
-  f("swing_stiffness", s.stiffness);
-  f("carried", s.carried);
-}
-template <class F>
-void fields(F& f, Contact& c) {
-  f("contact_object", c.object);
-  f("contact_tool", c.tool);
-  fields(f, "contact_X_WN", c.X_WN);
-  f("anchored", c.anchored);
-  f("loaded", c.loaded);
-  f("contact_began", c.began);
-  f("contact_left", c.left);
-  f("contact_clear", c.clear);
-  f("response_deflection", c.response.deflection);
-  f("response_alpha", c.response.alpha);
-  fields(f, "response_stop", c.response.stop);
-  fields(f, c.swing);
-  fields(f, "displacement_N", c.displacement);
-}
-template <class F>
-void fields(F& f, Probing& p) {
-  f("probe_phase", p.phase);
-  f("probe_elapsed", p.elapsed);
-  f("probe_deflection", p.deflection);
-}
-template <class F>
-void fields(F& f, TipMotion& m) {
-  f("motion_tool", m.tool);
-  f("motion_t", m.t);
-  fields(f, "motion_position_W", m.position);
-  fields(f, "motion_velocity_W", m.velocity);
-  fields(f, "motion_acceleration_W", m.acceleration);
-  for (double* const x : {&m.xx, &m.xv, &m.xa, &m.vv, &m.va, &m.aa}) f("motion_covariance", *x);
-}
-template <class F>
-void fields(F& f, Travelling& t) {
-  f("travel_phase", t.phase);
-  f("travel_elapsed", t.elapsed);
-  f("travel_leg", t.leg);
-}
-template <class F>
-void fields(F& f, Reaching& r) {
-  fields(f, "target_W", r.target);
-  fields(f, "target_velocity_W", r.velocity);
-  fields(f, "error_W", r.error);
-  fields(f, "error_rate_W", r.error_rate);
-  f("lambda", r.gain);
-  f("sunk", r.sunk);
-  f("caught_up", r.caught_up);
-  f("blind", r.blind);
-  f("target_fastest", r.straying.fastest);
-  f("arm_off", r.straying.off);
-  f("stuck", r.stuck);
-  f("triggered", r.triggered);
-}
-template <class F>
-void fields(F& f, Moved& m) {
-  fields(f, "shift_W", m.shift);
-  fields(f, "shift_velocity_W", m.velocity);
-  f("moved_depth", m.depth);
-  f("moved_deepest", m.deepest);
-  f("moved_firmness", m.firmness);
-}
-template <class F>
-void fields(F& f, std::string_view name, ObjectHint& h) {
-  f(name, h.object);
-  f(name, h.feature);
-}
-template <class F>
-void fields(F& f, State& s) {
-  f("started", s.started);
-  f("state_mode", s.mode);
-  f("held", s.held);
-  f("state_contacts", s.contacts);
-  f("state_object", s.object);
-  f("entered", s.entered);
-  f("outside_dent", s.outside_dent);
-  fields(f, s.tool);
-  fields(f, s.tip_motion);
-  fields(f, s.dent);
-  fields(f, "force_zero_F", s.force_zero);
-  f("tared", s.tared);
-  fields(f, "tare_mean_F", s.tare_mean);
-  fields(f, "tare_last_F", s.tare_last);
-  f("tare_window", s.tare_window);
-  fields(f, "force_W", s.force);
-  fields(f, s.contact);
-  fields(f, s.probing);
-  fields(f, s.travelling);
-  fields(f, s.reaching);
-  fields(f, "winding", s.heat.winding);
-  fields(f, "housing", s.heat.housing);
-  for (Moved& moved : s.moved) fields(f, moved);
-  fields(f, "command_R", s.command);
-  fields(f, "command_velocity_R", s.command_velocity);
-  fields(f, "expected_R", s.following.expected);
-  fields(f, "expected_velocity_R", s.following.velocity);
-  f("fastest_command", s.following.straying.fastest);
-  f("off_course", s.following.straying.off);
-  f("lost", s.following.lost);
-  fields(f, "last_query_W", s.last_query);
-  fields(f, "last_point_W", s.last_point);
-  fields(f, "nearest_hint", s.hints.tool[0]);
-  fields(f, "runner_up_hint", s.hints.tool[1]);
-  fields(f, "tip_hint", s.hints.tip);
-  fields(f, "command_hint", s.hints.command);
-}
-
 // A leaf as eight bytes. Every NaN is the same NaN; -0 and 0 stay apart,
 // because a bit-exact replay can tell them.
 template <class T>

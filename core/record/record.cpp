@@ -51,21 +51,34 @@ struct LayoutHash {
     ++leaves;
   }
 };
-const LayoutHash& layout() {
-  static const LayoutHash kHash = [] {
-    LayoutHash hash;
-    RecordedTick frame;
-    all_fields(hash, frame);
-    // A frame holds the hash of the state, so a state of another make is another layout, too.
-    const std::size_t leaves = hash.leaves;
-    State state;
-    fields(hash, state);
-    hash.leaves = leaves;
-    return hash;
-  }();
-  return kHash;
+LayoutHash frame_layout() {
+  LayoutHash hash;
+  RecordedTick frame;
+  all_fields(hash, frame);
+  return hash;
 }
-std::size_t frame_words() { return layout().leaves; }
+std::size_t frame_words() {
+  static const std::size_t kWords = frame_layout().leaves;
+  return kWords;
+}
+// A frame holds the hash of the state, so a state of another make is another layout, too.
+template <class Memory>
+std::uint64_t layout_with(Memory memory) {
+  LayoutHash hash = frame_layout();
+  State state;
+  state.task = memory;
+  fields(hash, state);
+  return hash.value;
+}
+template <class... Task>
+std::vector<std::uint64_t> layouts_of(const std::variant<Task...>*) {
+  return {layout_with(typename Task::Memory{})...};
+}
+// Of each task.
+const std::vector<std::uint64_t>& layouts() {
+  static const std::vector<std::uint64_t> kLayouts = layouts_of(static_cast<const Tasks::Any*>(nullptr));
+  return kLayouts;
+}
 
 struct PutLeaves {
   std::uint64_t* to;
@@ -128,9 +141,16 @@ std::string hex(std::uint64_t x) {
   return text;
 }
 
+// "0x1, 0x2"
+std::string listed(const std::vector<std::uint64_t>& numbers) {
+  std::string text;
+  for (const std::uint64_t number : numbers) text += (text.empty() ? "" : ", ") + hex(number);
+  return text;
+}
+
 }  // namespace
 
-std::uint64_t layout_hash() { return layout().value; }
+std::uint64_t layout_hash(const Scene& scene) { return layouts()[scene.task.index()]; }
 
 // ---- writing
 // ---------------------------------------------------------------------------------------------------------
@@ -253,13 +273,15 @@ void RecordReader::read_header() {
   for (const std::uint64_t word : packed) chain_.add(word);
   if (checksum != chain_.value) fail(byte_ - kWord, "checksum failure: the record's header is damaged");
   if (!unpack(packed, texts_)) fail(32, "the record's header is damaged: impossible texts");
-  if (start[2] != layout_hash() || start[3] != frame_words()) {
+  const auto& known = layouts();
+  if (std::find(known.begin(), known.end(), start[2]) == known.end() || start[3] != frame_words()) {
     const auto version = texts_.find("version");
     fail(16, "record of another layout: " + hex(start[2]) + " of Encounter " +
                  (version == texts_.end() ? "(version not said)" : version->second) +
-                 ", but this program has " + hex(layout_hash()) +
+                 ", but this program has " + listed(known) +
                  "; use the version of Encounter that wrote it, or record again");
   }
+  layout_ = start[2];
   header_chain_ = chain_;
   first_chunk_ = byte_;
 }

@@ -23,13 +23,14 @@ struct RecordedTick {
   std::uint64_t hash = 0;  // StateHash after the tick
 };
 
-// Names and types of all leaves of a frame, in order. Another number is another layout.
-[[nodiscard]] std::uint64_t layout_hash();
+// Names and types of all leaves of a frame, in order, and of what the task of the scene remembers. Another
+// number is another layout; what other tasks remember does not change it.
+[[nodiscard]] std::uint64_t layout_hash(const Scene& scene);
 
 class RecordWriter {
  public:
   // Throws Error where the file cannot be made or its header not be written.
-  RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout = layout_hash());
+  RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout);
   ~RecordWriter();  // without close() the record stays unsealed: the run did not end as it should
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
@@ -67,6 +68,7 @@ class RecordReader {
   explicit RecordReader(const std::string& path, Partial partial = Partial::no);
 
   [[nodiscard]] const RecordTexts& texts() const { return texts_; }
+  [[nodiscard]] std::uint64_t layout() const { return layout_; }  // layout_hash() of its scene
   [[nodiscard]] std::int64_t ticks() const { return ticks_; }
   [[nodiscard]] bool sealed() const { return sealed_; }
   // Of a partial record that was not only cut off: what is wrong, with the byte; no tick behind it is read.
@@ -89,6 +91,7 @@ class RecordReader {
   std::size_t used_ = 0;
   std::uint64_t byte_ = 0, first_chunk_ = 0;
   StateHash chain_, header_chain_;
+  std::uint64_t layout_ = 0;
   std::int64_t ticks_ = 0;
   bool sealed_ = false, done_ = false;
   std::string damage_;

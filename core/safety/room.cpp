@@ -115,7 +115,7 @@ bool room_under(const Object& object, double margin, const Point<'W'>& on, const
 }
 
 void check_room(const SceneSpec& spec, const Scene& scene) {
-  if (scene.probe || scene.travel) return;
+  if (scene.render() == nullptr) return;
   constexpr double kRounding = 1e-6;  // m
   const double margin = room_margin(scene);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

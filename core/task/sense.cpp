@@ -11,53 +11,37 @@ constexpr double kGravity = 9.80665;   // m/s^2, along -z of W
 constexpr double kAbsurd = 1e4;        // N, N m: no sensor of this kind reads more
 constexpr double kFreeTareTime = 2.0;  // s: how slowly the zero follows while the tool is clear
 
-bool at_rest(const Probing& probing) {
-  return probing.phase == ProbePhase::wait || probing.phase == ProbePhase::rest ||
-         probing.phase == ProbePhase::done;
-}
-
-// Whether nothing can be on the tip, so that what the sensor says is its zero. A tool that is not seen now
-// may be anywhere, and in a hold nothing is as it should be: then nothing is learnt.
-bool clear_of_object(const Walk& walk, const State& state) {
-  if (holding(walk) || state.held) return false;
-  if (walk.scene.probe) return at_rest(state.probing) && walk.gap > walk.scene.force.tare_clearance;
-  if (walk.scene.travel) return state.travelling.phase != TravelPhase::move;
-  if (state.mode != Mode::away && state.mode != Mode::follow) return false;
-  if (!walk.scene.has_tracker) return true;
-  return walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance;
-}
-
 // The zero is the mean of the last window but one: no part of a touch is in it, however slowly it begins.
-void tare_again(const Walk& walk, const Vec<'F'>& unloaded, bool clear, State& state) {
-  if (state.tare_window == 0.0 || !clear) state.tare_mean = Vec<'F'>::zero();
+void tare_again(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commanded& now) {
+  if (now.tare_window == 0.0 || !clear) now.tare_mean = Vec<'F'>::zero();
   if (!clear) {
-    state.tare_last = Vec<'F'>();
-    state.tare_window = 0.0;
+    now.tare_last = Vec<'F'>();
+    now.tare_window = 0.0;
     return;
   }
-  state.tare_window += walk.scene.dt;
-  state.tare_mean = state.tare_mean + (walk.scene.dt / state.tare_window) * (unloaded - state.tare_mean);
-  if (state.tare_window < walk.scene.force.tare_time) return;
-  if (state.tare_last.finite()) state.force_zero = state.tare_last;
-  state.tare_last = state.tare_mean;
-  state.tare_window = 0.0;
+  now.tare_window += walk.scene.dt;
+  now.tare_mean = now.tare_mean + (walk.scene.dt / now.tare_window) * (unloaded - now.tare_mean);
+  if (now.tare_window < walk.scene.force.tare_time) return;
+  if (now.tare_last.finite()) now.force_zero = now.tare_last;
+  now.tare_last = now.tare_mean;
+  now.tare_window = 0.0;
 }
 
 // The running mean of the first tare_time becomes the zero; after that it is as the rig says.
-void tare(const Walk& walk, const Vec<'F'>& unloaded, State& state) {
+void tare(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commanded& now) {
   const ForceRig& rig = walk.scene.force;
-  const bool clear = clear_of_object(walk, state);
-  const bool first = state.tared < rig.tare_time;
-  if (!first && rig.tare == Tare::window) return tare_again(walk, unloaded, clear, state);
+  const bool first = now.tared < rig.tare_time;
+  if (!first && rig.tare == Tare::window) return tare_again(walk, unloaded, clear, now);
   if (!clear || (!first && rig.tare == Tare::start)) return;
-  state.tared += walk.scene.dt;
-  const double gain = walk.scene.dt / (first ? state.tared : kFreeTareTime);
-  state.force_zero = state.force_zero + gain * (unloaded - state.force_zero);
+  now.tared += walk.scene.dt;
+  const double gain = walk.scene.dt / (first ? now.tared : kFreeTareTime);
+  now.force_zero = now.force_zero + gain * (unloaded - now.force_zero);
 }
 
 }  // namespace
 
-void sense(Walk& walk, State& state) noexcept {
+// A tool that is not seen may be anywhere, and in a hold nothing is as it should be: then nothing is learnt.
+void sense(Walk& walk, State& state, Commanded& now, bool clear) noexcept {
   if (!walk.scene.has_force) return;
   const auto& sample = walk.in.wrench;
   if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {
@@ -80,12 +64,12 @@ void sense(Walk& walk, State& state) noexcept {
   const Vec<'W'> acceleration = walk.scene.X_WR * walk.in.tip.value.acceleration;
   const Vec<'W'> dead_load = walk.scene.force.mass * (Vec<'W'>(0, 0, -kGravity) - acceleration);
   const Vec<'F'> unloaded = sample.value.force - X_WF.inverse() * dead_load;
-  tare(walk, unloaded, state);
-  if (state.tared < walk.scene.force.tare_time) {
+  tare(walk, unloaded, clear && !holding(walk) && !state.held, now);
+  if (now.tared < walk.scene.force.tare_time) {
     walk.why |= kTaring;
     return;
   }
-  walk.felt = X_WF * (unloaded - state.force_zero);
+  walk.felt = X_WF * (unloaded - now.force_zero);
   state.force = state.force + walk.scene.filter_gain * (walk.felt - state.force);
   walk.force = state.force;
 }

@@ -1,6 +1,8 @@
-// The stages of a tick, in the order in which data walk through them. Internal to the core: step.cpp calls,
-// one file each defines.
+// What walks through the stages of a tick, and what the tasks share. Internal to the core: step.cpp calls the
+// stages, each task has its own (tasks.h).
 #pragma once
+
+#include <span>
 
 #include "core/step.h"
 
@@ -22,6 +24,9 @@ struct Walk {
   Point<'W'> tip_newest;
   Point<'W'> tool_tip;
   double tool_radius = 0.0;
+  bool stops_tool = false;  // track: the tip is firm, and a tool does not go through it
+  std::span<Moved> moved;   // track: objects that move
+  std::span<const Mover> movers;
   Pose<'W', 'H'> X_WH;  // track: where the machine says the tip is
 
   Point<'W'> surface_point;      // touch: nearest to the tool; without a tracker, to the tip
@@ -35,27 +40,18 @@ struct Walk {
   Vec3 target_acceleration = Vec3::Zero();  // encounter: of its target, on its way
   Vec3 target_change = Vec3::Zero();        // and in any case, m/s^2
   Vec<'W'> tip_velocity;                    // of its tip
-  Vec<'R'> arm_force;                       // impede: what an arm is told
+  Vec<'W'> wanted_force;                    // impede: what the law asks for; unset: nothing
+  Vec<'R'> arm_force;                       // guard: what an arm is told
 };
 
-void track(Walk& walk, State& state) noexcept;
-void grip(Walk& walk) noexcept;
-void touch(Walk& walk, State& state) noexcept;
-void sense(Walk& walk, State& state) noexcept;
-void mode(Walk& walk, State& state) noexcept;
-void model(Walk& walk, State& state) noexcept;
-void target(Walk& walk, State& state) noexcept;
-// In place of the three above: where the machine presses a real object, and where it carries a tool around.
-void probe(Walk& walk, State& state) noexcept;
-void travel(Walk& walk, State& state) noexcept;
-// And of an arm, which takes a force: where its prop shall be, and with which force it is sent there.
-void push(Walk& walk, State& state) noexcept;
-void encounter(Walk& walk, State& state) noexcept;
-void impede(Walk& walk, State& state) noexcept;
-// Inside the object, inside the seen surface, finite, reachable, slow enough. Writes the set-point into
-// state.command.
-void check_tip(Walk& walk, State& state) noexcept;
-void limit_command(Walk& walk, State& state) noexcept;
+// The surface nearest to a tool: what is asked of the objects, and of which one alone.
+struct Asked {
+  const Contact* engaged = nullptr;  // with this one
+  bool touched_first = false;        // whatever is touched comes before what is not
+};
+void nearest_surface(Walk& walk, State& state, const Asked& asked) noexcept;
+// The tool as the tracker sees it, at this tick. `pressing`: a finger that rests on a prop moves slowly.
+void track_tool(Walk& walk, State& state, bool pressing) noexcept;
 
 // Outward normal and distance of a W point to an object.
 struct NearestInWorld {

@@ -19,6 +19,7 @@ struct SeenTool {
   Pose<'W', 'T'> X_WT;
   Point<'W'> tip;  // centre of its tip
 };
-[[nodiscard]] SeenTool seen_tool(const stages::Walk& walk, const State& state) noexcept;
+[[nodiscard]] SeenTool seen_tool(const stages::Walk& walk, const State& state,
+                                 const Contact* contact) noexcept;
 
 }  // namespace enc

@@ -26,16 +26,11 @@ void judge_age(Walk& walk, const State& state) {
   }
 }
 
-void take_in(const Walk& walk, State& state) {
+void take_in(const Walk& walk, State& state, bool pressing) {
   const TrackerRig& rig = walk.scene.tracker;
   if (rig.prediction == Prediction::hold) return;
   const TrackedTool& pose = state.tool.value;
   const Point<'T'>& tip = walk.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
-  // A finger that rests on a prop moves as slowly as it presses or slides. It does when the arm is pushed
-  // back; that it has come to the surface is only what is foreseen, before it has slowed down.
-  constexpr double kFelt = 0.2;  // N
-  const bool pressing = walk.scene.impedance && state.mode == Mode::contact &&
-                        -dot(state.force, state.contact.X_WN * Vec<'N'>(0, 0, 1)) > kFelt;
   observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip), state.tip_motion,
           pressing);
 }
@@ -44,7 +39,7 @@ void take_in(const Walk& walk, State& state) {
 // touch before the poses show it, and would see the tool go on right through the machine.
 Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>& from,
                           const Point<'W'>& to) {
-  if (!walk.X_WH.valid() || walk.scene.impedance) return to;
+  if (!walk.stops_tool || !walk.X_WH.valid()) return to;
   const double apart = tool_radius + walk.scene.tip_radius;
   const Vec3 c = (from - walk.X_WH.origin()).e();
   const Vec3 way = (to - from).e();
@@ -69,7 +64,10 @@ void carry_on(Walk& walk, const State& state) {
   walk.tool_tip = tip;
 }
 
-void track_tool(Walk& walk, State& state) {
+}  // namespace
+
+void track_tool(Walk& walk, State& state, bool pressing) noexcept {
+  if (!walk.scene.has_tracker) return;
   const auto& sample = walk.in.tool;
   if (sample.health == Health::fault) walk.why |= kToolInvalid;
   if (sample.health == Health::ok && sample.value.tool != -1) {  // -1: no tool recognised, which is no fault
@@ -77,7 +75,7 @@ void track_tool(Walk& walk, State& state) {
       walk.why |= kToolInvalid;
     } else if (state.tool.health == Health::absent || sample.t > state.tool.t) {
       state.tool = sample;  // older or repeated packets change nothing
-      take_in(walk, state);
+      take_in(walk, state, pressing);
     }
   }
   if (state.tool.health != Health::ok) {
@@ -94,87 +92,6 @@ void track_tool(Walk& walk, State& state) {
   if (walk.scene.tracker.prediction != Prediction::hold) carry_on(walk, state);
   walk.tool_radius = tool.tip.radius;
   judge_age(walk, state);
-}
-
-void track_tip(Walk& walk, State& state) {
-  const auto& sample = walk.in.tip;
-  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {
-    walk.why |= kTipLost;
-    return;
-  }
-  const auto& tip = sample.value;
-  const bool usable = (sample.health == Health::ok || sample.health == Health::out_of_range) &&
-                      tip.X_RH.valid() && tip.X_RH.p().norm() < 10.0 && tip.velocity.finite() &&
-                      tip.acceleration.finite() && tip.acceleration.norm() < 1e3 &&
-                      tip.velocity.norm() < 10.0 && sample.t <= walk.tick.t + walk.tick.dt;
-  if (!usable) {
-    walk.why |= kTipInvalid;
-    return;
-  }
-  walk.X_WH = walk.scene.X_WR * tip.X_RH;
-  if (!state.started) {
-    // Commands keep W's axes: a machine that stands turned must be turned back by its own means first.
-    constexpr double kTurned = 2e-3;  // rad
-    if (walk.X_WH.q().angularDistance(Quat::Identity()) > kTurned) {
-      walk.why |= kTipInvalid;
-      return;
-    }
-    state.started = true;
-    state.command = tip.X_RH.origin();
-  }
-  // What is withheld needs no following, and is forgotten.
-  if (walk.in.withheld)
-    state.following = Following{};
-  else if (!follows(walk.scene.servo, state.command, state.command_velocity, tip.X_RH.origin(),
-                    state.following))
-    state.following.lost = true;
-}
-
-}  // namespace
-
-void grip(Walk& walk) noexcept {
-  if (walk.scene.clamped_tool < 0) return;
-  const Stamped<GripSample>& sample = walk.in.grip;
-  const GripSample& jaws = sample.value;
-  const bool possible = std::abs(jaws.opening) < 1.0 && std::abs(jaws.force) < 1e4 &&  // false for NaN
-                        sample.t <= walk.tick.t + walk.tick.dt;
-  const bool usable = sample.health == Health::ok || sample.health == Health::out_of_range;
-  const bool empty = jaws.phase == GripPhase::closed && !jaws.holding;
-  if (!possible || !usable || empty || age(walk.tick.t, sample.t) > walk.scene.force.stale)
-    walk.why |= kToolNotHeld;
-}
-
-namespace {
-
-// An arm's tip turns with its joints; what is felt is its place alone, so H keeps the axes of R.
-void track_arm(Walk& walk, State& state) {
-  const Stamped<ArmSample>& sample = walk.in.arm;
-  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.impedance->rig.stale) {
-    walk.why |= kTipLost;
-    return;
-  }
-  constexpr double kFastest = 20.0;  // m/s
-  const ArmSample& arm = sample.value;
-  bool usable = sample.health == Health::ok && arm.tip.finite() && arm.tip.e().norm() < 10.0 &&
-                arm.velocity.finite() && arm.velocity.norm() < kFastest &&
-                sample.t <= walk.tick.t + walk.tick.dt;
-  for (const double q : arm.joints) usable = usable && std::abs(q) < 100.0;  // false for NaN
-  if (!usable) {
-    walk.why |= kTipInvalid;
-    return;
-  }
-  walk.X_WH = walk.scene.X_WR * Pose<'R', 'H'>(Quat::Identity(), arm.tip);
-  walk.tip_velocity = walk.scene.X_WR * arm.velocity;
-  walk.jacobian = walk.scene.impedance->arm.jacobian(arm.joints);
-  state.started = true;
-}
-
-}  // namespace
-
-void track(Walk& walk, State& state) noexcept {
-  if (walk.scene.impedance) track_arm(walk, state);
-  if (walk.scene.has_manipulator) track_tip(walk, state);
-  if (walk.scene.has_tracker) track_tool(walk, state);
 }
 
 }  // namespace enc::stages

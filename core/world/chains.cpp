@@ -76,8 +76,8 @@ class Chains {
 
   // H is W at the machine's zero.
   [[nodiscard]] Mat4 base() const {
-    if (scene_.impedance) {
-      const Arm& arm = scene_.impedance->arm;
+    if (scene_.impedance() != nullptr) {
+      const Arm& arm = scene_.impedance()->arm;
       return matrix(Mat3::Identity(), -arm.tip(arm.zero()).e());
     }
     const HexapodGeometry& g = rig_.manipulator.geometry;
@@ -91,26 +91,31 @@ class Chains {
     in.withheld = true;
     State state;
     state.started = true;
-    state.mode = Mode::contact;  // nothing is tared there
-    state.travelling.phase = TravelPhase::move;
-    state.tared = rig_.force.tare_time;
     if (scene_.has_tracker && !scene_.tools.empty())
       in.tool = {{0, pose<'C', 'T'>(back(matrix(rig_.frames.W_C)) * W_T_)}, tick.t, Health::ok};
-    if (scene_.impedance)
+    if (scene_.impedance() != nullptr)
       W_H_ = read_arm(in);
     else
       read_machine(in);
     stages::Walk walk(scene_, tick, in);
-    stages::track(walk, state);
+    std::visit([&](const auto& task) { go_through(task, walk, state); }, scene_.task);
     compare(walk.X_WH, W_H_);
     compare(walk.X_WH * scene_.X_HF, W_H_ * matrix(rig_.frames.H_F));
     if (in.tool.health == Health::ok) {
       compare(walk.X_WT_newest, W_T_);
       compare(walk.tip_newest.e(), placed(W_T_, spec_.tools[0].tip));
     }
-    if (!scene_.has_force) return;
-    stages::sense(walk, state);
-    compare(walk.felt.e(), kForce);
+    if (scene_.has_force) compare(walk.felt.e(), kForce);
+  }
+
+  template <class Task>
+  void go_through(const Task& task, stages::Walk& walk, State& state) const {
+    typename Task::Memory memory;
+    track(walk, task, state, memory);
+    if constexpr (std::is_base_of_v<Commanded, typename Task::Memory>) {
+      memory.tared = rig_.force.tare_time;
+      sense(walk, state, memory, false);
+    }
   }
 
   void read_machine(Inputs& in) const {
@@ -128,7 +133,7 @@ class Chains {
   [[nodiscard]] Mat4 read_arm(Inputs& in) const {
     ArmSample& arm = in.arm.value;
     arm.joints.fill(0.01);
-    arm.tip = scene_.impedance->arm.tip(arm.joints);
+    arm.tip = scene_.impedance()->arm.tip(arm.joints);
     arm.velocity = Vec<'R'>::zero();
     in.arm.health = Health::ok;
     return W_R_ * matrix(Mat3::Identity(), arm.tip.e());

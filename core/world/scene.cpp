@@ -133,7 +133,8 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
   const std::string advice =
       "; the tip reaches +-50, +-50 and +-25 (x, y, z of W, in millimetres) around the origin, straight axes";
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (scene.probe && scene.probe->object == static_cast<std::int32_t>(i)) continue;  // make_probe() looks
+    if (scene.probe() != nullptr && scene.probe()->object == static_cast<std::int32_t>(i))
+      continue;  // make_probe() looks
     const Object& object = scene.objects[i];
     const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.0));
     const Point<'O'> top_O =
@@ -285,8 +286,9 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
                  rig.manipulator.delay, scene.dt};
   scene.filter_gain = 1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter * scene.dt);
   if (rig.admittance.damping == Damping::observed)
-    scene.damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
-                          stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
+    std::get<Render>(scene.task)
+        .damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
+                         stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
   scene.has_manipulator = spec.manipulator.has_value();
   scene.has_force = spec.force.has_value();
   scene.has_tracker = spec.tracker.has_value();
@@ -307,8 +309,8 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   for (const ObjectSpec& object : spec.objects)
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
-  if (spec.probe) scene.probe = make_probe(spec, scene);
-  if (spec.travel) scene.travel = make_travel(spec, scene);
+  if (spec.probe) scene.task = make_probe(spec, scene);
+  if (spec.travel) scene.task = make_travel(spec, scene);
   check_room(spec, scene);
   check_reach(spec, scene);
   return scene;

@@ -2,20 +2,15 @@
 // RigSpec.
 #pragma once
 
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/frames.h"
-#include "core/machine/damping.h"
 #include "core/machine/loop_model.h"
 #include "core/machine/reach.h"
 #include "core/rotation.h"
-#include "core/safety/following.h"
-#include "core/task/carry/travel.h"
-#include "core/task/measure/probe.h"
-#include "core/task/meet/impedance.h"
-#include "core/task/push/moving.h"
+#include "core/task/tasks.h"
 #include "core/world/object.h"
 #include "core/world/rig_spec.h"
 #include "core/world/scene_spec.h"
@@ -39,8 +34,8 @@ struct Scene {
 
   std::vector<Object> objects;
   std::vector<Tool> tools;
-  std::vector<Mover> movers;  // objects that move, in the order of State::moved
-  bool has_arm = false, has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
+  Tasks::Any task;  // what is done
+  bool has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
 
   std::int32_t clamped_tool = -1;  // held by the gripper; -1: there is none
   double grip_force = kUnset;      // N
@@ -59,15 +54,20 @@ struct Scene {
   DisplayRig display;
   ContactRig contact;
   LoopRig loop;
-  std::optional<DampingLaw> damping;   // where the rig wants the object damped
-  std::optional<Impedance> impedance;  // of a scene with an arm
-  std::optional<Probe> probe;          // then the machine presses, and nothing is rendered
-  std::optional<Travel> travel;        // then it carries a tool around, and nothing is rendered
-  double tip_radius = kUnset;          // of the haptic-tip or the probe, m
-  double dt = kUnset;                  // s, one tick
-  double filter_gain = kUnset;         // of the force low-pass, per tick
-  double lowest_slope = kUnset;        // N/m: softest object that is accepted (loop_model.h)
-  double strength = kUnset;            // N: pressing force that the machine carries beside its own load
+  double tip_radius = kUnset;    // of the haptic-tip or the probe, m
+  double dt = kUnset;            // s, one tick
+  double filter_gain = kUnset;   // of the force low-pass, per tick
+  double lowest_slope = kUnset;  // N/m: softest object that is accepted (loop_model.h)
+  double strength = kUnset;      // N: pressing force that the machine carries beside its own load
+
+  // The task, where it is this one; else null. An arm's law is that of Meet and of Push.
+  [[nodiscard]] const Render* render() const { return std::get_if<Render>(&task); }
+  [[nodiscard]] const Probe* probe() const { return std::get_if<Probe>(&task); }
+  [[nodiscard]] const Travel* travel() const { return std::get_if<Travel>(&task); }
+  [[nodiscard]] const Impedance* impedance() const {
+    if (const auto* push = std::get_if<Push>(&task)) return push;
+    return std::get_if<Meet>(&task);
+  }
 };
 
 // Throws Error (key = the file key without its unit) where the scene cannot be rendered by this rig: an

@@ -1,7 +1,7 @@
 // The surface point nearest to the tool, its outward normal (the N frame) and the gap [VHMR 3.3].
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "core/task/walk.h"
@@ -26,9 +26,10 @@ namespace {
 // What is asked of the objects in this tick: of the finger or the tool, or of the tip.
 struct Query {
   const Scene& scene;
-  const std::array<Moved, kMostMoving>& moved;
+  std::span<const Moved> moved;
   Point<'W'> p;
-  double radius = 0.0;  // of what asks, m
+  double radius = 0.0;         // of what asks, m
+  bool touched_first = false;  // what is touched comes before all that is not
 };
 
 // The surface where it stands now.
@@ -65,12 +66,12 @@ bool beside(const Query& query, const ObjectHint& at) {
 // any object that is touched comes before all that are not.
 constexpr double kTouched = 10.0;  // m
 double score_of(const Query& query, const Candidate& found, double favour) {
-  const bool first = query.scene.has_arm && found.at.distance <= query.radius && !beside(query, found.hint);
+  const bool first = query.touched_first && found.at.distance <= query.radius && !beside(query, found.hint);
   return found.at.distance - favour - (first ? kTouched : 0.0);
 }
 double least_score(const Query& query, const Object& object) {
   const double least = least_distance(query, object);
-  return query.scene.has_arm && least <= query.radius ? least - kTouched : least;
+  return query.touched_first && least <= query.radius ? least - kTouched : least;
 }
 
 // The nearest object. Objects whose ball is farther than the best so far are not asked; the one of last time
@@ -143,34 +144,21 @@ void report_jump(Walk& walk, State& state, const Point<'W'>& before, const Point
   state.last_point = walk.surface_point;
 }
 
-// The machine's own probe takes the place of the tool.
-void touch_probed(Walk& walk, State& state) noexcept {
-  state.object = walk.scene.probe->object;
-  if (!walk.X_WH.valid()) return;
-  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
-  const NearestInWorld found = stages::nearest(object, walk.X_WH.origin());
-  walk.surface_point = found.point;
-  walk.normal = found.normal;
-  walk.gap = found.distance - walk.scene.tip_radius;
-}
-
 }  // namespace
 
-void touch(Walk& walk, State& state) noexcept {
-  if (walk.scene.probe) return touch_probed(walk, state);
-  if (walk.scene.travel) return;  // nothing is touched
+void nearest_surface(Walk& walk, State& state, const Asked& asked) noexcept {
   // Without a tracker the tip itself asks: it then waits at its own nearest surface point, and force alone
   // makes a contact.
   const bool by_tool = walk.scene.has_tracker;
   const Point<'W'> last_query = std::exchange(state.last_query, Point<'W'>());
   if (by_tool && !walk.tool_known) return;
-  const Query query{walk.scene, state.moved, by_tool ? walk.tool_tip : walk.X_WH.origin(), walk.tool_radius};
+  const Query query{walk.scene, walk.moved, by_tool ? walk.tool_tip : walk.X_WH.origin(), walk.tool_radius,
+                    asked.touched_first};
   if (!query.p.finite()) return;
-  const bool engaged = state.mode == Mode::contact || state.mode == Mode::restore;
   Candidate best;
-  if (engaged) {
+  if (asked.engaged != nullptr) {
     best.hint = state.hints.tool[0];
-    best.at = pressed_surface(query, state.contact.object, best.hint);
+    best.at = pressed_surface(query, asked.engaged->object, best.hint);
     state.hints.tool[0] = best.hint;
   } else if (!walk.scene.objects.empty()) {
     best = chosen_object(query, state, state.hints);

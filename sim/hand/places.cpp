@@ -37,9 +37,9 @@ PressPoint Places::on(const Object& object, Stream& draws) const {
 
 bool Places::pressable(const Place& place, const Tool& tool) const {
   const Object& object = scene_.objects[static_cast<std::size_t>(place.object)];
-  if (scene_.impedance) {
+  if (scene_.impedance()) {
     PerJoint q{};
-    return scene_.impedance->arm.inverse(scene_.X_WR.inverse() * place.at.point, q);
+    return scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * place.at.point, q);
   }
   return in_the_way(scene_, place.at.normal, tool) == Obstacle::none && carried_to(scene_, place.at, 0.0) &&
          carried_to(scene_, place.at, object.limit);

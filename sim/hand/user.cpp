@@ -30,7 +30,9 @@ std::int32_t held_tool(const SceneSpec& scene) {
 std::vector<double> expected_stiffness(const Scene& prepared) {
   std::vector<double> expected;
   for (const Object& object : prepared.objects)
-    expected.push_back(!prepared.has_arm ? kBall : std::isnan(object.stiffness) ? 0.0 : object.stiffness);
+    expected.push_back(prepared.impedance() == nullptr ? kBall
+                       : std::isnan(object.stiffness)  ? 0.0
+                                                       : object.stiffness);
   return expected;
 }
 

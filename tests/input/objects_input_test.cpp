@@ -43,7 +43,7 @@ TEST(ObjectsInput, TheShippedScenesAreReadyAndHaveTheirProps) {
     EXPECT_THAT(setup_of(scene).notes, IsEmpty()) << scene;
   }
   EXPECT_EQ(trial::prepare_setup(setup_of("keypad")).objects.size(), 12U);
-  EXPECT_EQ(trial::prepare_setup(setup_of("tiles")).movers.size(), 2U);
+  EXPECT_EQ(std::get<Push>(trial::prepare_setup(setup_of("tiles")).task).movers.size(), 2U);
 }
 
 TEST(ObjectsInput, NumbersOutOfRange) {
@@ -136,7 +136,7 @@ TEST(ObjectsInput, AStageOfTwoSlidesRunsTheWall) {
       setup_of("wall", {"user.approach_mm_s=[50]", "user.press_s=1", "user.release_s=1"}, "stage"), options);
   double peak = 0.0;
   while (trial.tick()) peak = std::max(peak, trial.world().truth().contact_force.norm());
-  EXPECT_EQ(trial.scene().impedance->arm.joints(), 2U);
+  EXPECT_EQ(trial.scene().impedance()->arm.joints(), 2U);
   EXPECT_GE(trial.result().contacts, 1);
   EXPECT_GT(peak, 1.0);
   EXPECT_TRUE(trial.result().holds.empty());

@@ -430,7 +430,7 @@ TEST_F(Program, RecordThatIsNone) {
 }
 
 TEST_F(Program, RecordOfAnotherLayout) {
-  { RecordWriter other(path("other.encrec"), {{"version", "9.8.7"}}, layout_hash() ^ 1U); }
+  { RecordWriter other(path("other.encrec"), {{"version", "9.8.7"}}, layout_hash(Scene()) ^ 1U); }
   EXPECT_THAT(refused({"replay", path("other.encrec")}),
               AllOf(HasSubstr("record of another layout"), HasSubstr("of Encounter 9.8.7"),
                     HasSubstr("use the version of Encounter that wrote it")));
@@ -438,7 +438,7 @@ TEST_F(Program, RecordOfAnotherLayout) {
 
 TEST_F(Program, RecordWithoutAScene) {
   {
-    RecordWriter bare(path("bare.encrec"), {});
+    RecordWriter bare(path("bare.encrec"), {}, layout_hash(Scene()));
     bare.close();
   }
   EXPECT_THAT(refused({"replay", path("bare.encrec")}), HasSubstr("holds no scene"));
@@ -455,7 +455,7 @@ TEST_F(Program, ChecksumFailure) {
 TEST_F(Program, AlteredAndResealedRecordDiffers) {
   RecordReader reader(recorded());
   {
-    RecordWriter changed(path("changed.encrec"), reader.texts());
+    RecordWriter changed(path("changed.encrec"), reader.texts(), reader.layout());
     RecordedTick frame;
     while (reader.next(frame)) {
       if (frame.tick.index == 400) frame.in.wrench.value.force.xyz[2] *= 1.0 + 1e-12;

@@ -130,8 +130,8 @@ class Modes {
     judged += well_ > 1.5 ? 1 : 0;
     // After all has been well for so long, nothing is held: but an arm that is stuck, while the finger is
     // there, and a tip that is outside and on its way back.
-    if (out.mode == Mode::hold && well_ > 1.5 && !state.reaching.stuck && !state.following.lost &&
-        (out.why & kOutsideObject) == 0)
+    if (out.mode == Mode::hold && well_ > 1.5 && !recall<Meeting>(state).reaching.stuck &&
+        !recall<Commanded>(state).following.lost && (out.why & kOutsideObject) == 0)
       return "hold goes on: " + why_text(out.why);
     if ((out.mode == Mode::hold) != ((out.why & kHoldReasons) != 0))
       return "hold without a reason, or a reason without";
@@ -142,7 +142,7 @@ class Modes {
     if (far_ > 1.5 * dt) return "follow beyond the pause distance";
     restore_ = state.mode == Mode::restore ? restore_ + dt : 0.0;
     if (restore_ > 2.0 + 2.0 * dt) return "restore goes on";
-    if (scene.impedance) {
+    if (scene.impedance()) {
       if (state.mode == Mode::contact && out.gap > scene.contact.leave_gap)
         return "contact beyond the leave gap";
       return {};
@@ -154,12 +154,12 @@ class Modes {
     in_contact_ += dt;
     const double force = -out.force.xyz[2];
     const bool near =
-        tool_known && state.tool.value.tool == state.contact.tool && out.gap <= scene.contact.leave_gap;
+        tool_known && state.tool.value.tool == contact_of(state).tool && out.gap <= scene.contact.leave_gap;
     const bool pressed = force >= 0.5 * scene.force.contact &&
-                         (!tool_known || out.gap <= 10e-3 || state.tool.value.tool != state.contact.tool);
+                         (!tool_known || out.gap <= 10e-3 || state.tool.value.tool != contact_of(state).tool);
     const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;
     loose_ = near || pressed || coming ? 0.0 : loose_ + dt;
-    const bool damped = scene.damping && !(tool_known && out.gap > 10e-3);
+    const bool damped = scene.render()->damping && !(tool_known && out.gap > 10e-3);
     if (loose_ > scene.contact.leave_time + (damped ? 5.0 : 0.0) + 3.0 * dt)
       return fmt::format("contact goes on: force {} N, gap {} mm", force, out.gap * 1e3);
     return {};
@@ -182,15 +182,15 @@ class World {
     k_.dt = from_seconds(scene.dt);
     const Pose<'R', 'H'> zero = scene.reach.machine.zero();
     at_ = sent_ = zero.p();
-    if (scene.impedance) {
-      joints_ = scene.impedance->arm.zero();
-      at_ = sent_ = scene.impedance->arm.tip(joints_).e();
+    if (scene.impedance()) {
+      joints_ = scene.impedance()->arm.zero();
+      at_ = sent_ = scene.impedance()->arm.tip(joints_).e();
       // Half of the arms are where they shall be; the others stay at home, and half of these need not follow.
       stuck_ = !lags_ && random.once_in(2);
       in.withheld = !lags_ && !stuck_;
     }
     honest_ = random.once_in(3);  // the devices say what is so, the hand alone touches the tip
-    jams_ = !scene.impedance && random.once_in(4);
+    jams_ = !scene.impedance() && random.once_in(4);
     test::SpoilOne count{random.engine, -1};
     fields(count, in);
     numbers_ = count.seen;
@@ -222,15 +222,16 @@ class World {
     if (spoil_every_ != 0 && random_.engine() % spoil_every_ == 0) {
       test::SpoilOne one{random_.engine, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
       fields(one, in);
-      in.withheld = scene_.impedance && !lags_ && !stuck_;
+      in.withheld = scene_.impedance() && !lags_ && !stuck_;
       well = false;
     }
     return well;
   }
   void told(const Outputs& out, const State& state) {
-    if (scene_.impedance && lags_ && state.reaching.target.finite())
-      (void)scene_.impedance->arm.inverse(scene_.X_WR.inverse() * state.reaching.target, joints_);
-    if (!scene_.impedance && state.started) sent_ = out.tip.p();
+    if (scene_.impedance() && lags_ && recall<Meeting>(state).reaching.target.finite())
+      (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<Meeting>(state).reaching.target,
+                                            joints_);
+    if (!scene_.impedance() && state.started) sent_ = out.tip.p();
     ++k_.index;
     k_.t += k_.dt;
   }
@@ -239,19 +240,22 @@ class World {
     if (scene_.has_tracker && clean_ > 0.4 && std::isfinite(out.gap)) {
       const double wrong = (out.view.tip.e() - hand_).norm();
       // A finger that vision sees with 0.5 mm of noise is believed less well than a tool.
-      if (wrong > (scene_.impedance ? 4e-3 + 0.2 * fastest_ : 1.5e-3 + 0.08 * fastest_))
+      if (wrong > (scene_.impedance() ? 4e-3 + 0.2 * fastest_ : 1.5e-3 + 0.08 * fastest_))
         return fmt::format("the tool is {:.2f} mm from where it is believed", 1e3 * wrong);
     }
     if (honest_ && scene_.has_force && scene_.has_tracker)
       for (int i = 0; i < 3; ++i)
-        if (state.force_zero.e()[i] < zero_low_[i] - 0.05 || state.force_zero.e()[i] > zero_high_[i] + 0.05)
+        if (recall<Commanded>(state).force_zero.e()[i] < zero_low_[i] - 0.05 ||
+            recall<Commanded>(state).force_zero.e()[i] > zero_high_[i] + 0.05)
           return fmt::format("a zero of {:.3f} N is believed, which was {:.3f} to {:.3f} N",
-                             state.force_zero.e()[i], zero_low_[i], zero_high_[i]);
+                             recall<Commanded>(state).force_zero.e()[i], zero_low_[i], zero_high_[i]);
     const bool held = out.mode == Mode::hold;
-    if (scene_.impedance) {
+    if (scene_.impedance()) {
       const bool off =
-          stuck_ && state.reaching.target.finite() && state.reaching.velocity.norm() < 1e-3 &&
-          (state.reaching.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 6.5e-3 &&
+          stuck_ && recall<Meeting>(state).reaching.target.finite() &&
+          recall<Meeting>(state).reaching.velocity.norm() < 1e-3 &&
+          (recall<Meeting>(state).reaching.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() >
+              6.5e-3 &&
           (hand_ - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 0.05;
       off_ = off && !held && out.arm_force.finite() ? off_ + scene_.dt : 0.0;
       return off_ > 0.8 ? "an arm that is stuck goes unnoticed" : "";
@@ -288,7 +292,7 @@ class World {
       junk_ = random_.once_in(2) ? Vec3(0, 0, 0) : Vec3(random_.vec(6.0));
   }
   void machine() {
-    if (scene_.impedance) return;
+    if (scene_.impedance()) return;
     if (k_.index < jammed_until_) {
       velocity_ = Vec3::Zero();
       return;
@@ -303,8 +307,8 @@ class World {
     at_ += dt * velocity_;
   }
   void say_machine() {
-    if (scene_.impedance) {
-      in.arm = {{joints_, {}, scene_.impedance->arm.tip(joints_), Vec<'R'>::zero()}, k_.t, Health::ok};
+    if (scene_.impedance()) {
+      in.arm = {{joints_, {}, scene_.impedance()->arm.tip(joints_), Vec<'R'>::zero()}, k_.t, Health::ok};
       return;
     }
     const Pose<'R', 'H'> pose(scene_.X_WR.q().conjugate(), at_);
@@ -349,7 +353,7 @@ class World {
 class Limits {
  public:
   std::string judge(const Scene& scene, const State& state, const Outputs& out) {
-    return scene.impedance ? judge_arm(scene, state, out) : judge_machine(scene, state, out);
+    return scene.impedance() ? judge_arm(scene, state, out) : judge_machine(scene, state, out);
   }
 
  private:
@@ -358,7 +362,7 @@ class Limits {
     if (!out.tip.valid()) return "the command is not a pose";
     if (!scene.reach.contains(out.tip)) return "the command is out of reach";
     const Vec3 at = out.tip.p();
-    if (!known_) before_ = at - scene.dt * state.command_velocity.e();
+    if (!known_) before_ = at - scene.dt * recall<Commanded>(state).command_velocity.e();
     const Vec3 velocity = (at - before_) / scene.dt;
     const double change = (velocity - velocity_).norm() / scene.dt;
     known_ = true;
@@ -369,21 +373,23 @@ class Limits {
     if (!state.entered || state.object < 0) return {};
     const Object& object = scene.objects[static_cast<std::size_t>(state.object)];
     const double outside =
-        object.surface.nearest(object.X_WO.inverse() * (scene.X_WR * state.command)).distance +
+        object.surface.nearest(object.X_WO.inverse() * (scene.X_WR * recall<Commanded>(state).command))
+            .distance +
         scene.tip_radius;
     if (outside > kGuard) return fmt::format("the tip is sent {:.1f} um outside", outside * 1e6);
     return {};
   }
   std::string judge_arm(const Scene& scene, const State& state, const Outputs& out) {
     if (!out.arm_force.finite()) return {};
-    const ArmRig& rig = scene.impedance->rig;
+    const ArmRig& rig = scene.impedance()->rig;
     if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
-    const Vec3 velocity = state.reaching.velocity.e(), at = state.reaching.target.e();
+    const Vec3 velocity = recall<Meeting>(state).reaching.velocity.e(),
+               at = recall<Meeting>(state).reaching.target.e();
     // Along the normal of a ball that is hit the finger moves the prop, and the target is where that is.
     const bool hit =
         out.mode == Mode::contact && state.object >= 0 &&
         scene.objects[static_cast<std::size_t>(state.object)].interaction.kind == Interaction::hit;
-    const Vec3 normal = hit ? Vec3(state.contact.X_WN.q() * Vec3::UnitZ()) : Vec3(Vec3::Zero());
+    const Vec3 normal = hit ? Vec3(contact_of(state).X_WN.q() * Vec3::UnitZ()) : Vec3(Vec3::Zero());
     const auto of_the_arm = [&](const Vec3& v) { return Vec3(v - normal * normal.dot(v)); };
     if (velocity.norm() > rig.speed * (1 + 1e-9)) return fmt::format("target at {} m/s", velocity.norm());
     std::string what;
@@ -393,7 +399,7 @@ class Limits {
     const double change = of_the_arm(velocity - velocity_).norm();
     if (known_ && !anew(out) && change > rig.acceleration * scene.dt * (1 + 1e-6))
       what = fmt::format("target at {} m/s^2", change / scene.dt);
-    known_ = state.reaching.target.finite() && !anew(out);
+    known_ = recall<Meeting>(state).reaching.target.finite() && !anew(out);
     before_ = at;
     velocity_ = velocity;
     return what;

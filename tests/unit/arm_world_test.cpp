@@ -21,7 +21,7 @@ struct Room {
     scene.objects.push_back({});
     scene.objects[0].shape = ShapeKind::plane;
     rig.arm.machine = machine;
-    prepared.has_arm = true;
+    prepared.task = Meet();
     Object wall{Surface(Plane{}), Pose<'W', 'O'>::identity(), {}, kUnset, kUnset, Tangential::stick, kUnset};
     wall.stiffness = 500.0;
     prepared.objects.push_back(wall);

@@ -31,7 +31,7 @@ struct Alone {
     setup.scene.arm.emplace();
     setup.scene.tracker.emplace();
     scene = prepare_setup(setup);
-    in.arm.value.tip = scene.impedance->arm.tip(scene.impedance->arm.zero());
+    in.arm.value.tip = scene.impedance()->arm.tip(scene.impedance()->arm.zero());
     in.arm.value.velocity = Vec<'R'>::zero();
     in.arm.health = Health::ok;
     in.withheld = true;
@@ -51,7 +51,7 @@ struct Alone {
 
 TEST(Guide, TheTargetGoesWhereItIsSentWithinItsLimits) {
   Alone core;
-  const ArmRig& rig = core.scene.impedance->rig;
+  const ArmRig& rig = core.scene.impedance()->rig;
   Vec3 before = Vec3::Zero(), speed = Vec3::Zero();
   for (int i = 0; i < 1000; ++i) {
     core.next();

@@ -95,7 +95,7 @@ TEST(Edges, WhereTheNearestPointLeapsAcrossAGrooveTheTipWaitsInside) {
   loop.tick(3000);
   EXPECT_LE(loop.worst_outside, kGuard);
   EXPECT_NE(loop.out.mode, Mode::hold) << why_text(loop.out.why);
-  EXPECT_LT(loop.state.command_velocity.norm(), 1e-4);  // and there it stands
+  EXPECT_LT(recall<Commanded>(loop.state).command_velocity.norm(), 1e-4);  // and there it stands
   loop.tool_tip = Point<'W'>(0.004, 0, 0.012);
   loop.tick(1500);
   EXPECT_NEAR(loop.tip().xyz[0], right, 1e-5);

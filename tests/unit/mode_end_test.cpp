@@ -86,7 +86,8 @@ TEST(ModeEnds, AContactOfAToolThatIsSeenToBeClear) {
     loop.tool_tip = at_gap(0.0085);
     loop.tick(1500);
     EXPECT_EQ(loop.out.mode, Mode::follow) << drift;
-    EXPECT_NEAR(loop.state.force_zero.xyz[2], -drift, 0.02) << drift;  // and it is learnt anew
+    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.xyz[2], -drift, 0.02)
+        << drift;  // and it is learnt anew
     const std::int32_t contacts = loop.out.contacts;
     loop.tick(5000);
     EXPECT_EQ(loop.out.contacts, contacts) << drift;

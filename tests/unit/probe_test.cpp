@@ -22,34 +22,35 @@ Scene made(const SceneSpec& spec) { return prepare(spec, RigSpec{}); }
 // Ticks until the programme is in a phase; gives how many.
 int until(Loop& loop, ProbePhase phase) {
   int ticks = 0;
-  while (loop.state.probing.phase != phase && ticks < 60'000) {
+  while (recall<Probing>(loop.state).phase != phase && ticks < 60'000) {
     loop.tick();
     ++ticks;
   }
   return ticks;
 }
-double depth(const Loop& loop) { return loop.scene.probe->deflection(loop.tip()); }
+double depth(const Loop& loop) { return loop.scene.probe()->deflection(loop.tip()); }
 
 TEST(Probe, FirstTouchAndAxisOfTheThreeIndentations) {
   SceneSpec spec = rig_scene();
   const Scene a = made(spec);
   EXPECT_EQ(a.tip_radius, kProbeRadius);
-  EXPECT_LT((a.probe->X_WN.p() - Vec3(0, 0, 0.009)).norm(), 1e-12);
-  EXPECT_LT((a.probe->X_WN.q() * Vec3::UnitZ() - Vec3(0, 0, -1)).norm(), 1e-12);
-  EXPECT_NEAR(a.probe->deflection(Point<'W'>(0.001, 0, 0.011)), 0.002, 1e-12);
+  EXPECT_LT((a.probe()->X_WN.p() - Vec3(0, 0, 0.009)).norm(), 1e-12);
+  EXPECT_LT((a.probe()->X_WN.q() * Vec3::UnitZ() - Vec3(0, 0, -1)).norm(), 1e-12);
+  EXPECT_NEAR(a.probe()->deflection(Point<'W'>(0.001, 0, 0.011)), 0.002, 1e-12);
 
   spec.probe->offset = 0.010;  // towards growing polar angle: at azimuth 0 and from below that is -x
   const Scene b = made(spec);
-  EXPECT_LT((b.probe->X_WN.p() - Vec3(-0.010, 0, kCentre - std::sqrt(0.043 * 0.043 - 0.010 * 0.010))).norm(),
-            1e-11);
-  EXPECT_LT((b.probe->X_WN.q() * Vec3::UnitZ() - Vec3(0, 0, -1)).norm(), 1e-12);
+  EXPECT_LT(
+      (b.probe()->X_WN.p() - Vec3(-0.010, 0, kCentre - std::sqrt(0.043 * 0.043 - 0.010 * 0.010))).norm(),
+      1e-11);
+  EXPECT_LT((b.probe()->X_WN.q() * Vec3::UnitZ() - Vec3(0, 0, -1)).norm(), 1e-12);
 
   spec.probe->offset = 0.0;
   spec.probe->polar = 170.0 * M_PI / 180.0;
   const Scene c = made(spec);
   const Vec3 out(std::sin(10.0 * M_PI / 180.0), 0, -std::cos(10.0 * M_PI / 180.0));
-  EXPECT_LT((c.probe->X_WN.p() - (Vec3(0, 0, kCentre) + 0.043 * out)).norm(), 1e-12);
-  EXPECT_LT((c.probe->X_WN.q() * Vec3::UnitZ() - out).norm(), 1e-12);
+  EXPECT_LT((c.probe()->X_WN.p() - (Vec3(0, 0, kCentre) + 0.043 * out)).norm(), 1e-12);
+  EXPECT_LT((c.probe()->X_WN.q() * Vec3::UnitZ() - out).norm(), 1e-12);
 }
 
 TEST(Probe, WalksThroughItsPhases) {
@@ -87,7 +88,7 @@ TEST(Probe, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
   const double longest = programme_time(loop.scene);
   double deepest = -1.0;
   int ticks = 0;
-  for (; loop.state.probing.phase != ProbePhase::done && ticks < 60'000; ++ticks) {
+  for (; recall<Probing>(loop.state).phase != ProbePhase::done && ticks < 60'000; ++ticks) {
     loop.tick();
     deepest = std::max(deepest, depth(loop));
   }
@@ -148,10 +149,10 @@ TEST(Probe, MeasuresForceAlongItsAxisWithoutLag) {
 TEST(Probe, FindsItsForceZeroOnlyClearOfTheObject) {
   Loop loop(made(rig_scene()));
   until(loop, ProbePhase::push);
-  const Vec<'F'> zero = loop.state.force_zero;
+  const Vec<'F'> zero = recall<Commanded>(loop.state).force_zero;
   loop.force = Vec<'W'>(0, 0, -5.0);
   until(loop, ProbePhase::rest);
-  EXPECT_EQ(loop.state.force_zero.xyz, zero.xyz);
+  EXPECT_EQ(recall<Commanded>(loop.state).force_zero.xyz, zero.xyz);
 }
 
 void expect_refused(const SceneSpec& spec, const std::string& key, const std::string& words) {

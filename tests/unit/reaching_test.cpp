@@ -29,7 +29,7 @@ struct Bench {
   }
   // The tip `depth` under the surface, where a finger has pressed it.
   void press_tip(double depth) {
-    const Impedance& law = *loop.scene.impedance;
+    const Impedance& law = *loop.scene.impedance();
     ArmSample& arm = loop.in.arm.value;
     ASSERT_TRUE(law.arm.inverse(loop.scene.X_WR.inverse() * Point<'W'>(0, 0, -depth), arm.joints));
     arm.tip = law.arm.tip(arm.joints);
@@ -41,7 +41,7 @@ struct Bench {
 
 // Gravity alone: eq. 4 and 5.
 Vec<'R'> weight(const Bench& bench) {
-  const Impedance& law = *bench.loop.scene.impedance;
+  const Impedance& law = *bench.loop.scene.impedance();
   const PerJoint& q = bench.loop.in.arm.value.joints;
   return law.arm.force(law.arm.jacobian(q), law.arm.gravity(q, law.prop_mass, Payload::exact));
 }
@@ -70,7 +70,7 @@ TEST(Reaching, FarAwayTheTargetStandsStill) {
 TEST(Reaching, TheTargetGoesToTheProjectionWithinItsLimits) {
   Bench bench("wall");
   bench.at(-0.050, 10);
-  const ArmRig& rig = bench.loop.scene.impedance->rig;
+  const ArmRig& rig = bench.loop.scene.impedance()->rig;
   const double dt = bench.loop.scene.dt;
   Vec3 before = bench.loop.out.wanted.e(), speed = Vec3::Zero();
   for (int i = 0; i < 1000; ++i) {
@@ -108,7 +108,7 @@ trial::FingerLoop over_a_groove() {
 
 TEST(Reaching, ATargetThatLeapsKeepsItsLimitsAndWaitsInside) {
   trial::FingerLoop loop = over_a_groove();
-  const ArmRig& rig = loop.scene.impedance->rig;
+  const ArmRig& rig = loop.scene.impedance()->rig;
   const double dt = loop.scene.dt;
   Vec3 before = Vec3::Zero(), speed = Vec3::Zero();
   double outside = -1.0, widest = 0.0;
@@ -119,7 +119,7 @@ TEST(Reaching, ATargetThatLeapsKeepsItsLimitsAndWaitsInside) {
     const double t = 1e-3 * i;
     const double x = i < 1500 ? 0.008 : 0.008 * std::cos(2.0 * M_PI * (t - 1.5) * (1.0 + (t - 1.5)));
     loop.tick(Point<'W'>(x, 0.0, 0.004));
-    const Reaching& now = loop.state.reaching;
+    const Reaching& now = recall<Meeting>(loop.state).reaching;
     const Vec3 velocity = (now.target.e() - before) / dt;
     before = now.target.e();
     if (i == 0) speed = now.velocity.e();
@@ -181,7 +181,7 @@ TEST(Reaching, AButtonClicksOnceOnTheWayIn) {
     const double depth = 1e-6 * i;
     bench.press_tip(depth);
     bench.at(depth);
-    const bool now = bench.loop.state.reaching.triggered;
+    const bool now = recall<Meeting>(bench.loop.state).reaching.triggered;
     clicks += now && !before ? 1 : 0;
     before = now;
     most = std::max(most, std::abs(bench.pushed() - last));
@@ -236,7 +236,7 @@ TEST(Reaching, TooMuchIsCutToThePeakAndTold) {
   bench.press_tip(0.020);  // 12 N
   bench.at(0.020, 500);
   // Each motor has its own peak; here the second is the first to reach it.
-  const Impedance& law = *bench.loop.scene.impedance;
+  const Impedance& law = *bench.loop.scene.impedance();
   const PerJoint torque =
       law.arm.torque(law.arm.jacobian(bench.loop.in.arm.value.joints), bench.loop.out.arm_force);
   EXPECT_NEAR(std::abs(torque[1]), 0.129 * 7.47, 1e-9);
@@ -316,7 +316,7 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   double fastest = 0.0;  // of the target on its way; what is left of it when it arrives, the belt takes out
   for (int i = 0; i < 500; ++i) {
     EXPECT_NEAR(bench.at(-0.020, 1, 0.020).prop_speed, 0.050, 0.060) << i;
-    fastest = std::max(fastest, bench.loop.state.reaching.velocity.norm());
+    fastest = std::max(fastest, recall<Meeting>(bench.loop.state).reaching.velocity.norm());
   }
   EXPECT_GT(fastest, 0.100);
   double x = 0.020;
@@ -338,7 +338,7 @@ struct Ball : Bench {
     at(-0.080, 10);
     at(-0.010, 500);
   }
-  [[nodiscard]] const Moved& moved() const { return loop.state.moved[0]; }
+  [[nodiscard]] const Moved& moved() const { return moved_in(loop.state)[0]; }
   // The prop goes on at `speed` under the finger, until they part or for `ticks`.
   int strike(double speed, int ticks = 100) {
     for (int i = 1; i <= ticks; ++i) {
@@ -377,7 +377,7 @@ TEST(HitBall, OneWrongReadingSetsNothingInMotion) {
   double fastest = 0.0;
   for (int i = 0; i < 100; ++i) {
     ball.at(-0.002);
-    fastest = std::max(fastest, ball.loop.state.reaching.velocity.norm());
+    fastest = std::max(fastest, recall<Meeting>(ball.loop.state).reaching.velocity.norm());
   }
   EXPECT_LT(fastest, 0.050);
 }

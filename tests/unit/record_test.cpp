@@ -31,7 +31,8 @@ class RecordTest : public ::testing::Test {
   // A press on the ball: follow, contact, restore. 600 ticks are several chunks and a rest.
   void record_press(const std::string& path, int ticks = 600) {
     test::Loop loop(prepare(test::ball_scene(test::lossy_ball()), RigSpec{}));
-    RecordWriter record(path, {{"resolved", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}});
+    RecordWriter record(path, {{"resolved", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}},
+                        layout_hash(loop.scene));
     StateHash hash;
     for (int i = 0; i < ticks; ++i) {
       loop.tool_tip = Point<'W'>(0, 0, i < 300 ? 0.05 - 1.5e-4 * i : 0.005 + 5e-5 * (i - 300));
@@ -101,7 +102,7 @@ TEST_F(RecordTest, GivesBackEveryLeaf) {
   odd.in.tool.t = Time(Duration(-5));
   odd.in.wrench.value.force.xyz[0] = -std::nan("0x123");  // another NaN than the canonical one
   {
-    RecordWriter record(path, {{"a", ""}, {"b", std::string("x\0y", 3)}});
+    RecordWriter record(path, {{"a", ""}, {"b", std::string("x\0y", 3)}}, layout_hash(Scene()));
     record.write({}, {}, {}, 1);
     record.write(set.tick, set.in, set.out, 2);
     record.write(odd.tick, odd.in, odd.out, 0xffffffffffffffffULL);
@@ -132,7 +133,7 @@ TEST_F(RecordTest, GivesBackEveryLeaf) {
 }
 
 TEST_F(RecordTest, AnEmptyRunIsARecord) {
-  RecordWriter(file("empty"), {}).close();
+  RecordWriter(file("empty"), {}, layout_hash(Scene())).close();
   RecordReader reader(file("empty"));
   RecordedTick got;
   EXPECT_EQ(reader.ticks(), 0);
@@ -221,7 +222,7 @@ TEST_F(RecordTest, OtherFilesAreNoRecords) {
 TEST_F(RecordTest, AnUnwritableFolderIsOneClearLine) {
   write_bytes(file("a_file"), "");
   try {
-    RecordWriter record(file("a_file") + "/run.encrec", {});
+    RecordWriter record(file("a_file") + "/run.encrec", {}, layout_hash(Scene()));
     FAIL() << "a file was taken for a folder";
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("a_file/run.encrec': Not a directory"), std::string::npos)
@@ -233,7 +234,7 @@ TEST_F(RecordTest, AnUnwritableFolderIsOneClearLine) {
 
 TEST_F(RecordTest, AFullDiskIsSaidBeforeTheRunStarts) {
   try {
-    RecordWriter record("/dev/full", {});
+    RecordWriter record("/dev/full", {}, layout_hash(Scene()));
     FAIL() << "the header went nowhere";
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("No space left on device"), std::string::npos) << e.what();
@@ -248,7 +249,7 @@ TEST_F(RecordTest, ADiskThatFillsUpLeavesReadableChunks) {
   small.rlim_cur = 200'000;  // three chunks and a bit
   setrlimit(RLIMIT_FSIZE, &small);
   {
-    RecordWriter record(file("full"), {});
+    RecordWriter record(file("full"), {}, layout_hash(Scene()));
     for (int i = 0; i < 2000; ++i) record.write({i, Time(Duration(i)), Duration(1)}, {}, {}, 0);
     EXPECT_TRUE(record.full());
     EXPECT_NE(record.error().find("File too large"), std::string::npos) << record.error();
@@ -283,7 +284,7 @@ TEST_F(RecordTest, AChangedInputIsFoundAndNamed) {
   record_press(file("run"));
   RecordReader reader(file("run"));
   // Sealed anew after a change of the force by one part in 10^15 at tick 300: a good checksum, another run.
-  RecordWriter changed(file("changed"), reader.texts());
+  RecordWriter changed(file("changed"), reader.texts(), reader.layout());
   RecordedTick frame;
   while (reader.next(frame)) {
     double& fz = frame.in.wrench.value.force.xyz[2];
@@ -308,7 +309,7 @@ TEST_F(RecordTest, AnotherSceneIsAnotherRun) {
 }
 
 TEST_F(RecordTest, AChangeOfTheHashAloneIsFound) {
-  RecordWriter record(file("hash"), {});
+  RecordWriter record(file("hash"), {}, layout_hash(Scene()));
   test::Loop loop(prepare(test::ball_scene(), RigSpec{}));
   loop.tick();
   record.write(loop.k, loop.in, loop.out, 12345);
@@ -319,7 +320,17 @@ TEST_F(RecordTest, AChangeOfTheHashAloneIsFound) {
   EXPECT_EQ(result.what.find("state_hash: recorded 12345"), 0U) << result.what;
 }
 
-TEST(LayoutHash, IsTheSameEveryTime) { EXPECT_EQ(layout_hash(), layout_hash()); }
+TEST(LayoutHash, IsTheSameEveryTimeAndAnotherForEachTask) {
+  Scene render, meet, push, probe, travel;
+  meet.task = Meet();
+  push.task = Push();
+  probe.task = Probe();
+  travel.task = Travel();
+  EXPECT_EQ(layout_hash(render), layout_hash(Scene()));
+  std::set<std::uint64_t> all;
+  for (const Scene* scene : {&render, &meet, &push, &probe, &travel}) all.insert(layout_hash(*scene));
+  EXPECT_EQ(all.size(), std::variant_size_v<Tasks::Any>);
+}
 
 }  // namespace
 }  // namespace enc

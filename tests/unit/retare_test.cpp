@@ -20,12 +20,12 @@ TEST(Retare, FollowsAZeroWithinThreeWindows) {
   loop.tick(1000);
   loop.force_zero = Vec<'F'>(0, 0, -0.05);
   loop.tick(600);  // the window of the change, a whole one, and one in which that one waits
-  EXPECT_NEAR(loop.state.force_zero.xyz[2], -0.05, 1e-9);
+  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.xyz[2], -0.05, 1e-9);
   test::Loop once = loop_of(Tare::start);
   once.tick(1000);
   once.force_zero = Vec<'F'>(0, 0, -0.05);
   once.tick(600);
-  EXPECT_NEAR(once.state.force_zero.xyz[2], 0.0, 1e-9);
+  EXPECT_NEAR(recall<Commanded>(once.state).force_zero.xyz[2], 0.0, 1e-9);
 }
 
 // A touch that rises to the 0.1 N of a contact within 0.2 s: less than a window.
@@ -38,7 +38,7 @@ TEST(Retare, KeepsASlowTouchOutOfTheZero) {
   }
   ASSERT_EQ(loop.out.mode, Mode::contact);
   loop.tick(500);
-  EXPECT_NEAR(loop.state.force_zero.xyz[2], 0.0, 1e-12);
+  EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.xyz[2], 0.0, 1e-12);
 }
 
 }  // namespace

@@ -302,14 +302,16 @@ TEST(Contact, EveryLimitIsReached) {
         const Inputs in;
         State state;
         state.mode = Mode::contact;
-        state.contact.object = 0;
-        state.contact.X_WN = Pose<'W', 'N'>::identity();
+        const Render task;
+        Rendering now;
+        now.contact.object = 0;
+        now.contact.X_WN = Pose<'W', 'N'>::identity();
         for (int i = 0; i < 3; ++i) {
           stages::Walk walk(scene, tick, in);
           walk.force = Vec<'W'>(0, 0, -1000.0);
-          stages::model(walk, state);
+          stages::model(walk, task, state, now);
           EXPECT_TRUE(walk.why & kAtLimit) << tenths << " of " << curve;
-          EXPECT_EQ(state.contact.displacement.xyz[2], -limit) << tenths << " of " << curve;
+          EXPECT_EQ(now.displacement.xyz[2], -limit) << tenths << " of " << curve;
         }
       }
     }
@@ -683,7 +685,7 @@ TEST(Hold, StandsStillWithinTheBrakingDistance) {
   loop.spoil = [](Inputs& in) { in.missed = 100; };
   loop.tick(1000);
   EXPECT_EQ(loop.out.mode, Mode::hold);
-  EXPECT_EQ(loop.state.command_velocity.norm(), 0.0);
+  EXPECT_EQ(recall<Commanded>(loop.state).command_velocity.norm(), 0.0);
   // v^2 / 2a = 0.05^2 / 0.82 = 3.05 mm.
   EXPECT_LE((loop.tip() - at).norm(), 0.00305 + 50e-6);
   expect_within_limits(loop);

@@ -37,7 +37,8 @@ Loop with_grip(const SceneSpec& spec, int from = 0) {
 }
 int until(Loop& loop, TravelPhase phase, std::int32_t leg) {
   int ticks = 0;
-  while ((loop.state.travelling.phase != phase || loop.state.travelling.leg != leg) && ticks < 60'000) {
+  while ((recall<Travelling>(loop.state).phase != phase || recall<Travelling>(loop.state).leg != leg) &&
+         ticks < 60'000) {
     loop.tick();
     ++ticks;
   }
@@ -57,7 +58,7 @@ TEST(Travel, LegsOfEachAxisAndWay) {
   spec.travel->axes = "xz";
   spec.travel->ways = TravelWays::both_ways;
   spec.travel->repeats = 2;
-  const Travel travel = *made(spec).travel;
+  const Travel travel = *made(spec).travel();
   ASSERT_EQ(travel.legs.size(), 2U * 2U * 5U);
   EXPECT_EQ(travel.legs[0].axis, -1);  // x begins where the machine is
   EXPECT_EQ(travel.legs[0].length, 0.0);
@@ -74,16 +75,16 @@ TEST(Travel, WaitsForTheJawsThenMovesInTrapezoids) {
   Loop loop = with_grip(travel_scene(), 300);
   loop.tick(300);
   EXPECT_EQ(loop.out.mode, Mode::travel);
-  EXPECT_EQ(loop.state.travelling.phase, TravelPhase::wait);
+  EXPECT_EQ(recall<Travelling>(loop.state).phase, TravelPhase::wait);
   EXPECT_LT(loop.tip().e().norm(), 1e-12);
   until(loop, TravelPhase::move, 2);  // 10 to 40 mm
   const double top = 0.040;
   const double a = loop.scene.reach.acceleration;
   // Half a ramp, where it has its whole acceleration; then even; 30 mm in 30 / 40 + 40 / 410 s.
   loop.tick(49);
-  EXPECT_NEAR(loop.state.command_velocity.norm(), a * 0.050, 1e-9);
+  EXPECT_NEAR(recall<Commanded>(loop.state).command_velocity.norm(), a * 0.050, 1e-9);
   loop.tick(200);
-  EXPECT_NEAR(loop.state.command_velocity.norm(), top, 1e-9);
+  EXPECT_NEAR(recall<Commanded>(loop.state).command_velocity.norm(), top, 1e-9);
   const int rest = until(loop, TravelPhase::dwell, 2);
   EXPECT_NEAR((250 + rest) * 1e-3, 0.030 / top + top / a, 0.015);
   EXPECT_NEAR(loop.tip().xyz[0], 0.040, 1.1e-6);
@@ -97,7 +98,7 @@ TEST(Travel, EndsInItsTimeAndStandsStill) {
   spec.travel->axes = "xyz";
   spec.travel->ways = TravelWays::both_ways;
   Loop loop = with_grip(spec);
-  const double longest = loop.scene.travel->duration();
+  const double longest = loop.scene.travel()->duration();
   const int ticks = until(loop, TravelPhase::done, 14);
   EXPECT_LT(ticks * 1e-3, longest);
   EXPECT_GT(ticks * 1e-3, longest - 2.6);
@@ -110,13 +111,13 @@ TEST(Travel, EndsInItsTimeAndStandsStill) {
 TEST(Travel, TimeStandsStillInAHold) {
   Loop loop = with_grip(travel_scene());
   until(loop, TravelPhase::dwell, 1);
-  const double elapsed = loop.state.travelling.elapsed;
+  const double elapsed = recall<Travelling>(loop.state).elapsed;
   const auto hold = loop.spoil;
   loop.spoil = [&](Inputs& in) { in.grip = {{GripPhase::closed, 0.0, 0.0, false}, in.tip.t, Health::ok}; };
   loop.tick(500);
   EXPECT_EQ(loop.out.mode, Mode::hold);
   EXPECT_NE(loop.out.why & kToolNotHeld, 0U);
-  EXPECT_EQ(loop.state.travelling.elapsed, elapsed);
+  EXPECT_EQ(recall<Travelling>(loop.state).elapsed, elapsed);
   loop.spoil = hold;
   EXPECT_NEAR(until(loop, TravelPhase::move, 2), 200, 3);
 }

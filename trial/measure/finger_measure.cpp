@@ -52,7 +52,7 @@ bool FarWatch::see(const Glance& glance) {
 }
 
 void FingerMeasure::see(const Glance& glance) {
-  if (!glance.scene.impedance) return;
+  if (!glance.scene.impedance()) return;
   const double now = seconds(glance.truth.t.time_since_epoch());
   if (far_.see(glance)) {
     meetings_.push_back({});

@@ -141,7 +141,7 @@ void PressMeasure::see(const Glance& glance) {
     meet(glance, *press, at_tool.normal.e(), at_tool.distance - truth.tool_radius);
     const double force = -dot(truth.contact_force, at_tip.normal);
     compare(glance, *press, object, deflection, force);
-    if (!glance.scene.impedance && glance.simulated) judge_law(glance, object, deflection, force);
+    if (!glance.scene.impedance() && glance.simulated) judge_law(glance, object, deflection, force);
   }
   contacts_before_ = glance.out.contacts;
   mode_before_ = glance.out.mode;

@@ -19,7 +19,7 @@ void add(std::string& row, double x) {
 // How hard the object is pressed, N. By a probe: as measured in this tick, not filtered. In a contact: what
 // the object was made to answer to, which is filtered.
 double pressing(const Scene& scene, const Outputs& out) {
-  if (scene.probe) return dot(out.felt, scene.probe->X_WN * Vec<'N'>(0, 0, 1));
+  if (scene.probe() != nullptr) return dot(out.felt, scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
   return -out.force.xyz[2];
 }
 
@@ -72,7 +72,8 @@ std::string_view RecordTable::header() {
 std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
   constexpr double kMillimetres = 1e3;
   std::string row = fmt::format("{},{}", seconds(tick.t.time_since_epoch()), mode_name(out.mode));
-  const Point<'W'> tip = scene_.X_WR * (scene_.has_arm ? in.arm.value.tip : in.tip.value.X_RH.origin());
+  const Point<'W'> tip =
+      scene_.X_WR * (scene_.impedance() != nullptr ? in.arm.value.tip : in.tip.value.X_RH.origin());
   for (const double x : tip.xyz) add(row, kMillimetres * x);
   for (const double x : out.felt.xyz) add(row, x);
   add(row, kMillimetres * out.deflection);

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/task/walk.h"
+#include "core/safety/guard.h"
+#include "core/task/report.h"
 #include "core/world/scene.h"
 
 namespace enc {
@@ -89,10 +90,10 @@ double Travel::duration() const {
 
 namespace stages {
 
-void travel(Walk& walk, State& state) noexcept {
+namespace {
+
+void go_on(Walk& walk, const Travel& travel, State& state, Travelling& now) {
   constexpr double kThere = 1e-6;  // m
-  const Travel& travel = *walk.scene.travel;
-  Travelling& now = state.travelling;
   state.mode = Mode::travel;
   now.elapsed += walk.scene.dt;
   const auto begin = [&](TravelPhase phase) {
@@ -100,7 +101,7 @@ void travel(Walk& walk, State& state) noexcept {
     now.elapsed = 0.0;
   };
   const auto leg = [&]() -> const TravelLeg& { return travel.legs[static_cast<std::size_t>(now.leg)]; };
-  const Point<'W'> command = walk.scene.X_WR * state.command;
+  const Point<'W'> command = walk.scene.X_WR * now.command;
   if (now.phase == TravelPhase::wait && (!travel.tool_held || walk.in.grip.value.holding)) {
     begin(TravelPhase::move);
   } else if (now.phase == TravelPhase::move && (command - leg().to).norm() <= kThere) {
@@ -112,6 +113,37 @@ void travel(Walk& walk, State& state) noexcept {
   }
   const bool going = now.phase == TravelPhase::move || now.phase == TravelPhase::dwell;
   walk.target = going ? leg().to : command;
+}
+
+// Nothing is sideways of a straight leg: so each is a trapezoid of the leg's speed and the machine's whole
+// acceleration.
+Walls walls_around(const Travel& travel, const Travelling& now) {
+  if (!travel.on_leg(now.leg)) return {};
+  const TravelLeg& leg = travel.legs[static_cast<std::size_t>(now.leg)];
+  Walls walls{leg.along.e()};
+  walls.speed = leg.speed;
+  walls.share = 1.0;
+  return walls;
+}
+
+}  // namespace
+
+void touch(Walk&, const Travel&, State&, Travelling&) noexcept {}  // nothing is touched
+
+void act(Walk& walk, const Travel& travel, State& state, Travelling& now) noexcept {
+  grip(walk);
+  sense(walk, state, now, now.phase != TravelPhase::move);
+  hold_lost(walk, state, now);
+  if (!holding(walk)) go_on(walk, travel, state, now);
+}
+
+void guard(Walk& walk, const Travel& travel, State& state, Travelling& now) noexcept {
+  if (state.started) limit_command(walk, state, now, walls_around(travel, now));
+}
+
+void report(const Walk& walk, const Travel&, State& state, const Travelling& now, Outputs& out) noexcept {
+  report_common(walk, state, surface_frame(walk).inverse(), nullptr, out);
+  report_displaced(walk, now, out);
 }
 
 }  // namespace stages

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "core/task/displacing.h"
 
 namespace enc {
 
+struct Outputs;
 struct Scene;
 struct SceneSpec;
 
@@ -23,7 +25,16 @@ struct TravelLeg {
   std::int32_t way = 0;     // 1 towards + of the axis, -1 towards -
 };
 
-struct Travel {
+// Where the machine is in its travel. Time stands still in a hold, here too.
+enum class TravelPhase : std::uint8_t { wait, move, dwell, done };
+struct Travelling : Commanded {
+  TravelPhase phase = TravelPhase::wait;
+  double elapsed = 0.0;  // s of this phase
+  std::int32_t leg = 0;  // of the programme
+};
+
+struct Travel : Displacing {
+  using Memory = Travelling;
   std::vector<TravelLeg> legs;
   double acceleration = kUnset;  // m/s^2
   bool tool_held = false;        // the tool must be clamped before anything moves
@@ -37,5 +48,20 @@ struct Travel {
 
 // `scene` has everything else by now. Throws Error where this machine cannot do the travel.
 [[nodiscard]] Travel make_travel(const SceneSpec& spec, const Scene& scene);
+
+template <class F>
+void fields(F& f, Travelling& t) {
+  fields(f, static_cast<Commanded&>(t));
+  f("travel_phase", t.phase);
+  f("travel_elapsed", t.elapsed);
+  f("travel_leg", t.leg);
+}
+
+namespace stages {
+void touch(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
+void act(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
+void guard(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
+void report(const Walk& walk, const Travel& task, State& state, const Travelling& now, Outputs& out) noexcept;
+}  // namespace stages
 
 }  // namespace enc

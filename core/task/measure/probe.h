@@ -6,14 +6,25 @@
 #include <cstdint>
 
 #include "core/frames.h"
+#include "core/task/displacing.h"
 
 namespace enc {
 
 struct ObjectSpec;
+struct Outputs;
 struct Scene;
 struct SceneSpec;
 
-struct Probe {
+// Where the machine is in its programme of pushes. Time stands still in a hold, and the programme with it.
+enum class ProbePhase : std::uint8_t { wait, approach, rest, push, dwell, back, done };
+struct Probing : Commanded {
+  ProbePhase phase = ProbePhase::wait;
+  double elapsed = 0.0;     // s of this phase
+  double deflection = 0.0;  // wanted, m; negative: above the surface
+};
+
+struct Probe : Displacing {
+  using Memory = Probing;
   std::int32_t object = 0;  // index in the scene
   // Origin: the probe's centre where it first touches the undeformed object. z: out of the object, against
   // the push. x: where an offset goes.
@@ -35,5 +46,20 @@ struct Probe {
 [[nodiscard]] Probe make_probe(const SceneSpec& spec, const Scene& scene);
 // s, from the start to the rest after the last push; a little more than it takes.
 [[nodiscard]] double programme_time(const Scene& scene);
+
+template <class F>
+void fields(F& f, Probing& p) {
+  fields(f, static_cast<Commanded&>(p));
+  f("probe_phase", p.phase);
+  f("probe_elapsed", p.elapsed);
+  f("probe_deflection", p.deflection);
+}
+
+namespace stages {
+void touch(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
+void act(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
+void guard(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
+void report(const Walk& walk, const Probe& task, State& state, const Probing& now, Outputs& out) noexcept;
+}  // namespace stages
 
 }  // namespace enc

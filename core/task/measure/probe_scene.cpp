@@ -126,7 +126,7 @@ Probe make_probe(const SceneSpec& spec, const Scene& scene) {
 }
 
 double programme_time(const Scene& scene) {
-  const Probe& probe = *scene.probe;
+  const Probe& probe = *scene.probe();
   constexpr double kSettling = 0.1;  // s: speeding up and slowing down, for each way
   const Reach& reach = scene.reach;
   const double approach =

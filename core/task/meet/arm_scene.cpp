@@ -97,7 +97,7 @@ Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
 }
 
 bool gets_to(const Scene& scene, const Point<'W'>& p) {
-  const Impedance& law = *scene.impedance;
+  const Impedance& law = *scene.impedance();
   PerJoint q{};
   return law.arm.reaches(scene.X_WR.inverse() * p, law.rig.least_dexterity, q);
 }
@@ -150,18 +150,18 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);
   scene.X_GL = pose_of<'G', 'L'>(rig.frames.G_L);
   scene.X_HF = pose_of<'H', 'F'>(rig.frames.H_F);
-  scene.impedance = std::move(law);
+  static_cast<Impedance&>(scene.task.emplace<Meet>()) = std::move(law);
   scene.follow = spec.follow;
   scene.tracker = rig.tracker;
   scene.contact = rig.contact;
   scene.loop = rig.loop;
   scene.display = rig.display;
-  scene.has_arm = true;
   scene.has_tracker = spec.tracker.has_value();
   scene.tip_radius = 0.0;  // a prop has a front
   if (!scene.has_tracker) throw Error("an arm needs [tracker]: it goes where the finger is", "arm");
   for (const ObjectSpec& object : spec.objects) scene.objects.push_back(arm_object(spec, object));
-  scene.movers = make_movers(spec.objects, scene.objects);
+  if (std::vector<Mover> movers = make_movers(spec.objects, scene.objects); !movers.empty())
+    scene.task = Push{*scene.impedance(), std::move(movers)};
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
   check_reach(spec, scene);
   return scene;

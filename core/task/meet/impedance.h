@@ -12,8 +12,6 @@
 
 namespace enc {
 
-inline constexpr std::size_t kMostMoving = 16;  // objects of a scene that can move
-
 // One step of the low-pass of eq. 3, y = (a x + y_before) / (1 + a). `a` is the discrete one: that of
 // a_s / (s + a_s) times dt.
 [[nodiscard]] inline double low_pass(double a, double x, double before) {

@@ -16,7 +16,7 @@
 // Both begin and end with F = 0, never pull, and give back no more than was put in.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,7 +27,15 @@
 
 namespace enc {
 
-struct Moved;
+inline constexpr std::size_t kMostMoving = 16;  // objects of a scene that can move
+
+// How far an object that moves has got, and what its finger does.
+struct Moved {
+  Vec<'W'> shift = Vec<'W'>::zero(), velocity = Vec<'W'>::zero();
+  double depth = kUnset;  // of the finger in it, m, at the last tick; unset: another object was nearest
+  double deepest = 0.0;   // that of this touch, m; 0: they are apart
+  double firmness = 1.0;  // share of its stiffness that is felt now
+};
 
 // What a tile may meet: a box beside it, in the tile's own axes.
 struct Neighbour {
@@ -75,13 +83,12 @@ inline constexpr double kClear = 0.020;  // m
 [[nodiscard]] double bounce_of(double restitution);
 
 // How far the object stands from where it belongs.
-template <std::size_t N>
-[[nodiscard]] Vec<'W'> shift_of(const Object& object, const std::array<Moved, N>& moved) noexcept {
+[[nodiscard]] inline Vec<'W'> shift_of(const Object& object, std::span<const Moved> moved) noexcept {
   const bool stands = object.moving < 0 || object.interaction.kind == Interaction::spin;
   return stands ? Vec<'W'>::zero() : moved[static_cast<std::size_t>(object.moving)].shift;
 }
 
-// Objects with an interaction that moves get their place in State::moved. Throws Error (key: that of the
+// Objects with an interaction that moves get their place in Pushing::moved. Throws Error (key: that of the
 // file).
 [[nodiscard]] std::vector<Mover> make_movers(const std::vector<ObjectSpec>& specs,
                                              std::vector<Object>& objects);

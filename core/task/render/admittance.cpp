@@ -17,18 +17,18 @@ Vec3 tangential_give(const Object& object, const Vec<'N'>& force, double limit) 
 }
 
 // What the object carries of the pressing force; the rest is the damper's.
-double carried(const Walk& walk, const Object& object, Contact& contact, double force, double pressed,
-               double limit) {
-  if (!walk.scene.damping) return pressed;
-  const DampingLaw& law = *walk.scene.damping;
-  Swing& swing = contact.swing;
-  const double depth = -(contact.X_WN.inverse() * walk.X_WH.origin()).xyz[2] - walk.scene.tip_radius;
+double carried(const Walk& walk, const Render& task, const Object& object, Rendering& now, double force,
+               double pressed, double limit) {
+  if (!task.damping) return pressed;
+  const DampingLaw& law = *task.damping;
+  Swing& swing = now.swing;
+  const double depth = -(now.contact.X_WN.inverse() * walk.X_WH.origin()).xyz[2] - walk.scene.tip_radius;
   if (std::isnan(swing.depth)) {
     const double near = 1e-3 * limit;
     swing = law.begin(object.response.press(near) / near, force, depth);
   }
   const double damping = law.observe(swing, force, depth);
-  swing.carried = law.carry(object.response, contact.response, swing.carried, pressed, damping, limit);
+  swing.carried = law.carry(object.response, now.response, swing.carried, pressed, damping, limit);
   return swing.carried;
 }
 
@@ -49,12 +49,10 @@ Point<'W'> under_surface(const Walk& walk, State& state, double margin) {
 
 }  // namespace
 
-void model(Walk& walk, State& state) noexcept {
-  Contact& contact = state.contact;
+void model(Walk& walk, const Render& task, State& state, Rendering& now) noexcept {
+  const Contact& contact = now.contact;
   if (state.mode != Mode::contact) {
-    contact.response = ResponseState{};
-    contact.swing = Swing{};
-    contact.displacement = Vec<'N'>::zero();
+    rest(now);
     return;
   }
   if (!walk.force.finite()) return;  // no zero yet: stay at the surface
@@ -63,15 +61,15 @@ void model(Walk& walk, State& state) noexcept {
   const double pressed = std::max(0.0, -force.xyz[2] - walk.scene.force.threshold);
   const double limit = object.limit_at(state.contacts);
   const double deflection = object.response.deflection(
-      contact.response, carried(walk, object, contact, -force.xyz[2], pressed, limit), limit);
+      now.response, carried(walk, task, object, now, -force.xyz[2], pressed, limit), limit);
   if (deflection >= limit) walk.why |= kAtLimit;
   // The limit is such that the object never asks for this much (scene.cpp): the target stays where it is.
   if (pressed > walk.scene.strength) walk.why |= kOverload;
   const Vec3 sideways = tangential_give(object, force, limit);
-  contact.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
+  now.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
 }
 
-void target(Walk& walk, State& state) noexcept {
+void target(Walk& walk, State& state, const Rendering& now) noexcept {
   const double radius = walk.scene.tip_radius;
   switch (state.mode) {
     case Mode::follow:
@@ -79,17 +77,17 @@ void target(Walk& walk, State& state) noexcept {
       break;
     case Mode::contact:
     case Mode::restore: {
-      const Vec3 d = state.contact.displacement.e();
+      const Vec3 d = now.displacement.e();
       // Sideways along the tangent plane would lead out of a round object.
-      walk.target = inside(walk, state, state.contact.object, radius + kSkin,
-                           state.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin));
+      walk.target = inside(walk, state, now.contact.object, radius + kSkin,
+                           now.contact.X_WN * Point<'N'>(d.x(), d.y(), d.z() - radius - kSkin));
       break;
     }
     case Mode::away:
     case Mode::hold:
     case Mode::probe:
     case Mode::travel:
-      walk.target = walk.scene.X_WR * state.command;
+      walk.target = walk.scene.X_WR * now.command;
       break;
   }
 }

@@ -19,14 +19,14 @@ bool too_far(const Walk& walk) { return walk.tool_known && walk.gap > kFar; }
 
 // A hand that presses cannot change its tool: another one in view did not make this contact, and where it is
 // says nothing of it. Then force alone holds the contact and ends it.
-bool changed_tool(const Walk& walk, const State& state) {
-  return walk.tool_known && state.tool.value.tool != state.contact.tool;
+bool changed_tool(const Walk& walk, const State& state, const Rendering& now) {
+  return walk.tool_known && state.tool.value.tool != now.contact.tool;
 }
 
 // As near to the buffered point as the machine gets.
-bool at_rest(const Walk& walk, const State& state) {
+bool at_rest(const Walk& walk, const Rendering& now) {
   constexpr double kStill = 1e-5;  // m/s
-  return state.command_velocity.norm() < kStill && walk.in.tip.value.velocity.norm() < kStill;
+  return now.command_velocity.norm() < kStill && walk.in.tip.value.velocity.norm() < kStill;
 }
 
 // The surface point under the tool; without a tracker, over the tip.
@@ -36,62 +36,63 @@ Pose<'W', 'N'> frame_under_tool(const Walk& walk, const State& state) {
   return {rotation_z_to((X_WO * walk.at_tip.normal).e()), X_WO * walk.at_tip.point};
 }
 
-void begin_contact(Walk& walk, State& state, bool by_force) {
+void begin_contact(Walk& walk, State& state, Rendering& now, bool by_force) {
   state.mode = Mode::contact;
   ++state.contacts;
-  state.contact = Contact{};
-  state.contact.object = state.object;
-  state.contact.tool = walk.tool_known ? state.tool.value.tool : -1;
-  state.contact.X_WN = frame_under_tool(walk, state);
-  state.contact.began = walk.tick.t;
+  now.contact = Contact{};
+  rest(now);
+  now.contact.object = state.object;
+  now.contact.tool = walk.tool_known ? state.tool.value.tool : -1;
+  now.contact.X_WN = frame_under_tool(walk, state);
+  now.contact.began = walk.tick.t;
   if (!by_force) return;
-  state.contact.loaded = walk.tick.t;
+  now.contact.loaded = walk.tick.t;
   walk.why |= kByForce;
 }
 
 // Until force is felt with the tip under the tool, the anchor goes where the tool goes: a fast or slanted
 // touch meets the tip beside its middle, and a tip that stayed there would be pushed out from under the tool.
-void anchor(Walk& walk, State& state) {
+void anchor(Walk& walk, const State& state, Rendering& now) {
   constexpr double kUnder = 0.5e-3;  // m
-  state.contact.X_WN = frame_under_tool(walk, state);
-  const double force = pressing_force(walk, state.contact.X_WN * Vec<'N'>(0, 0, 1));
-  const Vec3 beside = (state.contact.X_WN.inverse() * walk.X_WH.origin()).e();
-  state.contact.anchored = force >= walk.scene.force.contact && beside.head<2>().norm() <= kUnder;
+  now.contact.X_WN = frame_under_tool(walk, state);
+  const double force = pressing_force(walk, now.contact.X_WN * Vec<'N'>(0, 0, 1));
+  const Vec3 beside = (now.contact.X_WN.inverse() * walk.X_WH.origin()).e();
+  now.contact.anchored = force >= walk.scene.force.contact && beside.head<2>().norm() <= kUnder;
 }
 
-void in_contact(Walk& walk, State& state) {
-  const bool changed = changed_tool(walk, state);
-  if (!state.contact.anchored && !changed) anchor(walk, state);
-  const double force = pressing_force(walk, state.contact.X_WN * Vec<'N'>(0, 0, 1));
+void in_contact(Walk& walk, const Render& task, State& state, Rendering& now) {
+  const bool changed = changed_tool(walk, state, now);
+  if (!now.contact.anchored && !changed) anchor(walk, state, now);
+  const double force = pressing_force(walk, now.contact.X_WN * Vec<'N'>(0, 0, 1));
   // Nothing but the force speaks for the contact of a tool that is no longer seen: it has to be a whole one.
   const double least = (changed ? 1.0 : 0.5) * walk.scene.force.contact;
   // What is felt while the tool is seen to be clear for so long is an error of the zero, which is learnt
   // anew.
   const bool clear =
       walk.tool_known && walk.tool_fresh && !changed && walk.gap > walk.scene.force.tare_clearance;
-  state.contact.clear = clear ? state.contact.clear + walk.scene.dt : 0.0;
-  const bool drifted = state.contact.clear >= kMeeting;
-  if (drifted && force >= least) state.tared = 0.0;
-  if (force >= least && !drifted && (changed || !too_far(walk))) state.contact.loaded = walk.tick.t;
-  const double without = age(walk.tick.t, state.contact.loaded);  // force, s
+  now.contact.clear = clear ? now.contact.clear + walk.scene.dt : 0.0;
+  const bool drifted = now.contact.clear >= kMeeting;
+  if (drifted && force >= least) now.tared = 0.0;
+  if (force >= least && !drifted && (changed || !too_far(walk))) now.contact.loaded = walk.tick.t;
+  const double without = age(walk.tick.t, now.contact.loaded);  // force, s
   // Behind a damper the tip comes back slowly; what pushed it may wait there.
-  const bool returning = walk.scene.damping && !too_far(walk) && without < kReturning &&
-                         -state.contact.displacement.xyz[2] > walk.scene.contact.leave_gap;
+  const bool returning = task.damping && !too_far(walk) && without < kReturning &&
+                         -now.displacement.xyz[2] > walk.scene.contact.leave_gap;
   const bool unloaded = !returning && without >= walk.scene.contact.leave_time;
   // Slid off: beside the tip, where the two can no longer touch.
-  const double beside = walk.tool_known ? (walk.surface_point - state.contact.X_WN.origin()).norm() : 0.0;
+  const double beside = walk.tool_known ? (walk.surface_point - now.contact.X_WN.origin()).norm() : 0.0;
   const bool slid_off = beside > walk.scene.tip_radius + walk.tool_radius;
   // Before any force was felt the tool may not be there yet: what slows down is predicted too far ahead. To
   // let go of it and then to be touched would make two contacts of one press.
-  const bool felt = state.contact.loaded > Time{} || age(walk.tick.t, state.contact.began) >= kMeeting;
+  const bool felt = now.contact.loaded > Time{} || age(walk.tick.t, now.contact.began) >= kMeeting;
   const double leave = felt ? walk.scene.contact.leave_gap : kFar;
   const bool gone = !walk.tool_known || changed || walk.gap > leave || slid_off;
   if (!unloaded || !gone) return;
   state.mode = Mode::restore;
-  state.contact.left = walk.tick.t;
+  now.contact.left = walk.tick.t;
 }
 
-void in_free_space(Walk& walk, State& state) {
+void in_free_space(Walk& walk, State& state, Rendering& now) {
   const FollowSpec& follow = walk.scene.follow;
   if (walk.scene.has_tracker && !walk.tool_known) {
     state.mode = Mode::away;
@@ -103,30 +104,30 @@ void in_free_space(Walk& walk, State& state) {
   // Without the force's zero the tip could not give way: the tool has to be taken away first.
   if (state.mode != Mode::follow || !walk.scene.has_force || (walk.why & kTaring) != 0) return;
   if (walk.gap <= 0.0) {
-    begin_contact(walk, state, false);
+    begin_contact(walk, state, now, false);
   } else if (pressing_force(walk, walk.normal) >= walk.scene.force.contact && !too_far(walk)) {
-    begin_contact(walk, state, true);
+    begin_contact(walk, state, now, true);
   }
 }
 
 }  // namespace
 
-void mode(Walk& walk, State& state) noexcept {
+void mode(Walk& walk, const Render& task, State& state, Rendering& now) noexcept {
   if (state.object < 0) {
     state.mode = Mode::away;
   } else if (state.mode == Mode::contact) {
-    in_contact(walk, state);
+    in_contact(walk, task, state, now);
   } else if (state.mode == Mode::restore) {
-    const Point<'W'> buffered = state.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin);
-    const Vec<'W'> normal = state.contact.X_WN * Vec<'N'>(0, 0, 1);
+    const Point<'W'> buffered = now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin);
+    const Vec<'W'> normal = now.contact.X_WN * Vec<'N'>(0, 0, 1);
     if (pressing_force(walk, normal) >= walk.scene.force.contact && !too_far(walk)) {
-      begin_contact(walk, state, true);  // pressed again before the tip was back
-    } else if ((walk.X_WH.origin() - buffered).norm() <= walk.scene.contact.restored ||
-               at_rest(walk, state) || age(walk.tick.t, state.contact.left) >= kRestoring) {
+      begin_contact(walk, state, now, true);  // pressed again before the tip was back
+    } else if ((walk.X_WH.origin() - buffered).norm() <= walk.scene.contact.restored || at_rest(walk, now) ||
+               age(walk.tick.t, now.contact.left) >= kRestoring) {
       state.mode = Mode::follow;
     }
   } else {
-    in_free_space(walk, state);
+    in_free_space(walk, state, now);
   }
 }
 

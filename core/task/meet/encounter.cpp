@@ -1,25 +1,21 @@
-// Where the prop of an arm shall be, and with which force it is sent there [VisHap 2.3].
+// Where the prop of an arm shall be [VisHap 2.2, 2.3].
 #include <algorithm>
 #include <cmath>
 
 #include "core/safety/braking.h"
 #include "core/safety/inside.h"
-#include "core/task/walk.h"
+#include "core/task/meet/finger.h"
 
 namespace enc::stages {
 namespace {
 
-const Object* nearest_object(const Walk& walk, const State& state) {
-  return state.object < 0 ? nullptr : &walk.scene.objects[static_cast<std::size_t>(state.object)];
-}
-
 // A finger that presses lies on the prop for as long as it is seen within leave_gap of it: each tick the arm
 // knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. The prop says how
 // deep a finger is, the camera whether it is there.
-void lie_on_prop(Walk& walk, const State& state) {
+void lie_on_prop(Walk& walk, const State& state, const Meeting& now) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
-  if (!state.reaching.caught_up) return;  // the prop is on its way to another place
+  if (!now.reaching.caught_up) return;  // the prop is on its way to another place
   const Interaction kind = object->interaction.kind;
   if (kind != Interaction::slide && kind != Interaction::click && kind != Interaction::spin) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
@@ -29,7 +25,7 @@ void lie_on_prop(Walk& walk, const State& state) {
 }
 
 // The gap alone says what is touched: an arm measures no force. "Prepare" is the way from away to follow.
-void choose_mode(const Walk& walk, State& state) {
+void choose_mode(const Walk& walk, State& state, Meeting& now) {
   const FollowSpec& follow = walk.scene.follow;
   const Object* object = nearest_object(walk, state);
   if (object == nullptr || !walk.tool_known) {
@@ -39,7 +35,7 @@ void choose_mode(const Walk& walk, State& state) {
   if (state.mode == Mode::away && walk.gap < follow.resume) state.mode = Mode::follow;
   if (object->interaction.kind ==
       Interaction::hit) {  // when it is touched, and when no longer, says the prop
-    if (state.mode == Mode::contact && !state.contact.anchored) state.mode = Mode::follow;
+    if (state.mode == Mode::contact && !now.contact.anchored) state.mode = Mode::follow;
     if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
     return;
   }
@@ -48,12 +44,12 @@ void choose_mode(const Walk& walk, State& state) {
   if (state.mode == Mode::follow && walk.gap <= 0.0) {
     state.mode = Mode::contact;
     ++state.contacts;
-    state.contact = Contact{};
-    state.contact.object = state.object;
-    state.contact.tool = state.tool.value.tool;
+    now.contact = Contact{};
+    now.contact.object = state.object;
+    now.contact.tool = state.tool.value.tool;
   }
   if (state.mode == Mode::contact)
-    state.contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
+    now.contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
 }
 
 struct Goal {
@@ -61,21 +57,13 @@ struct Goal {
   Vec<'W'> velocity = Vec<'W'>::zero();
 };
 
-// The ball under a finger that has struck it.
-const Moved* hit_now(const Walk& walk, const State& state) {
-  const Object* object = nearest_object(walk, state);
-  const bool hit = object != nullptr && object->interaction.kind == Interaction::hit;
-  if (!hit || state.mode != Mode::contact) return nullptr;
-  return &state.moved[static_cast<std::size_t>(object->moving)];
-}
-
 // A ball that flies is no longer touched: its prop gets out of the finger's way, to where the ball will wait.
-Vec<'W'> rest_of_flight(const Walk& walk, const State& state, const Object& object) {
+Vec<'W'> rest_of_flight(const Walk& walk, const Object& object) {
   if (object.interaction.kind != Interaction::hit) return Vec<'W'>::zero();
-  const Moved& ball = state.moved[static_cast<std::size_t>(object.moving)];
+  const Moved& ball = walk.moved[static_cast<std::size_t>(object.moving)];
   const double flown = ball.shift.norm();
   if (!(flown > 0.0)) return Vec<'W'>::zero();
-  return (walk.scene.movers[static_cast<std::size_t>(object.moving)].travel / flown - 1.0) * ball.shift;
+  return (walk.movers[static_cast<std::size_t>(object.moving)].travel / flown - 1.0) * ball.shift;
 }
 
 bool touches_belt(const State& state, const Object* object) {
@@ -87,7 +75,7 @@ bool touches_belt(const State& state, const Object* object) {
 Goal goal_of(const Walk& walk, const State& state, const Object& object) {
   if (object.met_in_its_middle()) return {object.X_WO.origin()};
   const Vec<'W'> none = Vec<'W'>::zero();
-  if (const Vec<'W'> rest = rest_of_flight(walk, state, object); !rest.e().isZero())
+  if (const Vec<'W'> rest = rest_of_flight(walk, object); !rest.e().isZero())
     return {walk.surface_point + rest};
   const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
   const bool known = predicted && walk.tool_fresh && state.tip_motion.velocity.finite();
@@ -95,8 +83,8 @@ Goal goal_of(const Walk& walk, const State& state, const Object& object) {
   // A belt is slower than pictures leap: a prop that runs goes along without haste, and is wide enough.
   if (touches_belt(state, &object)) return {walk.surface_point};
   const bool shifts = object.moving >= 0 && object.interaction.kind != Interaction::spin;
-  const Vec<'W'> face = shifts ? state.moved[static_cast<std::size_t>(object.moving)].velocity : none;
-  const Vec<'W'> shift = shifts ? shift_of(object, state.moved) : none;
+  const Vec<'W'> face = shifts ? walk.moved[static_cast<std::size_t>(object.moving)].velocity : none;
+  const Vec<'W'> shift = shifts ? shift_of(object, walk.moved) : none;
   const double dt = walk.scene.dt;
   ObjectHint hint = state.hints.tool[0];
   const Point<'W'> now = walk.tool_tip - shift;
@@ -108,12 +96,11 @@ Goal goal_of(const Walk& walk, const State& state, const Object& object) {
 // Where the nearest point leaps to another part of the object, the straight way may leave a hollow one, and
 // there the finger is: then the target waits at the last point of its way that is inside, or goes along the
 // surface as long as that is nearer.
-Vec3 not_through_a_hollow(const Walk& walk, State& state, const Object& object, const Vec3& wanted) {
+Vec3 not_through_a_hollow(const Walk& walk, const ArmRig& rig, State& state, const Reaching& now,
+                          const Object& object, const Vec3& wanted) {
   constexpr double kOutside = 0.5e-3;  // m: a target on a curved surface is a little outside of it
-  const ArmRig& rig = walk.scene.impedance->rig;
-  Inside inside(walk.scene, state.object, -kOutside, shift_of(object, state.moved), state.hints.command);
-  const Brake brake{state.reaching.target, state.reaching.velocity.e(), rig.acceleration, rig.speed,
-                    walk.scene.dt};
+  Inside inside(walk.scene, state.object, -kOutside, shift_of(object, walk.moved), state.hints.command);
+  const Brake brake{now.target, now.velocity.e(), rig.acceleration, rig.speed, walk.scene.dt};
   const double here = inside.depth(brake.at);
   state.entered = state.entered || here >= -kOutside;
   return state.entered ? inside.velocity(brake, here, wanted) : wanted;
@@ -121,12 +108,11 @@ Vec3 not_through_a_hollow(const Walk& walk, State& state, const Object& object, 
 
 // The target keeps within speed and acceleration, always. On its way it goes straight; once there it goes
 // with the goal, whose leaps (each new picture of the finger is one) it takes out within `settle`.
-void move_target(Walk& walk, State& state, const Goal& goal, const Object* object) {
+void move_target(Walk& walk, const ArmRig& rig, State& state, Reaching& now, const Goal& goal,
+                 const Object* object) {
   constexpr double kThere = 0.2e-3;  // m
   constexpr double kLeap = 10e-3;    // m: another object, or another part of it
   constexpr double kBelt = 0.060;    // s: of a prop whose surface runs
-  Reaching& now = state.reaching;
-  const ArmRig& rig = walk.scene.impedance->rig;
   const double dt = walk.scene.dt;
   const Vec3 way = (goal.point - now.target).e();
   const double far = way.norm();
@@ -143,7 +129,7 @@ void move_target(Walk& walk, State& state, const Goal& goal, const Object* objec
   const Vec3 change = velocity - now.velocity.e();
   if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
   if (!now.caught_up) {
-    if (object != nullptr) velocity = not_through_a_hollow(walk, state, *object, velocity);
+    if (object != nullptr) velocity = not_through_a_hollow(walk, rig, state, now, *object, velocity);
     walk.target_acceleration = (velocity - now.velocity.e()) / dt;
     now.caught_up = far < kThere && change.norm() <= 2.0 * most;
   }
@@ -156,9 +142,8 @@ void move_target(Walk& walk, State& state, const Goal& goal, const Object* objec
 // the finger has pushed it: so nothing leaps when they part. Its speed is that of the prop, smoothed, and no
 // more than the way that it has come allows: one reading that is wrong sets nothing in motion. Sideways it
 // comes to rest.
-void go_with_prop(const Walk& walk, const Contact& contact, Reaching& now) {
+void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, Reaching& now) {
   constexpr double kTicks = 8.0;
-  const ArmRig& rig = walk.scene.impedance->rig;
   const double dt = walk.scene.dt;
   const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
   const double ticks = 1.0 + std::round(age(walk.tick.t, contact.began) / dt);
@@ -175,22 +160,20 @@ void go_with_prop(const Walk& walk, const Contact& contact, Reaching& now) {
 
 // Whether the arm does what it is told. A finger may push the tip away from its target, so only where none is
 // near does the distance tell. Believed: an even motion lags by K_v / K_p.
-void check_following(Walk& walk, State& state) {
+void check_following(Walk& walk, const Impedance& law, Reaching& now) {
   constexpr double kFriction = 5e-3;  // m: what friction and a wrong weight may hold it off
   constexpr double kSlowest = 0.2;    // s: no belief makes the arm slower than this
   constexpr double kBeside = 0.030;   // m: from the finger to the prop's middle
   constexpr double kPatience = 0.25;  // s
-  Reaching& now = state.reaching;
   if (walk.in.withheld) {
     now.straying = Straying{};
     return;
   }
-  const ArmRig& rig = walk.scene.impedance->rig;
+  const ArmRig& rig = law.rig;
   const double lag = std::min(rig.damping / rig.stiffness, kSlowest);
   const double dt = walk.scene.dt;
   double near = kFriction + now.straying.excused(now.velocity.norm(), lag, dt);
   if (rig.gravity == GravityForm::none) {
-    const Impedance& law = *walk.scene.impedance;
     const PerJoint weight = law.arm.gravity(walk.in.arm.value.joints, law.prop_mass, Payload::exact);
     near += law.arm.force(walk.jacobian, weight).norm() / rig.stiffness;  // it hangs from its target
   }
@@ -202,18 +185,17 @@ void check_following(Walk& walk, State& state) {
 }
 
 // The hold of an arm that is stuck lasts until the finger has gone: to try again is to push with all it has.
-void hold_stuck(Walk& walk, State& state) {
-  if (!state.reaching.stuck) return;
+void hold_stuck(Walk& walk, Reaching& now) {
+  if (!now.stuck) return;
   const bool gone = !walk.tool_known || walk.gap > walk.scene.follow.pause;
   if (gone)
-    state.reaching.stuck = false;
+    now.stuck = false;
   else
     walk.why |= kNotFollowing;
 }
 
 // Nothing leaps: what is felt goes over into the next within `gradual_time`.
-void change_gain(const Walk& walk, const State& state, const Object* object, Reaching& now) {
-  const double free = walk.scene.impedance->rig.stiffness;
+void change_gain(const Walk& walk, double free, const State& state, const Object* object, Reaching& now) {
   Felt felt{free, 0.0};
   if (object == nullptr) {
     now.gain = 1.0;
@@ -224,7 +206,7 @@ void change_gain(const Walk& walk, const State& state, const Object* object, Rea
   if (state.mode == Mode::contact && object->stiffness > 0.0)
     felt = felt_at(does, object->stiffness, free, std::max(0.0, -walk.gap));
   if (object->moving >= 0 && state.mode == Mode::contact)
-    felt.stiffness *= state.moved[static_cast<std::size_t>(object->moving)].firmness;
+    felt.stiffness *= walk.moved[static_cast<std::size_t>(object->moving)].firmness;
   const double whole = std::max({free, object->stiffness, std::isnan(does.floor) ? 0.0 : does.floor}) / free;
   const double share = does.gradual_time > 0.0 ? walk.scene.dt / does.gradual_time : 1e9;
   const auto towards = [](double from, double to, double most) {
@@ -235,112 +217,18 @@ void change_gain(const Walk& walk, const State& state, const Object* object, Rea
   now.triggered = does.kind == Interaction::click && state.mode == Mode::contact && -walk.gap >= does.trigger;
 }
 
-// Gravity compensation, as a force of the tip [VisHap eq. 4, 5].
-Vec<'R'> against_gravity(const Walk& walk) {
-  const Impedance& law = *walk.scene.impedance;
-  if (law.rig.gravity == GravityForm::none) return Vec<'R'>::zero();
-  const Payload form = law.rig.gravity == GravityForm::published ? Payload::published : Payload::exact;
-  const PerJoint& q = walk.in.arm.value.joints;
-  return law.arm.force(walk.jacobian, law.arm.gravity(q, law.prop_mass, form));
-}
-
-// What the law asks for, as far as the machine can: here is the place of the passivity controller, between
-// the two. Gravity is held in full; of the rest each motor gives what it has, and the direction stays.
-Vec3 guarded(Walk& walk, const State& state, const Vec3& force) {
-  if (!force.allFinite()) {
-    walk.why |= kNotFinite;
-    return Vec3::Zero();
-  }
-  const Impedance& law = *walk.scene.impedance;
-  const PerJoint held = law.arm.torque(walk.jacobian, walk.arm_force);
-  const PerJoint wanted = law.arm.torque(walk.jacobian, walk.scene.X_WR.inverse() * Vec<'W'>(force));
-  MotorLimit limit = MotorLimit::none;
-  double share = law.motors.share(state.heat, held, wanted, limit);
-  if (share * force.norm() >
-      law.rig.peak) {  // where levers are short the motors could do more than the sheet says
-    share = law.rig.peak / force.norm();
-    limit = MotorLimit::peak;
-  }
-  if (limit == MotorLimit::peak) walk.why |= kOverload;
-  if (limit == MotorLimit::heat) walk.why |= kHot;
-  return share * force;
-}
-
-// While the finger is far the arm is motionless [VisHap 2]: what pushes it stays as it is, and friction holds
-// it. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
-// the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
-// only turns round, friction would not hold what then pushes it.
-bool resting(const State& state, const Vec3& error, const Vec3& velocity) {
-  constexpr double kNear = 1e-3;     // m: friction alone holds half of it
-  constexpr double kCounts = 20e-3;  // m/s
-  constexpr double kStood = 1e-9;    // m/s
-  const Reaching& now = state.reaching;
-  return state.mode == Mode::away && error.norm() < kNear && velocity.norm() < kCounts &&
-         now.velocity.norm() < 1e-3 && now.error_rate.norm() < kStood;
-}
-
-// K_v of eq. 2 with the ratio that it has at home: back towards its base the tip is felt to be twice as
-// heavy.
-double damping_at(const Impedance& law, double mass) {
-  return law.rig.damping * std::sqrt(std::clamp(mass / law.home_mass, 1.0, 4.0));
-}
-
-// Of the second derivative of e [eq. 2] only the target's own is known: the force that it takes to go along.
-// It is no measurement, and needs no filter: behind that of eq. 3 it would come late and overshoot.
-Vec3 going_along(const Walk& walk, const Mat3& mass) {
-  if (walk.target_acceleration.isZero()) return Vec3::Zero();
-  const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
-  const Vec<'R'> wanted = X_WR.inverse() * Vec<'W'>(walk.target_acceleration);
-  return (X_WR * walk.scene.impedance->arm.force_to_accelerate(walk.jacobian, mass, wanted)).e();
-}
-
-void push_back(Walk& walk, State& state) {
-  const Impedance& law = *walk.scene.impedance;
-  Reaching& now = state.reaching;
-  walk.arm_force = against_gravity(walk);
-  walk.felt = Vec<'W'>::zero();
-  state.force = walk.felt;
-  if (holding(walk)) return;
-  const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
-  const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
-  const Vec3 rate = (now.velocity - walk.tip_velocity).e();
-  const bool rests = resting(state, error, walk.tip_velocity.e());
-  const Mat3 mass = law.arm.mass(walk.in.arm.value.joints, law.prop_mass);
-  const double a = law.filter_gain;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis), now.error.xyz[i]);
-    now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
-  }
-  // A real thing is held where it stands, sideways as well.
-  const Object* object = nearest_object(walk, state);
-  const bool real = object != nullptr && object->interaction.kind == Interaction::passive;
-  const double across = real ? now.gain : 1.0;
-  const Vec3 f = going_along(walk, mass) + law.rig.stiffness * now.error.e() +
-                 damping_at(law, law.arm.felt_mass(walk.jacobian, mass)) * now.error_rate.e();  // [eq. 2]
-  Vec3 wanted = gain_matrix(normal, across, now.gain) * f;                                      // [eq. 7]
-  if (const Moved* ball = hit_now(walk, state)) {
-    const double back = object->stiffness * ball->firmness * std::max(0.0, ball->depth);
-    wanted += normal * ((std::isnan(back) ? 0.0 : back) - normal.dot(wanted));
-  }
-  const Vec3 pushed = guarded(walk, state, wanted);
-  walk.felt = Vec<'W'>(Vec3(-pushed));
-  state.force = walk.felt;
-  walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
-}
-
 }  // namespace
 
-void encounter(Walk& walk, State& state) noexcept {
-  Reaching& now = state.reaching;
+void encounter(Walk& walk, const Impedance& task, State& state, Meeting& memory) noexcept {
+  Reaching& now = memory.reaching;
   if (!walk.X_WH.valid()) {  // one reading that is missed changes nothing; later it may be anywhere
     now.blind += walk.scene.dt;
-    if (now.blind > walk.scene.impedance->rig.stale) now = Reaching{};
+    if (now.blind > task.rig.stale) now = Reaching{};
     return;
   }
   now.blind = 0.0;
-  if (!holding(walk) && now.target.finite()) check_following(walk, state);
-  hold_stuck(walk, state);
+  if (!holding(walk) && now.target.finite()) check_following(walk, task, now);
+  hold_stuck(walk, now);
   if (holding(walk) || !now.target.finite()) {  // nothing is wanted, and nothing leaps afterwards
     const bool stuck = now.stuck;
     now = Reaching{};
@@ -348,40 +236,29 @@ void encounter(Walk& walk, State& state) noexcept {
     now.stuck = stuck;
     if (holding(walk)) return;
   }
-  lie_on_prop(walk, state);
-  choose_mode(walk, state);
+  lie_on_prop(walk, state, memory);
+  choose_mode(walk, state, memory);
   const Object* object = nearest_object(walk, state);
   if (hit_now(walk, state) != nullptr) {
-    go_with_prop(walk, state.contact, now);
+    go_with_prop(walk, task.rig, memory.contact, now);
   } else if (state.mode == Mode::away || object == nullptr) {
-    move_target(walk, state, {walk.sent.finite() ? walk.sent : now.target}, nullptr);
+    move_target(walk, task.rig, state, now, {walk.sent.finite() ? walk.sent : now.target}, nullptr);
   } else {
     Goal goal = goal_of(walk, state, *object);
-    const Arm& arm = walk.scene.impedance->arm;
+    const Arm& arm = task.arm;
     PerJoint q = walk.in.arm.value.joints;
-    if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, walk.scene.impedance->rig.least_dexterity, q)) {
+    if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, task.rig.least_dexterity, q)) {
       // A machine with fewer joints than ways goes to where it is nearest.
       if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
-      move_target(walk, state, goal, object);
+      move_target(walk, task.rig, state, now, goal, object);
     } else {
       walk.why |= kUnreachable;
       now.caught_up = false;
-      move_target(walk, state, {now.target}, nullptr);  // it stops
+      move_target(walk, task.rig, state, now, {now.target}, nullptr);  // it stops
       now.caught_up = false;
     }
   }
-  change_gain(walk, state, object, now);
-}
-
-void impede(Walk& walk, State& state) noexcept {
-  // Where nothing is known of the machine nothing is said to it; what is withheld warms nothing, either.
-  const Impedance& law = *walk.scene.impedance;
-  PerJoint torque{};
-  if (walk.X_WH.valid()) {
-    push_back(walk, state);
-    if (!walk.in.withheld) torque = law.arm.torque(walk.jacobian, walk.arm_force);
-  }
-  law.motors.warm(state.heat, torque);
+  change_gain(walk, task.rig.stiffness, state, object, now);
 }
 
 }  // namespace enc::stages

@@ -1,0 +1,34 @@
+// The anchor of a contact: which object is touched, by which tool, and where.
+#pragma once
+
+#include <cstdint>
+
+#include "core/fields.h"
+#include "core/time.h"
+
+namespace enc {
+
+// [VHMR 3.4]
+struct Contact {
+  std::int32_t object = -1;
+  std::int32_t tool = -1;  // that began it; -1: none was known
+  Pose<'W', 'N'> X_WN;     // at the first touch
+  bool anchored = false;   // true once force was felt with the tip under the tool: the anchor no longer moves
+  Time loaded{};           // last tick on which force was felt; the start of time: never
+  Time began{}, left{};    // when it began, and when the tip was sent back
+  double clear = 0.0;      // s for which its tool has been seen to be clear of the object
+};
+
+template <class F>
+void fields(F& f, Contact& c) {
+  f("contact_object", c.object);
+  f("contact_tool", c.tool);
+  fields(f, "contact_X_WN", c.X_WN);
+  f("anchored", c.anchored);
+  f("loaded", c.loaded);
+  f("contact_began", c.began);
+  f("contact_left", c.left);
+  f("contact_clear", c.clear);
+}
+
+}  // namespace enc

@@ -1,0 +1,87 @@
+#include "core/task/meet/meet.h"
+
+#include <cmath>
+
+#include "core/rotation.h"
+#include "core/task/meet/finger.h"
+#include "core/task/report.h"
+
+namespace enc::stages {
+namespace {
+
+// An arm's tip turns with its joints; what is felt is its place alone, so H keeps the axes of R.
+void track_arm(Walk& walk, const Impedance& task, State& state) {
+  const Stamped<ArmSample>& sample = walk.in.arm;
+  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > task.rig.stale) {
+    walk.why |= kTipLost;
+    return;
+  }
+  constexpr double kFastest = 20.0;  // m/s
+  const ArmSample& arm = sample.value;
+  bool usable = sample.health == Health::ok && arm.tip.finite() && arm.tip.e().norm() < 10.0 &&
+                arm.velocity.finite() && arm.velocity.norm() < kFastest &&
+                sample.t <= walk.tick.t + walk.tick.dt;
+  for (const double q : arm.joints) usable = usable && std::abs(q) < 100.0;  // false for NaN
+  if (!usable) {
+    walk.why |= kTipInvalid;
+    return;
+  }
+  walk.X_WH = walk.scene.X_WR * Pose<'R', 'H'>(Quat::Identity(), arm.tip);
+  walk.tip_velocity = walk.scene.X_WR * arm.velocity;
+  walk.jacobian = task.arm.jacobian(arm.joints);
+  state.started = true;
+}
+
+// A finger that rests on a prop moves as slowly as it presses or slides. It does when the arm is pushed back;
+// that it has come to the surface is only what is foreseen, before it has slowed down.
+bool presses(const State& state, const Contact& contact) {
+  constexpr double kFelt = 0.2;  // N
+  return state.mode == Mode::contact && -dot(state.force, contact.X_WN * Vec<'N'>(0, 0, 1)) > kFelt;
+}
+
+// Of a belt against its prop: a running surface goes on at its own speed while the prop that stands for it
+// moves along with the finger. On its way there it need not. Other props cannot run.
+double driven(const Object& object, const Impedance& law, const Reaching& now, const Vec3& change) {
+  if (object.interaction.kind != Interaction::spin || law.prop != PropKind::drum) return 0.0;
+  const Vec<'W'> way = object.X_WO * Vec<'O'>(object.interaction.way);
+  const Vec3 along = now.velocity.e() + law.rig.prop_lag * change;  // its motor is late
+  return object.prop_speed() - (now.caught_up ? way.e().dot(along) : 0.0);
+}
+
+}  // namespace
+
+void track(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {
+  track_arm(walk, task, state);
+  track_tool(walk, state, presses(state, now.contact));
+}
+
+// An arm renders what is touched: there any object that is touched comes before all that are not.
+void touch(Walk& walk, const Impedance&, State& state, Meeting& now) noexcept {
+  nearest_surface(walk, state, {state.mode == Mode::contact ? &now.contact : nullptr, true});
+}
+
+void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {
+  encounter(walk, task, state, now);
+  impede(walk, task, state, now);
+}
+
+// No force is measured: what the finger feels is what the arm is told beyond gravity.
+void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now,
+            Outputs& out) noexcept {
+  const bool touched = state.mode == Mode::contact;
+  const Pose<'N', 'W'> X_NW = touched ? now.contact.X_WN.inverse() : surface_frame(walk).inverse();
+  report_common(walk, state, X_NW, &now.contact, out);
+  out.tip = Pose<'R', 'H'>();
+  out.arm_force = walk.arm_force;
+  out.wanted = now.reaching.target;
+  out.gain = now.reaching.gain;
+  const Object* object = nearest_object(walk, state);
+  const bool near = !holding(walk) && object != nullptr && (state.mode == Mode::follow || touched);
+  out.prop_speed =
+      near ? driven(*object, task, now.reaching, touched ? walk.target_change : Vec3::Zero()) : 0.0;
+  out.deflection = touched && walk.gap < 0.0 ? -walk.gap : 0.0;
+  out.first_touch =
+      touched ? now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin) : Point<'W'>();
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,75 @@
+// Meet by force: an arm takes its prop to where the finger will touch, and gives the force of what is touched
+// [VisHap 2.3].
+#pragma once
+
+#include "core/safety/following.h"
+#include "core/task/contact.h"
+#include "core/task/meet/impedance.h"
+
+namespace enc {
+
+struct Outputs;
+struct State;
+
+// What the control law remembers (impedance.h).
+struct Reaching {
+  Point<'W'> target;  // X_d: where the tip shall be
+  Vec<'W'> velocity = Vec<'W'>::zero();
+  Vec<'W'> error = Vec<'W'>::zero(), error_rate = Vec<'W'>::zero();  // low-passed [eq. 3]
+  double gain = 1.0;                                                 // lambda_z
+  double sunk = 0.0;       // m: how far the target is behind the surface, in a button
+  bool caught_up = false;  // the target is where the finger's projection is
+  bool triggered = false;
+  double blind = 0.0;  // s since the machine last said where it is
+  Straying straying;   // from the target, where nothing but the arm itself can be why
+  bool stuck = false;  // and it was for too long: until the finger has gone
+};
+
+struct Meeting {
+  Contact contact;
+  Reaching reaching;
+  Heat heat;  // of the motors, as it is believed
+};
+
+struct Meet : Impedance {
+  using Memory = Meeting;
+};
+
+template <class F>
+void fields(F& f, Reaching& r) {
+  fields(f, "target_W", r.target);
+  fields(f, "target_velocity_W", r.velocity);
+  fields(f, "error_W", r.error);
+  fields(f, "error_rate_W", r.error_rate);
+  f("lambda", r.gain);
+  f("sunk", r.sunk);
+  f("caught_up", r.caught_up);
+  f("blind", r.blind);
+  f("target_fastest", r.straying.fastest);
+  f("arm_off", r.straying.off);
+  f("stuck", r.stuck);
+  f("triggered", r.triggered);
+}
+template <class F>
+void fields(F& f, Meeting& m) {
+  fields(f, m.contact);
+  fields(f, m.reaching);
+  fields(f, "winding", m.heat.winding);
+  fields(f, "housing", m.heat.housing);
+}
+
+namespace stages {
+struct Walk;
+void track(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
+void touch(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
+void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
+void guard(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
+void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now, Outputs& out) noexcept;
+
+// The stages that act() is made of.
+void encounter(Walk& walk, const Impedance& task, State& state,
+               Meeting& now) noexcept;  // where the prop should be
+void impede(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;  // depth in, force out
+}  // namespace stages
+
+}  // namespace enc

@@ -1,0 +1,69 @@
+#include "core/task/render/render.h"
+
+#include <algorithm>
+
+#include "core/rotation.h"
+#include "core/safety/guard.h"
+#include "core/task/report.h"
+
+namespace enc::stages {
+namespace {
+
+bool engaged(const State& state) { return state.mode == Mode::contact || state.mode == Mode::restore; }
+
+// Whether nothing can be on the tip.
+bool clear_of_object(const Walk& walk, const State& state) {
+  if (state.mode != Mode::away && state.mode != Mode::follow) return false;
+  if (!walk.scene.has_tracker) return true;
+  return walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance;
+}
+
+Walls walls_around(const Walk& walk, State& state, const Rendering& now) {
+  if (state.object < 0 || !state.entered) return {};
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  const NearestInWorld at =
+      nearest(walk.scene, state.object, walk.scene.X_WR * now.command, state.hints.command);
+  const double depth = -(at.distance + walk.scene.tip_radius);
+  Walls walls{at.normal.e(), depth - kSkin};
+  walls.depth = -at.distance;
+  if (state.mode == Mode::contact) walls.in = object.limit_at(state.contacts) + kSkin - depth;
+  return walls;
+}
+
+}  // namespace
+
+void rest(Rendering& now) noexcept {
+  now.response = ResponseState{};
+  now.swing = Swing{};
+  now.displacement = Vec<'N'>::zero();
+}
+
+void touch(Walk& walk, const Render&, State& state, Rendering& now) noexcept {
+  nearest_surface(walk, state, {engaged(state) ? &now.contact : nullptr});
+}
+
+void act(Walk& walk, const Render& task, State& state, Rendering& now) noexcept {
+  grip(walk);
+  sense(walk, state, now, clear_of_object(walk, state));  // what force is on the tip
+  hold_lost(walk, state, now);
+  check_tip(walk, state, now);
+  if (holding(walk)) return;
+  mode(walk, task, state, now);
+  model(walk, task, state, now);
+  target(walk, state, now);
+}
+
+void guard(Walk& walk, const Render&, State& state, Rendering& now) noexcept {
+  if (state.started) limit_command(walk, state, now, walls_around(walk, state, now));
+}
+
+void report(const Walk& walk, const Render&, State& state, const Rendering& now, Outputs& out) noexcept {
+  const Pose<'N', 'W'> X_NW = engaged(state) ? now.contact.X_WN.inverse() : surface_frame(walk).inverse();
+  report_common(walk, state, X_NW, &now.contact, out);
+  report_displaced(walk, now, out);
+  out.deflection = std::max(0.0, -now.displacement.xyz[2]);
+  out.first_touch =
+      engaged(state) ? now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin) : Point<'W'>();
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,31 @@
+// All tasks. A task is a folder beside this file and a line of the list: what it is made of, what it
+// remembers, and its stages.
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "core/task/carry/travel.h"
+#include "core/task/measure/probe.h"
+#include "core/task/push/push.h"
+#include "core/task/render/render.h"
+
+namespace enc {
+
+template <class... Task>
+struct TaskList {
+  using Any = std::variant<Task...>;
+  // Nothing is remembered before the first tick.
+  using Memory = std::variant<std::monostate, typename Task::Memory...>;
+};
+
+using Tasks = TaskList<Render,  // by displacement: the tip gives way under a tool
+                       Meet,    // by force: a prop meets a finger
+                       Push,    // and at things that the finger moves
+                       Probe,   // a real object is pressed and measured: nothing is rendered
+                       Travel   // a tool is carried past the tracker: nothing is rendered
+                       >;
+
+static_assert(std::is_trivially_copyable_v<Tasks::Memory>);
+
+}  // namespace enc
