@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/rig_spec.h"
-#include "sim/arm/arm_spec.h"
+#include "sim/arm_spec.h"
 #include "sim/machine_spec.h"
 #include "sim/sensor_spec.h"
 

@@ -8,7 +8,7 @@
 #include "benchmarks/synchrony/lag.h"
 #include "core/contact_limits.h"
 #include "core/fuse.h"
-#include "sim/display_plant.h"
+#include "sim/plants/display_plant.h"
 #include "tests/support/scenes.h"
 
 namespace enc {

@@ -11,8 +11,8 @@
 
 #include "core/arm/arm.h"
 #include "core/scene_spec.h"
-#include "sim/arm/arm_model.h"
-#include "sim/mujoco.h"
+#include "sim/bodies/arm_model.h"
+#include "sim/bodies/mujoco.h"
 
 namespace enc::sim {
 namespace {

@@ -144,9 +144,9 @@ TEST(Shape, LibrariesStayInTheirFiles) {
       const std::string& name = include.name;
       const bool good = (source.folder != "core" || starts(name, "Eigen/") || starts(name, "encounter_") ||
                          std::regex_match(name, kStandard)) &&
-                        (!starts(name, "mujoco/") || source.name == "sim/mujoco.h") &&
-                        (!starts(name, "toml++") || source.name == "models/toml_reader.cpp") &&
-                        (!starts(name, "tiny_gltf") || source.name == "models/mesh_gltf.cpp") &&
+                        (!starts(name, "mujoco/") || source.name == "sim/bodies/mujoco.h") &&
+                        (!starts(name, "toml++") || source.name == "models/schema/toml_reader.cpp") &&
+                        (!starts(name, "tiny_gltf") || source.name == "models/mesh_files/mesh_gltf.cpp") &&
                         (!starts(name, "embree3/") || source.name == "benchmarks/peers/embree.cpp") &&
                         (!starts(name, "kdl/") || source.name == "benchmarks/peers/kdl.cpp") &&
                         (!starts(name, "opencv2") || source.name.find("vision/") != std::string::npos) &&

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/arm/impedance.h"
-#include "sim/arm/arm_plant.h"
+#include "sim/plants/arm_plant.h"
 
 namespace enc {
 namespace {
