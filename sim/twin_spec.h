@@ -1,6 +1,6 @@
 // The simulator's truth: what the devices, the room and the person really are, in [truth.*] of
 // models/rigs/sim.toml. The core never sees it. Defaults are the one device set of all scenes and benchmarks;
-// sources stand beside each name in models/schema.cpp.
+// sources stand beside each name in models/schema/schema_twin.cpp.
 #pragma once
 
 #include <array>

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "models/mesh_files/mesh_write.h"
+#include "tests/support/replaced.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -21,6 +22,7 @@ namespace enc::tests {
 namespace {
 
 namespace fs = std::filesystem;
+using test::replaced;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -44,11 +46,6 @@ std::string with_index(std::uint16_t value) {
   std::string text = bytes(".glb");
   std::memcpy(text.data() + text.size() - 24, &value, sizeof(value));
   return text;
-}
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 // The tetrahedron as .gltf, its numbers as a data URI, with one part of the JSON changed.
 std::string gltf(const std::string& from = "{", const std::string& to = "{") {
