@@ -14,7 +14,7 @@
 #include "app/options.h"
 #include "app/process.h"
 #include "core/error.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 
 namespace enc::app {
 namespace {

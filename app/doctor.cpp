@@ -10,10 +10,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "app/modules.h"
+#include "app/modules/modules.h"
 #include "app/options.h"
-#include "models/scene_file.h"
-#include "sim/mujoco.h"
+#include "models/setup/scene_file.h"
+#include "sim/bodies/mujoco.h"
 
 namespace enc::app {
 namespace {

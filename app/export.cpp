@@ -8,7 +8,7 @@
 
 #include "app/options.h"
 #include "app/process.h"
-#include "app/stop_signals.h"
+#include "app/run/stop_signals.h"
 #include "models/files.h"
 #include "trial/measure/record_table.h"
 #include "trial/prepare.h"

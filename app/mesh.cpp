@@ -6,10 +6,10 @@
 
 #include "app/options.h"
 #include "core/error.h"
-#include "models/mesh_write.h"
+#include "models/mesh_files/mesh_write.h"
+#include "models/schema/wording.h"
 #include "models/shapes/hare.h"
 #include "models/shapes/shapes.h"
-#include "models/wording.h"
 
 namespace enc::app {
 namespace {

@@ -10,9 +10,9 @@
 #include "core/error.h"
 #include "core/mesh/mesh_tree.h"
 #include "models/csv_reader.h"
-#include "models/mesh_check.h"
-#include "models/mesh_file.h"
-#include "models/wording.h"
+#include "models/mesh_files/mesh_check.h"
+#include "models/mesh_files/mesh_file.h"
+#include "models/schema/wording.h"
 #include "trial/prepare.h"
 
 namespace enc::app {

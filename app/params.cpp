@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/options.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::app {
 namespace {

@@ -20,7 +20,7 @@ find_library(GMP_LIBRARY gmp)
 
 add_custom_target(tests) # all but those of the benchmarks
 function(enc_test kind shards) # enc_test(folder shards libraries...)
-  file(GLOB sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone
     list(FILTER sources EXCLUDE REGEX mesh_property_test)
   endif()

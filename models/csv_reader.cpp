@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "models/files.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 
 namespace enc::models {
 

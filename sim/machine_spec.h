@@ -11,7 +11,7 @@ namespace enc::sim {
 
 enum class HexapodForm : std::uint8_t {
   control,    // the platform's pose is prescribed: exact where the servo puts it, no sag, no modes
-  structural  // the platform is a free body on six legs with stiffness and damping (sim/legs.h)
+  structural  // the platform is a free body on six legs with stiffness and damping (sim/bodies/legs.h)
 };
 
 struct HexapodTruth {

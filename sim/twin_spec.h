@@ -1,6 +1,6 @@
 // The simulator's truth: what the devices, the room and the person really are, in [truth.*] of
 // models/rigs/sim.toml. The core never sees it. Defaults are the one device set of all scenes and benchmarks;
-// sources stand beside each name in models/schema.cpp.
+// sources stand beside each name in models/schema/schema_twin.cpp.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/world/rig_spec.h"
-#include "sim/arm/arm_spec.h"
+#include "sim/arm_spec.h"
 #include "sim/machine_spec.h"
 #include "sim/sensor_spec.h"
 

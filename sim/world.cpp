@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/rotation.h"
-#include "sim/model.h"
+#include "sim/bodies/model.h"
 
 namespace enc::sim {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/module.h"
 #include "core/rig.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "sim/world.h"
 #include "trial/prepare.h"
 

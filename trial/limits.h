@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/world/scene.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::trial {
 

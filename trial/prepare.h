@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/world/scene.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::trial {
 

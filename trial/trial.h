@@ -13,7 +13,7 @@
 
 #include "core/record/record.h"
 #include "core/rig.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "sim/world.h"
 #include "trial/assemble.h"
 

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "models/csv_reader.h"
 #include "models/fit/latency_fit.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 #include "trial/fit/point_set.h"
 
 namespace enc::app {

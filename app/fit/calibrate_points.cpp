@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/rotation.h"
 #include "models/files.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "trial/fit/point_study.h"
 #include "trial/guided/driven_arm.h"
 #include "trial/guided/registration_rig.h"

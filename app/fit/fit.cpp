@@ -10,8 +10,8 @@
 #include "models/csv_reader.h"
 #include "models/files.h"
 #include "models/fit/loop_fit.h"
-#include "models/response_file.h"
-#include "models/scene_file.h"
+#include "models/setup/response_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "models/csv_reader.h"
 #include "models/fit/loop_csv.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 #include "trial/fit/ball_fit.h"
 
 namespace enc::app {

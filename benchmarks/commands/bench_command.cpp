@@ -19,7 +19,7 @@
 #include "benchmarks/report/report.h"
 #include "core/error.h"
 #include "models/files.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench {
 namespace {

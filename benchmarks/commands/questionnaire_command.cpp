@@ -20,8 +20,8 @@
 #include "core/error.h"
 #include "models/csv_reader.h"
 #include "models/files.h"
-#include "models/scene_file.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench {
 namespace {

@@ -11,7 +11,7 @@
 #include "benchmarks/deformation/deformation_full.h"
 #include "benchmarks/kit/parallel.h"
 #include "core/world/scene.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::deformation {
 namespace {

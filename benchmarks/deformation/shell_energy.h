@@ -16,7 +16,7 @@
 #include <Eigen/SparseCore>
 
 #include "benchmarks/deformation/contour.h"
-#include "sim/ball_plant.h"
+#include "sim/bodies/ball_plant.h"
 
 namespace enc::bench::deformation {
 

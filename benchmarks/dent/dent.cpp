@@ -13,7 +13,7 @@
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/statistics.h"
 #include "core/world/scene.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "models/shapes/shapes.h"
 
 namespace enc::bench::dent {

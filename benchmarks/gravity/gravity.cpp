@@ -7,7 +7,7 @@
 
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/statistics.h"
-#include "sim/arm/arm_spec.h"
+#include "sim/arm_spec.h"
 
 namespace enc::bench::gravity {
 

@@ -7,7 +7,7 @@
 
 #include "benchmarks/kit/bench.h"
 #include "core/machine/arm.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::gravity {
 

@@ -11,7 +11,7 @@
 
 #include "benchmarks/gravity/gravity.h"
 #include "benchmarks/kit/statistics.h"
-#include "sim/arm/arm_model.h"
+#include "sim/bodies/arm_model.h"
 
 namespace enc::bench::gravity {
 namespace {

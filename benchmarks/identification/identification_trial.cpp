@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/ball_contact.h"
+#include "sim/bodies/ball_contact.h"
 #include "sim/random.h"
 #include "trial/trial.h"
 

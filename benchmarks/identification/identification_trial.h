@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/kit/bench.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "trial/fit/ball_fit.h"
 
 namespace enc::bench::identification {

@@ -9,9 +9,9 @@
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/kit/parallel.h"
 #include "core/task/measure/probe.h"
-#include "models/directions.h"
 #include "models/fit/loop_csv.h"
-#include "sim/ball_plant.h"
+#include "models/setup/directions.h"
+#include "sim/bodies/ball_plant.h"
 #include "trial/measure/record_table.h"
 
 namespace enc::bench::indentation {

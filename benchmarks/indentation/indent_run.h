@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/response/response.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::indentation {
 

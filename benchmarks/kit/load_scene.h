@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmarks/kit/bench.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench {
 

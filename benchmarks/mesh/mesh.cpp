@@ -15,8 +15,8 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/kit/yardstick.h"
 #include "core/mesh/mesh_tree.h"
-#include "models/mesh_check.h"
-#include "models/mesh_write.h"
+#include "models/mesh_files/mesh_check.h"
+#include "models/mesh_files/mesh_write.h"
 #include "models/shapes/shapes.h"
 #include "trial/trial.h"
 

@@ -15,7 +15,7 @@
 #include "benchmarks/questionnaire/answers.h"
 #include "core/error.h"
 #include "models/files.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 
 namespace enc::bench::questionnaire {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "benchmarks/questionnaire/answers.h"
 #include "core/error.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 
 namespace enc::bench::questionnaire {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "models/csv_reader.h"
-#include "models/scene_file.h"
-#include "models/toml_reader.h"
-#include "models/wording.h"
+#include "models/schema/toml_reader.h"
+#include "models/schema/wording.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::questionnaire {
 namespace {

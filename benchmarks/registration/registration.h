@@ -6,7 +6,7 @@
 
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/registration/accuracy.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::registration {
 

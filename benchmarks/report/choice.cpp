@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 
 namespace enc::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include "benchmarks/questionnaire/form.h"
 #include "benchmarks/report/machine.h"
 #include "benchmarks/report/plot.h"
-#include "sim/mujoco.h"
+#include "sim/bodies/mujoco.h"
 
 namespace enc::bench {
 namespace {

@@ -15,7 +15,7 @@
 #include "benchmarks/report/report.h"
 #include "core/error.h"
 #include "models/files.h"
-#include "sim/mujoco.h"
+#include "sim/bodies/mujoco.h"
 
 namespace enc::bench {
 namespace {

@@ -15,8 +15,8 @@
 #include "benchmarks/kit/bench.h"
 #include "core/world/scene.h"
 #include "models/fit/loop_fit.h"
-#include "models/scene_file.h"
-#include "sim/ball_plant.h"
+#include "models/setup/scene_file.h"
+#include "sim/bodies/ball_plant.h"
 #include "trial/measure/record_table.h"
 
 namespace enc::bench::response {

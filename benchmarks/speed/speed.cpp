@@ -7,7 +7,7 @@
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/kit/yardstick.h"
-#include "sim/mujoco.h"
+#include "sim/bodies/mujoco.h"
 #include "trial/trial.h"
 
 namespace enc::bench::speed {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/machine/loop_model.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::stiffness {
 

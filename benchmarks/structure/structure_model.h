@@ -2,7 +2,7 @@
 // uses, and as a closed loop of bodies with `connect` constraints, which exists for comparison only.
 #pragma once
 
-#include "sim/legs.h"
+#include "sim/bodies/legs.h"
 
 namespace enc::bench::structure {
 

@@ -9,7 +9,7 @@
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/switching/crowd.h"
 #include "benchmarks/switching/switching.h"
-#include "sim/mujoco.h"
+#include "sim/bodies/mujoco.h"
 #include "trial/trial.h"
 
 namespace enc::bench::switching {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::synchrony {
 

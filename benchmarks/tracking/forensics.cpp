@@ -9,9 +9,9 @@
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/tracking/motion.h"
 #include "benchmarks/tracking/tracking_fit.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
+#include "sim/plants/tracker_plant.h"
 #include "sim/random.h"
-#include "sim/tracker_plant.h"
 
 namespace enc::bench::tracking {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/task/walk.h"
-#include "sim/tracker_plant.h"
+#include "sim/plants/tracker_plant.h"
 
 namespace enc::bench::tracking {
 namespace {

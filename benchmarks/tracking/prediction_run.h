@@ -9,7 +9,7 @@
 
 #include "benchmarks/tracking/motion.h"
 #include "core/world/scene.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::tracking {
 

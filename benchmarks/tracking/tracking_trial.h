@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmarks/tracking/tracking_theory.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::tracking {
 

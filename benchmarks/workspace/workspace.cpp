@@ -11,7 +11,7 @@
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/workspace/reach_volume.h"
 #include "core/world/press_check.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::workspace {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "models/csv_reader.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 
 namespace enc::models {
 namespace {

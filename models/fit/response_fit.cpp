@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "models/units.h"
+#include "models/schema/units.h"
 
 namespace enc::models {
 namespace {

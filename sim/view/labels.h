@@ -1,7 +1,7 @@
 // Lettering of a picture: labels in both margins with lines to what they name, and a title.
 #pragma once
 
-#include "sim/mujoco.h"
+#include "sim/bodies/mujoco.h"
 #include "sim/view/picture.h"
 #include "sim/view/view.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/module.h"
-#include "sim/mujoco.h"
+#include "sim/bodies/mujoco.h"
 #include "sim/view/egl.h"
 #include "sim/view/labels.h"
 #include "sim/view/picture.h"

@@ -1,6 +1,6 @@
 // What pushes the haptic-tip from outside: its law worked by hand, its programme, its tremor; and the world
 // that carries it to the sensor.
-#include "sim/pusher.h"
+#include "sim/bodies/pusher.h"
 
 #include <cmath>
 

@@ -8,7 +8,7 @@
 #include "benchmarks/synchrony/lag.h"
 #include "core/track/fuse.h"
 #include "core/world/contact_limits.h"
-#include "sim/display_plant.h"
+#include "sim/plants/display_plant.h"
 #include "tests/support/scenes.h"
 
 namespace enc {

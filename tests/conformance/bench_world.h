@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "trial/trial.h"
 
 namespace enc::test {

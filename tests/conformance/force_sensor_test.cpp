@@ -1,7 +1,7 @@
 // Every ForceSensor: the simulated one and the driver to copy.
 #include <gtest/gtest.h>
 
-#include "app/modules.h"
+#include "app/modules/modules.h"
 #include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/modules.h"
+#include "app/modules/modules.h"
 #include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
 

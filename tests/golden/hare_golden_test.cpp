@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "models/mesh_check.h"
-#include "models/mesh_write.h"
+#include "models/mesh_files/mesh_check.h"
+#include "models/mesh_files/mesh_write.h"
 #include "models/shapes/hare.h"
 
 namespace enc {

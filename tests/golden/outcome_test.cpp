@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "sim/truth_fields.h"
 #include "trial/trial.h"
 

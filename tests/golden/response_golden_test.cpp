@@ -9,8 +9,8 @@
 #include "core/response/response.h"
 #include "core/world/scene.h"
 #include "models/fit/loop_fit.h"
-#include "models/response_file.h"
-#include "models/scene_file.h"
+#include "models/setup/response_file.h"
+#include "models/setup/scene_file.h"
 #include "trial/measure/record_table.h"
 
 namespace enc {

@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "core/record/replay.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "trial/trial.h"
 
 namespace enc {

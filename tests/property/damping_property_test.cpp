@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/step.h"
-#include "sim/hexapod_plant.h"
+#include "sim/plants/hexapod_plant.h"
 #include "tests/support/scenes.h"
 
 namespace enc {

@@ -9,9 +9,9 @@
 
 #include "core/response/response.h"
 #include "core/world/scene.h"
-#include "models/directions.h"
 #include "models/fit/response_fit.h"
-#include "models/scene_file.h"
+#include "models/setup/directions.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::models {
 namespace {

@@ -17,8 +17,8 @@
 
 #include "core/error.h"
 #include "core/mesh/mesh_tree.h"
-#include "models/mesh_check.h"
-#include "models/mesh_file.h"
+#include "models/mesh_files/mesh_check.h"
+#include "models/mesh_files/mesh_file.h"
 #include "models/shapes/shapes.h"
 
 namespace enc {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "sim/ball_plant.h"
+#include "sim/bodies/ball_plant.h"
 #include "trial/fit/ball_loops.h"
 
 namespace enc::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "models/fit/response_fit.h"
-#include "sim/ball_plant.h"
+#include "sim/bodies/ball_plant.h"
 
 namespace enc::test {
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "tests/support/scenes.h"
 #include "trial/finger_loop.h"
 #include "trial/trial.h"

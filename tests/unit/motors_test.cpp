@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/task/meet/impedance.h"
-#include "sim/arm/arm_plant.h"
+#include "sim/plants/arm_plant.h"
 
 namespace enc {
 namespace {

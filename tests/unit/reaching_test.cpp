@@ -1,43 +1,15 @@
 // An arm's loop, step by step: the core alone under a finger and an arm that are where a test puts them.
 #include <algorithm>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/finger_bench.h"
 #include "tests/support/scenes.h"
-#include "trial/finger_loop.h"
-#include "trial/trial.h"
 
 namespace enc {
 namespace {
 
-Scene scene_of(const std::string& name, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> set{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
-  set.insert(set.end(), more.begin(), more.end());
-  return trial::prepare_setup(
-      models::load(fmt::format("{}/models/scenes/{}.toml", ENCOUNTER_SOURCE_DIR, name), "", set));
-}
-
-// A finger of 8 mm radius; `depth` of its lowest point under z = 0, negative: the gap. The tip goes there,
-// too, if it is pressed.
-struct Bench {
-  explicit Bench(const std::string& name, const std::vector<std::string>& more = {})
-      : loop(scene_of(name, more)) {}
-  const Outputs& at(double depth, int ticks = 1, double x = 0.0) {
-    for (int i = 0; i < ticks; ++i) loop.tick(Point<'W'>(x, 0.0, 0.008 - depth));
-    return loop.out;
-  }
-  // The tip `depth` under the surface, where a finger has pressed it.
-  void press_tip(double depth) {
-    const Impedance& law = *loop.scene.impedance();
-    ArmSample& arm = loop.in.arm.value;
-    ASSERT_TRUE(law.arm.inverse(loop.scene.X_WR.inverse() * Point<'W'>(0, 0, -depth), arm.joints));
-    arm.tip = law.arm.tip(arm.joints);
-  }
-  // What is pushed with beyond gravity, N along z of W.
-  [[nodiscard]] double pushed() const { return -loop.out.felt.xyz[2]; }
-  trial::FingerLoop loop;
-};
+using Bench = test::FingerBench;
 
 // Gravity alone: eq. 4 and 5.
 Vec<'R'> weight(const Bench& bench) {
@@ -330,70 +302,6 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   EXPECT_NEAR(bench.at(0.001, 700, x).prop_speed, 0.050, 1e-4);
   Bench plate("drum", {"prop.kind=\"plate\""});
   EXPECT_EQ(plate.at(-0.020, 500).prop_speed, 0.0);  // it cannot run
-}
-
-// A ball, its prop at home, and a finger that is believed wherever a test says.
-struct Ball : Bench {
-  Ball() : Bench("hit_ball", {"rig.tracker.prediction=\"hold\""}) {
-    at(-0.080, 10);
-    at(-0.010, 500);
-  }
-  [[nodiscard]] const Moved& moved() const { return moved_in(loop.state)[0]; }
-  // The prop goes on at `speed` under the finger, until they part or for `ticks`.
-  int strike(double speed, int ticks = 100) {
-    for (int i = 1; i <= ticks; ++i) {
-      press_tip(speed * 1e-3 * i);
-      loop.in.arm.value.velocity = Vec<'R'>(0, 0, -speed);
-      at(-0.002);
-      if (i > 10 && loop.out.mode != Mode::contact) return i;
-    }
-    return ticks;
-  }
-};
-
-// A picture is 50 ms old, and a hit is over by then.
-TEST(HitBall, IsHitByThePropAndNotByWhatIsBelieved) {
-  Ball ball;
-  ball.at(0.010, 200);
-  EXPECT_EQ(ball.loop.out.contacts, 0);
-  EXPECT_EQ(ball.moved().velocity.norm(), 0.0) << "the prop was not touched";
-  Ball struck;
-  const int ticks = struck.strike(0.2);
-  EXPECT_EQ(struck.loop.out.contacts, 1);
-  EXPECT_LT(ticks, 45);
-  EXPECT_NEAR(struck.moved().velocity.norm(), 0.2 * (1.0 + 0.95 * 0.75), 0.02);
-  struck.strike(0.2);
-  EXPECT_EQ(struck.loop.out.contacts, 1) << "a ball that flies is not hit again";
-}
-
-// Two counts and one reading of 0.8 m/s: the prop does not run off with it.
-TEST(HitBall, OneWrongReadingSetsNothingInMotion) {
-  Ball ball;
-  ball.press_tip(0.08e-3);
-  ball.loop.in.arm.value.velocity = Vec<'R'>(0, 0, -0.8);
-  ball.at(-0.002);
-  EXPECT_EQ(ball.loop.out.mode, Mode::contact);
-  ball.loop.in.arm.value.velocity = Vec<'R'>::zero();
-  double fastest = 0.0;
-  for (int i = 0; i < 100; ++i) {
-    ball.at(-0.002);
-    fastest = std::max(fastest, recall<Meeting>(ball.loop.state).reaching.velocity.norm());
-  }
-  EXPECT_LT(fastest, 0.050);
-}
-
-// What the arm is told along the normal is what the ball gets.
-TEST(HitBall, ItsMomentumIsTheImpulseOfWhatTheArmIsTold) {
-  Ball ball;
-  double impulse = 0.0;
-  for (int i = 1; i <= 60; ++i) {
-    ball.press_tip(0.2e-3 * i);
-    ball.loop.in.arm.value.velocity = Vec<'R'>(0, 0, -0.2);
-    ball.at(-0.002);
-    if (ball.loop.out.mode == Mode::contact) impulse += 1e-3 * ball.pushed();
-  }
-  EXPECT_GT(impulse, 0.01);
-  EXPECT_NEAR(impulse, 0.058 * ball.moved().velocity.norm(), 0.02 * impulse);
 }
 
 // From key to key the target hurries where nobody feels it: a key that is touched stays the target.

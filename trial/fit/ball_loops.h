@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "models/fit/response_fit.h"
-#include "sim/ball_plant.h"
+#include "sim/bodies/ball_plant.h"
 #include "trial/fit/drifting_noise.h"
 
 namespace enc::trial {

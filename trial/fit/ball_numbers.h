@@ -1,11 +1,11 @@
-// The numbers of the ball's law (sim/ball_plant.h) as unknowns of a fit: names as in [truth.ball].
+// The numbers of the ball's law (sim/bodies/ball_plant.h) as unknowns of a fit: names as in [truth.ball].
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <string_view>
 
-#include "sim/ball_plant.h"
+#include "sim/bodies/ball_plant.h"
 
 namespace enc::trial {
 

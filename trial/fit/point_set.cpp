@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "models/csv_reader.h"
-#include "models/wording.h"
+#include "models/schema/wording.h"
 
 namespace enc::trial {
 namespace {

@@ -5,7 +5,7 @@
 //                                            encoders -> believed kinematics -> what the device says
 #pragma once
 
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "trial/guided/guided.h"
 #include "trial/trial.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/machine/arm.h"
-#include "sim/arm/arm_spec.h"
-#include "sim/stereo_noise.h"
+#include "sim/arm_spec.h"
+#include "sim/plants/stereo_noise.h"
 #include "trial/fit/point_set.h"
 
 namespace enc::trial {

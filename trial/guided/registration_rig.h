@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "trial/guided/guided.h"
 
 namespace enc::trial {

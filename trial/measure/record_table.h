@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/record/record.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::trial {
 

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include <encounter_version.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "app/built.h"
+#include "app/modules/modules.h"
+#include "app/options.h"
+#include "app/process.h"
+#include "app/run/run_report.h"
+#include "app/run/stop_signals.h"
+#include "app/run/verdict.h"
+#include "core/error.h"
+#include "models/files.h"
+#include "trial/measure/press_measure.h"
+#include "trial/measure/probe_measure.h"
+#include "trial/trial.h"
+
+namespace enc::app {
+namespace {
+
+double pace_of(const std::string& text) {
+  if (text == "free") return 0.0;
+  if (text == "wall") return 1.0;
+  double factor = 0.0;
+  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), factor);
+  if (bad != std::errc() || end != text.data() + text.size() || !(factor > 0.0) || !std::isfinite(factor))
+    throw Error("--pace '" + text + "': expected free, wall, or a positive number such as 0.1 or 10");
+  return factor;
+}
+
+void show_progress(double share) {
+  const int percent = static_cast<int>(std::lround(share * 100.0));
+  fmt::print(stderr, "\r  {:3d} %", percent);
+  std::fflush(stderr);
+}
+
+// The report would be written into it. What throws away both is no harm.
+void refuse_output(const std::string& path) {
+  struct stat output {
+  }, there{};
+  if (fstat(STDOUT_FILENO, &output) != 0 || stat(path.c_str(), &there) != 0) return;
+  if (output.st_dev != there.st_dev || output.st_ino != there.st_ino) return;
+  if (S_ISCHR(output.st_mode) && isatty(STDOUT_FILENO) == 0) return;
+  throw Error(path + ": is standard output, where the report goes; expected another file; choose one");
+}
+
+// A record, beside its place until it is sealed.
+struct Recording {
+  models::OutFile file;
+  RecordWriter writer;
+
+  Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene)
+      : file(options.record, models::existing(options.force)),
+        writer(file.aside(), texts, layout_hash(scene)) {
+    file.spare();  // what a run that does not end has recorded is readable
+  }
+  void end() {
+    writer.close();
+    if (!writer.full()) file.keep();
+  }
+};
+
+std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup,
+                                      const Scene& scene) {
+  if (options.record.empty()) return nullptr;
+  for (const std::string& path : {options.record, options.record + ".part"}) refuse_output(path);
+  RecordTexts texts = models::record_texts(setup);
+  texts["scene"] = options.scene;
+  texts["rig"] = setup.rig_path;
+  texts["seed"] = std::to_string(options.seed);
+  texts["version"] = ENCOUNTER_VERSION;
+  return std::make_unique<Recording>(options, texts, scene);
+}
+
+int diverged(const trial::TrialResult& result, const models::Setup& setup) {
+  fmt::print(stderr, "encounter: the physics diverged at tick {}: {}; try a smaller {}.timestep_us\n",
+             result.diverged_at, result.divergence, setup.twin.stepping(setup.scene.arm.has_value()).table);
+  return 4;
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const StopSignals signals;  // from here on: devices are let go, whenever it comes
+  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
+    throw Error("--for-s: expected a positive number of seconds below a million");
+  trial::PressMeasure presses(setup);
+  trial::ProbeMeasure pushes;
+  trial::FingerMeasure fingers;
+  trial::TouchMeasure touches;
+  trial::TrialOptions trial_options;
+  trial_options.seed = options.seed;
+  trial_options.seconds = options.seconds.value_or(kUnset);
+  trial_options.pace = pace_of(options.pace);
+  trial_options.drivers = load_module;
+  trial_options.armed = options.armed;
+  trial_options.watch = [&](const trial::Glance& glance) {
+    presses.see(glance);
+    pushes.see(glance);
+    fingers.see(glance);
+    touches.see(glance);
+  };
+  trial_options.stop = [] { return StopSignals::caught() != 0; };
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) trial_options.progress = show_progress;
+  trial::Trial trial(
+      setup, trial_options);  // everything that can be refused is refused here, before a record is begun
+  const std::unique_ptr<Recording> record = record_for(options, setup, trial.scene());
+  print_notes(setup.notes);  // of a scene that is not refused
+  trial.record_to(record ? &record->writer : nullptr);
+  const double started = cpu_seconds();
+  const trial::TrialResult result = trial.run();
+  if (terminal) fmt::print(stderr, "\r        \r");
+
+  const trial::Limits limits = trial::limits_of(setup, trial.scene());
+  RunReport report{setup,
+                   trial.scene(),
+                   result,
+                   presses,
+                   pushes,
+                   fingers,
+                   touches,
+                   limits,
+                   options,
+                   !options.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0,
+                   trial.has_world() ? trial.world().physics().elements() : 0,
+                   started};
+  report.crossed = crossed(report);
+  const std::string text = options.json ? run_json(report) : run_text(report);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);  // while a pipe without a reader is an error only
+  if (record) record->end();
+  if (record && record->writer.full())
+    throw Error(record->writer.error() + "; replay --partial reads what was written");
+  if (result.diverged_at >= 0) return diverged(result, setup);
+  if (StopSignals::caught() != 0) return 128 + StopSignals::caught();
+  if (result.last_mode == Mode::hold) return 4;
+  return report.crossed.empty() ? 0 : 1;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,120 @@
+#include <encounter_version.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/built.h"
+#include "app/process.h"
+#include "app/run/run_report.h"
+
+namespace enc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json meetings_json(const trial::FingerMeasure& measure) {
+  Json all = Json::array();
+  for (const trial::Meeting& m : measure.meetings())
+    all.push_back({{"object", m.object},
+                   {"prepared_s", number(m.prepared)},
+                   {"arrived_s", number(m.arrived)},
+                   {"touched_s", number(m.touched)},
+                   {"approach_mm_s", number(m.approach_speed * 1e3)},
+                   {"miss_mm", number(m.miss * 1e3)},
+                   {"peak_N", m.peak_force},
+                   {"depth_mm", number(m.peak_depth * 1e3)},
+                   {"step_N", m.greatest_step}});
+  return all;
+}
+
+Json presses_json(const trial::PressMeasure& measure) {
+  Json list = Json::array();
+  for (const trial::PressFigures& p : measure.presses()) {
+    if (std::isnan(p.miss)) continue;
+    list.push_back({{"approach_mm_s", number(p.approach_speed * 1e3)},
+                    {"miss_mm", number(p.miss * 1e3)},
+                    {"miss_bound_mm", number(p.miss_bound * 1e3)},
+                    {"first_force_delay_ms", number(p.first_force_delay * 1e3)},
+                    {"contacts", p.contacts},
+                    {"peak_force_N", number(p.peak_force)},
+                    {"force_at_limit_N", number(p.force_at_limit)},
+                    {"peak_deflection_mm", number(p.peak_deflection * 1e3)}});
+  }
+  return list;
+}
+
+Json pushes_json(const trial::ProbeMeasure& measure) {
+  Json list = Json::array();
+  for (const trial::PushFigures& p : measure.pushes())
+    list.push_back({{"peak_force_N", number(p.peak_force)},
+                    {"peak_deflection_mm", number(p.peak_deflection * 1e3)},
+                    {"work_in_mJ", number(p.work_in * 1e3)},
+                    {"work_out_mJ", number(p.work_out * 1e3)},
+                    {"loss_percent", number(p.loss() * 100.0)}});
+  return list;
+}
+
+// Of a machine that holds a deflection against a force.
+void press_figures(Json& json, const trial::PressMeasure& presses) {
+  json["rmse_press_N"] = number(presses.rmse_press());
+  json["rmse_release_N"] = number(presses.rmse_release());
+  json["energy_in_mJ"] = presses.energy_in() * 1e3;
+  json["energy_out_mJ"] = presses.energy_out() * 1e3;
+  json["tip_outside_um"] = number(presses.greatest_outside() * 1e6);
+  json["tension_N"] = presses.greatest_tension();
+}
+
+}  // namespace
+
+std::string run_json(const RunReport& r) {
+  Json json;
+  json["encounter"] = ENCOUNTER_VERSION;
+  json["scene"] = r.setup.scene_path;
+  json["rig"] = r.setup.rig_path;
+  json["seed"] = r.asked.seed;
+  json["set"] = r.asked.set;
+  json["for_s"] = r.asked.seconds ? Json(*r.asked.seconds) : Json(nullptr);
+  json["title"] = r.setup.scene.title;
+  json["built"] = Json::object();
+  json["left_out"] = Json::object();
+  for (const Part& part : parts_of(r.setup)) json[part.built ? "built" : "left_out"][part.name] = part.what;
+  for (int i = 0; i < kModes; ++i)
+    json["modes_s"][std::string(mode_name(static_cast<Mode>(i)))] =
+        r.result.mode_time[static_cast<std::size_t>(i)];
+  json["contacts"] = r.result.contacts;
+  json["holds"] = Json::array();
+  for (const auto& [t, why] : r.result.holds)
+    json["holds"].push_back({{"time_s", seconds(t.time_since_epoch())}, {"why", why_text(why)}});
+  if (r.scene.impedance())
+    json["meetings"] = meetings_json(r.fingers);
+  else
+    json["presses"] = presses_json(r.presses);
+  if (r.scene.probe()) {
+    json["pushes"] = pushes_json(r.pushes);
+    json["repeats_within_N"] = number(r.pushes.spread());
+    json["force_error_N"] = number(r.pushes.force_error());
+  }
+  if (!r.scene.impedance()) press_figures(json, r.presses);
+  const StepTimes times = step_times(r.result.step_ns);
+  json["step_ns"] = {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
+  json["simulated_s"] = r.result.simulated;
+  json["wall_s"] = r.result.wall;
+  json["times_real_time"] = number(r.result.simulated / r.result.wall);
+  json["withheld_commands"] = r.result.withheld;
+  json["missed_cycles"] = r.result.missed;
+  json["late_s"] = r.result.lateness.total;
+  json["limits_crossed"] = r.crossed;
+  json["stopped"] = r.result.interrupted;
+  json["ticks"] = r.result.ticks;
+  json["diverged_at_tick"] = r.result.diverged_at;
+  json["started_cpu_ms"] = r.started * 1e3;
+  json["peak_memory_MiB"] = peak_memory_mb();
+  json["threads"] = thread_count();
+  json["mujoco_elements"] = r.elements;
+  json["libraries"] = mapped_libraries();
+  json["state_hash"] = fmt::format("{:016x}", r.result.hash);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace enc::app

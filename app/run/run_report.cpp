@@ -1,0 +1,264 @@
+#include "app/run/run_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <encounter_version.h>
+#include <fmt/format.h>
+
+#include "app/built.h"
+#include "app/process.h"
+#include "models/order_statistics.h"
+
+namespace enc::app {
+namespace {
+
+std::string modes_line(const trial::TrialResult& result) {
+  std::string text;
+  for (int i = 0; i < kModes; ++i) {
+    const double time = result.mode_time[static_cast<std::size_t>(i)];
+    if (time > 0.0)
+      text += fmt::format("{}{} {:.2f} s", text.empty() ? "" : ", ", mode_name(static_cast<Mode>(i)), time);
+  }
+  return text;
+}
+
+// One entry for each press: speed, miss and its bound, all in the units people think in.
+template <class F>
+std::string each(const std::vector<trial::PressFigures>& presses, const F& figure) {
+  std::string text;
+  for (const trial::PressFigures& press : presses) {
+    if (std::isnan(press.miss)) continue;
+    text += (text.empty() ? "" : " / ") + figure(press);
+  }
+  return text;
+}
+
+double peak(const std::vector<trial::PressFigures>& presses, double trial::PressFigures::*figure) {
+  double most = 0.0;
+  for (const trial::PressFigures& press : presses) most = std::max(most, press.*figure);
+  return most;
+}
+
+std::string range_text(const std::vector<trial::PressFigures>& presses) {
+  double low = INFINITY;
+  double high = -INFINITY;
+  for (const trial::PressFigures& press : presses) {
+    if (std::isnan(press.force_at_limit)) continue;
+    low = std::min(low, press.force_at_limit);
+    high = std::max(high, press.force_at_limit);
+  }
+  return high < low ? "limit not reached" : fmt::format("{:.2f}..{:.2f} N at the limit", low, high);
+}
+
+std::string press_lines(const RunReport& r) {
+  if (r.scene.impedance()) return "";
+  const auto& presses = r.presses.presses();
+  const auto met = [](const trial::PressFigures& p) { return !std::isnan(p.miss); };
+  if (std::none_of(presses.begin(), presses.end(), met)) return "";
+  std::string text;
+  text += fmt::format(
+      "force       peak {:.2f} N, {} (true); deflection peak {:.3f} mm (true), limit {:.1f} mm\n",
+      peak(presses, &trial::PressFigures::peak_force), range_text(presses),
+      peak(presses, &trial::PressFigures::peak_deflection) * 1e3, r.scene.objects.front().limit * 1e3);
+  const auto newtons = [](double x) {
+    return std::isnan(x) ? std::string("none") : fmt::format("{:.3f} N", x);
+  };
+  text += fmt::format(
+      "error       press {} RMSE, release {} RMSE (true force against the response at true deflection)\n",
+      newtons(r.presses.rmse_press()), newtons(r.presses.rmse_release()));
+  text +=
+      fmt::format("approach    {} mm/s\n",
+                  each(presses, [](const auto& p) { return fmt::format("{:.0f}", p.approach_speed * 1e3); }));
+  text += fmt::format("  miss      {} mm (true tool tip to haptic-tip at first touch)\n",
+                      each(presses, [](const auto& p) { return fmt::format("{:.2f}", p.miss * 1e3); }));
+  text += fmt::format(
+      "  bound     {} mm{}\n",
+      each(presses, [](const auto& p) { return fmt::format("{:.2f}", p.miss_bound * 1e3); }),
+      std::all_of(presses.begin(), presses.end(), [](const auto& p) { return !(p.miss > p.miss_bound); })
+          ? ""
+          : "  EXCEEDED");
+  text += fmt::format("  contacts  {}\n",
+                      each(presses, [](const auto& p) { return fmt::format("{}", p.contacts); }));
+  text += fmt::format("energy      {:.2f} mJ in, {:.2f} mJ out\n", r.presses.energy_in() * 1e3,
+                      r.presses.energy_out() * 1e3);
+  const double outside = r.presses.greatest_outside();
+  text += std::isnan(outside) ? std::string("tip         was never inside of an object")
+                              : fmt::format("tip         {} {:.1f} um",
+                                            outside <= 0.0 ? "inside of the undeformed object by at least"
+                                                           : "OUTSIDE of the undeformed object by up to",
+                                            std::abs(outside) * 1e6);
+  text += fmt::format("; pull on the tool at most {:.3f} N\n", r.presses.greatest_tension());
+  return text;
+}
+
+// One entry for each push of the test rig.
+template <class F>
+std::string each_push(const std::vector<trial::PushFigures>& pushes, const F& figure) {
+  std::string text;
+  for (const trial::PushFigures& push : pushes) text += (text.empty() ? "" : " / ") + figure(push);
+  return text;
+}
+
+std::string push_lines(const RunReport& r) {
+  if (!r.scene.probe()) return "";
+  const auto& pushes = r.pushes.pushes();
+  std::string text =
+      fmt::format("pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(),
+                  r.scene.probe()->repeats, r.scene.probe()->depth * 1e3, r.scene.probe()->speed * 1e3);
+  if (pushes.empty())
+    return text + fmt::format("note        the machine never pushed; last notice of the core: {}\n",
+                              r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
+  text += fmt::format("  peak      {} N (measured)\n",
+                      each_push(pushes, [](const auto& p) { return fmt::format("{:.2f}", p.peak_force); }));
+  text += fmt::format("  reached   {} mm\n", each_push(pushes, [](const auto& p) {
+                        return fmt::format("{:.3f}", p.peak_deflection * 1e3);
+                      }));
+  text +=
+      fmt::format("  loss      {} % of the work\n",
+                  each_push(pushes, [](const auto& p) { return fmt::format("{:.1f}", p.loss() * 100.0); }));
+  if (pushes.size() > 1)
+    text += fmt::format("repeats     within {:.3f} N at equal deflection\n", r.pushes.spread());
+  text += fmt::format("error       at most {:.3f} N (measured force against the true one)\n",
+                      r.pushes.force_error());
+  return text;
+}
+
+// One entry for each time that the arm was told to prepare.
+template <class F>
+std::string each_meeting(const std::vector<trial::Meeting>& meetings, const F& figure) {
+  std::string text;
+  for (const trial::Meeting& meeting : meetings) {
+    if (std::isnan(meeting.touched)) continue;
+    text += (text.empty() ? "" : " / ") + figure(meeting);
+  }
+  return text;
+}
+
+// The spring that a wall is, where the user presses one.
+std::string spring_line(const RunReport& r) {
+  const std::optional<UserSpec>& user = r.setup.scene.user;
+  if (!user || user->kind != "press_release") return "";
+  const Object& pressed = r.scene.objects[pressed_object(r.setup.scene.objects, user->object, "user")];
+  if (pressed.interaction.kind != Interaction::slide) return "";
+  if (!std::isfinite(r.fingers.fit().r2()))
+    return "spring      not measured: the finger was never 2 to 10 mm deep\n";
+  return fmt::format(
+      "spring      {:.1f} N/m, R2 {:.5f} (true contact force over true depth, 2 to 10 mm); wanted {:.1f} "
+      "N/m; R2 {:.5f} over the depth that the core believed\n",
+      r.fingers.fit().slope(), r.fingers.fit().r2(), pressed.stiffness, r.fingers.believed().r2());
+}
+
+// An arm that meets a bare finger [VisHap 3].
+std::string finger_lines(const RunReport& r) {
+  if (!r.scene.impedance()) return "";
+  const auto& meetings = r.fingers.meetings();
+  std::string text = fmt::format("far         tip speed at most {:.3f} mm/s\n", r.fingers.far_speed() * 1e3);
+  const auto touched =
+      std::count_if(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); });
+  text += fmt::format("prepare     {} time{}, {} followed by a touch\n", meetings.size(),
+                      meetings.size() == 1 ? "" : "s", touched);
+  if (touched == 0) return text;
+  using trial::Meeting;
+  text += fmt::format(
+      "approach    {} mm/s (planned, of the first touch after each prepare)\n",
+      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.0f}", m.approach_speed * 1e3); }));
+  text += fmt::format("  there     {} ms before the touch\n", each_meeting(meetings, [](const Meeting& m) {
+                        return std::isnan(m.arrived) ? "not"
+                                                     : fmt::format("{:.0f}", (m.touched - m.arrived) * 1e3);
+                      }));
+  text += fmt::format(
+      "  miss      {} mm (along the surface, true finger to the middle of the prop, at the touch)\n",
+      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.miss * 1e3); }));
+  text += fmt::format(
+      "  peak      {} N (greatest until the next prepare, as the next two)\n",
+      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.peak_force); }));
+  if (std::any_of(meetings.begin(), meetings.end(), [](const Meeting& m) { return m.peak_depth > 0.0; }))
+    text += fmt::format("  depth     {} mm (true)\n", each_meeting(meetings, [](const Meeting& m) {
+                          return std::isnan(m.peak_depth) ? "not known"
+                                                          : fmt::format("{:.2f}", m.peak_depth * 1e3);
+                        }));
+  text += fmt::format(
+      "  step      {} N, greatest from one cycle to the next\n",
+      each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.greatest_step); }));
+  const double sideways = r.fingers.tangential_share();
+  return text + spring_line(r) +
+         (std::isfinite(sideways)
+              ? fmt::format("sideways    {:.1f} % of the normal force, where that is more than 1 N\n",
+                            100.0 * sideways)
+              : "sideways    not measured: never more than 1 N along the normal\n");
+}
+
+// Who repeats this gets the same report.
+std::string made_line(const RunReport& r) {
+  std::string text = fmt::format("made by     Encounter {}: {}, rig {}, seed {}", ENCOUNTER_VERSION,
+                                 r.setup.scene_path, r.setup.rig_path, r.asked.seed);
+  if (r.asked.seconds) text += fmt::format(", --for-s {}", *r.asked.seconds);
+  for (const std::string& set : r.asked.set) text += ", --set " + set;
+  return text + "\n";
+}
+
+// What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
+std::string pushed_lines(const RunReport& r) {
+  if (!r.setup.scene.pusher) return "";
+  const auto& pushes = r.presses.presses();
+  return fmt::format("pushed      {} of {} times from outside; at most {:.2f} N and {:.3f} mm deep (true)\n",
+                     pushes.size(), r.setup.scene.pusher->repeats,
+                     peak(pushes, &trial::PressFigures::peak_force),
+                     peak(pushes, &trial::PressFigures::peak_deflection) * 1e3);
+}
+
+}  // namespace
+
+StepTimes step_times(const std::vector<std::uint32_t>& ns) {
+  if (ns.empty()) return {};
+  return {models::percentile(ns, 0.5), models::percentile(ns, 0.99), models::percentile(ns, 0.999),
+          models::percentile(ns, 1.0)};
+}
+
+std::string run_text(const RunReport& r) {
+  std::string text = r.setup.scene.title + "\n" + made_line(r) + parts_text(r.setup);
+  text += fmt::format("modes       {}; {} contacts\n", modes_line(r.result), r.result.contacts);
+  for (const auto& [t, why] : r.result.holds) {
+    text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
+    if (&why != &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) continue;
+    if (r.result.holds.size() > 3)
+      text += fmt::format("hold        and more often; {:.3f} s in all\n",
+                          r.result.mode_time[static_cast<std::size_t>(Mode::hold)]);
+    break;
+  }
+  if (r.result.withheld > 0)
+    text += fmt::format("dry         {} commands were withheld from the machine; --armed sends them\n",
+                        r.result.withheld);
+  if (r.result.missed > 0)
+    text += fmt::format("late        cycles lost to the wall clock: {}; stalls: {}, the longest {:.3f} s\n",
+                        r.result.missed, r.result.lateness.times, r.result.lateness.longest);
+  else if (r.result.lateness.times > 0)
+    text += fmt::format("late        {:.3f} s behind the wall clock; stalls: {}; nothing was lost\n",
+                        r.result.lateness.total, r.result.lateness.times);
+  if (r.result.interrupted) text += "stopped     by a signal, before its end\n";
+  text += weak_text(r.setup, r.scene);
+  for (const trial::Unsteady& object : r.limits.unsteady)
+    text += "unsteady    " + trial::unsteady_text(r.setup, object) + "\n";
+  for (const trial::ArmStrength& at : r.limits.strengths)
+    if (const std::string beyond = trial::beyond_text(at); !beyond.empty())
+      text += "beyond      " + beyond + "\n";
+  text += press_lines(r) + push_lines(r) + pushed_lines(r);
+  text += finger_lines(r);
+  if (r.result.contacts == 0 && r.setup.scene.user && !r.whole)
+    text += fmt::format("note        the user has not touched anything yet; last notice of the core: {}\n",
+                        r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
+  for (const std::string& line : r.crossed) text += "LIMIT       " + line + "\n";
+  text += questionnaire_text(r.setup);
+  const StepTimes times = step_times(r.result.step_ns);
+  text += fmt::format("tick        step() p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.1f} us\n",
+                      times.p50 * 1e-3, times.p99 * 1e-3, times.p999 * 1e-3, times.max * 1e-3);
+  text += fmt::format(
+      "time        {:.2f} s simulated in {:.3f} s: {:.0f} x real time; started in {:.0f} ms, {:.0f} MiB\n",
+      r.result.simulated, r.result.wall, r.result.wall > 0.0 ? r.result.simulated / r.result.wall : 0.0,
+      r.started * 1e3, peak_memory_mb());
+  text += fmt::format("state hash  {:016x} after {} ticks\n", r.result.hash, r.result.ticks);
+  return text;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,157 @@
+#include "app/run/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace enc::app {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+std::string name_of(const RunReport& r, std::int32_t object) {
+  return object < 0 ? "an object"
+                    : "object '" + r.setup.scene.objects[static_cast<std::size_t>(object)].name + "'";
+}
+
+void add_swings(const RunReport& r, Lines& lines) {
+  const auto& swings = r.touches.swings();
+  if (swings.empty()) return;
+  const auto widest = std::max_element(swings.begin(), swings.end(),
+                                       [](const auto& a, const auto& b) { return a.way < b.way; });
+  lines.push_back(
+      fmt::format("{} swung against what pushed it, {} time{}: from {:.2f} s to {:.2f} s by {:.2g} mm at "
+                  "{:.1f} Hz; it is softer than this machine holds still (check names the softest), or add "
+                  "admittance.damping "
+                  "= \"observed\"",
+                  name_of(r, widest->object), swings.size(), swings.size() == 1 ? "" : "s", widest->from,
+                  widest->until, widest->way * 1e3, widest->frequency));
+}
+
+// The paper's user feels what the core calls a contact. By the truth where there is one.
+void add_empty(const RunReport& r, Lines& lines) {
+  const auto& empty = r.touches.empty();
+  if (empty.empty()) return;
+  lines.push_back(
+      fmt::format("nothing was {} in {} of {} contacts, first at {:.2f} s: the tool is not where the tracker "
+                  "says, or the machine did not get there",
+                  r.scene.impedance() ? "touched" : "felt", empty.size(), r.result.contacts, empty.front()));
+}
+
+std::string last_notice(const RunReport& r) {
+  return "last notice of the core: " + (r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
+}
+
+// A part of the presses of the plan, and when the first of them began.
+template <class F>
+void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) {
+  const auto& tried = r.touches.plan().tried();
+  const auto n = std::count_if(tried.begin(), tried.end(), is);
+  if (n == 0) return;
+  const auto first = std::find_if(tried.begin(), tried.end(), is);
+  lines.push_back(fmt::format("{} of {} presses {}, first the one from {:.2f} s on{}", n, tried.size(), text,
+                              first->began, r.result.contacts == 0 ? "; " + last_notice(r) : ""));
+}
+
+// At 20 Hz an arm loses a finger and finds it again within one press (docs/reaching.md).
+void add_repeated(const RunReport& r, Lines& lines) {
+  const auto n = static_cast<std::int64_t>(r.touches.plan().tried().size());
+  if (r.scene.impedance() || n == 0 || r.result.contacts <= n) return;
+  lines.push_back(
+      fmt::format("{} contacts of {} press{}: force was felt where nothing pushed, or the tip lost what "
+                  "pushed it",
+                  r.result.contacts, n, n == 1 ? "" : "es"));
+}
+
+// By the truth where there is one.
+void add_untouched(const RunReport& r, Lines& lines) {
+  using trial::Tried;
+  const auto& tried = r.touches.plan().tried();
+  const auto missed = [](const Tried& t) { return t.missed(); };
+  const bool never = tried.empty() ? r.result.contacts == 0 && r.setup.scene.user && r.whole
+                                   : std::all_of(tried.begin(), tried.end(), missed);
+  if (never)
+    lines.push_back("the user never touched anything; " + last_notice(r));
+  else
+    add_tried(r, missed, "touched nothing", lines);
+  add_tried(
+      r, [](const Tried& t) { return t.unnoticed(); }, "touched the prop and were no contact to the core",
+      lines);
+}
+
+// A finger that is beside its prop feels an edge, or nothing.
+void add_beside(const RunReport& r, Lines& lines) {
+  const Vec3 size = r.setup.scene.prop.value_or(PropSpec{}).size;
+  const double half = 0.5 * std::min(size.x(), size.y());
+  const auto& meetings = r.fingers.meetings();
+  const auto beside = [&](const trial::Meeting& m) { return m.miss > half; };
+  const auto n = std::count_if(meetings.begin(), meetings.end(), beside);
+  if (n == 0) return;
+  const auto touched =
+      std::count_if(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); });
+  const auto first = std::find_if(meetings.begin(), meetings.end(), beside);
+  lines.push_back(fmt::format(
+      "{} of {} touches were beside the prop, the first at {:.2f} s by {:.2f} mm, where its front "
+      "ends at {:.2f} mm",
+      n, touched, first->touched, first->miss * 1e3, half * 1e3));
+}
+
+void add_misses(const RunReport& r, Lines& lines) {
+  if (r.scene.impedance()) return add_beside(r, lines);
+  const auto& presses = r.presses.presses();
+  const auto missed = [](const trial::PressFigures& p) { return p.miss > p.miss_bound; };
+  const auto n = std::count_if(presses.begin(), presses.end(), missed);
+  if (n == 0) return;
+  const auto first = std::find_if(presses.begin(), presses.end(), missed);
+  lines.push_back(fmt::format(
+      "{} of {} touches missed by more than rig and hand allow, the first by {:.2f} mm of {:.2f} mm", n,
+      presses.size(), first->miss * 1e3, first->miss_bound * 1e3));
+}
+
+void add_departures(const RunReport& r, Lines& lines) {
+  const auto& off = r.presses.departures();
+  if (off.empty()) return;
+  const auto& worst =
+      *std::max_element(off.begin(), off.end(), [](const auto& a, const auto& b) { return a.away < b.away; });
+  lines.push_back(
+      fmt::format("the true force was none of the object's for {:.2f} s, from {:.2f} s on: at most {:.2f} N "
+                  "at {:.3f} mm, "
+                  "{:.2f} N from its response; the sensor does not measure what pushes, or the machine does "
+                  "not follow it",
+                  worst.lasted, worst.from, worst.force, worst.deflection * 1e3, worst.away));
+}
+
+void add_motors(const RunReport& r, Lines& lines) {
+  const auto add = [&](const trial::TouchMeasure::Acted& limit, const char* what) {
+    if (limit.total > 0.0)
+      lines.push_back(
+          fmt::format("{}: from {:.2f} s on, for {:.2f} s in all; check names what this pose can hold", what,
+                      limit.first, limit.total));
+  };
+  add(r.touches.peak(), "a motor was asked for more than its peak, and the arm pushed less");
+  add(r.touches.heat(), "the motors were warm, and the arm pushed less");
+}
+
+void add_ringing(const RunReport& r, Lines& lines) {
+  if (r.result.contacts == 0) return;
+  for (const trial::ArmStrength& at : r.limits.strengths)
+    if (at.stiffness > at.stiffest) lines.push_back(trial::beyond_text(at));
+}
+
+}  // namespace
+
+std::vector<std::string> crossed(const RunReport& report) {
+  Lines lines;
+  add_motors(report, lines);
+  add_ringing(report, lines);
+  add_swings(report, lines);
+  add_empty(report, lines);
+  add_untouched(report, lines);
+  add_repeated(report, lines);
+  add_departures(report, lines);
+  add_misses(report, lines);
+  return lines;
+}
+
+}  // namespace enc::app

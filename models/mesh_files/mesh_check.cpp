@@ -1,0 +1,375 @@
+#include "models/mesh_files/mesh_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/frames.h"
+#include "models/mesh_files/mesh_file.h"
+
+namespace enc::models {
+namespace {
+
+constexpr std::size_t kMostParts = 1000;
+constexpr double kFlat = 1e-10;  // height over longest side: a triangle flatter than this has no normal
+
+using Faces = std::vector<std::size_t>;
+
+Vec3 corner(const Mesh& mesh, std::size_t face, std::size_t i) {
+  return Vec3(mesh.vertices[static_cast<std::size_t>(mesh.triangles[face][i % 3])].data());
+}
+
+class Checker {
+ public:
+  Checker(Mesh mesh, const std::string& name, const std::vector<std::int32_t>& lines)
+      : name_(name),
+        result_{std::move(mesh), {}},
+        mesh_(result_.mesh),
+        number_(lines.begin(), lines.end()),
+        lines_(!lines.empty()) {}
+
+  CheckedMesh check() {
+    if (!lines_) {
+      number_.resize(mesh_.triangles.size());
+      std::iota(number_.begin(), number_.end(), std::size_t{0});
+    }
+    drop_degenerate();
+    check_areas();
+    find_neighbours();
+    orient();
+    check_vertices();
+    check_touching();
+    check_sides();
+    drop_unused_vertices();
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw Error(fmt::format("{}: {}", name_, what)); }
+  void refuse_if(const Faces& faces, const std::string& what) const {
+    if (faces.empty()) return;
+    const std::string line = lines_ ? fmt::format(":{}", number_[faces[0]]) : "";
+    throw Error(fmt::format("{}{}: {} {}", name_, line, numbered(faces), what));
+  }
+  void note(const std::string& what) { result_.notes.push_back(fmt::format("{}: {}", name_, what)); }
+  // With the numbers that the faces have in the file. One of a file may be several here.
+  [[nodiscard]] std::string numbered(Faces faces) const {
+    for (std::size_t& face : faces) face = number_[face];
+    return face_list(sorted(faces), lines_);
+  }
+
+  // A triangle with one vertex twice is an edge: without it the others close as before.
+  void drop_degenerate() {
+    Faces dropped;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const auto t = mesh_.triangles[i];
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+        dropped.push_back(number_[i]);
+        continue;
+      }
+      number_[kept] = number_[i];
+      mesh_.triangles[kept++] = t;
+    }
+    if (dropped.empty()) return;
+    mesh_.triangles.resize(kept);
+    number_.resize(kept);
+    note(fmt::format("removed {} of zero area", face_list(sorted(dropped), lines_)));
+    if (kept == 0) fail("no face has an area; expected a closed surface; export the mesh again");
+  }
+
+  void check_areas() const {
+    Faces flat;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const Vec3 a = corner(mesh_, i, 0), b = corner(mesh_, i, 1), c = corner(mesh_, i, 2);
+      const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+      if (!((b - a).cross(c - a).norm() > kFlat * longest)) flat.push_back(i);
+    }
+    refuse_if(flat,
+              "of zero area between different vertices; expected triangles with a normal; merge their "
+              "vertices, or mesh the part again");
+  }
+
+  // The sides of all faces, sorted into buckets by their lower vertex, then by the upper one.
+  struct Side {
+    std::int32_t high;
+    std::int32_t face;
+    bool up;  // runs from the lower vertex to the higher
+  };
+  void find_neighbours() {
+    std::vector<std::size_t> start(mesh_.vertices.size() + 1, 0);
+    const auto each = [&](auto use) {
+      for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
+        for (std::size_t i = 0; i < 3; ++i) use(f, mesh_.triangles[f][i], mesh_.triangles[f][(i + 1) % 3]);
+    };
+    each([&](std::size_t, std::int32_t a, std::int32_t b) {
+      ++start[static_cast<std::size_t>(std::min(a, b)) + 1];
+    });
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<Side> sides(start.back());
+    std::vector<std::size_t> next(start.begin(), start.end() - 1);
+    each([&](std::size_t f, std::int32_t a, std::int32_t b) {
+      sides[next[static_cast<std::size_t>(std::min(a, b))]++] = {std::max(a, b), static_cast<std::int32_t>(f),
+                                                                 a < b};
+    });
+    neighbours_.assign(mesh_.triangles.size(), {});
+    Faces open, crowded;
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+      const auto from = sides.begin() + static_cast<std::ptrdiff_t>(start[v]);
+      const auto to = sides.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
+      std::sort(from, to, [](const Side& a, const Side& b) {
+        return a.high != b.high ? a.high < b.high : a.face < b.face;
+      });
+      for (auto i = from; i != to;) {
+        const auto end = std::find_if(i, to, [&](const Side& s) { return s.high != i->high; });
+        if (end - i == 2) {
+          link(static_cast<std::int32_t>(v), i[0], i[1]);
+        } else {
+          for (auto s = i; s != end; ++s)
+            (end - i == 1 ? open : crowded).push_back(static_cast<std::size_t>(s->face));
+        }
+        i = end;
+      }
+    }
+    refuse_doubles(crowded);
+    refuse_if(sorted(crowded),
+              "share an edge with two or more others (non-manifold); expected exactly two faces at "
+              "each edge; separate the parts");
+    refuse_if(sorted(open), "at a hole: an edge of only one face; expected a closed surface; close the hole");
+  }
+  static Faces sorted(Faces faces) {
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+  }
+  void link(std::int32_t low, const Side& a, const Side& b) {
+    const auto side_of = [&](const Side& s) {
+      const auto& t = mesh_.triangles[static_cast<std::size_t>(s.face)];
+      const std::int32_t first = s.up ? low : s.high;
+      return static_cast<std::size_t>(std::find(t.begin(), t.end(), first) - t.begin());
+    };
+    const bool same = a.up != b.up;  // neighbours run along their edge in opposite ways
+    neighbours_[static_cast<std::size_t>(a.face)][side_of(a)] = {b.face, same};
+    neighbours_[static_cast<std::size_t>(b.face)][side_of(b)] = {a.face, same};
+  }
+  // Faces with the same three vertices.
+  void refuse_doubles(const Faces& crowded) const {
+    std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> keys;
+    for (const std::size_t face : sorted(crowded)) {
+      auto key = mesh_.triangles[face];
+      std::sort(key.begin(), key.end());
+      keys.emplace_back(key, face);
+    }
+    std::sort(keys.begin(), keys.end());
+    Faces twice;
+    for (std::size_t i = 1; i < keys.size(); ++i)
+      if (keys[i].first == keys[i - 1].first) twice.push_back(keys[i].second);
+    refuse_if(sorted(twice),
+              "doubled: another face has the same three vertices; expected each face once; remove them");
+  }
+
+  // Walks over each connected part, so that all its faces turn the same way as its first one.
+  void orient() {
+    part_.assign(mesh_.triangles.size(), -1);
+    std::vector<bool> turn(mesh_.triangles.size(), false);
+    Faces walk, twisted, turned;
+    for (std::size_t seed = 0; seed < mesh_.triangles.size(); ++seed) {
+      if (part_[seed] >= 0) continue;
+      part_[seed] = parts_++;
+      walk = {seed};
+      for (std::size_t i = 0; i < walk.size(); ++i)
+        for (const Neighbour& n : neighbours_[walk[i]]) {
+          const auto face = static_cast<std::size_t>(n.face);
+          const bool turns = turn[walk[i]] == n.same;  // what the first face and this way ask for
+          if (part_[face] < 0) {
+            part_[face] = parts_ - 1;
+            turn[face] = turns;
+            walk.push_back(face);
+          } else if (turn[face] != turns) {
+            twisted.push_back(face);
+          }
+        }
+      // The fewer are the wrong ones; which side is out is decided later.
+      const auto count = static_cast<std::size_t>(
+          std::count_if(walk.begin(), walk.end(), [&](std::size_t f) { return turn[f]; }));
+      const bool most = 2 * count > walk.size();
+      for (const std::size_t face : walk)
+        if (turn[face] != most) turned.push_back(face);
+    }
+    refuse_if(
+        sorted(twisted),
+        "make the surface one-sided; expected an orientable surface, with an inside; mesh the part again");
+    for (const std::size_t face : turned) flip(face);
+    if (!turned.empty())
+      note(fmt::format("turned {} to run the same way as their neighbours", numbered(sorted(turned))));
+    if (static_cast<std::size_t>(parts_) > kMostParts)
+      fail(fmt::format("{} separate parts; expected at most {}; keep the surface only", parts_, kMostParts));
+  }
+  // Keeps side 1-2 in its place, so neighbours_ is only good for walking from here on.
+  void flip(std::size_t face) { std::swap(mesh_.triangles[face][1], mesh_.triangles[face][2]); }
+
+  // All faces at a vertex form one fan: as many as one meets going round from neighbour to neighbour.
+  void check_vertices() const {
+    std::vector<std::int32_t> count(mesh_.vertices.size(), 0), first(mesh_.vertices.size(), -1);
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
+      for (const std::int32_t v : mesh_.triangles[f]) {
+        ++count[static_cast<std::size_t>(v)];
+        first[static_cast<std::size_t>(v)] = static_cast<std::int32_t>(f);
+      }
+    Faces bad;
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+      if (count[v] == 0) continue;
+      const auto has = [&](std::int32_t face) {
+        const auto& t = mesh_.triangles[static_cast<std::size_t>(face)];
+        return std::find(t.begin(), t.end(), static_cast<std::int32_t>(v)) != t.end();
+      };
+      std::int32_t before = -1, at = first[v], met = 0;
+      do {
+        const auto& around = neighbours_[static_cast<std::size_t>(at)];
+        const auto next = std::find_if(around.begin(), around.end(),
+                                       [&](const Neighbour& n) { return n.face != before && has(n.face); });
+        ++met;
+        if (next == around.end()) break;
+        before = at;
+        at = next->face;
+      } while (at != first[v] && met <= count[v]);
+      if (met != count[v]) bad.push_back(static_cast<std::size_t>(first[v]));
+    }
+    refuse_if(sorted(bad),
+              "with a corner where two surfaces meet in a point (non-manifold); expected one fan of faces "
+              "around each vertex; separate the parts");
+  }
+
+  // Six times the signed volume of each part, about a point near it.
+  [[nodiscard]] std::vector<double> volumes() const {
+    std::vector<double> volume(static_cast<std::size_t>(parts_), 0.0);
+    const Vec3 about = corner(mesh_, 0, 0);
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
+      volume[static_cast<std::size_t>(part_[f])] +=
+          (corner(mesh_, f, 0) - about).dot((corner(mesh_, f, 1) - about).cross(corner(mesh_, f, 2) - about));
+    return volume;
+  }
+
+  // In how many other parts each part lies: their winding numbers at one of its vertices [van Oosterom and
+  // Strackee 1983]. Costs faces times parts.
+  [[nodiscard]] std::vector<int> depths() const {
+    std::vector<int> depth(static_cast<std::size_t>(parts_), 0);
+    if (parts_ < 2) return depth;
+    std::vector<Vec3> probe(static_cast<std::size_t>(parts_));
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
+      probe[static_cast<std::size_t>(part_[f])] = corner(mesh_, f, 0);
+    for (std::size_t p = 0; p < probe.size(); ++p) {
+      std::vector<double> angle(probe.size(), 0.0);
+      for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
+        if (part_[f] == static_cast<std::int32_t>(p)) continue;
+        const Vec3 a = corner(mesh_, f, 0) - probe[p], b = corner(mesh_, f, 1) - probe[p],
+                   c = corner(mesh_, f, 2) - probe[p];
+        const double na = a.norm(), nb = b.norm(), nc = c.norm();
+        angle[static_cast<std::size_t>(part_[f])] +=
+            2.0 * std::atan2(a.dot(b.cross(c)), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
+      }
+      for (const double a : angle) depth[p] += std::abs(a) > 2.0 * std::numbers::pi ? 1 : 0;
+    }
+    return depth;
+  }
+
+  // A part inside another is a hollow, and its faces look into the hollow.
+  void check_sides() {
+    const std::vector<double> volume = volumes();
+    const std::vector<int> depth = depths();
+    std::vector<bool> wrong(volume.size());
+    for (std::size_t p = 0; p < volume.size(); ++p) {
+      wrong[p] = (volume[p] > 0.0) == (depth[p] % 2 == 1);
+      if (volume[p] == 0.0) fail("a part encloses no volume; expected a solid; remove it");
+    }
+    const auto count = std::count(wrong.begin(), wrong.end(), true);
+    if (count == 0) return;
+    const bool all = count == static_cast<std::ptrdiff_t>(wrong.size());
+    Faces turned;
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
+      const auto part = static_cast<std::size_t>(part_[f]);
+      if (!wrong[part]) continue;
+      if (!all && depth[part] > 0)
+        refuse_if({f},
+                  "belongs to a part inside another one and looks out; expected a hollow (faces looking "
+                  "into it) or one outer surface; remove the inner part, or turn its faces");
+      turned.push_back(f);
+    }
+    for (const std::size_t face : turned) flip(face);
+    note(all ? std::string("the surface was inside out: turned all faces")
+             : fmt::format("turned {} of a part that was inside out", numbered(turned)));
+  }
+
+  void drop_unused_vertices() {
+    std::vector<std::int32_t> now(mesh_.vertices.size(), -1);
+    for (const auto& t : mesh_.triangles)
+      for (const std::int32_t v : t) now[static_cast<std::size_t>(v)] = 0;
+    std::int32_t kept = 0;
+    for (std::size_t v = 0; v < now.size(); ++v) {
+      if (now[v] < 0) continue;
+      now[v] = kept;
+      mesh_.vertices[static_cast<std::size_t>(kept++)] = mesh_.vertices[v];
+    }
+    mesh_.vertices.resize(static_cast<std::size_t>(kept));
+    for (auto& t : mesh_.triangles)
+      for (std::int32_t& v : t) v = now[static_cast<std::size_t>(v)];
+  }
+
+  void check_touching() {
+    if (mesh_.triangles.size() > kMostTouchTested)
+      return note(fmt::format("not looked whether the surface passes through itself: more than {} faces",
+                              kMostTouchTested));
+    const Touching touching = touching_faces(mesh_);
+    refuse_if(touching.crossing,
+              "passing through other faces; expected a surface that does not meet itself; unite the parts");
+    refuse_if(touching.touching,
+              fmt::format("touching others (the first {}), so that inside and outside are not told apart "
+                          "there; expected a surface that does not meet itself; unite the parts, or move "
+                          "them apart",
+                          numbered({touching.touched})));
+    if (!touching.finished)
+      note("gave up looking whether the surface passes through itself: too many faces lie close together");
+  }
+
+  struct Neighbour {
+    std::int32_t face = -1;
+    bool same = true;  // turns the same way
+  };
+  const std::string& name_;
+  CheckedMesh result_;
+  Mesh& mesh_;
+  std::vector<std::size_t> number_;  // of each face in the file, or its line there
+  bool lines_ = false;
+  std::vector<std::array<Neighbour, 3>> neighbours_;
+  std::vector<std::int32_t> part_;  // connected part of each face
+  std::int32_t parts_ = 0;
+};
+
+}  // namespace
+
+std::string face_list(const std::vector<std::size_t>& faces, bool lines) {
+  constexpr std::size_t kShown = 3;
+  const std::string what = lines ? " of line" : "";
+  std::string list = faces.size() == 1 ? "face" + what + " " : "faces" + what + (lines ? "s " : " ");
+  const std::size_t shown = faces.size() <= kShown ? faces.size() : kShown - 1;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool last = i + 1 == faces.size();
+    list += fmt::format("{}{}", i == 0 ? "" : last ? " and " : ", ", faces[i]);
+  }
+  return faces.size() > shown ? list + fmt::format(" and {} more", faces.size() - shown) : list;
+}
+
+CheckedMesh check_mesh(Mesh mesh, const std::string& name, const std::vector<std::int32_t>& lines) {
+  return Checker(std::move(mesh), name, lines).check();
+}
+
+CheckedMesh load_solid(const std::string& path) {
+  FileMesh file = load_faces(path);
+  return check_mesh(std::move(file.mesh), path, file.lines);
+}
+
+}  // namespace enc::models

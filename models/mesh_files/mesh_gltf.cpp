@@ -1,0 +1,371 @@
+// glTF 2.0 (.gltf, .glb): tinygltf reads JSON and buffers, everything after that is checked here. Positions
+// go through the node tree; looks, animations and images are passed over.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include "models/mesh_files/mesh_file.h"
+#include "models/schema/wording.h"
+
+namespace enc::models {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What tinygltf may read: regular files in the mesh's own folder. Images are never read.
+struct Folder {
+  fs::path root;        // canonical
+  std::string refused;  // the first file that was asked for outside
+
+  static bool is_image(const fs::path& path) {
+    static const std::vector<std::string> kEndings{".png", ".jpg",  ".jpeg", ".webp",
+                                                   ".ktx", ".ktx2", ".dds",  ".basis"};
+    return std::find(kEndings.begin(), kEndings.end(), path.extension().string()) != kEndings.end();
+  }
+  bool may_read(const std::string& asked) {
+    if (asked.starts_with("./")) return false;  // tinygltf then looks in the working directory, too
+    std::error_code failed;
+    const fs::path path = fs::weakly_canonical(asked, failed);
+    const fs::path inside = failed ? fs::path("..") : path.lexically_relative(root);
+    const bool absolute = asked.starts_with(root.string() + "//");
+    if (absolute || inside.empty() || *inside.begin() == "..") {
+      if (refused.empty()) refused = asked;
+      return false;
+    }
+    return !is_image(path) && fs::is_regular_file(path, failed);
+  }
+};
+
+tinygltf::FsCallbacks callbacks(Folder& folder) {
+  tinygltf::FsCallbacks calls{};
+  calls.ExpandFilePath = [](const std::string& path, void*) { return path; };  // no ~, no $VARIABLE
+  calls.FileExists = [](const std::string& path, void* user) {
+    return static_cast<Folder*>(user)->may_read(path);
+  };
+  calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path,
+                           void* user) {
+    return static_cast<Folder*>(user)->may_read(path) && tinygltf::ReadWholeFile(out, error, path, nullptr);
+  };
+  calls.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  calls.user_data = &folder;
+  return calls;
+}
+
+bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+  return true;
+}
+
+// tinygltf's own words on one line, with the place where they tell one.
+[[noreturn]] void fail_parse(const MeshBytes& file, std::string_view json, bool binary, std::string words) {
+  while (!words.empty() && (words.back() == '\n' || words.back() == ' ')) words.pop_back();
+  std::replace_if(
+      words.begin(), words.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  if (words.size() > 200) words = words.substr(0, 200) + "...";
+  if (words.empty()) words = "no reason given";
+  // nlohmann's JSON says "... at line 3, column 7: ...".
+  std::size_t line = 1, column = 1;
+  const std::size_t said = words.find("at line ");
+  const bool placed = said != std::string::npos &&
+                      std::sscanf(words.c_str() + said, "at line %zu, column %zu", &line, &column) == 2;
+  std::size_t at = 0;
+  for (; placed && line > 1 && at < json.size(); ++at)
+    if (json[at] == '\n') --line;
+  at = std::min(at + column - 1, json.size());
+  const std::string what =
+      fmt::format("this glTF cannot be read: {}; expected glTF 2.0; export the file again", words);
+  if (binary) file.fail_at_byte(20 + at, what);
+  file.fail_at_text(at, what);
+}
+
+class GltfReader {
+ public:
+  GltfReader(const MeshBytes& file, bool binary) : file_(file), binary_(binary) {}
+
+  Mesh read() {
+    parse();
+    check_extensions();
+    walk();
+    return std::move(mesh_);
+  }
+
+ private:
+  // No place in the file is known any more, but which part of it is.
+  [[noreturn]] void fail(const std::string& what) const {
+    if (binary_) file_.fail_at_byte(20, what);
+    file_.fail_at_text(0, what);
+  }
+  void need(bool good, const char* list, std::size_t index, const char* what) const {
+    if (!good) fail(fmt::format("{}[{}] {}; export the file again", list, index, what));
+  }
+  template <class T>
+  const T& part(const std::vector<T>& list, const char* name, int index) const {
+    if (index < 0 || static_cast<std::size_t>(index) >= list.size())
+      fail(fmt::format("{}[{}] is not there; expected one of {}; export the file again", name, index,
+                       list.size()));
+    return list[static_cast<std::size_t>(index)];
+  }
+
+  void parse() {
+    const std::string_view json = binary_ ? json_of_glb(file_) : std::string_view(file_.bytes);
+    check_depth(file_, json, binary_);
+    std::error_code none;
+    const fs::path parent = fs::path(file_.path).parent_path();
+    Folder folder{fs::canonical(parent.empty() ? "." : parent, none), {}};
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(callbacks(folder));
+    loader.SetImageLoader(no_image, nullptr);
+    std::string error, warning;
+    bool good = false;
+    try {
+      const auto size = static_cast<unsigned>(file_.bytes.size());
+      good = binary_ ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
+                                                   reinterpret_cast<const unsigned char*>(file_.bytes.data()),
+                                                   size, folder.root.string())
+                     : loader.LoadASCIIFromString(&model_, &error, &warning, file_.bytes.data(), size,
+                                                  folder.root.string());
+    } catch (const std::exception& e) {  // of its JSON, on values of another type than it looks for
+      error += e.what();
+    }
+    if (!folder.refused.empty()) {
+      const std::string asked = folder.refused.substr(folder.root.string().size() + 1);
+      fail(fmt::format(
+          "the file wants to read {}, which is outside of its folder; expected files beside it; put a "
+          "copy there",
+          models::quoted(asked)));
+    }
+    if (!good) fail_parse(file_, json, binary_, error);
+    if (model_.asset.version != "2.0" && !model_.asset.version.starts_with("2."))
+      fail(fmt::format("asset.version is {}; expected 2.0; export the file again",
+                       models::quoted(model_.asset.version)));
+  }
+
+  // A required extension that changes shapes or that nobody here knows.
+  void check_extensions() const {
+    for (const std::string& name : model_.extensionsRequired) {
+      const bool looks = name.starts_with("KHR_materials") || name.starts_with("KHR_texture") ||
+                         name.starts_with("EXT_texture") || name == "KHR_lights_punctual";
+      if (!looks)
+        fail(fmt::format(
+            "the file requires the extension {}; expected plain glTF 2.0; export it without (no Draco or "
+            "meshopt compression, no quantisation)",
+            quoted(name)));
+    }
+  }
+
+  // The node tree of the scene, from the roots down, without recursion. A tree meets each node once.
+  void walk() {
+    const std::size_t count = model_.nodes.size();
+    std::vector<int> roots;
+    if (!model_.scenes.empty()) {
+      roots = part(model_.scenes, "scenes", std::max(model_.defaultScene, 0)).nodes;
+    } else if (count > 0) {
+      std::vector<bool> child(count, false);
+      for (const tinygltf::Node& node : model_.nodes)
+        for (const int c : node.children)
+          if (c >= 0 && static_cast<std::size_t>(c) < count) child[static_cast<std::size_t>(c)] = true;
+      for (std::size_t i = 0; i < count; ++i)
+        if (!child[i]) roots.push_back(static_cast<int>(i));
+      if (roots.empty())
+        fail("nodes[0] is its own descendant; expected a tree of nodes; export the file again");
+    }
+    struct Step {
+      int node;
+      Eigen::Matrix4d above;
+    };
+    std::vector<Step> steps;
+    steps.reserve(roots.size());
+    for (const int root : roots) steps.push_back({root, Eigen::Matrix4d::Identity()});
+    std::vector<bool> met(count, false);
+    while (!steps.empty()) {
+      const Step step = steps.back();
+      steps.pop_back();
+      const tinygltf::Node& node = part(model_.nodes, "nodes", step.node);
+      const auto index = static_cast<std::size_t>(step.node);
+      need(!met[index], "nodes", index, "is met twice (a cycle, or two parents); expected a tree of nodes");
+      met[index] = true;
+      const Eigen::Matrix4d placed = step.above * transform(node, index);
+      need(placed.allFinite(), "nodes", index, "is placed beyond all numbers; expected finite transforms");
+      need(node.skin < 0, "nodes", index, "has a skin; expected a rigid mesh; apply the skeleton");
+      if (node.mesh >= 0) add_mesh(static_cast<std::size_t>(node.mesh), placed);
+      for (const int child : node.children) steps.push_back({child, placed});
+      if (steps.size() > count)
+        fail("the nodes have more children than there are nodes; expected a tree; export the file again");
+    }
+    if (model_.scenes.empty() && count == 0)
+      for (std::size_t i = 0; i < model_.meshes.size(); ++i) add_mesh(i, Eigen::Matrix4d::Identity());
+  }
+
+  Eigen::Matrix4d transform(const tinygltf::Node& node, std::size_t index) const {
+    const auto sized = [&](const std::vector<double>& list, std::size_t size, const char* what) {
+      need(list.empty() || list.size() == size, "nodes", index, what);
+      return !list.empty();
+    };
+    Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+    if (sized(node.matrix, 16, "has a wrong 'matrix'; expected 16 numbers")) {
+      m = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());  // columns, as in the file
+      need(m.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1)), "nodes", index,
+           "has a 'matrix' with a perspective; expected a last row of 0 0 0 1");
+      return m;
+    }
+    Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    if (sized(node.scale, 3, "has a wrong 'scale'; expected 3 numbers"))
+      scale = Eigen::Vector3d(node.scale.data());
+    if (sized(node.rotation, 4, "has a wrong 'rotation'; expected 4 numbers")) {
+      q.coeffs() = Eigen::Vector4d(node.rotation.data());  // x, y, z, w
+      need(std::abs(q.norm() - 1.0) < 1e-3, "nodes", index,
+           "has a 'rotation' that is none; expected a unit quaternion");
+      q.normalize();
+    }
+    m.topLeftCorner<3, 3>() = q.toRotationMatrix() * scale.asDiagonal();
+    if (sized(node.translation, 3, "has a wrong 'translation'; expected 3 numbers"))
+      m.topRightCorner<3, 1>() = Eigen::Vector3d(node.translation.data());
+    return m;
+  }
+
+  // What an accessor says, proved to lie within its buffer.
+  struct View {
+    const unsigned char* data;
+    std::size_t count, stride;
+    int component;
+  };
+  View view_of(int index, int type, const char* what) const {
+    const tinygltf::Accessor& a = part(model_.accessors, "accessors", index);
+    const auto i = static_cast<std::size_t>(index);
+    need(!a.sparse.isSparse, "accessors", i, "is sparse; expected plain data");
+    need(a.bufferView >= 0, "accessors", i, "has no bufferView (compressed?); expected plain data");
+    need(a.type == type && !a.normalized, "accessors", i, what);
+    const tinygltf::BufferView& v = part(model_.bufferViews, "bufferViews", a.bufferView);
+    const std::size_t buffer = part(model_.buffers, "buffers", v.buffer).data.size();
+    const auto component = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(a.componentType));
+    need(component > 0, "accessors", i, "has an unknown componentType; expected one of glTF 2.0");
+    const std::size_t size = static_cast<std::size_t>(component) * (type == TINYGLTF_TYPE_VEC3 ? 3 : 1);
+    const std::size_t stride = v.byteStride != 0 ? v.byteStride : size;
+    need(stride >= size && stride <= 252, "accessors", i,
+         "has a wrong byteStride; expected the element's size to 252");
+    need(v.byteOffset <= buffer && v.byteLength <= buffer - v.byteOffset, "bufferViews",
+         static_cast<std::size_t>(a.bufferView), "reaches beyond its buffer; expected it within");
+    const bool fits = a.count >= 1 && a.byteOffset <= v.byteLength && size <= v.byteLength - a.byteOffset &&
+                      a.count - 1 <= (v.byteLength - a.byteOffset - size) / stride;
+    need(fits, "accessors", i,
+         "has no or more elements than its bufferView holds; expected a count that fits");
+    return {model_.buffers[static_cast<std::size_t>(v.buffer)].data.data() + v.byteOffset + a.byteOffset,
+            a.count, stride, a.componentType};
+  }
+
+  void add_mesh(std::size_t index, const Eigen::Matrix4d& placed) {
+    for (const tinygltf::Primitive& p : part(model_.meshes, "meshes", static_cast<int>(index)).primitives) {
+      if (p.mode == TINYGLTF_MODE_POINTS || p.mode == TINYGLTF_MODE_LINE ||
+          p.mode == TINYGLTF_MODE_LINE_LOOP || p.mode == TINYGLTF_MODE_LINE_STRIP)
+        continue;  // no surface
+      need(p.mode == TINYGLTF_MODE_TRIANGLES || p.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+               p.mode == TINYGLTF_MODE_TRIANGLE_FAN,
+           "meshes", index, "has an unknown 'mode'; expected 0 to 6");
+      need(p.targets.empty(), "meshes", index, "has morph targets; expected one fixed shape; apply them");
+      const auto position = p.attributes.find("POSITION");
+      need(position != p.attributes.end(), "meshes", index, "has a primitive without POSITION; expected one");
+      const std::size_t first = mesh_.vertices.size();
+      const std::size_t count = add_vertices(
+          view_of(position->second, TINYGLTF_TYPE_VEC3, "is no POSITION; expected VEC3 of float"),
+          position->second, placed);
+      std::vector<std::int32_t> corners;
+      if (p.indices >= 0) {
+        corners = indices(
+            view_of(p.indices, TINYGLTF_TYPE_SCALAR, "are no indices; expected SCALAR of whole numbers"),
+            p.indices, count);
+      } else {
+        for (std::size_t i = 0; i < count; ++i) corners.push_back(static_cast<std::int32_t>(i));
+      }
+      add_triangles(p.mode, corners, static_cast<std::int32_t>(first),
+                    placed.topLeftCorner<3, 3>().determinant() < 0.0, index);
+    }
+  }
+
+  std::size_t add_vertices(const View& view, int accessor, const Eigen::Matrix4d& placed) {
+    const auto index = static_cast<std::size_t>(accessor);
+    need(view.component == TINYGLTF_COMPONENT_TYPE_FLOAT, "accessors", index,
+         "is no POSITION; expected VEC3 of float");
+    if (view.count > 3 * kMostTriangles - std::min(mesh_.vertices.size(), 3 * kMostTriangles))
+      fail(fmt::format("more than {} vertices; expected fewer; make the mesh coarser", 3 * kMostTriangles));
+    const Eigen::Matrix3d turn = placed.topLeftCorner<3, 3>();
+    const Eigen::Vector3d shift = placed.topRightCorner<3, 1>();
+    mesh_.vertices.reserve(mesh_.vertices.size() + view.count);
+    for (std::size_t i = 0; i < view.count; ++i) {
+      std::array<float, 3> raw{};
+      std::memcpy(raw.data(), view.data + i * view.stride, sizeof(raw));  // need not be aligned
+      const Eigen::Vector3d at = turn * Eigen::Vector3f(raw.data()).cast<double>() + shift;
+      if (!at.allFinite())
+        fail(fmt::format(
+            "vertex {} of accessors[{}] is not finite; expected finite positions; export the file again", i,
+            index));
+      mesh_.vertices.push_back({at.x(), at.y(), at.z()});
+    }
+    return view.count;
+  }
+
+  std::vector<std::int32_t> indices(const View& view, int accessor, std::size_t vertices) const {
+    const bool whole = view.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                       view.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                       view.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    need(whole, "accessors", static_cast<std::size_t>(accessor),
+         "are no indices; expected unsigned bytes, shorts or ints");
+    const std::size_t size = view.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 1
+                             : view.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 2
+                                                                                        : 4;
+    std::vector<std::int32_t> list(view.count);
+    for (std::size_t i = 0; i < view.count; ++i) {
+      std::uint32_t value = 0;  // little-endian: the low bytes come first
+      std::memcpy(&value, view.data + i * view.stride, size);
+      if (value >= vertices)
+        fail(
+            fmt::format("index {} of accessors[{}] is {}; expected less than {}, the number of vertices; "
+                        "export the file again",
+                        i, accessor, value, vertices));
+      list[i] = static_cast<std::int32_t>(value);
+    }
+    return list;
+  }
+
+  void add_triangles(int mode, const std::vector<std::int32_t>& c, std::int32_t first, bool mirrored,
+                     std::size_t mesh) {
+    const bool list = mode == TINYGLTF_MODE_TRIANGLES;
+    need(c.size() >= 3 && (!list || c.size() % 3 == 0), "meshes", mesh,
+         "has a cut-off triangle; expected 3 corners for each");
+    const std::size_t count = list ? c.size() / 3 : c.size() - 2;
+    if (count > kMostTriangles - std::min(mesh_.triangles.size(), kMostTriangles))
+      fail(fmt::format("more than {} triangles; expected fewer; make the mesh coarser", kMostTriangles));
+    mesh_.triangles.reserve(mesh_.triangles.size() + count);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::array<std::int32_t, 3> t{};
+      if (list) {
+        t = {c[3 * i], c[3 * i + 1], c[3 * i + 2]};
+      } else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+        t = {c[i + 1], c[i + 2], c[0]};
+      } else {
+        t = {c[i], c[i + 1 + i % 2], c[i + 2 - i % 2]};  // every second one turns the other way
+      }
+      if (mirrored) std::swap(t[1], t[2]);
+      for (std::int32_t& corner : t) corner += first;
+      mesh_.triangles.push_back(t);
+    }
+  }
+
+  const MeshBytes& file_;
+  bool binary_;
+  tinygltf::Model model_;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+Mesh read_gltf(const MeshBytes& file, bool binary) { return GltfReader(file, binary).read(); }
+
+}  // namespace enc::models

@@ -1,0 +1,149 @@
+// Visitors over all parameters: list them, set one, round them.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "models/schema/toml_writer.h"
+#include "models/schema/units.h"
+#include "models/schema/wording.h"
+#include "models/setup/scene_file.h"
+
+namespace enc::models {
+namespace {
+
+void walk(Visitor& visitor, Setup& setup) { describe_all(visitor, setup.scene, setup.rig, setup.twin); }
+
+// Walks what is there and knows each value's full name.
+class Named : public Visitor {
+ public:
+  void value(const Key& key, const Target& target) final {
+    named(paths_.empty() ? std::string(key.name) : fmt::format("{}.{}", paths_.back(), key.name), key,
+          target);
+  }
+  bool open(std::string_view table, bool present) final {
+    if (present) push(table);
+    return present;
+  }
+  std::size_t open_list(std::string_view, std::size_t size) final { return size; }
+  void open_entry(std::string_view list, std::size_t, std::string_view name) final {
+    push(fmt::format("{}.{}", list, name));
+  }
+  void close() final { paths_.pop_back(); }
+
+ protected:
+  virtual void named(const std::string& name, const Key& key, const Target& target) = 0;
+
+ private:
+  void push(std::string_view name) {
+    paths_.push_back(paths_.empty() ? std::string(name) : fmt::format("{}.{}", paths_.back(), name));
+  }
+  std::vector<std::string> paths_;
+};
+
+// As --set takes it: texts without quotes where they do not need them, "unset" for what is not set.
+std::string shown(const Key& key, const Target& target) {
+  const auto* const* text = std::get_if<std::string*>(&target);
+  const bool plain = text != nullptr && !(*text)->starts_with('"') && !(*text)->starts_with('\'');
+  if (plain && std::none_of((*text)->begin(), (*text)->end(),
+                            [](char c) { return static_cast<unsigned char>(c) < ' '; }))
+    return **text;
+  if (const auto* choice = std::get_if<Choice>(&target)) return std::string(choice->words[*choice->index]);
+  const std::string value = value_text(key, target);
+  return value.empty() ? "unset" : value;
+}
+
+class List final : public Named {
+ public:
+  std::vector<Parameter> found;
+
+ private:
+  void named(const std::string& name, const Key& key, const Target& target) override {
+    static constexpr std::array<std::string_view, 4> kWords{"published", "derived", "assumed", "chosen"};
+    if (key.fixed) return;
+    found.push_back({name, std::string(unit_of(key.name).label), shown(key, target), std::string(key.source),
+                     std::string(kWords[static_cast<std::size_t>(key.confidence)]),
+                     std::string(key.meaning)});
+  }
+};
+
+class Set final : public Named {
+ public:
+  Set(std::string name, std::string value, std::string place)
+      : name_(std::move(name)), value_(std::move(value)), place_(std::move(place)) {}
+
+  void check_found() const {
+    if (found_) return;
+    std::string advised;
+    for (const std::string& name : names_) {
+      if (advised.empty() && name.ends_with("." + name_)) advised = fmt::format("did you mean '{}'?", name);
+    }
+    if (advised.empty() && !nearest_name(name_, names_).empty()) advised = advice(name_, names_);
+    if (advised.empty()) advised = "'encounter params' lists them";
+    throw Error(fmt::format("{}: unknown parameter {}; expected one of this scene and rig; {}", place_,
+                            quoted(name_), advised));
+  }
+
+ private:
+  void named(const std::string& name, const Key& key, const Target& target) override {
+    if (!key.fixed) names_.push_back(name);
+    if (key.fixed || name != name_) return;
+    found_ = true;
+    read_value(value_, place_, key, target);
+  }
+  std::string name_, value_, place_;
+  std::vector<std::string> names_;
+  bool found_ = false;
+};
+
+class RoundToText final : public Named {
+  void named(const std::string&, const Key& key, const Target& target) override {
+    const bool word = std::holds_alternative<std::string*>(target) ||
+                      std::holds_alternative<Choice>(target) || std::holds_alternative<std::int64_t*>(target);
+    const std::string text = word ? "" : value_text(key, target);
+    if (!text.empty()) read_value(text, std::string(key.name), key, target);
+  }
+};
+
+}  // namespace
+
+std::vector<Parameter> parameters(const Setup& setup) {
+  Setup copy = setup;  // visitors may write, this one does not
+  List list;
+  walk(list, copy);
+  return list.found;
+}
+
+void set(Setup& setup, const std::string& override_text) {
+  const auto equals = override_text.find('=');
+  const std::string name = override_text.substr(0, equals);
+  if (equals == std::string::npos || name.empty()) {
+    throw Error(fmt::format(
+        "--set {}: there is no value; expected name=value; write it like '--set object.ball.radius_mm=30'",
+        override_text));
+  }
+  Set one(name, override_text.substr(equals + 1), "--set " + override_text);
+  walk(one, setup);
+  one.check_found();
+  setup.places[name] = "--set " + override_text;
+}
+
+void round_to_text(Setup& setup) {
+  RoundToText visitor;
+  walk(visitor, setup);
+}
+
+std::string resolved(const Setup& setup) {
+  Setup copy = setup;
+  return write_toml([&](Visitor& visitor) { walk(visitor, copy); });
+}
+
+Setup parse_resolved(const std::string& text, const std::string& name) {
+  Setup setup;
+  setup.scene_path = setup.rig_path = name;
+  setup.places = read_toml(text, name, [&](Visitor& visitor) { walk(visitor, setup); });
+  check(setup);
+  return setup;
+}
+
+}  // namespace enc::models

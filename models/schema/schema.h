@@ -1,0 +1,87 @@
+// The one description of every parameter: key with its unit, range, meaning, source and how sure we are.
+// Reading, writing, --set, the list of `encounter params` and "did you mean" are visitors that walk it.
+// Structs are in SI, keys carry the file's unit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/world/rig_spec.h"
+#include "core/world/scene_spec.h"
+#include "models/setup/response_file.h"
+#include "sim/twin_spec.h"
+
+namespace enc::models {
+
+// `chosen`: by who writes the file.
+enum class Confidence : std::uint8_t { published, derived, assumed, chosen };
+enum class Presence : std::uint8_t { defaulted, needed, optional };  // optional: may also be unset
+
+// In the file's unit; holds for every number of an array.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool above_low = false;  // `low` itself is not allowed
+};
+inline constexpr Range kAny{}, kNotNegative{0.0},
+    kPositive{0.0, std::numeric_limits<double>::infinity(), true};
+
+using Words = std::span<const std::string_view>;
+
+struct Key {
+  std::string_view name;  // "radius_mm"
+  std::string_view meaning, source;
+  Confidence confidence = Confidence::assumed;
+  Range range = kAny;
+  Presence presence = Presence::defaulted;
+  Words words{};       // for texts: what is allowed; empty: anything
+  bool fixed = false;  // not for --set: names, formats and what is computed
+};
+
+// A word out of a list, as its index.
+struct Choice {
+  Words words;
+  std::uint8_t* index;
+};
+using Target = std::variant<double*, std::int64_t*, std::string*, Choice, Vec3*, std::vector<double>*,
+                            std::vector<Vec3>*, std::array<double, 4>*>;
+
+class Visitor {
+ public:
+  virtual ~Visitor() = default;
+  virtual void value(const Key& key, const Target& target) = 0;
+  // A table; `present` is what the struct says, the answer is whether it is there. If so, it is walked and
+  // closed.
+  virtual bool open(std::string_view table, bool present) = 0;
+  // A list of named tables, of which the struct has `size`; the answer is how many it shall have. Each is
+  // walked and closed.
+  virtual std::size_t open_list(std::string_view list, std::size_t size) = 0;
+  virtual void open_entry(std::string_view list, std::size_t index, std::string_view name) = 0;
+  virtual void close() = 0;
+};
+
+void describe(Visitor&, SceneSpec&);  // without its behaviours, which have a file of their own
+void describe(Visitor&, BehaviourSpec&, bool with_curves);
+void describe_behaviours(Visitor&, std::vector<BehaviourSpec>&, bool with_curves);
+void describe(Visitor&, ResponseSpec&);
+void describe(Visitor&, ResponseFile&);
+void describe(Visitor&, RigSpec&);
+void describe(Visitor&, HexapodGeometry&);
+void describe(Visitor&, ArmRig&);
+void describe(Visitor&, PropSpec&);
+void describe(Visitor&, UserSpec&);
+void describe(Visitor&, InteractionSpec&);
+void describe(Visitor&, sim::ArmTruth&);
+void describe(Visitor&, std::string_view table, PoseSpec&);
+void describe(Visitor&, sim::TwinSpec&);
+// Everything, under the names that --set takes: the scene at the root, then behaviour, rig and truth.
+void describe_all(Visitor&, SceneSpec&, RigSpec&, sim::TwinSpec&);
+
+}  // namespace enc::models

@@ -1,0 +1,55 @@
+// How schema_*.cpp walk tables, parts, lists and choices.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "models/schema/schema.h"
+
+namespace enc::models {
+
+template <class Walk>
+void table(Visitor& visitor, std::string_view name, Walk walk) {
+  if (!visitor.open(name, true)) return;
+  walk();
+  visitor.close();
+}
+
+// A table that is there only if it is named. Says whether it is.
+template <class Walk>
+bool table_if(Visitor& visitor, std::string_view name, bool there, Walk walk) {
+  if (!visitor.open(name, there)) return false;
+  walk();
+  visitor.close();
+  return true;
+}
+
+// A part that is there only if the scene names it.
+template <class T, class Walk>
+void part(Visitor& v, std::string_view name, std::optional<T>& item, Walk walk) {
+  if (!v.open(name, item.has_value())) return item.reset();
+  if (!item) item.emplace();
+  walk(*item);
+  v.close();
+}
+
+// A list of named tables.
+template <class T, class Walk>
+void list(Visitor& visitor, std::string_view name, std::vector<T>& items, Walk walk) {
+  items.resize(visitor.open_list(name, items.size()));
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    visitor.open_entry(name, i, items[i].name);
+    walk(items[i]);
+    visitor.close();
+  }
+}
+
+template <class Enum>
+void choice(Visitor& visitor, const Key& key, Words words, Enum& value) {
+  auto index = static_cast<std::uint8_t>(value);
+  visitor.value(key, Choice{words, &index});
+  value = static_cast<Enum>(index);
+}
+
+}  // namespace enc::models

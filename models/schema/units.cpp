@@ -1,0 +1,114 @@
+#include "models/schema/units.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace enc::models {
+namespace {
+
+// Longest suffix first, because "_mm_s" also ends in "_s".
+constexpr auto kUnits = std::to_array<Unit>({{"_m_s2_per_sqrt_hz", "m/s^2/sqrt(Hz)"},
+                                             {"_m_s3_per_sqrt_hz", "m/s^3/sqrt(Hz)"},
+                                             {"_N_per_sqrt_s", "N/sqrt(s)"},
+                                             {"_N_per_mm_k", "N/mm^k", 3, false, true},
+                                             {"_Ns_per_m", "N s/m"},
+                                             {"_N_per_push", "N"},
+                                             {"_N_per_um", "N/um", 6},
+                                             {"_um_per_N", "um/N", -6},
+                                             {"_N_per_mm", "N/mm", 3},
+                                             {"_N_per_m", "N/m"},
+                                             {"_mm_s2", "mm/s^2", -3},
+                                             {"_m_s2", "m/s^2"},
+                                             {"_mm_s", "mm/s", -3},
+                                             {"_m_s", "m/s"},
+                                             {"_cycles", "cycles"},
+                                             {"_deg", "deg", 0, true},
+                                             {"_MPa", "MPa", 6},
+                                             {"_kPa", "kPa", 3},
+                                             {"_mm", "mm", -3},
+                                             {"_um", "um", -6},
+                                             {"_px", "px"},
+                                             {"_ms", "ms", -3},
+                                             {"_us", "us", -6},
+                                             {"_hz", "Hz"},
+                                             {"_kg", "kg"},
+                                             {"_Nm", "N m"},
+                                             {"_N", "N"},
+                                             {"_s", "s"},
+                                             {"_m", "m"},
+                                             {"", ""}});
+
+// value * 10^power, rounded once. to_chars and from_chars know no locale.
+double shift(double value, int power) {
+  if (power == 0 || value == 0.0 || !std::isfinite(value)) return value;
+  std::array<char, 64> text{};
+  char* end = std::to_chars(text.data(), text.data() + 32, value, std::chars_format::scientific).ptr;
+  char* e = end;
+  while (*(e - 1) != 'e') --e;
+  int exponent = 0;
+  std::from_chars(*e == '+' ? e + 1 : e, end, exponent);
+  end = std::to_chars(e, text.data() + text.size(), exponent + power).ptr;
+  double result = 0.0;
+  const bool too_large = std::from_chars(text.data(), end, result).ec == std::errc::result_out_of_range;
+  if (!too_large) return result;
+  return exponent + power > 0 ? std::copysign(std::numeric_limits<double>::infinity(), value) : 0.0;
+}
+
+double from_si(const Unit& unit, double si, int k) {
+  if (unit.degrees) return si * 180.0 / M_PI;
+  return shift(si, -unit.power * (unit.per_power ? k : 1));
+}
+
+double parsed(const std::string& text) {
+  double value = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+// Empty if no text near `value` gives `si`.
+std::string shortest(const Unit& unit, double value, double si, int k) {
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::string text = fmt::format("{}", parsed(fmt::format("{:.{}e}", value, digits - 1)));
+    if (to_si(unit, parsed(text), k) == si) return text;
+  }
+  for (const double way : {-1.0, 1.0}) {
+    double next = value;
+    for (int i = 0; i < 4; ++i) {
+      next = std::nextafter(next, way * std::numeric_limits<double>::infinity());
+      if (to_si(unit, next, k) == si) return fmt::format("{}", next);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+const Unit& unit_of(std::string_view key) {
+  for (const Unit& unit : kUnits) {
+    if (key.size() > unit.suffix.size() && key.ends_with(unit.suffix)) return unit;
+  }
+  return kUnits.back();
+}
+
+std::string_view stem_of(std::string_view key) {
+  return key.substr(0, key.size() - unit_of(key).suffix.size());
+}
+
+double to_si(const Unit& unit, double value, int k) {
+  if (unit.degrees) return value * M_PI / 180.0;
+  return shift(value, unit.power * (unit.per_power ? k : 1));
+}
+
+std::string text_of(const Unit& unit, double si, int k) {
+  if (si == 0.0) return "0";
+  const double value = from_si(unit, si, k);
+  std::string text = shortest(unit, value, si, k);
+  if (text.empty()) text = shortest(unit, value, to_si(unit, value, k), k);
+  return text.empty() ? fmt::format("{}", value) : text;
+}
+
+}  // namespace enc::models

@@ -1,0 +1,30 @@
+// Words for messages: what a key wants, and "did you mean".
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/schema/schema.h"
+
+namespace enc::models {
+
+// "a positive number in mm (radius of the sphere)"
+std::string expected(const Key& key, const Target& target);
+// "a positive number in mm", of one number
+std::string wanted_number(const Key& key);
+// "33.0": a value of the right type
+std::string example_of(const Key& key, const Target& target);
+// 'text' on one line, cut when long
+std::string quoted(const std::string& text);
+// "text", as TOML writes it
+std::string quoted_toml(const std::string& text);
+
+// The name that somebody who wrote `word` probably wanted; empty if none is near. A key with another unit
+// ("radius_cm") is near to the key with the right one ("radius_mm").
+std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
+
+// "did you mean 'radius_mm'?", or else "the names here are 'a', 'b'" (at most 12 of them).
+std::string advice(std::string_view word, const std::vector<std::string>& names);
+
+}  // namespace enc::models

@@ -1,0 +1,34 @@
+// What the checks of a scene share (scene_check.cpp, session_check.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/setup/scene_file.h"
+
+namespace enc::models {
+
+// Throws Error: the place of the key in its file, and what is wrong, was expected and can be done.
+[[noreturn]] void fail(const Setup& setup, const std::string& key, const std::string& what);
+[[nodiscard]] std::string mm(double metres);  // as a file has it
+
+template <class T>
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<T>& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const T& item : items) names.push_back(item.name);
+  return names;
+}
+
+inline constexpr double kNoWay = 1e-6;  // what is shorter has no direction
+// A direction has length 1; `key` ends with its name in the file.
+void check_unit(const Setup& setup, const std::string& key, const Vec3& v);
+
+void check_session(const Setup& setup);  // [user.session]
+void check_reaches(const Setup& setup);  // [user.reaches]
+// arm_check.cpp
+void check_arm(const Setup& setup);
+void check_finger(const Setup& setup, const ToolSpec& tool);
+void check_interaction(const Setup& setup, const BehaviourSpec& behaviour);
+
+}  // namespace enc::models

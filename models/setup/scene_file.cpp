@@ -1,0 +1,298 @@
+#include "models/setup/scene_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "models/files.h"
+#include "models/schema/schema_walk.h"
+#include "models/schema/units.h"
+#include "models/schema/wording.h"
+#include "models/setup/directions.h"
+#include "models/setup/scene_check.h"
+
+namespace enc::models {
+
+Setup::Setup() = default;
+Setup::~Setup() = default;
+Setup::Setup(const Setup&) = default;
+Setup::Setup(Setup&&) noexcept = default;
+Setup& Setup::operator=(const Setup&) = default;
+Setup& Setup::operator=(Setup&&) noexcept = default;
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongest = 16U << 20U;  // bytes: more is no text of ours
+
+// `what`: "scene"; `names`: files that are there.
+std::string text_of_file(const std::string& path, const std::string& what,
+                         const std::vector<std::string>& names) {
+  std::string why;
+  std::string text = read_file(path, kLongest, why);
+  if (why.empty()) return text;
+  throw Error(fmt::format("{}:1:1: cannot read this {}: {}; expected a TOML file; {}", path, what, why,
+                          advice(fs::path(path).stem().string(), names)));
+}
+
+bool has_behaviours(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "behaviours.toml", ignored);
+}
+
+// `names` as paths from here, so that they can be typed again.
+std::vector<std::string> paths_to(const fs::path& folder, std::vector<std::string> names) {
+  for (std::string& name : names) name = (folder / fmt::format("{}.toml", name)).lexically_normal().string();
+  return names;
+}
+
+void read_scene(Setup& setup) {
+  std::string why;
+  const std::string text = read_file(setup.scene_path, kLongest, why);
+  if (!why.empty()) {
+    const fs::path folder = fs::path(models_dir(setup.scene_path)) / "scenes";
+    const std::vector<std::string> names = files_in(folder.parent_path().string(), "scenes");
+    const std::string near = nearest_name(fs::path(setup.scene_path).stem().string(), names);
+    const std::vector<std::string> offered =
+        near.empty() ? paths_to(folder, names) : paths_to(folder, {near});
+    throw Error(
+        fmt::format("{}:1:1: cannot read this scene: {}; expected a TOML file; {}", setup.scene_path, why,
+                    near.empty() ? advice("", offered) : fmt::format("did you mean '{}'?", offered.front())));
+  }
+  setup.places = read_toml(text, setup.scene_path, [&](Visitor& visitor) { describe(visitor, setup.scene); });
+}
+
+// A role whose table is missing has no driver; the struct's default is for rigs made in code.
+void clear_absent_drivers(Setup& setup) {
+  const auto clear = [&](const char* table, std::string& driver) {
+    if (!setup.places.contains(table)) driver = "none";
+  };
+  clear("rig.manipulator", setup.rig.manipulator.driver);
+  clear("rig.force", setup.rig.force.driver);
+  clear("rig.tracker", setup.rig.tracker.driver);
+  clear("rig.display", setup.rig.display.driver);
+  clear("rig.gripper", setup.rig.gripper.driver);
+  clear("rig.arm", setup.rig.arm.driver);
+}
+
+// Else it is a name in models/rigs.
+bool is_path(const std::string& rig) { return rig.find('/') != std::string::npos || rig.ends_with(".toml"); }
+
+void read_rig(Setup& setup, const std::string& rig) {
+  const std::string models = models_dir(setup.scene_path);
+  setup.rig_path =
+      is_path(rig) ? rig : (fs::path(models) / "rigs" / (rig + ".toml")).lexically_normal().string();
+  const std::string text = text_of_file(setup.rig_path, "rig", files_in(models, "rigs"));
+  const Places places = read_toml(text, setup.rig_path, [&](Visitor& visitor) {
+    describe(visitor, setup.rig);
+    table(visitor, "truth", [&] { describe(visitor, setup.twin); });
+  });
+  for (const auto& [key, place] : places)
+    setup.places[key.starts_with("truth") ? key : fmt::format("rig.{}", key)] = place;
+  clear_absent_drivers(setup);
+}
+
+void read_behaviours(Setup& setup) {
+  const std::string path =
+      (fs::path(models_dir(setup.scene_path)) / "behaviours.toml").lexically_normal().string();
+  const std::string text = text_of_file(path, "list of behaviours", {});
+  std::vector<BehaviourSpec> all;
+  const Places places =
+      read_toml(text, path, [&](Visitor& visitor) { describe_behaviours(visitor, all, false); });
+  std::vector<std::string> names;
+  names.reserve(all.size());
+  for (const BehaviourSpec& b : all) names.push_back(b.name);
+  for (const ObjectSpec& object : setup.scene.objects) {
+    if (object.behaviour.empty()) continue;  // check() says where that is wrong
+    const auto named = [&](const BehaviourSpec& b) { return b.name == object.behaviour; };
+    const auto found = std::find_if(all.begin(), all.end(), named);
+    if (found == all.end()) {
+      throw Error(fmt::format("{}: there is no behaviour {}; expected an entry of {}; {}",
+                              place_of(setup, fmt::format("object.{}.behaviour", object.name)),
+                              quoted(object.behaviour), path, advice(object.behaviour, names)));
+    }
+    std::vector<BehaviourSpec>& used = setup.scene.behaviours;
+    if (std::none_of(used.begin(), used.end(), named)) used.push_back(*found);
+  }
+  for (const auto& [key, place] : places) setup.places[key] = place;
+}
+
+}  // namespace
+
+std::vector<std::string> files_in(const std::string& models_dir, const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(fs::path(models_dir) / folder, none)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string models_dir(const std::string& scene_path) {
+  if (const char* set = std::getenv("ENCOUNTER_MODELS"); set != nullptr && *set != '\0') return set;
+  const fs::path above = (fs::path(scene_path).parent_path() / "..").lexically_normal();
+  if (has_behaviours(above)) return above.string();
+  std::error_code none;
+  for (fs::path at = fs::read_symlink("/proc/self/exe", none); at.has_relative_path();
+       at = at.parent_path()) {
+    if (has_behaviours(at.parent_path() / "models")) return (at.parent_path() / "models").string();
+  }
+  return "models";
+}
+
+namespace {
+
+ResponseFile read_response(const std::string& path, Places& places) {
+  const std::string folder = fs::path(path).parent_path().string();
+  ResponseFile file;
+  places = read_toml(text_of_file(path, "response", files_in(folder, "")), path,
+                     [&](Visitor& visitor) { describe(visitor, file); });
+  return file;
+}
+
+void check_form(const Setup& setup, const std::string& models_dir) {
+  if (!setup.scene.questionnaire) return;
+  const std::string& form = setup.scene.questionnaire->form;
+  const std::vector<std::string> names = files_in(models_dir, "questionnaires");
+  if (std::find(names.begin(), names.end(), form) != names.end()) return;
+  throw Error(fmt::format("{}: there is no questionnaire {}; expected a file in {}; {}",
+                          place_of(setup, "questionnaire.form"), quoted(form),
+                          (fs::path(models_dir) / "questionnaires").lexically_normal().string(),
+                          advice(form, names)));
+}
+
+}  // namespace
+
+ResponseSpec load_response(const std::string& path) {
+  Places places;
+  return read_response(path, places).response;
+}
+
+namespace {
+
+// A file of models/directions: mixed for the press that [user] plans.
+ResponseSpec mixed_response(const Setup& setup, const BehaviourSpec& b, const std::string& path,
+                            const std::string& models_dir) {
+  const std::string place = place_of(setup, fmt::format("behaviour.{}.response", b.name));
+  const SceneSpec& scene = setup.scene;
+  if (!scene.user || !presses_sphere(scene, b.name))
+    throw Error(
+        fmt::format("{}: behaviour {} depends on the direction of the press; expected a [user] that presses "
+                    "a sphere with it; "
+                    "name the sphere in [user], or choose a behaviour with one response",
+                    place, quoted(b.name)));
+  const std::vector<Direction> directions = load_directions(path);
+  std::vector<ResponseSpec> parts;
+  parts.reserve(directions.size());
+  for (const Direction& d : directions)
+    parts.push_back(load_response((fs::path(models_dir) / "responses" / (d.response + ".toml")).string()));
+  try {
+    return mixed(parts, weights(directions, planned_way(scene)));
+  } catch (const Error& e) {
+    throw Error(fmt::format(
+        "{}:1:1: {}; expected responses with one limit and the same stops; fit them alike", path, e.what()));
+  }
+}
+
+}  // namespace
+
+void fill_curves(Setup& setup, const std::string& models_dir) {
+  for (BehaviourSpec& b : setup.scene.behaviours) {
+    if (b.interaction.kind != Interaction::press) continue;  // rendered from its stiffness alone
+    if (b.response.empty()) {
+      b.curves = {{b.stiffness, 0, 0, 0}, {b.stiffness, 0, 0, 0}, b.limit};
+      continue;
+    }
+    std::error_code none;
+    const fs::path directions = fs::path(models_dir) / "directions" / (b.response + ".toml");
+    if (fs::exists(directions, none)) {
+      b.curves = mixed_response(setup, b, directions.lexically_normal().string(), models_dir);
+      continue;
+    }
+    const fs::path path = (fs::path(models_dir) / "responses" / (b.response + ".toml")).lexically_normal();
+    if (!fs::exists(path, none)) {
+      throw Error(fmt::format("{}: there is no response file {}; expected a file in {}; {}",
+                              place_of(setup, fmt::format("behaviour.{}.response", b.name)),
+                              quoted(path.string()), path.parent_path().string(),
+                              advice(b.response, files_in(models_dir, "responses"))));
+    }
+    Places places;
+    b.curves = read_response(path.string(), places).response;
+    // What is wrong with a curve is wrong in the response file.
+    for (const auto& [key, place] : places)
+      setup.places[fmt::format("behaviour.{}.curves.{}", b.name, key)] = place;
+  }
+}
+
+RigSpec load_rig(const std::string& rig) { return load_rig_setup(rig).rig; }
+
+Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& overrides) {
+  Setup setup;
+  read_rig(setup, rig);
+  for (const std::string& text : overrides) set(setup, text);
+  return setup;
+}
+
+std::string place_of(const Setup& setup, std::string_view key) {
+  for (std::string_view at = key; !at.empty();) {
+    if (const auto exact = setup.places.find(at); exact != setup.places.end()) return exact->second;
+    for (auto i = setup.places.lower_bound(at); i != setup.places.end() && i->first.starts_with(at); ++i) {
+      if (stem_of(i->first) == at) return i->second;
+    }
+    const auto dot = at.rfind('.');
+    at = at.substr(0, dot == std::string_view::npos ? 0 : dot);
+  }
+  const bool in_rig = key.starts_with("rig.") || key.starts_with("truth.");
+  return fmt::format("{}:1:1", in_rig ? setup.rig_path : setup.scene_path);
+}
+
+namespace {
+
+// Also where --rig names another one: a scene that is wrong is wrong everywhere.
+void check_made_for(const Setup& setup) {
+  const std::string& rig = setup.scene.rig;
+  const std::vector<std::string> names = files_in(models_dir(setup.scene_path), "rigs");
+  if (rig.empty() || is_path(rig) || std::find(names.begin(), names.end(), rig) != names.end()) return;
+  fail(setup, "made_for",
+       fmt::format("there is no rig {}; expected a file in {}; {}", quoted(rig),
+                   (fs::path(models_dir(setup.scene_path)) / "rigs").lexically_normal().string(),
+                   advice(rig, names)));
+}
+
+}  // namespace
+
+Setup load(const std::string& scene_path, const std::string& rig, const std::vector<std::string>& overrides) {
+  Setup setup;
+  setup.scene_path = scene_path;
+  read_scene(setup);
+  check_made_for(setup);
+  read_rig(setup, !rig.empty() ? rig : setup.scene.rig.empty() ? "sim" : setup.scene.rig);
+  // Behaviours come second, because --set may name another one for an object.
+  const auto of_behaviour = [](const std::string& text) { return text.starts_with("behaviour."); };
+  for (const std::string& text : overrides) {
+    if (!of_behaviour(text)) set(setup, text);
+  }
+  read_behaviours(setup);
+  for (const std::string& text : overrides) {
+    if (of_behaviour(text)) set(setup, text);
+  }
+  mend_normals(setup);
+  check(setup);
+  note_props(setup);
+  fill_curves(setup, models_dir(scene_path));
+  fill_meshes(setup, models_dir(scene_path));
+  check_form(setup, models_dir(scene_path));
+  check(setup);
+  round_to_text(setup);
+  return setup;
+}
+
+}  // namespace enc::models

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "models/schema/wording.h"
+#include "models/setup/scene_check.h"
+
+namespace enc::models {
+namespace {
+
+void check_pair(const Setup& setup, const std::string& table, const std::string& key,
+                const std::vector<double>& pair) {
+  if (pair.size() == 2 && pair[0] <= pair[1]) return;
+  fail(setup, table + "." + key,
+       fmt::format(
+           "'{}' has {}; expected the least and the most; write it like '{} = [1, 2]'", key,
+           pair.size() == 2 ? "its first number above its second" : fmt::format("{} numbers", pair.size()),
+           key));
+}
+
+void check_ranges(const Setup& setup, const std::string& table, const ReachRanges& r) {
+  for (const auto& [key, pair] : {std::pair{"tilt_deg", &r.tilt},
+                                  {"reach_mm", &r.reach},
+                                  {"peak_mm_s", &r.peak_speed},
+                                  {"touch_mm_s", &r.touch_speed},
+                                  {"depth_mm", &r.depth},
+                                  {"press_mm_s", &r.press_speed},
+                                  {"hold_s", &r.hold},
+                                  {"rest_s", &r.rest}})
+    check_pair(setup, table, key, *pair);
+}
+
+// A kind of user that is drawn has a table of its own name; then it presses to a depth.
+bool has_table(const Setup& setup, const std::string& kind, bool there) {
+  const UserSpec& user = *setup.scene.user;
+  if (there != (user.kind == kind))
+    fail(setup, there ? "user." + kind : "user.kind",
+         fmt::format(
+             "'kind' is {} and there is {} [user.{}]; expected both or none; {}", quoted(user.kind),
+             there ? "a" : "no", kind,
+             there ? fmt::format("write 'kind = \"{}\"' or remove the table", kind) : "add the table"));
+  if (there && !std::isnan(user.push))
+    fail(setup, "user.push_N",
+         fmt::format("a user of kind {} presses to a depth; expected no 'push_N'; remove it", quoted(kind)));
+  return there;
+}
+
+}  // namespace
+
+void check_reaches(const Setup& setup) {
+  const UserSpec& user = *setup.scene.user;
+  if (!has_table(setup, "reaches", user.reaches.has_value())) return;
+  check_ranges(setup, "user.reaches", *user.reaches);
+  for (const ObjectSpec& object : setup.scene.objects)
+    if (object.shape == ShapeKind::mesh)
+      fail(setup, fmt::format("object.{}.shape", object.name),
+           fmt::format("a user of kind \"reaches\" reaches for every object and {} is a mesh; expected "
+                       "planes, buttons and spheres; write 'kind = \"press_release\"' for one object",
+                       quoted(object.name)));
+  const double farthest = user.reaches->reach[1];
+  if (!(farthest > setup.scene.follow.pause))
+    fail(setup, "user.reaches.reach_mm",
+         fmt::format("a reach begins {} mm from its place at most; expected more than 'follow.pause_mm', {} "
+                     "mm, so that the finger is away before; raise it",
+                     mm(farthest), mm(setup.scene.follow.pause)));
+}
+
+void check_session(const Setup& setup) {
+  const UserSpec& user = *setup.scene.user;
+  if (!has_table(setup, "session", user.session.has_value())) return;
+  const SessionSpec& s = *user.session;
+  check_ranges(setup, "user.session", s);
+  check_pair(setup, "user.session", "change_share", s.change);
+  const auto first = [](const auto& items, const std::string& name) -> const auto& {
+    const auto named =
+        std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.name == name; });
+    return named == items.end() ? items.front() : *named;
+  };
+  const ObjectSpec& object = first(setup.scene.objects, user.object);
+  if (object.shape != ShapeKind::sphere)
+    fail(
+        setup, "user.object",
+        fmt::format("a session presses a ball and {} is none; expected a sphere; name one, or write 'shape = "
+                    "\"sphere\"'",
+                    quoted(object.name)));
+  if (s.other_tool.empty()) return;
+  const std::vector<std::string> tools = names_of(setup.scene.tools);
+  if (std::find(tools.begin(), tools.end(), s.other_tool) == tools.end())
+    fail(setup, "user.session.other_tool",
+         fmt::format("there is no tool {}; expected the name of a [[tool]]; {}", quoted(s.other_tool),
+                     advice(s.other_tool, tools)));
+  if (s.other_tool == first(setup.scene.tools, user.tool).name)
+    fail(setup, "user.session.other_tool",
+         fmt::format("'other_tool' is {}, which is held already; expected another tool; name it, or leave it "
+                     "out for no change",
+                     quoted(s.other_tool)));
+  const double away = (s.tray - object.position).norm() - object.radius;
+  if (!(away > setup.scene.follow.pause))
+    fail(setup, "user.session.tray_mm",
+         fmt::format(
+             "'tray_mm' is {} mm from the surface of {}; expected more than 'follow.pause_mm', {} mm, or "
+             "the machine would lose a tool that it follows; move it",
+             mm(std::round(away * 1e5) / 1e5), quoted(object.name), mm(setup.scene.follow.pause)));
+}
+
+}  // namespace enc::models

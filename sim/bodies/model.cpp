@@ -1,0 +1,271 @@
+#include "sim/bodies/model.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "sim/bodies/arm_model.h"
+#include "sim/bodies/legs.h"
+#include "sim/bodies/seen_surface.h"
+
+namespace enc::sim {
+namespace {
+
+void set3(double* to, const Vec3& v) { std::copy_n(v.data(), 3, to); }
+void set4(double* to, const Quat& q) {  // MuJoCo writes w first
+  to[0] = q.w();
+  to[1] = q.x();
+  to[2] = q.y();
+  to[3] = q.z();
+}
+// mjs_setName says -1 for a duplicate and the spec still compiles: check (sources/twin 4).
+void name(mjsElement* element, const std::string& text) {
+  if (mjs_setName(element, text.c_str()) != 0)
+    throw Error("two parts of the simulated world are called '" + text + "'");
+}
+void colour(mjsGeom* geom, std::array<float, 4> rgba) { std::copy(rgba.begin(), rgba.end(), geom->rgba); }
+
+mjsGeom* drawn(mjsBody* body, mjtGeom type, const Vec3& position, const Vec3& size,
+               std::array<float, 4> rgba) {
+  mjsGeom* geom = mjs_addGeom(body, nullptr);
+  geom->type = type;
+  set3(geom->pos, position);
+  set3(geom->size, size);
+  geom->contype = geom->conaffinity = 0;
+  geom->mass = 0;
+  colour(geom, rgba);
+  return geom;
+}
+
+// A hard stop between tool and haptic-tip.
+// No haptic stiffness is rendered by it: that is the core's business.
+void hard_contact(mjsGeom* geom, const WorldTruth& world) {
+  geom->contype = geom->conaffinity = 1;
+  geom->condim = 3;
+  geom->friction[0] = world.tip_friction;
+  geom->solref[0] = world.contact_time;
+  geom->solref[1] = 1.0;
+  geom->solimp[0] = geom->solimp[1] = 0.99;
+}
+
+// Markers and shaft of a tool, for the picture; its tip's centre at `tip`, turned by q.
+void draw_tool(mjsBody* body, const ToolSpec& tool, const Quat& q, const Vec3& tip) {
+  const auto placed = [&](const Vec3& p_T) { return Vec3(tip + q * (p_T - tool.tip)); };
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& marker : tool.markers) {
+    drawn(body, mjGEOM_SPHERE, placed(marker), {0.006, 0, 0}, {0.8F, 0.8F, 0.85F, 1});
+    middle += placed(marker) / static_cast<double>(tool.markers.size());
+  }
+  if (tool.markers.empty()) return;
+  mjsGeom* shaft = drawn(body, mjGEOM_CAPSULE, Vec3::Zero(), {0.003, 0, 0}, {0.2F, 0.4F, 0.7F, 1});
+  set3(shaft->fromto, tip);
+  set3(shaft->fromto + 3, middle);
+}
+
+// A fingertip is a tool without markers. Its last two joints, slightly bent.
+void draw_finger(mjsBody* body, const Vec3& to_hand, double radius) {
+  constexpr std::array<float, 4> kSkin{0.87F, 0.66F, 0.54F, 1};
+  const Vec3 bent = (to_hand + 0.4 * to_hand.unitOrthogonal()).normalized();
+  const Vec3 joint = 0.024 * to_hand;
+  for (const auto& [from, to] : {std::pair<Vec3, Vec3>{Vec3::Zero(), joint}, {joint, joint + 0.03 * bent}}) {
+    mjsGeom* bone = drawn(body, mjGEOM_CAPSULE, Vec3::Zero(), {0.95 * radius, 0, 0}, kSkin);
+    set3(bone->fromto, from);
+    set3(bone->fromto + 3, to);
+  }
+}
+
+// A child of the tip's body: a weld to it would err by 128 um at 40 mm/s (sources/twin 3). It touches
+// nothing.
+void add_clamped_tool(mjsBody* behind_sensor, const ToolSpec& tool, const Pose<'H', 'T'>& X_HT) {
+  mjsBody* body = mjs_addBody(behind_sensor, nullptr);
+  name(body->element, "clamped_tool");
+  body->mass = tool.mass;
+  body->explicitinertial = true;
+  set3(body->ipos, (X_HT * Point<'T'>(tool.tip)).e());
+  std::fill_n(body->inertia, 3, 1e-5);
+  draw_tool(body, tool, Quat(X_HT.q()), (X_HT * Point<'T'>(tool.tip)).e());
+}
+
+void add_machine(mjSpec* spec, const ModelParts& parts) {
+  std::array<char, 500> error{};
+  const std::string file = parts.mjcf_dir + "/hexapod.xml";
+  const SpecPtr machine(mj_parseXML(file.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
+  if (!machine) throw Error(file + ": " + error.data());
+  mjsBody* world = mjs_findBody(spec, "world");
+  mjsFrame* frame = mjs_addFrame(world, nullptr);
+  for (const char* body : {"base", "platform"})
+    if (mjs_attach(frame->element, mjs_findBody(machine.get(), body)->element, "", "") == nullptr)
+      throw Error(file + ": body '" + body + "' cannot be attached: " + mjs_getError(spec));
+  mjsBody* base = mjs_findBody(spec, "base");
+  set3(base->pos, parts.X_WR.p());
+  set4(base->quat, Quat(parts.X_WR.q()));
+  mjsBody* behind = mjs_findBody(spec, "behind_sensor");
+  behind->mass = parts.twin.hexapod.mass;
+  mjsSite* sensor = mjs_asSite(mjs_findElement(spec, mjOBJ_SITE, "force_sensor"));
+  const Pose<'H', 'F'> X_HF = pose_of<'H', 'F'>(parts.twin.frames.H_F);
+  set3(sensor->pos, X_HF.p());
+  set4(sensor->quat, Quat(X_HF.q()));
+  mjsGeom* tip = mjs_addGeom(behind, nullptr);
+  name(tip->element, "haptic_tip");
+  tip->type = mjGEOM_SPHERE;
+  tip->size[0] = parts.scene.probe ? parts.scene.probe->radius : parts.twin.hexapod.tip_radius;
+  tip->mass = 0;
+  colour(tip, {0.90F, 0.35F, 0.10F, 1});
+  hard_contact(tip, parts.twin.world);
+  if (parts.clamped != nullptr) add_clamped_tool(behind, *parts.clamped, parts.X_HT);
+  if (!parts.twin.structural()) return;
+  const double moved =
+      parts.twin.structure.platform_mass + behind->mass + (parts.clamped ? parts.clamped->mass : 0.0);
+  Legs::build(spec, Hexapod(parts.twin.hexapod.geometry), parts.twin.structure, moved);
+}
+
+void add_arm(mjSpec* spec, const ModelParts& parts) {
+  const ArmMachine machine = true_machine(parts.twin.arm);
+  build_arm(spec, {machine, parts.twin.arm, parts.scene.prop ? &*parts.scene.prop : nullptr, parts.X_WR,
+                   parts.draw_all});
+  spec->option.disableflags |= mjDSBL_MIDPHASE;  // its boxes do not follow a prop that turns on its body
+}
+
+void add_sensor(mjSpec* spec, mjtSensor type, const char* text) {
+  mjsSensor* sensor = mjs_addSensor(spec);
+  sensor->type = type;
+  sensor->objtype = mjOBJ_SITE;
+  mjs_setString(sensor->objname, "force_sensor");
+  name(sensor->element, text);
+}
+
+// A tool of the user's: its tip's centre on three slides. The hand keeps its orientation.
+void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const std::string& called) {
+  mjsBody* body = mjs_addBody(mjs_findBody(spec, "world"), nullptr);
+  name(body->element, called);
+  body->mass = tool.mass;
+  body->explicitinertial = true;
+  std::fill_n(body->inertia, 3, 1e-5);
+  for (int axis = 0; axis < 3; ++axis) {
+    mjsJoint* slide = mjs_addJoint(body, nullptr);
+    slide->type = mjJNT_SLIDE;
+    set3(slide->axis, Vec3::Unit(axis));
+  }
+  mjsGeom* tip = mjs_addGeom(body, nullptr);
+  name(tip->element, called + "_tip");
+  tip->type = mjGEOM_SPHERE;
+  tip->size[0] = std::max(tool.tip_radius, 1e-4);
+  tip->mass = 0;
+  colour(tip, {0.85F, 0.85F, 0.20F, 1});
+  hard_contact(tip, parts.twin.world);
+  if (!parts.draw_all) return;
+  draw_tool(body, tool, parts.q_WT, Vec3::Zero());
+  if (tool.markers.empty()) draw_finger(body, parts.finger, tip->size[0]);
+}
+
+// The only two that can touch: then no others are looked for (3 % of the instructions of a tick). Friction
+// and stop are those of the first.
+mjsPair* only_pair(mjSpec* spec, const char* one, const char* other) {
+  mjsPair* pair = mjs_addPair(spec, nullptr);
+  mjs_setString(pair->geomname1, one);
+  mjs_setString(pair->geomname2, other);
+  mjsGeom* first = mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, one));
+  mjsGeom* second = mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, other));
+  pair->condim = first->condim;
+  std::fill_n(pair->friction, 2, first->friction[0]);
+  std::copy_n(first->solref, mjNREF, pair->solref);
+  std::copy_n(first->solimp, mjNIMP, pair->solimp);
+  for (mjsGeom* geom : {first, second}) geom->contype = geom->conaffinity = 0;
+  return pair;
+}
+
+// A button or a piece of a plane, whose face is at z = 0 of O.
+mjsGeom* draw_slab(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
+  const bool button = object.shape == ShapeKind::button;
+  const Vec3 half = button ? Vec3(0.5 * object.width, 0.5 * object.height, 0.5 * object.thickness)
+                           : Vec3(0.08, 0.08, 0.001);
+  mjsGeom* geom =
+      drawn(mjs_findBody(spec, "world"), mjGEOM_BOX, X_WO.p() - X_WO.q() * Vec3(0, 0, half.z()), half,
+            button ? std::array{0.85F, 0.35F, 0.30F, 0.40F} : std::array{0.4F, 0.6F, 0.9F, 0.4F});
+  name(geom->element, seen_name(index));
+  return geom;
+}
+
+mjsGeom* draw_object(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
+  if (object.shape == ShapeKind::button || object.shape == ShapeKind::plane)
+    return draw_slab(spec, index, object, X_WO);
+  const bool ball = object.shape == ShapeKind::sphere;
+  mjsGeom* geom = ball ? add_seen_ball(spec, index, object.radius)
+                       : add_seen_mesh(spec, index, *object.surface, object.scale);
+  set3(geom->pos, X_WO.p());
+  colour(geom, ball ? std::array{0.78F, 0.90F, 0.20F, 0.35F} : std::array{0.72F, 0.55F, 0.38F, 0.55F});
+  return geom;
+}
+
+void add_pictures(mjSpec* spec, const ModelParts& parts) {
+  mjsBody* world = mjs_findBody(spec, "world");
+  for (std::size_t i = 0; i < parts.scene.objects.size(); ++i) {
+    const Pose<'W', 'O'>& X_WO = parts.prepared.objects[i].X_WO;
+    set4(draw_object(spec, i, parts.scene.objects[i], X_WO)->quat, Quat(X_WO.q()));
+  }
+  for (const double side : {-1.0, 1.0}) {
+    mjsLight* light = mjs_addLight(world, nullptr);
+    set3(light->pos, {0.5 * side, -0.6, 1.2});
+    set3(light->dir, Vec3(-0.4 * side, 0.5, -1.0).normalized());
+  }
+}
+
+mjtIntegrator integrator_of(const Stepping& stepping) {
+  constexpr std::array<std::pair<std::string_view, mjtIntegrator>, 5> kIntegrators{
+      {{"euler", mjINT_EULER},
+       {"rk4", mjINT_RK4},
+       {"implicit", mjINT_IMPLICIT},
+       {"implicitfast", mjINT_IMPLICITFAST},
+       {"discrete", mjINT_DISCRETE}}};
+  const std::string& wanted = stepping.integrator;
+  const auto* found = std::find_if(kIntegrators.begin(), kIntegrators.end(),
+                                   [&](const auto& i) { return wanted == i.first; });
+  if (found == kIntegrators.end())
+    throw Error(
+        "unknown integrator '" + wanted + "'; expected euler, rk4, implicit, implicitfast or discrete",
+        stepping.table + ".integrator");
+  return found->second;
+}
+
+}  // namespace
+
+SpecPtr build_model(const ModelParts& parts) {
+  install_mujoco_handlers();  // attaching warns on standard output otherwise
+  SpecPtr spec(mj_makeSpec());
+  const Stepping stepping = parts.twin.stepping(parts.scene.arm.has_value());
+  spec->option.timestep = stepping.timestep;
+  set3(spec->option.gravity, {0, 0, -9.80665});
+  spec->option.integrator = integrator_of(stepping);
+  // Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds.
+  spec->option.cone = mjCONE_ELLIPTIC;
+  spec->option.impratio = 20.0;
+  // Not with an arm: that pass changes the dry friction of its joints after the contact forces are found, and
+  // a pressed finger is let go for a tick whenever the arm begins to slip.
+  spec->option.noslip_iterations = parts.scene.arm ? 0 : 4;
+  // All its parts hang together: islands would only be looked for (8 % of the run time).
+  if (parts.scene.arm) spec->option.disableflags |= mjDSBL_ISLAND;
+  if (parts.scene.arm)
+    add_arm(spec.get(), parts);
+  else
+    add_machine(spec.get(), parts);
+  if (parts.scene.force) {
+    add_sensor(spec.get(), mjSENS_FORCE, "force");
+    add_sensor(spec.get(), mjSENS_TORQUE, "torque");
+  }
+  if (parts.tool != nullptr)
+    add_tool(spec.get(), parts, *parts.tool, "tool");
+  else  // nothing can touch, and a hexapod has no other constraint
+    spec->option.disableflags |= mjDSBL_CONTACT | (parts.scene.arm ? 0 : mjDSBL_CONSTRAINT);
+  if (parts.other != nullptr) add_tool(spec.get(), parts, *parts.other, "other_tool");
+  if (parts.scene.arm && parts.scene.prop && parts.tool != nullptr) {
+    mjsPair* pair = only_pair(spec.get(), "prop_front", "tool_tip");
+    if (parts.scene.prop->kind == PropKind::drum) {
+      pair->solreffriction[0] = parts.twin.arm.belt_friction_time;
+      pair->solreffriction[1] = 1.0;
+    }
+  }
+  if (parts.draw_all) add_pictures(spec.get(), parts);
+  return spec;
+}
+
+}  // namespace enc::sim

@@ -1,0 +1,69 @@
+#include "sim/bodies/mujoco.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace enc::sim {
+namespace {
+
+[[noreturn]] void on_error(const char* text) {
+  throw Error(std::string("MuJoCo: ") + text, {}, ErrorKind::device);
+}
+void on_warning(const char*) {
+}  // the counters in mjData are read on every step; nothing is printed or written to a file
+
+}  // namespace
+
+void install_mujoco_handlers() {
+  // Once, whichever thread comes first: worlds run side by side.
+  [[maybe_unused]] static const bool installed = [] {
+    mju_user_error = on_error;
+    mju_user_warning = on_warning;
+    return true;
+  }();
+}
+
+std::string mujoco_version() { return mj_versionString(); }
+
+Physics::Physics(SpecPtr spec) : spec_(std::move(spec)) {
+  install_mujoco_handlers();
+  spec_->option.disableflags |= mjDSBL_AUTORESET;
+  model_.reset(mj_compile(spec_.get(), nullptr));
+  if (!model_) {
+    std::string why = mjs_getError(spec_.get());
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    throw Error("the simulated world does not compile: " + why, "truth");
+  }
+  data_.reset(mj_makeData(model_.get()));
+  if (!data_) throw Error("not enough memory for the simulated world");
+}
+
+std::string Physics::warning_text() const {
+  std::string text;
+  for (int i = 0; i < mjNWARNING; ++i) {
+    if (data_->warning[i].number == 0) continue;
+    if (!text.empty()) text += "; ";
+    text += mju_warningText(i, static_cast<std::size_t>(data_->warning[i].lastinfo));
+  }
+  return text;
+}
+
+int Physics::id(mjtObj type, const char* name) const {
+  const int found = mj_name2id(model_.get(), type, name);
+  if (found < 0) throw Error(std::string("the simulated world has no '") + name + "'");
+  return found;
+}
+
+std::vector<double> Physics::save() const {
+  std::vector<double> state(static_cast<std::size_t>(mj_stateSize(model_.get(), mjSTATE_INTEGRATION)));
+  mj_getState(model_.get(), data_.get(), state.data(), mjSTATE_INTEGRATION);
+  return state;
+}
+
+void Physics::restore(const std::vector<double>& state) {
+  mj_setState(model_.get(), data_.get(), state.data(), mjSTATE_INTEGRATION);
+  for (mjWarningStat& warning : data_->warning) warning = {};  // what was wrong before is not wrong now
+}
+
+}  // namespace enc::sim

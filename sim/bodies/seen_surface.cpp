@@ -1,0 +1,116 @@
+#include "sim/bodies/seen_surface.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/dent/dent.h"
+#include "core/error.h"
+
+namespace enc::sim {
+namespace {
+
+constexpr int kRings = 180, kSectors = 256;  // under 0.8 mm apart on a tennis ball
+
+std::vector<float> ball_vertices(double radius) {
+  std::vector<float> xyz;
+  const auto add = [&](double polar, double azimuth) {
+    xyz.push_back(static_cast<float>(radius * std::sin(polar) * std::cos(azimuth)));
+    xyz.push_back(static_cast<float>(radius * std::sin(polar) * std::sin(azimuth)));
+    xyz.push_back(static_cast<float>(radius * std::cos(polar)));
+  };
+  add(0.0, 0.0);
+  for (int ring = 1; ring < kRings; ++ring)
+    for (int sector = 0; sector < kSectors; ++sector)
+      add(std::numbers::pi * ring / kRings, 2.0 * std::numbers::pi * sector / kSectors);
+  add(std::numbers::pi, 0.0);
+  return xyz;
+}
+
+std::vector<int> ball_triangles() {
+  std::vector<int> all;
+  const auto at = [](int ring, int sector) {
+    if (ring == 0) return 0;
+    return ring == kRings ? 1 + (kRings - 1) * kSectors : 1 + (ring - 1) * kSectors + sector % kSectors;
+  };
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int s = 0; s < kSectors; ++s) {
+      if (ring + 1 < kRings) all.insert(all.end(), {at(ring, s), at(ring + 1, s), at(ring + 1, s + 1)});
+      if (ring > 0) all.insert(all.end(), {at(ring, s), at(ring + 1, s + 1), at(ring, s + 1)});
+    }
+  return all;
+}
+
+mjsGeom* add_seen(mjSpec* spec, std::size_t object, const std::vector<float>& vertices,
+                  const std::vector<int>& triangles) {
+  const std::string name = seen_name(object);
+  mjsMesh* mesh = mjs_addMesh(spec, nullptr);
+  mjsGeom* geom = mjs_addGeom(mjs_findBody(spec, "world"), nullptr);
+  if (mjs_setName(mesh->element, name.c_str()) != 0 || mjs_setName(geom->element, name.c_str()) != 0)
+    throw Error("two parts of the simulated world are called '" + name + "'");
+  mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
+  mjs_setInt(mesh->userface, triangles.data(), static_cast<int>(triangles.size()));
+  mesh->smoothnormal = true;
+  mesh->inertia = mjMESH_INERTIA_SHELL;  // it has none, and needs no convex hull for it
+  geom->type = mjGEOM_MESH;
+  mjs_setString(geom->meshname, name.c_str());
+  geom->contype = geom->conaffinity = 0;
+  geom->mass = 0;
+  return geom;
+}
+
+}  // namespace
+
+std::string seen_name(std::size_t object) { return "seen_" + std::to_string(object); }
+
+mjsGeom* add_seen_ball(mjSpec* spec, std::size_t object, double radius) {
+  return add_seen(spec, object, ball_vertices(radius), ball_triangles());
+}
+
+mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, double scale) {
+  std::vector<float> vertices;
+  for (const auto& v : mesh.vertices)
+    for (const double x : v) vertices.push_back(static_cast<float>(x * scale));
+  std::vector<int> triangles;
+  for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  return add_seen(spec, object, vertices, triangles);
+}
+
+void shift_seen(Physics& physics, std::size_t object, const Vec<'W'>& shift) {
+  const int geom = mj_name2id(physics.model(), mjOBJ_GEOM, seen_name(object).c_str());
+  if (geom < 0) return;
+  for (int k = 0; k < 3; ++k)
+    physics.data()->geom_xpos[3 * geom + k] += shift.xyz[static_cast<std::size_t>(k)];
+}
+
+void dent_seen(Physics& physics, const Scene& scene, std::size_t object, const Tip<'W'>& tip) {
+  mjModel* m = physics.model();
+  const int geom = mj_name2id(m, mjOBJ_GEOM, seen_name(object).c_str());
+  if (geom < 0 || m->geom_type[geom] != mjGEOM_MESH) return;
+  const Object& seen = scene.objects[object];
+  const Pose<'O', 'W'> X_OW = seen.X_WO.inverse();
+  const DentField<double> field =
+      dent_field(seen.surface, dent_of(seen.surface, static_cast<std::int32_t>(object), X_OW * tip));
+  // MuJoCo keeps a mesh in its own axes of inertia.
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Vec3 p = Vec3::Map(physics.data()->geom_xpos + static_cast<std::ptrdiff_t>(3) * geom);
+  const Mat3 turned = RowMajor::Map(physics.data()->geom_xmat + static_cast<std::ptrdiff_t>(9) * geom);
+  const Pose<'O', 'W'> X_OM(X_OW.q() * Quat(turned), Vec3(X_OW.q() * p + X_OW.p()));
+  const Pose<'W', 'O'> X_MO = X_OM.inverse();
+  const int mesh = m->geom_dataid[geom];
+  float* vertex = m->mesh_vert + static_cast<std::ptrdiff_t>(3) * m->mesh_vertadr[mesh];
+  float* normal = m->mesh_normal + static_cast<std::ptrdiff_t>(3) * m->mesh_normaladr[mesh];
+  if (m->mesh_normalnum[mesh] != m->mesh_vertnum[mesh]) return;
+  for (int i = 0; i < m->mesh_vertnum[mesh]; ++i, vertex += 3, normal += 3) {
+    const Displaced to = displaced(field, X_OM * Point<'W'>(vertex[0], vertex[1], vertex[2]),
+                                   X_OM * Vec<'W'>(Vec3(normal[0], normal[1], normal[2]).normalized()));
+    const Point<'W'> at = X_MO * to.point;
+    const Vec<'W'> n = X_MO * to.normal;
+    for (int k = 0; k < 3; ++k) {
+      vertex[k] = static_cast<float>(at.xyz[static_cast<std::size_t>(k)]);
+      normal[k] = static_cast<float>(n.xyz[static_cast<std::size_t>(k)]);
+    }
+  }
+}
+
+}  // namespace enc::sim

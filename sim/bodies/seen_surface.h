@@ -1,0 +1,24 @@
+// The seen surface in a picture: a mesh, or a ball as a fine one, that the tool's tip dents [VHMR 3.5].
+// Pictures only; it touches nothing and weighs nothing.
+#pragma once
+
+#include <string>
+
+#include "core/world/scene.h"
+#include "sim/bodies/mujoco.h"
+
+namespace enc::sim {
+
+// What is seen of an object is a geom called seen_name(object). These are meshes, around the origin of O.
+mjsGeom* add_seen_ball(mjSpec* spec, std::size_t object, double radius);
+mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, double scale);
+[[nodiscard]] std::string seen_name(std::size_t object);
+
+// In the picture alone, until the physics steps again.
+void shift_seen(Physics& physics, std::size_t object, const Vec<'W'>& shift);
+
+// Displaces vertices and normals of that mesh by a tip. Does nothing where the object has no such mesh. To be
+// done once, and before the model is given to a renderer.
+void dent_seen(Physics& physics, const Scene& scene, std::size_t object, const Tip<'W'>& tip);
+
+}  // namespace enc::sim

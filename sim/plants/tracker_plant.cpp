@@ -1,0 +1,118 @@
+#include "sim/plants/tracker_plant.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/rotation.h"
+
+namespace enc::sim {
+namespace {
+
+Pose<'W', 'T'> between(const Pose<'W', 'T'>& a, const Pose<'W', 'T'>& b, double share) {
+  return {a.q().slerp(share, b.q()), Vec3(a.p() + share * (b.p() - a.p()))};
+}
+
+template <std::size_t N>
+void put(std::array<TrackerPlant::Packet, N>& line, const Stamped<TrackedTool>& sample, Time due) {
+  // A full line loses its oldest packet, as a socket buffer would.
+  auto* slot = std::min_element(line.begin(), line.end(), [](const auto& a, const auto& b) {
+    return a.waiting != b.waiting ? !a.waiting : a.due < b.due;
+  });
+  *slot = {sample, due, true};
+}
+
+}  // namespace
+
+TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed)
+    : truth_(truth), X_CW_(X_WC.inverse()) {
+  if (truth.latency * truth.rate > 60.0)
+    throw Error("at most 60 frames can be on their way at once", "truth.tracker.latency");
+  state_.noise = Stream(seed, "tracker");
+  if (truth.process * truth.server_rate > 60.0)
+    throw Error("at most 60 packets can be on their way at once", "truth.tracker.process");
+  const double phase = truth.clocks == TrackerClocks::free ? 1.0 : 0.0;
+  state_.exposure = {truth.rate, 0, from_seconds(phase * state_.noise.uniform() / truth.rate)};
+  state_.server = {truth.server_rate, 0, from_seconds(phase * state_.noise.uniform() / truth.server_rate)};
+}
+
+void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
+  const double t = seconds(at.time_since_epoch());
+  const bool blind = t >= truth_.blackout_at && t < truth_.blackout_at + truth_.blackout_for;
+  const Vec3 error = truth_.bias + truth_.noise.cwiseProduct(state_.noise.normal3());
+  if (blind || tool < 0) return;  // none in view: a hand covers the markers, or none is held
+  Quat turned(X_WT.q());
+  if (truth_.turn_noise > 0.0)  // else nothing is drawn, and other noise stays what it is
+    turned = rotation_xyz(truth_.turn_noise * state_.noise.normal3()) * turned;
+  const Pose<'W', 'T'> measured(turned, Vec3(X_WT.p() + error));
+  put(state_.exposed, {{tool, X_CW_ * measured}, at + from_seconds(truth_.stamp_error), Health::ok},
+      at + from_seconds(truth_.latency));
+}
+
+void TrackerPlant::transmit(const Stamped<TrackedTool>& sample, Time at) {
+  const double delay =
+      truth_.process + (truth_.udp_delay > 0.0 ? state_.noise.exponential(truth_.udp_delay) : 0.0);
+  const bool lost = state_.noise.uniform() < truth_.loss;
+  if (lost)
+    ++state_.dropped;
+  else
+    put(state_.on_wire, sample, at + from_seconds(delay));
+}
+
+// The newest pose that the server has, unless it was sent before.
+void TrackerPlant::poll_exposed(Time now) {
+  for (Packet& packet : state_.exposed) {
+    if (!packet.waiting || packet.due > now) continue;
+    packet.waiting = false;
+    if (state_.at_server.health == Health::absent || packet.sample.t > state_.at_server.t)
+      state_.at_server = packet.sample;
+  }
+  if (state_.at_server.health != Health::ok || state_.at_server.t <= state_.sent) return;
+  state_.sent = state_.at_server.t;
+  transmit(state_.at_server, now);
+}
+
+void TrackerPlant::send_ready(Time now) {
+  for (Packet& packet : state_.exposed) {
+    if (!packet.waiting || packet.due > now) continue;
+    packet.waiting = false;
+    transmit(packet.sample, packet.due);
+  }
+}
+
+void TrackerPlant::deliver(Time now) {
+  for (Packet& packet : state_.on_wire) {
+    if (!packet.waiting || packet.due > now) continue;
+    packet.waiting = false;
+    if (state_.arrived.health == Health::absent || packet.sample.t > state_.arrived.t) {
+      state_.arrived = packet.sample;
+      state_.news = true;
+    }
+  }
+}
+
+void TrackerPlant::advance(Time t, std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
+  const bool first = !state_.before.valid() || tool != state_.tool_before;
+  for (Time at = state_.exposure.next(); state_.exposure.due(t); at = state_.exposure.next()) {
+    const double span = seconds(t - state_.before_t);
+    const double share =
+        first || span <= 0.0 ? 1.0 : std::clamp(seconds(at - state_.before_t) / span, 0.0, 1.0);
+    expose(at, tool, first ? X_WT : between(state_.before, X_WT, share));
+  }
+  if (truth_.packets == Packets::event) send_ready(t);
+  for (Time at = state_.server.next(); state_.server.due(t); at = state_.server.next())
+    if (truth_.packets == Packets::polled) poll_exposed(at);
+  deliver(t);
+  state_.before = X_WT;
+  state_.tool_before = tool;
+  state_.before_t = t;
+}
+
+bool TrackerPlant::poll(Stamped<TrackedTool>& newest) noexcept {
+  if (!state_.news) return false;
+  newest = state_.arrived;
+  state_.news = false;
+  return true;
+}
+
+}  // namespace enc::sim

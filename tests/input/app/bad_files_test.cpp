@@ -1,0 +1,199 @@
+// Files that are wrong: each ends with exit code 2 (3 for a device), one line that says where and what was
+// expected, and before anything has run.
+#include <algorithm>
+#include <regex>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/input/app/program.h"
+#include "tests/support/bytes_of.h"
+
+namespace enc::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using test::bytes_of;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct BadFile {
+  const char* name;   // of the test
+  const char* file;   // edited, under models/
+  const char* from;   // this ...
+  const char* to;     // ... becomes this
+  const char* at;     // the place told is where this begins, after the edit
+  const char* words;  // what the line says
+};
+void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.name; }
+
+constexpr const char* kBall = "scenes/tennis_ball.toml";
+constexpr const char* kSim = "rigs/sim.toml";
+
+class BadFiles : public Program, public ::testing::WithParamInterface<BadFile> {};
+
+TEST_P(BadFiles, IsRefusedWithPlaceAndExpectation) {
+  const BadFile& bad = GetParam();
+  const std::string file = std::string("models/") + bad.file;
+  edit(file, bad.from, bad.to);
+  const std::string said = scene_refused(ball());
+  EXPECT_THAT(said, StartsWith(path(file) + ":" + line_and_column(bytes_of(path(file)), bad.at) + ": "));
+  EXPECT_THAT(said, HasSubstr(bad.words));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Bad, BadFiles,
+    ::testing::Values(
+        BadFile{"UnknownKey", kBall, "radius_mm = 33", "radus_mm = 33", "radus_mm",
+                "did you mean 'radius_mm'?"},
+        BadFile{"UnknownTable", kBall, "[tracker]", "[trackr]", "trackr]", "did you mean 'tracker'?"},
+        BadFile{"UnknownKeyInRig", kSim, "filter_hz = 5 ", "filtre_hz = 5 ", "filtre_hz",
+                "did you mean 'filter_hz'?"},
+        BadFile{"UnknownKeyInBehaviours", "behaviours.toml", "stiffness_N_per_mm = 2\n",
+                "stifness_N_per_mm = 2\n", "stifness", "did you mean 'stiffness_N_per_mm'?"},
+        BadFile{"UnknownKeyInResponse", "responses/tennis_ball.toml", "limit_mm = 6", "limits_mm = 6",
+                "limits_mm", "did you mean 'limit_mm'?"},
+        BadFile{"MissingKey", kBall, "radius_mm = 33", "", "[[object]]", "has no 'radius_mm'; expected"},
+        BadFile{"MissingKeyInRig", kSim, "[manipulator]\ndriver = \"sim\"", "[manipulator]", "[manipulator]",
+                "has no 'driver'; expected"},
+        BadFile{"MissingKeyInResponse", "responses/tennis_ball.toml", "limit_mm = 6", "", "#",
+                "has no 'limit_mm'; expected"},
+        BadFile{"WrongType", kBall, "radius_mm = 33", "radius_mm = \"33\"", "\"33\"",
+                "is a text; expected a positive number"},
+        BadFile{"WrongTypeInRig", kSim, "rate_hz = 1000 ", "rate_hz = [1] ", "[1]", "expected a number"},
+        BadFile{"WrongUnit", kBall, "radius_mm = 33", "radius_cm = 3.3", "radius_cm",
+                "expected the unit mm; did you mean 'radius_mm'?"},
+        BadFile{"WrongUnitInRig", kSim, "speed_mm_s = 50 ", "speed_m_s = 0.05 ", "speed_m_s",
+                "did you mean 'speed_mm_s'?"},
+        BadFile{"NanMass", kBall, "mass_kg = 0.05", "mass_kg = nan", "nan", "expected a finite number"},
+        BadFile{"InfiniteMass", kBall, "mass_kg = 0.05", "mass_kg = inf", "inf", "expected a finite number"},
+        BadFile{"NegativeMass", kBall, "mass_kg = 0.05", "mass_kg = -0.05", "-0.05",
+                "expected a positive number"},
+        BadFile{"NegativeMassBehindTheSensor", kSim, "mass_kg = 0.91", "mass_kg = -0.91", "-0.91",
+                "expected a"},
+        BadFile{"NegativeStiffness", "behaviours.toml", "N_per_mm = 2\n", "N_per_mm = -2\n", "-2",
+                "expected a positive number"},
+        BadFile{"InfiniteStiffness", "behaviours.toml", "N_per_mm = 2\n", "N_per_mm = inf\n", "inf",
+                "expected a finite number"},
+        BadFile{"NanRate", kSim, "rate_hz = 1000 ", "rate_hz = nan ", "nan", "expected a finite number"},
+        BadFile{"NegativeRate", kSim, "rate_hz = 1000 ", "rate_hz = -1000 ", "-1000",
+                "expected a number from"},
+        BadFile{"NegativeTrackerRate", kSim, "rate_hz = 120 ", "rate_hz = -120 ", "-120",
+                "expected a number from 0.1 to 100000"},
+        BadFile{"TimeStepAboveFiveMilliseconds", kSim, "timestep_us = 1000", "timestep_us = 5001", "5001",
+                "at most 5000"},
+        BadFile{"TimeStepThatDoesNotDivide", kSim, "timestep_us = 1000", "timestep_us = 700",
+                "timestep_us = 700", "does not divide the haptic period"},
+        BadFile{"NanCoefficient", "responses/tennis_ball.toml", "press_N_per_mm_k = [",
+                "press_N_per_mm_k = [nan, 0, 0, 0] #", "[nan", "expected a finite number"},
+        BadFile{"ObjectOutOfReach", kBall, "position_mm = [0, 0, -20]", "position_mm = [200, 0, -20]",
+                "position_mm = [200", "outside the machine's reach"},
+        BadFile{"PressOutOfReach", kBall, "polar_deg = 0 ", "polar_deg = 170 ", "polar_deg = 170",
+                "presses where the machine does not reach"},
+        BadFile{"UnknownBehaviour", kBall, "behaviour = \"tennis_ball\"", "behaviour = \"tenis_ball\"",
+                "behaviour = \"tenis", "did you mean 'tennis_ball'?"},
+        BadFile{"MissingResponseFile", "behaviours.toml", "response = \"tennis_ball\"",
+                "response = \"tenis_ball\"", "response = \"tenis", "did you mean 'tennis_ball'?"},
+        BadFile{"NotToml", kBall, "radius_mm = 33", "radius_mm 33", "33", "this is not TOML"},
+        BadFile{"AnotherFormat", kBall, "format = 1", "format = 2", "2", "this program reads version 1"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST_F(Program, TwoObjectsOfOneName) {
+  const std::string second =
+      "[[object]]\nname = \"ball\"\nshape = \"plane\"\nposition_mm = [0, 0, 0]\nbehaviour = "
+      "\"wall\"\n\n[[tool]]";
+  edit("models/scenes/tennis_ball.toml", "[[tool]]", second);
+  const std::string text = bytes_of(ball());
+  const auto at = text.find("[[object]]", text.find("[[object]]") + 1);
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  EXPECT_THAT(scene_refused(ball()), AllOf(StartsWith(ball() + ":" + std::to_string(line) +
+                                                      ":1: there are two [[object]] named 'ball'"),
+                                           HasSubstr("expected different names")));
+}
+
+TEST_F(Program, EmptyScene) {
+  write("models/scenes/empty.toml", "");
+  EXPECT_THAT(scene_refused(path("models/scenes/empty.toml")),
+              StartsWith(path("models/scenes/empty.toml") + ":1:1: the file has no 'format'; expected"));
+  write("models/scenes/empty.toml", "format = 1\n");
+  EXPECT_THAT(scene_refused(path("models/scenes/empty.toml")),
+              StartsWith(path("models/scenes/empty.toml") +
+                         ":1:1: the scene has no object; expected at least one [[object]]"));
+}
+
+// Slope of the press curve d - 0.9 d^2 is 1 - 1.8 d: it falls from 1 / 1.8 = 0.5556 mm to the limit of 6 mm.
+// The curve is searched in steps, hence the 0.01 mm.
+TEST_F(Program, NonMonotonePolynomialIsRefusedWithItsInterval) {
+  const std::string response = "models/responses/tennis_ball.toml";
+  write(response,
+        "format = 1\nsource = \"bad\"\nlimit_mm = 6\npress_N_per_mm_k = [1, -0.9, 0, 0]\n"
+        "release_N_per_mm_k = [0.5, 0, 0, 0]\n");
+  const std::string said = scene_refused(ball());
+  EXPECT_THAT(said, HasSubstr("press curve falls"));
+  std::smatch interval;
+  ASSERT_TRUE(std::regex_search(said, interval, std::regex("from ([0-9.]+) to ([0-9.]+)"))) << said;
+  EXPECT_NEAR(std::stod(interval[1]), 0.5556, 0.01);
+  EXPECT_NEAR(std::stod(interval[2]), 6.0, 1e-9);
+}
+
+// The response file is at fault, not the scene that names a behaviour that names it.
+TEST_F(Program, NonMonotonePolynomialIsToldWithThePlaceInTheResponseFile) {
+  const std::string response = "models/responses/tennis_ball.toml";
+  write(response,
+        "format = 1\nsource = \"bad\"\nlimit_mm = 6\npress_N_per_mm_k = [1, -0.9, 0, 0]\n"
+        "release_N_per_mm_k = [0.5, 0, 0, 0]\n");
+  EXPECT_THAT(scene_refused(ball()), HasSubstr(path(response) + ":4:"));
+}
+
+TEST_F(Program, MissingResponseFileOnDisk) {
+  fs::remove(path("models/responses/tennis_ball.toml"));
+  const std::string behaviours = path("models/behaviours.toml");
+  EXPECT_THAT(
+      scene_refused(ball()),
+      AllOf(StartsWith(behaviours + ":" + line_and_column(bytes_of(behaviours), "response = ") + ": "),
+            HasSubstr("there is no response file"), HasSubstr("expected a file in")));
+}
+
+TEST_F(Program, UnreadableScene) {
+  EXPECT_THAT(scene_refused(path("models/scenes/tenis_ball.toml")),
+              AllOf(StartsWith(path("models/scenes/tenis_ball.toml") + ":1:1: cannot read this scene: "),
+                    HasSubstr("did you mean '" + ball() + "'?")));
+  EXPECT_THAT(scene_refused(path("models/scenes")), HasSubstr("it is a folder; expected a TOML file"));
+  write("models/scenes/bytes.toml", std::string("\x89PNG\0\xff\n", 7));
+  EXPECT_THAT(scene_refused(path("models/scenes/bytes.toml")),
+              StartsWith(path("models/scenes/bytes.toml") + ":1:"));
+}
+
+TEST_F(Program, UnknownRig) {
+  EXPECT_THAT(scene_refused(ball(), {"--rig", "sym"}),
+              AllOf(StartsWith(path("models/rigs/sym.toml") + ":1:1: cannot read this rig: "),
+                    HasSubstr("did you mean 'sim'?")));
+}
+
+TEST_F(Program, ModelsComeFromTheEnvironmentToo) {
+  fs::rename(path("models"), path("elsewhere"));
+  fs::create_directories(path("lonely"));
+  fs::copy_file(path("elsewhere/scenes/plane.toml"), path("lonely/plane.toml"));
+  edit("elsewhere/behaviours.toml", "N_per_mm = 2\n", "N_per_mm = -2\n");
+  const Result r =
+      run_program({"check", path("lonely/plane.toml")}, {{"ENCOUNTER_MODELS", path("elsewhere")}});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_THAT(r.err, StartsWith("encounter: " + path("elsewhere/behaviours.toml") + ":"));
+}
+
+TEST_F(Program, UnknownDriverModuleIsADevice) {
+  for (const char* role : {"manipulator", "force", "tracker", "display"}) {
+    const std::string table = std::string("[") + role + "]\ndriver = ";
+    write("models/rigs/lab.toml",
+          replaced(bytes_of(path("models/rigs/sim.toml")), table + "\"sim\"", table + "\"no_such\""));
+    EXPECT_THAT(
+        refused({"run", ball(), "--rig", "lab", "--for-s", "0.1", "--record", path("never.encrec")}, 3),
+        AllOf(HasSubstr("there is no module 'no_such'"), HasSubstr("modules there: ")))
+        << role;
+  }
+}
+
+}  // namespace
+}  // namespace enc::tests

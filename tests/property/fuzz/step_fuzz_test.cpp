@@ -1,0 +1,276 @@
+// step() under everything that devices can say: scenes drawn at random, of both machines, each for 20 s. What
+// is judged on each tick: the command is within speed, acceleration and reach; the whole tip it is sent to is
+// inside of the object; no mode outlives its cause (mode.h); and when all is well again, the hold is over.
+//
+// ENCOUNTER_FUZZ_SCENES and ENCOUNTER_FUZZ_SEED make it longer and other: 600 scenes take some minutes.
+#include <array>
+#include <chrono>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/record/fields.h"
+#include "tests/property/fuzz/drawn_scene.h"
+#include "tests/property/fuzz/judges.h"
+#include "tests/support/spoil.h"
+
+namespace enc {
+namespace {
+
+using test::draw_scene;
+using test::Drawn;
+using test::Limits;
+using test::Modes;
+using test::Random;
+
+struct Tally {
+  std::array<std::int64_t, kModes> ticks{};
+  std::int64_t inside = 0, well = 0, not_following = 0;
+};
+
+// A hand, its tool, the devices: what they would say of a machine that follows as the rig believes, or at
+// once.
+class World {
+ public:
+  World(const Scene& scene, Random& random) : scene_(scene), random_(random), lags_(random.once_in(2)) {
+    k_.dt = from_seconds(scene.dt);
+    const Pose<'R', 'H'> zero = scene.reach.machine.zero();
+    at_ = sent_ = zero.p();
+    if (scene.impedance()) {
+      joints_ = scene.impedance()->arm.zero();
+      at_ = sent_ = scene.impedance()->arm.tip(joints_).e();
+      // Half of the arms are where they shall be; the others stay at home, and half of these need not follow.
+      stuck_ = !lags_ && random.once_in(2);
+      in.withheld = !lags_ && !stuck_;
+    }
+    honest_ = random.once_in(3);  // the devices say what is so, the hand alone touches the tip
+    jams_ = !scene.impedance() && random.once_in(4);
+    test::SpoilOne count{random.engine, -1};
+    fields(count, in);
+    numbers_ = count.seen;
+    pace_ = random.in(0.0, 1.0);
+  }
+
+  // Before step(): what the devices say on this tick. False: something of it is wrong.
+  bool sense() {
+    if (k_.index % 2000 == 0) {  // another weather every 2 s
+      constexpr std::array<unsigned, 5> kSpoil{0, 0, 500, 20, 3};
+      spoil_every_ = kSpoil[random_.of(kSpoil.size())];
+      seen_ = !random_.once_in(4);
+      drift_ = random_.once_in(3) ? Vec3(0, 0, random_.in(-0.05, 0.05)) : Vec3(0, 0, 0);
+    }
+    if (honest_) spoil_every_ = 0;
+    if (zero_.norm() > 0.1) drift_ = -0.5 * zero_;
+    if (random_.once_in(1500)) gone_until_ = k_.index + 50 + static_cast<std::int64_t>(random_.of(450));
+    if (jams_ && random_.once_in(3000))
+      jammed_until_ = k_.index + 200 + static_cast<std::int64_t>(random_.of(1800));
+    const bool seen = seen_ && k_.index >= gone_until_;
+    move_hand();
+    machine();
+    bool well = seen && spoil_every_ == 0 && zero_.norm() < 0.05;
+    clean_ = seen && spoil_every_ == 0 ? clean_ + scene_.dt : 0.0;
+    in.missed = 0;
+    say_machine();
+    if (scene_.has_tracker && seen && k_.index % 8 == 0) say_tool();
+    if (scene_.has_display && k_.index % 16 == 0) in.dent = {DentSample{}, k_.t, Health::ok};
+    if (spoil_every_ != 0 && random_.engine() % spoil_every_ == 0) {
+      test::SpoilOne one{random_.engine, static_cast<int>(random_.of(static_cast<std::size_t>(numbers_)))};
+      fields(one, in);
+      in.withheld = scene_.impedance() && !lags_ && !stuck_;
+      well = false;
+    }
+    return well;
+  }
+  void told(const Outputs& out, const State& state) {
+    if (scene_.impedance() && lags_ && recall<Meeting>(state).reaching.target.finite())
+      (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<Meeting>(state).reaching.target, joints_);
+    if (!scene_.impedance() && state.started) sent_ = out.tip.p();
+    ++k_.index;
+    k_.t += k_.dt;
+  }
+  // What the core believes against what is so; and a machine that does not follow.
+  std::string judge(const State& state, const Outputs& out) {
+    if (scene_.has_tracker && clean_ > 0.4 && std::isfinite(out.gap)) {
+      const double wrong = (out.view.tip.e() - hand_).norm();
+      // A finger that vision sees with 0.5 mm of noise is believed less well than a tool.
+      if (wrong > (scene_.impedance() ? 4e-3 + 0.2 * fastest_ : 1.5e-3 + 0.08 * fastest_))
+        return fmt::format("the tool is {:.2f} mm from where it is believed", 1e3 * wrong);
+    }
+    if (honest_ && scene_.has_force && scene_.has_tracker)
+      for (int i = 0; i < 3; ++i)
+        if (recall<Commanded>(state).force_zero.e()[i] < zero_low_[i] - 0.05 || recall<Commanded>(state).force_zero.e()[i] > zero_high_[i] + 0.05)
+          return fmt::format("a zero of {:.3f} N is believed, which was {:.3f} to {:.3f} N",
+                             recall<Commanded>(state).force_zero.e()[i], zero_low_[i], zero_high_[i]);
+    const bool held = out.mode == Mode::hold;
+    if (scene_.impedance()) {
+      const bool off =
+          stuck_ && recall<Meeting>(state).reaching.target.finite() && recall<Meeting>(state).reaching.velocity.norm() < 1e-3 &&
+          (recall<Meeting>(state).reaching.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 6.5e-3 &&
+          (hand_ - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 0.05;
+      off_ = off && !held && out.arm_force.finite() ? off_ + scene_.dt : 0.0;
+      return off_ > 0.8 ? "an arm that is stuck goes unnoticed" : "";
+    }
+    const double most = 1e-3 + 2.0 * scene_.servo.lag * scene_.reach.speed;
+    off_ = (sent_ - at_).norm() > most && !held ? off_ + scene_.dt : 0.0;
+    return off_ > 0.1 ? "a machine that is jammed goes unnoticed" : "";
+  }
+  [[nodiscard]] const Tick& tick() const { return k_; }
+  Inputs in;
+
+ private:
+  // Glides over the objects, stands, leaps; slowly or as fast as a hand can.
+  void move_hand() {
+    if (random_.once_in(pace_ < 0.5 ? 1500 : 300)) {
+      aim_ = Vec3(random_.in(-0.07, 0.07), random_.in(-0.07, 0.07), random_.in(-0.03, 0.05));
+      // A hand that is faster has pressed before it is seen to be near.
+      speed_ = honest_ ? random_.in(0.005, 0.1) : random_.once_in(4) ? 1.0 : random_.in(0.005, 0.2);
+      if (random_.once_in(8)) aim_.z() += 0.15;
+    }
+    if (!honest_ && random_.once_in(5000)) {
+      hand_ = aim_;
+      clean_ = 0.0;
+    }
+    const Vec3 way = aim_ - hand_;
+    const double far = way.norm();
+    const double share = far > 1e-9 ? std::min(1.0, speed_ * scene_.dt / far) : 0.0;
+    hand_ += share * way;
+    fastest_ = std::max(share * far / scene_.dt, fastest_ - 1.0 * scene_.dt);
+    zero_ += drift_ * scene_.dt;
+    zero_low_ = zero_low_.cwiseMin(zero_);
+    zero_high_ = zero_high_.cwiseMax(zero_);
+    if (!honest_ && random_.once_in(4000))
+      junk_ = random_.once_in(2) ? Vec3(0, 0, 0) : Vec3(random_.vec(6.0));
+  }
+  void machine() {
+    if (scene_.impedance()) return;
+    if (k_.index < jammed_until_) {
+      velocity_ = Vec3::Zero();
+      return;
+    }
+    if (!lags_) {
+      velocity_ = (sent_ - at_) / scene_.dt;
+      at_ = sent_;
+      return;
+    }
+    const double w = scene_.servo.frequency, dt = scene_.dt;
+    velocity_ += dt * (w * w * (sent_ - at_) - 2.0 * scene_.servo.damping * w * velocity_);
+    at_ += dt * velocity_;
+  }
+  void say_machine() {
+    if (scene_.impedance()) {
+      in.arm = {{joints_, {}, scene_.impedance()->arm.tip(joints_), Vec<'R'>::zero()}, k_.t, Health::ok};
+      return;
+    }
+    const Pose<'R', 'H'> pose(scene_.X_WR.q().conjugate(), at_);
+    in.tip = {{pose, Vec<'R'>(velocity_), Vec<'R'>::zero()}, k_.t, Health::ok};
+    const Pose<'W', 'H'> X_WH = scene_.X_WR * pose;
+    // The tool presses the tip where they meet, with 2 N/mm; or something else does.
+    Vec3 force = junk_;
+    if (!scene_.tools.empty()) {
+      const Vec3 apart = X_WH.p() - hand_;
+      const double deep = scene_.tip_radius + scene_.tools[0].tip.radius - apart.norm();
+      if (deep > 0.0 && apart.norm() > 1e-9) force += std::min(40.0, 2000.0 * deep) * apart.normalized();
+    }
+    const Vec<'W'> dead = scene_.force.mass * Vec<'W'>(0, 0, -9.80665);
+    in.wrench = {
+        {(X_WH * scene_.X_HF).inverse() * (Vec<'W'>(force) + dead) + Vec<'F'>(zero_), Vec<'F'>::zero()},
+        k_.t,
+        Health::ok};
+  }
+  void say_tool() {
+    const Vec3 noisy = hand_ + random_.vec(20e-6);
+    const Pose<'W', 'T'> X_WT(Quat::Identity(), noisy - scene_.tools[0].tip.centre.e());
+    in.tool = {{0, scene_.X_WC.inverse() * X_WT}, k_.t - Duration(15'000'000), Health::ok};
+  }
+
+  const Scene& scene_;
+  Random& random_;
+  bool lags_;
+  Tick k_;
+  int numbers_ = 0;
+  double pace_ = 0.0;
+  Vec3 hand_{0, 0, 0.04}, aim_{0, 0, 0.04}, junk_{0, 0, 0}, zero_{0, 0, 0}, drift_{0, 0, 0};
+  Vec3 at_, sent_, velocity_{0, 0, 0};
+  PerJoint joints_{};
+  Vec3 zero_low_{0, 0, 0}, zero_high_{0, 0, 0};
+  double speed_ = 0.05, fastest_ = 0.0, clean_ = 0.0, off_ = 0.0;
+  unsigned spoil_every_ = 0;
+  std::int64_t gone_until_ = 0, jammed_until_ = 0;
+  bool seen_ = true, honest_ = false, jams_ = false, stuck_ = false;
+};
+
+std::string fuzz(std::uint64_t seed, double length, Tally& tally) {
+  Random random{std::mt19937_64(seed)};
+  const Drawn drawn = draw_scene(seed, random);
+  const Scene& scene = drawn.scene;
+  World world(scene, random);
+  State state;
+  Outputs out;
+  Modes modes;
+  Limits limits;
+  const auto ticks = static_cast<std::int64_t>(length / scene.dt);
+  for (std::int64_t i = 0; i < ticks; ++i) {
+    const bool well = world.sense();
+    step(scene, world.tick(), world.in, state, out);
+    ++tally.ticks[static_cast<std::size_t>(out.mode)];
+    tally.inside += state.entered ? 1 : 0;
+    tally.not_following += (out.why & kNotFollowing) != 0 ? 1 : 0;
+    std::string bad = limits.judge(scene, state, out);
+    if (bad.empty()) bad = modes.judge(scene, state, out, well);
+    if (bad.empty()) bad = world.judge(state, out);
+    if (!bad.empty())
+      return fmt::format("seed {} ({}), tick {}, {} ({}): {}", seed, drawn.what, i, mode_name(out.mode),
+                         why_text(out.why), bad);
+    world.told(out, state);
+  }
+  tally.well += modes.judged;
+  return {};
+}
+
+std::uint64_t number_of(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+class StepFuzz : public testing::TestWithParam<int> {};
+
+// In shards, so that ctest runs them side by side.
+TEST_P(StepFuzz, StaysWithinLimitsInsideAndWithinItsModes) {
+  constexpr std::uint64_t kShards = 4;
+  const std::uint64_t scenes = number_of("ENCOUNTER_FUZZ_SCENES", 24);
+  const std::uint64_t first = number_of("ENCOUNTER_FUZZ_SEED", 1);
+  const double length = scenes > 100 ? 20.0 : 6.0;
+  const auto start = std::chrono::steady_clock::now();
+  Tally tally;
+  int bad = 0;
+  const auto shard = static_cast<std::uint64_t>(GetParam());
+  for (std::uint64_t i = shard; i < scenes; i += kShards) {
+    const std::string what = fuzz(first + i, length, tally);
+    bad += what.empty() ? 0 : 1;
+    EXPECT_EQ(what, "");
+  }
+  std::string seen;
+  for (int i = 0; i < kModes; ++i)
+    seen += fmt::format(" {} {}", mode_name(static_cast<Mode>(i)), tally.ticks[static_cast<std::size_t>(i)]);
+  fmt::print(
+      "fuzz: seeds {}..{} (each {}th), {} s each, {} bad; ticks:{}; inside {}, well {}, not following {}; "
+      "{:.1f} s\n",
+      first + shard, first + scenes - 1, kShards, length, bad, seen, tally.inside, tally.well,
+      tally.not_following, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  EXPECT_GT(tally.inside, 0);
+  EXPECT_GT(tally.well, 0);
+  const auto ticks = [&](Mode mode) { return tally.ticks[static_cast<std::size_t>(mode)]; };
+  for (const Mode mode : {Mode::away, Mode::follow, Mode::contact, Mode::hold})
+    EXPECT_GT(ticks(mode), 100) << mode_name(mode);
+  if ((first + shard) % 4 != 3) {  // that one is the arms'
+    EXPECT_GT(ticks(Mode::restore), 100);
+  }
+  if (scenes > 100) {
+    EXPECT_GT(tally.not_following, 100);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Shard, StepFuzz, testing::Range(0, 4));
+
+}  // namespace
+}  // namespace enc
