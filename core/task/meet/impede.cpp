@@ -11,7 +11,7 @@ namespace {
 // it. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
 // the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
 // only turns round, friction would not hold what then pushes it.
-bool resting(const State& state, const Reaching& now, const Vec3& error, const Vec3& velocity) {
+bool resting(const State& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
   constexpr double kNear = 1e-3;     // m: friction alone holds half of it
   constexpr double kCounts = 20e-3;  // m/s
   constexpr double kStood = 1e-9;    // m/s
@@ -38,7 +38,7 @@ Vec3 going_along(const Walk& walk, const Arm& arm, const Mat3& mass) {
 
 void impede(Walk& walk, const Impedance& law, State& state, Meeting& memory) noexcept {
   if (!walk.X_WH.valid() || holding(walk)) return;
-  Reaching& now = memory.reaching;
+  Aim& now = memory.aim;
   const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
   const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
   const Vec3 rate = (now.velocity - walk.tip_velocity).e();

@@ -41,7 +41,7 @@ bool presses(const State& state, const Contact& contact) {
 
 // Of a belt against its prop: a running surface goes on at its own speed while the prop that stands for it
 // moves along with the finger. On its way there it need not. Other props cannot run.
-double driven(const Object& object, const Impedance& law, const Reaching& now, const Vec3& change) {
+double driven(const Object& object, const Impedance& law, const Aim& now, const Vec3& change) {
   if (object.interaction.kind != Interaction::spin || law.prop != PropKind::drum) return 0.0;
   const Vec<'W'> way = object.X_WO * Vec<'O'>(object.interaction.way);
   const Vec3 along = now.velocity.e() + law.rig.prop_lag * change;  // its motor is late
@@ -61,7 +61,7 @@ void touch(Walk& walk, const Impedance&, State& state, Meeting& now) noexcept {
 }
 
 void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {
-  encounter(walk, task, state, now);
+  aim(walk, task, state, now);
   impede(walk, task, state, now);
 }
 
@@ -73,12 +73,11 @@ void report(const Walk& walk, const Impedance& task, State& state, const Meeting
   report_common(walk, state, X_NW, &now.contact, out);
   out.tip = Pose<'R', 'H'>();
   out.arm_force = walk.arm_force;
-  out.wanted = now.reaching.target;
-  out.gain = now.reaching.gain;
+  out.wanted = now.aim.target;
+  out.gain = now.aim.gain;
   const Object* object = nearest_object(walk, state);
   const bool near = !holding(walk) && object != nullptr && (state.mode == Mode::follow || touched);
-  out.prop_speed =
-      near ? driven(*object, task, now.reaching, touched ? walk.target_change : Vec3::Zero()) : 0.0;
+  out.prop_speed = near ? driven(*object, task, now.aim, touched ? walk.target_change : Vec3::Zero()) : 0.0;
   out.deflection = touched && walk.gap < 0.0 ? -walk.gap : 0.0;
   out.first_touch =
       touched ? now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin) : Point<'W'>();

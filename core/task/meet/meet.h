@@ -12,7 +12,7 @@ struct Outputs;
 struct State;
 
 // What the control law remembers (impedance.h).
-struct Reaching {
+struct Aim {
   Point<'W'> target;  // X_d: where the tip shall be
   Vec<'W'> velocity = Vec<'W'>::zero();
   Vec<'W'> error = Vec<'W'>::zero(), error_rate = Vec<'W'>::zero();  // low-passed [eq. 3]
@@ -27,7 +27,7 @@ struct Reaching {
 
 struct Meeting {
   Contact contact;
-  Reaching reaching;
+  Aim aim;
   Heat heat;  // of the motors, as it is believed
 };
 
@@ -36,7 +36,7 @@ struct Meet : Impedance {
 };
 
 template <class F>
-void fields(F& f, Reaching& r) {
+void fields(F& f, Aim& r) {
   fields(f, "target_W", r.target);
   fields(f, "target_velocity_W", r.velocity);
   fields(f, "error_W", r.error);
@@ -53,7 +53,7 @@ void fields(F& f, Reaching& r) {
 template <class F>
 void fields(F& f, Meeting& m) {
   fields(f, m.contact);
-  fields(f, m.reaching);
+  fields(f, m.aim);
   fields(f, "winding", m.heat.winding);
   fields(f, "housing", m.heat.housing);
 }
@@ -67,8 +67,8 @@ void guard(Walk& walk, const Impedance& task, State& state, Meeting& now) noexce
 void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now, Outputs& out) noexcept;
 
 // The stages that act() is made of.
-void encounter(Walk& walk, const Impedance& task, State& state,
-               Meeting& now) noexcept;  // where the prop should be
+void aim(Walk& walk, const Impedance& task, State& state,
+         Meeting& now) noexcept;  // where the prop should be
 void impede(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;  // depth in, force out
 }  // namespace stages
 

@@ -17,10 +17,10 @@ bool struck(const Walk& walk, const State& state, Meeting& now) {
   constexpr double kSettled = 0.100;    // s, after it has come
   constexpr double kLate = 0.004;       // s: an arm that moves is behind its target by some of this
   constexpr double kUneven = 0.12;      // of the target's speed
-  const double behind = dot(now.reaching.target - walk.X_WH.origin(), walk.normal);
-  const double speed = dot(now.reaching.velocity - walk.tip_velocity, walk.normal);
-  const bool there = state.mode == Mode::follow && now.reaching.caught_up && walk.tool_known;
-  const double fastest = now.reaching.straying.fastest;  // of late
+  const double behind = dot(now.aim.target - walk.X_WH.origin(), walk.normal);
+  const double speed = dot(now.aim.velocity - walk.tip_velocity, walk.normal);
+  const bool there = state.mode == Mode::follow && now.aim.caught_up && walk.tool_known;
+  const double fastest = now.aim.straying.fastest;  // of late
   const bool pushed =
       behind > kFriction + kLate * fastest || (behind > kMoved && speed > kSpeed + kUneven * fastest);
   if (!there) now.contact.left = walk.tick.t;
@@ -76,7 +76,7 @@ void push(Walk& walk, State& state, Pushing& now) {
       depth = hit_depth(walk, state, now, walk.movers[static_cast<std::size_t>(object.moving)],
                         walk.moved[static_cast<std::size_t>(object.moving)]);
   }
-  const double speed = -dot(now.reaching.velocity, walk.normal);  // a prop that is struck: go_with
+  const double speed = -dot(now.aim.velocity, walk.normal);  // a prop that is struck: go_with
   const bool late = age(walk.tick.t, now.contact.left) < walk.scene.tracker.usual_age;
   const FingerPress press{state.object, depth, walk.normal, walk.tool_tip, walk.tool_radius, speed, late};
   move(walk.movers, press, walk.scene.dt, walk.moved);

@@ -18,7 +18,7 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   judged += well_ > 1.5 ? 1 : 0;
   // After all has been well for so long, nothing is held: but an arm that is stuck, while the finger is
   // there, and a tip that is outside and on its way back.
-  if (out.mode == Mode::hold && well_ > 1.5 && !recall<Meeting>(state).reaching.stuck && !recall<Commanded>(state).following.lost &&
+  if (out.mode == Mode::hold && well_ > 1.5 && !recall<Meeting>(state).aim.stuck && !recall<Commanded>(state).following.lost &&
       (out.why & kOutsideObject) == 0)
     return "hold goes on: " + why_text(out.why);
   if ((out.mode == Mode::hold) != ((out.why & kHoldReasons) != 0))
@@ -83,7 +83,7 @@ std::string Limits::judge_arm(const Scene& scene, const State& state, const Outp
   if (!out.arm_force.finite()) return {};
   const ArmRig& rig = scene.impedance()->rig;
   if (!(out.felt.norm() <= rig.peak * (1 + 1e-9))) return "more force than the arm has";
-  const Vec3 velocity = recall<Meeting>(state).reaching.velocity.e(), at = recall<Meeting>(state).reaching.target.e();
+  const Vec3 velocity = recall<Meeting>(state).aim.velocity.e(), at = recall<Meeting>(state).aim.target.e();
   // Along the normal of a ball that is hit the finger moves the prop, and the target is where that is.
   const bool hit = out.mode == Mode::contact && state.object >= 0 &&
                    scene.objects[static_cast<std::size_t>(state.object)].interaction.kind == Interaction::hit;
@@ -97,7 +97,7 @@ std::string Limits::judge_arm(const Scene& scene, const State& state, const Outp
   const double change = of_the_arm(velocity - velocity_).norm();
   if (known_ && !anew(out) && change > rig.acceleration * scene.dt * (1 + 1e-6))
     what = fmt::format("target at {} m/s^2", change / scene.dt);
-  known_ = recall<Meeting>(state).reaching.target.finite() && !anew(out);
+  known_ = recall<Meeting>(state).aim.target.finite() && !anew(out);
   before_ = at;
   velocity_ = velocity;
   return what;

@@ -83,8 +83,8 @@ class World {
     return well;
   }
   void told(const Outputs& out, const State& state) {
-    if (scene_.impedance() && lags_ && recall<Meeting>(state).reaching.target.finite())
-      (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<Meeting>(state).reaching.target, joints_);
+    if (scene_.impedance() && lags_ && recall<Meeting>(state).aim.target.finite())
+      (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<Meeting>(state).aim.target, joints_);
     if (!scene_.impedance() && state.started) sent_ = out.tip.p();
     ++k_.index;
     k_.t += k_.dt;
@@ -105,8 +105,8 @@ class World {
     const bool held = out.mode == Mode::hold;
     if (scene_.impedance()) {
       const bool off =
-          stuck_ && recall<Meeting>(state).reaching.target.finite() && recall<Meeting>(state).reaching.velocity.norm() < 1e-3 &&
-          (recall<Meeting>(state).reaching.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 6.5e-3 &&
+          stuck_ && recall<Meeting>(state).aim.target.finite() && recall<Meeting>(state).aim.velocity.norm() < 1e-3 &&
+          (recall<Meeting>(state).aim.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 6.5e-3 &&
           (hand_ - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 0.05;
       off_ = off && !held && out.arm_force.finite() ? off_ + scene_.dt : 0.0;
       return off_ > 0.8 ? "an arm that is stuck goes unnoticed" : "";

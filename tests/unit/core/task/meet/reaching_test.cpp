@@ -91,7 +91,7 @@ TEST(Reaching, ATargetThatLeapsKeepsItsLimitsAndWaitsInside) {
     const double t = 1e-3 * i;
     const double x = i < 1500 ? 0.008 : 0.008 * std::cos(2.0 * M_PI * (t - 1.5) * (1.0 + (t - 1.5)));
     loop.tick(Point<'W'>(x, 0.0, 0.004));
-    const Reaching& now = recall<Meeting>(loop.state).reaching;
+    const Aim& now = recall<Meeting>(loop.state).aim;
     const Vec3 velocity = (now.target.e() - before) / dt;
     before = now.target.e();
     if (i == 0) speed = now.velocity.e();
@@ -153,7 +153,7 @@ TEST(Reaching, AButtonClicksOnceOnTheWayIn) {
     const double depth = 1e-6 * i;
     bench.press_tip(depth);
     bench.at(depth);
-    const bool now = recall<Meeting>(bench.loop.state).reaching.triggered;
+    const bool now = recall<Meeting>(bench.loop.state).aim.triggered;
     clicks += now && !before ? 1 : 0;
     before = now;
     most = std::max(most, std::abs(bench.pushed() - last));
@@ -288,7 +288,7 @@ TEST(Reaching, ARunningSurfaceIsAsFastWhileItsPropMovesAlong) {
   double fastest = 0.0;  // of the target on its way; what is left of it when it arrives, the belt takes out
   for (int i = 0; i < 500; ++i) {
     EXPECT_NEAR(bench.at(-0.020, 1, 0.020).prop_speed, 0.050, 0.060) << i;
-    fastest = std::max(fastest, recall<Meeting>(bench.loop.state).reaching.velocity.norm());
+    fastest = std::max(fastest, recall<Meeting>(bench.loop.state).aim.velocity.norm());
   }
   EXPECT_GT(fastest, 0.100);
   double x = 0.020;

@@ -55,7 +55,7 @@ TEST(HitBall, OneWrongReadingSetsNothingInMotion) {
   double fastest = 0.0;
   for (int i = 0; i < 100; ++i) {
     ball.at(-0.002);
-    fastest = std::max(fastest, recall<Meeting>(ball.loop.state).reaching.velocity.norm());
+    fastest = std::max(fastest, recall<Meeting>(ball.loop.state).aim.velocity.norm());
   }
   EXPECT_LT(fastest, 0.050);
 }

@@ -15,7 +15,7 @@ namespace {
 void lie_on_prop(Walk& walk, const State& state, const Meeting& now) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
-  if (!now.reaching.caught_up) return;  // the prop is on its way to another place
+  if (!now.aim.caught_up) return;  // the prop is on its way to another place
   const Interaction kind = object->interaction.kind;
   if (kind != Interaction::slide && kind != Interaction::click && kind != Interaction::spin) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
@@ -96,7 +96,7 @@ Goal goal_of(const Walk& walk, const State& state, const Object& object) {
 // Where the nearest point leaps to another part of the object, the straight way may leave a hollow one, and
 // there the finger is: then the target waits at the last point of its way that is inside, or goes along the
 // surface as long as that is nearer.
-Vec3 not_through_a_hollow(const Walk& walk, const ArmRig& rig, State& state, const Reaching& now,
+Vec3 not_through_a_hollow(const Walk& walk, const ArmRig& rig, State& state, const Aim& now,
                           const Object& object, const Vec3& wanted) {
   constexpr double kOutside = 0.5e-3;  // m: a target on a curved surface is a little outside of it
   Inside inside(walk.scene, state.object, -kOutside, shift_of(object, walk.moved), state.hints.command);
@@ -108,7 +108,7 @@ Vec3 not_through_a_hollow(const Walk& walk, const ArmRig& rig, State& state, con
 
 // The target keeps within speed and acceleration, always. On its way it goes straight; once there it goes
 // with the goal, whose leaps (each new picture of the finger is one) it takes out within `settle`.
-void move_target(Walk& walk, const ArmRig& rig, State& state, Reaching& now, const Goal& goal,
+void move_target(Walk& walk, const ArmRig& rig, State& state, Aim& now, const Goal& goal,
                  const Object* object) {
   constexpr double kThere = 0.2e-3;  // m
   constexpr double kLeap = 10e-3;    // m: another object, or another part of it
@@ -142,7 +142,7 @@ void move_target(Walk& walk, const ArmRig& rig, State& state, Reaching& now, con
 // the finger has pushed it: so nothing leaps when they part. Its speed is that of the prop, smoothed, and no
 // more than the way that it has come allows: one reading that is wrong sets nothing in motion. Sideways it
 // comes to rest.
-void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, Reaching& now) {
+void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, Aim& now) {
   constexpr double kTicks = 8.0;
   const double dt = walk.scene.dt;
   const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
@@ -160,7 +160,7 @@ void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, R
 
 // Whether the arm does what it is told. A finger may push the tip away from its target, so only where none is
 // near does the distance tell. Believed: an even motion lags by K_v / K_p.
-void check_following(Walk& walk, const Impedance& law, Reaching& now) {
+void check_following(Walk& walk, const Impedance& law, Aim& now) {
   constexpr double kFriction = 5e-3;  // m: what friction and a wrong weight may hold it off
   constexpr double kSlowest = 0.2;    // s: no belief makes the arm slower than this
   constexpr double kBeside = 0.030;   // m: from the finger to the prop's middle
@@ -185,7 +185,7 @@ void check_following(Walk& walk, const Impedance& law, Reaching& now) {
 }
 
 // The hold of an arm that is stuck lasts until the finger has gone: to try again is to push with all it has.
-void hold_stuck(Walk& walk, Reaching& now) {
+void hold_stuck(Walk& walk, Aim& now) {
   if (!now.stuck) return;
   const bool gone = !walk.tool_known || walk.gap > walk.scene.follow.pause;
   if (gone)
@@ -195,7 +195,7 @@ void hold_stuck(Walk& walk, Reaching& now) {
 }
 
 // Nothing leaps: what is felt goes over into the next within `gradual_time`.
-void change_gain(const Walk& walk, double free, const State& state, const Object* object, Reaching& now) {
+void change_gain(const Walk& walk, double free, const State& state, const Object* object, Aim& now) {
   Felt felt{free, 0.0};
   if (object == nullptr) {
     now.gain = 1.0;
@@ -219,11 +219,11 @@ void change_gain(const Walk& walk, double free, const State& state, const Object
 
 }  // namespace
 
-void encounter(Walk& walk, const Impedance& task, State& state, Meeting& memory) noexcept {
-  Reaching& now = memory.reaching;
+void aim(Walk& walk, const Impedance& task, State& state, Meeting& memory) noexcept {
+  Aim& now = memory.aim;
   if (!walk.X_WH.valid()) {  // one reading that is missed changes nothing; later it may be anywhere
     now.blind += walk.scene.dt;
-    if (now.blind > task.rig.stale) now = Reaching{};
+    if (now.blind > task.rig.stale) now = Aim{};
     return;
   }
   now.blind = 0.0;
@@ -231,7 +231,7 @@ void encounter(Walk& walk, const Impedance& task, State& state, Meeting& memory)
   hold_stuck(walk, now);
   if (holding(walk) || !now.target.finite()) {  // nothing is wanted, and nothing leaps afterwards
     const bool stuck = now.stuck;
-    now = Reaching{};
+    now = Aim{};
     now.target = walk.X_WH.origin();
     now.stuck = stuck;
     if (holding(walk)) return;
