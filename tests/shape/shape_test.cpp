@@ -96,6 +96,13 @@ std::vector<Include> includes(const Source& source) {
 std::string first_part(const std::string& name) { return name.substr(0, name.find('/')); }
 bool starts(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
 
+void expect_no_word(const Source& source, const std::regex& word, const std::string& why) {
+  std::smatch match;
+  for (std::size_t i = 0; i < source.code.size(); ++i)
+    if (std::regex_search(source.code[i], match, word))
+      ADD_FAILURE() << source.name << ":" << i + 1 << ": '" << match.str() << "': " << why;
+}
+
 TEST(Shape, ThereAreSources) { EXPECT_GT(sources().size(), 40U); }
 
 TEST(Shape, NothingIncludesWhatIsAboveIt) {
@@ -113,6 +120,29 @@ TEST(Shape, NothingIncludesWhatIsAboveIt) {
       const bool spec = source.folder == "models" &&
                         include.name == "sim/twin_spec.h";  // a file format is data, wherever it stands
       EXPECT_TRUE(spec || allowed.at(source.folder).contains(first_part(include.name)))
+          << source.name << " includes " << include.name;
+    }
+}
+
+// A tick is the same walk for every task and every machine.
+TEST(Shape, TheTickAsksForNoTask) {
+  static const std::regex kWords(
+      R"(\b(Render|Meet|Push|Probe|Travel|render|impedance|probe|travel|has_\w+)\b)");
+  for (const Source& source : sources())
+    if (source.name == "core/step.cpp") expect_no_word(source, kWords, "the tick knows no task by name");
+}
+
+// A task is a folder: it knows no other, but that a push is a meeting, too.
+TEST(Shape, TasksKnowNoOtherTask) {
+  const auto task_of = [](const std::string& name) -> std::string {
+    if (!starts(name, "core/task/")) return "";
+    const std::string rest = name.substr(10);
+    return rest.find('/') == std::string::npos ? "" : first_part(rest);
+  };
+  for (const Source& source : sources())
+    for (const Include& include : includes(source)) {
+      const std::string own = task_of(source.name), other = task_of(include.name);
+      EXPECT_TRUE(own.empty() || other.empty() || own == other || (own == "push" && other == "meet"))
           << source.name << " includes " << include.name;
     }
 }
@@ -164,13 +194,6 @@ TEST(Shape, LibrariesStayInTheirFiles) {
                         ((!starts(name, "GL") && !starts(name, "EGL")) || starts(source.name, "sim/view/"));
       EXPECT_TRUE(good) << source.name << " includes " << name;
     }
-}
-
-void expect_no_word(const Source& source, const std::regex& word, const std::string& why) {
-  std::smatch match;
-  for (std::size_t i = 0; i < source.code.size(); ++i)
-    if (std::regex_search(source.code[i], match, word))
-      ADD_FAILURE() << source.name << ":" << i + 1 << ": '" << match.str() << "': " << why;
 }
 
 TEST(Shape, TheCoreNeitherWaitsNorPrintsNorKnowsMillimetres) {
