@@ -86,7 +86,7 @@ Leap leap(const BenchContext& context, const std::vector<std::string>& more, con
 double stiffest(const BenchContext& context, const std::string& integrator) {
   constexpr double kRinging = 0.02;  // m/s
   const Law law = law_of(context, "wall");
-  const double damping = trial::prepare_setup(load_scene(context, "wall")).impedance->rig.damping;
+  const double damping = trial::prepare_setup(load_scene(context, "wall")).impedance()->rig.damping;
   double low = 1.0, high = 16.0;
   for (int i = 0; i < 7; ++i) {
     const double lambda = std::sqrt(low * high);

@@ -112,8 +112,8 @@ ChainSpec chain_of(const models::Setup& setup) {
 
 MovesSpec moves_of(const models::Setup& setup) {
   const sim::HexapodTruth& machine = setup.twin.hexapod;
-  return {setup.scene.travel()->stops,
-          setup.scene.travel()->speed,
+  return {setup.scene.travel->stops,
+          setup.scene.travel->speed,
           std::min(machine.acceleration, setup.rig.manipulator.acceleration),
           machine.servo,
           machine.damping,
