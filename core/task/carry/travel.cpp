@@ -48,7 +48,8 @@ void check_way(const Point<'W'>& from, const Point<'W'>& to, const Scene& scene)
 
 }  // namespace
 
-Travel make_travel(const SceneSpec& spec, const Scene& scene) {
+std::optional<Travel> Travel::asked(const SceneSpec& spec, const Scene& scene) {
+  if (!spec.travel) return {};
   const TravelSpec& from = *spec.travel;
   check_parts(spec);
   check_numbers(from, scene);
