@@ -1,26 +1,25 @@
 #include "core/task/report.h"
 
-#include "core/rotation.h"
 #include "core/track/fuse.h"
 
 namespace enc::stages {
 
-Pose<'W', 'N'> surface_frame(const Walk& walk) noexcept {
-  return {rotation_z_to(walk.normal.e()), walk.surface_point};
-}
-
-void report_common(const Walk& walk, const State& state, const Pose<'N', 'W'>& X_NW, const Contact* contact,
+void report_common(const Walk& walk, const State& state, const Quat& q_WN, const Contact* contact,
                    Outputs& out) noexcept {
   out.mode = holding(walk) ? Mode::hold : state.mode;
   out.why = walk.why;
   out.object = state.object;
   out.contacts = state.contacts;
   out.gap = walk.gap;
-  out.force = X_NW * state.force;
+  out.force = Vec<'N'>(Vec3(q_WN.conjugate() * state.force.e()));
   out.felt = walk.felt;
   const SeenTool seen = seen_tool(walk, state, contact);
-  out.view = {walk.tick.t, walk.tool_known ? state.tool.value.tool : -1, state.object, seen.X_WT, seen.tip,
-              out.mode};
+  out.view.t = walk.tick.t;
+  out.view.tool = walk.tool_known ? state.tool.value.tool : -1;
+  out.view.object = state.object;
+  out.view.X_WT = seen.X_WT;
+  out.view.tip = seen.tip;
+  out.view.mode = out.mode;
 }
 
 void report_displaced(const Walk& walk, const Commanded& now, Outputs& out) noexcept {

@@ -5,10 +5,9 @@
 
 namespace enc::stages {
 
-// Of the surface under the tool.
-[[nodiscard]] Pose<'W', 'N'> surface_frame(const Walk& walk) noexcept;
-// Mode, reasons, force in N, and what is shown. `contact`: null where nothing is felt.
-void report_common(const Walk& walk, const State& state, const Pose<'N', 'W'>& X_NW, const Contact* contact,
+// Mode, reasons, force and what is shown. `q_WN`: axes of N in which the force is told; `contact`: null where
+// nothing is felt.
+void report_common(const Walk& walk, const State& state, const Quat& q_WN, const Contact* contact,
                    Outputs& out) noexcept;
 // The set-point of a machine that takes positions; and the gripper.
 void report_displaced(const Walk& walk, const Commanded& now, Outputs& out) noexcept;

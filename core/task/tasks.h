@@ -12,8 +12,16 @@
 
 namespace enc {
 
+// What a scene file says of a task, where it says something.
+template <class Task>
+struct PartOf {};
+template <class Task>
+requires requires { typename Task::Part; }
+struct PartOf<Task> : Task::Part {};
+
 template <class... Task>
 struct TaskList {
+  struct Parts : PartOf<Task>... {};
   using Any = std::variant<Task...>;
   // Nothing is remembered before the first tick.
   using Memory = std::variant<std::monostate, typename Task::Memory...>;

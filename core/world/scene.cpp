@@ -134,7 +134,7 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
       "; the tip reaches +-50, +-50 and +-25 (x, y, z of W, in millimetres) around the origin, straight axes";
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.probe() != nullptr && scene.probe()->object == static_cast<std::int32_t>(i))
-      continue;  // make_probe() looks
+      continue;  // it was looked at
     const Object& object = scene.objects[i];
     const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.0));
     const Point<'O'> top_O =
@@ -265,6 +265,20 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(const Scene&) = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
+namespace {
+
+// The task that the scene file asks for; where it asks for none, something is rendered.
+template <class... Task>
+void choose(std::variant<Task...>& task, const SceneSpec& spec, const Scene& scene) {
+  const auto ask = [&]<class One>(std::type_identity<One>) {
+    if constexpr (requires { One::asked(spec, scene); })
+      if (auto made = One::asked(spec, scene)) task = std::move(*made);
+  };
+  (ask(std::type_identity<Task>{}), ...);
+}
+
+}  // namespace
+
 Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   if (spec.arm) return prepare_arm(spec, rig);
   Scene scene;
@@ -309,8 +323,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   for (const ObjectSpec& object : spec.objects)
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
-  if (spec.probe) scene.task = make_probe(spec, scene);
-  if (spec.travel) scene.task = make_travel(spec, scene);
+  choose(scene.task, spec, scene);
   check_room(spec, scene);
   check_reach(spec, scene);
   return scene;

@@ -1,6 +1,6 @@
 // A scene: what the experiment is. These structs are the file format (models/scenes/*.toml), with its
 // defaults; SI here, units in the file's keys. What a scene does not name is not built, not ticked and not
-// given a thread.
+// given a thread. What only one task needs stands in its folder (task/tasks.h).
 #pragma once
 
 #include <array>
@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "core/task/tasks.h"
 #include "core/world/object_spec.h"
-#include "core/world/task_spec.h"
 #include "core/world/tip.h"
+#include "core/world/user_spec.h"
 
 namespace enc {
 
@@ -58,7 +59,7 @@ struct QuestionnaireSpec {
   std::string form;  // file in models/questionnaires without ".toml"
 };
 
-struct SceneSpec {
+struct SceneSpec : Tasks::Parts {
   std::int64_t format = 1;
   std::string title;
   std::string rig;  // in models/rigs, that it is made for; empty: "sim"
@@ -73,9 +74,7 @@ struct SceneSpec {
   std::optional<DisplaySpec> display;
   std::optional<GripperSpec> gripper;
   std::optional<UserSpec> user;
-  std::optional<ProbeSpec> probe;
   std::optional<PusherSpec> pusher;
-  std::optional<TravelSpec> travel;
   std::optional<QuestionnaireSpec> questionnaire;
   std::vector<BehaviourSpec> behaviours;  // the entries of models/behaviours.toml that the objects name
 };

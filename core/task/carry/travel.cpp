@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/rotation.h"
 #include "core/safety/guard.h"
 #include "core/task/report.h"
 #include "core/world/scene.h"
@@ -48,7 +49,8 @@ void check_way(const Point<'W'>& from, const Point<'W'>& to, const Scene& scene)
 
 }  // namespace
 
-Travel make_travel(const SceneSpec& spec, const Scene& scene) {
+std::optional<Travel> Travel::asked(const SceneSpec& spec, const Scene& scene) {
+  if (!spec.travel) return {};
   const TravelSpec& from = *spec.travel;
   check_parts(spec);
   check_numbers(from, scene);
@@ -142,7 +144,7 @@ void guard(Walk& walk, const Travel& travel, State& state, Travelling& now) noex
 }
 
 void report(const Walk& walk, const Travel&, State& state, const Travelling& now, Outputs& out) noexcept {
-  report_common(walk, state, surface_frame(walk).inverse(), nullptr, out);
+  report_common(walk, state, rotation_z_to(walk.normal.e()), nullptr, out);
   report_displaced(walk, now, out);
 }
 

@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/frames.h"
+#include "core/task/carry/travel_spec.h"
 #include "core/task/displacing.h"
 
 namespace enc {
@@ -34,7 +36,12 @@ struct Travelling : Commanded {
 };
 
 struct Travel : Displacing {
+  using Part = TravelPart;
   using Memory = Travelling;
+  // Of a scene that asks for it, which has everything else by now. Throws Error where this machine cannot do
+  // the travel.
+  [[nodiscard]] static std::optional<Travel> asked(const SceneSpec& spec, const Scene& scene);
+
   std::vector<TravelLeg> legs;
   double acceleration = kUnset;  // m/s^2
   bool tool_held = false;        // the tool must be clamped before anything moves
@@ -45,9 +52,6 @@ struct Travel : Displacing {
   // s, from the start to the end of the last dwell; a little more than it takes.
   [[nodiscard]] double duration() const;
 };
-
-// `scene` has everything else by now. Throws Error where this machine cannot do the travel.
-[[nodiscard]] Travel make_travel(const SceneSpec& spec, const Scene& scene);
 
 template <class F>
 void fields(F& f, Travelling& t) {

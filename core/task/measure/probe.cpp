@@ -87,10 +87,9 @@ void guard(Walk& walk, const Probe& probe, State& state, Probing& now) noexcept 
 }
 
 void report(const Walk& walk, const Probe& probe, State& state, const Probing& now, Outputs& out) noexcept {
-  const Pose<'N', 'W'> X_NW = probe.X_WN.inverse();
-  report_common(walk, state, X_NW, nullptr, out);
+  report_common(walk, state, probe.X_WN.q(), nullptr, out);
   report_displaced(walk, now, out);
-  out.deflection = -(X_NW * walk.X_WH.origin()).xyz[2];
+  out.deflection = probe.deflection(walk.X_WH.origin());
 }
 
 }  // namespace enc::stages

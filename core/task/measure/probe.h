@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/frames.h"
 #include "core/task/displacing.h"
+#include "core/task/measure/probe_spec.h"
 
 namespace enc {
 
@@ -24,7 +26,12 @@ struct Probing : Commanded {
 };
 
 struct Probe : Displacing {
+  using Part = ProbePart;
   using Memory = Probing;
+  // Of a scene that asks for it, which has everything else by now. Throws Error where this machine cannot do
+  // the programme: out of reach, something in its way, no force sensor, too deep.
+  [[nodiscard]] static std::optional<Probe> asked(const SceneSpec& spec, const Scene& scene);
+
   std::int32_t object = 0;  // index in the scene
   // Origin: the probe's centre where it first touches the undeformed object. z: out of the object, against
   // the push. x: where an offset goes.
@@ -41,9 +48,6 @@ struct Probe : Displacing {
 
 // The object that [probe] names, or the first. Throws Error where there is none.
 [[nodiscard]] const ObjectSpec& probed_object(const SceneSpec& spec);
-// `scene` has everything else by now. Throws Error where this machine cannot do the programme: out of reach,
-// something in its way, no force sensor, too deep.
-[[nodiscard]] Probe make_probe(const SceneSpec& spec, const Scene& scene);
 // s, from the start to the rest after the last push; a little more than it takes.
 [[nodiscard]] double programme_time(const Scene& scene);
 

@@ -103,7 +103,8 @@ const ObjectSpec& probed_object(const SceneSpec& spec) {
   return *named;
 }
 
-Probe make_probe(const SceneSpec& spec, const Scene& scene) {
+std::optional<Probe> Probe::asked(const SceneSpec& spec, const Scene& scene) {
+  if (!spec.probe) return {};
   const ProbeSpec& from = *spec.probe;
   check_parts(spec);
   check_sizes(from, scene);

@@ -69,8 +69,8 @@ void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept
 void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now,
             Outputs& out) noexcept {
   const bool touched = state.mode == Mode::contact;
-  const Pose<'N', 'W'> X_NW = touched ? now.contact.X_WN.inverse() : surface_frame(walk).inverse();
-  report_common(walk, state, X_NW, &now.contact, out);
+  report_common(walk, state, touched ? Quat(now.contact.X_WN.q()) : rotation_z_to(walk.normal.e()),
+                &now.contact, out);
   out.tip = Pose<'R', 'H'>();
   out.arm_force = walk.arm_force;
   out.wanted = now.aim.target;

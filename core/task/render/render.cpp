@@ -58,8 +58,8 @@ void guard(Walk& walk, const Render&, State& state, Rendering& now) noexcept {
 }
 
 void report(const Walk& walk, const Render&, State& state, const Rendering& now, Outputs& out) noexcept {
-  const Pose<'N', 'W'> X_NW = engaged(state) ? now.contact.X_WN.inverse() : surface_frame(walk).inverse();
-  report_common(walk, state, X_NW, &now.contact, out);
+  report_common(walk, state, engaged(state) ? Quat(now.contact.X_WN.q()) : rotation_z_to(walk.normal.e()),
+                &now.contact, out);
   report_displaced(walk, now, out);
   out.deflection = std::max(0.0, -now.displacement.xyz[2]);
   out.first_touch =

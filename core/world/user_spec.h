@@ -1,5 +1,5 @@
-// What is done in a scene: a person presses with a tool, the machine presses with a probe, or it carries a
-// tool past the tracker. Parts of the scene file (scene_spec.h); SI.
+// Who touches in a scene: a person with a tool or a bare finger, or something that pushes the machine. Parts
+// of the scene file (scene_spec.h); SI.
 #pragma once
 
 #include <cmath>
@@ -74,22 +74,6 @@ struct UserSpec {
   std::optional<ReachesSpec> reaches;  // with kind "reaches"
 };
 
-// The test rig of [VHMR 4.2, Fig 7]: the machine itself pushes a sphere into a real object and measures it.
-// Nobody holds a tool, and nothing is rendered.
-struct ProbeSpec {
-  std::string object;     // pressed; empty: the first
-  double azimuth = 0.0;   // of the axis out of the object, from +x towards +y of W, rad
-  double polar = M_PI;    // and from +z of W, rad: pi is pushed from below, straight up
-  double offset = 0.0;    // sideways of the axis through the object's origin, towards growing polar, m
-  double radius = 0.010;  // of the sphere that the machine carries instead of its haptic-tip, m
-  double depth = 0.006;   // of a push, from the first touch of the undeformed object along the axis, m
-  double speed = 0.004;   // of pushing and going back, m/s
-  double clear = 0.004;   // above the first touch, where a push begins and ends, m
-  double dwell = 0.0;     // at depth, s
-  double rest = 2.0;      // clear of the object before each push, s
-  std::int64_t repeats = 5;
-};
-
 // Something outside of the machine pushes the haptic-tip into an object that the core renders [VHMR 2, Fig
 // 3]: along the outward normal of the surface point that is nearest to W's origin. Nobody holds a tool.
 struct PusherSpec {
@@ -98,22 +82,6 @@ struct PusherSpec {
   double force = 30.0;                                       // the object pushes back with this, N, before
   double ramp_time = 2.0, hold_time = 8.0, rest_time = 1.0;  // s; rest: clear of the tip, before each push
   std::int64_t repeats = 1;
-};
-
-// The machine carries a clamped tool past the tracker, from stop to stop [VHMR 4.1, Fig 6]. Nobody holds a
-// tool, and nothing is rendered.
-enum class TravelWays : std::uint8_t {
-  one_way,   // stop by stop to the last; then straight back to the start
-  both_ways  // and stop by stop back again
-};
-struct TravelSpec {
-  std::string axes = "xyz";     // of W, one after another
-  Vec3 start{0.0, 0.0, -0.02};  // of the travel along each axis, m; the other two axes stay at 0
-  std::vector<double> stops{0.0, 0.005, 0.010, 0.020, 0.040};  // from the start, towards +, m
-  TravelWays ways = TravelWays::one_way;
-  double speed = 0.020;      // m/s
-  double dwell = 5.0;        // at each stop, s
-  std::int64_t repeats = 1;  // of the whole
 };
 
 }  // namespace enc
