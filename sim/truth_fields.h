@@ -1,8 +1,8 @@
-// The fields of the truth, named once, as core/record/fields.h does for what the core sees: for a hash over
+// The fields of the truth, named once, as core/record/state_hash.h does for what the core sees: for a hash over
 // what really happened.
 #pragma once
 
-#include "core/record/fields.h"
+#include "core/record/state_hash.h"
 #include "sim/truth.h"
 
 namespace enc::sim {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/record/fields.h"
+#include "core/record/state_hash.h"
 
 namespace enc {
 

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "core/record/fields.h"
+#include "core/record/state_hash.h"
 #include "core/step.h"
 #include "core/world/rig_spec.h"
 #include "core/world/scene.h"

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/record/fields.h"
+#include "core/record/state_hash.h"
 #include "tests/property/fuzz/drawn_scene.h"
 #include "tests/property/fuzz/judges.h"
 #include "tests/support/spoil.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/record/fields.h"
+#include "core/record/state_hash.h"
 #include "tests/support/scenes.h"
 
 namespace enc {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/record/fields.h"
+#include "core/record/state_hash.h"
 #include "tests/conformance/bench_world.h"
 
 namespace enc::test {

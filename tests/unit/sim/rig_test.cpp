@@ -1,7 +1,7 @@
 // The test rig as a whole: machine, ball, sensor, programme.
 #include <gtest/gtest.h>
 
-#include "core/record/fields.h"
+#include "core/record/state_hash.h"
 #include "core/record/replay.h"
 #include "tests/conformance/bench_world.h"
 #include "trial/measure/probe_measure.h"

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/record/fields.h"
+#include "core/record/state_hash.h"
 #include "tests/unit/trial/runs.h"
 
 namespace enc {
