@@ -20,7 +20,7 @@ find_library(GMP_LIBRARY gmp)
 
 add_custom_target(tests) # all but those of the benchmarks
 function(enc_test kind shards) # enc_test(folder shards libraries...)
-  file(GLOB sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone
     list(FILTER sources EXCLUDE REGEX mesh_property_test)
   endif()
@@ -66,7 +66,7 @@ if(MPFR_INCLUDE_DIR AND MPFR_LIBRARY)
 endif()
 enc_test(golden 2)
 enc_test(conformance 1)
-enc_test(benchmarks 2 enc_bench)
+enc_test(benchmarks 2 $<LINK_LIBRARY:WHOLE_ARCHIVE,enc_bench>)
 enc_test(input 4)
 enc_test(shape 1)
 enc_test(threads 1)

@@ -85,7 +85,7 @@ struct Race {
 };
 Race race(const Arm& arm, const Arm& row, ArmPeer* peer, double payload, const BenchContext& context) {
   const std::vector<Question> all = questions(arm, context.seed);
-  const int laps = context.repeats > 0 ? static_cast<int>(context.repeats) : (context.quick ? 2 : 10);
+  const int laps = static_cast<int>(context.count(10, 2));
   const auto closed = [&](const Question& x) { return answer(arm, x.q, x.force, payload); };
   const auto serial = [&](const Question& x) { return answer(row, x.relative, x.force, 0.0); };
   const auto kdl = [&](const Question& x) { return peer->answer(x.relative, x.force.e()); };

@@ -9,8 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/peers/peers.h"
 #include "core/mesh/mesh_tree.h"
 #include "core/module.h"
@@ -175,10 +174,11 @@ void against_peer(const Race& raced, Report& add) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"nearest", "geodesic ball", 0, 0, {}, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   Report add(result);
-  const int laps = context.repeats > 0 ? static_cast<int>(context.repeats) : (context.quick ? 1 : 3);
+  const int laps = static_cast<int>(context.count(3, 1));
   const Mesh ball = models::geodesic_ball(71);
   const MeshTree tree(ball);
   std::unique_ptr<NearestPeer> embree;
@@ -216,7 +216,9 @@ BenchResult run(const BenchContext& context) {
   add("ball_1M.memory",
       static_cast<double>(large_tree.memory_bytes()) / static_cast<double>(large.triangles.size()), "B/tri",
       "the mesh included", kUnset, 150.0);
-  return result;
 }
+
+const Entry kEntry{"nearest", "geodesic ball",
+                   "nearest point on a mesh: time, growth, jumps, race against Embree", run};
 
 }  // namespace enc::bench::nearest

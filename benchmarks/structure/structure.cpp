@@ -7,10 +7,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/load_scene.h"
-#include "benchmarks/kit/parallel.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/structure/structure_model.h"
 #include "trial/trial.h"
 
@@ -253,7 +250,7 @@ void repeatability(const Report& report, const BenchContext& context) {
   Machine m(context, {});
   sim::Stream random(context.seed, "arrivals");
   std::vector<Vec3> arrivals;
-  const int count = context.repeats > 0 ? static_cast<int>(context.repeats) : context.quick ? 25 : 100;
+  const int count = static_cast<int>(context.count(100, 25));
   Vec3 mean = Vec3::Zero();
   for (int i = 0; i < count; ++i) {
     m.go(0.003 * random.normal3().normalized(), 500);
@@ -288,8 +285,9 @@ void speed(const Report& report, const BenchContext& context) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"structure", "tennis_ball", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const Report report{result};
   speed(report, context);  // alone: it is about time
   work_and_precision(report, context);
@@ -301,7 +299,9 @@ BenchResult run(const BenchContext& context) {
     result.simulated += part.simulated;
     result.figures.insert(result.figures.end(), part.figures.begin(), part.figures.end());
   }
-  return result;
 }
+
+const Entry kEntry{"structure", "tennis_ball",
+                   "hexapod on elastic legs: sag, modes, order of the integrator, cost", run};
 
 }  // namespace enc::bench::structure
