@@ -3,29 +3,32 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 #include "benchmarks/kit/statistics.h"
 
 namespace enc::bench {
 
-Race::Race(int rounds, const std::vector<std::function<void()>>& ways) : seconds_(ways.size()) {
+Race::Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up)
+    : seconds_(ways.size()) {
   std::vector<std::size_t> order(ways.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  for (int round = -1; round < rounds; ++round) {
+  std::mt19937_64 random(1);
+  for (std::size_t round = 0; round < warm_up + rounds; ++round) {
+    std::shuffle(order.begin(), order.end(), random);
     for (const std::size_t way : order) {
       const double start = thread_seconds();
       ways[way]();
-      if (round >= 0) seconds_[way].push_back(thread_seconds() - start);
+      if (round >= warm_up) seconds_[way].push_back(thread_seconds() - start);
     }
-    std::reverse(order.begin(), order.end());
   }
 }
 
-double Race::seconds(std::size_t way) const { return median(seconds_.at(way)); }
+double Race::seconds(std::size_t way, double share) const { return percentile(seconds_.at(way), share); }
 
-double Race::ratio(std::size_t way, std::size_t over) const {
+double Race::ratio(std::size_t way, const Race& race, std::size_t over) const {
   std::vector<double> ratios = seconds_.at(way);
-  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] /= seconds_.at(over)[i];
+  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] /= race.seconds_.at(over).at(i);
   return median(ratios);
 }
 

@@ -26,16 +26,20 @@ constexpr double kLimit = 6e-3;   // m
 constexpr double kSpeed = 4e-3;   // m/s
 constexpr double kPeriod = 1e-3;  // s
 
+// From one deflection to the next, m, in equal steps of about this size.
+void walk(std::vector<double>& path, double from, double to, double step) {
+  const auto steps = std::max(1L, std::lround(std::abs(to - from) / step));
+  for (long i = 1; i <= steps; ++i)
+    path.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
+}
+
 // Deflections, m, from 0 along the turns (mm) at kSpeed, a reading each kPeriod.
 std::vector<double> path_of(const std::vector<double>& turns) {
   std::vector<double> path;
   double at = 0.0;
   for (const double turn : turns) {
-    const double to = turn * 1e-3;
-    const auto steps = std::max(1L, std::lround(std::abs(to - at) / (kSpeed * kPeriod)));
-    for (long i = 1; i <= steps; ++i)
-      path.push_back(at + (to - at) * static_cast<double>(i) / static_cast<double>(steps));
-    at = to;
+    walk(path, at, turn * 1e-3, kSpeed * kPeriod);
+    at = turn * 1e-3;
   }
   return path;
 }
@@ -140,9 +144,7 @@ double least_absorbed(const Response& response, std::uint64_t seed) {
     double at = base;
     for (auto turns = static_cast<int>(uniform(random, 2.0, 10.0)); turns >= 0; --turns) {
       const double to = turns == 0 ? base : uniform(random, 0.0, kLimit);
-      const auto steps = std::max(1L, std::lround(std::abs(to - at) / uniform(random, 1e-6, 10e-6)));
-      for (long i = 1; i <= steps; ++i)
-        path.push_back(at + (to - at) * static_cast<double>(i) / static_cast<double>(steps));
+      walk(path, at, to, uniform(random, 1e-6, 10e-6));
       at = to;
     }
     ResponseState state;

@@ -13,7 +13,7 @@ namespace {
 
 // Our step against raw mj_step, and raw twice more, each from the state in which the physics is now: every
 // chunk does the same work.
-Race wrapper_and_raw(sim::Physics& physics, int rounds) {
+Race wrapper_and_raw(sim::Physics& physics, std::size_t rounds) {
   const auto chunk = [&physics, from = physics.save()](auto step) {
     return [&physics, from, step] {
       physics.restore(from);
