@@ -4,7 +4,8 @@ list(FILTER folders EXCLUDE REGEX "(peers|reference|\\.cpp)$")
 enc_library(enc_bench "${folders}" enc_trial enc_fit nlohmann_json::nlohmann_json fmt::fmt)
 enc_precompile_as(enc_bench enc_precompiled)
 enc_batches(enc_bench "${folders}")
-enc_module(bench bench benchmarks/module.cpp enc_bench)
+# Whole: each benchmark puts itself into the table, and nobody else names it.
+enc_module(bench bench benchmarks/module.cpp $<LINK_LIBRARY:WHOLE_ARCHIVE,enc_bench>)
 
 # What the benchmarks race against: each library that is there adds its source to the module.
 set(sources)

@@ -166,7 +166,8 @@ class Session {
     share_ = 0.0;
     Teller teller(benchmark.name, number, choices_.size());
     const WallClock::time_point start = WallClock::now();
-    std::future<BenchResult> work = std::async(std::launch::async, [&] { return benchmark.run(context_); });
+    std::future<BenchResult> work =
+        std::async(std::launch::async, [&] { return result_of(benchmark, context_); });
     while (work.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
       if (const int signal = signals_.came(); signal > 0) stop(signal);
       teller.tell(share_);

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/deformation/deformation_full.h"
-#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/kit.h"
 #include "core/world/scene.h"
 #include "models/setup/scene_file.h"
 
@@ -108,8 +108,9 @@ void add_plots(BenchResult& result, double radius, const Fig11Contours& referenc
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"deformation", "tennis_ball", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const models::Setup setup = models::load(context.models + "/scenes/tennis_ball.toml", "sim", context.set);
   const Scene scene = prepare(setup.scene, setup.rig);
   const Surface& ball = scene.objects.front().surface;
@@ -137,7 +138,9 @@ BenchResult run(const BenchContext& context) {
   if (context.full) add_full(result, context, ball, reference);
   result.note =
       "The paper's figure is two rows of photographs; the pressed ball is computed (docs/deformation.md).";
-  return result;
 }
+
+const Entry kEntry{"deformation", "tennis_ball",
+                   "the seen ball's contour against that of a pressed ball (VHMR Fig 11)", run};
 
 }  // namespace enc::bench::deformation

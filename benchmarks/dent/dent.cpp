@@ -9,9 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/load_scene.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/kit.h"
 #include "core/world/scene.h"
 #include "models/setup/scene_file.h"
 #include "models/shapes/shapes.h"
@@ -68,20 +67,10 @@ struct Straight {
   }
 };
 
-struct Times {
-  double ours, ours_all, straight, ratio, ratio_all;
-};
+constexpr int kUpdates = 20;
 
-template <class Update>
-double time_of(Update update) {
-  constexpr int kUpdates = 20;
-  const double start = thread_seconds();
-  for (int i = 0; i < kUpdates; ++i) update();
-  return (thread_seconds() - start) / kUpdates;
-}
-
-// `all`: a dent so wide that every vertex is computed and none is skipped.
-Times interleaved(const Mesh& ball, const Surface& surface, const DentSample& dent, int rounds) {
+// Ours, ours with a dent so wide that no vertex is skipped, straight: kUpdates each.
+Race race(const Mesh& ball, const Surface& surface, const DentSample& dent, std::size_t rounds) {
   Cloud cloud(ball);
   Straight straight(ball);
   const Vec3 n = dent.tip.centre.e().normalized();
@@ -89,43 +78,18 @@ Times interleaved(const Mesh& ball, const Surface& surface, const DentSample& de
   const double radius = std::get<Sphere>(surface.shape()).radius;
   DentField<double> everywhere = dent_field(surface, dent);
   everywhere.reach = 100.0 * radius;
-  std::vector<double> ours;
-  std::vector<double> all;
-  std::vector<double> theirs;
-  std::vector<double> ratio;
-  std::vector<double> ratio_all;
-  for (int i = 0; i <= rounds; ++i) {
-    double a = 0;
-    double b = 0;
-    double c = 0;
-    const auto run_ours = [&] { a = time_of([&] { cloud.update(dent_field(surface, dent)); }); };
-    const auto run_all = [&] { b = time_of([&] { cloud.update(everywhere); }); };
-    const auto run_theirs = [&] {
-      c = time_of([&] { straight.update(contact, n, dent.depth, std::sqrt(radius * dent.depth)); });
+  const auto often = [](auto update) {
+    return [update] {
+      for (int i = 0; i < kUpdates; ++i) update();
     };
-    if (i % 2 == 0) run_ours();  // who goes first alternates
-    run_theirs();
-    run_all();
-    if (i % 2 != 0) run_ours();
-    if (i == 0) continue;  // warm-up
-    ours.push_back(a);
-    all.push_back(b);
-    theirs.push_back(c);
-    ratio.push_back(c / a);
-    ratio_all.push_back(c / b);
-  }
-  return {median(ours), median(all), median(theirs), median(ratio), median(ratio_all)};
+  };
+  return {rounds,
+          {often([&] { cloud.update(dent_field(surface, dent)); }), often([&] { cloud.update(everywhere); }),
+           often([&] { straight.update(contact, n, dent.depth, std::sqrt(radius * dent.depth)); })}};
 }
 
-}  // namespace
-
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"dent", "tennis_ball", 0, 0, {}};
-  const auto add = [&](const std::string& id, double twin, const char* unit, double low, double high,
-                       const char* note) {
-    result.figures.push_back({id, kUnset, twin, unit, Role::ours, low, high, note});
-  };
-  const models::Setup setup = load_scene(context, "tennis_ball");
+void run(Bench& bench) {
+  const models::Setup setup = bench.setup();
   const Scene scene = prepare(setup.scene, setup.rig);
   const Surface& surface = scene.objects.front().surface;
   const double radius = setup.scene.objects.front().radius;
@@ -143,23 +107,27 @@ BenchResult run(const BenchContext& context) {
     cloud.update(field);
     const Vec3 before(cloud.before[0][0], cloud.before[1][0], cloud.before[2][0]);
     const Vec3 after(cloud.after[0][0], cloud.after[1][0], cloud.after[2][0]);
-    const auto mm = static_cast<int>(std::lround(1e3 * depth));
-    add(fmt::format("dent.contact_error.{}mm.max", mm), 1e6 * ((before - after) - depth * n).norm(), "um",
-        kUnset, 1.0, "drawn vertex under the tool against the deflection");
-    add(fmt::format("dent.volume_change.{}mm.value", mm), 100.0 * volume_change(ball, field) / volume, "%",
-        -5.0, 0.0, "of the ball's volume");
+    const auto mm = std::lround(depth * kMm);
+    bench.figure(fmt::format("contact_error.{}mm.max", mm), 1e6 * ((before - after) - depth * n).norm(), "um",
+                 at_most(1.0), "drawn vertex under the tool against the deflection");
+    bench.figure(fmt::format("volume_change.{}mm.value", mm), 100.0 * volume_change(ball, field) / volume,
+                 "%", between(-5.0, 0.0), "of the ball's volume");
   }
-  const Times times = interleaved(ball, surface, last, context.quick ? 21 : 101);
-  add("dent.update.ours.median", 1e6 * times.ours, "us", kUnset, kUnset,
-      "10,242 vertices, positions and normals, 6 mm deep, thread CPU time");
-  add("dent.update.nothing_skipped.median", 1e6 * times.ours_all, "us", kUnset, kUnset,
-      "the same, every vertex computed");
-  add("dent.update.straight.median", 1e6 * times.straight, "us", kUnset, kUnset,
-      "double loop with std::exp and face-accumulated normals");
-  add("dent.straight_over_ours.median", times.ratio, "x", 8.0, kUnset, "paired, interleaved in one run");
-  add("dent.straight_over_nothing_skipped.median", times.ratio_all, "x", kUnset, kUnset,
-      "paired, interleaved in one run");
-  return result;
+  const Race raced = race(ball, surface, last, bench.context.quick ? 21 : 101);
+  const auto us = [&](std::size_t way) { return 1e6 * raced.seconds(way) / kUpdates; };
+  bench.figure("update.ours.median", us(0), "us",
+               "10,242 vertices, positions and normals, 6 mm deep, thread CPU time");
+  bench.figure("update.nothing_skipped.median", us(1), "us", "the same, every vertex computed");
+  bench.figure("update.straight.median", us(2), "us",
+               "double loop with std::exp and face-accumulated normals");
+  bench.figure("straight_over_ours.median", raced.ratio(2, 0), "x", at_least(8.0),
+               "paired, interleaved in one run");
+  bench.figure("straight_over_nothing_skipped.median", raced.ratio(2, 1), "x",
+               "paired, interleaved in one run");
 }
 
+const Entry kEntry{"dent", "tennis_ball",
+                   "the seen surface: contact vertex, volume, time of an update of 10,242 vertices", run};
+
+}  // namespace
 }  // namespace enc::bench::dent

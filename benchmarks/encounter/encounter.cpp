@@ -1,15 +1,10 @@
 // Is the haptic-tip there when the tool arrives? Miss at first touch over approach speed, many hands for each
 // speed.
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/load_scene.h"
-#include "benchmarks/kit/parallel.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::encounter {
@@ -17,92 +12,72 @@ namespace {
 
 constexpr std::array<double, 5> kSpeeds{0.010, 0.020, 0.050, 0.100, 0.200};  // m/s
 
-// What the hands of one speed met, m and s; NaN of those who never touched.
-struct Met {
-  std::vector<double> miss, delay;
-  double simulated = 0.0;  // s
+struct Meeting {
+  double miss = kUnset, delay = kUnset;  // m, s: of a hand that touched
+  double simulated = 0.0;                // s
 };
 
-Met met(const models::Setup& setup, const BenchContext& context, std::int64_t repeats, double share) {
-  const auto count = static_cast<std::size_t>(repeats);
-  Met all{std::vector<double>(count), std::vector<double>(count)};
-  std::vector<double> simulated(count);
-  in_parallel(
-      count,
-      [&](std::size_t i) {
-        const trial::PressMeasure measure = trial::measured_run(setup, context.seed + i, simulated[i]);
-        all.miss[i] = measure.presses().front().miss;
-        all.delay[i] = measure.presses().front().first_force_delay;
-      },
-      [&](double done) {
-        if (context.progress) context.progress(share + done / kSpeeds.size());
-      });
-  for (const double s : simulated) all.simulated += s;
-  const auto touched = [](std::vector<double>& values) {
-    std::erase_if(values, [](double x) { return std::isnan(x); });
-  };
-  touched(all.miss);
-  touched(all.delay);
-  return all;
+Meeting meet(models::Setup setup, double speed, std::uint64_t seed) {
+  setup.scene.user->approach = {speed};
+  Meeting meeting;
+  const trial::PressMeasure measure = trial::measured_run(setup, seed, meeting.simulated);
+  meeting.miss = measure.presses().front().miss;
+  meeting.delay = measure.presses().front().first_force_delay;
+  return meeting;
 }
 
-void add_figures(BenchResult& result, double speed, const Met& hands, double bound) {
-  const std::string id = fmt::format("encounter.miss.{:.0f}", speed * 1e3);
-  const std::string note = fmt::format("{} seeds at {:.0f} mm/s; bound from rig and twin: {:.2f} mm",
-                                       hands.miss.size(), speed * 1e3, bound * 1e3);
-  const auto [least, most] = std::minmax_element(hands.miss.begin(), hands.miss.end());
-  const double middle = median(hands.miss) * 1e3;
-  result.figures.push_back(
-      {id + ".median", kUnset, middle, "mm", Role::ours, 0.0, bound * 1e3, note, *least * 1e3, *most * 1e3});
-  result.figures.push_back({id + ".max", kUnset, *most * 1e3, "mm", Role::ours, 0.0, bound * 1e3, note});
-  Series& misses = result.plots.front().series[0];
-  Series& bounds = result.plots.front().series[1];
-  misses.x.push_back(speed * 1e3);
-  misses.y.push_back(middle);
-  misses.low.push_back(*least * 1e3);
-  misses.high.push_back(*most * 1e3);
-  bounds.x.push_back(speed * 1e3);
-  bounds.y.push_back(bound * 1e3);
-  if (hands.delay.empty()) return;
-  const auto [first, last] = std::minmax_element(hands.delay.begin(), hands.delay.end());
-  result.figures.push_back({fmt::format("encounter.force_delay.{:.0f}.median", speed * 1e3), kUnset,
-                            median(hands.delay) * 1e3, "ms", Role::ours, kUnset, kUnset,
-                            "from crossing the surface to the first contact force", *first * 1e3,
-                            *last * 1e3});
+// A short press is enough: the figure is the meeting, not what follows.
+models::Setup short_press(const Bench& bench) {
+  models::Setup setup = bench.setup();
+  UserSpec& user = *setup.scene.user;
+  user.press_time = user.release_time = 0.8;
+  user.hold_time = 0.1;
+  user.depth = 0.002;
+  return setup;
 }
+
+void run(Bench& bench) {
+  const models::Setup setup = short_press(bench);
+  const std::size_t hands = bench.context.count(40, 5);
+  const auto meetings =
+      bench.grid(kSpeeds, hands, [&](double speed, std::uint64_t seed) { return meet(setup, speed, seed); });
+
+  Series misses{.name = "median, bars: least and most over seeds", .mark = Mark::both};
+  Series bounds{.name = "bound from rig and twin"};
+  for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
+    const auto id = [&](const char* what, const char* statistic) {
+      return fmt::format("{}.{:.0f}.{}", what, kSpeeds[i] * 1e3, statistic);
+    };
+    const std::vector<double> touched = known(meetings[i], &Meeting::miss);
+    const std::vector<double> delays = known(meetings[i], &Meeting::delay);
+    const Value miss = median_of(touched) * kMm;
+    const double bound = trial::miss_bound(setup, kSpeeds[i]) * kMm;
+    const std::string note = fmt::format("{} seeds at {:.0f} mm/s; bound from rig and twin: {:.2f} mm",
+                                         touched.size(), kSpeeds[i] * 1e3, bound);
+    bench.figure(id("miss", "median"), miss, "mm", between(0.0, bound), note);
+    bench.figure(id("miss", "max"), miss.most, "mm", between(0.0, bound), note);
+    bench.figure(id("force_delay", "median"), median_of(delays) * 1e3, "ms",
+                 "from crossing the surface to the first contact force");
+    bench.figure(id("met", "percent"),
+                 100.0 * static_cast<double>(delays.size()) / static_cast<double>(hands), "%", exactly(100.0),
+                 "presses in which tool and tip touched");
+    misses.add(kSpeeds[i] * kMm, miss);
+    bounds.add(kSpeeds[i] * kMm, bound);
+  }
+  bench.plot(
+      {.id = "miss",
+       .title = "Tool tip to haptic-tip at first touch",
+       .x_label = "approach speed (mm/s)",
+       .y_label = "miss (mm)",
+       .log_x = true,
+       .log_y = true,
+       .series = {misses, bounds},
+       .caption = "A miss must stay under the bound, which follows from the numbers of rig and twin alone."});
+}
+
+const Entry kEntry{"encounter", "tennis_ball",
+                   "distance from the true tool tip to the haptic-tip at first touch, over approach speed",
+                   run};
 
 }  // namespace
-
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"encounter", "tennis_ball", 0, 0, {}};
-  models::Setup setup = load_scene(context, "tennis_ball");
-  // A short press is enough: the figure is the meeting, not what follows.
-  setup.scene.user->press_time = setup.scene.user->release_time = 0.8;
-  setup.scene.user->hold_time = 0.1;
-  setup.scene.user->depth = 0.002;
-  const std::int64_t repeats = context.repeats > 0 ? context.repeats : (context.quick ? 5 : 40);
-  result.plots.push_back(
-      {"encounter.miss",
-       "Tool tip to haptic-tip at first touch",
-       "approach speed (mm/s)",
-       "miss (mm)",
-       true,
-       true,
-       {{"median, bars: least and most over seeds", {}, {}, {}, {}, Mark::both},
-        {"bound from rig and twin", {}, {}}},
-       "A miss must stay under the bound, which follows from the numbers of rig and twin alone."});
-  double share = 0.0;
-  for (const double speed : kSpeeds) {
-    setup.scene.user->approach = {speed};
-    const Met hands = met(setup, context, repeats, share);
-    share += 1.0 / kSpeeds.size();
-    result.simulated += hands.simulated;
-    if (!hands.miss.empty()) add_figures(result, speed, hands, trial::miss_bound(setup, speed));
-    result.figures.push_back({fmt::format("encounter.met.{:.0f}.percent", speed * 1e3), kUnset,
-                              100.0 * static_cast<double>(hands.delay.size()) / static_cast<double>(repeats),
-                              "%", Role::ours, 100.0, 100.0, "presses in which tool and tip touched"});
-  }
-  return result;
-}
-
 }  // namespace enc::bench::encounter

@@ -7,9 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/kit/bench.h"
 #include "benchmarks/kit/child.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "core/error.h"
 
 namespace enc::bench::footprint {
@@ -48,39 +47,32 @@ Row measured(const std::string& program, const fs::path& scene, int repeats) {
   return row;
 }
 
-}  // namespace
-
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"footprint", "all", 0, 0, {}};
+void run(Bench& bench) {
   std::error_code none;
   const std::string program = fs::read_symlink("/proc/self/exe", none).string();
   std::set<fs::path> scenes;
-  for (const auto& entry : fs::directory_iterator(context.models + "/scenes"))
+  for (const auto& entry : fs::directory_iterator(bench.context.models + "/scenes"))
     if (entry.path().extension() == ".toml") scenes.insert(entry.path());
-  Table table{"footprint_scenes",
+  Table table{"scenes",
               "What each scene costs",
               {"scene", "libraries", "threads", "MuJoCo elements", "MiB", "start, empty process = 1"}};
-  double done = 0.0;
   for (const fs::path& scene : scenes) {
-    const Row row = measured(program, scene, context.quick ? 3 : 9);
-    table.rows.push_back({row.scene, fmt::format("{}", row.libraries), fmt::format("{}", row.threads),
-                          fmt::format("{}", row.elements), fmt::format("{:.1f}", row.memory),
-                          fmt::format("{:.1f}", row.start)});
-    const bool plane = row.scene == "plane";
-    const auto add = [&](const char* what, double value, const char* unit, double high) {
-      result.figures.push_back({fmt::format("footprint.{}.{}", row.scene, what), kUnset, value, unit,
-                                Role::ours, kUnset, high, ""});
-    };
-    add("libraries", static_cast<double>(row.libraries), "", kUnset);
-    add("threads", row.threads, "", 1.0);
-    add("elements", row.elements, "", kUnset);
-    add("memory", row.memory, "MiB", plane ? kMostMemory : kUnset);
-    add("start", row.start, "x", kUnset);
-    if (context.progress) context.progress(++done / static_cast<double>(scenes.size()));
+    const Row row = measured(program, scene, bench.context.quick ? 3 : 9);
+    table.add(row.scene, row.libraries, row.threads, row.elements, fmt::format("{:.1f}", row.memory),
+              fmt::format("{:.1f}", row.start));
+    const auto id = [&](const char* what) { return row.scene + "." + what; };
+    bench.figure(id("libraries"), static_cast<double>(row.libraries), "");
+    bench.figure(id("threads"), row.threads, "", at_most(1.0));
+    bench.figure(id("elements"), row.elements, "");
+    bench.figure(id("memory"), row.memory, "MiB", at_most(row.scene == "plane" ? kMostMemory : kUnset));
+    bench.figure(id("start"), row.start, "x");
+    bench.progress(static_cast<double>(table.rows.size()) / static_cast<double>(scenes.size()));
   }
   table.note = "MuJoCo elements: bodies, joints, geoms, sites, sensors, actuators, tendons, equalities";
-  result.tables.push_back(std::move(table));
-  return result;
+  bench.table(std::move(table));
 }
 
+const Entry kEntry{"footprint", "all", "libraries, threads, memory and start of each scene that ships", run};
+
+}  // namespace
 }  // namespace enc::bench::footprint

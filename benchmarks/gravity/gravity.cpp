@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/kit/load_scene.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "sim/arm_spec.h"
 
 namespace enc::bench::gravity {
@@ -103,8 +102,9 @@ void add_figure(BenchResult& result, const std::string& id, double paper, double
   result.figures.push_back({"gravity." + id, paper, twin, unit, role, low, high, note});
 }
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"gravity", "wall", 0, 0, {}, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const GravityRig rig = gravity_rig(context);
   add_statics(rig, context, result);
   if (context.progress) context.progress(0.5);
@@ -112,7 +112,11 @@ BenchResult run(const BenchContext& context) {
   add_twin(rig, context, result);
   if (context.progress) context.progress(0.7);
   add_race(rig, context, result);
-  return result;
 }
+
+const Entry kEntry{"gravity", "wall",
+                   "gravity compensation of the arm: residual force over the workspace, catalogue, race "
+                   "against KDL (VisHap eq. 5)",
+                   run};
 
 }  // namespace enc::bench::gravity

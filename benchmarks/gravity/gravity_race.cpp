@@ -7,7 +7,7 @@
 #include <random>
 
 #include "benchmarks/gravity/gravity.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/cost.h"
 #include "benchmarks/peers/peers.h"
 #include "core/module.h"
 
@@ -62,59 +62,14 @@ ArmAnswer answer(const Arm& arm, const PerJoint& q, const Vec<'R'>& force, doubl
   return answer;
 }
 
-struct Runner {
-  std::vector<double> seconds;
-  std::vector<ArmAnswer> answers = std::vector<ArmAnswer>(kPoses);
-
-  template <class Ask>
-  void chunk(const std::vector<Question>& all, std::size_t first, const Ask& ask) {
-    const double start = thread_seconds();
-    for (std::size_t i = first; i < first + kChunk; ++i) answers[i] = ask(all[i]);
-    seconds.push_back(thread_seconds() - start);
-  }
-  [[nodiscard]] double nanoseconds() const { return median(seconds) / kChunk * 1e9; }
-};
-double median_ratio(const Runner& a, const Runner& b) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < a.seconds.size(); ++i) ratios.push_back(a.seconds[i] / b.seconds[i]);
-  return median(ratios);
-}
-
-struct Race {
-  Runner ours, again, chain, theirs;
-};
-Race race(const Arm& arm, const Arm& row, ArmPeer* peer, double payload, const BenchContext& context) {
-  const std::vector<Question> all = questions(arm, context.seed);
-  const int laps = context.repeats > 0 ? static_cast<int>(context.repeats) : (context.quick ? 2 : 10);
-  const auto closed = [&](const Question& x) { return answer(arm, x.q, x.force, payload); };
-  const auto serial = [&](const Question& x) { return answer(row, x.relative, x.force, 0.0); };
-  const auto kdl = [&](const Question& x) { return peer->answer(x.relative, x.force.e()); };
-  std::mt19937_64 random(context.seed);
-  Race result;
-  for (int lap = -1; lap < laps; ++lap) {
-    if (lap == 0)  // the first was to warm up
-      for (Runner* r : {&result.ours, &result.again, &result.chain, &result.theirs}) r->seconds.clear();
-    for (std::size_t first = 0; first < kPoses; first += kChunk) {
-      std::array<int, 4> order{0, 1, 2, 3};
-      std::shuffle(order.begin(), order.end(), random);
-      for (const int who : order) {
-        if (who == 0) result.ours.chunk(all, first, closed);
-        if (who == 1) result.again.chunk(all, first, closed);
-        if (who == 2) result.chain.chunk(all, first, serial);
-        if (who == 3 && peer != nullptr) result.theirs.chunk(all, first, kdl);
-      }
-    }
-  }
-  return result;
-}
-
+using Answers = std::vector<ArmAnswer>;
 // Tips, m, and torques, N m: largest difference between the two.
-std::array<double, 2> apart(const Runner& a, const Runner& b) {
+std::array<double, 2> apart(const Answers& a, const Answers& b) {
   std::array<double, 2> most{0.0, 0.0};
   for (std::size_t i = 0; i < kPoses; ++i) {
-    most[0] = std::max(most[0], (a.answers[i].tip - b.answers[i].tip).norm());
+    most[0] = std::max(most[0], (a[i].tip - b[i].tip).norm());
     for (std::size_t j = 0; j < kMostJoints; ++j)
-      most[1] = std::max(most[1], std::abs(a.answers[i].torque[j] - b.answers[i].torque[j]));
+      most[1] = std::max(most[1], std::abs(a[i].torque[j] - b[i].torque[j]));
   }
   return most;
 }
@@ -132,24 +87,37 @@ void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& r
   const auto* peers = module != nullptr ? static_cast<const PeersModule*>(module->peers) : nullptr;
   std::unique_ptr<ArmPeer> kdl;
   if (peers != nullptr && peers->kdl != nullptr) kdl = peers->kdl(row.machine());
-  const Race raced = race(arm, row, kdl.get(), rig.believed.payload, context);
-  add_figure(result, "statics.p50", kUnset, raced.ours.nanoseconds(), "ns",
+  const std::vector<Question> all = questions(arm, context.seed);
+  Answers ours(kPoses), chain(kPoses), theirs(kPoses);
+  const auto closed = in_chunks(kPoses, kChunk, [&](std::size_t i) {
+    ours[i] = answer(arm, all[i].q, all[i].force, rig.believed.payload);
+  });
+  std::vector<std::function<void()>> ways{closed, closed, in_chunks(kPoses, kChunk, [&](std::size_t i) {
+                                            chain[i] = answer(row, all[i].relative, all[i].force, 0.0);
+                                          })};
+  if (kdl)
+    ways.push_back(in_chunks(
+        kPoses, kChunk, [&](std::size_t i) { theirs[i] = kdl->answer(all[i].relative, all[i].force.e()); }));
+  constexpr std::size_t kLap = kPoses / kChunk;
+  const Race raced(context.count(10, 2) * kLap, ways, kLap);
+  const auto nanoseconds = [&](std::size_t way) { return raced.seconds(way) / kChunk * 1e9; };
+  add_figure(result, "statics.p50", kUnset, nanoseconds(0), "ns",
              "kinematics, Jacobian, gravity, J^T f of one pose, closed form; over chunks of 250");
-  add_figure(result, "statics.chain.p50", kUnset, raced.chain.nanoseconds(), "ns",
+  add_figure(result, "statics.chain.p50", kUnset, nanoseconds(2), "ns",
              "the same of a chain of three hinges");
-  add_figure(result, "same_over_same.median", kUnset, median_ratio(raced.again, raced.ours), "x",
+  add_figure(result, "same_over_same.median", kUnset, raced.ratio(1, 0), "x",
              "ours over ours in the same run: how far the machine can be trusted");
   if (!kdl) {
     result.note += "no race: Orocos KDL was not there when this was built (./encounter bench installs it). ";
     return;
   }
-  add_figure(result, "statics.kdl.p50", kUnset, raced.theirs.nanoseconds(), "ns",
+  add_figure(result, "statics.kdl.p50", kUnset, nanoseconds(3), "ns",
              "Orocos KDL, chain of three hinges without the parallelogram's links");
-  add_figure(result, "kdl_ratio.median", kUnset, median_ratio(raced.theirs, raced.ours), "x",
+  add_figure(result, "kdl_ratio.median", kUnset, raced.ratio(3, 0), "x",
              "KDL over the closed form, chunks of 250 interleaved", 5.0);
-  add_figure(result, "kdl_ratio.chain.median", kUnset, median_ratio(raced.theirs, raced.chain), "x",
+  add_figure(result, "kdl_ratio.chain.median", kUnset, raced.ratio(3, 2), "x",
              "KDL over our chain, the same machine");
-  const auto [tip, torque] = apart(raced.chain, raced.theirs);
+  const auto [tip, torque] = apart(chain, theirs);
   add_figure(result, "apart_from_kdl.tip.max", kUnset, tip, "m", "our chain against KDL", kUnset, 1e-12);
   add_figure(result, "apart_from_kdl.torque.max", kUnset, torque, "N m", "our chain against KDL", kUnset,
              1e-12);

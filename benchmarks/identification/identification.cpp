@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/identification/identification_trial.h"
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/parallel.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 
 namespace enc::bench::identification {
 namespace {
@@ -228,8 +226,9 @@ Plot width_plot(const std::array<Trials, 6>& all) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"identification", "rig_identify", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const std::array<Trials, 6> all = run_all(context);
   for (const Trials& trials : all)
     for (const IdentificationTrial& trial : trials) result.simulated += trial.simulated;
@@ -240,7 +239,10 @@ BenchResult run(const BenchContext& context) {
       "The fit knows the ball's law and the thickness of felt and wall; it does not know the eight numbers, "
       "where "
       "the ball stands, the force sensor's noise or its zero.";
-  return result;
 }
+
+const Entry kEntry{
+    "identification", "rig_identify",
+    "injected ball parameters out of a rig's loops: are they in the intervals, how wide are these", run};
 
 }  // namespace enc::bench::identification

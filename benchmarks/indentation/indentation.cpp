@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
 #include "benchmarks/report/reference.h"
 
@@ -233,8 +233,9 @@ IndentRuns IndentStudy::all(const Words& own, std::size_t count) const {
   return every;
 }
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"indentation", "indentation", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const IndentStudy study{context, paper_cells(context.models), (context.seed - 1) * 1000 + 1,
                           context.repeats > 0 ? static_cast<std::size_t>(context.repeats)
                           : context.quick     ? std::size_t{2}
@@ -271,7 +272,11 @@ BenchResult run(const BenchContext& context) {
       "Calibrated on Table 2: the press time of the hand, one for all cells. The hand's impedance, tremor "
       "and drift are "
       "those of the other scenes.";
-  return result;
 }
+
+const Entry kEntry{"indentation", "indentation",
+                   "a hand replicates indentations A, B, C on the virtual ball (VHMR Figs 8 and 10, Table "
+                   "2); directions, lag",
+                   run};
 
 }  // namespace enc::bench::indentation

@@ -1,12 +1,15 @@
-// A benchmark = a scene + a measure + a reference. results.json is read by others: keep its form
+// What a benchmark gives: figures, plots and tables. results.json is read by others: keep its form
 // (sources/choices 4).
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/frames.h"
 #include "core/module.h"
@@ -17,6 +20,16 @@ inline constexpr double kMm = 1e3;  // per m
 
 // calibrated: the paper's value set a parameter. predicted: it did not. ours: no paper value exists.
 enum class Role : std::uint8_t { calibrated, predicted, ours };
+
+// A number, or the middle of several with the least and the most of them.
+struct Value {
+  double middle = kUnset, least = kUnset, most = kUnset;
+  Value(double only) : middle(only) {}  // NOLINT(google-explicit-constructor): a number is a value
+  Value(double of, double from, double to) : middle(of), least(from), most(to) {}
+};
+[[nodiscard]] inline Value operator*(const Value& v, double by) {
+  return {v.middle * by, v.least * by, v.most * by};
+}
 
 struct Figure {
   std::string id;         // first token the benchmark, last token the statistic (sources/choices 10)
@@ -38,7 +51,16 @@ struct Series {
   std::vector<double> x{}, y{};
   std::vector<double> low{}, high{};
   Mark mark = Mark::line;
-  bool paper = false;  // the paper's own values: drawn alike in every plot
+  bool paper = false;                        // the paper's own values: drawn alike in every plot
+  void add(double at, const Value& value) {  // a point, with a bar where the value has one
+    x.push_back(at);
+    y.push_back(value.middle);
+    if (std::isnan(value.least) && low.empty()) return;
+    low.resize(x.size(), kUnset);
+    high.resize(x.size(), kUnset);
+    low.back() = value.least;
+    high.back() = value.most;
+  }
 };
 struct Plot {
   std::string id;                       // file name without ".svg"; begins with the benchmark's name
@@ -57,6 +79,10 @@ struct Table {
   std::vector<std::vector<std::string>> rows{};
   std::string note{};
   std::string source{};  // of a data file: lines about it, which begin its CSV; the report leaves it out
+  template <class... Cells>
+  void add(const Cells&... cells) {
+    rows.push_back({fmt::format("{}", cells)...});
+  }
 };
 
 struct BenchResult {
@@ -78,14 +104,11 @@ struct BenchContext {
   std::function<void(double)> progress;  // share done; any thread may call it
   // Loads a module of the program by name; null where it was not built.
   std::function<const ModuleInfo*(const std::string&)> module{};
+  // How many seeds or laps: what the user says, else the benchmark's own.
+  [[nodiscard]] std::size_t count(std::size_t own, std::size_t if_quick) const {
+    if (repeats > 0) return static_cast<std::size_t>(repeats);
+    return quick ? if_quick : own;
+  }
 };
-
-struct Benchmark {
-  const char* name;
-  const char* scene;
-  const char* what;
-  BenchResult (*run)(const BenchContext&);
-};
-[[nodiscard]] std::span<const Benchmark> benchmarks();
 
 }  // namespace enc::bench

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/statistics.h"
 #include "core/error.h"
@@ -145,45 +146,34 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
   const std::vector<Point> points = measured(spec, context);
   add_figures(spec, points, load_scene(context, spec.scene, spec.set), result);
 
-  Plot plot{spec.benchmark + "_work_precision",
-            "Error against run time: " + spec.scene,
-            "CPU time for one second of experiment (s)",
-            "error of the tip's path (um rms)",
-            true,
-            true,
-            {}};
-  plot.caption = fmt::format(
-      "True tip against the converged run of the same form; time steps 1 ms (left) to 62.5 us (right). {:g} "
-      "um is what "
-      "this benchmark needs. What failed stands at the upper edge.",
-      spec.accuracy * 1e6);
   Table table{spec.benchmark + "_work_precision",
               "Error against run time",
-              {"form", "integrator", "timestep_us", "error_um", "cpu_s_per_s", "times_real_time", "failure"},
-              {}};
+              {"form", "integrator", "timestep_us", "error_um", "cpu_s_per_s", "times_real_time", "failure"}};
+  std::vector<CostCurve> curves;
   for (const Form& form : forms())
     for (const std::string_view integrator : kIntegrators) {
-      Series series{fmt::format("{} {}", form.name, integrator), {}, {}};
-      series.mark = Mark::both;
-      Series failed{"", {}, {}};
-      failed.mark = Mark::crosses;
+      CostCurve curve{fmt::format("{} {}", form.name, integrator)};
       for (const Point& point : points) {
         if (point.form != &form || point.integrator != integrator) continue;
         const bool there = point.failure.empty();
-        Series& into = there ? series : failed;
-        if (std::isfinite(point.cpu)) {  // not so where it was refused before it ran
-          into.x.push_back(point.cpu);
-          into.y.push_back(there ? point.error * 1e6 : kUnset);
-        }
-        table.rows.push_back({form.name, std::string(integrator), fmt::format("{:g}", point.step * 1e6),
-                              there ? fmt::format("{:.3g}", point.error * 1e6) : "",
-                              fmt::format("{:.3g}", point.cpu), fmt::format("{:.0f}", 1.0 / point.cpu),
-                              point.failure});
+        curve.cost.push_back(point.cpu);
+        curve.error.push_back(there ? point.error * 1e6 : kUnset);
+        table.add(form.name, integrator, fmt::format("{:g}", point.step * 1e6),
+                  there ? fmt::format("{:.3g}", point.error * 1e6) : "", fmt::format("{:.3g}", point.cpu),
+                  fmt::format("{:.0f}", 1.0 / point.cpu), point.failure);
       }
-      plot.series.push_back(std::move(series));
-      if (!failed.x.empty()) plot.series.push_back(std::move(failed));
+      curves.push_back(std::move(curve));
     }
-  result.plots.push_back(std::move(plot));
+  result.plots.push_back(cost_beside_error(
+      {.id = spec.benchmark + "_work_precision",
+       .title = "Error against run time: " + spec.scene,
+       .x_label = "CPU time for one second of experiment (s)",
+       .y_label = "error of the tip's path (um rms)",
+       .caption = fmt::format(
+           "True tip against the converged run of the same form; time steps 1 ms (left) to 62.5 us "
+           "(right). {:g} um is what this benchmark needs. What failed stands at the upper edge.",
+           spec.accuracy * 1e6)},
+      curves));
   result.tables.push_back(std::move(table));
 }
 

@@ -21,6 +21,12 @@ class Yardstick {
     }
     seconds_.push_back(thread_seconds() - start);
   }
+  // Looks on at a trial (TrialOptions::watch), and measures now and then.
+  [[nodiscard]] auto watch() {
+    return [this](const auto& glance) {
+      if (glance.tick.index % 100 == 0) measure();
+    };
+  }
   [[nodiscard]] double seconds() const { return median(seconds_); }  // of one
 
  private:

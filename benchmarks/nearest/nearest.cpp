@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/peers/peers.h"
 #include "core/mesh/mesh_tree.h"
 #include "core/module.h"
@@ -58,20 +57,6 @@ std::vector<Point<'O'>> hand_path() {
   return path;
 }
 
-// One who answers, and the CPU seconds that each chunk took.
-struct Runner {
-  std::vector<double> seconds;
-  std::vector<double> distances = std::vector<double>(kQueries);
-
-  template <class Ask>
-  void chunk(const std::vector<Point<'O'>>& path, std::size_t first, Ask& ask) {
-    const double start = thread_seconds();
-    for (std::size_t i = first; i < first + kChunk; ++i) distances[i] = ask.answer(path[i]);
-    seconds.push_back(thread_seconds() - start);
-  }
-  [[nodiscard]] double nanoseconds(double share) const { return percentile(seconds, share) / kChunk * 1e9; }
-};
-
 // Warm: each query gets the answer of the one before.
 struct Ours {
   const MeshTree& tree;
@@ -86,7 +71,7 @@ struct Ours {
 struct Theirs {
   NearestPeer& peer;
   double distance = 1.0;
-  std::optional<Point<'O'>> before;
+  std::optional<Point<'O'>> before{};
   double answer(const Point<'O'>& p) {
     const double radius = (distance + (before ? (p - *before).norm() : 0.0)) * (1.0 + 1e-5) + 1e-7;
     const NearestPeer::Found found = peer.nearest(
@@ -98,46 +83,25 @@ struct Theirs {
   }
 };
 
-struct Race {
-  Runner ours, again, theirs;
-  [[nodiscard]] static double median_ratio(const Runner& a, const Runner& b) {
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < a.seconds.size(); ++i) ratios.push_back(a.seconds[i] / b.seconds[i]);
-    return percentile(ratios, 0.5);
-  }
-};
-
-// Every chunk is answered by all, in an order drawn anew; ours takes part twice, to know what a ratio of one
-// looks like here.
-Race race(const MeshTree& tree, NearestPeer* peer, int laps, const BenchContext& context) {
-  const std::vector<Point<'O'>> path = hand_path();
-  std::mt19937_64 random(context.seed);
-  Race result;
-  for (int lap = -1; lap < laps; ++lap) {
-    if (lap == 0)  // the first was to warm up
-      for (Runner* runner : {&result.ours, &result.again, &result.theirs}) runner->seconds.clear();
-    Ours ours{tree};
-    Ours again{tree};
-    std::optional<Theirs> theirs;
-    if (peer != nullptr) theirs.emplace(Theirs{*peer, 1.0, {}});
-    for (std::size_t first = 0; first < kQueries; first += kChunk) {
-      std::array<int, 3> order{0, 1, 2};
-      std::shuffle(order.begin(), order.end(), random);
-      for (const int who : order) {
-        if (who == 0) result.ours.chunk(path, first, ours);
-        if (who == 1) result.again.chunk(path, first, again);
-        if (who == 2 && theirs) result.theirs.chunk(path, first, *theirs);
-      }
-    }
-  }
-  return result;
+// A way of the race: the hand's next chunk at each call, lap after lap.
+template <class Ask>
+std::function<void()> answering(const std::vector<Point<'O'>>& path, std::vector<double>& distances,
+                                Ask ask) {
+  return in_chunks(kQueries, kChunk, [&, ask](std::size_t i) mutable { distances[i] = ask.answer(path[i]); });
+}
+Race race(std::size_t laps, const std::vector<std::function<void()>>& ways) {
+  constexpr std::size_t kLap = kQueries / kChunk;
+  return {laps * kLap, ways, kLap};
+}
+// Of a query, over chunks.
+double nanoseconds(const Race& race, std::size_t way, double share) {
+  return race.seconds(way, share) / kChunk * 1e9;
 }
 
 struct Jumps {
   double point = 0.0, normal = 0.0;  // m beyond the way of the query; rad
 };
-Jumps largest_jumps(const MeshTree& tree) {
-  const std::vector<Point<'O'>> path = hand_path();
+Jumps largest_jumps(const MeshTree& tree, const std::vector<Point<'O'>>& path) {
   Jumps most;
   Nearest before = tree.nearest(path.front());
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -150,73 +114,79 @@ Jumps largest_jumps(const MeshTree& tree) {
   return most;
 }
 
-class Report {
- public:
-  explicit Report(BenchResult& result) : result_(result) {}
-  void operator()(const std::string& id, double value, const char* unit, const char* note,
-                  double low = kUnset, double high = kUnset) {
-    result_.figures.push_back({"nearest." + id, kUnset, value, unit, Role::ours, low, high, note});
+// A ball of 100,000 triangles; ours takes part twice, to know what a ratio of one looks like here.
+void against_peer(Bench& bench, const MeshTree& tree, NearestPeer* peer, const std::vector<Point<'O'>>& path,
+                  std::size_t laps) {
+  std::vector<double> ours(kQueries), again(kQueries), theirs(kQueries);
+  std::vector<std::function<void()>> ways{answering(path, ours, Ours{tree}),
+                                          answering(path, again, Ours{tree})};
+  if (peer != nullptr) ways.push_back(answering(path, theirs, Theirs{*peer}));
+  const Race raced = race(laps, ways);
+  if (peer != nullptr) {
+    bench.figure("ball_100k.ratio_to_embree.median", raced.ratio(2, 0), "x", at_least(3.0),
+                 "Embree's point query, radius hint, over our signed query, warm; chunks of 500 interleaved");
+    bench.figure("ball_100k.embree.p50", nanoseconds(raced, 2, 0.5), "ns", "a query, over chunks");
+    bench.figure("ball_100k.embree.p99", nanoseconds(raced, 2, 0.99), "ns", "a query, over chunks");
+    double apart = 0.0;
+    for (std::size_t i = 0; i < kQueries; ++i)
+      apart = std::max(apart, std::abs(std::abs(ours[i]) - theirs[i]));
+    bench.figure("ball_100k.apart_from_embree.max", apart, "m", at_most(1e-6),
+                 "distances; Embree computes in float");
   }
-
- private:
-  BenchResult& result_;
-};
-
-void against_peer(const Race& raced, Report& add) {
-  add("ball_100k.ratio_to_embree.median", Race::median_ratio(raced.theirs, raced.ours), "x",
-      "Embree's point query, radius hint, over our signed query, warm; chunks of 500 interleaved", 3.0);
-  add("ball_100k.embree.p50", raced.theirs.nanoseconds(0.5), "ns", "a query, over chunks");
-  add("ball_100k.embree.p99", raced.theirs.nanoseconds(0.99), "ns", "a query, over chunks");
-  double apart = 0.0;
-  for (std::size_t i = 0; i < kQueries; ++i)
-    apart = std::max(apart, std::abs(std::abs(raced.ours.distances[i]) - raced.theirs.distances[i]));
-  add("ball_100k.apart_from_embree.max", apart, "m", "distances; Embree computes in float", kUnset, 1e-6);
+  bench.figure("ball_100k.p50", nanoseconds(raced, 0, 0.5), "ns",
+               "a query, over chunks of 500, thread CPU time");
+  bench.figure("ball_100k.p99", nanoseconds(raced, 0, 0.99), "ns", "a query, over chunks of 500");
+  bench.figure("same_over_same.median", raced.ratio(1, 0), "x",
+               "ours over ours in the same run: how far the machine can be trusted");
 }
 
-}  // namespace
+void growth(Bench& bench, const std::vector<Point<'O'>>& path, std::size_t laps) {
+  const MeshTree small(models::geodesic_ball(7));
+  const Mesh ball = models::geodesic_ball(224);
+  const double start = thread_seconds();
+  const MeshTree large(ball);
+  const double built = thread_seconds() - start;
+  bench.progress(0.8);
+  std::vector<double> distances(kQueries);
+  const auto alone = [&](const MeshTree& tree) {
+    const auto way = answering(path, distances, Ours{tree});
+    return race(laps, {way, way});
+  };
+  const Race few = alone(small), many = alone(large);
+  bench.figure("ball_1k.p50", nanoseconds(few, 0, 0.5), "ns", "980 triangles");
+  bench.figure("ball_1M.p50", nanoseconds(many, 0, 0.5), "ns", "1,003,520 triangles");
+  bench.figure("ball_1M.p99", nanoseconds(many, 0, 0.99), "ns", "1,003,520 triangles");
+  bench.figure("growth_1k_to_1M.median", many.ratio(0, few, 0), "x", at_most(3.5), "the same hand");
+  bench.figure("ball_1M.build", built, "s", at_most(2.0), "the tree, normals included; CPU time");
+  bench.figure("ball_1M.memory",
+               static_cast<double>(large.memory_bytes()) / static_cast<double>(ball.triangles.size()),
+               "B/tri", at_most(150.0), "the mesh included");
+}
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"nearest", "geodesic ball", 0, 0, {}, {}};
-  Report add(result);
-  const int laps = context.repeats > 0 ? static_cast<int>(context.repeats) : (context.quick ? 1 : 3);
+void run(Bench& bench) {
+  const std::size_t laps = bench.context.count(3, 1);
+  const std::vector<Point<'O'>> path = hand_path();
   const Mesh ball = models::geodesic_ball(71);
   const MeshTree tree(ball);
   std::unique_ptr<NearestPeer> embree;
-  const ModuleInfo* module = context.module ? context.module("peers") : nullptr;
+  const ModuleInfo* module = bench.context.module ? bench.context.module("peers") : nullptr;
   const auto* peers = module != nullptr ? static_cast<const PeersModule*>(module->peers) : nullptr;
   if (peers != nullptr && peers->embree != nullptr)
     embree = peers->embree(ball);
   else
-    result.note = "no race: Embree was not there when this was built (./encounter bench installs it)";
-  const Race raced = race(tree, embree.get(), laps, context);
-  if (context.progress) context.progress(0.4);
-  if (embree) against_peer(raced, add);
-  add("ball_100k.p50", raced.ours.nanoseconds(0.5), "ns", "a query, over chunks of 500, thread CPU time");
-  add("ball_100k.p99", raced.ours.nanoseconds(0.99), "ns", "a query, over chunks of 500");
-  add("same_over_same.median", Race::median_ratio(raced.again, raced.ours), "x",
-      "ours over ours in the same run: how far the machine can be trusted");
-  const Jumps jumps = largest_jumps(tree);
-  add("ball_100k.point_jump.max", jumps.point * 1e3, "mm",
-      "of the point between ticks, beyond the hand's way", kUnset, 0.1);
-  add("ball_100k.normal_jump.max", jumps.normal * 180.0 / M_PI, "deg", "of the normal between ticks");
-
-  const Race small = race(MeshTree(models::geodesic_ball(7)), nullptr, laps, context);
-  const Mesh large = models::geodesic_ball(224);
-  if (context.progress) context.progress(0.6);
-  const double start = thread_seconds();
-  const MeshTree large_tree(large);
-  const double built = thread_seconds() - start;
-  if (context.progress) context.progress(0.8);
-  const Race big = race(large_tree, nullptr, laps, context);
-  add("ball_1k.p50", small.ours.nanoseconds(0.5), "ns", "980 triangles");
-  add("ball_1M.p50", big.ours.nanoseconds(0.5), "ns", "1,003,520 triangles");
-  add("ball_1M.p99", big.ours.nanoseconds(0.99), "ns", "1,003,520 triangles");
-  add("growth_1k_to_1M.median", Race::median_ratio(big.ours, small.ours), "x", "the same hand", kUnset, 3.5);
-  add("ball_1M.build", built, "s", "the tree, normals included; CPU time", kUnset, 2.0);
-  add("ball_1M.memory",
-      static_cast<double>(large_tree.memory_bytes()) / static_cast<double>(large.triangles.size()), "B/tri",
-      "the mesh included", kUnset, 150.0);
-  return result;
+    bench.result.note = "no race: Embree was not there when this was built (./encounter bench installs it)";
+  against_peer(bench, tree, embree.get(), path, laps);
+  bench.progress(0.4);
+  const Jumps jumps = largest_jumps(tree, path);
+  bench.figure("ball_100k.point_jump.max", jumps.point * kMm, "mm", at_most(0.1),
+               "of the point between ticks, beyond the hand's way");
+  bench.figure("ball_100k.normal_jump.max", jumps.normal * 180.0 / M_PI, "deg",
+               "of the normal between ticks");
+  growth(bench, path, laps);
 }
 
+const Entry kEntry{"nearest", "geodesic ball",
+                   "nearest point on a mesh: time, growth, jumps, race against Embree", run};
+
+}  // namespace
 }  // namespace enc::bench::nearest

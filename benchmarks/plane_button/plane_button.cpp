@@ -1,9 +1,12 @@
 #include "benchmarks/plane_button/plane_button.h"
 
+#include "benchmarks/kit/kit.h"
+
 namespace enc::bench::plane_button {
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"plane_button", "wall", 0, 0, {}, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   result.note =
       "The paper prints no units on either axis: shapes are compared, all numbers are ours. Force is the "
       "contact "
@@ -19,7 +22,9 @@ BenchResult run(const BenchContext& context) {
   measure_step(context, report);
   progress(0.8);
   if (!context.quick) measure_precision(context, report);
-  return result;
 }
+
+const Entry kEntry{"plane_button", "wall",
+                   "force over distance, wall and button (VisHap Figs 4, 5); late finger, step, limits", run};
 
 }  // namespace enc::bench::plane_button

@@ -93,9 +93,7 @@ void speed_figures(const BenchContext& context, const Report& report) {
     trial::TrialOptions options;
     options.seed = context.seed;
     options.seconds = context.quick ? 1.0 : 6.0;
-    options.watch = [&](const trial::Glance& glance) {
-      if (glance.tick.index % 100 == 0) yardstick.measure();
-    };
+    options.watch = yardstick.watch();
     trial::Trial trial(load_scene(context, "wall", {"user.approach_mm_s=[200]"}), std::move(options));
     const double start = thread_seconds();
     const trial::TrialResult run = trial.run();

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/load_scene.h"
-#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/kit.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::press {
@@ -20,7 +17,8 @@ struct Tally {
   double outside = -1.0, tension = 0.0, restore = 0.0, simulated = 0.0, over_limit = -trial::kInfinite;
 };
 
-void press_once(const models::Setup& setup, std::uint64_t seed, Tally& tally) {
+Tally press(const models::Setup& setup, std::uint64_t seed) {
+  Tally tally;
   const trial::PressMeasure measure = trial::measured_run(setup, seed, tally.simulated);
   for (const trial::PressFigures& press : measure.presses()) {
     ++tally.presses;  // also one that never met the surface: it then has no contact
@@ -30,19 +28,14 @@ void press_once(const models::Setup& setup, std::uint64_t seed, Tally& tally) {
   }
   tally.outside = std::max(tally.outside, measure.greatest_outside());
   tally.tension = std::max(tally.tension, measure.greatest_tension());
+  return tally;
 }
 
-// The tallies of `count` runs on all cores, in their order.
-Tally press_all(std::size_t count, const std::function<void(std::size_t, Tally&)>& press,
-                const std::function<void(double)>& progress = {}) {
-  std::vector<Tally> each(count);
-  in_parallel(
-      count, [&](std::size_t i) { press(i, each[i]); }, progress);
+Tally sum(const std::vector<Tally>& each) {
   Tally all;
   for (const Tally& one : each) {
     all.presses += one.presses;
     all.single += one.single;
-    all.simulated += one.simulated;
     all.outside = std::max(all.outside, one.outside);
     all.tension = std::max(all.tension, one.tension);
     all.restore = std::max(all.restore, one.restore);
@@ -51,58 +44,47 @@ Tally press_all(std::size_t count, const std::function<void(std::size_t, Tally&)
   return all;
 }
 
-// Registration errors of 0.3 mm along the normal, both ways, and along both tangents, on top of the tracker's
-// own noise.
-Vec3 bias_of(std::int64_t i) {
+// The i-th hand: registration errors of 0.3 mm along the normal, both ways, and along both tangents, on top
+// of the tracker's own noise; all of them at one speed, then at the next.
+models::Setup varied(models::Setup setup, std::uint64_t i) {
   constexpr double kBias = 0.3e-3;
-  const double sign = i % 2 == 0 ? kBias : -kBias;
-  return sign * Vec3::Unit(static_cast<int>((2 + i / 2) % 3));
+  constexpr std::array kSpeeds{0.010, 0.020, 0.050, 0.100};  // m/s
+  setup.twin.tracker.bias = (i % 2 == 0 ? kBias : -kBias) * Vec3::Unit(static_cast<int>((2 + i / 2) % 3));
+  setup.scene.user->approach = {kSpeeds[i / 6 % kSpeeds.size()]};
+  return setup;
 }
 
-}  // namespace
-
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"press", "tennis_ball", 0, 0, {}};
-  models::Setup setup = load_scene(context, "tennis_ball");
-  const std::int64_t repeats = context.repeats > 0 ? context.repeats : (context.quick ? 20 : 200);
+void run(Bench& bench) {
+  models::Setup setup = bench.setup();
   UserSpec& user = *setup.scene.user;
   user.press_time = user.release_time = 1.5;
   user.hold_time = 0.2;
   user.depth = 0.004;
-  const Tally tally = press_all(
-      static_cast<std::size_t>(repeats),
-      [&](std::size_t i, Tally& one) {
-        models::Setup own = setup;
-        own.twin.tracker.bias = bias_of(static_cast<std::int64_t>(i));
-        own.scene.user->approach = {std::array{0.010, 0.020, 0.050, 0.100}[i / 6 % 4]};
-        press_once(own, context.seed + i, one);
-      },
-      context.progress);
-  const auto add = [&](std::string id, double twin, const char* unit, double low, double high,
-                       std::string note) {
-    result.figures.push_back({std::move(id), kUnset, twin, unit, Role::ours, low, high, std::move(note)});
-  };
-  add("press.one_contact.percent",
-      100.0 * static_cast<double>(tally.single) / static_cast<double>(tally.presses), "%", 100, 100,
+  const Tally tally = sum(bench.each(bench.seeds(bench.context.count(200, 20)), [&](std::uint64_t seed) {
+    return press(varied(setup, seed - bench.context.seed), seed);
+  }));
+  bench.figure(
+      "one_contact.percent", 100.0 * static_cast<double>(tally.single) / static_cast<double>(tally.presses),
+      "%", exactly(100),
       fmt::format("{} presses, tracker off by 0.3 mm along x, y, z, both ways, with noise", tally.presses));
-  add("press.restore.max", tally.restore * 1e6, "um", 0, 6,
-      "true tip to the buffered point; the machine steps by 3 um, servo still settling");
-  add("press.outside.max", tally.outside * 1e6, "um", kUnset, 0,
-      "true tip outside the undeformed object; negative: always inside");
-  add("press.tension.max", tally.tension, "N", 0, 0.05, "pull on the unbound tool");
-  result.simulated = tally.simulated;
+  bench.figure("restore.max", tally.restore * 1e6, "um", between(0, 6),
+               "true tip to the buffered point; the machine steps by 3 um, servo still settling");
+  bench.figure("outside.max", tally.outside * 1e6, "um", at_most(0),
+               "true tip outside the undeformed object; negative: always inside");
+  bench.figure("tension.max", tally.tension, "N", between(0, 0.05), "pull on the unbound tool");
 
-  setup = load_scene(context, "push_limit");
+  setup = load_scene(bench.context, "push_limit");
   for (const double limit : {0.006, 0.004, 0.002}) {
     setup.scene.objects.front().limit = limit;
-    const Tally pushed = press_all(context.quick ? 2U : 10U, [&](std::size_t i, Tally& one) {
-      press_once(setup, context.seed + i, one);
-    });
-    add(fmt::format("press.over_limit.{:.0f}.max", limit * 1e3), pushed.over_limit * 1e6, "um", -50, 50,
-        "true deflection above the limit under a push of 30 N");
-    result.simulated += pushed.simulated;
+    const Tally pushed = sum(bench.each(bench.seeds(bench.context.quick ? 2 : 10),
+                                        [&](std::uint64_t seed) { return press(setup, seed); }));
+    bench.figure(fmt::format("over_limit.{:.0f}.max", limit * 1e3), pushed.over_limit * 1e6, "um",
+                 between(-50, 50), "true deflection above the limit under a push of 30 N");
   }
-  return result;
 }
 
+const Entry kEntry{"press", "tennis_ball", "one contact for each press, limit held, tip inside, no pull",
+                   run};
+
+}  // namespace
 }  // namespace enc::bench::press

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 
 namespace enc::bench::reaching {
 namespace {
@@ -234,8 +234,9 @@ void slide_part(const BenchContext& context, BenchResult& result, const Adder& a
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"reaching", "wall", 0, 0, {}, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const Adder add = [&](const std::string& id, double value, const char* unit, double low, double high,
                         const std::string& note) {
     result.figures.push_back({"reaching." + id, kUnset, value, unit, Role::ours, low, high, note});
@@ -250,7 +251,10 @@ BenchResult run(const BenchContext& context) {
   slide_part(context, result, add);
   if (context.full) add_reaching_full(context, result);
   progress(1.0);
-  return result;
 }
+
+const Entry kEntry{
+    "reaching", "wall",
+    "is the prop there before the finger, how far beside it and how hard do they meet (VisHap 2.2)", run};
 
 }  // namespace enc::bench::reaching

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/report/reference.h"
 #include "trial/guided/driven_arm.h"
 
@@ -228,8 +228,9 @@ std::vector<double> worst_axis(const std::vector<Vec3>& errors) {
   return worst;
 }
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"registration", "vishap", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const double paper = [&] {
     const Reference reference = Reference::load(context.models, "registration.csv");
     return reference.number(reference.row({{"quantity", "mean_error_mm"}}), "value");
@@ -266,7 +267,10 @@ BenchResult run(const BenchContext& context) {
       "{} seeds; places by the arm's kinematics alone, those of twin.* driven; points with the errors of "
       "stereo matching, no images",
       study.seeds);
-  return result;
 }
+
+const Entry kEntry{"registration", "vishap",
+                   "camera and arm from pairs of places: error per axis, pairs and frames, time (VisHap 2.2)",
+                   run};
 
 }  // namespace enc::bench::registration

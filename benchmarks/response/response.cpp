@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/kit.h"
 #include "core/world/scene.h"
 #include "models/fit/loop_fit.h"
 #include "models/setup/scene_file.h"
@@ -26,16 +26,20 @@ constexpr double kLimit = 6e-3;   // m
 constexpr double kSpeed = 4e-3;   // m/s
 constexpr double kPeriod = 1e-3;  // s
 
+// From one deflection to the next, m, in equal steps of about this size.
+void walk(std::vector<double>& path, double from, double to, double step) {
+  const auto steps = std::max(1L, std::lround(std::abs(to - from) / step));
+  for (long i = 1; i <= steps; ++i)
+    path.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
+}
+
 // Deflections, m, from 0 along the turns (mm) at kSpeed, a reading each kPeriod.
 std::vector<double> path_of(const std::vector<double>& turns) {
   std::vector<double> path;
   double at = 0.0;
   for (const double turn : turns) {
-    const double to = turn * 1e-3;
-    const auto steps = std::max(1L, std::lround(std::abs(to - at) / (kSpeed * kPeriod)));
-    for (long i = 1; i <= steps; ++i)
-      path.push_back(at + (to - at) * static_cast<double>(i) / static_cast<double>(steps));
-    at = to;
+    walk(path, at, turn * 1e-3, kSpeed * kPeriod);
+    at = turn * 1e-3;
   }
   return path;
 }
@@ -140,9 +144,7 @@ double least_absorbed(const Response& response, std::uint64_t seed) {
     double at = base;
     for (auto turns = static_cast<int>(uniform(random, 2.0, 10.0)); turns >= 0; --turns) {
       const double to = turns == 0 ? base : uniform(random, 0.0, kLimit);
-      const auto steps = std::max(1L, std::lround(std::abs(to - at) / uniform(random, 1e-6, 10e-6)));
-      for (long i = 1; i <= steps; ++i)
-        path.push_back(at + (to - at) * static_cast<double>(i) / static_cast<double>(steps));
+      walk(path, at, to, uniform(random, 1e-6, 10e-6));
       at = to;
     }
     ResponseState state;
@@ -192,71 +194,81 @@ std::string second_loop_csv() {
   return text;
 }
 
-}  // namespace
+// A way to answer where the direction changes, and what is asked of it.
+struct Model {
+  const char* name;
+  Reversal reversal;
+  double most_error, most_tremor;  // N
+};
+constexpr std::array<Model, 2> kModels{{{"energy_stop", Reversal::energy_stop, kUnset, 0.2},
+                                        {"prandtl_ishlinskii", Reversal::prandtl_ishlinskii, 0.08, kUnset}}};
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"response", "tennis_ball", 0, 0, {}};
-  const auto add = [&](std::string id, double twin, const char* unit, double low, double high,
-                       std::string note) {
-    result.figures.push_back(
-        {"response." + std::move(id), kUnset, twin, unit, Role::ours, low, high, std::move(note)});
-  };
-  const double floor = models::fit_floor(loop_of(models::load_rig(context.models + "/rigs/sim.toml")));
-  const ResponseSpec ball = models::load_response(context.models + "/responses/tennis_ball.toml");
-  const ResponseSpec second = fitted(second_loop_csv(), floor);
+void minor_loop_plot(Bench& bench, const ResponseSpec& ball, double floor) {
   const MinorLoop& drawn = minor_loops()[1];
   Ball plant;
-  result.plots.push_back(
-      {"response.minor_loop",
-       "Force where the direction changes: 0-5-3-6-1-4-0 mm",
-       "deflection (mm)",
-       "force (N)",
-       false,
-       false,
-       {loop_series("plant of the ball", drawn, [&](double d) { return plant.force(d); })},
-       "Both models know only the full loop 0-6-0; what they do inside of it is predicted."});
-  struct Model {
-    const char* name;
-    Reversal reversal;
-    double most_error, most_tremor;
-  };
-  for (const Model& m : {Model{"energy_stop", Reversal::energy_stop, kUnset, 0.2},
-                         Model{"prandtl_ishlinskii", Reversal::prandtl_ishlinskii, 0.08, kUnset}}) {
+  std::vector<Series> all{loop_series("plant of the ball", drawn, [&](double d) { return plant.force(d); })};
+  for (const Model& m : kModels) {
     const Response response(ball, floor, m.reversal);
-    const Response of_second(second, floor, m.reversal);
     ResponseState state;
-    result.plots.back().series.push_back(
-        loop_series(m.name, drawn, [&](double d) { return response.force(state, d); }));
-    for (const MinorLoop& loop : minor_loops()) {
-      const std::vector<double> path = path_of(loop.turns);
-      result.simulated += static_cast<double>(path.size()) * kPeriod;
-      add(fmt::format("{}.minor_{}.rmse", m.name, loop.name), error_on(response, path, Ball{}), "N", kUnset,
-          m.most_error,
-          "against the plant at 4 mm/s; the shipped response knows the rig's pushes 0-6-0 alone");
-      add(fmt::format("{}.second_plant_{}.rmse", m.name, loop.name), error_on(of_second, path, BoucWen{}),
-          "N", kUnset, kUnset, "Bouc-Wen with relaxation, fitted to its own 0-6-0: for information");
-    }
-    add(fmt::format("{}.change.max", m.name), largest_change(response), "N", kUnset, 0.03,
-        "force from one 1 ms cycle to the next at 4 mm/s");
-    add(fmt::format("{}.tremor.pp", m.name), tremor(response), "N", kUnset, m.most_tremor,
-        "+-30 um at rest, the worst of all deflections and both branches");
-    add(fmt::format("{}.absorbed.min", m.name), least_absorbed(response, context.seed) * 1e3, "mJ", -1e-3,
-        kUnset, "1,000 random closed paths, cycled twice first");
-    if (context.progress) context.progress(m.reversal == Reversal::energy_stop ? 0.4 : 0.8);
+    all.push_back(loop_series(m.name, drawn, [&](double d) { return response.force(state, d); }));
   }
-  // The price of quiet stops: a passive force turns fastest at once, so what is quiet for a tremor turns
-  // late.
+  bench.plot(
+      {.id = "minor_loop",
+       .title = "Force where the direction changes: 0-5-3-6-1-4-0 mm",
+       .x_label = "deflection (mm)",
+       .y_label = "force (N)",
+       .series = all,
+       .caption = "Both models know only the full loop 0-6-0; what they do inside of it is predicted."});
+}
+
+void judge(Bench& bench, const Model& m, const Response& response, const Response& of_second) {
+  const auto id = [&](const std::string& what) { return fmt::format("{}.{}", m.name, what); };
+  for (const MinorLoop& loop : minor_loops()) {
+    const std::vector<double> path = path_of(loop.turns);
+    bench.result.simulated += static_cast<double>(path.size()) * kPeriod;
+    bench.figure(id(fmt::format("minor_{}.rmse", loop.name)), error_on(response, path, Ball{}), "N",
+                 at_most(m.most_error),
+                 "against the plant at 4 mm/s; the shipped response knows the rig's pushes 0-6-0 alone");
+    bench.figure(id(fmt::format("second_plant_{}.rmse", loop.name)), error_on(of_second, path, BoucWen{}),
+                 "N", "Bouc-Wen with relaxation, fitted to its own 0-6-0: for information");
+  }
+  bench.figure(id("change.max"), largest_change(response), "N", at_most(0.03),
+               "force from one 1 ms cycle to the next at 4 mm/s");
+  bench.figure(id("tremor.pp"), tremor(response), "N", at_most(m.most_tremor),
+               "+-30 um at rest, the worst of all deflections and both branches");
+  bench.figure(id("absorbed.min"), least_absorbed(response, bench.context.seed) * 1e3, "mJ", at_least(-1e-3),
+               "1,000 random closed paths, cycled twice first");
+}
+
+// The price of quiet stops: a passive force turns fastest at once, so what is quiet for a tremor turns late.
+void quiet_stops(Bench& bench, double floor) {
   constexpr double kQuiet = 0.2 / 60e-6;  // N/m: 0.2 N for 60 um
-  const Response quiet(
-      fitted(trial::table_of_run(models::load(context.models + "/scenes/rig_A.toml", "sim"), 1), floor,
-             kQuiet),
-      floor, Reversal::prandtl_ishlinskii);
+  const models::Setup rig = models::load(bench.context.models + "/scenes/rig_A.toml", "sim");
+  const Response quiet(fitted(trial::table_of_run(rig, 1), floor, kQuiet), floor,
+                       Reversal::prandtl_ishlinskii);
   double worst = 0.0;
   for (const MinorLoop& loop : minor_loops())
     worst = std::max(worst, error_on(quiet, path_of(loop.turns), Ball{}));
-  add("quiet_stops.tremor.pp", tremor(quiet), "N", kUnset, 0.2, "stops fitted with --ceiling-N-per-mm 3.333");
-  add("quiet_stops.minor.rmse", worst, "N", kUnset, kUnset, "worst minor loop of these: the price");
-  return result;
+  bench.figure("quiet_stops.tremor.pp", tremor(quiet), "N", at_most(0.2),
+               "stops fitted with --ceiling-N-per-mm 3.333");
+  bench.figure("quiet_stops.minor.rmse", worst, "N", "worst minor loop of these: the price");
 }
 
+void run(Bench& bench) {
+  const std::string& folder = bench.context.models;
+  const double floor = models::fit_floor(loop_of(models::load_rig(folder + "/rigs/sim.toml")));
+  const ResponseSpec ball = models::load_response(folder + "/responses/tennis_ball.toml");
+  const ResponseSpec second = fitted(second_loop_csv(), floor);
+  minor_loop_plot(bench, ball, floor);
+  for (const Model& m : kModels) {
+    judge(bench, m, Response(ball, floor, m.reversal), Response(second, floor, m.reversal));
+    bench.progress(m.reversal == Reversal::energy_stop ? 0.4 : 0.8);
+  }
+  quiet_stops(bench, floor);
+}
+
+const Entry kEntry{"response", "tennis_ball",
+                   "both response models: minor loops, jumps, tremor at rest, energy", run};
+
+}  // namespace
 }  // namespace enc::bench::response

@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/parallel.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
 #include "core/mode.h"
 #include "core/task/walk.h"
@@ -202,14 +201,14 @@ void add_precision(const BenchContext& context, BenchResult& result) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"session", "session", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   std::vector<std::string> set;
   if (context.quick) set = {"user.session.duration_s=10", "user.session.change_share=[0.1, 0.2]"};
   set.insert(set.end(), context.set.begin(), context.set.end());
   const models::Setup setup = models::load(context.models + "/scenes/session.toml", "sim", set);
-  const auto hands =
-      static_cast<std::size_t>(context.repeats > 0 ? context.repeats : (context.quick ? 2 : 20));
+  const std::size_t hands = context.count(20, 2);
   std::vector<SessionRun> runs(hands);
   std::vector<SessionSample> drawn;
   in_parallel(
@@ -224,7 +223,11 @@ BenchResult run(const BenchContext& context) {
   figures.add_change(tracker.packets == sim::Packets::polled ? tracker.server_rate : tracker.rate);
   add_session_plots(runs, drawn, result);
   if (context.full) add_precision(context, result);
-  return result;
 }
+
+const Entry kEntry{
+    "session", "session",
+    "a user's two minutes: contacts, miss, delay and impact of each press, a change of tools (VHMR 4.4)",
+    run};
 
 }  // namespace enc::bench::session

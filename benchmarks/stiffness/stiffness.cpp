@@ -8,8 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/parallel.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
 #include "benchmarks/report/reference.h"
 #include "benchmarks/stiffness/stiffness_beyond.h"
@@ -349,8 +348,9 @@ void add_level_table(const std::vector<Level>& levels, BenchResult& result) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& given) {
-  BenchResult result{"stiffness", "stiffness", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& given = bench.context;
+  BenchResult& result = bench.result;
   BenchContext context = given;
   context.seed = (given.seed - 1) * 10'000 + 1;  // each push has a seed of its own: seeds 1 and 2 share none
   const Paper paper = paper_of(context.models);
@@ -390,7 +390,9 @@ BenchResult run(const BenchContext& given) {
   result.note =
       "Calibrated on the softest stable wall: the pusher's stiffness. Assumed: threshold and drift of the "
       "force's zero, which set the error below 0.3 N/mm.";
-  return result;
 }
+
+const Entry kEntry{"stiffness", "stiffness",
+                   "apparent over commanded stiffness, softest stable wall (VHMR Fig 3)", run};
 
 }  // namespace enc::bench::stiffness

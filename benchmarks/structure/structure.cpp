@@ -7,10 +7,8 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/load_scene.h"
-#include "benchmarks/kit/parallel.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/structure/structure_model.h"
 #include "trial/trial.h"
 
@@ -82,10 +80,11 @@ const std::vector<Family>& families() {
 }
 
 // Error against the own converged path; each halving's order; cost.
-void converge(const Report& report, const Family& family, const Path& truth, const std::vector<Path>& paths) {
+CostCurve converge(const Report& report, const Family& family, const Path& truth,
+                   const std::vector<Path>& paths) {
   double before = kUnset;
   Series error_of_step{fmt::format("{}, {}", family.name(), family.integrator), {}, {}, {}, {}, Mark::both};
-  Series error_of_cost = error_of_step;
+  CostCurve error_of_cost{error_of_step.name};
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const Path& path = paths[i];
     const double h = family.steps[i];
@@ -103,13 +102,12 @@ void converge(const Report& report, const Family& family, const Path& truth, con
                  "log2 of the error at twice this step over the error here");
     }
     before = error;
-    error_of_step.x.push_back(h * 1e6);
-    error_of_cost.x.push_back(path.us_per_step / (h * 1e6));
-    error_of_step.y.push_back(error * 1e6);
-    error_of_cost.y.push_back(error * 1e6);
+    error_of_step.add(h * 1e6, error * 1e6);
+    error_of_cost.cost.push_back(path.us_per_step / (h * 1e6));
+    error_of_cost.error.push_back(error * 1e6);
   }
-  report.result.plots[0].series.push_back(error_of_step);
-  report.result.plots[1].series.push_back(error_of_cost);
+  report.result.plots.front().series.push_back(error_of_step);
+  return error_of_cost;
 }
 
 // All paths on all cores; what a step costs is the CPU time of its thread.
@@ -139,20 +137,20 @@ void work_and_precision(const Report& report, const BenchContext& context) {
        {},
        "By theory RK4 falls with the fourth power of the step once that resolves the fastest vibration, "
        "the others with the first; the table has the orders found."});
-  report.result.plots.push_back({"structure.error_over_cost",
-                                 "Work and precision of the hexapod's legs",
-                                 "CPU time for each second of experiment (s)",
-                                 "rms error of H (um)",
-                                 true,
-                                 true,
-                                 {},
-                                 "Lower left is better: less error for less work."});
+  std::vector<CostCurve> curves;
   std::size_t next = 2;
   for (const Family& family : families()) {
     std::vector<Path> paths;
     for (std::size_t i = 0; i < family.steps.size(); ++i) paths.push_back(jobs[next++].path);
-    converge(report, family, jobs[family.form == LegForm::tendon ? 0 : 1].path, paths);
+    curves.push_back(converge(report, family, jobs[family.form == LegForm::tendon ? 0 : 1].path, paths));
   }
+  report.result.plots.push_back(
+      cost_beside_error({.id = "structure.error_over_cost",
+                         .title = "Work and precision of the hexapod's legs",
+                         .x_label = "CPU time for each second of experiment (s)",
+                         .y_label = "rms error of H (um)",
+                         .caption = "Lower left is better: less error for less work."},
+                        curves));
   report.add("structure.connect.from_tendon.rms", rms(jobs[1].path, jobs[0].path) * 1e6, "um", kUnset, kUnset,
              "between the two converged paths: 12 rods of 1 g more, soft closure");
 }
@@ -253,7 +251,7 @@ void repeatability(const Report& report, const BenchContext& context) {
   Machine m(context, {});
   sim::Stream random(context.seed, "arrivals");
   std::vector<Vec3> arrivals;
-  const int count = context.repeats > 0 ? static_cast<int>(context.repeats) : context.quick ? 25 : 100;
+  const int count = static_cast<int>(context.count(100, 25));
   Vec3 mean = Vec3::Zero();
   for (int i = 0; i < count; ++i) {
     m.go(0.003 * random.normal3().normalized(), 500);
@@ -288,8 +286,9 @@ void speed(const Report& report, const BenchContext& context) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"structure", "tennis_ball", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const Report report{result};
   speed(report, context);  // alone: it is about time
   work_and_precision(report, context);
@@ -301,7 +300,9 @@ BenchResult run(const BenchContext& context) {
     result.simulated += part.simulated;
     result.figures.insert(result.figures.end(), part.figures.begin(), part.figures.end());
   }
-  return result;
 }
+
+const Entry kEntry{"structure", "tennis_ball",
+                   "hexapod on elastic legs: sag, modes, order of the integrator, cost", run};
 
 }  // namespace enc::bench::structure

@@ -7,9 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/load_scene.h"
-#include "benchmarks/kit/parallel.h"
-#include "benchmarks/kit/statistics.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/yardstick.h"
 #include "benchmarks/switching/crowd.h"
 #include "trial/finger_loop.h"
@@ -205,8 +203,9 @@ void timing(const BenchContext& context, BenchResult& result, const Adder& add) 
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"switching", "keypad", 0, 0, {}, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const Adder add = [&](const std::string& id, double value, const char* unit, const std::string& note,
                         double low, double high) {
     result.figures.push_back({"switching." + id, kUnset, value, unit, Role::ours, low, high, note});
@@ -223,7 +222,10 @@ BenchResult run(const BenchContext& context) {
   slide_over_keys(context, result, add);
   progress(0.8);
   move_things(context, result, add);
-  return result;
 }
+
+const Entry kEntry{
+    "switching", "keypad",
+    "the nearest of many objects: right, without chatter, in time; keys, a hit ball, tiles and a drum", run};
 
 }  // namespace enc::bench::switching

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
 #include "benchmarks/report/reference.h"
 
@@ -58,8 +58,7 @@ Set fused_of(const sim::DisplayTruth& display, bool ahead) {
 }
 
 SyncStudy study_of(const BenchContext& context) {
-  const auto repeats = static_cast<std::size_t>(context.repeats);
-  const std::size_t seeds = repeats > 0 ? repeats : context.quick ? 1 : 12;
+  const std::size_t seeds = context.count(12, 1);
   const std::size_t few = context.quick ? 1 : 4;
   const models::Setup base = setup_of(context, {});
   const Vec3 bias = base.twin.tracker.bias;
@@ -233,8 +232,9 @@ void add_display_figures(BenchResult& result, const SyncStudy& study) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"synchrony", "synchrony", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   SyncStudy study = study_of(context);
   run_all(study, context, result.simulated);
   add_paper_figures(result, study);
@@ -257,7 +257,11 @@ BenchResult run(const BenchContext& context) {
       "Visual: depth of the drawn dent as it came back; haptic: the hexapod's position against the buffered "
       "first touch. Compared at each haptic cycle in contact. The press time, which the paper does not give, "
       "is calibrated on the figure; the bias is the tracker's of Table 1, on the side it has there.";
-  return result;
 }
+
+const Entry kEntry{
+    "synchrony", "synchrony",
+    "the seen deflection against the felt one, three presses (VHMR Fig 13); fused, against the true tool",
+    run};
 
 }  // namespace enc::bench::synchrony

@@ -28,7 +28,7 @@ constexpr std::array kLongName{"hold", "constant velocity", "constant accelerati
 struct Outcome {
   std::array<std::vector<double>, 3> at_packets, at_ticks, peak, step;  // m
 };
-struct Bench {
+struct Trials {
   models::Setup setup;
   Scene scene;
   Pose<'W', 'C'> X_WC;
@@ -43,15 +43,16 @@ double root_mean_square(const std::vector<double>& x) {
   return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
-PredictionRun run_of(const Bench& bench, const PredictionRow& row, sim::Packets packets, std::uint64_t seed) {
-  PredictionRun run{row.motion(seed), bench.setup.twin.tracker, seed, row.moving_only, row.from, row.to};
+PredictionRun run_of(const Trials& trials, const PredictionRow& row, sim::Packets packets,
+                     std::uint64_t seed) {
+  PredictionRun run{row.motion(seed), trials.setup.twin.tracker, seed, row.moving_only, row.from, row.to};
   run.truth.packets = packets;
   if (!row.with_bias) run.truth.bias = Vec3::Zero();
   if (row.change) row.change(run.truth);
   return run;
 }
 
-void run_rows(Bench& bench, const BenchContext& context, std::size_t seeds) {
+void run_rows(Trials& trials, const BenchContext& context, std::size_t seeds) {
   struct Job {
     std::size_t row, packets;
     std::uint64_t seed;
@@ -59,25 +60,25 @@ void run_rows(Bench& bench, const BenchContext& context, std::size_t seeds) {
     double time = 0.0;
   };
   std::vector<Job> jobs;
-  for (std::size_t row = 0; row < bench.rows.size(); ++row)
+  for (std::size_t row = 0; row < trials.rows.size(); ++row)
     for (std::size_t p = 0; p < kPackets.size(); ++p)
       for (std::size_t s = 0; s < seeds; ++s) jobs.push_back({row, p, context.seed + s});
   in_parallel(jobs.size(), [&](std::size_t i) {
     Job& job = jobs[i];
-    const PredictionRun run = run_of(bench, bench.rows[job.row], kPackets[job.packets], job.seed);
-    job.errors = predicted_run(bench.scene, bench.X_WC, run);
+    const PredictionRun run = run_of(trials, trials.rows[job.row], kPackets[job.packets], job.seed);
+    job.errors = predicted_run(trials.scene, trials.X_WC, run);
     job.time = std::min(run.motion.duration, run.to);
   });
-  bench.cells.resize(bench.rows.size());
+  trials.cells.resize(trials.rows.size());
   for (const Job& job : jobs) {
-    Outcome& cell = bench.cells[job.row][job.packets];
+    Outcome& cell = trials.cells[job.row][job.packets];
     for (std::size_t k = 0; k < 3; ++k) {
       cell.at_packets[k].push_back(job.errors[k].at_packets);
       cell.at_ticks[k].push_back(job.errors[k].at_ticks);
       cell.peak[k].push_back(job.errors[k].peak);
       cell.step[k].push_back(job.errors[k].largest_step);
     }
-    bench.simulated += job.time;
+    trials.simulated += job.time;
   }
 }
 
@@ -88,12 +89,12 @@ Figure figure_of(std::string id, const std::vector<double>& over_seeds, double t
           kUnset,        high,   std::move(note), *least * 1e3, *most * 1e3};
 }
 
-std::vector<Figure> figures_of(const Bench& bench) {
+std::vector<Figure> figures_of(const Trials& trials) {
   std::vector<Figure> figures;
-  for (std::size_t r = 0; r < bench.rows.size(); ++r) {
-    const PredictionRow& row = bench.rows[r];
+  for (std::size_t r = 0; r < trials.rows.size(); ++r) {
+    const PredictionRow& row = trials.rows[r];
     for (std::size_t p = 0; p < kPackets.size(); ++p) {
-      const Outcome& cell = bench.cells[r][p];
+      const Outcome& cell = trials.cells[r][p];
       for (std::size_t k = 0; k < kName.size(); ++k) {
         if (!row.in_figures && (k != 1 || p != 0)) continue;  // the rest is in the tables
         const bool bound = k == 1 && p == row.bound_on;
@@ -116,17 +117,18 @@ std::vector<Figure> figures_of(const Bench& bench) {
 
 std::string mm(double m) { return fmt::format("{:.3f}", m * 1e3); }
 
-Table rmse_table(const Bench& bench) {
+Table rmse_table(const Trials& trials) {
   Table table{
       "tracking_predicted", "Error of the tool's tip by motion and prediction", {"motion", "packets"}, {}};
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} at packets mm", name));
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} at every tick mm", name));
-  for (std::size_t r = 0; r < bench.rows.size(); ++r)
+  for (std::size_t r = 0; r < trials.rows.size(); ++r)
     for (std::size_t p = 0; p < kPackets.size(); ++p) {
-      std::vector<std::string> line{bench.rows[r].title, kPacketName[p]};
+      std::vector<std::string> line{trials.rows[r].title, kPacketName[p]};
       for (std::size_t k = 0; k < 3; ++k)
-        line.push_back(mm(root_mean_square(bench.cells[r][p].at_packets[k])));
-      for (std::size_t k = 0; k < 3; ++k) line.push_back(mm(root_mean_square(bench.cells[r][p].at_ticks[k])));
+        line.push_back(mm(root_mean_square(trials.cells[r][p].at_packets[k])));
+      for (std::size_t k = 0; k < 3; ++k)
+        line.push_back(mm(root_mean_square(trials.cells[r][p].at_ticks[k])));
       table.rows.push_back(std::move(line));
     }
   table.note =
@@ -135,22 +137,22 @@ Table rmse_table(const Bench& bench) {
   return table;
 }
 
-Table peak_table(const Bench& bench) {
+Table peak_table(const Trials& trials) {
   Table table{"tracking_predicted_peak",
               "Largest error along an axis, and largest step of the prediction in a tick",
               {"motion", "packets"},
               {}};
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} peak mm", name));
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} step mm", name));
-  for (std::size_t r = 0; r < bench.rows.size(); ++r) {
-    if (!bench.rows[r].peak) continue;
+  for (std::size_t r = 0; r < trials.rows.size(); ++r) {
+    if (!trials.rows[r].peak) continue;
     for (std::size_t p = 0; p < kPackets.size(); ++p) {
-      std::vector<std::string> line{bench.rows[r].title, kPacketName[p]};
+      std::vector<std::string> line{trials.rows[r].title, kPacketName[p]};
       const auto most = [](const std::vector<double>& x) {
         return mm(*std::max_element(x.begin(), x.end()));
       };
-      for (std::size_t k = 0; k < 3; ++k) line.push_back(most(bench.cells[r][p].peak[k]));
-      for (std::size_t k = 0; k < 3; ++k) line.push_back(most(bench.cells[r][p].step[k]));
+      for (std::size_t k = 0; k < 3; ++k) line.push_back(most(trials.cells[r][p].peak[k]));
+      for (std::size_t k = 0; k < 3; ++k) line.push_back(most(trials.cells[r][p].step[k]));
       table.rows.push_back(std::move(line));
     }
   }
@@ -183,18 +185,18 @@ constexpr auto kShown = std::to_array<Shown>({{"20", "paper 20"},
                                               {"drop_out.100", "drop-out"},
                                               {"loss", "loss"}});
 
-Plot rmse_plot(const Bench& bench) {
+Plot rmse_plot(const Trials& trials) {
   Plot plot = named_plot("tracking_predicted_rmse", "Error of the tool's tip by motion and prediction",
                          "motion", "RMS distance, mm");
   plot.log_y = true;
   std::vector<std::size_t> rows;
   Series paper{"paper (holds, polled)", {}, {}, {}, {}, Mark::points, true};
   for (const Shown& shown : kShown)
-    for (std::size_t r = 0; r < bench.rows.size(); ++r) {
-      if (bench.rows[r].id != shown.id) continue;
-      if (!std::isnan(bench.rows[r].paper)) {
+    for (std::size_t r = 0; r < trials.rows.size(); ++r) {
+      if (trials.rows[r].id != shown.id) continue;
+      if (!std::isnan(trials.rows[r].paper)) {
         paper.x.push_back(static_cast<double>(rows.size()) - 0.25);
-        paper.y.push_back(bench.rows[r].paper * 1e3);
+        paper.y.push_back(trials.rows[r].paper * 1e3);
       }
       plot.x_names.emplace_back(shown.name);
       rows.push_back(r);
@@ -203,7 +205,7 @@ Plot rmse_plot(const Bench& bench) {
     for (std::size_t k = 0; k < kName.size(); ++k) {
       Series series{fmt::format("{}, {}", kLongName[k], kPacketName[p]), {}, {}, {}, {}, Mark::points};
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::vector<double>& of = bench.cells[rows[i]][p].at_packets[k];
+        const std::vector<double>& of = trials.cells[rows[i]][p].at_packets[k];
         const auto [least, most] = std::minmax_element(of.begin(), of.end());
         series.x.push_back(static_cast<double>(i) + 0.1 * (static_cast<double>(3 * p + k) - 2.5));
         series.y.push_back(root_mean_square(of) * 1e3);
@@ -220,14 +222,14 @@ Plot rmse_plot(const Bench& bench) {
   return plot;
 }
 
-Plot time_plot(const Bench& bench, const BenchContext& context, const std::string& row_id,
+Plot time_plot(const Trials& trials, const BenchContext& context, const std::string& row_id,
                std::string plot_id, std::string caption) {
-  const auto row = std::find_if(bench.rows.begin(), bench.rows.end(),
+  const auto row = std::find_if(trials.rows.begin(), trials.rows.end(),
                                 [&](const PredictionRow& r) { return r.id == row_id; });
-  PredictionRun run = run_of(bench, *row, sim::Packets::event, context.seed);
+  PredictionRun run = run_of(trials, *row, sim::Packets::event, context.seed);
   run.from = std::max(0.0, run.from - 0.1);
   TipTrace trace;
-  (void)predicted_run(bench.scene, bench.X_WC, run, &trace);
+  (void)predicted_run(trials.scene, trials.X_WC, run, &trace);
   Plot plot = named_plot(std::move(plot_id), row->title, "time, s", "error along x, mm");
   for (std::size_t k = 0; k < kName.size(); ++k) {
     Series series{kLongName[k], trace.time, trace.error[k]};
@@ -319,32 +321,31 @@ void add_loop(BenchResult& result, const models::Setup& setup, const BenchContex
 }  // namespace
 
 void add_prediction(const BenchContext& context, BenchResult& result) {
-  Bench bench{load_scene(context, "tennis_ball"), {}, {}, {}};
-  bench.scene = trial::prepare_setup(bench.setup);
-  bench.X_WC = pose_of<'W', 'C'>(bench.setup.twin.frames.W_C);
-  bench.rows = prediction_rows(bench.setup.twin.hexapod.acceleration,
-                               table1_of(Reference::load(context.models, "table1.csv")));
-  const std::size_t seeds =
-      context.repeats > 0 ? static_cast<std::size_t>(context.repeats) : (context.quick ? 2U : 24U);
-  run_rows(bench, context, seeds);
+  Trials trials{load_scene(context, "tennis_ball"), {}, {}, {}};
+  trials.scene = trial::prepare_setup(trials.setup);
+  trials.X_WC = pose_of<'W', 'C'>(trials.setup.twin.frames.W_C);
+  trials.rows = prediction_rows(trials.setup.twin.hexapod.acceleration,
+                                table1_of(Reference::load(context.models, "table1.csv")));
+  const std::size_t seeds = context.count(24, 2);
+  run_rows(trials, context, seeds);
   const auto append = [](auto& list, auto more) {
     list.insert(list.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   };
-  append(result.figures, figures_of(bench));
-  append(result.tables, std::vector<Table>{rmse_table(bench), peak_table(bench)});
+  append(result.figures, figures_of(trials));
+  append(result.tables, std::vector<Table>{rmse_table(trials), peak_table(trials)});
   append(
       result.plots,
       std::vector<Plot>{
-          rmse_plot(bench),
-          time_plot(bench, context, "stop.200", "tracking_predicted_stop",
+          rmse_plot(trials),
+          time_plot(trials, context, "stop.200", "tracking_predicted_stop",
                     "The tool meets a wall at 200 mm/s. Until the first pose from after the stop has come, "
                     "every prediction goes on; holding never leads."),
-          time_plot(bench, context, "drop_out.100", "tracking_predicted_drop_out",
+          time_plot(trials, context, "drop_out.100", "tracking_predicted_drop_out",
                     "No poses for 100 ms in the middle of a reach. The prediction goes on for 100 ms and "
                     "catches up afterwards.")});
-  result.simulated += bench.simulated;
+  result.simulated += trials.simulated;
   if (context.progress) context.progress(0.8);
-  add_loop(result, bench.setup, context);
+  add_loop(result, trials.setup, context);
 }
 
 }  // namespace enc::bench::tracking

@@ -8,9 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/load_scene.h"
-#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
 #include "benchmarks/tracking/forensics.h"
 #include "benchmarks/tracking/prediction.h"
@@ -161,9 +159,9 @@ struct Sizes {
   std::size_t seeds, few_seeds, candidates;
 };
 Sizes sizes_of(const BenchContext& context) {
-  const auto repeats = static_cast<std::size_t>(context.repeats);
-  if (context.quick) return {repeats > 0 ? repeats : 12, 2, 300};
-  return {repeats > 0 ? repeats : 36, 6, context.full ? 6000UL : 2000UL};
+  const std::size_t seeds = context.count(36, 12);
+  if (context.quick) return {seeds, 2, 300};
+  return {seeds, 6, context.full ? 6000UL : 2000UL};
 }
 
 // Every run of the benchmark, made at once.
@@ -270,9 +268,10 @@ models::Setup later(models::Setup setup) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
   const Sizes sizes = sizes_of(context);
-  BenchResult result{"tracking", "tracking", 0, 0, {}};
+  BenchResult& result = bench.result;
   const Table1 paper = table1_of(Reference::load(context.models, "table1.csv"));
 
   // Stops as long as it takes to tell them from moves; under --full as long as the paper's.
@@ -354,7 +353,11 @@ BenchResult run(const BenchContext& context) {
   result.note =
       "Moving samples: the machine moves faster than 1 mm/s; stops: at rest for 0.3 s. Stops last 0.6 s "
       "(--full: 5 s). Bounds: 12 % (0 and 20 mm/s), 13 % (40 mm/s), 6 % (norms).";
-  return result;
 }
+
+const Entry kEntry{
+    "tracking", "tracking",
+    "the tracker against the machine that carries the tool (VHMR Table 1); latency of a log; prediction",
+    run};
 
 }  // namespace enc::bench::tracking

@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/bench.h"
-#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/kit.h"
 #include "benchmarks/workspace/reach_volume.h"
 #include "core/world/press_check.h"
 #include "models/setup/scene_file.h"
@@ -266,8 +265,9 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
 
 }  // namespace
 
-BenchResult run(const BenchContext& context) {
-  BenchResult result{"workspace", "tennis_ball", 0, 0, {}};
+void run(Bench& bench) {
+  const BenchContext& context = bench.context;
+  BenchResult& result = bench.result;
   const models::Setup setup = load_scene(context, "tennis_ball");
   const Scene scene = prepare(setup.scene, setup.rig);
   const ReachVolume reach(scene.reach.machine);
@@ -280,7 +280,11 @@ BenchResult run(const BenchContext& context) {
   result.note =
       "Nothing here runs in time: geometry alone. The tip's commands keep W's axes, so 'straight' is "
       "what a scene can use.";
-  return result;
 }
+
+const Entry kEntry{
+    "workspace", "tennis_ball",
+    "box and volume of the tip's travel, tracker's volume, directions from which the ball can be pressed",
+    run};
 
 }  // namespace enc::bench::workspace

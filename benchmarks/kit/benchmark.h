@@ -1,0 +1,28 @@
+// The table of benchmarks. Each one puts itself there, by one line in its own file:
+//   const Entry kEntry{"speed", "tennis_ball", "step(), times real time", run};
+#pragma once
+
+#include <span>
+
+#include "benchmarks/kit/bench.h"
+
+namespace enc::bench {
+
+class Bench;
+
+struct Benchmark {
+  const char* name;   // of its folder, too; first token of its figures' ids
+  const char* scene;  // in models/scenes, without ".toml"; what is measured, where it has none
+  const char* what;   // one line
+  void (*run)(Bench&);
+};
+
+class Entry {
+ public:
+  Entry(const char* name, const char* scene, const char* what, void (*run)(Bench&));
+};
+
+[[nodiscard]] std::span<const Benchmark> benchmarks();  // by name
+[[nodiscard]] BenchResult result_of(const Benchmark& benchmark, const BenchContext& context);
+
+}  // namespace enc::bench

@@ -1,0 +1,49 @@
+#include "benchmarks/kit/cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "benchmarks/kit/statistics.h"
+
+namespace enc::bench {
+
+Race::Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up)
+    : seconds_(ways.size()) {
+  std::vector<std::size_t> order(ways.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937_64 random(1);
+  for (std::size_t round = 0; round < warm_up + rounds; ++round) {
+    std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t way : order) {
+      const double start = thread_seconds();
+      ways[way]();
+      if (round >= warm_up) seconds_[way].push_back(thread_seconds() - start);
+    }
+  }
+}
+
+double Race::seconds(std::size_t way, double share) const { return percentile(seconds_.at(way), share); }
+
+double Race::ratio(std::size_t way, const Race& race, std::size_t over) const {
+  std::vector<double> ratios = seconds_.at(way);
+  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] /= race.seconds_.at(over).at(i);
+  return median(ratios);
+}
+
+Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves) {
+  plot.log_x = plot.log_y = true;
+  for (const CostCurve& curve : curves) {
+    Series there{.name = curve.name, .mark = Mark::both};
+    Series failed{.name = "", .mark = Mark::crosses};
+    for (std::size_t i = 0; i < curve.cost.size(); ++i)
+      if (std::isfinite(curve.cost[i]))  // not so where it was refused before it ran
+        (std::isnan(curve.error[i]) ? failed : there).add(curve.cost[i], curve.error[i]);
+    plot.series.push_back(std::move(there));
+    if (!failed.x.empty()) plot.series.push_back(std::move(failed));
+  }
+  return plot;
+}
+
+}  // namespace enc::bench

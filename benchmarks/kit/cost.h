@@ -1,0 +1,45 @@
+// What something costs, and that beside how wrong it is.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/kit/bench.h"
+
+namespace enc::bench {
+
+// Several ways to do the same, timed in turn, in an order drawn anew each round, so that a slow moment of the
+// machine hits them all. Rounds before the first warm up. CPU time of this thread.
+class Race {
+ public:
+  Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up = 1);
+  [[nodiscard]] double seconds(std::size_t way, double share = 0.5) const;  // below which that share lies
+  // Median of what each round took, over what it took the other; also one of another race of as many rounds.
+  [[nodiscard]] double ratio(std::size_t way, std::size_t over) const { return ratio(way, *this, over); }
+  [[nodiscard]] double ratio(std::size_t way, const Race& race, std::size_t over) const;
+
+ private:
+  std::vector<std::vector<double>> seconds_;  // [way][round]
+};
+
+// A way of a race that does a chunk of a long work at each call: work(i) of the next indices below `count`,
+// then from 0 again. `count` is a multiple of `chunk`.
+template <class Work>
+[[nodiscard]] std::function<void()> in_chunks(std::size_t count, std::size_t chunk, Work work) {
+  return [count, chunk, work, next = std::size_t{0}]() mutable {
+    for (std::size_t i = 0; i < chunk; ++i) work(next + i);
+    next = (next + chunk) % count;
+  };
+}
+
+// One way with its settings from coarse to fine. An error that is NaN is a failure: a cross at the upper
+// edge.
+struct CostCurve {
+  std::string name;
+  std::vector<double> cost{}, error{};
+};
+// Both axes logarithmic. `plot` has all but the series.
+[[nodiscard]] Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves);
+
+}  // namespace enc::bench

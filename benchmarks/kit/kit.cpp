@@ -1,0 +1,65 @@
+#include "benchmarks/kit/kit.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+
+namespace enc::bench {
+namespace {
+
+// Made when the first entry asks for it: nobody knows which of the files that is.
+std::vector<Benchmark>& table() {
+  static std::vector<Benchmark> all;
+  return all;
+}
+
+}  // namespace
+
+Entry::Entry(const char* name, const char* scene, const char* what, void (*run)(Bench&)) {
+  table().push_back({name, scene, what, run});
+  std::sort(table().begin(), table().end(), [](const Benchmark& a, const Benchmark& b) {
+    return std::string_view(a.name) < std::string_view(b.name);
+  });
+}
+
+std::span<const Benchmark> benchmarks() { return table(); }
+
+BenchResult result_of(const Benchmark& benchmark, const BenchContext& context) {
+  Bench bench(benchmark, context);
+  benchmark.run(bench);
+  return std::move(bench.result);
+}
+
+std::vector<std::uint64_t> Bench::seeds(std::size_t count) const {
+  std::vector<std::uint64_t> all(count);
+  std::iota(all.begin(), all.end(), context.seed);
+  return all;
+}
+
+void Bench::figure(const std::string& id, const Value& twin, const char* unit, std::string note) {
+  figure(id, twin, unit, Bounds{}, std::move(note));
+}
+void Bench::figure(const std::string& id, const Value& twin, const char* unit, Bounds bounds,
+                   std::string note) {
+  figure(id, twin, unit, Paper{kUnset, Role::ours}, bounds, std::move(note));
+}
+void Bench::figure(const std::string& id, const Value& twin, const char* unit, const Paper& paper,
+                   Bounds bounds, std::string note) {
+  result.figures.push_back({result.name + "." + id, paper.value, twin.middle, unit, paper.role, bounds.low,
+                            bounds.high, std::move(note), twin.least, twin.most});
+}
+
+void Bench::plot(Plot plot) {
+  plot.id = result.name + "." + plot.id;
+  result.plots.push_back(std::move(plot));
+}
+void Bench::table(Table table) {
+  table.id = result.name + "." + table.id;
+  result.tables.push_back(std::move(table));
+}
+
+Value median_of(const std::vector<double>& values) {
+  return {median(values), percentile(values, 0.0), percentile(values, 1.0)};
+}
+
+}  // namespace enc::bench

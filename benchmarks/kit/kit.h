@@ -1,0 +1,107 @@
+// What a benchmark is written with: its scene, runs over values and seeds, a line for each figure, plots.
+// docs/report.md tells how; benchmarks/encounter is one.
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/benchmark.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/kit/parallel.h"
+#include "benchmarks/kit/statistics.h"
+
+namespace enc::bench {
+
+// What a figure must hold; one that is not given holds always.
+struct Bounds {
+  double low = kUnset, high = kUnset;
+};
+[[nodiscard]] constexpr Bounds at_least(double low) { return {low, kUnset}; }
+[[nodiscard]] constexpr Bounds at_most(double high) { return {kUnset, high}; }
+[[nodiscard]] constexpr Bounds between(double low, double high) { return {low, high}; }
+[[nodiscard]] constexpr Bounds exactly(double value) { return {value, value}; }
+
+// The paper's value, and whether it set a parameter.
+struct Paper {
+  double value;
+  Role role;
+};
+[[nodiscard]] constexpr Paper calibrated(double value) { return {value, Role::calibrated}; }
+[[nodiscard]] constexpr Paper predicted(double value) { return {value, Role::predicted}; }
+
+// What a benchmark is handed: the user's wishes, and the place of its answers. Ids of figures, plots and
+// tables are given without the benchmark's name, which is put before them.
+class Bench {
+ public:
+  Bench(const Benchmark& benchmark, const BenchContext& given)
+      : context(given), result{benchmark.name, benchmark.scene, 0, 0, {}} {}
+
+  const BenchContext& context;
+  BenchResult result;
+
+  // The benchmark's own scene: load_scene.h.
+  [[nodiscard]] models::Setup setup(std::vector<std::string> own = {},
+                                    const std::vector<std::string>& held = {}) const {
+    return load_scene(context, result.scene, std::move(own), held);
+  }
+  void progress(double share) const {
+    if (context.progress) context.progress(share);
+  }
+  [[nodiscard]] std::vector<std::uint64_t> seeds(std::size_t count) const;  // from the user's on
+
+  // measure(x) of each, on all cores, in their order. Seconds in a member `simulated` are summed up. The
+  // first call tells how far it is: give it the longest part.
+  template <class X, class Measure>
+  auto each(const std::vector<X>& all, const Measure& measure) {
+    using Cell = std::invoke_result_t<Measure, const X&>;
+    static_assert(!std::is_same_v<Cell, bool>, "cells of vector<bool> share bytes");
+    std::vector<Cell> cells(all.size());
+    in_parallel(
+        all.size(), [&](std::size_t i) { cells[i] = measure(all[i]); },
+        std::exchange(tells_, false) ? context.progress : nullptr);
+    if constexpr (requires(Cell cell) { cell.simulated; })
+      for (const Cell& cell : cells) result.simulated += cell.simulated;
+    return cells;
+  }
+
+  // measure(value, seed) of each value with so many seeds: [value][seed].
+  template <class Values, class Measure>
+  auto grid(const Values& values, std::size_t count, const Measure& measure) {
+    std::vector<std::pair<typename Values::value_type, std::uint64_t>> all;
+    for (const auto& value : values)
+      for (const std::uint64_t seed : seeds(count)) all.emplace_back(value, seed);
+    const auto cells = each(all, [&](const auto& x) { return measure(x.first, x.second); });
+    std::vector<std::decay_t<decltype(cells)>> rows;
+    for (std::size_t i = 0; i < all.size(); i += count)
+      rows.emplace_back(cells.begin() + static_cast<std::ptrdiff_t>(i),
+                        cells.begin() + static_cast<std::ptrdiff_t>(i + count));
+    return rows;
+  }
+
+  // Of ours, without and with bounds; beside the paper's.
+  void figure(const std::string& id, const Value& twin, const char* unit, std::string note = {});
+  void figure(const std::string& id, const Value& twin, const char* unit, Bounds bounds,
+              std::string note = {});
+  void figure(const std::string& id, const Value& twin, const char* unit, const Paper& paper, Bounds bounds,
+              std::string note = {});
+  void plot(Plot plot);
+  void table(Table table);
+
+ private:
+  bool tells_ = true;
+};
+
+// One member of all cells, without those that have none (NaN).
+template <class Cell>
+[[nodiscard]] std::vector<double> known(const std::vector<Cell>& cells, double Cell::*member) {
+  std::vector<double> values;
+  for (const Cell& cell : cells)
+    if (!std::isnan(cell.*member)) values.push_back(cell.*member);
+  return values;
+}
+[[nodiscard]] Value median_of(const std::vector<double>& values);  // with least and most; of none: NaN
+
+}  // namespace enc::bench

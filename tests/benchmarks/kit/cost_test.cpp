@@ -1,0 +1,59 @@
+// Ways that are timed in turn, and what they cost beside how wrong they are.
+#include "benchmarks/kit/cost.h"
+
+#include <algorithm>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace enc::bench {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+volatile double sink = 1.0;  // so that the work is done
+void work(int n) {
+  for (int i = 0; i < n; ++i) sink = sink * 0.5 + 1.0;
+}
+
+TEST(Race, EachRunsOnceARoundAndTheFirstIsAlone) {
+  std::string order;
+  const Race race(20, {[&] { order += 'a'; }, [&] { order += 'b'; }, [&] { order += 'c'; }});
+  ASSERT_THAT(order, SizeIs(3 * 21));
+  std::string firsts;
+  for (std::size_t i = 0; i < order.size(); i += 3) {
+    std::string round = order.substr(i, 3);
+    firsts += round[0];
+    std::sort(round.begin(), round.end());
+    EXPECT_EQ(round, "abc");
+  }
+  for (const char way : {'a', 'b', 'c'}) EXPECT_GT(std::count(firsts.begin(), firsts.end(), way), 1) << way;
+}
+
+TEST(Race, WhatCostsFourTimesAsMuchIsSeen) {
+  const Race race(31, {[] { work(20'000); }, [] { work(80'000); }});
+  EXPECT_GT(race.seconds(0), 0.0);
+  EXPECT_NEAR(race.ratio(1, 0), 4.0, 1.0);
+  EXPECT_DOUBLE_EQ(race.ratio(0, 0), 1.0);
+}
+
+TEST(Cost, WhatFailedIsACrossAndWhatNeverRanIsNothing) {
+  const Plot plot = cost_beside_error(
+      {.id = "cost", .title = "Cost", .x_label = "time (s)", .y_label = "error (um)"},
+      {{"good", {1.0, 2.0}, {0.2, 0.1}}, {"bad", {1.0, kUnset, 3.0}, {kUnset, kUnset, 0.5}}});
+  EXPECT_TRUE(plot.log_x && plot.log_y);
+  ASSERT_THAT(plot.series, SizeIs(3));
+  EXPECT_EQ(plot.series[0].name, "good");
+  EXPECT_THAT(plot.series[0].x, ElementsAre(1.0, 2.0));
+  EXPECT_THAT(plot.series[0].y, ElementsAre(0.2, 0.1));
+  EXPECT_THAT(plot.series[1].x, ElementsAre(3.0));
+  EXPECT_EQ(plot.series[2].mark, Mark::crosses);
+  EXPECT_THAT(plot.series[2].name, IsEmpty());
+  EXPECT_THAT(plot.series[2].x, ElementsAre(1.0));
+}
+
+}  // namespace
+}  // namespace enc::bench
