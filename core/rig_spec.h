@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/arm/arm_rig.h"
 #include "core/damping.h"
+#include "core/devices/settings.h"
 #include "core/display_rig.h"
 #include "core/frames.h"
 #include "core/hexapod.h"
@@ -99,6 +101,7 @@ struct RigSpec {
   GripperRig gripper;
   ContactRig contact;
   AdmittanceRig admittance;
+  std::vector<DriverTable> drivers;  // by name
 };
 
 }  // namespace enc
