@@ -79,6 +79,13 @@ std::string parts_text(const models::Setup& setup) {
       thread_count() == 1 ? "" : "s", left_out.empty() ? "nothing" : left_out);
 }
 
+std::string devices_text(const std::vector<trial::DeviceWords>& devices) {
+  std::string text;
+  for (const trial::DeviceWords& d : devices)
+    text += fmt::format("device      {}: {}{}\n", d.role, d.there ? "" : "NOT THERE: ", d.words);
+  return text;
+}
+
 std::string questionnaire_text(const models::Setup& setup) {
   if (!setup.scene.questionnaire) return "";
   return fmt::format(

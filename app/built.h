@@ -6,6 +6,7 @@
 
 #include "core/world/scene.h"
 #include "models/setup/scene_file.h"
+#include "trial/assemble.h"
 
 namespace enc::app {
 
@@ -17,6 +18,9 @@ struct Part {
 [[nodiscard]] std::vector<Part> parts_of(const models::Setup& setup);
 // "built: hexapod, force (sim)…" and "left out: camera (not named)…": two lines.
 [[nodiscard]] std::string parts_text(const models::Setup& setup);
+
+// What real devices say of themselves, or what keeps them from it: a line each; or nothing.
+[[nodiscard]] std::string devices_text(const std::vector<trial::DeviceWords>& devices);
 
 // How to ask what the scene wants the person to be asked, in one line; or nothing.
 [[nodiscard]] std::string questionnaire_text(const models::Setup& setup);

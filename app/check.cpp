@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
+#include "app/modules/modules.h"
 #include "app/options.h"
 #include "core/machine/steadiness.h"
 #include "core/safety/room.h"
@@ -101,13 +102,13 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
 }  // namespace
 
 int check(const SceneOptions& options) {
-  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  const models::Setup setup = load_setup(options);
   const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
-  fmt::print("{}\n{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n{}\nresolved scene\n{}",
-             setup.scene.title, parts_text(setup), questionnaire_text(setup), frame_graph(scene),
-             chain_residual(setup.scene, setup.rig, scene),
-             scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene), models::resolved(setup));
+  fmt::print("{}\n{}{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n{}\nresolved scene\n{}",
+             setup.scene.title, parts_text(setup), devices_text(trial::ask_drivers(setup, load_module)),
+             questionnaire_text(setup), frame_graph(scene), chain_residual(setup.scene, setup.rig, scene),
+             scene.impedance ? arm_limits(setup, scene) : limits(setup, scene), models::resolved(setup));
   return 0;
 }
 

@@ -12,6 +12,8 @@
 
 #include "app/modules/modules.h"
 #include "app/options.h"
+#include "core/devices/roles.h"
+#include "core/error.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"
 
@@ -53,6 +55,40 @@ bool may_be_real_time() {
   return limit.rlim_cur > 0 || geteuid() == 0;
 }
 
+// The keys of a driver's table.
+class Keys final : public Settings {
+ public:
+  std::string names;
+  void value(const Setting& key, double&) override { add(key); }
+  void value(const Setting& key, std::int64_t&) override { add(key); }
+  void value(const Setting& key, std::string&) override { add(key); }
+  void value(const Setting& key, std::vector<double>&) override { add(key); }
+
+ private:
+  void add(const Setting& key) { names += (names.empty() ? "" : ", ") + std::string(key.name); }
+};
+
+// Which roles a driver fills, and with which keys of its own.
+void say_driver(Doctor& doctor, const std::string& name) {
+  try {
+    const ModuleInfo& module = load_module(name);
+    if (module.driver == nullptr) return;
+    std::string roles;
+    each_role([&](const auto& role) {
+      if (module.driver->*role.make != nullptr) roles += (roles.empty() ? "" : ", ") + std::string(role.name);
+    });
+    Keys keys;
+    if (module.driver->settings != nullptr) module.driver->settings(keys);
+    doctor.say(true, Need::may,
+               fmt::format("driver {}: {}; {}", name, roles,
+                           keys.names.empty() ? "no keys of its own"
+                                              : fmt::format("[driver.{}] {}", name, keys.names)),
+               "");
+  } catch (const Error& e) {
+    doctor.say(false, Need::may, "driver " + name, e.what());
+  }
+}
+
 std::string models_problem() {
   try {
     const std::string folder = models::models_dir("");
@@ -76,6 +112,7 @@ int doctor() {
   for (const std::string& name : modules_there()) modules += (modules.empty() ? "" : ", ") + name;
   doctor.say(!modules.empty(), Need::may, "modules: " + modules,
              "none beside the program; pictures and drivers need them");
+  for (const std::string& name : drivers_there()) say_driver(doctor, name);
   doctor.say(library_there("libEGL.so.1"), Need::may, "EGL for pictures", "./encounter view installs it");
   doctor.say(program_there("gnuplot"), Need::may, "gnuplot for the plots of a report",
              "./encounter bench installs it");

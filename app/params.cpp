@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/modules.h"
 #include "app/options.h"
 #include "models/setup/scene_file.h"
 
@@ -18,7 +19,7 @@ std::string csv(const std::string& text) {
 }  // namespace
 
 int params(const ParamsOptions& options) {
-  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  const models::Setup setup = load_setup(options);
   const std::vector<models::Parameter> list = models::parameters(setup);
   if (!options.json) {
     fmt::print("name,unit,value,source,confidence,meaning\n");

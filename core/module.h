@@ -4,12 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <string>
 
 #include <encounter_border.h>
 #include <encounter_version.h>
 
+#include "core/devices/driver.h"
 #include "core/rig.h"
 
 namespace enc {
@@ -17,17 +16,6 @@ namespace enc {
 // Of the border itself: ModuleInfo and how a module is found. What crosses it is in `border`, so that nobody
 // has to think of raising a number. A module of another number, border or version is refused, never tried.
 inline constexpr std::uint32_t kModuleInterface = 4;
-
-// Devices that a driver module makes; what it does not offer stays null. Constructors throw Error(kind
-// device) with a way out.
-struct DriverModule {
-  std::unique_ptr<Manipulator> (*manipulator)(const Reach& reach) = nullptr;
-  std::unique_ptr<ForceSensor> (*force)() = nullptr;
-  std::unique_ptr<PoseTracker> (*tracker)() = nullptr;
-  std::unique_ptr<Display> (*display)() = nullptr;
-  std::unique_ptr<Gripper> (*gripper)() = nullptr;
-  std::unique_ptr<HapticArm> (*arm)(const ArmRig& rig) = nullptr;
-};
 
 struct ModuleInfo {
   std::uint32_t interface = kModuleInterface;

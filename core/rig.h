@@ -1,5 +1,5 @@
 // The devices of an experiment, one slot for each role that the loop uses. An empty slot is a device that the
-// scene does not need.
+// scene does not need. What they are told goes through the gate (trial/gate.h).
 #pragma once
 
 #include <memory>
@@ -33,13 +33,6 @@ struct Rig {
     if (tracker) tracker->poll(now, in.tool);
     if (display) display->poll(now, in.dent);
     if (gripper) in.grip = gripper->read(now);
-  }
-  void write(const Outputs& out) noexcept {
-    if (manipulator && out.tip.valid()) manipulator->command(out.tip);
-    if (arm && out.arm_force.finite()) arm->command(out.arm_force);
-    if (arm) arm->drive(out.prop_speed);
-    if (display) display->show(out.view);
-    if (gripper) gripper->command(out.grip);
   }
 };
 

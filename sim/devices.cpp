@@ -24,6 +24,7 @@ class SimManipulator final : public Manipulator {
     return {{s.pose, s.velocity, s.acceleration}, world_.truth().t, s.health};
   }
   void command(const Pose<'R', 'H'>& X_RH) noexcept override { world_.machine->command(X_RH); }
+  void stop() noexcept override { world_.machine->command(world_.machine->state().pose); }
 
  private:
   World& world_;
@@ -37,6 +38,10 @@ class SimArm final : public HapticArm {
   [[nodiscard]] ArmAbility ability() const override { return {rig_.machine, rig_.peak, rig_.continuous}; }
   Stamped<ArmSample> read(Time) noexcept override { return world_.arm->state().sample; }
   void command(const Vec<'R'>& force) noexcept override { world_.arm->command(force); }
+  void stop() noexcept override {
+    command(Vec<'R'>::zero());
+    drive(0.0);
+  }
   void drive(double speed) noexcept override { world_.arm->drive_surface(speed); }
 
  private:
@@ -77,6 +82,7 @@ class SimGripper final : public Gripper {
   explicit SimGripper(World& world) : world_(world) {}
   Stamped<GripSample> read(Time) noexcept override { return world_.gripper->sample(); }
   void command(const Grip& grip) noexcept override { world_.gripper->command(grip); }
+  void stop() noexcept override {}  // without a command it stays as it is
 
  private:
   World& world_;

@@ -1,83 +1,59 @@
 #include "trial/assemble.h"
 
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/devices/roles.h"
 #include "core/error.h"
+#include "models/driver_table.h"
 
 namespace enc::trial {
 namespace {
 
-// The module's maker of a role, or one clear line.
-template <class Make>
-Make maker(const DriverSource& drivers, const std::string& driver, const char* role,
-           Make DriverModule::*member) {
-  const ModuleInfo& module = drivers(driver);
-  if (module.driver == nullptr || module.driver->*member == nullptr)
-    throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, role),
-                {}, ErrorKind::device);
-  return module.driver->*member;
+// The driver that fills a role which the scene names; empty: none, or the twin.
+template <class Role>
+std::string driver_of(const models::Setup& setup, const Role& role) {
+  const std::string& driver = (setup.rig.*role.rig).driver;
+  return setup.scene.*role.scene && driver != "sim" ? driver : std::string();
 }
 
-// A real machine is shown its commands only when armed; until then it is read and stays where it is.
-class Dry final : public Manipulator {
- public:
-  Dry(std::unique_ptr<Manipulator> machine, std::int64_t& withheld)
-      : machine_(std::move(machine)), withheld_(withheld) {}
-  [[nodiscard]] Reach reach() const override { return machine_->reach(); }
-  Stamped<TipSample> read(Time now) noexcept override { return machine_->read(now); }
-  void command(const Pose<'R', 'H'>&) noexcept override { ++withheld_; }
+// Makes one device, or throws one clear line.
+template <class Role>
+auto make(const Role& role, const models::Setup& setup, const DriverSource& drivers, Log& log) {
+  const std::string driver = driver_of(setup, role);
+  const ModuleInfo& module = drivers(driver);
+  if (module.driver == nullptr || module.driver->*role.make == nullptr)
+    throw Error(
+        fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, role.name), {},
+        ErrorKind::device);
+  models::DriverTableReader table(setup, driver);
+  const Reach reach = reach_of(setup.rig);
+  auto device =
+      (module.driver->*role.make)({table, setup.rig, reach, from_seconds(1.0 / setup.rig.loop.rate), log});
+  if (!device)
+    throw Error(fmt::format("module '{}' made no {}; mend the driver", driver, role.name), {},
+                ErrorKind::device);
+  return device;
+}
 
- private:
-  std::unique_ptr<Manipulator> machine_;
-  std::int64_t& withheld_;
-};
-
-// Likewise a real arm.
-class DryArm final : public HapticArm {
- public:
-  DryArm(std::unique_ptr<HapticArm> arm, std::int64_t& withheld)
-      : arm_(std::move(arm)), withheld_(withheld) {}
-  [[nodiscard]] ArmAbility ability() const override { return arm_->ability(); }
-  Stamped<ArmSample> read(Time now) noexcept override { return arm_->read(now); }
-  void command(const Vec<'R'>&) noexcept override { ++withheld_; }
-
- private:
-  std::unique_ptr<HapticArm> arm_;
-  std::int64_t& withheld_;
-};
-
-// Likewise a real gripper.
-class DryGripper final : public Gripper {
- public:
-  explicit DryGripper(std::unique_ptr<Gripper> gripper) : gripper_(std::move(gripper)) {}
-  Stamped<GripSample> read(Time now) noexcept override { return gripper_->read(now); }
-  void command(const Grip&) noexcept override {}
-
- private:
-  std::unique_ptr<Gripper> gripper_;
+class NoLog final : public Log {
+  void say(const std::string&) override {}
 };
 
 }  // namespace
 
 Slots slots_of(const models::Setup& setup) {
-  const SceneSpec& scene = setup.scene;
-  const RigSpec& rig = setup.rig;
   Slots slots;
-  const auto slot = [&](bool named, const std::string& driver) {
-    slots.simulated = slots.simulated || (named && driver == "sim");
-    slots.real = slots.real || (named && driver != "sim");
-  };
-  slot(scene.manipulator.has_value(), rig.manipulator.driver);
-  slot(scene.arm.has_value(), rig.arm.driver);
-  slot(scene.force.has_value(), rig.force.driver);
-  slot(scene.tracker.has_value(), rig.tracker.driver);
-  slot(scene.display.has_value(), rig.display.driver);
-  slot(scene.gripper.has_value(), rig.gripper.driver);
-  slots.machine =
-      (scene.manipulator && rig.manipulator.driver != "sim") || (scene.arm && rig.arm.driver != "sim");
+  each_role([&](const auto& role) {
+    if (!(setup.scene.*role.scene)) return;
+    const bool real = !driver_of(setup, role).empty();
+    slots.simulated = slots.simulated || !real;
+    slots.real = slots.real || real;
+    slots.machine = slots.machine || (real && (role.id == RoleId::manipulator || role.id == RoleId::arm));
+  });
   return slots;
 }
 
@@ -93,38 +69,47 @@ std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& 
   }
 }
 
-void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drivers, bool armed,
-                 std::int64_t& withheld) {
-  const SceneSpec& scene = setup.scene;
-  const RigSpec& spec = setup.rig;
-  if (scene.manipulator && spec.manipulator.driver != "sim") {
-    auto machine =
-        maker(drivers, spec.manipulator.driver, "manipulator", &DriverModule::manipulator)(reach_of(spec));
-    if (armed)
-      rig.manipulator = std::move(machine);
-    else
-      rig.manipulator = std::make_unique<Dry>(std::move(machine), withheld);
-  }
-  if (scene.arm && spec.arm.driver != "sim") {
-    auto arm = maker(drivers, spec.arm.driver, "arm", &DriverModule::arm)(spec.arm);
-    if (armed)
-      rig.arm = std::move(arm);
-    else
-      rig.arm = std::make_unique<DryArm>(std::move(arm), withheld);
-  }
-  if (scene.force && spec.force.driver != "sim")
-    rig.force = maker(drivers, spec.force.driver, "force sensor", &DriverModule::force)();
-  if (scene.tracker && spec.tracker.driver != "sim")
-    rig.tracker = maker(drivers, spec.tracker.driver, "tracker", &DriverModule::tracker)();
-  if (scene.display && spec.display.driver != "sim")
-    rig.display = maker(drivers, spec.display.driver, "display", &DriverModule::display)();
-  if (scene.gripper && spec.gripper.driver != "sim") {
-    auto gripper = maker(drivers, spec.gripper.driver, "gripper", &DriverModule::gripper)();
-    if (armed)
-      rig.gripper = std::move(gripper);
-    else
-      rig.gripper = std::make_unique<DryGripper>(std::move(gripper));
-  }
+void read_driver_tables(models::Setup& setup, const DriverFinder& find) {
+  for (const std::string& driver : models::drivers_of(setup.rig))
+    if (const ModuleInfo* module = find(driver); module != nullptr && module->driver != nullptr)
+      models::read_driver_table(setup, driver, module->driver->settings);
+}
+
+void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log) {
+  std::set<std::string> used;
+  each_role([&](const auto& role) { used.insert(driver_of(setup, role)); });
+  read_driver_tables(setup,
+                     [&](const std::string& name) { return used.contains(name) ? &drivers(name) : nullptr; });
+  each_role([&](const auto& role) {
+    if (!driver_of(setup, role).empty()) rig.*role.slot = make(role, setup, drivers, log);
+  });
+}
+
+std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& setup) {
+  std::vector<DeviceWords> all;
+  each_role([&](const auto& role) {
+    const std::string driver = driver_of(setup, role);
+    if (driver.empty()) return;
+    const std::string said = (rig.*role.slot)->describe();
+    all.push_back({role.table, said.empty() ? driver : said, true});
+  });
+  return all;
+}
+
+std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSource& drivers) {
+  std::vector<DeviceWords> all;
+  NoLog log;
+  each_role([&](const auto& role) {
+    const std::string driver = driver_of(setup, role);
+    if (driver.empty()) return;
+    try {
+      const std::string said = make(role, setup, drivers, log)->describe();
+      all.push_back({role.table, said.empty() ? driver : said, true});
+    } catch (const Error& e) {
+      all.push_back({role.table, e.what(), false});
+    }
+  });
+  return all;
 }
 
 namespace {

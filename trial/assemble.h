@@ -1,11 +1,11 @@
-// From a set-up to devices: the twin where a slot asks for one, drivers where the rig
-// names them, and the gate that keeps real machines still unless they are armed.
+// From a set-up to devices: the twin where a slot asks for one, drivers where the rig names them.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/module.h"
 #include "core/rig.h"
@@ -29,10 +29,22 @@ struct Slots {
 [[nodiscard]] std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& prepared,
                                                      std::uint64_t seed, bool draw_all = false);
 
-// Puts the drivers' devices in the slots for which the rig names one. A machine that is not armed is read and
-// never sent a command: `withheld`, which must outlive the rig, counts those of its machine or arm instead.
-void put_drivers(Rig& rig, const models::Setup& setup, const DriverSource& drivers, bool armed,
-                 std::int64_t& withheld);
+// A driver's module, or null where its table is to stay as the file has it.
+using DriverFinder = std::function<const ModuleInfo*(const std::string& driver)>;
+// Reads each driver's own table as that declares it, defaults included. Throws Error with the place.
+void read_driver_tables(models::Setup& setup, const DriverFinder& find);
+
+// Puts the drivers' devices in the slots for which the rig names one; before, their tables are read.
+void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log);
+
+// What a driver says of its device.
+struct DeviceWords {
+  std::string role, words;  // "force", "sample 127.0.0.1:4711, answered"
+  bool there = true;        // false: the words say what is wrong
+};
+[[nodiscard]] std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& setup);
+// The same without a run: each device is made, asked and let go. Nothing moves.
+[[nodiscard]] std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSource& drivers);
 
 // A device that can do less than the rig file promises, is another machine, or does not know what it can do
 // is refused before anything moves.

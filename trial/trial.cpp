@@ -63,7 +63,11 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   } else {
     rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
   }
-  if (slots.real) put_drivers(rig_, setup_, options_.drivers, options_.armed, result_.withheld);
+  gate_ = Gate(setup_, slots.real && !options_.armed);
+  if (slots.real) {
+    put_drivers(rig_, setup_, options_.drivers, log_);
+    result_.devices = describe_drivers(rig_, setup_);
+  }
   in_.withheld = slots.machine && !options_.armed;
   if (options_.fit_out) options_.fit_out(rig_);
   check_devices(rig_, setup_.rig);
@@ -101,6 +105,7 @@ void Trial::count() {
   add_tick(hash_, state_, out_);
   result_.hash = hash_.value;
   result_.missed += in_.missed;
+  result_.withheld = gate_.withheld();
   ++result_.ticks;
 }
 
@@ -113,6 +118,7 @@ bool Trial::tick() {
   }
   now_ = rig_.clock->next();
   rig_.read(now_.t, in_);
+  gate_.mark(rig_, now_.t, in_);
   if (options_.disturb) options_.disturb(in_);
   const WallClock::time_point before = WallClock::now();
   if (options_.law)
@@ -120,7 +126,7 @@ bool Trial::tick() {
   else
     step(scene_, now_, in_, state_, out_);
   const WallClock::time_point after = WallClock::now();
-  rig_.write(out_);
+  gate_.write(rig_, out_);
   if (result_.step_ns.size() < result_.step_ns.capacity())
     result_.step_ns.push_back(nanoseconds(after - before));
   count();
@@ -133,7 +139,13 @@ bool Trial::tick() {
   return true;
 }
 
+Trial::~Trial() { gate_.stop(rig_); }
+
 TrialResult Trial::run() {
+  struct AtEnd {  // also where something throws
+    Trial& trial;
+    ~AtEnd() { trial.gate_.stop(trial.rig_); }
+  } const at_end{*this};
   const WallClock::time_point start = WallClock::now();
   WallClock::time_point told = start;
   while (tick()) {
@@ -146,6 +158,8 @@ TrialResult Trial::run() {
   result_.wall = std::chrono::duration<double>(WallClock::now() - start).count();
   result_.simulated = static_cast<double>(result_.ticks + result_.missed) * scene_.dt;
   result_.lateness = rig_.clock->lateness();
+  result_.links = gate_.links();
+  result_.log = log_.lines();
   if (result_.diverged_at >= 0) result_.divergence = world_->divergence();
   return result_;
 }

@@ -16,6 +16,9 @@
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
 #include "trial/assemble.h"
+#include "trial/device_log.h"
+#include "trial/gate.h"
+#include "trial/trial_result.h"
 
 namespace enc::trial {
 
@@ -48,37 +51,22 @@ struct TrialOptions {
   std::function<void(double)> progress{};      // share done, about ten times a second
 };
 
-struct TrialResult {
-  std::int64_t ticks = 0;
-  double simulated = 0.0, wall = 0.0;  // s
-  std::array<double, kModes> mode_time{};
-  std::int32_t contacts = 0;
-  std::int64_t mode_changes = 0;
-  std::vector<std::pair<Time, std::uint32_t>> holds;  // when each began, and why; the first 16
-  Mode last_mode = Mode::away;
-  std::uint32_t last_why = 0;
-  std::uint64_t hash = 0;
-  std::vector<std::uint32_t> step_ns;  // of each step(), as the wall clock saw it
-  std::int64_t diverged_at = -1;
-  std::string divergence;
-  bool stopped = false;       // record could not be written
-  bool interrupted = false;   // options.stop said so
-  std::int64_t withheld = 0;  // commands to a real machine or arm that was not armed
-  std::int64_t missed = 0;    // cycles that were lost to the wall clock
-  Lateness lateness;          // against the wall clock
-};
-
 class Trial {
  public:
   // Throws Error for all that can be refused: nothing moves before a tick() is asked for.
   Trial(models::Setup setup, TrialOptions options);
   Trial(const Trial&) = delete;
   Trial& operator=(const Trial&) = delete;
+  ~Trial();  // whatever moves is stopped, as at the end of run()
 
   void record_to(RecordWriter* record) { record_ = record; }  // null: nowhere
   TrialResult run();
   // One tick; false when the run is over. run() is this in a loop.
   bool tick();
+  // After a link was lost: from the next tick on devices are believed and told again. A link that is still
+  // lost is lost again.
+  void resume() noexcept { gate_.resume(); }
+  [[nodiscard]] const Gate& gate() const { return gate_; }
   [[nodiscard]] const TrialResult& result() const { return result_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
@@ -103,7 +91,9 @@ class Trial {
   Scene scene_;
   std::unique_ptr<sim::World> world_;
   sim::Truth unknown_;
-  Rig rig_;  // after the world, so that it goes first
+  DeviceLog log_;
+  Rig rig_;  // after world and log, so that it goes first
+  Gate gate_;
   Tick now_;
   Inputs in_;
   Outputs out_;

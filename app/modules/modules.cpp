@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "encounter_version.h"
+#include "trial/assemble.h"
 
 namespace enc::app {
 namespace {
@@ -37,13 +38,13 @@ std::string beside_program() {
   std::error_code none;
   return (fs::read_symlink("/proc/self/exe", none).parent_path() / "modules").string();
 }
+bool ours(const std::string& name) { return name == "bench" || name == "fit" || name == "peers"; }
 std::string file_of(const std::string& name) {
   const auto in = [&](const std::string& folder) {
     return fmt::format("{}/{}{}{}", folder, kPrefix, name, kSuffix);
   };
   std::error_code none;
-  const bool ours = name == "bench" || name == "fit" || name == "peers";
-  return ours && !fs::exists(in(modules_dir()), none) ? in(beside_program()) : in(modules_dir());
+  return ours(name) && !fs::exists(in(modules_dir()), none) ? in(beside_program()) : in(modules_dir());
 }
 
 const char* const kRebuild = "build program and modules together: cmake --build --preset release";
@@ -71,6 +72,19 @@ std::vector<std::string> modules_there() {
 bool module_there(const std::string& name) {
   std::error_code none;
   return fs::exists(file_of(name), none);
+}
+
+std::vector<std::string> drivers_there() {
+  std::vector<std::string> names = modules_there();
+  std::erase_if(names, [](const std::string& name) { return ours(name) || name == "view"; });
+  return names;
+}
+
+models::Setup load_setup(const SceneOptions& options) {
+  models::Setup setup = models::load(options.scene, options.rig, options.set);
+  trial::read_driver_tables(
+      setup, [](const std::string& name) { return module_there(name) ? &load_module(name) : nullptr; });
+  return setup;
 }
 
 const ModuleInfo& load_module(const std::string& name) {

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "app/options.h"
 #include "core/module.h"
+#include "models/scene_file.h"
 
 namespace enc::app {
 
@@ -18,5 +20,10 @@ namespace enc::app {
 // Loads encounter_<name>.so. Throws Error (kind device) of one line: which file, what was found and expected,
 // what to do, and which modules are there.
 [[nodiscard]] const ModuleInfo& load_module(const std::string& name);
+
+// Drivers alone: no other module of the program.
+[[nodiscard]] std::vector<std::string> drivers_there();
+// A set-up with the tables of its drivers read, as far as their modules are there.
+[[nodiscard]] models::Setup load_setup(const SceneOptions& options);
 
 }  // namespace enc::app

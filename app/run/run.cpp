@@ -89,7 +89,7 @@ int diverged(const trial::TrialResult& result, const models::Setup& setup) {
 
 int run(const RunOptions& options) {
   const StopSignals signals;  // from here on: devices are let go, whenever it comes
-  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  const models::Setup setup = load_setup(options);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
   trial::PressMeasure presses(setup);

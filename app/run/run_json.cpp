@@ -79,6 +79,7 @@ std::string run_json(const RunReport& r) {
   json["built"] = Json::object();
   json["left_out"] = Json::object();
   for (const Part& part : parts_of(r.setup)) json[part.built ? "built" : "left_out"][part.name] = part.what;
+  for (const trial::DeviceWords& device : r.result.devices) json["devices"][device.role] = device.words;
   for (int i = 0; i < kModes; ++i)
     json["modes_s"][std::string(mode_name(static_cast<Mode>(i)))] =
         r.result.mode_time[static_cast<std::size_t>(i)];
@@ -86,7 +87,10 @@ std::string run_json(const RunReport& r) {
   json["holds"] = Json::array();
   for (const auto& [t, why] : r.result.holds)
     json["holds"].push_back({{"time_s", seconds(t.time_since_epoch())}, {"why", why_text(why)}});
-  if (r.scene.impedance())
+  for (const trial::LostLink& link : r.result.links)
+    json["lost_links"].push_back({{"role", link.role}, {"time_s", seconds(link.t.time_since_epoch())}});
+  if (!r.result.log.empty()) json["log"] = r.result.log;
+  if (r.scene.impedance)
     json["meetings"] = meetings_json(r.fingers);
   else
     json["presses"] = presses_json(r.presses);

@@ -217,7 +217,8 @@ StepTimes step_times(const std::vector<std::uint32_t>& ns) {
 }
 
 std::string run_text(const RunReport& r) {
-  std::string text = r.setup.scene.title + "\n" + made_line(r) + parts_text(r.setup);
+  std::string text =
+      r.setup.scene.title + "\n" + made_line(r) + parts_text(r.setup) + devices_text(r.result.devices);
   text += fmt::format("modes       {}; {} contacts\n", modes_line(r.result), r.result.contacts);
   for (const auto& [t, why] : r.result.holds) {
     text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
@@ -230,6 +231,10 @@ std::string run_text(const RunReport& r) {
   if (r.result.withheld > 0)
     text += fmt::format("dry         {} commands were withheld from the machine; --armed sends them\n",
                         r.result.withheld);
+  for (const trial::LostLink& link : r.result.links)
+    text += fmt::format("link        {} lost at {:.3f} s; it waits until the run is resumed\n", link.role,
+                        seconds(link.t.time_since_epoch()));
+  for (const std::string& line : r.result.log) text += "log         " + line + "\n";
   if (r.result.missed > 0)
     text += fmt::format("late        cycles lost to the wall clock: {}; stalls: {}, the longest {:.3f} s\n",
                         r.result.missed, r.result.lateness.times, r.result.lateness.longest);

@@ -2,14 +2,14 @@
 // [VHMR 3.5].
 #pragma once
 
+#include "core/devices/device.h"
 #include "core/sample.h"
 #include "core/view.h"
 
 namespace enc {
 
-class Display {
+class Display : public Device {
  public:
-  virtual ~Display() = default;
   virtual void show(const View& view) noexcept = 0;  // newest only; never blocks
   virtual bool poll(Time now,
                     Stamped<DentSample>& newest) noexcept = 0;  // true when a drawn surface came back

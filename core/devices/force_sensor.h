@@ -1,13 +1,13 @@
 // A six-axis force/torque sensor between the machine and its haptic-tip [VHMR 2].
 #pragma once
 
+#include "core/devices/device.h"
 #include "core/sample.h"
 
 namespace enc {
 
-class ForceSensor {
+class ForceSensor : public Device {
  public:
-  virtual ~ForceSensor() = default;
   // Newest; never blocks. Raw: weight, inertia and zero error are still in it.
   virtual Stamped<Wrench> read(Time now) noexcept = 0;
 };

@@ -1,16 +1,17 @@
 // A gripper between force sensor and tip that clamps a tool [VHMR 4.1].
 #pragma once
 
+#include "core/devices/device.h"
 #include "core/sample.h"
 
 namespace enc {
 
-class Gripper {
+class Gripper : public Device {
  public:
-  virtual ~Gripper() = default;
   virtual Stamped<GripSample> read(Time now) noexcept = 0;  // newest; never blocks
   virtual void command(
       const Grip& grip) noexcept = 0;  // stays until the next one; force clamped to its range
+  virtual void stop() noexcept = 0;    // keeps what it holds and opens nothing; see Manipulator
 };
 
 }  // namespace enc

@@ -2,18 +2,19 @@
 #pragma once
 
 #include "core/machine/arm_rig.h"
+#include "core/devices/device.h"
 #include "core/sample.h"
 
 namespace enc {
 
-class HapticArm {
+class HapticArm : public Device {
  public:
-  virtual ~HapticArm() = default;
   [[nodiscard]] virtual ArmAbility ability() const = 0;    // asked once, before anything moves
   virtual Stamped<ArmSample> read(Time now) noexcept = 0;  // newest; never blocks
   // Force that the tip shall exert on what touches it, gravity included: stays until the next one. The device
   // makes joint torques of it (J^T F) and clips them to what its motors can.
   virtual void command(const Vec<'R'>& force) noexcept = 0;
+  virtual void stop() noexcept = 0;  // pushes no more, and whatever it drives stands; see Manipulator
   // Speed of a prop's surface against the prop, m/s, where that has a motor; others have nothing to drive.
   virtual void drive([[maybe_unused]] double surface_speed) noexcept {}
 };

@@ -1,13 +1,13 @@
 // Any source of tool or fingertip poses: optical tracker, stereo vision, a script, a recording [VHMR 3.3].
 #pragma once
 
+#include "core/devices/device.h"
 #include "core/sample.h"
 
 namespace enc {
 
-class PoseTracker {
+class PoseTracker : public Device {
  public:
-  virtual ~PoseTracker() = default;
   virtual bool poll(
       Time now,
       Stamped<TrackedTool>& newest) noexcept = 0;  // true when there is news; leaves `newest` alone otherwise

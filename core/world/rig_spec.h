@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/devices/display_rig.h"
+#include "core/devices/settings.h"
 #include "core/frames.h"
 #include "core/machine/arm_rig.h"
 #include "core/machine/damping.h"
@@ -99,6 +101,7 @@ struct RigSpec {
   GripperRig gripper;
   ContactRig contact;
   AdmittanceRig admittance;
+  std::vector<DriverTable> drivers;  // by name
 };
 
 }  // namespace enc

@@ -7,47 +7,46 @@
 namespace enc::sample {
 namespace {
 
-// A device without a clock of its own stamps what it read with the cycle in which it came.
+// [driver.sample] of the rig file: one box, one address, two roles.
+struct Wire {
+  std::string address = "127.0.0.1";
+  std::int64_t port = 4711;
+
+  void declare(Settings& table) {
+    table.value({.name = "address", .meaning = "of the controller"}, address);
+    table.value({.name = "port", .meaning = "of the controller, TCP", .low = 1, .high = 65535}, port);
+  }
+  explicit Wire(const Offer& offer) {
+    declare(offer.table);
+    // wire: connect; throw Error(..., {}, ErrorKind::device) with a way out where nobody answers
+  }
+  Wire() = default;
+  [[nodiscard]] std::string words() const { return "sample " + address + ":" + std::to_string(port); }
+};
+
 class SampleManipulator final : public Manipulator {
  public:
-  explicit SampleManipulator(const Reach& reach) : reach_(reach), pose_(reach.machine.zero()) {}
+  explicit SampleManipulator(const Offer& offer)
+      : wire_(offer), reach_(offer.reach), pose_(reach_.machine.zero()) {}
 
+  [[nodiscard]] std::string describe() const override { return wire_.words() + ", answered (no wire)"; }
   [[nodiscard]] Reach reach() const override { return reach_; }
-
+  // A device without a clock of its own stamps what it read with the cycle in which it came.
   Stamped<TipSample> read(Time now) noexcept override {
     // wire: take the newest datagram if there is one; never wait for it
     return {{pose_, Vec<'R'>::zero(), Vec<'R'>::zero()}, now, health_};
   }
-
   void command(const Pose<'R', 'H'>& X_RH) noexcept override {
-    health_ = Health::ok;
-    if (!X_RH.valid()) {  // not a number, or not a rotation: refused, and said
-      health_ = Health::fault;
-      return;
-    }
-    pose_ = clamped(X_RH);
+    health_ = Health::fault;  // not a number, or not a rotation: refused, and said
+    if (!X_RH.valid()) return;
+    health_ = reach_.contains(X_RH) ? Health::ok : Health::out_of_range;
+    pose_ = clamped(reach_, pose_, X_RH);
     // wire: send pose_
   }
+  void stop() noexcept override {}  // wire: tell it to stand; this one stands already
 
  private:
-  // The farthest reachable pose on the straight way from where the machine is.
-  Pose<'R', 'H'> clamped(const Pose<'R', 'H'>& wanted) noexcept {
-    if (reach_.contains(wanted)) return wanted;
-    health_ = Health::out_of_range;
-    Pose<'R', 'H'> best = pose_;
-    double from = 0.0;
-    double to = 1.0;
-    for (int i = 0; i < 30; ++i) {
-      const double share = 0.5 * (from + to);
-      const Pose<'R', 'H'> between(pose_.q().slerp(share, wanted.q()),
-                                   Vec3(pose_.p() + share * (wanted.p() - pose_.p())));
-      const bool reached = reach_.contains(between);
-      if (reached) best = between;
-      (reached ? from : to) = share;
-    }
-    return best;
-  }
-
+  Wire wire_;
   Reach reach_;
   Pose<'R', 'H'> pose_;
   Health health_ = Health::ok;
@@ -55,18 +54,19 @@ class SampleManipulator final : public Manipulator {
 
 class SampleForceSensor final : public ForceSensor {
  public:
+  explicit SampleForceSensor(const Offer& offer) : wire_(offer) {}
+  [[nodiscard]] std::string describe() const override { return wire_.words() + ", answered (no wire)"; }
   Stamped<Wrench> read(Time now) noexcept override {
     return {{Vec<'F'>::zero(), Vec<'F'>::zero()}, now, Health::ok};
   }
+
+ private:
+  Wire wire_;
 };
 
-// A constructor throws Error (kind device) with a way out where the device does not answer.
-std::unique_ptr<Manipulator> manipulator(const Reach& reach) {
-  return std::make_unique<SampleManipulator>(reach);
-}
-std::unique_ptr<ForceSensor> force() { return std::make_unique<SampleForceSensor>(); }
-
-constexpr DriverModule kDriver{.manipulator = manipulator, .force = force};
+constexpr DriverModule kDriver{.settings = [](Settings& table) { Wire{}.declare(table); },
+                               .manipulator = make<Manipulator, SampleManipulator>,
+                               .force = make<ForceSensor, SampleForceSensor>};
 constexpr ModuleInfo kInfo{.name = "sample", .driver = &kDriver};
 
 }  // namespace

@@ -30,8 +30,13 @@ class Named : public Visitor {
     push(fmt::format("{}.{}", list, name));
   }
   void close() final { paths_.pop_back(); }
+  void drivers(std::string_view name, std::vector<DriverTable>& tables) final {
+    driver_tables(fmt::format("{}.{}", paths_.back(), name), tables);
+  }
 
  protected:
+  // path: "rig.driver"
+  virtual void driver_tables(const std::string&, std::vector<DriverTable>&) {}
   virtual void named(const std::string& name, const Key& key, const Target& target) = 0;
 
  private:
@@ -65,7 +70,31 @@ class List final : public Named {
                      std::string(kWords[static_cast<std::size_t>(key.confidence)]),
                      std::string(key.meaning)});
   }
+  void driver_tables(const std::string& path, std::vector<DriverTable>& tables) override {
+    for (const DriverTable& table : tables)
+      for (const DriverValue& v : table.values) {
+        const bool quoted = v.text.size() > 1 && v.text.starts_with('"') && v.text.find('\\') == v.text.npos;
+        found.push_back({fmt::format("{}.{}.{}", path, table.name, v.key), std::string(unit_of(v.key).label),
+                         quoted ? v.text.substr(1, v.text.size() - 2) : v.text,
+                         v.source.empty() ? "driver" : v.source, "chosen",
+                         v.meaning.empty() ? "known to its driver alone" : v.meaning});
+      }
+  }
 };
+
+// The value of a key, which is added where it is not there.
+std::string& text_in(std::vector<DriverTable>& tables, const std::string& driver, const std::string& key) {
+  const auto of = [](auto& items, const auto& name, auto member) {
+    const auto after = [&](const auto& item) { return item.*member >= name; };
+    auto at = std::find_if(items.begin(), items.end(), after);
+    if (at == items.end() || (*at).*member != name) {
+      at = items.emplace(at);
+      (*at).*member = name;
+    }
+    return at;
+  };
+  return of(of(tables, driver, &DriverTable::name)->values, key, &DriverValue::key)->text;
+}
 
 class Set final : public Named {
  public:
@@ -90,6 +119,14 @@ class Set final : public Named {
     if (key.fixed || name != name_) return;
     found_ = true;
     read_value(value_, place_, key, target);
+  }
+  // Its driver reads it later, and says what it is not.
+  void driver_tables(const std::string& path, std::vector<DriverTable>& tables) override {
+    const std::string start = path + ".";
+    const auto dot = name_.rfind('.');
+    if (!name_.starts_with(start) || dot < start.size() || dot + 1 == name_.size()) return;
+    found_ = true;
+    text_in(tables, name_.substr(start.size(), dot - start.size()), name_.substr(dot + 1)) = value_;
   }
   std::string name_, value_, place_;
   std::vector<std::string> names_;

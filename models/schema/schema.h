@@ -65,6 +65,8 @@ class Visitor {
   virtual std::size_t open_list(std::string_view list, std::size_t size) = 0;
   virtual void open_entry(std::string_view list, std::size_t index, std::string_view name) = 0;
   virtual void close() = 0;
+  // Tables of drivers, whose keys they declare themselves.
+  virtual void drivers(std::string_view, std::vector<DriverTable>&) {}
 };
 
 void describe(Visitor&, SceneSpec&);  // without its behaviours, which have a file of their own

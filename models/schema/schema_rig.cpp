@@ -247,6 +247,7 @@ void describe(Visitor& v, RigSpec& r) {
   table(v, "gripper", [&] { describe(v, r.gripper); });
   table(v, "contact", [&] { describe(v, r.contact); });
   table(v, "admittance", [&] { describe(v, r.admittance); });
+  v.drivers("driver", r.drivers);
 }
 
 void describe_all(Visitor& v, SceneSpec& scene, RigSpec& rig, sim::TwinSpec& twin) {

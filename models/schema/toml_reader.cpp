@@ -36,6 +36,23 @@ std::string kind_of(const toml::node& node) {
   }
 }
 
+// One value as TOML writes it, the same in every locale.
+std::string text_of_node(const toml::node& node) {
+  if (const auto* text = node.as_string()) return quoted_toml(text->get());
+  if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
+  if (const auto* is = node.as_boolean()) return is->get() ? "true" : "false";
+  if (const auto* number = node.as_floating_point()) {
+    const std::string text = fmt::format("{}", number->get());
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
+  if (const auto* array = node.as_array()) {
+    std::string text;
+    for (const toml::node& item : *array) text += (text.empty() ? "" : ", ") + text_of_node(item);
+    return "[" + text + "]";
+  }
+  return quoted_toml(kind_of(node));  // which no key wants
+}
+
 // One node into one target. `place` is where to look when it fails.
 class Value {
  public:
@@ -153,8 +170,7 @@ class Reader final : public Visitor {
     Level& level = levels_.back();
     if (node == nullptr) {
       if (key.presence == Presence::needed) {
-        level.missing.push_back(fmt::format("has no '{}'; expected {}; add '{} = {}'", key.name,
-                                            expected(key, target), key.name, example_of(key, target)));
+        level.missing.push_back(missing_text(level.title, key, target));
       }
       return;
     }
@@ -208,10 +224,28 @@ class Reader final : public Visitor {
         unknown(level, key);
     }
     if (!level.missing.empty()) {
-      throw Error(fmt::format("{}: {} {}", place_in(name_, level.table->source()), level.title,
-                              level.missing.front()));
+      throw Error(fmt::format("{}: {}", place_in(name_, level.table->source()), level.missing.front()));
     }
     levels_.pop_back();
+  }
+  void drivers(std::string_view name, std::vector<DriverTable>& tables) override {
+    tables.clear();
+    if (!open(name, false)) return;
+    for (const auto& [driver, ignored] : *levels_.back().table) {
+      open(bare(driver), false);
+      DriverTable table{std::string(driver.str()), {}};
+      for (const auto& [key, node] : *levels_.back().table) {
+        places_[path_of(bare(key))] = place_in(name_, key.source());
+        levels_.back().known.emplace_back(key.str());
+        if (node.is_table())
+          throw Error(fmt::format("{}: {} is a table; expected a value; drivers have plain keys only",
+                                  place_in(name_, key.source()), quoted(std::string(key.str()))));
+        table.values.push_back({std::string(key.str()), text_of_node(node), {}, {}});
+      }
+      close();
+      tables.push_back(std::move(table));
+    }
+    close();
   }
   Places finish() {
     close();
@@ -225,6 +259,16 @@ class Reader final : public Visitor {
     std::vector<std::string> known, missing;
   };
 
+  // A name that needs no quotes.
+  [[nodiscard]] std::string_view bare(const toml::key& key) const {
+    const auto plain = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+             c == '-';
+    };
+    if (!key.str().empty() && std::all_of(key.str().begin(), key.str().end(), plain)) return key.str();
+    throw Error(fmt::format("{}: {} is no name; expected letters, digits, '_' and '-'; choose another",
+                            place_in(name_, key.source()), quoted(std::string(key.str()))));
+  }
   // What is asked for is known; nullptr if it is not there.
   const toml::node* find(std::string_view name) {
     levels_.back().known.emplace_back(name);
@@ -240,13 +284,8 @@ class Reader final : public Visitor {
     return place_in(name_, table.find(key)->first.source());
   }
   [[noreturn]] void unknown(const Level& level, const toml::key& key) const {
-    const std::string near = nearest_name(key.str(), level.known);
-    std::string wanted = "expected a key of " + level.title;
-    if (!unit_of(near).label.empty() && key.str().starts_with(stem_of(near))) {
-      wanted = fmt::format("expected the unit {}", unit_of(near).label);
-    }
-    throw Error(fmt::format("{}: unknown key {}; {}; {}", place_in(name_, key.source()),
-                            quoted(std::string(key.str())), wanted, advice(key.str(), level.known)));
+    throw Error(fmt::format("{}: {}", place_in(name_, key.source()),
+                            unknown_text(level.title, key.str(), level.known)));
   }
 
   std::string name_;
@@ -276,7 +315,17 @@ Places read_toml(const std::string& text, const std::string& name,
   return reader.finish();
 }
 
-void read_value(const std::string& text, const std::string& place, const Key& key, const Target& target) {
+std::string as_value(const std::string& text) {
+  try {
+    const toml::table table = toml::parse("value = " + text);
+    if (table.size() == 1 && table.contains("value")) return text_of_node(*table.get("value"));
+  } catch (const toml::parse_error&) {  // words
+  }
+  return quoted_toml(text);
+}
+
+void read_value(const std::string& text, const std::string& place, const Key& key, const Target& target,
+                Quotes quotes) {
   auto* const* number = std::get_if<double*>(&target);
   if (number != nullptr && text == "unset" && key.presence == Presence::optional) {
     **number = kUnset;
@@ -285,7 +334,7 @@ void read_value(const std::string& text, const std::string& place, const Key& ke
   auto* const* numbers = std::get_if<std::vector<double>*>(&target);
   if (numbers != nullptr && text == "unset" && key.presence == Presence::optional) return (*numbers)->clear();
   const bool is_text = std::holds_alternative<std::string*>(target) || std::holds_alternative<Choice>(target);
-  const bool bare = is_text && !text.starts_with('"') && !text.starts_with('\'');
+  const bool bare = quotes == Quotes::may && is_text && !text.starts_with('"') && !text.starts_with('\'');
   toml::table table;
   try {
     table = toml::parse("value = " + (bare ? quoted_toml(text) : text));

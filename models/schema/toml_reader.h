@@ -20,7 +20,13 @@ using Places = std::map<std::string, std::string, std::less<>>;
 // `name` is the file's, for messages. `walk` lets a visitor walk what is read.
 Places read_toml(const std::string& text, const std::string& name, const std::function<void(Visitor&)>& walk);
 
-// One value, as --set gives it; texts need no quotes, and "unset" clears what may be unset.
-void read_value(const std::string& text, const std::string& place, const Key& key, const Target& target);
+// One value. As --set gives it texts need no quotes, and "unset" clears what may be unset; as a file gives it
+// they do.
+enum class Quotes : std::uint8_t { may, must };
+void read_value(const std::string& text, const std::string& place, const Key& key, const Target& target,
+                Quotes quotes = Quotes::may);
+
+// A text of --set as TOML writes it: quoted where it is no value.
+std::string as_value(const std::string& text);
 
 }  // namespace enc::models

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "models/schema/toml_reader.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 
@@ -55,6 +56,15 @@ class Writer final : public Visitor {
     text_ += fmt::format("\n[[{}]]\n", paths_.back());
   }
   void close() override { paths_.pop_back(); }
+  void drivers(std::string_view name, std::vector<DriverTable>& tables) override {
+    for (const DriverTable& table : tables) {
+      push(fmt::format("{}.{}", name, table.name));
+      text_ += fmt::format("\n[{}]\n", paths_.back());
+      for (const DriverValue& value : table.values)
+        text_ += fmt::format("{} = {}\n", value.key, as_value(value.text));
+      close();
+    }
+  }
   [[nodiscard]] std::string text() && { return std::move(text_); }
 
  private:

@@ -15,6 +15,11 @@ std::string expected(const Key& key, const Target& target);
 std::string wanted_number(const Key& key);
 // "33.0": a value of the right type
 std::string example_of(const Key& key, const Target& target);
+// "[force] has no 'filter_hz'; expected ...; add ..."
+std::string missing_text(const std::string& table, const Key& key, const Target& target);
+// "unknown key 'filtr_hz'; expected a key of [force]; did you mean ...?"
+std::string unknown_text(const std::string& table, std::string_view key,
+                         const std::vector<std::string>& known);
 // 'text' on one line, cut when long
 std::string quoted(const std::string& text);
 // "text", as TOML writes it

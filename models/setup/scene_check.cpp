@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/devices/roles.h"
 #include "core/error.h"
 #include "core/task/measure/probe.h"
 #include "core/world/contact_limits.h"
@@ -283,12 +284,9 @@ void check_driver(const Setup& setup, bool named, const std::string& table, cons
 void check_rig(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   const RigSpec& r = setup.rig;
-  check_driver(setup, s.manipulator.has_value(), "manipulator", r.manipulator.driver);
-  check_driver(setup, s.arm.has_value(), "arm", r.arm.driver);
-  check_driver(setup, s.force.has_value(), "force", r.force.driver);
-  check_driver(setup, s.tracker.has_value(), "tracker", r.tracker.driver);
-  check_driver(setup, s.display.has_value(), "display", r.display.driver);
-  check_driver(setup, s.gripper.has_value(), "gripper", r.gripper.driver);
+  each_role([&](const auto& role) {
+    check_driver(setup, (s.*role.scene).has_value(), role.table, (r.*role.rig).driver);
+  });
   if (r.tracker.lost_age < r.tracker.usual_age) {
     fail(setup, "rig.tracker.lost_age_ms",
          "'lost_age_ms' is less than 'usual_age_ms'; expected at least that; raise it");

@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "core/devices/roles.h"
 #include "core/error.h"
+#include "models/driver_table.h"
 #include "models/files.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/units.h"
@@ -71,15 +73,9 @@ void read_scene(Setup& setup) {
 
 // A role whose table is missing has no driver; the struct's default is for rigs made in code.
 void clear_absent_drivers(Setup& setup) {
-  const auto clear = [&](const char* table, std::string& driver) {
-    if (!setup.places.contains(table)) driver = "none";
-  };
-  clear("rig.manipulator", setup.rig.manipulator.driver);
-  clear("rig.force", setup.rig.force.driver);
-  clear("rig.tracker", setup.rig.tracker.driver);
-  clear("rig.display", setup.rig.display.driver);
-  clear("rig.gripper", setup.rig.gripper.driver);
-  clear("rig.arm", setup.rig.arm.driver);
+  each_role([&](const auto& role) {
+    if (!setup.places.contains(fmt::format("rig.{}", role.table))) (setup.rig.*role.rig).driver = "none";
+  });
 }
 
 // Else it is a name in models/rigs.
@@ -97,6 +93,7 @@ void read_rig(Setup& setup, const std::string& rig) {
   for (const auto& [key, place] : places)
     setup.places[key.starts_with("truth") ? key : fmt::format("rig.{}", key)] = place;
   clear_absent_drivers(setup);
+  refuse_driverless(setup);
 }
 
 void read_behaviours(Setup& setup) {
@@ -238,6 +235,7 @@ Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& ove
   Setup setup;
   read_rig(setup, rig);
   for (const std::string& text : overrides) set(setup, text);
+  settle_drivers(setup);
   return setup;
 }
 
@@ -280,6 +278,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   for (const std::string& text : overrides) {
     if (!of_behaviour(text)) set(setup, text);
   }
+  settle_drivers(setup);
   read_behaviours(setup);
   for (const std::string& text : overrides) {
     if (of_behaviour(text)) set(setup, text);

@@ -4,6 +4,7 @@
 #include "app/modules/modules.h"
 #include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
+#include "tests/support/default_offer.h"
 
 namespace enc::test {
 namespace {
@@ -86,7 +87,8 @@ TEST(SimulatedForce, NoiseIsWhatTheRigSays) {
 
 TEST(SampleForce, ReadsZeroAndStampsItWithTheCycle) {
   setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
-  const auto force = app::load_module("sample").driver->force();
+  DefaultOffer offer;
+  const auto force = app::load_module("sample").driver->force(offer.with());
   for (int i = 0; i < 5; ++i) {
     const Time now(Duration(1'000'000LL * i));
     const auto s = force->read(now);

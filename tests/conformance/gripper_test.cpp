@@ -59,6 +59,17 @@ TEST_F(Gripping, NotANumberIsRefusedAndTheGripKept) {
   EXPECT_EQ(after({true, 100.0}, 2).health, Health::ok);
 }
 
+TEST_F(Gripping, StopKeepsWhatItHolds) {
+  after({true, 100.0}, 400);
+  for (int times = 0; times < 2; ++times) {
+    device().stop();
+    for (int i = 0; i < 300; ++i) twin.rig.clock->next();
+    EXPECT_TRUE(device().read({}).value.holding);
+    EXPECT_DOUBLE_EQ(device().read({}).value.force, 100.0);
+  }
+  EXPECT_FALSE(after({false, kUnset}, 400).value.holding);
+}
+
 TEST_F(Gripping, ReadingChangesNothing) {
   after({true, 100.0}, 30);
   const double opening = device().read({}).value.opening;

@@ -7,6 +7,7 @@
 #include "app/modules/modules.h"
 #include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
+#include "tests/support/default_offer.h"
 
 namespace enc::test {
 namespace {
@@ -28,7 +29,8 @@ struct SimMachine final : Machine {
 
 struct SampleMachine final : Machine {
   Reach reach{0.05, 0.41, Hexapod{HexapodGeometry{}}};
-  std::unique_ptr<Manipulator> made = app::load_module("sample").driver->manipulator(reach);
+  DefaultOffer offer;
+  std::unique_ptr<Manipulator> made = app::load_module("sample").driver->manipulator(offer.with(reach));
   Manipulator& device() override { return *made; }
 };
 
@@ -111,6 +113,20 @@ TEST_P(ManipulatorTest, NotANumberIsRefusedAndSaid) {
   s = after(Pose<'R', 'H'>(Quat(2, 0, 0, 0), Vec3(there.p())), 2);
   EXPECT_EQ(s.health, Health::fault);  // no rotation either
   EXPECT_EQ(after(there, 2).health, Health::ok);
+}
+
+// However fast it was: it stands where it stopped, a second stop changes nothing, and a command starts anew.
+TEST_P(ManipulatorTest, StopsStaysAndStartsAnew) {
+  after(at(0.01, 0, 0), 60);  // on its way
+  machine_->device().stop();
+  const auto rest = [&](int cycles) -> Vec3 {
+    for (int i = 0; i < cycles; ++i) machine_->next();
+    return machine_->device().read(machine_->now).value.X_RH.p();
+  };
+  const Vec3 stood = rest(1500);
+  machine_->device().stop();
+  EXPECT_LT((rest(300) - stood).norm(), 3e-6);
+  EXPECT_LT((after(at(0.001, 0, 0), 1500).value.X_RH.p() - at(0.001, 0, 0).p()).norm(), 3e-6);
 }
 
 TEST_P(ManipulatorTest, ReadNeitherWaitsNorMovesAnything) {

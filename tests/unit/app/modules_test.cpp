@@ -139,6 +139,16 @@ TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
        "Vec<'F'> pull;");  // far inside: module.h, rig.h, devices, sample.h
   const std::string other = hash();
   EXPECT_NE(other, before);
+  const std::vector<std::array<const char*, 3>> contract{
+      {"core/devices/settings.h", "bool needed", "int needed"},
+      {"core/devices/driver.h", "Duration period;", "double period;"},
+      {"core/devices/device.h", "bool linked()", "int linked()"},
+      {"core/devices/manipulator.h", "void stop()", "int stop()"}};
+  for (const auto& [header, from, to] : contract) {
+    const std::string old = hash();
+    edit(header, from, to);
+    EXPECT_NE(hash(), old) << header;
+  }
   edit("core/machine/reach.h", "double speed = kUnset;", "float speed = kUnset;");
   EXPECT_NE(hash(), other);
 }
@@ -150,6 +160,7 @@ TEST_F(ModulesTest, TheSampleIsTaken) {
   const ModuleInfo& info = app::load_module("sample");
   EXPECT_STREQ(info.name, "sample");
   ASSERT_NE(info.driver, nullptr);
+  EXPECT_NE(info.driver->settings, nullptr);
   EXPECT_NE(info.driver->manipulator, nullptr);
   EXPECT_NE(info.driver->force, nullptr);
   EXPECT_EQ(info.driver->tracker, nullptr);

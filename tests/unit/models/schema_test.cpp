@@ -95,6 +95,7 @@ class Levels final : public Visitor {
     found[paths_.back()] = 0;
   }
   void close() override { paths_.pop_back(); }
+  void drivers(std::string_view, std::vector<DriverTable>&) override { ++found[paths_.back()]; }
 
  private:
   void push(std::string_view name) {

@@ -104,6 +104,7 @@ class Claims final : public Manipulator {
   [[nodiscard]] Reach reach() const override { return reach_; }
   Stamped<TipSample> read(Time) noexcept override { return {}; }
   void command(const Pose<'R', 'H'>&) noexcept override {}
+  void stop() noexcept override {}
 
  private:
   Reach reach_;
@@ -114,6 +115,7 @@ class ArmClaims final : public HapticArm {
   [[nodiscard]] ArmAbility ability() const override { return ability_; }
   Stamped<ArmSample> read(Time) noexcept override { return {}; }
   void command(const Vec<'R'>&) noexcept override {}
+  void stop() noexcept override {}
 
  private:
   ArmAbility ability_;

@@ -82,6 +82,7 @@ class Stalling final : public Manipulator {
     machine_->command(X_RH);
     if (++log_.commands == 100) std::this_thread::sleep_for(std::chrono::milliseconds(300));
   }
+  void stop() noexcept override { machine_->stop(); }
 
  private:
   std::unique_ptr<Manipulator> machine_;

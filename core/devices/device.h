@@ -1,0 +1,18 @@
+// What every device says of itself, whatever its role.
+#pragma once
+
+#include <string>
+
+namespace enc {
+
+class Device {
+ public:
+  virtual ~Device() = default;
+  // What it is and what was found, in a line: "sample 127.0.0.1:4711, answered". Never asked within the loop.
+  [[nodiscard]] virtual std::string describe() const { return {}; }
+  // False while nothing comes from it or goes to it. The run then holds until it is told to resume, even
+  // where the link comes back before. Asked on every cycle; never blocks.
+  [[nodiscard]] virtual bool linked() const noexcept { return true; }
+};
+
+}  // namespace enc

@@ -1,0 +1,43 @@
+// The one table of roles: what each is called, and where it stands in scene, rig file, driver, rig and
+// inputs.
+#pragma once
+
+#include <optional>
+
+#include "core/devices/driver.h"
+#include "core/rig.h"
+#include "core/scene_spec.h"
+
+namespace enc {
+
+enum class RoleId : std::uint8_t { manipulator, arm, force, tracker, display, gripper };
+inline constexpr std::size_t kRoles = 6;
+
+template <class Device, class Asked, class Believed, class Said>
+struct Role {
+  RoleId id;
+  const char *table, *name;  // [force] of scene and rig file; "force sensor" in messages
+  std::optional<Asked> SceneSpec::*scene;
+  Believed RigSpec::*rig;  // with its `driver`
+  Maker<Device> DriverModule::*make;
+  std::unique_ptr<Device> Rig::*slot;
+  Stamped<Said> Inputs::*said;
+};
+
+template <class F>
+void each_role(F f) {
+  f(Role{RoleId::manipulator, "manipulator", "manipulator", &SceneSpec::manipulator, &RigSpec::manipulator,
+         &DriverModule::manipulator, &Rig::manipulator, &Inputs::tip});
+  f(Role{RoleId::arm, "arm", "arm", &SceneSpec::arm, &RigSpec::arm, &DriverModule::arm, &Rig::arm,
+         &Inputs::arm});
+  f(Role{RoleId::force, "force", "force sensor", &SceneSpec::force, &RigSpec::force, &DriverModule::force,
+         &Rig::force, &Inputs::wrench});
+  f(Role{RoleId::tracker, "tracker", "tracker", &SceneSpec::tracker, &RigSpec::tracker,
+         &DriverModule::tracker, &Rig::tracker, &Inputs::tool});
+  f(Role{RoleId::display, "display", "display", &SceneSpec::display, &RigSpec::display,
+         &DriverModule::display, &Rig::display, &Inputs::dent});
+  f(Role{RoleId::gripper, "gripper", "gripper", &SceneSpec::gripper, &RigSpec::gripper,
+         &DriverModule::gripper, &Rig::gripper, &Inputs::grip});
+}
+
+}  // namespace enc

@@ -1,0 +1,114 @@
+#include "models/driver_table.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/devices/roles.h"
+#include "core/error.h"
+#include "models/toml_writer.h"
+#include "models/wording.h"
+
+namespace enc::models {
+namespace {
+
+std::string path_of(const std::string& driver) { return "rig.driver." + driver; }
+
+// As --set gives it, "--set ..."; else a place in a file.
+bool is_set(const std::string& place) { return place.starts_with("--set "); }
+
+std::string driverless(const RigSpec& rig, const std::string& name) {
+  const std::set<std::string> there = drivers_of(rig);
+  return fmt::format(
+      "no role of this rig has the driver {}; expected one that a role names; {}", quoted(name),
+      there.empty() ? "write it like 'driver = \"" + name + "\"' in the role's table, or remove this one"
+                    : advice(name, {there.begin(), there.end()}));
+}
+
+}  // namespace
+
+std::set<std::string> drivers_of(const RigSpec& rig) {
+  std::set<std::string> names;
+  each_role([&](const auto& role) { names.insert((rig.*role.rig).driver); });
+  names.erase("sim");
+  names.erase("none");
+  return names;
+}
+
+void refuse_driverless(const Setup& setup) {
+  for (const DriverTable& table : setup.rig.drivers)
+    if (!drivers_of(setup.rig).contains(table.name))
+      throw Error(
+          fmt::format("{}: {}", place_of(setup, path_of(table.name)), driverless(setup.rig, table.name)));
+}
+
+void settle_drivers(Setup& setup) {
+  const std::set<std::string> there = drivers_of(setup.rig);
+  std::erase_if(setup.rig.drivers, [&](const DriverTable& table) {
+    if (there.contains(table.name)) return false;
+    for (const DriverValue& value : table.values) {
+      const std::string place = place_of(setup, path_of(table.name) + "." + value.key);
+      if (is_set(place)) throw Error(fmt::format("{}: {}", place, driverless(setup.rig, table.name)));
+    }
+    return true;
+  });
+}
+
+DriverTableReader::DriverTableReader(const Setup& setup, const std::string& driver)
+    : setup_(setup), driver_(driver), title_(fmt::format("[driver.{}]", driver)) {
+  for (const DriverTable& table : setup.rig.drivers)
+    if (table.name == driver) given_ = table.values;
+}
+
+std::string DriverTableReader::place(const std::string& key) const {
+  return place_of(setup_, fmt::format("{}.{}", path_of(driver_), key));
+}
+
+void DriverTableReader::read(const Setting& setting, const Target& target) {
+  const Key key{setting.name,
+                setting.meaning,
+                setting.source,
+                Confidence::chosen,
+                {setting.low, setting.high},
+                setting.needed ? Presence::needed : Presence::defaulted,
+                setting.words};
+  const std::string name(setting.name);
+  known_.push_back(name);
+  const auto is = [&](const DriverValue& v) { return v.key == name; };
+  if (const auto found = std::find_if(given_.begin(), given_.end(), is); found != given_.end())
+    read_value(found->text, place(name), key, target, is_set(place(name)) ? Quotes::may : Quotes::must);
+  else if (setting.needed)
+    missing_.push_back(missing_text(title_, key, target));
+  const DriverValue value{name, value_text(key, target), std::string(key.meaning), std::string(key.source)};
+  const auto after = [&](const DriverValue& v) { return v.key > name; };
+  all_.insert(std::find_if(all_.begin(), all_.end(), after), value);
+}
+
+// Unknown keys come before missing ones: a key with a wrong name is usually both.
+void DriverTableReader::finish() const {
+  for (const DriverValue& value : given_)
+    if (std::find(known_.begin(), known_.end(), value.key) == known_.end())
+      throw Error(fmt::format("{}: {}", place(value.key), unknown_text(title_, value.key, known_)));
+  if (missing_.empty()) return;
+  std::string at = path_of(driver_);
+  if (!setup_.places.contains(at))  // no table at all: it is wanted where the driver is named
+    each_role([&, first = true](const auto& role) mutable {
+      if (!first || (setup_.rig.*role.rig).driver != driver_) return;
+      at = fmt::format("rig.{}.driver", role.table);
+      first = false;
+    });
+  throw Error(fmt::format("{}: {}", place_of(setup_, at), missing_.front()));
+}
+
+void read_driver_table(Setup& setup, const std::string& driver, void (*declare)(Settings&)) {
+  DriverTableReader reader(setup, driver);
+  if (declare != nullptr) declare(reader);
+  reader.finish();
+  std::vector<DriverTable>& tables = setup.rig.drivers;
+  std::erase_if(tables, [&](const DriverTable& table) { return table.name == driver; });
+  if (reader.all().empty()) return;
+  const auto after = [&](const DriverTable& table) { return table.name > driver; };
+  tables.insert(std::find_if(tables.begin(), tables.end(), after), {driver, reader.all()});
+}
+
+}  // namespace enc::models

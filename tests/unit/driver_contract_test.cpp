@@ -1,0 +1,293 @@
+// What a driver is given and what it gives: one call for each role, a table of its own, a line about itself.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/devices/roles.h"
+#include "core/error.h"
+#include "models/driver_table.h"
+#include "tests/support/bytes_of.h"
+#include "tests/support/temporary_folder.h"
+#include "trial/trial.h"
+
+namespace enc::trial {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr std::array<std::string_view, 2> kWays{"fast", "exact"};
+
+// A driver of this test, which fills every role of a hexapod's scene.
+struct Box {
+  std::string address = "10.0.0.1", mode = "exact";
+  std::int64_t port = 4711;
+  double timeout = 0.1;  // s
+  std::vector<double> gains{1.0, 2.0};
+
+  void declare(Settings& table) {
+    table.value({.name = "address", .meaning = "of the box", .needed = true}, address);
+    table.value({.name = "port", .meaning = "of the box", .low = 1, .high = 65535}, port);
+    table.value({.name = "timeout_ms", .meaning = "for an answer", .low = 1, .source = "its manual"},
+                timeout);
+    table.value({.name = "mode", .meaning = "of the box", .words = kWays}, mode);
+    table.value({.name = "gains", .meaning = "of each axis"}, gains);
+  }
+};
+struct Given {
+  Box box;
+  std::int64_t makers = 0, commands = 0, stops = 0;
+  double speed = 0.0, grip = 0.0;
+  Duration period{};
+};
+Given& given() {
+  static Given g;
+  return g;
+}
+template <class Role>
+class Fake : public Role {
+ public:
+  explicit Fake(const Offer& offer) {
+    given().box.declare(offer.table);
+    ++given().makers;
+    given().speed = offer.reach.speed;
+    given().grip = offer.rig.gripper.force;
+    given().period = offer.period;
+    offer.log.say("connected to " + given().box.address);
+  }
+  [[nodiscard]] std::string describe() const override { return "box " + given().box.address; }
+};
+class FakeMachine final : public Fake<Manipulator> {
+ public:
+  explicit FakeMachine(const Offer& offer) : Fake(offer), reach_(offer.reach) {}
+  [[nodiscard]] Reach reach() const override { return reach_; }
+  Stamped<TipSample> read(Time now) noexcept override {
+    return {{reach_.machine.zero(), Vec<'R'>::zero(), Vec<'R'>::zero()}, now, Health::ok};
+  }
+  void command(const Pose<'R', 'H'>&) noexcept override { ++given().commands; }
+  void stop() noexcept override { ++given().stops; }
+
+ private:
+  Reach reach_;
+};
+class FakeGripper final : public Fake<Gripper> {
+ public:
+  using Fake::Fake;
+  Stamped<GripSample> read(Time now) noexcept override {
+    return {{GripPhase::closed, 0.006, 100.0, true}, now, Health::ok};
+  }
+  void command(const Grip&) noexcept override { ++given().commands; }
+  void stop() noexcept override { ++given().stops; }
+};
+
+const ModuleInfo& fake_module(const std::string&) {
+  static const DriverModule kDriver{.settings = [](Settings& table) { Box{}.declare(table); },
+                                    .manipulator = make<Manipulator, FakeMachine>,
+                                    .gripper = make<Gripper, FakeGripper>};
+  static const ModuleInfo kInfo{.name = "box", .driver = &kDriver};
+  return kInfo;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// sim.toml with the box for machine and gripper, and its table at the end.
+class DriverContract : public testing::Test {
+ protected:
+  DriverContract() {
+    given() = Given{};
+    text_ = test::bytes_of(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml");
+    for (const std::string role : {"[manipulator]\n", "[gripper]\n"})
+      text_ = replaced(text_, role + "driver = \"sim\"", role + "driver = \"box\"");
+    lines_ = static_cast<int>(std::count(text_.begin(), text_.end(), '\n'));
+  }
+  models::Setup load(const std::string& table, const std::vector<std::string>& set = {}) {
+    std::ofstream(rig_) << text_ << table;
+    return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml", rig_, set);
+  }
+  // lab.toml:LINE:COLUMN, the line counted from the table on.
+  [[nodiscard]] std::string at(int line, int column) const {
+    return rig_ + ":" + std::to_string(lines_ + line) + ":" + std::to_string(column) + ": ";
+  }
+  std::string refusal(const std::string& table, const std::vector<std::string>& set = {}) {
+    try {
+      models::Setup setup = load(table, set);
+      read_driver_tables(setup, [](const std::string& name) { return &fake_module(name); });
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::input);
+      return e.what();
+    }
+    return {};
+  }
+  static TrialOptions options(bool armed) {
+    TrialOptions options;
+    options.drivers = fake_module;
+    options.armed = armed;
+    options.seconds = 0.05;
+    return options;
+  }
+  test::TemporaryFolder folder_;
+  std::string rig_ = folder_.file("lab.toml"), text_;
+  int lines_ = 0;
+};
+
+const std::string kTable =
+    "[driver.box]\naddress = \"10.0.0.7\"\nport = 4712\ntimeout_ms = 250\nmode = \"fast\"\n";
+
+TEST_F(DriverContract, EachRoleIsMadeByOneCallWithTheDriversTableAndTheRig) {
+  Trial trial(load(kTable), options(true));
+  EXPECT_EQ(given().makers, 2);
+  EXPECT_EQ(given().box.address, "10.0.0.7");
+  EXPECT_EQ(given().box.port, 4712);
+  EXPECT_DOUBLE_EQ(given().box.timeout, 0.25);  // SI
+  EXPECT_EQ(given().box.mode, "fast");
+  EXPECT_EQ(given().box.gains, (std::vector<double>{1.0, 2.0}));  // not named: its default
+  EXPECT_DOUBLE_EQ(given().speed, 0.05);
+  EXPECT_DOUBLE_EQ(given().grip, 100.0);
+  EXPECT_EQ(given().period, Duration(1'000'000));
+  const TrialResult result = trial.run();
+  ASSERT_EQ(result.devices.size(), 2U);
+  EXPECT_EQ(result.devices[0].role, "manipulator");
+  EXPECT_EQ(result.devices[0].words, "box 10.0.0.7");
+  EXPECT_EQ(result.devices[1].role, "gripper");
+  EXPECT_THAT(result.log, testing::Each(std::string("connected to 10.0.0.7")));
+  EXPECT_EQ(result.log.size(), 2U);
+}
+
+TEST_F(DriverContract, CommandsOfMachineAndGripperAreWithheldUntilArmed) {
+  Trial dry(load(kTable), options(false));
+  const TrialResult said = dry.run();
+  EXPECT_EQ(given().commands, 0);
+  EXPECT_EQ(given().stops, 0);  // nor is it told to stop
+  EXPECT_EQ(said.withheld, 2 * said.ticks);
+  Trial armed(load(kTable), options(true));
+  const TrialResult sent = armed.run();
+  EXPECT_EQ(given().commands, 2 * sent.ticks);
+  EXPECT_EQ(given().stops, 2);
+  EXPECT_EQ(sent.withheld, 0);
+}
+
+TEST_F(DriverContract, ATableIsReadStrictly) {
+  EXPECT_EQ(refusal(kTable), "");
+  EXPECT_EQ(refusal(replaced(kTable, "port", "prot")),
+            at(3, 1) + "unknown key 'prot'; expected a key of [driver.box]; did you mean 'port'?");
+  EXPECT_EQ(refusal(replaced(kTable, "timeout_ms", "timeout_s")),
+            at(4, 1) + "unknown key 'timeout_s'; expected the unit ms; did you mean 'timeout_ms'?");
+  EXPECT_EQ(refusal(replaced(kTable, "4712", "\"4712\"")),
+            at(3, 1) +
+                "'port' is a text; expected a whole number from 1 to 65535 (of the box); write it like "
+                "'port = 1'");
+  EXPECT_THAT(refusal(replaced(kTable, "4712", "4712.0")),
+              StartsWith(at(3, 1) + "'port' is a number with a fraction"));
+  EXPECT_THAT(refusal(replaced(kTable, "4712", "70000")), StartsWith(at(3, 1) + "'port' is 70000"));
+  EXPECT_THAT(refusal(replaced(kTable, "4712", "true")), StartsWith(at(3, 1) + "'port' is true or false"));
+  EXPECT_THAT(refusal(replaced(kTable, "4712", "1979-05-27")), StartsWith(at(3, 1) + "'port' is a "));
+  EXPECT_THAT(refusal(replaced(kTable, "\"10.0.0.7\"", "7")),
+              StartsWith(at(2, 1) + "'address' is a whole number"));
+  EXPECT_THAT(refusal(replaced(kTable, "\"fast\"", "\"fasd\"")),
+              AllOf(StartsWith(at(5, 1) + "'mode' is 'fasd'"), HasSubstr("did you mean 'fast'?")));
+  EXPECT_THAT(refusal(replaced(kTable, "port = 4712", "[driver.box.port]")),
+              StartsWith(at(3, 13) + "'port' is a table"));
+}
+
+TEST_F(DriverContract, AMissingKeyIsSaidWhereItBelongs) {
+  EXPECT_THAT(refusal("[driver.box]\nport = 1\n"),
+              AllOf(StartsWith(at(1, 1) + "[driver.box] has no 'address'; expected a text that is not empty"),
+                    HasSubstr("add 'address = ")));
+  const std::string none = refusal("");  // no table at all: where the driver is named
+  EXPECT_THAT(none, AllOf(StartsWith(rig_ + ":"), HasSubstr("[driver.box] has no 'address'")));
+  EXPECT_THAT(none, testing::Not(StartsWith(rig_ + ":1:1")));
+  EXPECT_THAT(refusal("", {"rig.manipulator.driver=sim", "rig.gripper.driver=sim"}), "");
+}
+
+TEST_F(DriverContract, ATableOfNobodyIsRefused) {
+  EXPECT_EQ(
+      refusal(replaced(kTable, "driver.box", "driver.bax")),
+      at(1, 1) +
+          "no role of this rig has the driver 'bax'; expected one that a role names; did you mean 'box'?");
+  EXPECT_THAT(refusal(replaced(kTable, "driver.box", "driver.sim")),
+              StartsWith(at(1, 1) + "no role of this rig"));
+  EXPECT_THAT(refusal(kTable, {"rig.driver.bax.port=1"}), StartsWith("--set rig.driver.bax.port=1: no role"));
+}
+
+TEST_F(DriverContract, SetReachesIt) {
+  models::Setup setup = load("", {"rig.driver.box.port=99", "rig.driver.box.address=localhost",
+                                  "rig.driver.box.timeout_ms=20", "rig.driver.box.gains=[3]"});
+  Trial trial(setup, options(false));
+  EXPECT_EQ(given().box.port, 99);
+  EXPECT_EQ(given().box.address, "localhost");
+  EXPECT_DOUBLE_EQ(given().box.timeout, 0.02);
+  EXPECT_EQ(given().box.gains, std::vector<double>{3.0});
+  EXPECT_EQ(refusal(kTable, {"rig.driver.box.prot=1"}),
+            "--set rig.driver.box.prot=1: unknown key 'prot'; expected a key of [driver.box]; did you mean "
+            "'port'?");
+  EXPECT_THAT(refusal(kTable, {"rig.driver.box.port=x"}),
+              StartsWith("--set rig.driver.box.port=x: 'x' is no value"));
+}
+
+// Whether its driver is at hand or not: a record needs no module.
+TEST_F(DriverContract, TheResolvedSceneKeepsIt) {
+  models::Setup setup = load(kTable, {"rig.driver.box.address=here"});
+  for (const bool known : {false, true}) {
+    if (known) read_driver_tables(setup, [](const std::string& name) { return &fake_module(name); });
+    const std::string text = models::resolved(setup);
+    EXPECT_THAT(text,
+                HasSubstr(known ? "\n[rig.driver.box]\naddress = \"here\"\ngains = [1, 2]\nmode = \"fast\"\n"
+                                  "port = 4712\ntimeout_ms = 250\n"
+                                : "\n[rig.driver.box]\naddress = \"here\"\nmode = \"fast\"\nport = 4712\n"
+                                  "timeout_ms = 250\n"));
+    const models::Setup again = models::parse_resolved(text, "a record");
+    EXPECT_EQ(models::resolved(again), text);
+  }
+  // Another driver in the role: its table is nobody's.
+  const models::Setup sim = load(kTable, {"rig.manipulator.driver=sim", "rig.gripper.driver=sim"});
+  EXPECT_THAT(models::resolved(sim), testing::Not(HasSubstr("rig.driver")));
+}
+
+TEST_F(DriverContract, ParamsListsIt) {
+  models::Setup setup = load(kTable);
+  read_driver_tables(setup, [](const std::string& name) { return &fake_module(name); });
+  int found = 0;
+  for (const models::Parameter& p : models::parameters(setup)) {
+    if (!p.name.starts_with("rig.driver.box.")) continue;
+    ++found;
+    if (p.name == "rig.driver.box.timeout_ms") {
+      EXPECT_EQ(p.unit, "ms");
+      EXPECT_EQ(p.value, "250");
+      EXPECT_EQ(p.source, "its manual");
+      EXPECT_EQ(p.confidence, "chosen");
+      EXPECT_EQ(p.meaning, "for an answer");
+    }
+    if (p.name == "rig.driver.box.address") {
+      EXPECT_EQ(p.value, "10.0.0.7");
+    }
+  }
+  EXPECT_EQ(found, 5);
+}
+
+TEST_F(DriverContract, ARoleThatItDoesNotFillIsADevice) {
+  try {
+    Trial trial(load(kTable, {"rig.force.driver=box"}), options(false));
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::device);
+    EXPECT_STREQ(e.what(), "module 'box' drives no force sensor; choose another driver in the rig file");
+  }
+}
+
+TEST(Roles, HaveEachTheirOwnPlace) {
+  std::size_t roles = 0;
+  each_role([&](const auto& role) {
+    EXPECT_EQ(static_cast<std::size_t>(role.id), roles);
+    ++roles;
+  });
+  EXPECT_EQ(roles, kRoles);
+}
+
+}  // namespace
+}  // namespace enc::trial

@@ -1,0 +1,317 @@
+// Between the core and what moves: stopped however a run ends, told nothing while dry, and held after a lost
+// link until somebody resumes.
+#include "trial/gate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "trial/trial.h"
+
+namespace enc::trial {
+namespace {
+
+// What a device was told, in order.
+struct Seen {
+  std::int64_t commands = 0, stops = 0;
+  bool stopped_last = false, linked = true;
+  void command() {
+    ++commands;
+    stopped_last = false;
+  }
+  void stop() {
+    ++stops;
+    stopped_last = true;
+  }
+};
+
+// A device of a role with somebody who looks on.
+template <class Role>
+class Watched : public Role {
+ public:
+  Watched(std::unique_ptr<Role> device, Seen& seen) : device_(std::move(device)), seen_(seen) {}
+  [[nodiscard]] bool linked() const noexcept override { return seen_.linked; }
+
+ protected:
+  std::unique_ptr<Role> device_;
+  Seen& seen_;
+};
+class Machine final : public Watched<Manipulator> {
+ public:
+  using Watched::Watched;
+  [[nodiscard]] Reach reach() const override { return device_->reach(); }
+  Stamped<TipSample> read(Time now) noexcept override { return device_->read(now); }
+  void command(const Pose<'R', 'H'>& X_RH) noexcept override {
+    seen_.command();
+    device_->command(X_RH);
+  }
+  void stop() noexcept override {
+    seen_.stop();
+    device_->stop();
+  }
+};
+class WatchedArm final : public Watched<HapticArm> {
+ public:
+  using Watched::Watched;
+  [[nodiscard]] ArmAbility ability() const override { return device_->ability(); }
+  Stamped<ArmSample> read(Time now) noexcept override { return device_->read(now); }
+  void command(const Vec<'R'>& force) noexcept override {
+    seen_.command();
+    device_->command(force);
+  }
+  void stop() noexcept override {
+    seen_.stop();
+    device_->stop();
+  }
+};
+class Jaws final : public Watched<Gripper> {
+ public:
+  using Watched::Watched;
+  Stamped<GripSample> read(Time now) noexcept override { return device_->read(now); }
+  void command(const Grip& grip) noexcept override {
+    seen_.command();
+    device_->command(grip);
+  }
+  void stop() noexcept override {
+    seen_.stop();
+    device_->stop();
+  }
+};
+class Tracker final : public Watched<PoseTracker> {
+ public:
+  using Watched::Watched;
+  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override { return device_->poll(now, newest); }
+};
+class Screen final : public Watched<Display> {
+ public:
+  using Watched::Watched;
+  void show(const View& view) noexcept override { device_->show(view); }
+  bool poll(Time now, Stamped<DentSample>& newest) noexcept override { return device_->poll(now, newest); }
+};
+class Sensor final : public Watched<ForceSensor> {
+ public:
+  using Watched::Watched;
+  Stamped<Wrench> read(Time now) noexcept override { return device_->read(now); }
+};
+
+struct Watchers {
+  Seen machine, arm, gripper, tracker, display, force;
+
+  void fit(Rig& rig) {
+    const auto over = [](auto& slot, auto make) {
+      if (slot) slot = make(std::move(slot));
+    };
+    over(rig.manipulator, [&](auto d) { return std::make_unique<Machine>(std::move(d), machine); });
+    over(rig.arm, [&](auto d) { return std::make_unique<WatchedArm>(std::move(d), arm); });
+    over(rig.gripper, [&](auto d) { return std::make_unique<Jaws>(std::move(d), gripper); });
+    over(rig.tracker, [&](auto d) { return std::make_unique<Tracker>(std::move(d), tracker); });
+    over(rig.display, [&](auto d) { return std::make_unique<Screen>(std::move(d), display); });
+    over(rig.force, [&](auto d) { return std::make_unique<Sensor>(std::move(d), force); });
+  }
+  TrialOptions options(double seconds) {
+    TrialOptions options;
+    options.seconds = seconds;
+    options.fit_out = [this](Rig& rig) { fit(rig); };
+    return options;
+  }
+};
+
+models::Setup scene(const std::string& name, const std::vector<std::string>& set = {}) {
+  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", {}, set);
+}
+
+// ---- stop
+// ---------------------------------------------------------------------------------------------------
+
+enum class End { whole, thrown, signal, hold, ticks };
+
+// Runs a scene to an end, and gives what its devices saw.
+Watchers ended(const std::string& name, End end) {
+  Watchers seen;
+  TrialOptions options = seen.options(0.3);
+  std::int64_t ticks = 0;
+  options.stop = [&] { return end == End::signal && ticks == 100; };
+  options.disturb = [&](Inputs& in) {
+    if (end != End::hold || ticks < 100) return;
+    in.wrench.health = in.tip.health = in.tool.health = Health::fault;
+  };
+  options.watch = [&](const Glance&) {
+    if (++ticks == 100 && end == End::thrown) throw Error("a measure that gives up");
+  };
+  Trial trial(scene(name), options);
+  if (end == End::ticks) {
+    for (int i = 0; i < 100; ++i) trial.tick();
+    return seen;
+  }
+  try {
+    EXPECT_EQ(trial.run().last_mode == Mode::hold, end == End::hold);
+    EXPECT_NE(end, End::thrown);
+  } catch (const Error&) {
+    EXPECT_EQ(end, End::thrown);
+  }
+  // Before the trial is gone, and not once more by that.
+  EXPECT_EQ(seen.machine.stops + seen.arm.stops, 1) << name;
+  return seen;
+}
+
+TEST(Gate, WhatMovesIsStoppedHoweverARunEnds) {
+  for (const End end : {End::whole, End::thrown, End::signal, End::hold, End::ticks}) {
+    for (const char* name : {"tennis_ball", "clamped_tool"}) {
+      const Watchers seen = ended(name, end);
+      EXPECT_GE(seen.machine.commands, 99) << name;
+      EXPECT_TRUE(seen.machine.stopped_last) << name << " " << static_cast<int>(end);
+      EXPECT_EQ(seen.machine.stops, 1) << name << " " << static_cast<int>(end);
+      EXPECT_EQ(seen.gripper.stops, seen.gripper.commands == 0 ? 0 : 1) << name;
+    }
+    const Watchers arm = ended("wall", end);
+    EXPECT_GE(arm.arm.commands, 99);
+    EXPECT_TRUE(arm.arm.stopped_last) << static_cast<int>(end);
+    EXPECT_EQ(arm.arm.stops, 1) << static_cast<int>(end);
+  }
+}
+
+TEST(Gate, AStoppedArmPushesNoMore) {
+  Watchers seen;
+  Trial trial(scene("wall"), seen.options(1.0));
+  for (int i = 0; i < 500; ++i) trial.tick();
+  EXPECT_GT(trial.world().arm->state().wanted.norm(), 0.0);
+  for (int times = 0; times < 2; ++times) {
+    trial.rig().arm->stop();
+    trial.rig().clock->next();
+    EXPECT_EQ(trial.world().arm->state().wanted.norm(), 0.0);
+    EXPECT_EQ(trial.world().arm->motor_torque(), PerJoint{});
+  }
+}
+
+// ---- a link that was lost
+// -----------------------------------------------------------------------------------
+
+// Loses a link in a press, and gives it back by itself.
+struct Lost {
+  explicit Lost(Seen Watchers::*device, const std::string& name = "tennis_ball")
+      : trial(scene(name), seen.options(30.0)), linked((seen.*device).linked) {
+    while (trial.outputs().mode != Mode::contact) EXPECT_TRUE(trial.tick());
+    for (int i = 0; i < 500; ++i) trial.tick();
+    EXPECT_EQ(trial.outputs().mode, Mode::contact);
+    linked = false;
+    for (int i = 0; i < 300; ++i) trial.tick();
+    EXPECT_EQ(trial.outputs().mode, Mode::hold);
+    linked = true;
+  }
+  Point<'W'> tip() { return trial.truth().tip; }
+
+  Watchers seen;
+  Trial trial;
+  bool& linked;
+};
+
+TEST(Gate, AMachineWhoseLinkComesBackByItselfMovesNothing) {
+  Lost run(&Watchers::machine);
+  const std::int64_t told = run.seen.machine.commands;
+  const Point<'W'> stood = run.tip();
+  for (int i = 0; i < 3000; ++i) {
+    run.trial.tick();
+    ASSERT_EQ(run.trial.outputs().mode, Mode::hold);
+    ASSERT_LT((run.tip() - stood).norm(), 10e-6);  // its step and its play
+  }
+  EXPECT_EQ(run.seen.machine.commands, told);
+  ASSERT_EQ(run.trial.gate().links().size(), 1U);
+  EXPECT_STREQ(run.trial.gate().links()[0].role, "manipulator");
+
+  run.trial.resume();
+  for (int i = 0; i < 1000; ++i) run.trial.tick();
+  EXPECT_EQ(run.seen.machine.commands, told + 1000);
+  EXPECT_NE(run.trial.outputs().mode, Mode::hold);
+  EXPECT_EQ(run.trial.run().links.size(), 1U);
+}
+
+TEST(Gate, WithoutALostLinkNothingIsHeld) {
+  Watchers seen;
+  Trial trial(scene("tennis_ball"), seen.options(4.0));
+  const TrialResult result = trial.run();
+  EXPECT_TRUE(result.links.empty());
+  EXPECT_EQ(seen.machine.commands, result.ticks);
+  EXPECT_EQ(result.mode_time[static_cast<std::size_t>(Mode::hold)], 0.0);
+}
+
+TEST(Gate, ALinkThatIsStillLostCannotBeResumed) {
+  Lost run(&Watchers::machine);
+  run.linked = false;
+  const std::int64_t told = run.seen.machine.commands;
+  for (int i = 0; i < 100; ++i) {
+    run.trial.resume();
+    run.trial.tick();
+    ASSERT_EQ(run.trial.outputs().mode, Mode::hold);
+  }
+  EXPECT_EQ(run.seen.machine.commands, told);
+  EXPECT_LE(run.trial.gate().links().size(), 16U);  // nothing is allocated
+}
+
+// The machine hears what the core says in hold, and stands still.
+TEST(Gate, AnyOtherDeviceHoldsTheMachineToo) {
+  for (Seen Watchers::*device : {&Watchers::force, &Watchers::tracker, &Watchers::display}) {
+    Lost run(device);
+    for (int i = 0; i < 300; ++i) run.trial.tick();
+    const Point<'W'> stood = run.tip();
+    for (int i = 0; i < 2000; ++i) {
+      run.trial.tick();
+      ASSERT_EQ(run.trial.outputs().mode, Mode::hold);
+      ASSERT_LT((run.tip() - stood).norm(), 10e-6);
+    }
+    run.trial.resume();
+    for (int i = 0; i < 1000; ++i) run.trial.tick();
+    EXPECT_NE(run.trial.outputs().mode, Mode::hold);
+  }
+}
+
+// An arm without force falls: while the tracker is lost it is told to carry itself; when it is lost itself,
+// nothing.
+TEST(Gate, AnArmCarriesItselfOrIsToldNothing) {
+  Lost blind(&Watchers::tracker, "wall");
+  std::int64_t told = blind.seen.arm.commands;
+  for (int i = 0; i < 500; ++i) {
+    blind.trial.tick();
+    ASSERT_EQ(blind.trial.outputs().mode, Mode::hold);
+  }
+  EXPECT_EQ(blind.seen.arm.commands, told + 500);
+
+  Lost deaf(&Watchers::arm, "wall");
+  told = deaf.seen.arm.commands;
+  for (int i = 0; i < 500; ++i) deaf.trial.tick();
+  EXPECT_EQ(deaf.seen.arm.commands, told);
+  deaf.trial.resume();
+  for (int i = 0; i < 500; ++i) deaf.trial.tick();
+  EXPECT_EQ(deaf.seen.arm.commands, told + 500);
+}
+
+// What the core does not hold for, such as a display that nobody looks at yet, the gate does.
+TEST(Gate, OnlyWhatIsSaidInHoldIsSentAfterALostLink) {
+  Watchers seen;
+  Trial trial(scene("tennis_ball"), seen.options(30.0));
+  Rig& rig = trial.rig();
+  Gate gate;
+  Inputs in;
+  Outputs out;
+  out.tip = rig.manipulator->reach().machine.zero();
+  const auto sent = [&](Mode mode) {
+    out.mode = mode;
+    gate.mark(rig, Time{}, in);
+    const std::int64_t before = seen.machine.commands;
+    gate.write(rig, out);
+    return seen.machine.commands - before;
+  };
+  EXPECT_EQ(sent(Mode::follow), 1);
+  EXPECT_FALSE(gate.lost());
+  seen.display.linked = false;
+  EXPECT_EQ(sent(Mode::follow), 0);
+  EXPECT_TRUE(gate.lost());
+  EXPECT_EQ(in.dent.health, Health::fault);
+  EXPECT_EQ(sent(Mode::hold), 1);
+  seen.display.linked = true;
+  EXPECT_EQ(sent(Mode::follow), 0);
+  gate.resume();
+  EXPECT_EQ(sent(Mode::follow), 1);
+}
+
+}  // namespace
+}  // namespace enc::trial

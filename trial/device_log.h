@@ -1,0 +1,29 @@
+// What drivers have to tell, kept until the run is over: a few lines, from any thread.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/devices/driver.h"
+
+namespace enc::trial {
+
+class DeviceLog final : public Log {
+ public:
+  void say(const std::string& line) override {
+    const std::lock_guard lock(mutex_);
+    if (lines_.size() < kMost) lines_.push_back(line);
+  }
+  [[nodiscard]] std::vector<std::string> lines() const {
+    const std::lock_guard lock(mutex_);
+    return lines_;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 100;  // a driver that says the same for ever fills nothing
+  mutable std::mutex mutex_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace enc::trial

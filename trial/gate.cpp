@@ -1,0 +1,59 @@
+#include "trial/gate.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr std::size_t kLinks = 16;  // said; nothing is allocated within the loop
+
+std::size_t at(RoleId id) { return static_cast<std::size_t>(id); }
+
+}  // namespace
+
+Gate::Gate(const models::Setup& setup, bool dry) {
+  links_.reserve(kLinks);
+  each_role([&](const auto& role) {
+    const bool real = setup.scene.*role.scene && (setup.rig.*role.rig).driver != "sim";
+    dry_[at(role.id)] = dry && real;
+  });
+}
+
+void Gate::mark(const Rig& rig, Time now, Inputs& in) noexcept {
+  each_role([&](const auto& role) {
+    bool& lost = lost_[at(role.id)];
+    if (const auto& device = rig.*role.slot; device && !device->linked()) {
+      if (!lost && links_.size() < kLinks) links_.push_back({role.name, now});
+      lost = true;
+    }
+    if (lost) (in.*role.said).health = Health::fault;
+  });
+}
+
+bool Gate::open(RoleId id, const Outputs& out) const noexcept {
+  return !dry_[at(id)] && !lost_[at(id)] && (!lost() || out.mode == Mode::hold);
+}
+
+bool Gate::sent(RoleId id, const Outputs& out) noexcept {
+  if (dry_[at(id)]) ++withheld_;
+  return open(id, out);
+}
+
+void Gate::write(Rig& rig, const Outputs& out) noexcept {
+  stopped_ = false;
+  if (rig.manipulator && out.tip.valid() && sent(RoleId::manipulator, out)) rig.manipulator->command(out.tip);
+  if (rig.arm && out.arm_force.finite() && sent(RoleId::arm, out)) rig.arm->command(out.arm_force);
+  if (rig.arm && open(RoleId::arm, out)) rig.arm->drive(out.prop_speed);
+  if (rig.display) rig.display->show(out.view);
+  if (rig.gripper && sent(RoleId::gripper, out)) rig.gripper->command(out.grip);
+}
+
+void Gate::stop(Rig& rig) noexcept {
+  if (stopped_) return;
+  stopped_ = true;
+  each_role([&](const auto& role) {
+    auto& device = rig.*role.slot;
+    if constexpr (requires { device->stop(); })
+      if (device && !dry_[at(role.id)]) device->stop();
+  });
+}
+
+}  // namespace enc::trial

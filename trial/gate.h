@@ -1,0 +1,48 @@
+// Between the core and what moves. A real device that is not armed is read and told nothing. A link that was
+// lost stays lost until somebody resumes: the core sees a fault and holds, the device itself is told nothing,
+// and the others only what the core says in hold.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/devices/roles.h"
+#include "models/scene_file.h"
+
+namespace enc::trial {
+
+struct LostLink {
+  const char* role;
+  Time t;
+};
+
+class Gate {
+ public:
+  Gate() = default;
+  // Dry: a rig of drivers that is not armed.
+  Gate(const models::Setup& setup, bool dry);
+
+  // After the devices were read. What a lost device said is marked as a fault.
+  void mark(const Rig& rig, Time now, Inputs& in) noexcept;
+  void write(Rig& rig, const Outputs& out) noexcept;
+  // At the end of a run, of all that was not dry.
+  void stop(Rig& rig) noexcept;
+  // Ends the hold of every link that is there again.
+  void resume() noexcept { lost_ = {}; }
+
+  [[nodiscard]] bool lost() const noexcept { return lost_ != std::array<bool, kRoles>{}; }
+  [[nodiscard]] std::int64_t withheld() const { return withheld_; }            // commands of dry devices
+  [[nodiscard]] const std::vector<LostLink>& links() const { return links_; }  // the first 16
+
+ private:
+  [[nodiscard]] bool open(RoleId id, const Outputs& out) const noexcept;
+  [[nodiscard]] bool sent(RoleId id, const Outputs& out) noexcept;  // counts what is not
+
+  std::array<bool, kRoles> dry_{}, lost_{};
+  std::int64_t withheld_ = 0;
+  std::vector<LostLink> links_;
+  bool stopped_ = true;  // nothing was told since
+};
+
+}  // namespace enc::trial

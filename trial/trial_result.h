@@ -1,0 +1,40 @@
+// What a run counts by itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/devices/clock.h"
+#include "core/mode.h"
+#include "trial/assemble.h"
+#include "trial/gate.h"
+
+namespace enc::trial {
+
+struct TrialResult {
+  std::int64_t ticks = 0;
+  double simulated = 0.0, wall = 0.0;  // s
+  std::array<double, kModes> mode_time{};
+  std::int32_t contacts = 0;
+  std::int64_t mode_changes = 0;
+  std::vector<std::pair<Time, std::uint32_t>> holds;  // when each began, and why; the first 16
+  Mode last_mode = Mode::away;
+  std::uint32_t last_why = 0;
+  std::uint64_t hash = 0;
+  std::vector<std::uint32_t> step_ns;  // of each step(), as the wall clock saw it
+  std::int64_t diverged_at = -1;
+  std::string divergence;
+  bool stopped = false;              // record could not be written
+  bool interrupted = false;          // options.stop said so
+  std::int64_t withheld = 0;         // commands to real devices that were not armed
+  std::int64_t missed = 0;           // cycles that were lost to the wall clock
+  Lateness lateness;                 // against the wall clock
+  std::vector<DeviceWords> devices;  // real ones, as they describe themselves
+  std::vector<LostLink> links;       // the first 16 that were lost
+  std::vector<std::string> log;      // what drivers said
+};
+
+}  // namespace enc::trial
