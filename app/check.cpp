@@ -108,7 +108,7 @@ int check(const SceneOptions& options) {
   fmt::print("{}\n{}{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n{}\nresolved scene\n{}",
              setup.scene.title, parts_text(setup), devices_text(trial::ask_drivers(setup, load_module)),
              questionnaire_text(setup), frame_graph(scene), chain_residual(setup.scene, setup.rig, scene),
-             scene.impedance ? arm_limits(setup, scene) : limits(setup, scene), models::resolved(setup));
+             scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene), models::resolved(setup));
   return 0;
 }
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/modules.h"
+#include "app/modules/modules.h"
 #include "app/options.h"
 #include "models/setup/scene_file.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/devices/roles.h"
 #include "core/error.h"
-#include "models/driver_table.h"
+#include "models/setup/driver_table.h"
 
 namespace enc::trial {
 namespace {

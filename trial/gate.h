@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/devices/roles.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::trial {
 

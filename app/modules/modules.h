@@ -7,7 +7,7 @@
 
 #include "app/options.h"
 #include "core/module.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::app {
 

@@ -90,7 +90,7 @@ std::string run_json(const RunReport& r) {
   for (const trial::LostLink& link : r.result.links)
     json["lost_links"].push_back({{"role", link.role}, {"time_s", seconds(link.t.time_since_epoch())}});
   if (!r.result.log.empty()) json["log"] = r.result.log;
-  if (r.scene.impedance)
+  if (r.scene.impedance())
     json["meetings"] = meetings_json(r.fingers);
   else
     json["presses"] = presses_json(r.presses);

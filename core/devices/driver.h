@@ -11,7 +11,7 @@
 #include "core/devices/manipulator.h"
 #include "core/devices/pose_tracker.h"
 #include "core/devices/settings.h"
-#include "core/rig_spec.h"
+#include "core/world/rig_spec.h"
 
 namespace enc {
 

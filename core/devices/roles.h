@@ -6,7 +6,7 @@
 
 #include "core/devices/driver.h"
 #include "core/rig.h"
-#include "core/scene_spec.h"
+#include "core/world/scene_spec.h"
 
 namespace enc {
 

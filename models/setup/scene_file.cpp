@@ -12,12 +12,12 @@
 
 #include "core/devices/roles.h"
 #include "core/error.h"
-#include "models/driver_table.h"
 #include "models/files.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/directions.h"
+#include "models/setup/driver_table.h"
 #include "models/setup/scene_check.h"
 
 namespace enc::models {

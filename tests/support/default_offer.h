@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/devices/driver.h"
-#include "core/scene.h"
+#include "core/world/scene.h"
 
 namespace enc::test {
 

@@ -1,4 +1,4 @@
-#include "models/driver_table.h"
+#include "models/setup/driver_table.h"
 
 #include <algorithm>
 
@@ -6,8 +6,8 @@
 
 #include "core/devices/roles.h"
 #include "core/error.h"
-#include "models/toml_writer.h"
-#include "models/wording.h"
+#include "models/schema/toml_writer.h"
+#include "models/schema/wording.h"
 
 namespace enc::models {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/devices/roles.h"
 #include "core/error.h"
-#include "models/driver_table.h"
+#include "models/setup/driver_table.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"

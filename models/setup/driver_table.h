@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/devices/settings.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::models {
 
