@@ -23,14 +23,18 @@ Hexapod::Hexapod(const HexapodGeometry& geometry) : geometry_(geometry) {
         on_circle(geometry.platform_radius, middle + geometry.platform_half_angle, -geometry.tip_height);
   }
   zero_length_ = inverse(zero())(0);
+  least_upright_ = std::cos(geometry.tilt_limit);
+}
+
+Hexapod::Lengths Hexapod::lengths(const Mat3& R, const Vec3& p) const noexcept {
+  Lengths lengths;
+  for (std::size_t i = 0; i < 6; ++i)
+    lengths(static_cast<int>(i)) = (p + R * platform_[i] - base_[i]).norm();
+  return lengths;
 }
 
 Hexapod::Lengths Hexapod::inverse(const Pose<'R', 'H'>& X_RH) const noexcept {
-  const Mat3 R = X_RH.q().toRotationMatrix();
-  Lengths lengths;
-  for (std::size_t i = 0; i < 6; ++i)
-    lengths(static_cast<int>(i)) = (X_RH.p() + R * platform_[i] - base_[i]).norm();
-  return lengths;
+  return lengths(X_RH.q().toRotationMatrix(), X_RH.p());
 }
 
 Hexapod::Jacobian Hexapod::jacobian(const Pose<'R', 'H'>& X_RH) const noexcept {
@@ -63,9 +67,9 @@ std::optional<Hexapod::Solution> Hexapod::forward(const Lengths& lengths, const 
 ReachLimit Hexapod::limit(const Pose<'R', 'H'>& X_RH) const noexcept {
   const Mat3 R = X_RH.q().toRotationMatrix();
   // Written so that NaN is "not reachable".
-  if (!((inverse(X_RH).array() - zero_length_).abs().maxCoeff() <= geometry_.stroke))
+  if (!((lengths(R, X_RH.p()).array() - zero_length_).abs().maxCoeff() <= geometry_.stroke))
     return ReachLimit::stroke;
-  if (!(R(2, 2) >= std::cos(geometry_.tilt_limit))) return ReachLimit::tilt;
+  if (!(R(2, 2) >= least_upright_)) return ReachLimit::tilt;
   if (!(std::abs(std::atan2(R(1, 0), R(0, 0))) <= geometry_.yaw_limit)) return ReachLimit::yaw;
   return ReachLimit::none;
 }

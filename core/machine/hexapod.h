@@ -61,9 +61,12 @@ class Hexapod {
   [[nodiscard]] ReachLimit limit(const Pose<'R', 'H'>& X_RH) const noexcept;
 
  private:
+  [[nodiscard]] Lengths lengths(const Mat3& R, const Vec3& p) const noexcept;
+
   HexapodGeometry geometry_;
   std::array<Vec3, 6> base_, platform_;
   double zero_length_ = 0.0;
+  double least_upright_ = -1.0;  // cosine of the tilt limit
 };
 
 }  // namespace enc
