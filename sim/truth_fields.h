@@ -1,5 +1,5 @@
-// The fields of the truth, named once, as core/record/state_hash.h does for what the core sees: for a hash over
-// what really happened.
+// The fields of the truth, named once, as core/record/state_hash.h does for what the core sees: for a hash
+// over what really happened.
 #pragma once
 
 #include "core/record/state_hash.h"

@@ -1,8 +1,8 @@
 // A force-controlled arm that carries a prop to where a finger will touch: the PHANToM [VisHap 2.3].
 #pragma once
 
-#include "core/machine/arm_rig.h"
 #include "core/devices/device.h"
+#include "core/machine/arm_rig.h"
 #include "core/sample.h"
 
 namespace enc {

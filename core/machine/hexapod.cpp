@@ -28,8 +28,7 @@ Hexapod::Hexapod(const HexapodGeometry& geometry) : geometry_(geometry) {
 
 Hexapod::Lengths Hexapod::lengths(const Mat3& R, const Vec3& p) const noexcept {
   Lengths lengths;
-  for (std::size_t i = 0; i < 6; ++i)
-    lengths(static_cast<int>(i)) = (p + R * platform_[i] - base_[i]).norm();
+  for (std::size_t i = 0; i < 6; ++i) lengths(static_cast<int>(i)) = (p + R * platform_[i] - base_[i]).norm();
   return lengths;
 }
 

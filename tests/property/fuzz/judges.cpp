@@ -18,8 +18,8 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   judged += well_ > 1.5 ? 1 : 0;
   // After all has been well for so long, nothing is held: but an arm that is stuck, while the finger is
   // there, and a tip that is outside and on its way back.
-  if (out.mode == Mode::hold && well_ > 1.5 && !recall<Meeting>(state).aim.stuck && !recall<Commanded>(state).following.lost &&
-      (out.why & kOutsideObject) == 0)
+  if (out.mode == Mode::hold && well_ > 1.5 && !recall<Meeting>(state).aim.stuck &&
+      !recall<Commanded>(state).following.lost && (out.why & kOutsideObject) == 0)
     return "hold goes on: " + why_text(out.why);
   if ((out.mode == Mode::hold) != ((out.why & kHoldReasons) != 0))
     return "hold without a reason, or a reason without";
@@ -73,7 +73,8 @@ std::string Limits::judge_machine(const Scene& scene, const State& state, const 
   if (!state.entered || state.object < 0) return {};
   const Object& object = scene.objects[static_cast<std::size_t>(state.object)];
   const double outside =
-      object.surface.nearest(object.X_WO.inverse() * (scene.X_WR * recall<Commanded>(state).command)).distance +
+      object.surface.nearest(object.X_WO.inverse() * (scene.X_WR * recall<Commanded>(state).command))
+          .distance +
       scene.tip_radius;
   if (outside > kGuard) return fmt::format("the tip is sent {:.1f} um outside", outside * 1e6);
   return {};

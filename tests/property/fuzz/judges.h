@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/world/scene.h"
 #include "core/step.h"
+#include "core/world/scene.h"
 
 namespace enc::test {
 

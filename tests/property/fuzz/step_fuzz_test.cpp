@@ -84,7 +84,8 @@ class World {
   }
   void told(const Outputs& out, const State& state) {
     if (scene_.impedance() && lags_ && recall<Meeting>(state).aim.target.finite())
-      (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<Meeting>(state).aim.target, joints_);
+      (void)scene_.impedance()->arm.inverse(scene_.X_WR.inverse() * recall<Meeting>(state).aim.target,
+                                            joints_);
     if (!scene_.impedance() && state.started) sent_ = out.tip.p();
     ++k_.index;
     k_.t += k_.dt;
@@ -99,13 +100,15 @@ class World {
     }
     if (honest_ && scene_.has_force && scene_.has_tracker)
       for (int i = 0; i < 3; ++i)
-        if (recall<Commanded>(state).force_zero.e()[i] < zero_low_[i] - 0.05 || recall<Commanded>(state).force_zero.e()[i] > zero_high_[i] + 0.05)
+        if (recall<Commanded>(state).force_zero.e()[i] < zero_low_[i] - 0.05 ||
+            recall<Commanded>(state).force_zero.e()[i] > zero_high_[i] + 0.05)
           return fmt::format("a zero of {:.3f} N is believed, which was {:.3f} to {:.3f} N",
                              recall<Commanded>(state).force_zero.e()[i], zero_low_[i], zero_high_[i]);
     const bool held = out.mode == Mode::hold;
     if (scene_.impedance()) {
       const bool off =
-          stuck_ && recall<Meeting>(state).aim.target.finite() && recall<Meeting>(state).aim.velocity.norm() < 1e-3 &&
+          stuck_ && recall<Meeting>(state).aim.target.finite() &&
+          recall<Meeting>(state).aim.velocity.norm() < 1e-3 &&
           (recall<Meeting>(state).aim.target.e() - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 6.5e-3 &&
           (hand_ - scene_.X_WR.q() * at_ - scene_.X_WR.p()).norm() > 0.05;
       off_ = off && !held && out.arm_force.finite() ? off_ + scene_.dt : 0.0;

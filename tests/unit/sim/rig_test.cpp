@@ -1,8 +1,8 @@
 // The test rig as a whole: machine, ball, sensor, programme.
 #include <gtest/gtest.h>
 
-#include "core/record/state_hash.h"
 #include "core/record/replay.h"
+#include "core/record/state_hash.h"
 #include "tests/conformance/bench_world.h"
 #include "trial/measure/probe_measure.h"
 
