@@ -1,11 +1,12 @@
 // step() driven by hand: ways into each mode on a ball, and what holds on every tick.
 #pragma once
 
+#include "core/task/walk.h"
 #include "tests/support/scenes.h"
 
 namespace enc::test {
 
-inline constexpr double kSkin = 5e-6;        // m, stages.h
+using stages::kSkin;
 inline constexpr double kTipRadius = 0.005;  // m, RigSpec
 
 [[nodiscard]] Loop make(const SceneSpec& spec, const RigSpec& rig = exact_rig());
