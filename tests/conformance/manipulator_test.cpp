@@ -117,13 +117,14 @@ TEST_P(ManipulatorTest, NotANumberIsRefusedAndSaid) {
 
 // However fast it was: it stands where it stopped, a second stop changes nothing, and a command starts anew.
 TEST_P(ManipulatorTest, StopsStaysAndStartsAnew) {
-  after(at(0.01, 0, 0), 60);  // on its way
+  const Vec3 there = after(at(0.01, 0, 0), 60).value.X_RH.p();  // on its way
   machine_->device().stop();
   const auto rest = [&](int cycles) -> Vec3 {
     for (int i = 0; i < cycles; ++i) machine_->next();
     return machine_->device().read(machine_->now).value.X_RH.p();
   };
   const Vec3 stood = rest(1500);
+  EXPECT_LT((stood - there).norm(), 0.003);  // what braking takes
   machine_->device().stop();
   EXPECT_LT((rest(300) - stood).norm(), 3e-6);
   EXPECT_LT((after(at(0.001, 0, 0), 1500).value.X_RH.p() - at(0.001, 0, 0).p()).norm(), 3e-6);
