@@ -2,7 +2,9 @@
 #include "benchmarks/kit/cost.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,6 +40,15 @@ TEST(Race, WhatCostsFourTimesAsMuchIsSeen) {
   EXPECT_GT(race.seconds(0), 0.0);
   EXPECT_NEAR(race.ratio(1, 0), 4.0, 1.0);
   EXPECT_DOUBLE_EQ(race.ratio(0, 0), 1.0);
+}
+
+TEST(Race, RoundsBeforeTheFirstAreNotTimedAndChunksBeginAnew) {
+  std::vector<std::size_t> done;
+  const Race race(3, {in_chunks(6, 2, [&](std::size_t i) { done.push_back(i); })}, 2);
+  EXPECT_THAT(done, ElementsAre(0, 1, 2, 3, 4, 5, 0, 1, 2, 3));
+  const Race other(3, {[] {}}, 0);
+  EXPECT_GT(race.ratio(0, other, 0), 0.0);
+  EXPECT_THROW((void)race.ratio(0, Race(2, {[] {}}), 0), std::out_of_range);  // not as many rounds
 }
 
 TEST(Cost, WhatFailedIsACrossAndWhatNeverRanIsNothing) {
