@@ -12,6 +12,7 @@
 #include "core/display_rig.h"
 #include "core/frames.h"
 #include "core/hexapod.h"
+#include "core/text/words.h"
 #include "core/tracker_rig.h"
 
 namespace enc {
@@ -57,6 +58,7 @@ enum class Tare : std::uint8_t {
   free,   // and slowly again whenever the tool is clear of the object
   window  // and anew from each whole tare_time in which it is clear, but for the last one before a touch
 };
+constexpr auto words(Tare) { return enum_words("start", "free", "window"); }
 
 struct ForceRig {
   std::string driver = "sim";

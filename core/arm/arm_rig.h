@@ -15,6 +15,7 @@ enum class GravityForm : std::uint8_t {
   published,  // eq. 5 with the prop added to m_a
   exact       // and the prop where it is, at the tip
 };
+constexpr auto words(GravityForm) { return enum_words("none", "published", "exact"); }
 
 // How a motor gets warm.
 struct Thermal {
