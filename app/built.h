@@ -18,6 +18,12 @@ struct Part {
 // "built: hexapod, force (sim)…" and "left out: camera (not named)…": two lines.
 [[nodiscard]] std::string parts_text(const models::Setup& setup);
 
+// What a picture names of the parts that a scene may be without; empty: the scene does not have it.
+struct SeenParts {
+  std::string prop, tool, gripper, force_sensor;
+};
+[[nodiscard]] SeenParts seen_parts(const SceneSpec& scene);
+
 // How to ask what the scene wants the person to be asked, in one line; or nothing.
 [[nodiscard]] std::string questionnaire_text(const models::Setup& setup);
 
