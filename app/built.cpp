@@ -1,7 +1,6 @@
 #include "app/built.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -17,9 +16,7 @@ std::string arm_name(const models::Setup& setup) {
 }
 
 std::string prop_name(const PropSpec& prop) {
-  constexpr std::array<const char*, 3> kNames{"plate", "key", "drum"};
-  return fmt::format("{}, {:g} g", kNames[static_cast<std::size_t>(prop.kind)],
-                     std::round(prop.mass * 1e6) * 1e-3);
+  return fmt::format("{}, {:g} g", word_of(prop.kind), std::round(prop.mass * 1e6) * 1e-3);
 }
 
 }  // namespace
@@ -34,7 +31,7 @@ std::vector<Part> parts_of(const models::Setup& setup) {
     parts.push_back({name, named, named ? std::move(what) : "the scene does not name it"});
   };
   part("manipulator", scene.manipulator.has_value(),
-       fmt::format("hexapod, {}", driver(setup.rig.manipulator.driver)));
+       fmt::format("{}, {}", word_of(ManipulatorSpec{}.kind), driver(setup.rig.manipulator.driver)));
   part("force", scene.force.has_value(), driver(setup.rig.force.driver));
   part("tracker", scene.tracker.has_value(),
        fmt::format("{:g} Hz, {}", setup.twin.tracker.rate, driver(setup.rig.tracker.driver)));
@@ -61,8 +58,6 @@ std::vector<Part> parts_of(const models::Setup& setup) {
   part("prop", scene.prop.has_value(), !scene.prop ? "" : prop_name(*scene.prop));
   part("gripper", scene.gripper.has_value(),
        fmt::format("{:g} N, {}", setup.rig.gripper.force, driver(setup.rig.gripper.driver)));
-  // Roles of the design that this version builds nothing of.
-  for (const char* role : {"camera", "hand tracker", "window"}) part(role, false, "");
   return parts;
 }
 
@@ -84,6 +79,15 @@ std::string devices_text(const std::vector<trial::DeviceWords>& devices) {
   for (const trial::DeviceWords& d : devices)
     text += fmt::format("device      {}: {}{}\n", d.role, d.there ? "" : "NOT THERE: ", d.words);
   return text;
+}
+
+SeenParts seen_parts(const SceneSpec& scene) {
+  SeenParts seen;
+  if (scene.prop) seen.prop = fmt::format("prop ({})", word_of(scene.prop->kind));
+  if (scene.user) seen.tool = scene.arm ? "finger" : "hand-held tool with markers";
+  if (scene.gripper) seen.gripper = "gripper";
+  if (scene.force) seen.force_sensor = "force sensor";
+  return seen;
 }
 
 std::string questionnaire_text(const models::Setup& setup) {

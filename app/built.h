@@ -22,6 +22,12 @@ struct Part {
 // What real devices say of themselves, or what keeps them from it: a line each; or nothing.
 [[nodiscard]] std::string devices_text(const std::vector<trial::DeviceWords>& devices);
 
+// What a picture names of the parts that a scene may be without; empty: the scene does not have it.
+struct SeenParts {
+  std::string prop, tool, gripper, force_sensor;
+};
+[[nodiscard]] SeenParts seen_parts(const SceneSpec& scene);
+
 // How to ask what the scene wants the person to be asked, in one line; or nothing.
 [[nodiscard]] std::string questionnaire_text(const models::Setup& setup);
 

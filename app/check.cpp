@@ -1,5 +1,7 @@
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,17 +17,90 @@
 namespace enc::app {
 namespace {
 
+// ---- frames
+// -------------------------------------------------------------------------------------------------------
+
+std::string in_mm(const Vec3& p) {
+  const auto rounded = [](double metres) { return std::round(metres * 1e6) * 1e-3 + 0.0; };  // no -0
+  return fmt::format("[{:.3f}, {:.3f}, {:.3f}] mm", rounded(p.x()), rounded(p.y()), rounded(p.z()));
+}
+std::string constant(const char* name, const Vec3& p, const std::string& what) {
+  return fmt::format("  X_{}  constant  {}  {}\n", name, in_mm(p), what);
+}
+std::string variable(const char* name, const char* what) {
+  return fmt::format("  X_{}  variable  {}\n", name, what);
+}
+
+std::string object_frames(const models::Setup& setup, const Scene& scene) {
+  constexpr std::size_t kMost = 4;  // lines
+  const std::size_t count = scene.objects.size(), shown = count > kMost ? 1 : count;
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::string more = shown < count ? fmt::format(", and of {} more", count - shown) : "";
+    text += constant("WO", scene.objects[i].X_WO.p(),
+                     fmt::format("object '{}'{}", setup.scene.objects[i].name, more));
+  }
+  return text;
+}
+
+// The edges of [VHMR Fig 4] that this scene has.
+std::string frames_text(const models::Setup& setup, const Scene& scene) {
+  const SceneSpec& s = setup.scene;
+  const FramesRig& rig = setup.rig.frames;
+  std::string text =
+      constant("WR", scene.X_WR.p(), "machine base; H is W at the machine's zero") +
+      variable("RH", s.arm ? "tip, from the arm's joints" : "haptic-tip, from the machine's joints");
+  if (s.force) text += constant("HF", rig.H_F.position, "force sensor");
+  if (s.tracker)
+    text += constant("WC", rig.W_C.position, "tracker camera") +
+            variable("CT", s.arm ? "finger, from the tracker" : "tool markers, from the tracker");
+  if (s.display)
+    text += constant("WS", rig.W_S.position, "headset server") + variable("SG", "headset") +
+            constant("GL", rig.G_L.position, "hand tracker on the headset");
+  text += object_frames(setup, scene);
+  if (!s.objects.empty()) text += variable("WN", "nearest surface point, z outward");
+  return text + fmt::format("  every chain closes to {:.1e} m\n", chain_residual(s, setup.rig, scene));
+}
+
+// ---- limits
+// -------------------------------------------------------------------------------------------------------
+
+// What is said of an object, after its name. Objects of which the same is said share a line.
+using Said = std::vector<std::pair<std::string, std::string>>;
+
+std::string objects_named(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 3;
+  if (names.size() == 1) return fmt::format("object '{}'", names.front());
+  std::string text = "objects ";
+  const std::size_t shown = names.size() > kMost ? 2 : names.size();
+  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i]);
+  return shown == names.size() ? text : text + fmt::format(" and {} more", names.size() - shown);
+}
+
+std::string lines_of(const Said& said) {
+  std::string text;
+  for (auto at = said.begin(); at != said.end(); ++at) {
+    const auto same = [&](const auto& other) { return other.second == at->second; };
+    if (std::any_of(said.begin(), at, same)) continue;
+    std::vector<std::string> names;
+    for (const auto& other : said)
+      if (same(other)) names.push_back(other.first);
+    text += fmt::format("  {}: {}\n", objects_named(names), at->second);
+  }
+  return text;
+}
+
 // Where an object has no room for the tip under its surface, the tip waits as near as it has room.
-std::string thin_text(const std::string& name, const Scene& scene, const Object& object) {
+std::string thin_text(const Scene& scene, const Object& object) {
   const double margin = room_margin(scene);
   const Room room = room_in(object, margin, true);
   if (room.thin == 0.0) return {};
   const Point<'W'> at = object.X_WO * room.thin_at;
   return fmt::format(
-      "  object '{}': {:.2g} % of its surface lies over what is thinner than the haptic-tip and its inset, "
+      "{:.2g} % of its surface lies over what is thinner than the haptic-tip and its inset, "
       "{:.1f} mm; thinnest, {:.2f} mm, at ({:.1f}, {:.1f}, {:.1f}) mm; there the tip waits as near as it has "
-      "room\n",
-      name, room.thin * 100.0, 2e3 * margin, room.thinnest * 1e3, at.xyz[0] * 1e3, at.xyz[1] * 1e3,
+      "room",
+      room.thin * 100.0, 2e3 * margin, room.thinnest * 1e3, at.xyz[0] * 1e3, at.xyz[1] * 1e3,
       at.xyz[2] * 1e3);
 }
 
@@ -43,19 +118,22 @@ std::string softest_text(const models::Setup& setup, const Scene& scene) {
 }
 
 std::string limits(const models::Setup& setup, const Scene& scene) {
-  std::string text;
+  Said said;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const std::string& name = setup.scene.objects[i].name;
-    if (std::isnan(scene.objects[i].limit)) {
-      text += fmt::format("  object '{}': real, pressed by the machine and not rendered\n", name);
+    const Object& object = scene.objects[i];
+    if (std::isnan(object.limit)) {
+      said.emplace_back(name, "real, pressed by the machine and not rendered");
       continue;
     }
-    text += fmt::format(
-        "  object '{}': deflection up to {:g} mm, at most {:.2f} N; softest stable slope {:.3f} N/mm\n", name,
-        scene.objects[i].limit * 1e3, scene.objects[i].response.press(scene.objects[i].limit),
-        scene.lowest_slope * 1e-3);
-    text += thin_text(setup.scene.objects[i].name, scene, scene.objects[i]);
+    said.emplace_back(
+        name,
+        fmt::format("deflection up to {:g} mm, at most {:.2f} N; softest stable slope {:.3f} N/mm",
+                    object.limit * 1e3, object.response.press(object.limit), scene.lowest_slope * 1e-3));
+    const std::string thin = thin_text(scene, object);
+    if (!thin.empty()) said.emplace_back(name, thin);
   }
+  std::string text = lines_of(said);
   const trial::Limits beyond = trial::limits_of(setup, scene);
   for (const trial::Unsteady& object : beyond.unsteady)
     text += "  UNSTEADY: " + trial::unsteady_text(setup, object) + "\n";
@@ -65,32 +143,56 @@ std::string limits(const models::Setup& setup, const Scene& scene) {
                      scene.reach.acceleration * 1e3);
 }
 
+std::string strength_text(const trial::ArmStrength& at) {
+  std::string text = fmt::format("pushes back with up to {:.2f} N, for hours {:.2f} N; stiffest {:.2f} N/mm",
+                                 at.peak, at.lasting, at.stiffest * 1e-3);
+  if (!std::isnan(at.asked))
+    text += fmt::format("; asked for {:.2f} N for {:.1f} s, held {}", at.asked, at.asked_for,
+                        std::isinf(at.holds_for) ? "for ever" : fmt::format("for {:.0f} s", at.holds_for));
+  return text;
+}
+
+// Of many objects: the least of each, and where.
+std::string least_text(const std::vector<trial::ArmStrength>& strengths) {
+  const auto least = [&](double trial::ArmStrength::*of, double unit, const char* label) {
+    const auto at = std::min_element(strengths.begin(), strengths.end(),
+                                     [&](const auto& a, const auto& b) { return a.*of < b.*of; });
+    return fmt::format("{:.2f} {} ('{}')", (*at).*of / unit, label, at->object);
+  };
+  return fmt::format("  every object: pushes back with up to {} or more, for hours {}; stiffest {}\n",
+                     least(&trial::ArmStrength::peak, 1.0, "N"),
+                     least(&trial::ArmStrength::lasting, 1.0, "N"),
+                     least(&trial::ArmStrength::stiffest, 1e3, "N/mm"));
+}
+
+// A line for each object that somebody presses to a depth, or that is beyond the arm; for all where they are
+// few.
+std::string strengths_text(const std::vector<trial::ArmStrength>& strengths) {
+  constexpr std::size_t kMost = 4;
+  const bool few = strengths.size() <= kMost;
+  Said said;
+  std::string beyond;
+  for (const trial::ArmStrength& at : strengths) {
+    const std::string too_much = trial::beyond_text(at);
+    if (few || !std::isnan(at.asked) || !too_much.empty()) said.emplace_back(at.object, strength_text(at));
+    if (!too_much.empty()) beyond += "  BEYOND: " + too_much + "\n";
+  }
+  return (few ? "" : least_text(strengths)) + lines_of(said) + beyond;
+}
+
 // An arm has no deflection limit: it pushes with what it has.
 std::string arm_limits(const models::Setup& setup, const Scene& scene) {
-  constexpr std::array<const char*, 7> kKinds{"press", "slide", "click", "passive", "hit", "shift", "spin"};
   const Impedance& law = *scene.impedance();
-  std::string text;
+  Said said;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const double stiffness = std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness;
-    text +=
-        fmt::format("  object '{}': {}, {:g} N/mm when it is touched, {:.3g} of the gain in free space\n",
-                    setup.scene.objects[i].name, kKinds[static_cast<std::size_t>(object.interaction.kind)],
-                    stiffness * 1e-3, stiffness / law.rig.stiffness);
+    said.emplace_back(
+        setup.scene.objects[i].name,
+        fmt::format("{}, {:g} N/mm when it is touched, {:.3g} of the gain in free space",
+                    word_of(object.interaction.kind), stiffness * 1e-3, stiffness / law.rig.stiffness));
   }
-  const trial::Limits can = trial::limits_of(setup, scene);
-  for (const trial::ArmStrength& at : can.strengths) {
-    text += fmt::format(
-        "  object '{}': pushes back with up to {:.2f} N, for hours {:.2f} N; stiffest {:.2f} N/mm", at.object,
-        at.peak, at.lasting, at.stiffest * 1e-3);
-    if (!std::isnan(at.asked))
-      text += fmt::format("; asked for {:.2f} N for {:.1f} s, held {}", at.asked, at.asked_for,
-                          std::isinf(at.holds_for) ? "for ever" : fmt::format("for {:.0f} s", at.holds_for));
-    text += "\n";
-    const std::string beyond = trial::beyond_text(at);
-    if (!beyond.empty()) text += "  BEYOND: " + beyond + "\n";
-  }
-  return text +
+  return lines_of(said) + strengths_text(trial::limits_of(setup, scene).strengths) +
          fmt::format(
              "  law: {:g} N/m, {:g} N s/m, damping ratio {:.2f} for the {:.1f} g that are felt at the tip\n"
              "  pushes with up to {:g} N, for hours {:g} N\n"
@@ -101,14 +203,17 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
 
 }  // namespace
 
-int check(const SceneOptions& options) {
+int check(const CheckOptions& options) {
   const models::Setup setup = load_setup(options);
   const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
-  fmt::print("{}\n{}{}{}\nframes\n{}  every chain closes to {:.1e} m\n\nlimits\n{}\nresolved scene\n{}",
-             setup.scene.title, parts_text(setup), devices_text(trial::ask_drivers(setup, load_module)),
-             questionnaire_text(setup), frame_graph(scene), chain_residual(setup.scene, setup.rig, scene),
-             scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene), models::resolved(setup));
+  if (options.resolved) {
+    fmt::print("{}", models::built_scene(setup));
+    return 0;
+  }
+  fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}", setup.scene.title, parts_text(setup),
+             devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup), frames_text(setup, scene),
+             scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene));
   return 0;
 }
 

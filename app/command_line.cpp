@@ -66,10 +66,12 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   force_option(run_command, run_options.force);
   run_command->callback([&] { code = run(run_options); });
 
-  SceneOptions check_options;
+  CheckOptions check_options;
   CLI::App* check_command =
       app.add_subcommand("check", "read a scene, say what will be built and what is left out and why");
   scene_options(check_command, check_options);
+  check_command->add_flag("--resolved", check_options.resolved,
+                          "print the scene with only what it builds, as a scene file that runs");
   check_command->callback([&] { code = check(check_options); });
 
   ReplayOptions replay_options;

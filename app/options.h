@@ -27,6 +27,9 @@ struct RunOptions : SceneOptions {
   bool armed = false;
   bool force = false;  // replaces a file that is there; so below
 };
+struct CheckOptions : SceneOptions {
+  bool resolved = false;  // the scene file that stands alone, instead of the answer
+};
 struct ViewOptions : SceneOptions {
   std::string shot;
   std::optional<double> at;  // s; none: in the middle of the first hold
@@ -82,7 +85,7 @@ struct MeshOptions {
 int command_line(int argc, char** argv);
 
 int run(const RunOptions& options);
-int check(const SceneOptions& options);
+int check(const CheckOptions& options);
 int replay(const ReplayOptions& options);
 int export_record(const ExportOptions& options);
 int params(const ParamsOptions& options);

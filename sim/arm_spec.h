@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/machine/arm_rig.h"
+#include "core/text/words.h"
 
 namespace enc::sim {
 
@@ -13,6 +14,7 @@ enum class ArmFriction : std::uint8_t {
   dry,    // Coulomb: holds what is at rest
   smooth  // c tanh(10 qd), as in the published model of the machine: at rest it holds nothing
 };
+constexpr auto words(ArmFriction) { return enum_words("dry", "smooth"); }
 
 struct ArmTruth {
   bool there = false;  // the file has it

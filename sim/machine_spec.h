@@ -6,13 +6,18 @@
 #include <string>
 
 #include "core/machine/hexapod.h"
+#include "core/text/words.h"
 
 namespace enc::sim {
+
+// Of MuJoCo. A key that is called integrator takes one of these.
+inline constexpr auto kIntegrators = enum_words("euler", "rk4", "implicit", "implicitfast", "discrete");
 
 enum class HexapodForm : std::uint8_t {
   control,    // the platform's pose is prescribed: exact where the servo puts it, no sag, no modes
   structural  // the platform is a free body on six legs with stiffness and damping (sim/bodies/legs.h)
 };
+constexpr auto words(HexapodForm) { return enum_words("control", "structural"); }
 
 struct HexapodTruth {
   HexapodForm form = HexapodForm::control;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/frames.h"
+#include "core/text/words.h"
 
 namespace enc::sim {
 
@@ -27,11 +28,13 @@ enum class TrackerClocks : std::uint8_t {
   free,    // exposures and server ticks begin at any time, drawn by the seed
   aligned  // both begin with the loop: no sample waits where the rates are the loop's
 };
+constexpr auto words(TrackerClocks) { return enum_words("free", "aligned"); }
 
 enum class Packets : std::uint8_t {
   polled,  // the server sends its newest pose at its own rate, as the paper's does [VHMR 2]
   event    // each pose as soon as it is there
 };
+constexpr auto words(Packets) { return enum_words("polled", "event"); }
 
 struct TrackerTruth {
   double rate = 120.0;      // Hz, exposures, free-running

@@ -58,6 +58,9 @@ struct HandTruth {
 
 // Sets of ball_plant.h [sources/ball 4]: four others that also give 12 N at 6 mm, and a ball as played with.
 enum class BallSet : std::uint8_t { nominal, low_loss, high_loss, vented, kpa_20, regulation };
+constexpr auto words(BallSet) {
+  return enum_words("nominal", "low_loss", "high_loss", "vented", "kpa_20", "regulation");
+}
 
 // The real ball that a probe presses. Numbers that are unset come from the set.
 struct BallTruth {

@@ -33,8 +33,8 @@ ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::siz
   const Impedance& law = *scene.impedance();
   const Object& object = scene.objects[i];
   const std::optional<UserSpec>& user = setup.scene.user;
-  const bool pressed =
-      user && user->kind == "press_release" && pressed_object(setup.scene.objects, user->object, "user") == i;
+  const bool pressed = user && user->kind == UserKind::press_release &&
+                       pressed_object(setup.scene.objects, user->object, "user") == i;
   const PressPoint at = touched_point(setup, scene, i, pressed);
   PerJoint q = law.arm.zero();
   static_cast<void>(law.arm.inverse(scene.X_WR.inverse() * at.point, q));

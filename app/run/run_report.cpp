@@ -138,7 +138,7 @@ std::string each_meeting(const std::vector<trial::Meeting>& meetings, const F& f
 // The spring that a wall is, where the user presses one.
 std::string spring_line(const RunReport& r) {
   const std::optional<UserSpec>& user = r.setup.scene.user;
-  if (!user || user->kind != "press_release") return "";
+  if (!user || user->kind != UserKind::press_release) return "";
   const Object& pressed = r.scene.objects[pressed_object(r.setup.scene.objects, user->object, "user")];
   if (pressed.interaction.kind != Interaction::slide) return "";
   if (!std::isfinite(r.fingers.fit().r2()))

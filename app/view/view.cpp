@@ -1,7 +1,6 @@
 #include "app/view/view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -190,17 +189,20 @@ Point<'W'> flank(const Moment& m, std::size_t object) {
   return X_WO * Point<'O'>(button ? 0.4 * spec.width : 0.07, button ? -0.4 * spec.height : -0.07, 0) + shift;
 }
 
+// Names what is at a place; a part that the scene does not have has no words.
+void label(sim::ViewRequest& request, const std::string& words, const Point<'W'>& at, bool left) {
+  if (!words.empty()) request.labels.push_back({words, at, left});
+}
+
 // An arm, its prop and the finger that meets it.
 void add_arm_labels(const Moment& m, sim::ViewRequest& request) {
   const sim::Truth& truth = m.world.truth();
-  constexpr std::array<const char*, 3> kProps{"plate", "key", "drum"};
-  request.labels.push_back(
-      {fmt::format("prop ({})", kProps[static_cast<std::size_t>(m.scene.impedance()->prop)]), truth.tip,
-       false});
+  const SeenParts seen = seen_parts(m.setup.scene);
+  label(request, seen.prop, truth.tip, false);
   for (std::size_t i = 0; i < std::min<std::size_t>(m.scene.objects.size(), 4); ++i)
     request.labels.push_back(
         {fmt::format("{} (virtual)", m.setup.scene.objects[i].name), flank(m, i), false});
-  if (truth.tool_tip.finite()) request.labels.push_back({"finger", truth.tool_tip, true});
+  if (truth.tool_tip.finite()) label(request, seen.tool, truth.tool_tip, true);
   if (!request.title.empty()) request.labels.push_back({"arm", m.world.X_WR() * Point<'R'>(0, 0, 0), true});
 }
 
@@ -218,9 +220,10 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
          flank(m, i), false});
   if (truth.tool_tip.finite()) request.labels.push_back({"tool's tip", truth.tool_tip, true});
   if (request.title.empty()) return;  // a close-up
-  if (marker.finite()) request.labels.push_back({"hand-held tool with markers", marker, true});
-  request.labels.push_back({"gripper", in_H(0.02, -0.022, -0.09), true});
-  request.labels.push_back({"force sensor", in_H(0.03, -0.025, -0.1437), false});
+  const SeenParts seen = seen_parts(m.setup.scene);
+  if (marker.finite()) label(request, seen.tool, marker, true);
+  label(request, seen.gripper, in_H(0.02, -0.022, -0.09), true);
+  label(request, seen.force_sensor, in_H(0.03, -0.025, -0.1437), false);
   request.labels.push_back({"platform", in_H(-0.09, -0.07, -0.186), true});
   const Hexapod& machine = m.world.machine->machine();
   const Vec3 base = machine.base_joint(0);

@@ -20,7 +20,7 @@ ReachRan run_one(const BenchContext& context, const ReachRun& run) {
   models::Setup setup = load_scene(context, run.scene, run.set);
   if (run.random > 0) {
     UserSpec& user = *setup.scene.user;
-    user.kind = "reaches";
+    user.kind = UserKind::reaches;
     if (!user.reaches) user.reaches.emplace();
     user.reaches->count = run.random;
   }

@@ -190,13 +190,15 @@ void Figures::add_change(double packet_rate) {
 void add_precision(const BenchContext& context, BenchResult& result) {
   constexpr double kAccuracy = 20e-6;  // m rms: a fiftieth of the median miss
   constexpr double kTime = 8.0;        // s: a reach, a press, and the next reach
-  for (const char* law : {"energy_stop", "prandtl_ishlinskii"})
-    add_work_precision({std::string("session.") + law,
+  for (const std::string_view word : kWords<Reversal>) {
+    const std::string law(word);
+    add_work_precision({"session." + law,
                         "session",
-                        {"truth.hand.drift_mm=0", std::string("behaviour.tennis_ball.reversal=") + law},
+                        {"truth.hand.drift_mm=0", "behaviour.tennis_ball.reversal=" + law},
                         kTime,
                         kAccuracy},
                        context, result);
+  }
 }
 
 }  // namespace

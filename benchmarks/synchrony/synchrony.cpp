@@ -243,7 +243,7 @@ void run(Bench& bench) {
   add_sync_tables(study, result);
   add_sync_plots(study, result);
   if (context.full)
-    for (const char* law : {"energy_stop", "prandtl_ishlinskii"}) {
+    for (const std::string_view law : kWords<Reversal>) {
       Set own = kPaper;
       own.push_back(fmt::format("behaviour.tennis_ball.reversal=\"{}\"", law));
       own.emplace_back("truth.hand.drift_mm=0");  // drawn at each physics step: another step, another hand

@@ -20,7 +20,7 @@ namespace enc::bench::tracking {
 namespace {
 
 constexpr std::array<sim::Packets, 2> kPackets{sim::Packets::polled, sim::Packets::event};
-constexpr std::array kPacketName{"polled", "event"};
+constexpr auto kPacketName = kWords<sim::Packets>;
 constexpr std::array kName{"hold", "cv", "ca"};
 constexpr std::array kLongName{"hold", "constant velocity", "constant acceleration"};
 
@@ -124,7 +124,7 @@ Table rmse_table(const Trials& trials) {
   for (const char* name : kLongName) table.columns.push_back(fmt::format("{} at every tick mm", name));
   for (std::size_t r = 0; r < trials.rows.size(); ++r)
     for (std::size_t p = 0; p < kPackets.size(); ++p) {
-      std::vector<std::string> line{trials.rows[r].title, kPacketName[p]};
+      std::vector<std::string> line{trials.rows[r].title, std::string(kPacketName[p])};
       for (std::size_t k = 0; k < 3; ++k)
         line.push_back(mm(root_mean_square(trials.cells[r][p].at_packets[k])));
       for (std::size_t k = 0; k < 3; ++k)
@@ -147,7 +147,7 @@ Table peak_table(const Trials& trials) {
   for (std::size_t r = 0; r < trials.rows.size(); ++r) {
     if (!trials.rows[r].peak) continue;
     for (std::size_t p = 0; p < kPackets.size(); ++p) {
-      std::vector<std::string> line{trials.rows[r].title, kPacketName[p]};
+      std::vector<std::string> line{trials.rows[r].title, std::string(kPacketName[p])};
       const auto most = [](const std::vector<double>& x) {
         return mm(*std::max_element(x.begin(), x.end()));
       };

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/text/words.h"
+
 namespace enc {
 
 // Which tip dents the seen surface (fuse.h).
@@ -12,6 +14,7 @@ enum class SeenTip : std::uint8_t {
   predicted,  // where the haptic loop believes the tool to be (TrackerRig::prediction)
   fused       // predicted; while it presses, where the haptic-tip holds it
 };
+constexpr auto words(SeenTip) { return enum_words("tracked", "predicted", "fused"); }
 
 struct DisplayRig {
   std::string driver = "sim";

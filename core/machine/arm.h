@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "core/text/words.h"
 
 namespace enc {
 
@@ -17,6 +18,9 @@ inline constexpr double kStandardGravity = 9.80665;  // m/s^2, along -z of R
 using PerJoint = std::array<double, kMostJoints>;
 
 enum class ArmKind : std::uint8_t { phantom, chain };
+constexpr auto words(ArmKind) { return enum_words("phantom", "chain"); }
+enum class JointKind : std::uint8_t { hinge, slide };
+constexpr auto words(JointKind) { return enum_words("hinge", "slide"); }
 
 // Symbols of [VisHap eq. 5], which are those of Cavusoglu, Feygin and Tendick: a forearm, c parallelogram
 // link, be upper arm with motor, df crank with motor. q1 turret, q2 upper arm above horizontal, q3 forearm
@@ -36,17 +40,14 @@ struct PhantomGeometry {
   double coupled_low = -0.96, coupled_high = 1.13;  // limits of q2 - q3, rad: -55 and 65 deg (sources/arm 3)
 };
 
-enum class JointKind : std::uint8_t { hinge, slide };
-
 // A joint of a chain and the link behind it.
 struct ChainLink {
   std::string name;
   JointKind kind = JointKind::slide;
-  Vec3 axis{0, 0, 1};  // unit, in the frame of the link before; all frames are parallel to R where all joints
-                       // are at 0
-  Vec3 origin{0, 0, 0};            // of the joint, in the link before (its joint), m
-  double mass = 0.1;               // kg
-  Vec3 centre{0, 0, 0};            // of mass, from the joint, m
+  Vec3 axis{0, 0, 1};    // unit, in the link before; where all joints are at 0 all frames are parallel to R
+  Vec3 origin{0, 0, 0};  // of the joint, in the link before (its joint), m
+  double mass = 0.1;     // kg
+  Vec3 centre{0, 0, 0};  // of mass, from the joint, m
   Vec3 inertia{1e-5, 1e-5, 1e-5};  // about that, along the link's axes, kg m^2
 };
 
@@ -94,8 +95,7 @@ class Arm {
   // Force of the tip on the motors, and back: [eq. 4]. The inverse is damped near a singular pose: never NaN.
   [[nodiscard]] PerJoint torque(const Mat3& jacobian, const Vec<'R'>& force) const noexcept;
   [[nodiscard]] Vec<'R'> force(const Mat3& jacobian, const PerJoint& torque) const noexcept;
-  // Mass that is felt at the tip, kg: the largest along the axes of R that the machine moves along; 0 where
-  // it moves along none. `mass`: the mass matrix.
+  // Mass that is felt at the tip, kg: the largest along the axes of R that it moves along, or 0.
   [[nodiscard]] double felt_mass(const Mat3& jacobian, const Mat3& mass) const noexcept;
   // And along one way (unit); 0 where it does not move along that.
   [[nodiscard]] double felt_mass(const Mat3& jacobian, const Mat3& mass, const Vec<'R'>& way) const noexcept;

@@ -15,6 +15,7 @@ enum class GravityForm : std::uint8_t {
   published,  // eq. 5 with the prop added to m_a
   exact       // and the prop where it is, at the tip
 };
+constexpr auto words(GravityForm) { return enum_words("none", "published", "exact"); }
 
 // How a motor gets warm.
 struct Thermal {
@@ -28,8 +29,8 @@ struct ArmRig {
   std::string driver = "none";
   ArmMachine machine;
   GravityForm gravity = GravityForm::exact;
-  double stiffness = 400.0;  // K_p of eq. 2, N/m
-  double damping = 12.0;     // K_v of eq. 2, N s/m; critical or more for the mass at the tip
+  double stiffness = 300.0;  // K_p of eq. 2, N/m
+  double damping = 11.5;     // K_v of eq. 2, N s/m; critical or more for the mass at the tip
   // Corner of the low-pass on e and its rate [eq. 3], Hz: 2 pi f is the `a` of a / (s + a); 2 pi f dt that of
   // y = (a x + y_before) / (1 + a).
   double filter = 60.0;
@@ -38,9 +39,9 @@ struct ArmRig {
   // Of each motor, N m: for a moment, and for ever (sources/arm 3, published).
   PerJoint peak_torque{0.129, 0.129, 0.129}, continuous_torque{0.0286, 0.0286, 0.0286};
   Thermal thermal{};
-  double speed = 0.6;             // of the target on its way to where the finger will touch, m/s
-  double acceleration = 10.0;     // and of it, m/s^2
-  double settle = 0.010;          // s, in which the target follows a leap of the finger that is seen
+  double speed = 1.0;             // of the target on its way to where the finger will touch, m/s
+  double acceleration = 15.0;     // and of it, m/s^2
+  double settle = 0.020;          // s, in which the target follows a leap of the finger that is seen
   double prop_lag = 0.020;        // s: of a driven prop's surface behind what it is told; assumed
   double stale = 0.005;           // s: an older sample is lost
   double least_dexterity = 0.15;  // nearer to a singular pose the tip is not sent

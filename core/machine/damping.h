@@ -12,6 +12,7 @@
 
 #include "core/frames.h"
 #include "core/response/response.h"
+#include "core/text/words.h"
 
 namespace enc {
 
@@ -21,6 +22,7 @@ enum class Damping : std::uint8_t {
   none,     // the object alone, as on the paper's rig
   observed  // and a damper, as strong as the energy that is seen to swing asks for
 };
+constexpr auto words(Damping) { return enum_words("none", "observed"); }
 
 // In a rig file.
 struct AdmittanceRig {

@@ -8,9 +8,11 @@
 #include <variant>
 #include <vector>
 
+#include "core/text/words.h"
+
 namespace enc {
 
-inline constexpr std::size_t kMaxStops = 16;
+inline constexpr std::size_t kMaxStops = 16, kMaxCurve = 8;
 
 // A Prandtl-Ishlinskii operator: an elastic curve and stops (spring and slider in series) beside it.
 struct StopsSpec {
@@ -18,7 +20,6 @@ struct StopsSpec {
   std::vector<double> radii;    // m: travel at which a stop begins to slide
   std::vector<double> weights;  // N/m, >= 0: stiffness of a stop at the deflection limit
 };
-inline constexpr std::size_t kMaxCurve = 8;
 
 // As measured: coefficients of d^1..d^4, ascending, N/m^k. Zero force at zero deflection by construction.
 struct ResponseSpec {
@@ -32,6 +33,7 @@ enum class Reversal : std::uint8_t {
   energy_stop,        // the two polynomials of [VHMR 4.2], and a passive blend between them
   prandtl_ishlinskii  // ResponseSpec::stops: closer where the direction changes within a press
 };
+constexpr auto words(Reversal) { return enum_words("energy_stop", "prandtl_ishlinskii"); }
 
 // Where the object is on its loop. alpha belongs to the energy stop: 0 on the release curve, 1 on the press
 // curve. stop belongs to Prandtl-Ishlinskii: how far each stop is stretched, m.
@@ -44,8 +46,7 @@ struct ResponseState {
 // F(d) = F_release(d) + alpha * gap(d), gap = F_press - F_release >= 0. alpha follows the travel: with Y(d)
 // the integral of gap, d alpha = dY / L, clipped to [0, 1] (an elastic-plastic stop with storage L alpha^2 /
 // 2). So the force is continuous, and no closed path of deflection that starts at rest yields energy. At zero
-// deflection the object recovers: alpha = 1; that costs nothing, because gap and Y are zero there
-// (docs/model.md). L = largest gap * kBlend.
+// deflection alpha is 1 again, which costs nothing: gap and Y are zero there. L = largest gap * kBlend.
 class EnergyStop {
  public:
   // m. While alpha moves, the object is stiffer by gap^2 / L <= largest gap / kBlend; a hand at rest that

@@ -135,7 +135,7 @@ void check_room(const SceneSpec& spec, const Scene& scene) {
             "follow.inset_mm smaller",
         "object." + spec.objects[i].name + (spec.objects[i].shape == ShapeKind::mesh ? ".mesh" : ".radius"));
   }
-  if (!spec.user || spec.user->kind != "press_release") return;
+  if (!spec.user || spec.user->kind != UserKind::press_release) return;
   const PressPoint pressed = press_point(spec, *spec.user);
   const std::size_t index = pressed_object(spec.objects, spec.user->object, "user");
   if (!room_under(scene.objects[index], margin, pressed.point, pressed.normal))

@@ -5,11 +5,13 @@
 #include <string>
 
 #include "core/frames.h"
+#include "core/text/words.h"
 
 namespace enc {
 
 // How the tool's tip is carried on from poses that are old when they come (predict.h).
 enum class Prediction : std::uint8_t { hold, constant_velocity, constant_acceleration };
+constexpr auto words(Prediction) { return enum_words("hold", "constant_velocity", "constant_acceleration"); }
 
 struct TrackerRig {
   std::string driver = "sim";

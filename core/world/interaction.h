@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/frames.h"
+#include "core/text/words.h"
 
 namespace enc {
 
@@ -17,9 +18,13 @@ enum class Interaction : std::uint8_t {
   shift,    // a tile that slides along one way until its end
   spin      // a surface that runs away under the finger: a rotating drum
 };
+constexpr auto words(Interaction) {
+  return enum_words("press", "slide", "click", "passive", "hit", "shift", "spin");
+}
 
 // What a prop is made to be felt as.
 enum class PropKind : std::uint8_t { plate, key, drum };
+constexpr auto words(PropKind) { return enum_words("plate", "key", "drum"); }
 
 // Behind `stiffness` of the behaviour, which is what is felt first.
 struct InteractionSpec {

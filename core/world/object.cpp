@@ -9,6 +9,19 @@
 
 namespace enc {
 
+LimitCheck check_limits(const ObjectSpec& object, double most) {
+  const bool one = !std::isnan(object.limit);
+  if (one && !object.limits.empty()) return {LimitFault::two_keys};
+  if (object.limits.size() > ContactLimits::kMost) return {LimitFault::too_many};
+  const std::vector<double> asked = one ? std::vector<double>{object.limit} : object.limits;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!(asked[i] > 0.0)) return {LimitFault::not_positive, i};
+    if (object.shape == ShapeKind::sphere && asked[i] >= object.radius) return {LimitFault::beyond_radius, i};
+    if (most > 0.0 && asked[i] > most * (1.0 + 1e-12)) return {LimitFault::beyond_behaviour, i};
+  }
+  return {};
+}
+
 Mesh scaled_mesh(const ObjectSpec& spec) {
   if (!spec.surface || spec.surface->triangles.empty())
     throw Error("no mesh was loaded for this object", "object." + spec.name + ".mesh");

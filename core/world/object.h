@@ -1,6 +1,7 @@
 // An object of a scene made ready: its surface where it stands, and how it answers.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -47,6 +48,23 @@ struct Object {
   // No surface point of the object is nearer to p than this, m; negative where p may be inside.
   [[nodiscard]] double least_distance(const Point<'W'>& p) const { return (p - centre).norm() - radius; }
 };
+
+// What is wrong with the deflection limits that an object asks for. The one rule: files are checked by it
+// where they are read, with the place and in their units, and scenes made in code where they are prepared.
+enum class LimitFault : std::uint8_t {
+  none,
+  two_keys,
+  too_many,
+  not_positive,
+  beyond_radius,
+  beyond_behaviour
+};
+struct LimitCheck {
+  LimitFault fault = LimitFault::none;
+  std::size_t index = 0;  // of ObjectSpec::limits
+};
+// `most`: where its behaviour ends, m; 0 while that is not known.
+[[nodiscard]] LimitCheck check_limits(const ObjectSpec& object, double most);
 
 // Parts of prepare(). Throw Error with the key in the file.
 [[nodiscard]] Mesh scaled_mesh(const ObjectSpec& spec);

@@ -10,15 +10,19 @@
 #include "core/frames.h"
 #include "core/mesh/mesh.h"
 #include "core/response/response.h"
+#include "core/text/words.h"
 #include "core/world/interaction.h"
 
 namespace enc {
 
 enum class ShapeKind : std::uint8_t { plane, sphere, mesh, button };
+constexpr auto words(ShapeKind) { return enum_words("plane", "sphere", "mesh", "button"); }
+
 enum class Tangential : std::uint8_t {
   stick,  // the tip stays over its contact point, whatever the sideways force (default)
   spring  // the contact point gives sideways by force / tangential_stiffness
 };
+constexpr auto words(Tangential) { return enum_words("stick", "spring"); }
 
 // An entry of models/behaviours.toml: how a surface answers. Objects name it.
 struct BehaviourSpec {

@@ -14,6 +14,7 @@
 #include "core/machine/arm_rig.h"
 #include "core/machine/damping.h"
 #include "core/machine/hexapod.h"
+#include "core/text/words.h"
 #include "core/track/tracker_rig.h"
 
 namespace enc {
@@ -59,6 +60,7 @@ enum class Tare : std::uint8_t {
   free,   // and slowly again whenever the tool is clear of the object
   window  // and anew from each whole tare_time in which it is clear, but for the last one before a touch
 };
+constexpr auto words(Tare) { return enum_words("start", "free", "window"); }
 
 struct ForceRig {
   std::string driver = "sim";

@@ -28,11 +28,11 @@ Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, d
 double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
   const double curve = behaviour.curves.limit;
   const double own = std::isnan(behaviour.limit) ? curve : behaviour.limit;
-  const auto [least, most] = std::minmax_element(object.limits.begin(), object.limits.end());
-  const double asked = object.limits.empty() ? object.limit : *most;
+  const double asked =
+      object.limits.empty() ? object.limit : *std::max_element(object.limits.begin(), object.limits.end());
   const double limit = std::isnan(asked) ? own : asked;
-  const double smallest = object.limits.empty() ? limit : *least;
-  if (!(smallest > 0.0) || limit > curve * (1.0 + 1e-12) || object.limits.size() > ContactLimits::kMost)
+  if (check_limits(object, curve).fault != LimitFault::none || !(limit > 0.0) ||
+      limit > curve * (1.0 + 1e-12))
     throw Error("the deflection limit lies between 0 and that of the response, for at most 16 contacts",
                 "object." + object.name + (object.limits.empty() ? ".limit" : ".limits"));
   return std::min(limit, curve);

@@ -11,6 +11,7 @@
 
 #include "core/frames.h"
 #include "core/task/tasks.h"
+#include "core/text/words.h"
 #include "core/world/object_spec.h"
 #include "core/world/tip.h"
 #include "core/world/user_spec.h"
@@ -37,8 +38,11 @@ struct FollowSpec {
   double ahead = 0.0;         // s: the nearest object is that of where the tool will be by then
 };
 
+// Which machine carries the haptic-tip.
+enum class ManipulatorKind : std::uint8_t { hexapod };
+constexpr auto words(ManipulatorKind) { return enum_words("hexapod"); }
 struct ManipulatorSpec {
-  std::string kind = "hexapod";
+  ManipulatorKind kind = ManipulatorKind::hexapod;
 };
 struct ArmSpec {};  // which one, the rig says
 // What the arm carries at its tip [VisHap 2]: a thing with a front that the finger touches.

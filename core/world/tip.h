@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/frames.h"
+#include "core/text/words.h"
 
 namespace enc {
 
@@ -13,6 +14,7 @@ enum class TipShape : std::uint8_t {
   cone,    // with a rounded apex, which is the ball
   edge     // straight, rounded: the ball swept along it (a chisel, a ruler)
 };
+constexpr auto words(TipShape) { return enum_words("sphere", "cone", "edge"); }
 
 // As seen from frame A. The tip alone: the tool above it is not part of the shape.
 template <char A>

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "core/text/words.h"
 
 namespace enc {
 
@@ -27,12 +28,11 @@ struct ReachRanges {
 // Random radial presses of a ball, with one change of the tool [VHMR 4.4].
 struct SessionSpec : ReachRanges {
   double duration = 120.0;  // s; a press that would not end in time is not begun
-  double polar_most = 0.8;  // rad from +z of W; places are even over the directions up to here that can be
-                            // pressed (press_check.h)
+  double polar_most = 0.8;  // rad from +z of W: places are even up to here, if they can be pressed
   std::string other_tool;   // taken at the change; empty: there is none
   std::vector<double> change{0.4, 0.6};  // of the duration: after which the next pause is the change
-  Vec3 tray{-0.150, 0.0, 0.060};         // in W, m: where the tip of the first tool lies while it is not
-                                         // held; the other lies beside it (session_plan.h)
+  // In W, m: where the first tool's tip lies while it is not held; the other's is beside it (session_plan.h).
+  Vec3 tray{-0.150, 0.0, 0.060};
 };
 
 // Reaches of a bare finger from far away to random places of the objects of a scene, each object as often
@@ -48,30 +48,30 @@ struct ReachesSpec : ReachRanges {
 
 // How a held tool trembles: one sine for each axis, or several between 8 and 12 Hz that wax and wane.
 enum class TremorForm : std::uint8_t { sine, band };
+constexpr auto words(TremorForm) { return enum_words("sine", "band"); }
+enum class UserKind : std::uint8_t { press_release, session, reaches };
+constexpr auto words(UserKind) { return enum_words("press_release", "session", "reaches"); }
 
 // Who holds the tool. A simulated rig plays this; a real rig shows it to the person.
 struct UserSpec {
-  std::string kind = "press_release";
-  std::string object;    // pressed; empty: the first
-  std::string tool;      // held; empty: the first
-  double azimuth = 0.0;  // where on the object, from +x towards +y of W, rad
-  double polar = 0.0;    // and from +z of W, rad: 0 presses from above
-  double offset = 0.0;   // sideways of the axis, m (indentation B)
-  double depth = 0.006;  // wanted deflection, m
-  // Instead, m: the k-th press takes the k-th, the last one stays.
-  std::vector<double> depths{};
-  double push = kUnset;  // instead: push with this force, N, whatever the depth
+  UserKind kind = UserKind::press_release;
+  std::string object, tool;      // pressed, held; empty: the first
+  double azimuth = 0.0;          // where on the object, from +x towards +y of W, rad
+  double polar = 0.0;            // and from +z of W, rad: 0 presses from above
+  double offset = 0.0;           // sideways of the axis, m (indentation B)
+  double depth = 0.006;          // wanted deflection, m
+  std::vector<double> depths{};  // m, instead: of the k-th press; the last one stays
+  double push = kUnset;          // instead: push with this force, N, whatever the depth
   double press_time = 6.0, hold_time = 0.5, release_time = 6.0, rest_time = 1.0;  // s
   std::vector<double> approach{0.02};  // speed of the tool when it touches, m/s; one press for each entry
   double approach_from = 0.060;        // m, distance of the start from the touched point
   double approach_tilt = 0.5;          // rad, of the approach from the surface normal
-  // While it holds: there and back along x of the surface's frame, m; at its fastest, m/s. A hold takes as
-  // long as that does.
+  // While it holds, which takes as long: there and back along x of the surface's frame, m; fastest, m/s.
   double slide = 0.0, slide_speed = 0.030;
   std::int64_t repeats = 1;  // of the whole list
   TremorForm tremor = TremorForm::sine;
-  std::optional<SessionSpec> session;  // with kind "session", instead of the presses above
-  std::optional<ReachesSpec> reaches;  // with kind "reaches"
+  std::optional<SessionSpec> session;  // instead of the presses above
+  std::optional<ReachesSpec> reaches;  // likewise
 };
 
 // Something outside of the machine pushes the haptic-tip into an object that the core renders [VHMR 2, Fig

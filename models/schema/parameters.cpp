@@ -64,11 +64,9 @@ class List final : public Named {
 
  private:
   void named(const std::string& name, const Key& key, const Target& target) override {
-    static constexpr std::array<std::string_view, 4> kWords{"published", "derived", "assumed", "chosen"};
     if (key.fixed) return;
     found.push_back({name, std::string(unit_of(key.name).label), shown(key, target), std::string(key.source),
-                     std::string(kWords[static_cast<std::size_t>(key.confidence)]),
-                     std::string(key.meaning)});
+                     std::string(word_of(key.confidence)), std::string(key.meaning)});
   }
   void driver_tables(const std::string& path, std::vector<DriverTable>& tables) override {
     for (const DriverTable& table : tables)

@@ -15,6 +15,7 @@
 
 #include "core/world/rig_spec.h"
 #include "core/world/scene_spec.h"
+#include "core/text/words.h"
 #include "models/setup/response_file.h"
 #include "sim/twin_spec.h"
 
@@ -22,6 +23,7 @@ namespace enc::models {
 
 // `chosen`: by who writes the file.
 enum class Confidence : std::uint8_t { published, derived, assumed, chosen };
+constexpr auto words(Confidence) { return enum_words("published", "derived", "assumed", "chosen"); }
 enum class Presence : std::uint8_t { defaulted, needed, optional };  // optional: may also be unset
 
 // In the file's unit; holds for every number of an array.
@@ -41,11 +43,11 @@ struct Key {
   Confidence confidence = Confidence::assumed;
   Range range = kAny;
   Presence presence = Presence::defaulted;
-  Words words{};       // for texts: what is allowed; empty: anything
+  Words words{};       // of a text: what is allowed; empty: anything
   bool fixed = false;  // not for --set: names, formats and what is computed
 };
 
-// A word out of a list, as its index.
+// A word out of the list of an enum (core/text/words.h), as its index.
 struct Choice {
   Words words;
   std::uint8_t* index;

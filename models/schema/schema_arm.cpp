@@ -1,4 +1,6 @@
 // What a scene, a rig and the simulator's truth say of a force-controlled arm and of what only it renders.
+#include <algorithm>
+
 #include "models/schema/schema_walk.h"
 
 namespace enc::models {
@@ -7,16 +9,12 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::array<std::string_view, 2> kArms{"phantom", "chain"};
-constexpr std::array<std::string_view, 2> kJoints{"hinge", "slide"};
-constexpr std::array<std::string_view, 3> kGravity{"none", "published", "exact"};
-constexpr std::array<std::string_view, 7> kInteractions{"press", "slide", "click", "passive",
-                                                        "hit",   "shift", "spin"};
-constexpr std::array<std::string_view, 4> kProps{"any", "plate", "key", "drum"};
-constexpr std::array<std::string_view, 3> kMounted{"plate", "key", "drum"};
-constexpr std::array<std::string_view, 5> kIntegrators{"euler", "rk4", "implicit", "implicitfast",
-                                                       "discrete"};  // of MuJoCo
-constexpr std::array<std::string_view, 2> kFriction{"dry", "smooth"};
+// PropKind, after a word for -1.
+constexpr auto kAnyOrProp = [] {
+  std::array<std::string_view, kWords<PropKind>.size() + 1> all{"any"};
+  std::copy(kWords<PropKind>.begin(), kWords<PropKind>.end(), all.begin() + 1);
+  return all;
+}();
 constexpr std::string_view kSet = "sources/arm 5: the published 1.5 scaled by 2/3";
 
 void describe(Visitor& v, PhantomGeometry& p) {
@@ -41,7 +39,7 @@ void describe(Visitor& v, PhantomGeometry& p) {
 
 void describe(Visitor& v, ChainLink& l) {
   v.value({"name", "of the joint and the link behind it", "rig", chosen, kAny, needed, {}, true}, &l.name);
-  choice(v, {"kind", "hinge, in rad, or slide, in m", "rig", chosen, kAny, needed}, kJoints, l.kind);
+  choice(v, {"kind", "hinge, in rad, or slide, in m", "rig", chosen, kAny, needed}, l.kind);
   v.value({"axis", "of length 1, in the link before", "rig", chosen, {-1.0, 1.0}, needed}, &l.axis);
   v.value({"origin_mm", "of the joint, from the joint before", "rig", chosen}, &l.origin);
   v.value({"mass_kg", "of the link", "rig", chosen, kPositive}, &l.mass);
@@ -72,7 +70,7 @@ void describe_drives(Visitor& v, ArmMachine& m) {
 }
 
 void describe(Visitor& v, ArmMachine& m) {
-  choice(v, {"kind", "a PHANToM, or a chain of hinges and slides", "rig", chosen}, kArms, m.kind);
+  choice(v, {"kind", "a PHANToM, or a chain of hinges and slides", "rig", chosen}, m.kind);
   describe_drives(v, m);
   if (m.kind == ArmKind::phantom) return describe(v, m.phantom);
   v.value({"tip_mm", "H in the last link", "rig", chosen}, &m.tip);
@@ -87,7 +85,7 @@ void describe(Visitor& v, Thermal& t) {
   v.value({"housing_time_s", "thermal, of each motor's housing", "sources/arm 3", published, kPositive},
           &t.housing_time);
   v.value({"winding_share",
-           "of a winding's rise over the room that is over its housing: 3.1 of 17.1 K/W",
+           "of a winding's rise over the room that is over its housing",
            "sources/arm 3",
            published,
            {0.0, 1.0}},
@@ -99,7 +97,7 @@ void describe(Visitor& v, ArmRig& a) {
   choice(v,
          {"gravity", "what is done against it: nothing, eq. 5 with the prop in m_a, or the prop at the tip",
           "[VisHap eq. 5]", chosen},
-         kGravity, a.gravity);
+         a.gravity);
   v.value({"stiffness_N_per_m", "K_p of eq. 2", "docs/plane_button.md", chosen, kPositive}, &a.stiffness);
   v.value({"damping_Ns_per_m", "K_v of eq. 2", "docs/plane_button.md", chosen, kPositive}, &a.damping);
   v.value({"filter_hz", "a / 2 pi of eq. 3 in its s-domain form, a / (s + a)", "docs/plane_button.md", chosen,
@@ -135,7 +133,7 @@ void describe(Visitor& v, ArmRig& a) {
 void describe(Visitor& v, sim::ArmTruth& a) {
   v.value({"timestep_us", "of MuJoCo, of a world with an arm", "sources/twin 1", chosen, {0.0, 5000.0, true}},
           &a.timestep);
-  v.value({"integrator", "of MuJoCo, likewise", "sources/twin 1", chosen, kAny, defaulted, kIntegrators},
+  v.value({"integrator", "of MuJoCo, likewise", "sources/twin 1", chosen, kAny, defaulted, sim::kIntegrators},
           &a.integrator);
   v.value({"mass_scale",
            "of all its masses and inertias against the machine's below",
@@ -148,7 +146,7 @@ void describe(Visitor& v, sim::ArmTruth& a) {
   choice(v,
          {"friction_form", "dry: holds what is at rest; smooth: c tanh(10 qd), at rest nothing",
           "sources/arm 3", chosen},
-         kFriction, a.friction_form);
+         a.friction_form);
   each({"friction_Nm", "Coulomb's, at each joint; N of a slide", "sources/arm 3", published, kNotNegative},
        a.friction);
   each({"viscous_Nms", "at each joint, for each rad/s; N s/m of a slide", "sources/arm 3", published,
@@ -189,7 +187,7 @@ void describe(Visitor& v, sim::ArmTruth& a) {
 }
 
 void describe(Visitor& v, PropSpec& p) {
-  choice(v, {"kind", "what the arm carries at its tip", "[VisHap 2]", chosen}, kMounted, p.kind);
+  choice(v, {"kind", "what the arm carries at its tip", "[VisHap 2]", chosen}, p.kind);
   v.value({"mass_kg", "of it", "[VisHap 2.3.2]", assumed, kNotNegative}, &p.mass);
   v.value({"size_mm", "along x and y of its front, and behind it", "[VisHap 2.2]", assumed, kPositive},
           &p.size);
@@ -197,12 +195,11 @@ void describe(Visitor& v, PropSpec& p) {
 
 // Entries of the interaction database that only an arm renders.
 void describe(Visitor& v, InteractionSpec& i) {
-  choice(v, {"kind", "what happens when a finger meets the object", "[VisHap 2.2]", chosen}, kInteractions,
-         i.kind);
+  choice(v, {"kind", "what happens when a finger meets the object", "[VisHap 2.2]", chosen}, i.kind);
   if (i.kind == Interaction::press) return;
   auto prop = static_cast<std::uint8_t>(i.prop + 1);
-  choice(v, {"prop", "what the finger should meet; others are warned of", "[VisHap 2.2]", chosen}, kProps,
-         prop);
+  v.value({"prop", "what the finger should meet; others are warned of", "[VisHap 2.2]", chosen},
+          Choice{kAnyOrProp, &prop});
   i.prop = static_cast<std::int32_t>(prop) - 1;
   v.value({"gradual_mm", "depth over which one stiffness becomes the next; 0: at once", "[VisHap 3]", assumed,
            kNotNegative},

@@ -8,11 +8,6 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::array<std::string_view, 3> kTares{"start", "free", "window"};
-constexpr std::array<std::string_view, 2> kDampings{"none", "observed"};
-constexpr std::array<std::string_view, 3> kSeenTips{"tracked", "predicted", "fused"};
-constexpr std::array<std::string_view, 3> kPredictions{"hold", "constant_velocity", "constant_acceleration"};
-
 // A device table that is there must say by what the role is filled.
 void driver(Visitor& v, std::string& value) {
   v.value({"driver", "sim, a folder of hw_drivers, or none", "rig", chosen, kAny, needed}, &value);
@@ -48,9 +43,8 @@ void describe(Visitor& v, ManipulatorRig& m) {
   v.value(
       {"delay_ms", "believed dead time, from command to servo", "sources/hexapod 4", assumed, kNotNegative},
       &m.delay);
-  v.value(
-      {"payload_N", "what it carries and is pressed with, together: 10 kg", "[VHMR 2]", published, kPositive},
-      &m.payload);
+  v.value({"payload_N", "what it carries and is pressed with, together", "[VHMR 2]", published, kPositive},
+          &m.payload);
   table(v, "geometry", [&] { describe(v, m.geometry); });
 }
 
@@ -69,7 +63,7 @@ void describe(Visitor& v, ForceRig& f) {
   choice(v,
          {"tare", "zero once at the start, or also when free: slowly, or by windows of tare_time_s",
           "sources/force_sensor 3", chosen},
-         kTares, f.tare);
+         f.tare);
   v.value({"tare_time_s", "of the first zero; 0: the sensor's own zero is believed", "sources/force_sensor 3",
            assumed, kNotNegative},
           &f.tare_time);
@@ -82,7 +76,7 @@ void describe(Visitor& v, ForceRig& f) {
 void describe(Visitor& v, TrackerRig& t) {
   driver(v, t.driver);
   choice(v, {"prediction", "how the tool's tip goes on from an old pose", "sources/tracking 4", chosen},
-         kPredictions, t.prediction);
+         t.prediction);
   v.value({"measurement_noise_mm", "rms of a pose along an axis, as the prediction believes",
            "sources/tracking 2", derived, kNotNegative},
           &t.measurement_noise);
@@ -125,7 +119,7 @@ void describe(Visitor& v, DisplayRig& d) {
       {"tip",
        "what dents the seen surface: the newest pose; that carried on; or, while it presses, the haptic-tip",
        "docs/synchrony.md", chosen},
-      kSeenTips, d.tip);
+      d.tip);
   v.value({"lead_ms",
            "fused: how far ahead; half a frame and the way back",
            "docs/synchrony.md",
@@ -171,7 +165,7 @@ void describe(Visitor& v, ContactRig& c) {
 void describe(Visitor& v, AdmittanceRig& a) {
   const std::string_view source = "docs/model.md (damping)";
   choice(v, {"damping", "none, or as much as the energy that is seen to swing asks for", source, chosen},
-         kDampings, a.damping);
+         a.damping);
   v.value({"margin", "of the damping over what suffices", "sources/hexapod 5", derived, kPositive},
           &a.margin);
   v.value({"calm_time_s", "in which damping falls to 1/e when nothing swings", source, chosen, kPositive},

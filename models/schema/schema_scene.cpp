@@ -7,12 +7,6 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::array<std::string_view, 3> kTips{"sphere", "cone", "edge"};
-constexpr std::array<std::string_view, 4> kShapes{"plane", "sphere", "mesh", "button"};
-constexpr std::array<std::string_view, 2> kTangential{"stick", "spring"};
-constexpr std::array<std::string_view, 2> kReversals{"energy_stop", "prandtl_ishlinskii"};
-constexpr std::array<std::string_view, 2> kWays{"one_way", "both_ways"};
-constexpr std::array<std::string_view, 1> kMachines{"hexapod"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
 
 Key name_key(std::string_view meaning) { return {"name", meaning, kAuthor, chosen, kAny, needed, {}, true}; }
@@ -37,7 +31,7 @@ void describe_mesh(Visitor& v, ObjectSpec& o) {
 
 void describe(Visitor& v, ObjectSpec& o) {
   v.value(name_key("what --set, the user and the report call it"), &o.name);
-  choice(v, {"shape", "its undeformed surface", kAuthor, chosen, kAny, needed}, kShapes, o.shape);
+  choice(v, {"shape", "its undeformed surface", kAuthor, chosen, kAny, needed}, o.shape);
   if (o.shape == ShapeKind::sphere) {
     v.value({"radius_mm", "radius of the sphere", "[VHMR 4.2], sources/ball 1", chosen, kPositive, needed},
             &o.radius);
@@ -70,7 +64,7 @@ void describe(Visitor& v, ToolSpec& t) {
           &t.markers);
   v.value({"tip_mm", "centre of the tip's sphere in T", "[VHMR 3.2]", chosen, kAny, needed}, &t.tip);
   v.value({"tip_radius_mm", "radius of the tip; 0: a point", kAuthor, chosen, {0.0, 1000.0}}, &t.tip_radius);
-  choice(v, {"tip_shape", "what dents the seen surface", "[VHMR 3.5]", chosen}, kTips, t.tip_shape);
+  choice(v, {"tip_shape", "what dents the seen surface", "[VHMR 3.5]", chosen}, t.tip_shape);
   if (t.tip_shape != TipShape::sphere)
     v.value({"tip_axis",
              "of length 1, in T; cone: from the apex into the tool, edge: along it",
@@ -162,7 +156,7 @@ void describe(Visitor& v, TravelSpec& t) {
   choice(v,
          {"ways", "one_way: straight back from the last stop; both_ways: stop by stop back", "[VHMR 4.1]",
           assumed},
-         kWays, t.ways);
+         t.ways);
   v.value({"speed_mm_s", "from stop to stop", "[VHMR 4.1]", published, kPositive}, &t.speed);
   v.value({"dwell_s", "at each stop", "[VHMR 4.1]", published, kNotNegative}, &t.dwell);
   v.value({"repeats", "of the whole", kAuthor, chosen, {1.0, 1e4}}, &t.repeats);
@@ -194,8 +188,7 @@ void describe(Visitor& v, SceneSpec& s) {
   list(v, "tool", s.tools, [&](ToolSpec& t) { describe(v, t); });
   table(v, "follow", [&] { describe(v, s.follow); });
   part(v, "manipulator", s.manipulator, [&](ManipulatorSpec& m) {
-    v.value({"kind", "which machine carries the haptic-tip", "[VHMR 2]", chosen, kAny, defaulted, kMachines},
-            &m.kind);
+    choice(v, {"kind", "which machine carries the haptic-tip", "[VHMR 2]", chosen}, m.kind);
   });
   part(v, "arm", s.arm, [](ArmSpec&) {});
   part(v, "prop", s.prop, [&](PropSpec& p) { describe(v, p); });
@@ -275,11 +268,11 @@ void describe(Visitor& v, BehaviourSpec& b, bool with_curves) {
          {"reversal",
           "what is felt where pressing turns to releasing; the second needs [stops] in the response file",
           "sources/ball 6", chosen},
-         kReversals, b.reversal);
+         b.reversal);
   choice(v,
          {"tangential", "what a sideways force does: nothing, or moves the contact point", "[VHMR 3.4]",
           assumed},
-         kTangential, b.tangential);
+         b.tangential);
   const Presence sideways = b.tangential == Tangential::spring ? needed : optional;
   v.value({"tangential_stiffness_N_per_mm", "of the sideways spring", "behaviours.toml", chosen, kPositive,
            sideways},

@@ -10,21 +10,14 @@ using enum Presence;
 
 constexpr Range kRates{0.1, 1e5};  // of what comes again and again: a clock can count it
 
-constexpr std::array<std::string_view, 5> kIntegrators{"euler", "rk4", "implicit", "implicitfast",
-                                                       "discrete"};  // of MuJoCo
-constexpr std::array<std::string_view, 2> kForms{"control", "structural"};
-constexpr std::array<std::string_view, 2> kPackets{"polled", "event"};
-constexpr std::array<std::string_view, 2> kClocks{"free", "aligned"};
 // 5 ms: beyond it a servo and a contact diverge (sources/twin 2).
 constexpr Range kTimestep{0.0, 5000.0, true};
 
-constexpr std::array<std::string_view, 6> kBallSets{"nominal", "low_loss", "high_loss",
-                                                    "vented",  "kpa_20",   "regulation"};
-
 void describe(Visitor& v, sim::WorldTruth& w) {
   v.value({"timestep_us", "of MuJoCo, control form", "sources/twin 1", chosen, kTimestep}, &w.timestep);
-  v.value({"integrator", "of MuJoCo, control form", "sources/twin 1", chosen, kAny, defaulted, kIntegrators},
-          &w.integrator);
+  v.value(
+      {"integrator", "of MuJoCo, control form", "sources/twin 1", chosen, kAny, defaulted, sim::kIntegrators},
+      &w.integrator);
   v.value({"tip_friction", "of the tool on the haptic-tip", "sources/hand 1", assumed, kNotNegative},
           &w.tip_friction);
   v.value(
@@ -36,7 +29,7 @@ void describe(Visitor& v, sim::HexapodTruth& h) {
   choice(v,
          {"form", "control: the pose is prescribed; structural: legs with stiffness carry it",
           "sources/twin 1", chosen},
-         kForms, h.form);
+         h.form);
   v.value({"servo_hz",
            "natural frequency of the position loop",
            "sources/hexapod 4",
@@ -72,7 +65,7 @@ void describe(Visitor& v, sim::StructureTruth& s) {
   v.value({"timestep_us", "of MuJoCo, structural form", "sources/hexapod 6", derived, kTimestep},
           &s.timestep);
   v.value({"integrator", "of MuJoCo, structural form", "sources/hexapod 6", derived, kAny, defaulted,
-           kIntegrators},
+           sim::kIntegrators},
           &s.integrator);
   v.value({"leg_stiffness_N_per_um", "of a leg along its axis", "sources/hexapod 6", assumed, kPositive},
           &s.leg_stiffness);
@@ -140,13 +133,13 @@ void describe(Visitor& v, sim::TrackerTruth& t) {
   choice(v,
          {"packets", "polled: newest pose at the server's rate; event: each pose when ready", "[VHMR 2]",
           published},
-         kPackets, t.packets);
+         t.packets);
   v.value({"server_rate_hz", "how often the server sends polled packets", "[VHMR 2]", published, kRates},
           &t.server_rate);
   choice(v,
          {"clocks", "free: exposures and server ticks begin at any time; aligned: both begin with the loop",
           "sources/tracking 1", assumed},
-         kClocks, t.clocks);
+         t.clocks);
   v.value({"process_ms", "fixed part of the server's own delay", "Table 1 (benchmark tracking)", derived,
            kNotNegative},
           &t.process);
@@ -179,8 +172,7 @@ void describe(Visitor& v, sim::CameraTruth& c) {
   v.value(
       {"baseline_mm", "from the left camera to the right one", "sources/tracking 7", published, kPositive},
       &c.baseline);
-  v.value({"focal_px", "of both, 7.5 mm lenses at 640 x 480", "sources/tracking 7", derived, kPositive},
-          &c.focal);
+  v.value({"focal_px", "of both cameras", "sources/tracking 7", derived, kPositive}, &c.focal);
   v.value({"width_px", "of an image", "sources/tracking 7", assumed, {1.0, 10000.0}}, &c.width);
   v.value({"height_px", "of an image", "sources/tracking 7", assumed, {1.0, 10000.0}}, &c.height);
   v.value({"rate_hz", "frames", "[VisHap 2.3.1]", published, kRates}, &c.rate);
@@ -221,8 +213,8 @@ void describe(Visitor& v, sim::HandTruth& h) {
   v.value({"tremor_mm", "rms", "sources/hand 2", assumed, kNotNegative}, &h.tremor);
   v.value({"tremor_rate_hz", "of the tremor", "sources/hand 2", published, kPositive}, &h.tremor_rate);
   v.value({"drift_mm", "rms, below 2 Hz", "sources/hand 2", assumed, kNotNegative}, &h.drift);
-  v.value({"tremor_band_hz", "from tremor_rate_hz upwards, where the scene asks for a band: 8 to 12 Hz",
-           "sources/hand 2", published, kNotNegative},
+  v.value({"tremor_band_hz", "from tremor_rate_hz upwards, where the scene asks for a band", "sources/hand 2",
+           published, kNotNegative},
           &h.tremor_band);
   v.value({"primary_share", "of the way, at which the first part of a reach aims",
            "Elliott, Hansen and Grierson 2010", assumed, kPositive},
@@ -287,7 +279,7 @@ void describe_make(Visitor& v, sim::BallTruth& b) {
 }
 
 void describe(Visitor& v, sim::BallTruth& b) {
-  choice(v, {"set", "which ball is in the test rig", "sources/ball 4", derived}, kBallSets, b.set);
+  choice(v, {"set", "which ball is in the test rig", "sources/ball 4", derived}, b.set);
   describe_make(v, b);
   v.value({"uneven",
            "stiffer by this share away from the poles of its z axis",

@@ -7,8 +7,6 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::array<std::string_view, 2> kTremors{"sine", "band"};
-constexpr std::array<std::string_view, 3> kUsers{"press_release", "session", "reaches"};
 constexpr std::string_view kAuthor = "scene";  // whoever writes it
 
 void describe_presses(Visitor& v, UserSpec& u) {
@@ -97,7 +95,7 @@ void describe(Visitor& v, ReachesSpec& r) {
 }  // namespace
 
 void describe(Visitor& v, UserSpec& u) {
-  v.value({"kind", "what the user does", kAuthor, chosen, kAny, defaulted, kUsers}, &u.kind);
+  choice(v, {"kind", "what the user does", kAuthor, chosen}, u.kind);
   v.value({"object", "pressed object, by name; empty: the first", kAuthor, chosen}, &u.object);
   v.value({"tool", "held tool, by name; empty: the first", kAuthor, chosen}, &u.tool);
   v.value({"azimuth_deg", "where on the object, from +x towards +y of W", kAuthor, chosen, {-360.0, 360.0}},
@@ -109,7 +107,7 @@ void describe(Visitor& v, UserSpec& u) {
   choice(
       v,
       {"tremor", "one sine for each axis, or a band of several that wax and wane", "sources/hand 2", assumed},
-      kTremors, u.tremor);
+      u.tremor);
   part(v, "session", u.session, [&](SessionSpec& session) { describe(v, session); });
   part(v, "reaches", u.reaches, [&](ReachesSpec& reaches) { describe(v, reaches); });
 }

@@ -45,10 +45,11 @@ void list(Visitor& visitor, std::string_view name, std::vector<T>& items, Walk w
   }
 }
 
+// One of the words that stand beside the enum.
 template <class Enum>
-void choice(Visitor& visitor, const Key& key, Words words, Enum& value) {
+void choice(Visitor& visitor, const Key& key, Enum& value) {
   auto index = static_cast<std::uint8_t>(value);
-  visitor.value(key, Choice{words, &index});
+  visitor.value(key, Choice{kWords<Enum>, &index});
   value = static_cast<Enum>(index);
 }
 

@@ -1,8 +1,6 @@
 // What one key alone does not show, of a scene with an arm.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -151,7 +149,6 @@ void mend_normals(Setup& setup) {
 
 // The prop is what is really felt [VisHap 2.2]. One line for each entry that wants another one.
 void note_props(Setup& setup) {
-  constexpr std::array<std::string_view, 3> kNames{"plate", "key", "drum"};
   const SceneSpec& s = setup.scene;
   if (!s.prop) return;
   const auto mounted = static_cast<std::int32_t>(s.prop->kind);
@@ -168,7 +165,7 @@ void note_props(Setup& setup) {
                     "behaviour",
                     place_of(setup, fmt::format("object.{}.behaviour", first->name)), quoted(first->name),
                     others > 0 ? fmt::format(" and {} more", others) : "",
-                    kNames[static_cast<std::size_t>(wanted)], kNames[static_cast<std::size_t>(mounted)]));
+                    word_of(static_cast<PropKind>(wanted)), word_of(s.prop->kind)));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/task/measure/probe.h"
 #include "core/world/contact_limits.h"
+#include "core/world/object.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
@@ -54,28 +55,37 @@ void check_real(const Setup& setup, const ObjectSpec& o) {
   }
 }
 
-// Of contacts that have their own; `most`: where the behaviour ends, 0 while that is not known.
-void check_limits(const Setup& setup, const ObjectSpec& o, double most, const std::string& behaviour) {
-  const std::string key = fmt::format("object.{}.limits_mm", o.name);
-  if (o.limits.empty()) return;
-  if (!std::isnan(o.limit))
+// `most`: where the behaviour ends, 0 while that is not known.
+void check_contacts(const Setup& setup, const ObjectSpec& o, double most, const std::string& behaviour) {
+  const LimitCheck found = check_limits(o, most);
+  if (found.fault == LimitFault::none) return;
+  const bool several = !o.limits.empty();
+  const std::string key = fmt::format("object.{}.{}", o.name, several ? "limits_mm" : "limit_mm");
+  const auto wrong = [&](const std::string& expected) {
     fail(setup, key,
-         fmt::format("object {} has both 'limit_mm' and 'limits_mm'; expected one of them; remove one",
-                     quoted(o.name)));
-  if (o.limits.size() > ContactLimits::kMost)
-    fail(setup, key,
-         fmt::format("'limits_mm' has {} elements; expected at most {}; the last one stays for all further "
-                     "contacts; remove some",
-                     o.limits.size(), ContactLimits::kMost));
-  for (std::size_t i = 0; i < o.limits.size(); ++i) {
-    if (o.shape == ShapeKind::sphere && o.limits[i] >= o.radius)
+         fmt::format("'{}' is {}; expected {}",
+                     several ? fmt::format("limits_mm[{}]", found.index) : "limit_mm",
+                     mm(several ? o.limits[found.index] : o.limit), expected));
+  };
+  switch (found.fault) {
+    case LimitFault::none:
+      return;
+    case LimitFault::two_keys:
       fail(setup, key,
-           fmt::format("'limits_mm[{}]' is {}; expected less than the radius, {} mm; lower it", i,
-                       mm(o.limits[i]), mm(o.radius)));
-    if (most > 0.0 && o.limits[i] > most)
+           fmt::format("object {} has both 'limit_mm' and 'limits_mm'; expected one of them; remove one",
+                       quoted(o.name)));
+    case LimitFault::too_many:
       fail(setup, key,
-           fmt::format("'limits_mm[{}]' is {}; expected at most {} mm, where behaviour {} ends; lower it", i,
-                       mm(o.limits[i]), mm(most), quoted(behaviour)));
+           fmt::format("'limits_mm' has {} elements; expected at most {}; the last one stays for all further "
+                       "contacts; remove some",
+                       o.limits.size(), ContactLimits::kMost));
+    case LimitFault::not_positive:
+      return wrong("a positive number; raise it");
+    case LimitFault::beyond_radius:
+      return wrong(fmt::format("less than the radius, {} mm; lower it", mm(o.radius)));
+    case LimitFault::beyond_behaviour:
+      return wrong(
+          fmt::format("at most {} mm, where behaviour {} ends; lower it", mm(most), quoted(behaviour)));
   }
 }
 
@@ -83,10 +93,6 @@ void check_object(const Setup& setup, const ObjectSpec& o) {
   const std::string path = "object." + o.name;
   if (o.shape == ShapeKind::plane || o.shape == ShapeKind::button) {
     check_unit(setup, path + ".normal", o.normal);  // mend_normals() has mended what has a direction
-  } else if (o.shape == ShapeKind::sphere && o.limit >= o.radius) {
-    fail(setup, path + ".limit_mm",
-         fmt::format("'limit_mm' is {}; expected less than the radius, {} mm; lower it", mm(o.limit),
-                     mm(o.radius)));
   }
   if (o.behaviour.empty()) return check_real(setup, o);
   const auto b = std::find_if(setup.scene.behaviours.begin(), setup.scene.behaviours.end(),
@@ -97,12 +103,7 @@ void check_object(const Setup& setup, const ObjectSpec& o) {
                      advice(o.behaviour, names_of(setup.scene.behaviours))));
   }
   const double most = std::isnan(b->limit) ? b->curves.limit : b->limit;
-  if (most > 0.0 && o.limit > most) {
-    fail(setup, path + ".limit_mm",
-         fmt::format("'limit_mm' is {}; expected at most {} mm, where behaviour {} ends; lower it",
-                     mm(o.limit), mm(most), quoted(b->name)));
-  }
-  check_limits(setup, o, most, b->name);
+  check_contacts(setup, o, most, b->name);
 }
 
 // Called before and after the curves are there.

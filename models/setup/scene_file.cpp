@@ -68,8 +68,16 @@ void read_scene(Setup& setup) {
         fmt::format("{}:1:1: cannot read this scene: {}; expected a TOML file; {}", setup.scene_path, why,
                     near.empty() ? advice("", offered) : fmt::format("did you mean '{}'?", offered.front())));
   }
-  setup.places = read_toml(text, setup.scene_path, [&](Visitor& visitor) { describe(visitor, setup.scene); });
+  setup.places = read_toml(text, setup.scene_path, [&](Visitor& visitor) {
+    describe(visitor, setup.scene);
+    // A file that stands alone, as `encounter check --resolved` prints it.
+    if (!table_if(visitor, "rig", false, [&] { describe(visitor, setup.rig); })) return;
+    describe_behaviours(visitor, setup.scene.behaviours, true);
+    table(visitor, "truth", [&] { describe(visitor, setup.twin); });
+  });
 }
+
+bool has_rig(const Setup& setup) { return setup.places.contains("rig"); }
 
 // A role whose table is missing has no driver; the struct's default is for rigs made in code.
 void clear_absent_drivers(Setup& setup) {
@@ -82,6 +90,10 @@ void clear_absent_drivers(Setup& setup) {
 bool is_path(const std::string& rig) { return rig.find('/') != std::string::npos || rig.ends_with(".toml"); }
 
 void read_rig(Setup& setup, const std::string& rig) {
+  setup.rig = RigSpec{};
+  setup.twin = sim::TwinSpec{};
+  std::erase_if(setup.places,
+                [](const auto& p) { return p.first.starts_with("rig") || p.first.starts_with("truth"); });
   const std::string models = models_dir(setup.scene_path);
   setup.rig_path =
       is_path(rig) ? rig : (fs::path(models) / "rigs" / (rig + ".toml")).lexically_normal().string();
@@ -96,7 +108,20 @@ void read_rig(Setup& setup, const std::string& rig) {
   refuse_driverless(setup);
 }
 
+void read_rig_of(Setup& setup, const std::string& rig) {
+  if (!rig.empty() || !has_rig(setup))
+    return read_rig(setup, !rig.empty() ? rig : setup.scene.rig.empty() ? "sim" : setup.scene.rig);
+  setup.rig_path = setup.scene_path;
+  clear_absent_drivers(setup);
+}
+
 void read_behaviours(Setup& setup) {
+  std::vector<BehaviourSpec>& used = setup.scene.behaviours;
+  const auto is_there = [&](const ObjectSpec& o) {
+    return o.behaviour.empty() || std::any_of(used.begin(), used.end(),
+                                              [&](const BehaviourSpec& b) { return b.name == o.behaviour; });
+  };
+  if (has_rig(setup) && std::all_of(setup.scene.objects.begin(), setup.scene.objects.end(), is_there)) return;
   const std::string path =
       (fs::path(models_dir(setup.scene_path)) / "behaviours.toml").lexically_normal().string();
   const std::string text = text_of_file(path, "list of behaviours", {});
@@ -107,7 +132,7 @@ void read_behaviours(Setup& setup) {
   names.reserve(all.size());
   for (const BehaviourSpec& b : all) names.push_back(b.name);
   for (const ObjectSpec& object : setup.scene.objects) {
-    if (object.behaviour.empty()) continue;  // check() says where that is wrong
+    if (is_there(object)) continue;  // check() says where an empty one is wrong
     const auto named = [&](const BehaviourSpec& b) { return b.name == object.behaviour; };
     const auto found = std::find_if(all.begin(), all.end(), named);
     if (found == all.end()) {
@@ -115,10 +140,9 @@ void read_behaviours(Setup& setup) {
                               place_of(setup, fmt::format("object.{}.behaviour", object.name)),
                               quoted(object.behaviour), path, advice(object.behaviour, names)));
     }
-    std::vector<BehaviourSpec>& used = setup.scene.behaviours;
-    if (std::none_of(used.begin(), used.end(), named)) used.push_back(*found);
+    used.push_back(*found);
   }
-  for (const auto& [key, place] : places) setup.places[key] = place;
+  setup.places.insert(places.begin(), places.end());  // what the scene file says of them is there already
 }
 
 }  // namespace
@@ -201,6 +225,17 @@ ResponseSpec mixed_response(const Setup& setup, const BehaviourSpec& b, const st
 
 }  // namespace
 
+namespace {
+
+// A file that stands alone has the curves of its responses, unless --set names another response.
+bool has_curves(const Setup& setup, const BehaviourSpec& b) {
+  const auto response = setup.places.find(fmt::format("behaviour.{}.response", b.name));
+  return setup.places.contains(fmt::format("behaviour.{}.curves", b.name)) &&
+         (response == setup.places.end() || !response->second.starts_with("--set"));
+}
+
+}  // namespace
+
 void fill_curves(Setup& setup, const std::string& models_dir) {
   for (BehaviourSpec& b : setup.scene.behaviours) {
     if (b.interaction.kind != Interaction::press) continue;  // rendered from its stiffness alone
@@ -208,6 +243,7 @@ void fill_curves(Setup& setup, const std::string& models_dir) {
       b.curves = {{b.stiffness, 0, 0, 0}, {b.stiffness, 0, 0, 0}, b.limit};
       continue;
     }
+    if (has_curves(setup, b)) continue;
     std::error_code none;
     const fs::path directions = fs::path(models_dir) / "directions" / (b.response + ".toml");
     if (fs::exists(directions, none)) {
@@ -272,7 +308,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   setup.scene_path = scene_path;
   read_scene(setup);
   check_made_for(setup);
-  read_rig(setup, !rig.empty() ? rig : setup.scene.rig.empty() ? "sim" : setup.scene.rig);
+  read_rig_of(setup, rig);
   // Behaviours come second, because --set may name another one for an object.
   const auto of_behaviour = [](const std::string& text) { return text.starts_with("behaviour."); };
   for (const std::string& text : overrides) {

@@ -33,8 +33,8 @@ struct Setup {
   std::vector<std::string> notes;  // what was repaired, and what is doubtful, one line each
 };
 
-// rig: "sim", or another file in models/rigs without ".toml", or a path; empty: the one that the scene is
-// made for, or "sim". overrides: "object.ball.radius_mm=30", "rig.force.filter_hz=20",
+// rig: "sim", or another file in models/rigs without ".toml", or a path; empty: the one in the scene file, or
+// that it is made for, or "sim". overrides: "object.ball.radius_mm=30", "rig.force.filter_hz=20",
 // "truth.tracker.bias_mm=[0,0,0]".
 Setup load(const std::string& scene_path, const std::string& rig,
            const std::vector<std::string>& overrides = {});
@@ -43,6 +43,12 @@ Setup load(const std::string& scene_path, const std::string& rig,
 // ...)) == text.
 std::string resolved(const Setup& setup);
 Setup parse_resolved(const std::string& text, const std::string& name);
+
+// The scene with only what it builds: no table of rig or truth that nothing in it reads. A scene file that
+// load() takes, with its own behaviours, response curves, rig and truth: a run of it has the same bits.
+// Meshes alone stay in files of their own.
+std::string built_scene(const Setup& setup);
+void walk_built(Visitor& visitor, Setup& setup);  // what of it is written
 
 // A record holds the scene as "resolved" and each mesh as "mesh:FILE", so that it needs no other file.
 RecordTexts record_texts(const Setup& setup);

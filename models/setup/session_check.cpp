@@ -32,17 +32,19 @@ void check_ranges(const Setup& setup, const std::string& table, const ReachRange
 }
 
 // A kind of user that is drawn has a table of its own name; then it presses to a depth.
-bool has_table(const Setup& setup, const std::string& kind, bool there) {
+bool has_table(const Setup& setup, UserKind kind, bool there) {
   const UserSpec& user = *setup.scene.user;
+  const std::string_view word = word_of(kind);
   if (there != (user.kind == kind))
-    fail(setup, there ? "user." + kind : "user.kind",
+    fail(setup, fmt::format("user.{}", there ? word : "kind"),
          fmt::format(
-             "'kind' is {} and there is {} [user.{}]; expected both or none; {}", quoted(user.kind),
-             there ? "a" : "no", kind,
-             there ? fmt::format("write 'kind = \"{}\"' or remove the table", kind) : "add the table"));
+             "'kind' is '{}' and there is {} [user.{}]; expected both or none; {}", word_of(user.kind),
+             there ? "a" : "no", word,
+             there ? fmt::format("write 'kind = \"{}\"' or remove the table", word) : "add the table"));
   if (there && !std::isnan(user.push))
     fail(setup, "user.push_N",
-         fmt::format("a user of kind {} presses to a depth; expected no 'push_N'; remove it", quoted(kind)));
+         fmt::format("a user of kind {} presses to a depth; expected no 'push_N'; remove it",
+                     quoted(std::string(word))));
   return there;
 }
 
@@ -50,7 +52,7 @@ bool has_table(const Setup& setup, const std::string& kind, bool there) {
 
 void check_reaches(const Setup& setup) {
   const UserSpec& user = *setup.scene.user;
-  if (!has_table(setup, "reaches", user.reaches.has_value())) return;
+  if (!has_table(setup, UserKind::reaches, user.reaches.has_value())) return;
   check_ranges(setup, "user.reaches", *user.reaches);
   for (const ObjectSpec& object : setup.scene.objects)
     if (object.shape == ShapeKind::mesh)
@@ -68,7 +70,7 @@ void check_reaches(const Setup& setup) {
 
 void check_session(const Setup& setup) {
   const UserSpec& user = *setup.scene.user;
-  if (!has_table(setup, "session", user.session.has_value())) return;
+  if (!has_table(setup, UserKind::session, user.session.has_value())) return;
   const SessionSpec& s = *user.session;
   check_ranges(setup, "user.session", s);
   check_pair(setup, "user.session", "change_share", s.change);

@@ -211,20 +211,16 @@ void add_pictures(mjSpec* spec, const ModelParts& parts) {
 }
 
 mjtIntegrator integrator_of(const Stepping& stepping) {
-  constexpr std::array<std::pair<std::string_view, mjtIntegrator>, 5> kIntegrators{
-      {{"euler", mjINT_EULER},
-       {"rk4", mjINT_RK4},
-       {"implicit", mjINT_IMPLICIT},
-       {"implicitfast", mjINT_IMPLICITFAST},
-       {"discrete", mjINT_DISCRETE}}};
-  const std::string& wanted = stepping.integrator;
-  const auto* found = std::find_if(kIntegrators.begin(), kIntegrators.end(),
-                                   [&](const auto& i) { return wanted == i.first; });
-  if (found == kIntegrators.end())
-    throw Error(
-        "unknown integrator '" + wanted + "'; expected euler, rk4, implicit, implicitfast or discrete",
-        stepping.table + ".integrator");
-  return found->second;
+  constexpr std::array<mjtIntegrator, kIntegrators.size()> kOfMujoco{mjINT_EULER, mjINT_RK4, mjINT_IMPLICIT,
+                                                                     mjINT_IMPLICITFAST, mjINT_DISCRETE};
+  const auto found = std::find(kIntegrators.begin(), kIntegrators.end(), stepping.integrator);
+  if (found == kIntegrators.end()) {
+    std::string words;
+    for (const std::string_view word : kIntegrators) words += (words.empty() ? "" : ", ") + std::string(word);
+    throw Error("unknown integrator '" + stepping.integrator + "'; expected one of " + words,
+                stepping.table + ".integrator");
+  }
+  return kOfMujoco[static_cast<std::size_t>(found - kIntegrators.begin())];
 }
 
 }  // namespace

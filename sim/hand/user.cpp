@@ -52,10 +52,7 @@ void draw_band(const HandTruth& hand, Stream draws, User::State& state) {
 
 User::User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand, std::uint64_t seed)
     : spec_(*scene.user), hand_(hand), tool_(held_tool(scene)), press_(enc::press_point(scene, spec_)) {
-  const bool drawn = spec_.kind == "session" || spec_.kind == "reaches";
-  if (spec_.kind != "press_release" && !drawn)
-    throw Error("unknown user '" + spec_.kind + "'; expected \"press_release\", \"session\" or \"reaches\"",
-                "user.kind");
+  const bool drawn = spec_.kind != UserKind::press_release;
   const Vec3 n = press_.normal.e();
   const Vec3 side = Vec3::UnitX() - n * n.x();
   const Vec3 across = side.norm() > 1e-6 ? Vec3(side.normalized()) : n.unitOrthogonal();

@@ -253,6 +253,34 @@ TEST(Shape, HeadersAreGuardedAndSayWhatTheyAre) {
   }
 }
 
+// As one text without blanks and ends of lines.
+std::string packed(const Source& source) {
+  std::string text;
+  for (const std::string& line : source.lines) text += line;
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
+  return text;
+}
+
+TEST(Shape, TheWordsOfAnEnumStandOnce) {
+  static const std::regex kTable(R"re(enum_words\(("[^)]*,"[^)]*)\))re");
+  std::map<std::string, std::string> tables;  // their words and their file
+  for (const Source& source : sources()) {
+    const std::string text = packed(source);
+    for (std::sregex_iterator match(text.begin(), text.end(), kTable), end; match != end; ++match)
+      if (source.name != "core/text/words.h") {  // which has an example
+        EXPECT_TRUE(tables.emplace((*match)[1], source.name).second) << source.name << ": " << (*match)[1];
+        EXPECT_TRUE(source.name.ends_with(".h")) << source.name << ": words stand beside their enum";
+      }
+  }
+  EXPECT_GT(tables.size(), 20U);
+  for (const Source& source : sources()) {
+    const std::string text = packed(source);
+    for (const auto& [words, file] : tables)
+      EXPECT_TRUE(source.name == file || text.find(words) == std::string::npos)
+          << source.name << " has " << words << " once more; take kWords<> or word_of() [" << file << "]";
+  }
+}
+
 TEST(Shape, EveryFrameLetterIsKnown) {
   static const std::regex kFrame(R"(\b(?:Pose|Point|Vec)<\s*'(.)'(?:\s*,\s*'(.)')?\s*>)");
   for (const Source& source : sources())

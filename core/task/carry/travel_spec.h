@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "core/text/words.h"
 
 namespace enc {
 
@@ -17,6 +18,7 @@ enum class TravelWays : std::uint8_t {
   one_way,   // stop by stop to the last; then straight back to the start
   both_ways  // and stop by stop back again
 };
+constexpr auto words(TravelWays) { return enum_words("one_way", "both_ways"); }
 struct TravelSpec {
   std::string axes = "xyz";     // of W, one after another
   Vec3 start{0.0, 0.0, -0.02};  // of the travel along each axis, m; the other two axes stay at 0

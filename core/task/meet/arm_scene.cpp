@@ -114,7 +114,7 @@ void check_reach(const SceneSpec& spec, const Scene& scene) {
                     "', or only near a singular pose; move it nearer to the origin of W, the arm's home",
                 "object." + spec.objects[i].name + ".position");
   }
-  if (!spec.user || spec.user->kind != "press_release") return;  // others choose what is in reach
+  if (!spec.user || spec.user->kind != UserKind::press_release) return;  // others choose what is in reach
   const Object& pressed = scene.objects[pressed_object(spec.objects, spec.user->object, "user")];
   if (!pressed.met_in_its_middle() && !gets_to(scene, press_point(spec, *spec.user).point))
     throw Error(

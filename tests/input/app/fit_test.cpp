@@ -28,8 +28,8 @@ TEST_F(Program, FitWritesAResponseThatAScenePlays) {
               AllOf(HasSubstr("Of unknown origin."), Not(HasSubstr(path("")))));
   edit("models/behaviours.toml", "response = \"tennis_ball\"", "response = \"mine\"");
   for (const char* reversal : {"energy_stop", "prandtl_ishlinskii"}) {
-    const Result check =
-        run_program({"check", ball(), "--set", std::string("behaviour.tennis_ball.reversal=") + reversal});
+    const Result check = run_program(
+        {"check", ball(), "--resolved", "--set", std::string("behaviour.tennis_ball.reversal=") + reversal});
     EXPECT_EQ(check.code, 0) << check.err;
     EXPECT_THAT(check.out, HasSubstr(reversal));
   }

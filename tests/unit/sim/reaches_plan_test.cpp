@@ -78,7 +78,7 @@ TEST(ReachesPlan, PlacesAreOnTheObjectsAndTheNormalPointsOut) {
 
 TEST(ReachesPlan, PlacesOfAButtonAreOnItsFace) {
   models::Setup setup = models::load(scene_file("keypad"), "", {});
-  setup.scene.user->kind = "reaches";
+  setup.scene.user->kind = UserKind::reaches;
   setup.scene.user->reaches.emplace();
   const Reaching reaching(std::move(setup));
   each(reaching, 3, [&](const SessionPlan::Press& press) {

@@ -131,6 +131,24 @@ TEST(Prepare, RefusesALimitAboveTheResponses) {
   EXPECT_EQ(prepare(spec, {}).objects[0].limit, 0.006);
 }
 
+// What a file may not ask for, a scene made in code may not either: it is one rule.
+TEST(Prepare, RefusesTheLimitsThatAFileMayNotHave) {
+  const auto refused = [](LimitFault fault, double limit, std::vector<double> limits, double radius = 0.033) {
+    SceneSpec spec = test::ball_scene();
+    spec.objects[0].limit = limit;
+    spec.objects[0].limits = std::move(limits);
+    spec.objects[0].radius = radius;
+    EXPECT_EQ(check_limits(spec.objects[0], 0.006).fault, fault);
+    expect_refused(spec, "deflection limit",
+                   spec.objects[0].limits.empty() ? "object.ball.limit" : "object.ball.limits");
+  };
+  refused(LimitFault::two_keys, 0.004, {0.004});
+  refused(LimitFault::too_many, kUnset, std::vector<double>(ContactLimits::kMost + 1, 0.004));
+  refused(LimitFault::not_positive, kUnset, {0.006, 0.0});
+  refused(LimitFault::beyond_behaviour, kUnset, {0.004, 0.007});
+  refused(LimitFault::beyond_radius, 0.004, {}, 0.003);
+}
+
 TEST(Prepare, RefusesAResponseSofterThanTheLoopRenders) {
   const double floor = prepare(test::ball_scene(), {}).lowest_slope;
   EXPECT_GT(floor, 20.0);

@@ -1,0 +1,114 @@
+// `encounter check`: what it says of every shipped scene, and the scene file that it prints.
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/built.h"
+#include "models/scene_file.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using tests::Result;
+using tests::run_program;
+const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+
+std::string scene(const std::string& name) { return kModels + "/scenes/" + name + ".toml"; }
+std::string said(const std::vector<std::string>& words) {
+  std::vector<std::string> command{"check"};
+  command.insert(command.end(), words.begin(), words.end());
+  const Result r = run_program(command);
+  EXPECT_EQ(r.code, 0) << r.err;
+  return r.out + r.err;
+}
+
+TEST(Check, AnswersInAtMost30Lines) {
+  for (const std::string& name : models::files_in(kModels, "scenes")) {
+    const std::string answer = said({scene(name)});
+    EXPECT_LE(std::count(answer.begin(), answer.end(), '\n'), 30) << name << "\n" << answer;
+    EXPECT_THAT(answer,
+                AllOf(HasSubstr("\nbuilt       "), HasSubstr("\nleft out    "), HasSubstr("\nframes\n"),
+                      HasSubstr("every chain closes to"), HasSubstr("\nlimits\n")));
+  }
+}
+
+// What the scene does not have has no edge and no words.
+TEST(Check, NamesNoPartThatIsNotThere) {
+  for (const std::string& name : models::files_in(kModels, "scenes")) {
+    const SceneSpec s = models::load(scene(name), "").scene;
+    const std::string answer = said({scene(name)});
+    const std::string told = answer.substr(answer.find("\nframes\n"));
+    const auto only_with = [&](bool part, const char* words) {
+      EXPECT_EQ(told.find(words) != std::string::npos, part) << name << ": " << words << "\n" << told;
+    };
+    only_with(s.force.has_value(), "X_HF");
+    only_with(s.tracker.has_value(), "X_WC");
+    only_with(s.tracker.has_value(), "X_CT");
+    only_with(s.tracker && !s.arm, "markers");
+    only_with(s.display.has_value(), "headset");
+    only_with(!s.objects.empty(), "X_WO");
+    only_with(s.arm.has_value(), "law: ");
+    only_with(s.manipulator && s.force, "a spring stands still from");
+    EXPECT_THAT(answer, AllOf(Not(HasSubstr("window")), Not(HasSubstr("left out    camera"))));
+
+    const app::SeenParts seen = app::seen_parts(s);
+    EXPECT_EQ(!seen.prop.empty(), s.prop.has_value()) << name;
+    EXPECT_EQ(!seen.gripper.empty(), s.gripper.has_value()) << name;
+    EXPECT_EQ(!seen.force_sensor.empty(), s.force.has_value()) << name;
+    EXPECT_EQ(!seen.tool.empty(), s.user.has_value()) << name;
+  }
+}
+
+// Many objects share lines; what somebody asks of one, and what is beyond the arm, has its own.
+TEST(Check, SaysWhatIsAskedOfOneOfManyObjects) {
+  EXPECT_THAT(said({scene("keypad")}),
+              AllOf(HasSubstr("objects 'key_1', 'key_2' and 10 more: click, 0.5 N/mm"),
+                    HasSubstr("  object 'key_5': pushes back with up to 7.06 N"), HasSubstr("held for ever"),
+                    HasSubstr("every object: pushes back with up to 7.06 N ('key_5') or more")));
+}
+
+TEST(CheckResolved, PrintsASceneFileThatRunsWithTheSameHash) {
+  const TemporaryFolder folder;
+  const auto hash_of = [](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> command{"run", file, "--for-s", "3"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Result r = run_program(command);
+    EXPECT_EQ(r.code, 0) << r.err;
+    const auto at = r.out.find("state hash");
+    EXPECT_NE(at, std::string::npos) << r.out;
+    return r.out.substr(at, r.out.find('\n', at) - at);
+  };
+  for (const char* name : {"tennis_ball", "hare", "keypad", "tracking", "rig_A", "stiffness"}) {
+    const std::string path = folder.file(std::string(name) + "_alone.toml");
+    const std::string text = said({scene(name), "--resolved", "--set", "rig.tracker.lost_age_ms=350"});
+    std::ofstream(path) << text;
+    EXPECT_EQ(hash_of(path, {}), hash_of(scene(name), {"--set", "rig.tracker.lost_age_ms=350"})) << name;
+    EXPECT_EQ(said({path, "--resolved"}), text) << name;
+    EXPECT_EQ(said({path}), said({scene(name), "--set", "rig.tracker.lost_age_ms=350"})) << name;
+  }
+}
+
+TEST(CheckResolved, RefusesWhatIsWrongInIt) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("alone.toml");
+  std::string text = said({scene("wall"), "--resolved"});
+  text.replace(text.find("filter_hz = 60"), 14, "filter_hz = -6");
+  std::ofstream(path) << text;
+  const Result r = run_program({"check", path});
+  EXPECT_EQ(r.code, 2);
+  const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("filter_hz")), '\n');
+  EXPECT_THAT(r.err, AllOf(HasSubstr(path + ":" + std::to_string(line) + ":"),
+                           HasSubstr("'filter_hz' is -6; expected a positive number in Hz")));
+}
+
+}  // namespace
+}  // namespace enc::test
