@@ -212,8 +212,8 @@ int check(const CheckOptions& options) {
     return 0;
   }
   fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}", setup.scene.title, parts_text(setup),
-             devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup), frames_text(setup, scene),
-             scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene));
+             devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup),
+             frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene));
   return 0;
 }
 

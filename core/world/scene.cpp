@@ -329,34 +329,4 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   return scene;
 }
 
-std::string frame_graph(const Scene& scene) {
-  const auto edge = [](const char* name, bool constant, const Vec3& p, const char* what) {
-    std::string line = std::string("  X_") + name + (constant ? "  constant  " : "  variable  ");
-    if (p.allFinite()) {
-      line += "[";
-      for (int i = 0; i < 3; ++i) {
-        const long um = std::lround(p(i) * 1e6);
-        const std::string thousandths = std::to_string(std::abs(um) % 1000);
-        line += (i > 0 ? ", " : "") + std::string(um < 0 ? "-" : "") + std::to_string(std::abs(um) / 1000) +
-                "." + std::string(3 - thousandths.size(), '0') + thousandths;
-      }
-      line += "] mm  ";
-    }
-    return line + what + "\n";
-  };
-  const Vec3 moving = Vec3::Constant(kUnset);
-  std::string text;
-  text += edge("WR", true, scene.X_WR.p(), "machine base; H is W at the machine's zero");
-  text += edge("RH", false, moving, "haptic-tip, from the machine's joints");
-  text += edge("HF", true, scene.X_HF.p(), "force sensor");
-  text += edge("WC", true, scene.X_WC.p(), "tracker camera");
-  text += edge("CT", false, moving, "tool markers, from the tracker");
-  text += edge("WS", true, scene.X_WS.p(), "headset server");
-  text += edge("SG", false, moving, "headset");
-  text += edge("GL", true, scene.X_GL.p(), "hand tracker on the headset");
-  for (const Object& object : scene.objects) text += edge("WO", true, object.X_WO.p(), "object");
-  text += edge("WN", false, moving, "nearest surface point, z outward");
-  return text;
-}
-
 }  // namespace enc

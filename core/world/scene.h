@@ -89,10 +89,9 @@ template <char A, char B>
 // Which tool the gripper of the scene clamps; nothing without a gripper.
 [[nodiscard]] const ToolSpec* clamped_tool(const SceneSpec& spec);
 
-// The frame graph of [VHMR Fig 4], one line for each edge, with constants and variables told apart.
-[[nodiscard]] std::string frame_graph(const Scene& scene);
-// Largest residual of the chains of that graph, m (N, rad): where the stages of a tick say that tool, tip,
-// force and objects are, against where plain matrices of the same specs put them (chains.cpp).
+// Largest residual of the chains of the frame graph [VHMR Fig 4], m (N, rad): where the stages of a tick say
+// that tool, tip, force and objects are, against where plain matrices of the same specs put them
+// (chains.cpp).
 [[nodiscard]] double chain_residual(const SceneSpec& spec, const RigSpec& rig, const Scene& scene);
 // Where the user of the scene presses: the surface point and its outward normal, in W.
 struct PressPoint {

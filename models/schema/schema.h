@@ -13,9 +13,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/text/words.h"
 #include "core/world/rig_spec.h"
 #include "core/world/scene_spec.h"
-#include "core/text/words.h"
 #include "models/setup/response_file.h"
 #include "sim/twin_spec.h"
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "models/scene_file.h"
-#include "models/toml_writer.h"
+#include "models/schema/toml_writer.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::models {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "models/scene_file.h"
-#include "models/schema.h"
+#include "models/schema/schema.h"
+#include "models/setup/scene_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace enc::models {

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/scene_file.h"
-#include "models/schema.h"
+#include "models/schema/schema.h"
+#include "models/setup/scene_file.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"
 

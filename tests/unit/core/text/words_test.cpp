@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "models/schema.h"
+#include "models/schema/schema.h"
 
 namespace enc {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "app/built.h"
-#include "models/scene_file.h"
+#include "models/setup/scene_file.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
