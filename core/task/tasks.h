@@ -1,5 +1,5 @@
-// All tasks. A task is a folder beside this file and a line of the list: what it is made of, what it
-// remembers, and its stages.
+// All tasks. A task is a folder beside this file and a line of the list. The folder has its part of a scene
+// file (Part), what it is made of, what it remembers (Memory), and its stages from track to report.
 #pragma once
 
 #include <type_traits>

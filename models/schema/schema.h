@@ -68,7 +68,7 @@ class Visitor {
   virtual void open_entry(std::string_view list, std::size_t index, std::string_view name) = 0;
   virtual void close() = 0;
   // Tables of drivers, whose keys they declare themselves.
-  virtual void drivers(std::string_view, std::vector<DriverTable>&) {}
+  virtual void drivers(std::string_view name, std::vector<DriverTable>& tables) = 0;
 };
 
 void describe(Visitor&, SceneSpec&);  // without its behaviours, which have a file of their own

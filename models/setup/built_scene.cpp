@@ -54,6 +54,9 @@ class Without final : public Visitor {
     to_.open_entry(list, index, name);
     paths_.emplace_back(list);
   }
+  void drivers(std::string_view name, std::vector<DriverTable>& tables) override {
+    to_.drivers(name, tables);
+  }
   void close() override {
     to_.close();
     paths_.pop_back();

@@ -135,8 +135,7 @@ TEST_F(Questionnaire, ASceneMayNameAForm) {
   const Result good =
       run_program({"check", write("g.toml", scene + "\n[questionnaire]\nform = \"vhmr_2020\"\n")}, kModels);
   EXPECT_EQ(good.code, 0) << good.err;
-  EXPECT_THAT(good.out, AllOf(HasSubstr("encounter questionnaire vhmr_2020 --store"),
-                              HasSubstr("form = \"vhmr_2020\"")));
+  EXPECT_THAT(good.out, HasSubstr("encounter questionnaire vhmr_2020 --store"));
   const Result bad =
       run_program({"check", write("b.toml", scene + "\n[questionnaire]\nform = \"vhmr_2021\"\n")}, kModels);
   expect_line(bad);
