@@ -19,6 +19,7 @@ struct Inputs {
   Stamped<GripSample> grip;
   std::int64_t missed = 0;  // cycles the clock lost before this tick
   bool withheld = false;    // what the machine is told is not sent: it need not follow
+  bool resumed = false;     // of a machine whose link was lost: it may be anywhere, so it begins anew
 };
 
 struct Outputs {

@@ -12,7 +12,11 @@ template <class Task>
 void walk_through(stages::Walk& walk, const Task& task, State& state, Outputs& out) noexcept {
   using Memory = typename Task::Memory;
   auto* found = std::get_if<Memory>(&state.task);
-  Memory& memory = found != nullptr ? *found : state.task.template emplace<Memory>();
+  if (found == nullptr) {
+    if (!std::holds_alternative<std::monostate>(state.task)) state = State{};
+    found = &state.task.template emplace<Memory>();
+  }
+  Memory& memory = *found;
   if (walk.in.missed >= walk.scene.loop.late_cycles) walk.why |= kClockLate;
   track(walk, task, state, memory);  // where are the tool and the tip
   touch(walk, task, state, memory);  // which surface point is nearest, and how far

@@ -1,5 +1,7 @@
 #include "trial/gate.h"
 
+#include <utility>
+
 namespace enc::trial {
 namespace {
 
@@ -24,8 +26,22 @@ void Gate::mark(const Rig& rig, Time now, Inputs& in) noexcept {
       if (!lost && links_.size() < kLinks) links_.push_back({role.name, now});
       lost = true;
     }
-    if (lost) (in.*role.said).health = Health::fault;
+    marked_[at(role.id)] = lost;
+    if (lost) said_[at(role.id)] = std::exchange((in.*role.said).health, Health::fault);
   });
+  in.resumed = std::exchange(resumed_, false) && !lost_[at(RoleId::manipulator)];
+}
+
+void Gate::unmark(Inputs& in) noexcept {
+  each_role([&](const auto& role) {
+    if (marked_[at(role.id)]) (in.*role.said).health = said_[at(role.id)];
+  });
+  marked_ = {};
+}
+
+void Gate::resume() noexcept {
+  resumed_ = resumed_ || lost_[at(RoleId::manipulator)];
+  lost_ = {};
 }
 
 bool Gate::open(RoleId id, const Outputs& out) const noexcept {

@@ -23,13 +23,15 @@ class Gate {
   // Dry: a rig of drivers that is not armed.
   Gate(const models::Setup& setup, bool dry);
 
-  // After the devices were read. What a lost device said is marked as a fault.
+  // Around the reading of the devices. What a lost device said is marked as a fault, for that tick: one that
+  // has no news afterwards leaves in `in` what it said before.
+  void unmark(Inputs& in) noexcept;
   void mark(const Rig& rig, Time now, Inputs& in) noexcept;
   void write(Rig& rig, const Outputs& out) noexcept;
   // At the end of a run, of all that was not dry.
   void stop(Rig& rig) noexcept;
-  // Ends the hold of every link that is there again.
-  void resume() noexcept { lost_ = {}; }
+  // Ends the hold of every link that is there again. A machine then begins where it says that it is.
+  void resume() noexcept;
 
   [[nodiscard]] bool lost() const noexcept { return lost_ != std::array<bool, kRoles>{}; }
   [[nodiscard]] std::int64_t withheld() const { return withheld_; }            // commands of dry devices
@@ -39,7 +41,9 @@ class Gate {
   [[nodiscard]] bool open(RoleId id, const Outputs& out) const noexcept;
   [[nodiscard]] bool sent(RoleId id, const Outputs& out) noexcept;  // counts what is not
 
-  std::array<bool, kRoles> dry_{}, lost_{};
+  std::array<bool, kRoles> dry_{}, lost_{}, marked_{};
+  std::array<Health, kRoles> said_{};  // what is marked
+  bool resumed_ = false;               // a machine, since the last tick
   std::int64_t withheld_ = 0;
   std::vector<LostLink> links_;
   bool stopped_ = true;  // nothing was told since

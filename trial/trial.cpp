@@ -117,6 +117,7 @@ bool Trial::tick() {
     return false;
   }
   now_ = rig_.clock->next();
+  gate_.unmark(in_);
   rig_.read(now_.t, in_);
   gate_.mark(rig_, now_.t, in_);
   if (options_.disturb) options_.disturb(in_);

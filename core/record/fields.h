@@ -78,6 +78,7 @@ void fields(F& f, Inputs& in) {
   fields(f, in.grip);
   f("missed", in.missed);
   f("withheld", in.withheld);
+  f("resumed", in.resumed);
 }
 template <class F>
 void fields(F& f, View& v) {

@@ -7,6 +7,16 @@
 namespace enc::stages {
 namespace {
 
+// Nothing is said to the machine before it has said where it is, and nothing goes on where it was.
+void begin_anew(State& state, Commanded& now) {
+  state.started = false;
+  state.entered = false;
+  state.mode = Mode::away;
+  now.command = Point<'R'>();
+  now.command_velocity = Vec<'R'>::zero();
+  now.following = Following{};
+}
+
 void track_tip(Walk& walk, State& state, Commanded& now) {
   const auto& sample = walk.in.tip;
   if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {
@@ -44,6 +54,7 @@ void track_tip(Walk& walk, State& state, Commanded& now) {
 
 void track(Walk& walk, const Displacing&, State& state, Commanded& now) noexcept {
   walk.stops_tool = true;
+  if (walk.in.resumed) begin_anew(state, now);
   if (walk.scene.has_manipulator) track_tip(walk, state, now);
   track_tool(walk, state, false);
 }

@@ -50,7 +50,7 @@ std::string text_of_node(const toml::node& node) {
     for (const toml::node& item : *array) text += (text.empty() ? "" : ", ") + text_of_node(item);
     return "[" + text + "]";
   }
-  return quoted_toml(kind_of(node));  // which no key wants
+  return quoted_toml(kind_of(node));  // in a list; which no key wants
 }
 
 // One node into one target. `place` is where to look when it fails.
@@ -237,9 +237,10 @@ class Reader final : public Visitor {
       for (const auto& [key, node] : *levels_.back().table) {
         places_[path_of(bare(key))] = place_in(name_, key.source());
         levels_.back().known.emplace_back(key.str());
-        if (node.is_table())
-          throw Error(fmt::format("{}: {} is a table; expected a value; drivers have plain keys only",
-                                  place_in(name_, key.source()), quoted(std::string(key.str()))));
+        if (node.is_table() || node.is_date() || node.is_time() || node.is_date_time())
+          throw Error(fmt::format("{}: {} is {}; expected a number, a text, true or false, or a list of them",
+                                  place_in(name_, key.source()), quoted(std::string(key.str())),
+                                  kind_of(node)));
         table.values.push_back({std::string(key.str()), text_of_node(node), {}, {}});
       }
       close();

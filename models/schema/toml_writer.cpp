@@ -61,7 +61,7 @@ class Writer final : public Visitor {
       push(fmt::format("{}.{}", name, table.name));
       text_ += fmt::format("\n[{}]\n", paths_.back());
       for (const DriverValue& value : table.values)
-        text_ += fmt::format("{} = {}\n", value.key, as_value(value.text));
+        if (!value.text.empty()) text_ += fmt::format("{} = {}\n", value.key, as_value(value.text));
       close();
     }
   }

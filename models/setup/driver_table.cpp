@@ -75,11 +75,16 @@ void DriverTableReader::read(const Setting& setting, const Target& target) {
   const std::string name(setting.name);
   known_.push_back(name);
   const auto is = [&](const DriverValue& v) { return v.key == name; };
-  if (const auto found = std::find_if(given_.begin(), given_.end(), is); found != given_.end())
+  // What nobody wrote is what the driver has, to the bit, also where no file could say it.
+  const bool written = setup_.places.contains(fmt::format("{}.{}", path_of(driver_), name));
+  if (const auto found = std::find_if(given_.begin(), given_.end(), is); written && found != given_.end())
     read_value(found->text, place(name), key, target, is_set(place(name)) ? Quotes::may : Quotes::must);
   else if (setting.needed)
     missing_.push_back(missing_text(title_, key, target));
-  const DriverValue value{name, value_text(key, target), std::string(key.meaning), std::string(key.source)};
+  if (std::any_of(all_.begin(), all_.end(), is)) return;  // another role has it, too
+  std::string text = value_text(key, target);
+  if (text == "inf" || text == "-inf" || text == "[]") text.clear();  // as unset: no file says it
+  const DriverValue value{name, text, std::string(key.meaning), std::string(key.source)};
   const auto after = [&](const DriverValue& v) { return v.key > name; };
   all_.insert(std::find_if(all_.begin(), all_.end(), after), value);
 }

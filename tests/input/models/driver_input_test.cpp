@@ -54,6 +54,8 @@ TEST_F(DriverInput, AWrongTableIsOneLineWithItsPlaceAndNothingMoves) {
     EXPECT_EQ(kind.code, 2) << command;
     EXPECT_THAT(kind.err, StartsWith(at(1, 1) + "'address' is a whole number; expected a text"));
     EXPECT_EQ(program(command, "[driver.sample]\nport = 0\n").code, 2) << command;
+    EXPECT_THAT(program(command, "[driver.sample]\naddress = 2020-01-01\n").err,
+                StartsWith(at(1, 1) + "'address' is a date or time; expected"));
     EXPECT_EQ(program(command, "[driver.smaple]\nport = 1\n").code, 2) << command;
   }
 }

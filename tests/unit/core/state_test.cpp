@@ -51,9 +51,12 @@ TEST(State, AStateHasTheMemoryOfItsScenesTask) {
 // A state goes on in a scene of another task as one that knows nothing of it.
 TEST(State, OfAnotherTaskBeginsAnew) {
   Loop loop(prepare(test::ball_scene(), RigSpec{}));
+  loop.tick(500);
+  EXPECT_TRUE(loop.state.started && loop.out.tip.valid());
   loop.state.task.emplace<Probing>().phase = ProbePhase::push;
   loop.tick();
   EXPECT_TRUE(std::holds_alternative<Rendering>(loop.state.task));
+  EXPECT_TRUE(loop.out.tip.valid()) << "it begins where the machine is";
 }
 
 TEST(State, ABallsSceneRemembersItsPart) {

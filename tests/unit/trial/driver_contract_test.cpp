@@ -1,5 +1,7 @@
 // What a driver is given and what it gives: one call for each role, a table of its own, a line about itself.
+#include <cmath>
 #include <fstream>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -231,6 +233,35 @@ TEST_F(DriverContract, SetReachesIt) {
 }
 
 // Whether its driver is at hand or not: a record needs no module.
+// Whatever a driver begins with it is made with, to the bit, also where no file could say it; and a key that
+// two of its roles declare stands once.
+TEST_F(DriverContract, ADefaultStaysWhatItIs) {
+  struct Odd {
+    double delay = kUnset, third = 1.0 / 3.0, most = std::numeric_limits<double>::infinity();
+    std::vector<double> gains{};
+    void declare(Settings& table) {
+      for (int role = 0; role < 2; ++role) {
+        table.value({.name = "delay_ms", .meaning = "of the box"}, delay);
+        table.value({.name = "third_deg", .meaning = "of the box"}, third);
+        table.value({.name = "most_N", .meaning = "of the box"}, most);
+        table.value({.name = "gains", .meaning = "of each axis"}, gains);
+      }
+    }
+  };
+  models::Setup setup = load("");
+  models::read_driver_table(setup, "box", [](Settings& table) { Odd{}.declare(table); });
+  ASSERT_EQ(setup.rig.drivers.size(), 1U);
+  EXPECT_EQ(setup.rig.drivers[0].values.size(), 4U);
+  Odd odd;
+  models::DriverTableReader reader(setup, "box");
+  odd.declare(reader);
+  EXPECT_TRUE(std::isnan(odd.delay));
+  EXPECT_EQ(odd.third, 1.0 / 3.0);
+  EXPECT_EQ(odd.most, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(odd.gains.empty());
+  EXPECT_THAT(models::resolved(setup), testing::Not(HasSubstr("delay_ms")));
+}
+
 TEST_F(DriverContract, TheResolvedSceneKeepsIt) {
   models::Setup setup = load(kTable, {"rig.driver.box.address=here"});
   for (const bool known : {false, true}) {

@@ -225,6 +225,61 @@ TEST(Gate, AMachineWhoseLinkComesBackByItselfMovesNothing) {
   EXPECT_EQ(run.trial.run().links.size(), 1U);
 }
 
+// Homed by hand while nobody heard it: the next command is where it is, and none leaps.
+TEST(Gate, AResumedMachineBeginsWhereItIs) {
+  Watchers seen;
+  TrialOptions options = seen.options(30.0);
+  bool moved = false;
+  options.disturb = [&](Inputs& in) {
+    if (!moved) return;
+    in.tip.value.X_RH.xyz[0] += 0.020;
+    in.tip.value.X_RH.xyz[2] -= 0.010;
+  };
+  Trial trial(scene("tennis_ball"), options);
+  while (trial.outputs().mode != Mode::contact) EXPECT_TRUE(trial.tick());
+  seen.machine.linked = false;
+  for (int i = 0; i < 300; ++i) trial.tick();
+  moved = seen.machine.linked = true;
+  trial.resume();
+  trial.tick();
+  EXPECT_LT((trial.outputs().tip.p() - trial.inputs().tip.value.X_RH.p()).norm(), 1e-6);
+  const double most = trial.scene().reach.speed * trial.scene().dt * (1.0 + 1e-9);
+  Vec3 before = trial.outputs().tip.p();
+  for (int i = 0; i < 100; ++i) {
+    trial.tick();
+    ASSERT_LE((trial.outputs().tip.p() - before).norm(), most);
+    before = trial.outputs().tip.p();
+  }
+}
+
+// A tracker that has no news after its link came back said what it said before, which was no fault.
+TEST(Gate, WhatWasSaidBeforeALossIsBelievedAfterIt) {
+  struct Silent final : PoseTracker {
+    bool there = true;
+    bool poll(Time, Stamped<TrackedTool>&) noexcept override { return false; }
+    [[nodiscard]] bool linked() const noexcept override { return there; }
+  };
+  Gate gate;
+  Rig rig;
+  rig.tracker = std::make_unique<Silent>();
+  auto& tracker = static_cast<Silent&>(*rig.tracker);
+  Inputs in;
+  in.tool.health = Health::ok;
+  const auto tick = [&] {
+    gate.unmark(in);
+    gate.mark(rig, {}, in);
+    return in.tool.health;
+  };
+  EXPECT_EQ(tick(), Health::ok);
+  tracker.there = false;
+  EXPECT_EQ(tick(), Health::fault);
+  EXPECT_EQ(tick(), Health::fault);
+  tracker.there = true;
+  EXPECT_EQ(tick(), Health::fault) << "nobody resumed";
+  gate.resume();
+  EXPECT_EQ(tick(), Health::ok);
+}
+
 TEST(Gate, WithoutALostLinkNothingIsHeld) {
   Watchers seen;
   Trial trial(scene("tennis_ball"), seen.options(4.0));
