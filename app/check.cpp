@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include <encounter_version.h>
 #include <fmt/format.h>
 
 #include "app/built.h"
@@ -159,7 +160,7 @@ std::string least_text(const std::vector<trial::ArmStrength>& strengths) {
                                      [&](const auto& a, const auto& b) { return a.*of < b.*of; });
     return fmt::format("{:.2f} {} ('{}')", (*at).*of / unit, label, at->object);
   };
-  return fmt::format("  every object: pushes back with up to {} or more, for hours {}; stiffest {}\n",
+  return fmt::format("  the weakest object: up to {}, for hours {}; the least of the stiffest springs: {}\n",
                      least(&trial::ArmStrength::peak, 1.0, "N"),
                      least(&trial::ArmStrength::lasting, 1.0, "N"),
                      least(&trial::ArmStrength::stiffest, 1e3, "N/mm"));
@@ -208,7 +209,12 @@ int check(const CheckOptions& options) {
   const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
   if (options.resolved) {
-    fmt::print("{}", models::built_scene(setup));
+    std::string made =
+        fmt::format("# Encounter {}: {}, rig {}", ENCOUNTER_VERSION, options.scene, setup.rig_path);
+    for (const std::string& set : options.set) made += fmt::format(", --set '{}'", set);
+    std::replace_if(
+        made.begin(), made.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    fmt::print("{}\n{}", made, models::built_scene(setup));
     return 0;
   }
   fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}", setup.scene.title, parts_text(setup),

@@ -24,9 +24,9 @@ std::vector<std::string> unread(const Setup& setup) {
           {"rig.manipulator", "rig.force", "rig.admittance", "truth.hexapod", "truth.structure"});
   if (s.manipulator && !setup.twin.structural()) tables.emplace_back("truth.structure");
   without(s.arm.has_value(), {"rig.arm", "truth.arm"});
-  without(s.force.has_value(), {"truth.force"});
-  without(s.tracker.has_value(), {"rig.tracker", "truth.tracker"});
-  without(s.display.has_value(), {"rig.display", "truth.display"});
+  without(s.force.has_value(), {"truth.force", "rig.frames.H_F", "truth.frames.H_F"});
+  without(s.tracker.has_value(), {"rig.tracker", "truth.tracker", "rig.frames.W_C", "truth.frames.W_C"});
+  without(s.display.has_value(), {"rig.display", "truth.display", "rig.frames.W_S", "rig.frames.G_L"});
   without(s.gripper.has_value(), {"rig.gripper", "truth.gripper"});
   without(s.user.has_value(), {"truth.hand", "truth.contact"});
   without(s.probe.has_value(), {"truth.ball"});

@@ -177,6 +177,7 @@ TEST_F(Program, ParametersHaveAHeaderAndOneRowEach) {
 // What every row says, --set takes back: the same value changes nothing.
 TEST_F(Program, EveryParameterCanBeSetToWhatItIs) {
   const Json list = Json::parse(run_program({"params", plane(), "--json"}).out);
+  const auto below_the_first_line = [](const std::string& text) { return text.substr(text.find('\n')); };
   const std::string before = run_program({"check", plane(), "--resolved"}).out;
   Words args{"check", plane(), "--resolved"};
   for (const Json& p : list) {
@@ -187,7 +188,7 @@ TEST_F(Program, EveryParameterCanBeSetToWhatItIs) {
   ASSERT_GT(args.size(), 100U);
   const Result r = run_program(args);
   EXPECT_EQ(r.code, 0) << r.err;
-  EXPECT_EQ(r.out, before);
+  EXPECT_EQ(below_the_first_line(r.out), below_the_first_line(before));
 }
 
 // A weak machine carries 13 N, of which 8.92 N stand behind the sensor.
