@@ -24,6 +24,12 @@ struct Role {
   Stamped<Said> Inputs::*said;
 };
 
+// Clang before 17 finds none by itself.
+template <class Device, class Asked, class Believed, class Said>
+Role(RoleId, const char*, const char*, std::optional<Asked> SceneSpec::*, Believed RigSpec::*,
+     Maker<Device> DriverModule::*, std::unique_ptr<Device> Rig::*, Stamped<Said> Inputs::*)
+    -> Role<Device, Asked, Believed, Said>;
+
 template <class F>
 void each_role(F f) {
   f(Role{RoleId::manipulator, "manipulator", "manipulator", &SceneSpec::manipulator, &RigSpec::manipulator,

@@ -241,7 +241,7 @@ TEST_F(DriverContract, ADefaultStaysWhatItIs) {
     std::vector<double> gains{};
     void declare(Settings& table) {
       for (int role = 0; role < 2; ++role) {
-        table.value({.name = "delay_ms", .meaning = "of the box"}, delay);
+        table.value({.name = "patience_ms", .meaning = "of the box"}, delay);
         table.value({.name = "third_deg", .meaning = "of the box"}, third);
         table.value({.name = "most_N", .meaning = "of the box"}, most);
         table.value({.name = "gains", .meaning = "of each axis"}, gains);
@@ -259,7 +259,7 @@ TEST_F(DriverContract, ADefaultStaysWhatItIs) {
   EXPECT_EQ(odd.third, 1.0 / 3.0);
   EXPECT_EQ(odd.most, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(odd.gains.empty());
-  EXPECT_THAT(models::resolved(setup), testing::Not(HasSubstr("delay_ms")));
+  EXPECT_THAT(models::resolved(setup), testing::Not(HasSubstr("patience_ms")));
 }
 
 TEST_F(DriverContract, TheResolvedSceneKeepsIt) {
