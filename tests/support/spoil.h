@@ -13,15 +13,15 @@
 
 namespace enc::test {
 
-// A visitor of fields(): spoils the `wanted`-th, -1: none, and counts them. What is withheld is no sample of
-// a device.
+// A visitor of fields(): spoils the `wanted`-th, -1: none, and counts them. What is withheld or resumed is no
+// sample of a device.
 struct SpoilOne {
   std::mt19937_64& random;
   int wanted;
   int seen = 0;
   template <class T>
   void operator()(std::string_view name, T& x) {
-    if (name == "withheld" || seen++ != wanted) return;
+    if (name == "withheld" || name == "resumed" || seen++ != wanted) return;
     if constexpr (std::is_same_v<T, double>) {
       constexpr double kInf = std::numeric_limits<double>::infinity();
       const double share = std::uniform_real_distribution<double>(-0.1, 0.1)(random);
