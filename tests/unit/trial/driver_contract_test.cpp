@@ -10,12 +10,14 @@
 #include "core/error.h"
 #include "models/setup/driver_table.h"
 #include "tests/support/bytes_of.h"
+#include "tests/support/replaced.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
 namespace {
 
+using test::replaced;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -90,12 +92,6 @@ const ModuleInfo& fake_module(const std::string&) {
                                     .gripper = make<Gripper, FakeGripper>};
   static const ModuleInfo kInfo{.name = "box", .driver = &kDriver};
   return kInfo;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 // sim.toml with the box for machine and gripper, and its table at the end.
