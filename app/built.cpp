@@ -34,7 +34,11 @@ std::vector<Part> parts_of(const models::Setup& setup) {
        fmt::format("{}, {}", word_of(ManipulatorSpec{}.kind), driver(setup.rig.manipulator.driver)));
   part("force", scene.force.has_value(), driver(setup.rig.force.driver));
   part("tracker", scene.tracker.has_value(),
-       fmt::format("{:g} Hz, {}", setup.twin.tracker.rate, driver(setup.rig.tracker.driver)));
+       scene.camera ? std::string("vision")
+                    : fmt::format("{:g} Hz, {}", setup.twin.tracker.rate, driver(setup.rig.tracker.driver)));
+  part("camera", scene.camera.has_value(),
+       fmt::format("{} x {} at {:g} Hz, {}", setup.rig.camera.width, setup.rig.camera.height,
+                   setup.rig.camera.rate, driver(setup.rig.camera.driver)));
   part("display", scene.display.has_value(),
        fmt::format("{:g} Hz, {}", setup.twin.display.rate, driver(setup.rig.display.driver)));
   part("user", scene.user.has_value(), "simulated hand");

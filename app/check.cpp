@@ -12,6 +12,7 @@
 #include "core/machine/steadiness.h"
 #include "core/safety/room.h"
 #include "core/task/meet/arm_scene.h"
+#include "models/schema/wording.h"
 #include "trial/limits.h"
 #include "trial/prepare.h"
 
@@ -111,11 +112,10 @@ std::string softest_text(const models::Setup& setup, const Scene& scene) {
     return std::max(scene.lowest_slope, loop.softest(0.015, 30.0, ramp)) * 1e-3;
   };
   return fmt::format(
-      "  a spring stands still from {:.3f} N/mm on, under a hand of {:g} N/mm that pushes it up to 15 mm "
-      "deep "
-      "or by 30 N in {:g} s; from {:.3f} N/mm on in {:g} s\n",
-      softest(Steadiness::kSlow), setup.rig.contact.hand_stiffness * 1e-3, Steadiness::kSlow,
-      softest(Steadiness::kQuick), Steadiness::kQuick);
+      "  softest spring that stands still: {:.3f} N/mm when it is pushed in {:g} s, {:.3f} N/mm in {:g} s\n"
+      "  (a hand of {:g} N/mm pushes it up to 15 mm deep or by 30 N)\n",
+      softest(Steadiness::kSlow), Steadiness::kSlow, softest(Steadiness::kQuick), Steadiness::kQuick,
+      setup.rig.contact.hand_stiffness * 1e-3);
 }
 
 std::string limits(const models::Setup& setup, const Scene& scene) {
@@ -145,11 +145,12 @@ std::string limits(const models::Setup& setup, const Scene& scene) {
 }
 
 std::string strength_text(const trial::ArmStrength& at) {
-  std::string text = fmt::format("pushes back with up to {:.2f} N, for hours {:.2f} N; stiffest {:.2f} N/mm",
+  std::string text = fmt::format("force at most {:.2f} N, for hours {:.2f} N; stiffest spring {:.2f} N/mm",
                                  at.peak, at.lasting, at.stiffest * 1e-3);
   if (!std::isnan(at.asked))
-    text += fmt::format("; asked for {:.2f} N for {:.1f} s, held {}", at.asked, at.asked_for,
-                        std::isinf(at.holds_for) ? "for ever" : fmt::format("for {:.0f} s", at.holds_for));
+    text +=
+        fmt::format("; the user asks for {:.2f} N for {:.1f} s, it can be held {}", at.asked, at.asked_for,
+                    std::isinf(at.holds_for) ? "for hours" : fmt::format("for {:.0f} s", at.holds_for));
   return text;
 }
 
@@ -190,7 +191,7 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
     const double stiffness = std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness;
     said.emplace_back(
         setup.scene.objects[i].name,
-        fmt::format("{}, {:g} N/mm when it is touched, {:.3g} of the gain in free space",
+        fmt::format("{}, {:g} N/mm when it is touched, {:.3g} times the gain in free space",
                     word_of(object.interaction.kind), stiffness * 1e-3, stiffness / law.rig.stiffness));
   }
   return lines_of(said) + strengths_text(trial::limits_of(setup, scene).strengths) +
@@ -211,10 +212,9 @@ int check(const CheckOptions& options) {
   if (options.resolved) {
     std::string made =
         fmt::format("# Encounter {}: {}, rig {}", ENCOUNTER_VERSION, options.scene, setup.rig_path);
+    if (!setup.calibration.empty()) made += ", camera by " + setup.calibration;
     for (const std::string& set : options.set) made += fmt::format(", --set '{}'", set);
-    std::replace_if(
-        made.begin(), made.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-    fmt::print("{}\n{}", made, models::built_scene(setup));
+    fmt::print("{}\n{}", models::printable(made), models::built_scene(setup));
     return 0;
   }
   fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}", setup.scene.title, parts_text(setup),

@@ -67,8 +67,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   run_command->callback([&] { code = run(run_options); });
 
   CheckOptions check_options;
-  CLI::App* check_command =
-      app.add_subcommand("check", "read a scene, say what will be built and what is left out and why");
+  CLI::App* check_command = app.add_subcommand(
+      "check",
+      "read a scene and its rig, find their mistakes, and say what will be built, what is left out and why, "
+      "where each frame is, how hard and how soft an object may be; nothing moves");
   scene_options(check_command, check_options);
   check_command->add_flag("--resolved", check_options.resolved,
                           "print the scene with only what it builds, as a scene file that runs");
@@ -124,7 +126,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   bench_command->add_option("--repeats", bench_options.repeats, "seeds per row; default: the benchmark's own")
       ->check(CLI::Range(1, 1'000'000));
   bench_command->add_option("--set", bench_options.set, "override, as for run");
-  bench_command->add_flag("--quick", bench_options.quick, "fewer repeats; all of them in 15 s");
+  bench_command->add_flag("--quick", bench_options.quick, "fewer repeats; all of them in about a minute");
   bench_command->add_flag("--full", bench_options.full,
                           "also what takes minutes: what each part does, error against run time");
   bench_command->add_flag("--list", bench_options.list, "only print the benchmarks and what they show");
@@ -154,20 +156,24 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   fit_command->callback([&] { code = fit(fit_options); });
 
   CalibrateOptions calibrate_options;
-  CLI::App* calibrate_command =
-      app.add_subcommand("calibrate",
-                         "a tracker's bias, noise and latency out of a log; the camera's pose out of pairs "
-                         "of points, or guided: the rig's simulated arm is driven through the camera's view");
+  CLI::App* calibrate_command = app.add_subcommand(
+      "calibrate",
+      "a tracker's bias, noise and latency out of a log; the camera's pose out of pairs "
+      "of points, or guided: the rig's simulated arm is driven through the camera's view; a "
+      "stereo head out of pictures of a chessboard; the colour of skin out of pictures of hands");
   calibrate_command
       ->add_option(
           "what", calibrate_options.log,
           "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; CSV with camera_x_m.., device_x_m.., "
-          "pair; or a rig with a simulated arm, such as vishap")
+          "pair; a rig with a simulated arm, such as vishap; a folder with left01.png, right01.png, ...; or, "
+          "with "
+          "--skin, a folder with images of hands")
       ->required();
   calibrate_command->add_option("--rate-Hz", calibrate_options.rate,
                                 "of a log: rows a second that it shall have; default: any");
   calibrate_command->add_flag("--json", calibrate_options.json, "one JSON object instead of text");
-  calibrate_command->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to")
+  calibrate_command
+      ->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to; of a folder: TOML")
       ->check(unnamed);
   calibrate_command->add_option("--pairs", calibrate_options.pairs, "of a rig: places of the tip; default: 8")
       ->check(CLI::Range(4, 1000));
@@ -179,6 +185,17 @@ int dispatch(CLI::App& app, int argc, char** argv) {
                    "of a rig: of the camera's noise; of points: of what is drawn from them; default: 1")
       ->check(bad_seed);
   calibrate_command->add_option("--set", calibrate_options.set, "of a rig: override, as for run");
+  calibrate_command->add_option("--square-mm", calibrate_options.square_mm,
+                                "of a chessboard: side of the board's squares");
+  calibrate_command->add_option("--corners", calibrate_options.corners,
+                                "of a chessboard: inner corners of the board; default: 9x6");
+  calibrate_command
+      ->add_option("--picture", calibrate_options.picture, "of a chessboard: PNG of rectified pairs to write")
+      ->check(unnamed);
+  calibrate_command
+      ->add_option("--skin", calibrate_options.skin,
+                   "of hands: folder with a mask for each image, of the same name, white where the hand is")
+      ->check(unnamed);
   force_option(calibrate_command, calibrate_options.force);
   calibrate_command->callback([&] { code = calibrate(calibrate_options); });
 
@@ -271,7 +288,7 @@ int command_line(int argc, char** argv) {
   try {
     return whole(answered(app, argc, argv));
   } catch (const enc::Error& e) {
-    std::fprintf(stderr, "encounter: %s\n", e.what());
+    std::fprintf(stderr, "encounter: %s\n", enc::models::printable(e.what()).c_str());
     return static_cast<int>(e.kind());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "encounter: there is not enough memory for this; give it less to do\n");

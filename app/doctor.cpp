@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"
+#include "sim/camera/stage.h"
 
 namespace enc::app {
 namespace {
@@ -77,6 +78,7 @@ void say_driver(Doctor& doctor, const std::string& name) {
     each_role([&](const auto& role) {
       if (module.driver->*role.make != nullptr) roles += (roles.empty() ? "" : ", ") + std::string(role.name);
     });
+    if (module.driver->camera != nullptr) roles += roles.empty() ? "stereo camera" : ", stereo camera";
     Keys keys;
     if (module.driver->settings != nullptr) module.driver->settings(keys);
     doctor.say(true, Need::may,
@@ -86,6 +88,42 @@ void say_driver(Doctor& doctor, const std::string& name) {
                "");
   } catch (const Error& e) {
     doctor.say(false, Need::may, "driver " + name, e.what());
+  }
+}
+
+// Of a module that is there: why it cannot be loaded, if so.
+std::string module_problem(const std::string& name) {
+  try {
+    (void)load_module(name);
+    return {};
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+void say_module(Doctor& doctor, const std::string& name, const std::string& what, const std::string& builds) {
+  const std::string problem =
+      module_there(name) ? module_problem(name) : fmt::format("not built; {} builds it", builds);
+  doctor.say(problem.empty(), Need::may, fmt::format("{} (module {})", what, name), problem);
+}
+
+void say_vision(Doctor& doctor) {
+  say_module(doctor, "vision", "vision, for scenes with a camera", "./encounter run with such a scene");
+  say_module(doctor, "calibration", "OpenCV, for calibrations out of images", "./encounter calibrate FOLDER");
+  doctor.say(program_there("ffmpeg"), Need::may, "ffmpeg, for videos as a stereo camera",
+             "apt-get install ffmpeg; folders of images do without");
+}
+
+// What the twin's camera can draw with: one of them is enough.
+void say_renderers(Doctor& doctor) {
+  if (!module_there("camera")) return;
+  try {
+    const auto* camera = static_cast<const sim::CameraModule*>(load_module("camera").camera);
+    for (const auto& [kind, name] : {std::pair{"egl", "EGL"}, {"osmesa", "OSMesa"}})
+      doctor.say(camera->renderer_problem(kind).empty(), Need::may,
+                 std::string(name) + " draws for the twin's camera", camera->renderer_problem(kind));
+  } catch (const Error& e) {
+    doctor.say(false, Need::may, "the twin's camera", e.what());
   }
 }
 
@@ -114,6 +152,8 @@ int doctor() {
              "none beside the program; pictures and drivers need them");
   for (const std::string& name : drivers_there()) say_driver(doctor, name);
   doctor.say(library_there("libEGL.so.1"), Need::may, "EGL for pictures", "./encounter view installs it");
+  say_renderers(doctor);
+  say_vision(doctor);
   doctor.say(program_there("gnuplot"), Need::may, "gnuplot for the plots of a report",
              "./encounter bench installs it");
   doctor.say(may_be_real_time(), Need::may, "real-time priority for hardware",

@@ -1,5 +1,5 @@
-// A record as a table, for programs that know nothing of Encounter (docs/rig.md). Row by row: a long record
-// is never in memory as a whole.
+// A record as a table, for programs that know nothing of Encounter (docs/guide/rig.md). Row by row: a long
+// record is never in memory as a whole.
 #include <cstdio>
 #include <optional>
 #include <string_view>

@@ -60,7 +60,7 @@ struct FitOptions {
   std::vector<std::string> hold, free;  // "wall_mm=3.4", "wall_mm"
 };
 struct CalibrateOptions {
-  std::string log;             // a tracker's log, a set of points, or a rig with an arm
+  std::string log;             // a tracker's log, a set of points, a rig with an arm, or a folder of images
   std::optional<double> rate;  // Hz, of the rows, as expected
   bool json = false;
   // Of a rig: the guided procedure.
@@ -69,6 +69,11 @@ struct CalibrateOptions {
   std::optional<std::size_t> pairs, frames;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;
+  // Of a folder of images, with `out`, `force` and `json`.
+  std::optional<double> square_mm;
+  std::optional<std::string> corners;  // "9x6"
+  std::string picture;
+  std::string skin;  // a folder of masks of hands: the images are of hands, not of a board
 };
 struct NearestOptions {
   std::string what;  // a mesh file, or SCENE#object

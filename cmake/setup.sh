@@ -101,6 +101,42 @@ for name in wheel.namelist():
   rm -rf "$work"
 }
 
+# Files out of a Debian package, without installing it and what it would bring.
+unpack() {  # PACKAGE INTO LEVELS PATTERN...: those that fit, without the first levels of their paths
+  local package=$1 into=$2 levels=$3 work=$root/.deps/unpacked; shift 3
+  rm -rf "$work" && mkdir -p "$work" "$into" || return 1
+  (cd "$work" && logged apt-get -o Acquire::Retries=2 download "$package") || return 1
+  dpkg-deb --fsys-tarfile "$work"/*.deb | tar -x -C "$into" --strip-components="$levels" --wildcards "$@" 2>>"$log" || return 1
+  rm -rf "$work"
+}
+
+# Headers of the OpenCV that the group opencv installed (cmake/FindOpenCVParts.cmake).
+setup_opencv_headers() {
+  local home=$root/.deps/opencv-headers part
+  [[ ! -d $home && ! -e /usr/include/opencv4/opencv2/calib3d.hpp ]] && command -v apt-get >/dev/null || return 0
+  doing="fetching headers of OpenCV"
+  say "fetching headers of OpenCV (2 MB)"
+  rm -rf "$home.part"
+  for part in calib3d features2d flann; do  # each includes the next
+    unpack "libopencv-$part-dev" "$home.part" 4 './usr/include/opencv4/*' || {
+      tail -n 2 "$log" >&2
+      stop "headers of OpenCV are missing and could not be fetched; see that this machine is online and run apt-get update, then give the same command again (log: build/setup.log)"
+    }
+  done
+  mv "$home.part" "$home"  # only a whole one ever gets this name
+}
+
+# Real pairs of chessboards, for tests, which are skipped without them.
+setup_chessboards() {
+  local home=$root/.deps/chessboards data=./usr/share/doc/opencv-doc/examples/data
+  [[ ! -d $home ]] && command -v apt-get >/dev/null || return 0
+  doing="fetching pairs of chessboards"
+  say "fetching pairs of chessboards (out of 96 MB)"
+  rm -rf "$home.part"
+  if unpack opencv-doc "$home.part" 7 "$data/left??.jpg" "$data/right??.jpg"; then mv "$home.part" "$home"
+  else say "pairs of chessboards could not be fetched; their tests are skipped"; fi
+}
+
 # CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.
 yardstick() {
   local LC_ALL=C TIMEFORMAT='%U %S' user system

@@ -1,10 +1,10 @@
 # How a library, a module and a precompiled header are made. What a project lists more than once stands here once.
 
-# A library of all sources of some folders but main.cpp; without sources it still passes on what it would link.
+# A library of all sources of some folders but main.cpp and module.cpp; without sources it still passes on what it would link.
 function(enc_library name folders) # enc_library(name "folder;folder/part" libraries...)
   list(TRANSFORM folders APPEND /*.cpp)
   file(GLOB sources CONFIGURE_DEPENDS ${folders})
-  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/(main|module)\\.cpp$")
   if(sources)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC ${ARGN})

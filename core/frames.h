@@ -1,9 +1,10 @@
 // Coordinate frames as types: a chain of poses that does not fit does not compile.
 //
 // The letters are those of the papers [VHMR Fig 4]: W world, R base of the machine, S headset server, O
-// object, C tracker camera (fixed); G headset, L hand tracker, H haptic-tip, F force sensor, N nearest
-// surface point, T tool markers (moving). Variables keep the monogram: X_WR is the pose of R in W, p_WT a
-// point in W, f_N a force in N. Everything is SI. What is not set is NaN, never zero and never identity.
+// object, C tracker camera or left camera of a stereo head, D its right one (fixed); G headset, L hand
+// tracker, H haptic-tip, F force sensor, N nearest surface point, T tool markers (moving). Variables keep the
+// monogram: X_WR is the pose of R in W, p_WT a point in W, f_N a force in N. Everything is SI. What is not
+// set is NaN, never zero and never identity.
 #pragma once
 
 #include <array>
@@ -22,7 +23,7 @@ using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
 
 inline constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
-inline constexpr std::string_view kFrames = "WRSOCGLHFNT";
+inline constexpr std::string_view kFrames = "WRSOCDGLHFNT";
 template <char A>
 concept Frame = kFrames.find(A) != std::string_view::npos;
 

@@ -48,6 +48,7 @@ enum Why : std::uint32_t {
   kNotFinite = 1U << 12,      // the core's own target is not finite: a defect, caught
   kToolNotHeld = 1U << 13,    // the gripper has lost its tool, or says nothing
   kNotFollowing = 1U << 14,   // the machine is not where its commands have sent it
+  kTrackerFault = 1U << 15,   // the tracker says that it is at fault, or its link is lost
   // Notices: the loop goes on.
   kToolPredicted = 1U << 16,  // tool pose older than usual
   kUnreachable = 1U << 17,    // target clamped to what the machine reaches

@@ -28,6 +28,7 @@ std::string why_text(std::uint32_t why) {
        {kNotFinite, "target not finite"},
        {kToolNotHeld, "gripper holds no tool"},
        {kNotFollowing, "machine does not follow its commands"},
+       {kTrackerFault, "tracker lost or at fault"},
        {kToolPredicted, "tool pose old"},
        {kUnreachable, "target out of reach"},
        {kLimited, "speed or acceleration limited"},

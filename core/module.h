@@ -23,10 +23,13 @@ struct ModuleInfo {
   const char* version = ENCOUNTER_VERSION;
   const char* name = "";  // "view", "sample"
   const DriverModule* driver = nullptr;
-  const void* view = nullptr;   // sim::ViewModule, of the view module only
-  const void* peers = nullptr;  // bench::PeersModule, of the peers module only
-  const void* bench = nullptr;  // trial::BenchModule, of the bench module only
-  const void* fit = nullptr;    // app::FitModule, of the fit module only
+  const void* view = nullptr;         // sim::ViewModule, of the view module only
+  const void* vision = nullptr;       // VisionModule, of the vision module only
+  const void* camera = nullptr;       // sim::CameraModule, of the camera module only
+  const void* peers = nullptr;        // bench::PeersModule, of the peers module only
+  const void* bench = nullptr;        // trial::BenchModule, of the bench module only
+  const void* fit = nullptr;          // app::FitModule, of the fit module only
+  const void* calibration = nullptr;  // app::CalibrationModule, of the calibration module only
 };
 
 // The one symbol: extern "C" const enc::ModuleInfo* encounter_module();

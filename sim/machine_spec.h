@@ -57,7 +57,7 @@ struct GripperTruth {
 
 // What pushes the haptic-tip from outside, a hand or a stand: a spring to where it wants to be, and a damper.
 struct PusherTruth {
-  double stiffness = 40.0;   // N/m: calibrated (docs/stiffness.md); "firm": 1000
+  double stiffness = 40.0;   // N/m: calibrated (docs/notes/stiffness.md); "firm": 1000
   double damping = 1.0;      // N s/m
   double tremor = 0.005;     // N rms
   double tremor_rate = 8.1;  // Hz

@@ -2,10 +2,12 @@
 // of twin_spec.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/frames.h"
 #include "core/text/words.h"
+#include "sim/camera/picture_spec.h"
 
 namespace enc::sim {
 
@@ -66,6 +68,14 @@ struct CameraTruth {
   double pointing = 0.15;              // px rms, each frame, of the place in the left image
   double standing = 0.05;              // px rms, of all three: stays for as long as what is seen stands still
   double disparity_step = 1.0 / 16.0;  // px
+  // Of images, where a scene looks through it (sim/camera).
+  Scenery scenery = Scenery::office;
+  Tone skin = Tone::light;
+  double hand_from = 0.6;     // s: until then the hand is out of the picture, while the background is learned
+  double noise = 1.5;         // of 255, rms
+  double exposure = 1.0;      // of the light that is there
+  double stalls_at = kUnset;  // s: no frame from then on
+  std::array<double, 5> distortion{0, 0, 0, 0, 0};  // of both lenses: k1, k2, p1, p2, k3
 };
 
 struct DisplayTruth {

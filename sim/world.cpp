@@ -83,7 +83,7 @@ World::World(const WorldSpec& spec)
       user_(make_user(spec, held_tool(spec.scene))),
       physics_(model_of(spec, held_tool(spec.scene), user_, q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
-  if (spec.scene.tracker)
+  if (spec.scene.tracker && !spec.scene.camera)
     tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);
   if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
   if (user_) programme_time_ = user_->duration();
@@ -193,6 +193,11 @@ void World::observe(Time t) {
   truth_.tool_velocity = Vec<'W'>(v[0], v[1], v[2]);
   truth_.tool_radius = in_hand_->radius;
   if (user_->turns()) q_WT_ = pointed(in_hand_->shaft_T, user_->shaft(seconds(t.time_since_epoch())).e());
+}
+
+Vec<'W'> World::pointing() const {
+  if (!user_) return Vec<'W'>(0, 0, -1);
+  return Vec<'W'>(Vec3(-user_->shaft(seconds(truth_.t.time_since_epoch())).e().normalized()));
 }
 
 // The tool tilts about its tip. Under load its markers go on where its tip stops.

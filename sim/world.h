@@ -47,9 +47,9 @@ class World {
   [[nodiscard]] Physics& physics() { return physics_; }
   [[nodiscard]] const Pose<'W', 'R'>& X_WR() const { return X_WR_; }
   [[nodiscard]] const Quat& q_WT() const { return q_WT_; }  // of the held tool, true
-
-  // Everything that moves: physics, plants, queues, random streams.
-  [[nodiscard]] std::vector<std::byte> save() const;
+  [[nodiscard]] Vec<'W'> pointing() const;  // unit, of the hand's finger or tool; down without a user
+  [[nodiscard]] std::vector<std::byte> save()
+      const;  // all that moves: physics, plants, queues, random streams
   void restore(const std::vector<std::byte>& saved);
 
   std::optional<HexapodPlant> machine;  // there if the scene has no arm

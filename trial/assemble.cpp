@@ -9,34 +9,28 @@
 #include "core/devices/roles.h"
 #include "core/error.h"
 #include "models/setup/driver_table.h"
+#include "trial/driver_device.h"
+#include "trial/vision.h"
 
 namespace enc::trial {
 namespace {
 
+// The tracker is vision: what has a driver is its camera.
+template <class Role>
+bool sees(const models::Setup& setup, const Role& role) {
+  return role.id == RoleId::tracker && setup.scene.camera;
+}
+
 // The driver that fills a role which the scene names; empty: none, or the twin.
 template <class Role>
 std::string driver_of(const models::Setup& setup, const Role& role) {
-  const std::string& driver = (setup.rig.*role.rig).driver;
+  const std::string& driver = sees(setup, role) ? setup.rig.camera.driver : (setup.rig.*role.rig).driver;
   return setup.scene.*role.scene && driver != "sim" ? driver : std::string();
 }
 
-// Makes one device, or throws one clear line.
 template <class Role>
-auto make(const Role& role, const models::Setup& setup, const DriverSource& drivers, Log& log) {
-  const std::string driver = driver_of(setup, role);
-  const ModuleInfo& module = drivers(driver);
-  if (module.driver == nullptr || module.driver->*role.make == nullptr)
-    throw Error(
-        fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, role.name), {},
-        ErrorKind::device);
-  models::DriverTableReader table(setup, driver);
-  const Reach reach = reach_of(setup.rig);
-  auto device =
-      (module.driver->*role.make)({table, setup.rig, reach, from_seconds(1.0 / setup.rig.loop.rate), log});
-  if (!device)
-    throw Error(fmt::format("module '{}' made no {}; mend the driver", driver, role.name), {},
-                ErrorKind::device);
-  return device;
+auto make(const Role& role, const models::Setup& setup, const DriverSource& modules, Log& log, bool waits) {
+  return driver_device(driver_of(setup, role), role.make, role.name, setup, modules, log, waits);
 }
 
 class NoLog final : public Log {
@@ -57,6 +51,17 @@ Slots slots_of(const models::Setup& setup) {
   return slots;
 }
 
+bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers) {
+  bool any = false;
+  each_role([&](const auto& role) {
+    const std::string driver = driver_of(setup, role);
+    if (driver.empty()) return;
+    const DriverModule* module = drivers(driver).driver;
+    any = any || module == nullptr || !module->plays;
+  });
+  return any;
+}
+
 std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& prepared, std::uint64_t seed,
                                        bool draw_all) {
   const std::string mjcf = models::models_dir(setup.scene_path) + "/mjcf";
@@ -75,13 +80,14 @@ void read_driver_tables(models::Setup& setup, const DriverFinder& find) {
       models::read_driver_table(setup, driver, module->driver->settings);
 }
 
-void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log) {
+void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, bool waits) {
   std::set<std::string> used;
   each_role([&](const auto& role) { used.insert(driver_of(setup, role)); });
   read_driver_tables(setup,
                      [&](const std::string& name) { return used.contains(name) ? &drivers(name) : nullptr; });
   each_role([&](const auto& role) {
-    if (!driver_of(setup, role).empty()) rig.*role.slot = make(role, setup, drivers, log);
+    if (!driver_of(setup, role).empty() && !sees(setup, role))
+      rig.*role.slot = make(role, setup, drivers, log, waits);
   });
 }
 
@@ -103,7 +109,12 @@ std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSou
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
     try {
-      const std::string said = make(role, setup, drivers, log)->describe();
+      std::unique_ptr<Device> device;
+      if (sees(setup, role))
+        device = make_vision(setup, drivers, {.log = log});
+      else
+        device = make(role, setup, drivers, log, false);
+      const std::string said = device->describe();
       all.push_back({role.table, said.empty() ? driver : said, true});
     } catch (const Error& e) {
       all.push_back({role.table, e.what(), false});

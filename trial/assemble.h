@@ -24,6 +24,8 @@ struct Slots {
   bool machine = false;  // the manipulator or the arm is real
 };
 [[nodiscard]] Slots slots_of(const models::Setup& setup);
+// Some device that is not simulated lives in wall time: it does not only play what was recorded.
+[[nodiscard]] bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers);
 
 // The twin of a set-up, with the place in the file put before what is wrong. Both must outlive it.
 [[nodiscard]] std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& prepared,
@@ -35,7 +37,7 @@ using DriverFinder = std::function<const ModuleInfo*(const std::string& driver)>
 void read_driver_tables(models::Setup& setup, const DriverFinder& find);
 
 // Puts the drivers' devices in the slots for which the rig names one; before, their tables are read.
-void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log);
+void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, bool waits);
 
 // What a driver says of its device.
 struct DeviceWords {

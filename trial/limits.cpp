@@ -118,7 +118,7 @@ std::string beyond_text(const ArmStrength& at) {
   if (at.gives_way_in > 0)
     return fmt::format(
         "object '{}' is pressed with {:.2f} N for {:.0f} s{}, and cold motors hold that for {:.0f} s (for "
-        "ever {:.2f} N); press less deep, or shorter{}",
+        "hours {:.2f} N); press less deep, or shorter{}",
         at.object, at.asked, at.asked_for,
         at.presses > 1 ? fmt::format(", press {} of {}", at.gives_way_in, at.presses) : "", at.holds_for,
         at.lasting, at.presses > 1 ? ", or rest longer" : "");

@@ -23,12 +23,12 @@ struct Unsteady {
 // it.
 struct ArmStrength {
   std::string object;
-  double peak = 0.0, lasting = 0.0;  // N, along the normal: for a moment and for ever, as the rig believes
+  double peak = 0.0, lasting = 0.0;  // N, along the normal: for a moment and for hours, as the rig believes
   double stiffest = 0.0;             // N/m: stiffer the law rings (core/task/meet/impedance.h)
   double stiffness = kUnset;         // N/m, the most that the object asks for
   double asked = kUnset;             // N, of the user's press; unset: nobody presses it to a depth
   double asked_for = 0.0;            // s
-  double holds_for = 0.0;            // s, of that force, until cold motors give less; infinite: for ever
+  double holds_for = 0.0;            // s, of that force, until cold motors give less; infinite: for hours
   std::int64_t presses = 1;          // of the user
   std::int64_t gives_way_in = 0;     // the press in which warm motors give less; 0: none
 };

@@ -12,6 +12,7 @@
 #include "sim/clock.h"
 #include "trial/limits.h"
 #include "trial/prepare.h"
+#include "trial/vision.h"
 
 namespace enc::trial {
 namespace {
@@ -31,8 +32,8 @@ double programme_of(const Scene& scene) {
 
 // A share of wall time, or 0: as fast as it goes. Real devices live in wall time, and simulated ones then
 // follow.
-double pace_of(const TrialOptions& options, bool real) {
-  if (!real || options.pace == 1.0) return options.pace;
+double pace_of(const TrialOptions& options, bool wall) {
+  if (!wall || options.pace == 1.0) return options.pace;
   if (options.pace != 0.0) throw Error("--pace: a rig with real devices runs at wall pace only");
   return 1.0;
 }
@@ -54,8 +55,13 @@ void refuse_limits(const models::Setup& setup, const Scene& scene) {
 Trial::Trial(models::Setup setup, TrialOptions options)
     : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
   const Slots slots = options_.drivers ? slots_of(setup_) : Slots{};
-  const double pace = pace_of(options_, slots.real);
+  const bool wall = slots.real && keeps_wall_time(setup_, options_.drivers);
+  const double pace = pace_of(options_, wall);
   if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
+  if (slots.machine && options_.armed && setup_.scene.camera)
+    throw Error(models::place_of(setup_, "camera") +
+                ": vision works within the haptic loop, where a frame takes many periods; expected a tracker "
+                "that does not; a real machine is not armed for it");
   simulated_ = !slots.real;
   if (slots.simulated || !slots.real) {
     world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
@@ -64,16 +70,19 @@ Trial::Trial(models::Setup setup, TrialOptions options)
     rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
   }
   gate_ = Gate(setup_, slots.real && !options_.armed);
-  if (slots.real) {
-    put_drivers(rig_, setup_, options_.drivers, log_);
-    result_.devices = describe_drivers(rig_, setup_);
+  if (slots.real) put_drivers(rig_, setup_, options_.drivers, log_, pace == 0.0);
+  if (setup_.scene.camera) {
+    if (!options_.drivers)
+      throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
+    rig_.tracker = make_vision(setup_, options_.drivers, {world_.get(), options_.seed, log_, pace == 0.0});
   }
+  if (slots.real) result_.devices = describe_drivers(rig_, setup_);
   in_.withheld = slots.machine && !options_.armed;
   if (options_.fit_out) options_.fit_out(rig_);
   check_devices(rig_, setup_.rig);
   if (pace > 0.0)
     rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace,
-                                              slots.real ? sim::Late::skip : sim::Late::wait, options_.stop);
+                                              wall ? sim::Late::skip : sim::Late::wait, options_.stop);
   result_.holds.reserve(16);
   if (std::isinf(options_.seconds)) {
     last_tick_ = std::numeric_limits<std::int64_t>::max();
@@ -161,6 +170,10 @@ TrialResult Trial::run() {
   result_.lateness = rig_.clock->lateness();
   result_.links = gate_.links();
   result_.log = log_.lines();
+  each_role([&](const auto& role) {
+    if (const auto& device = rig_.*role.slot)
+      for (std::string& line : device->remarks()) result_.log.push_back(std::move(line));
+  });
   if (result_.diverged_at >= 0) result_.divergence = world_->divergence();
   return result_;
 }

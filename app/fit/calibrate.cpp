@@ -224,6 +224,11 @@ void refuse_rig_options(const CalibrateOptions& o) {
 }  // namespace
 
 int calibrate_command(const CalibrateOptions& options) {
+  for (const auto& [given, option] : {std::pair{options.square_mm.has_value(), "--square-mm"},
+                                      {options.corners.has_value(), "--corners"},
+                                      {!options.picture.empty(), "--picture"},
+                                      {!options.skin.empty(), "--skin"}})
+    refuse(given, option, "a folder of images", options);
   if (options.rate && !(*options.rate > 0.0))
     throw Error("--rate-Hz: expected a positive number of rows a second");
   // Names of rigs have neither dot nor slash, and their files are TOML; all else is a table.

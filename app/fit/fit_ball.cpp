@@ -120,7 +120,7 @@ std::string remarks(const BallFit& fit) {
         fit.walk);
   return text +
          "note        intervals know of noise, not of a wrong law: that is within 1.1 % rms of a solver "
-         "(docs/identification.md)\n";
+         "(docs/guide/identification.md)\n";
 }
 
 std::string settings(const BallFit& fit) {

@@ -1,10 +1,16 @@
 // The subcommands that live in modules, because few need what they need.
+#include <algorithm>
+#include <filesystem>
+
 #include <fmt/format.h>
 
+#include "app/calibration/calibration_module.h"
 #include "app/fit/fit_module.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
 #include "core/error.h"
+#include "models/schema/wording.h"
+#include "models/setup/scene_file.h"
 #include "trial/bench_module.h"
 
 namespace enc::app {
@@ -25,8 +31,32 @@ const trial::BenchModule& benchmarks() {
 
 const FitModule& fits() { return *static_cast<const FitModule*>(own_module("fit", "fit").fit); }
 
+const CalibrationModule& calibrations() {
+  return *static_cast<const CalibrationModule*>(own_module("calibration", "calibrate FOLDER").calibration);
+}
+
 const ModuleInfo* module_if_there(const std::string& name) {
   return module_there(name) ? &load_module(name) : nullptr;
+}
+
+// What stands where a folder of images, a table or a rig should: in words of what it is, before a reader of
+// one of them says that it is none of its own.
+void refuse_what_it_is_not(const CalibrateOptions& options, const std::vector<std::string>& rigs) {
+  namespace fs = std::filesystem;
+  const std::string& what = options.log;
+  std::error_code none;
+  const bool there = fs::exists(what, none);
+  const std::string ending = models::lower_case(fs::path(what).extension().string());
+  if (there && (ending == ".png" || ending == ".jpg" || ending == ".jpeg"))
+    throw Error(fmt::format(
+        "{}: is a single image; expected the folder that all of them are in; give its name", what));
+  if (options.square_mm || options.corners || !options.picture.empty() || !options.skin.empty())
+    throw Error(fmt::format("{}: is {}; expected a folder of images; see to its name", what,
+                            there ? "a file" : "not there"));
+  if (!there && ending != ".csv" && ending != ".toml")
+    throw Error(
+        fmt::format("{}: is not there; expected a log or points (CSV), a folder of images, or a rig; {}",
+                    what, models::advice(what, rigs)));
 }
 
 }  // namespace
@@ -35,7 +65,15 @@ int bench(const BenchOptions& options) { return benchmarks().bench(options, modu
 
 int fit(const FitOptions& options) { return fits().fit(options); }
 
-int calibrate(const CalibrateOptions& options) { return fits().calibrate(options); }
+int calibrate(const CalibrateOptions& options) {
+  const std::vector<std::string> rigs = models::files_in(models::models_dir(""), "rigs");
+  // A rig by its name, though a folder may have it, as `sim` of the sources.
+  const bool rig = std::find(rigs.begin(), rigs.end(), options.log) != rigs.end();
+  std::error_code none;
+  const bool folder = !rig && std::filesystem::is_directory(options.log, none);
+  if (!rig && !folder) refuse_what_it_is_not(options, rigs);
+  return folder ? calibrations().calibrate(options) : fits().calibrate(options);
+}
 
 int questionnaire(const QuestionnaireOptions& options) { return benchmarks().questionnaire(options); }
 

@@ -1,6 +1,7 @@
 #include "app/modules/modules.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 
@@ -38,7 +39,10 @@ std::string beside_program() {
   std::error_code none;
   return (fs::read_symlink("/proc/self/exe", none).parent_path() / "modules").string();
 }
-bool ours(const std::string& name) { return name == "bench" || name == "fit" || name == "peers"; }
+bool ours(const std::string& name) {
+  constexpr std::array<std::string_view, 6> kOurs{"bench", "calibration", "camera", "fit", "peers", "vision"};
+  return std::find(kOurs.begin(), kOurs.end(), name) != kOurs.end();
+}
 std::string file_of(const std::string& name) {
   const auto in = [&](const std::string& folder) {
     return fmt::format("{}/{}{}{}", folder, kPrefix, name, kSuffix);

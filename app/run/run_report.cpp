@@ -198,6 +198,10 @@ std::string made_line(const RunReport& r) {
   return text + "\n";
 }
 
+std::string counted(std::int64_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 // What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
 std::string pushed_lines(const RunReport& r) {
   if (!r.setup.scene.pusher) return "";
@@ -219,7 +223,7 @@ StepTimes step_times(const std::vector<std::uint32_t>& ns) {
 std::string run_text(const RunReport& r) {
   std::string text =
       r.setup.scene.title + "\n" + made_line(r) + parts_text(r.setup) + devices_text(r.result.devices);
-  text += fmt::format("modes       {}; {} contacts\n", modes_line(r.result), r.result.contacts);
+  text += fmt::format("modes       {}; {}\n", modes_line(r.result), counted(r.result.contacts, "contact"));
   for (const auto& [t, why] : r.result.holds) {
     text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
     if (&why != &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) continue;

@@ -54,7 +54,7 @@ void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) 
                               first->began, r.result.contacts == 0 ? "; " + last_notice(r) : ""));
 }
 
-// At 20 Hz an arm loses a finger and finds it again within one press (docs/reaching.md).
+// At 20 Hz an arm loses a finger and finds it again within one press (docs/reference/reaching.md).
 void add_repeated(const RunReport& r, Lines& lines) {
   const auto n = static_cast<std::int64_t>(r.touches.plan().tried().size());
   if (r.scene.impedance() || n == 0 || r.result.contacts <= n) return;

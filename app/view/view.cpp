@@ -262,7 +262,11 @@ int picture(const ViewOptions& options, Look look) {
   if (options.at && !(*options.at >= 0.0 && *options.at <= 3600.0))
     throw Error("--at-s is a time from 0 to 3600 s");
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
-  const models::Setup setup = models::load(options.scene, options.rig, options.set);
+  models::Setup setup = models::load(options.scene, options.rig, options.set);
+  if (setup.scene.camera) {
+    setup.scene.camera.reset();
+    setup.notes.emplace_back("drawn without vision: the finger is tracked as [tracker] of the rig says");
+  }
   const bool person = setup.scene.user.has_value() && !setup.scene.tools.empty();
   models::OutFile file(options.shot, models::existing(options.force));
   trial::Trial trial(setup, options_of(options, setup.rig.loop.rate, person));

@@ -117,11 +117,22 @@ void check_folder(const std::string& path, bool force) {
                 "choose one, or give --force to write over what has the same names");
 }
 
+std::vector<Choice> choices_of(const trial::BenchOptions& options) {
+  std::vector<Choice> all = chosen(options.names);
+  if (options.set.empty()) return all;
+  std::vector<std::string> left;
+  all = settable(std::move(all), !options.names.empty(), models::models_dir(""), left);
+  if (!left.empty())
+    fmt::print(stderr, "encounter: left out: {}; they read no scene that --set could change\n",
+               fmt::join(left, ", "));
+  return all;
+}
+
 // The work is done in a thread of its own, so that this one can tell, and can stop whatever the other does.
 class Session {
  public:
   Session(const trial::BenchOptions& options, const trial::ModuleFinder& modules)
-      : options_(options), choices_(chosen(options.names)) {
+      : options_(options), choices_(choices_of(options)) {
     if (!options.out.empty()) {
       folder_.emplace(options.out);
       check_folder(options.out, options.force);
@@ -179,8 +190,9 @@ class Session {
   }
 
   void print(const Choice& choice, const BenchResult& result) {
-    fmt::print("{} ({}): {:.1f} s simulated in {:.2f} s\n", result.name, choice.benchmark->what,
-               result.simulated, result.run_time);
+    fmt::print("{} ({}): {}{:.2f} s\n", result.name, choice.benchmark->what,
+               result.simulated > 0.0 ? fmt::format("{:.1f} s simulated in ", result.simulated) : "",
+               result.run_time);
     for (const Figure& f : result.figures) {
       if (!wanted(choice, f)) continue;
       if (!f.ok()) fell_short_.push_back(f.id);

@@ -137,7 +137,8 @@ void run(Bench& bench) {
   add_plots(result, radius, reference, probe, stylus);
   if (context.full) add_full(result, context, ball, reference);
   result.note =
-      "The paper's figure is two rows of photographs; the pressed ball is computed (docs/deformation.md).";
+      "The paper's figure is two rows of photographs; the pressed ball is computed "
+      "(docs/notes/deformation.md).";
 }
 
 const Entry kEntry{"deformation", "tennis_ball",

@@ -16,7 +16,7 @@ constexpr const char* kFile = "fig11_contour.csv";
 double probe_radius() { return sim::ball_set(sim::BallSet::nominal).probe_radius; }
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
-  throw Error(fmt::format("{}: {}; write it anew: docs/deformation.md", name, what));
+  throw Error(fmt::format("{}: {}; write it anew: docs/notes/deformation.md", name, what));
 }
 
 // The rows of one contour; from the axis outwards to below the ball's middle, anywhere near the ball.

@@ -1,6 +1,6 @@
 // A hand replicates the test rig's indentations A, B and C on the virtual ball [VHMR 4.2]. The error is the
 // force that the haptic loop works with less the reference curve at the deflection that the machine reports
-// (docs/indentation.md says why this force).
+// (docs/notes/indentation.md says why this force).
 #include "benchmarks/indentation/indentation.h"
 
 #include <algorithm>

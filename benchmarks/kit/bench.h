@@ -85,6 +85,10 @@ struct Table {
   }
 };
 
+struct Picture {
+  std::string id, title, caption, png;  // id.png is its file; `png` the bytes
+};
+
 struct BenchResult {
   std::string name, scene;
   double run_time = 0.0, simulated = 0.0;  // s
@@ -92,6 +96,7 @@ struct BenchResult {
   std::string note{};  // for the reader, such as what was left out; may be empty
   std::vector<Plot> plots{};
   std::vector<Table> tables{};
+  std::vector<Picture> pictures{};
 };
 
 struct BenchContext {

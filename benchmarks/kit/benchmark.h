@@ -12,7 +12,7 @@ class Bench;
 
 struct Benchmark {
   const char* name;   // of its folder, too; first token of its figures' ids
-  const char* scene;  // in models/scenes, without ".toml"; what is measured, where it has none
+  const char* scene;  // in models/scenes or models/rigs, without ".toml"; else what is measured: no --set
   const char* what;   // one line
   void (*run)(Bench&);
 };

@@ -53,6 +53,10 @@ void Bench::plot(Plot plot) {
   plot.id = result.name + "." + plot.id;
   result.plots.push_back(std::move(plot));
 }
+void Bench::picture(Picture picture) {
+  picture.id = result.name + "." + picture.id;
+  result.pictures.push_back(std::move(picture));
+}
 void Bench::table(Table table) {
   table.id = result.name + "." + table.id;
   result.tables.push_back(std::move(table));

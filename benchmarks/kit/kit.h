@@ -1,5 +1,5 @@
 // What a benchmark is written with: its scene, runs over values and seeds, a line for each figure, plots.
-// docs/report.md tells how; benchmarks/encounter is one.
+// docs/reference/report.md tells how; benchmarks/encounter is one.
 #pragma once
 
 #include <string>
@@ -89,6 +89,7 @@ class Bench {
               std::string note = {});
   void plot(Plot plot);
   void table(Table table);
+  void picture(Picture picture);
 
  private:
   bool tells_ = true;

@@ -11,6 +11,9 @@ extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encount
 #ifdef ENCOUNTER_KDL
       .kdl = enc::bench::make_kdl,
 #endif
+#ifdef ENCOUNTER_OPENCV
+      .opencv = &enc::bench::kOpenCv,
+#endif
   };
   static const enc::ModuleInfo kInfo{.name = "peers", .peers = &kPeers};
   return &kInfo;

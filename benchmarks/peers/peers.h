@@ -3,10 +3,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "core/machine/arm.h"
 #include "core/mesh/mesh.h"
+#include "core/vision/image.h"
 
 namespace enc::bench {
 
@@ -32,6 +35,40 @@ class ArmPeer {
   virtual ArmAnswer answer(const PerJoint& q, const Vec3& force) = 0;
 };
 
+// Skin as inRange takes it: hues `from` to `to` of a circle of 256, both included, past 255 to 0 where from >
+// to.
+struct HueRange {
+  int from = 0, to = 0;
+  int least_saturation = 20, least_value = 16;  // of 255
+};
+class SegmentationPeer {
+ public:
+  virtual ~SegmentationPeer() = default;
+  virtual void learn(const ImageView& frame) = 0;                // of the background
+  virtual void segment(const ImageView& frame, Mask& skin) = 0;  // what is learned stays as it is
+};
+class TilePeer {
+ public:
+  virtual ~TilePeer() = default;
+  virtual void learn(const ImageView& frame) = 0;
+  // 255 for each tile, row by row, that has less than `match` in common with what was learned.
+  virtual void match(const ImageView& frame, double match, std::vector<std::uint8_t>& found) = 0;
+};
+class StereoPeer {
+ public:
+  virtual ~StereoPeer() = default;
+  virtual void disparity(const ImageView& left, const ImageView& right) = 0;
+};
+// OpenCV on one thread, with its defaults where nothing is said.
+struct OpenCv {
+  std::unique_ptr<SegmentationPeer> (*mog2)(const HueRange& skin);    // then inRange, medianBlur 5
+  std::unique_ptr<SegmentationPeer> (*knn)(const HueRange& skin);     // likewise
+  std::unique_ptr<TilePeer> (*tiles)(int side, int bins);             // calcHist, compareHist
+  void (*median)(const Mask& in, int side, Mask& out);                // medianBlur
+  std::unique_ptr<StereoPeer> (*stereo)(int disparities, int block);  // StereoBM of grey images
+};
+extern const OpenCv kOpenCv;
+
 // Embree 3, rtcPointQuery. Throws Error (kind device) where it refuses.
 [[nodiscard]] std::unique_ptr<NearestPeer> make_embree(const Mesh& mesh);
 // Orocos KDL, of a chain (ArmKind::chain). Throws as the other.
@@ -41,6 +78,7 @@ class ArmPeer {
 struct PeersModule {
   std::unique_ptr<NearestPeer> (*embree)(const Mesh& mesh) = nullptr;
   std::unique_ptr<ArmPeer> (*kdl)(const ArmMachine& machine) = nullptr;
+  const OpenCv* opencv = nullptr;
 };
 
 }  // namespace enc::bench

@@ -1,6 +1,10 @@
 #include "benchmarks/report/choice.h"
 
 #include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "models/schema/wording.h"
@@ -72,6 +76,24 @@ std::vector<Choice> chosen(const std::vector<std::string>& words) {
   }
   if (list.empty()) throw Error(words.front() + " has no benchmark here; see encounter bench --list");
   return list;
+}
+
+std::vector<Choice> settable(std::vector<Choice> choices, bool named, const std::string& models,
+                             std::vector<std::string>& left) {
+  const auto scene = [&](const Choice& choice) {
+    const std::string file = std::string(choice.benchmark->scene) + ".toml";
+    return std::filesystem::exists(models + "/scenes/" + file) ||
+           std::filesystem::exists(models + "/rigs/" + file);
+  };
+  for (const Choice& choice : choices)
+    if (!scene(choice)) left.emplace_back(choice.benchmark->name);
+  if (named && !left.empty())
+    throw Error(
+        fmt::format("--set: {} read{} no scene that it could change; expected it with others; leave out "
+                    "--set or {}",
+                    fmt::join(left, ", "), left.size() == 1 ? "s" : "", left.size() == 1 ? "it" : "them"));
+  std::erase_if(choices, [&](const Choice& choice) { return !scene(choice); });
+  return choices;
 }
 
 bool wanted(const Choice& choice, const Figure& figure) {

@@ -22,6 +22,10 @@ struct Choice {
 };
 // In the order named, each benchmark once; no words: all. Throws Error for a word that names nothing here.
 [[nodiscard]] std::vector<Choice> chosen(const std::vector<std::string>& words);
+// For --set: those with a scene or a rig in the folder `models`. One without, which --set could not change,
+// is refused where it was named (throws Error) and left out of all; `left` has their names.
+[[nodiscard]] std::vector<Choice> settable(std::vector<Choice> choices, bool named, const std::string& models,
+                                           std::vector<std::string>& left);
 [[nodiscard]] bool wanted(const Choice& choice, const Figure& figure);
 // Only a run knows the ids. Throws Error, with the nearest one, where an id was named that there is not.
 void check_ids(const Choice& choice, const BenchResult& result);

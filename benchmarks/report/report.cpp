@@ -140,8 +140,10 @@ Table figure_table(const BenchResult& result) {
                           range(f.least, f.most), f.unit, role_name(f.role), range(f.low, f.high),
                           f.ok() ? "yes" : "NO", f.note});
   }
-  table.note = fmt::format("Scene {}; {:.1f} s simulated in {:.2f} s.{}", result.scene, result.simulated,
-                           result.run_time, result.note.empty() ? "" : " " + result.note);
+  table.note =
+      fmt::format("Scene {}; {}{:.2f} s.{}", result.scene,
+                  result.simulated > 0.0 ? fmt::format("{:.1f} s simulated in ", result.simulated) : "",
+                  result.run_time, result.note.empty() ? "" : " " + result.note);
   drop_empty_columns(table);
   return table;
 }

@@ -30,7 +30,7 @@ nav a { margin-right: 1rem }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 34rem), 1fr)); gap: 1.5rem }
 .one { max-width: 60rem; margin-bottom: 1rem }
 figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: .5rem }
-figure svg { display: block; width: 100%; height: auto }
+figure svg, figure img { display: block; width: 100%; height: auto }
 figcaption { padding: .5rem; font-size: .9rem }
 .wide { overflow-x: auto }
 table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums }
@@ -122,6 +122,29 @@ std::string html_picture(const Report& report, const Plot& plot) {
       escaped(plot.id), svg_for_page(svg->second, plot.id), escaped(plot.title), escaped(plot.caption));
 }
 
+// RFC 4648: the page is one file.
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : kLetters[three >> (18 - 6 * k) & 63U];
+  }
+  return text;
+}
+
+std::string html_image(const Picture& picture) {
+  return fmt::format(
+      "<figure id=\"picture.{}\">\n<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n"
+      "<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
+      escaped(picture.id), escaped(picture.title), base64(picture.png), escaped(picture.title),
+      escaped(picture.caption));
+}
+
 std::string plots(const Report& report) {
   std::string text;
   for (const Plot* plot : ordered_plots(report)) text += html_picture(report, *plot);
@@ -142,6 +165,7 @@ std::string report_html(const Report& report) {
         fmt::format("<h2 id=\"{0}\">{0}</h2>\n{1}", escaped(result.name), html_table(figure_table(result)));
     for (const Table& t : result.tables)
       if (t.source.empty()) text += "<h3>" + escaped(t.title) + "</h3>\n" + html_table(t);
+    for (const Picture& picture : result.pictures) text += html_image(picture);
   }
   for (const Table& t : closing_tables(report)) {
     text += fmt::format("<h2 id=\"{}\">{}</h2>\n", escaped(t.id), escaped(t.title));

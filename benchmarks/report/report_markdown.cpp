@@ -58,6 +58,8 @@ std::string report_markdown(const Report& report) {
     text += fmt::format("\n## {}\n\n{}", plain(result.name), markdown_table(figure_table(result)));
     for (const Table& t : result.tables)
       if (t.source.empty()) text += fmt::format("\n### {}\n\n{}", plain(t.title), markdown_table(t));
+    for (const Picture& p : result.pictures)
+      text += fmt::format("\n![{0}]({1}.png)\n\n**{0}.** {2}\n", plain(p.title), p.id, plain(p.caption));
   }
   for (const Table& t : closing_tables(report)) {
     text += fmt::format("\n## {}\n\n", plain(t.title));

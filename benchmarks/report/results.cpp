@@ -172,6 +172,7 @@ void write_report(const std::string& folder, const Report& report) {
     write_whole(at / (result.name + ".csv"), figures_csv(result));
     for (const Table& table : result.tables) write_whole(at / (table.id + ".csv"), table_csv(table));
     for (const Plot& plot : result.plots) write_plot(plot);
+    for (const Picture& picture : result.pictures) write_whole(at / (picture.id + ".png"), picture.png);
   }
   if (!report.verdict.y_names.empty()) {
     const std::vector<Judged> all = judged(report.results, report.background.thresholds);

@@ -267,7 +267,7 @@ void run(Bench& bench) {
   quiet_stops(bench, floor);
 }
 
-const Entry kEntry{"response", "tennis_ball",
+const Entry kEntry{"response", "loops of a ball",
                    "both response models: minor loops, jumps, tremor at rest, energy", run};
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// The controller, and the sensor that 3 mN ask for (docs/model.md). The user's settings come after.
+// The controller, and the sensor that 3 mN ask for (docs/reference/model.md). The user's settings come after.
 const Words kController{"rig.admittance.damping=observed", "rig.force.threshold_N=0",
                         "rig.force.contact_N=0.01",        "rig.force.tare=window",
                         "rig.contact.leave_time_ms=500",   "pusher.rest_s=4"};

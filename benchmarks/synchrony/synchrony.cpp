@@ -23,7 +23,7 @@ constexpr double kLater = 10e-3;  // s, put on the display's latency
 // The paper's pipeline: the newest pose as it is, and nothing predicted anywhere.
 const Set kPaper{"rig.tracker.prediction=\"hold\"", "rig.display.tip=\"tracked\""};
 const Set kPredicted{"rig.display.tip=\"predicted\""};
-// What gives where the tool touches, and how a hand holds it: assumed (docs/synchrony.md).
+// What gives where the tool touches, and how a hand holds it: assumed (docs/notes/synchrony.md).
 const Set kGiving{"truth.contact.compliance_um_per_N=3", "truth.contact.flexure_um_per_N=10",
                   "truth.hand.tilt_deg=5", "truth.hand.tilt_rate_hz=0.5",
                   "truth.tracker.turn_noise_deg=0.01"};

@@ -263,7 +263,8 @@ std::array<double, 3> step_costs(const models::Setup& setup, const BenchContext&
 
 constexpr std::array<double, 5> kSpeeds{0.010, 0.020, 0.050, 0.100, 0.200};  // m/s
 
-// Miss at first touch [docs/encounter.md], m: median over the seeds, for each prediction and approach speed.
+// Miss at first touch [docs/notes/encounter.md], m: median over the seeds, for each prediction and approach
+// speed.
 std::array<std::array<double, 5>, 3> misses(const models::Setup& setup, const BenchContext& context,
                                             double& simulated) {
   const std::size_t seeds = context.quick ? 2 : (context.full ? 40 : 10);

@@ -11,8 +11,8 @@ namespace enc {
 namespace {
 
 // How far the contact sinks with the ball itself, and how far around that is seen: shares of the ball's
-// radius. Calibrated at 2 and 6 mm on a pressed tennis ball [docs/deformation.md]: at first the felt gives
-// way, then the wall. A half space does not sink.
+// radius. Calibrated at 2 and 6 mm on a pressed tennis ball [docs/notes/deformation.md]: at first the felt
+// gives way, then the wall. A half space does not sink.
 constexpr double kStiff = 0.116;
 constexpr double kSinking = 0.80;
 

@@ -1,5 +1,5 @@
 // What the eye sees: the surface displaced by the tool's tip [VHMR 3.5, Fig 11]. The renderer draws it, the
-// core tests the haptic-tip against it. How it is made: docs/model.md, "The seen surface".
+// core tests the haptic-tip against it. How it is made: docs/reference/model.md, "The seen surface".
 //
 // Let q be the tip's deepest point, n the outward normal there, d its depth. Points move against n, in two
 // parts. A ball is a thin shell: around the contact it sinks by s (1 - (c / L)^2)^3, c the distance from the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace enc {
 
@@ -13,6 +14,8 @@ class Device {
   // False while nothing comes from it or goes to it. The run then holds until it is told to resume, even
   // where the link comes back before. Asked on every cycle; never blocks.
   [[nodiscard]] virtual bool linked() const noexcept { return true; }
+  // What a person should know of a run when it is over, a line each.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 }  // namespace enc

@@ -11,6 +11,7 @@
 #include "core/devices/manipulator.h"
 #include "core/devices/pose_tracker.h"
 #include "core/devices/settings.h"
+#include "core/devices/stereo_camera.h"
 #include "core/world/rig_spec.h"
 
 namespace enc {
@@ -31,6 +32,9 @@ struct Offer {
   const Reach& reach;  // what the rig file promises of a manipulator
   Duration period;     // of the loop's clock; what time it is comes with each read() and poll()
   Log& log;
+  // The run waits for whoever is slow, so that it can be repeated; else it keeps the wall clock and nobody
+  // may make it wait.
+  bool waits = false;
 };
 
 template <class Role>
@@ -50,6 +54,8 @@ struct DriverModule {
   Maker<PoseTracker> tracker = nullptr;
   Maker<Display> display = nullptr;
   Maker<Gripper> gripper = nullptr;
+  Maker<StereoCamera> camera = nullptr;  // for a tracker that looks through it: no role of the loop
+  bool plays = false;                    // its devices play what was recorded: they need no wall clock
 };
 
 }  // namespace enc

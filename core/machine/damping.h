@@ -4,8 +4,8 @@
 //
 // b = (2/pi) k tau keeps the loop of a pusher of stiffness k and a lag tau stable, however soft the object
 // is [sources/hexapod 5]. k_seen is what swinging shows: where the tip moves by itself, force and depth
-// change in opposite ways, dF = -k dd; where it gives in to a push they change alike. docs/model.md has the
-// whole law.
+// change in opposite ways, dF = -k dd; where it gives in to a push they change alike. docs/reference/model.md
+// has the whole law.
 #pragma once
 
 #include <cstdint>

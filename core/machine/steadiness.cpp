@@ -21,7 +21,7 @@ constexpr double kWaits = 2e-3;                // m above the surface, where the
 // The contact threshold over what wakes a swing that the loop could keep up, rms: 0.1 N over 0.02 N, the
 // noise of the paper's sensor (0.0144 N with its steps) and the tremor of who pushes.
 constexpr double kOverNoise = 5.0;
-// What the twin and the loop here differ by, at most (derived: docs/stiffness.md).
+// What the twin and the loop here differ by, at most (derived: docs/notes/stiffness.md).
 constexpr double kMargin = 1.1;
 constexpr double kCareful = 0.75;  // of what counts as still, for the same reason
 

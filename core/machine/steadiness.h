@@ -1,7 +1,8 @@
 // Whether an object that is pushed and held stands still. The loop with its limits is simulated: what pushes,
 // sensor, filter, contact threshold, object, command limiter, dead time, servo. The linear bound of
 // loop_model.h leaves the limits of speed and acceleration out: the wider a swing, the more they lag, so a
-// loop that is stable for small swings can keep up a large one (docs/stiffness.md compares it with the twin).
+// loop that is stable for small swings can keep up a large one (docs/notes/stiffness.md compares it with the
+// twin).
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // A run as bytes: inputs and outputs of each tick and the state hash after it, with what is needed to run
-// them again. Format: docs/record.md.
+// them again. Format: docs/reference/record.md.
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,7 @@ void carry_on(Walk& walk, const State& state) {
 void track_tool(Walk& walk, State& state, bool pressing) noexcept {
   if (!walk.scene.has_tracker) return;
   const auto& sample = walk.in.tool;
-  if (sample.health == Health::fault) walk.why |= kToolInvalid;
+  if (sample.health == Health::fault) walk.why |= kTrackerFault;
   if (sample.health == Health::ok && sample.value.tool != -1) {  // -1: no tool recognised, which is no fault
     if (!plausible(walk, sample)) {
       walk.why |= kToolInvalid;

@@ -10,12 +10,14 @@
 
 #include "core/devices/display_rig.h"
 #include "core/devices/settings.h"
+#include "core/devices/stereo_rig.h"
 #include "core/frames.h"
 #include "core/machine/arm_rig.h"
 #include "core/machine/damping.h"
 #include "core/machine/hexapod.h"
 #include "core/text/words.h"
 #include "core/track/tracker_rig.h"
+#include "core/vision/rig/vision_rig.h"
 
 namespace enc {
 
@@ -99,6 +101,8 @@ struct RigSpec {
   ArmRig arm;
   ForceRig force;
   TrackerRig tracker;
+  StereoRig camera;
+  VisionRig vision;
   DisplayRig display;
   GripperRig gripper;
   ContactRig contact;

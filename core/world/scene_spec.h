@@ -53,6 +53,7 @@ struct PropSpec {
 };
 struct ForceSpec {};
 struct TrackerSpec {};
+struct CameraSpec {};  // the tracker looks through a stereo camera, which the rig says
 struct DisplaySpec {};
 struct GripperSpec {
   std::string tool;  // clamped, its tip at H and its shaft upwards; empty: the first
@@ -75,6 +76,7 @@ struct SceneSpec : Tasks::Parts {
   std::optional<PropSpec> prop;
   std::optional<ForceSpec> force;
   std::optional<TrackerSpec> tracker;
+  std::optional<CameraSpec> camera;
   std::optional<DisplaySpec> display;
   std::optional<GripperSpec> gripper;
   std::optional<UserSpec> user;

@@ -1,7 +1,9 @@
 // The driver to copy: a machine that is at the next read where it was told to be, and a force sensor that
 // feels nothing. A real driver replaces what stands under "wire"; what is checked, clamped and said stays.
-#include <memory>
+#include <cstdint>
+#include <string>
 
+#include "core/error.h"  // for what a constructor throws
 #include "core/module.h"
 
 namespace enc::sample {

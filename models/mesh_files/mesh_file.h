@@ -1,5 +1,5 @@
 // Triangle meshes as files: OBJ, STL (text and binary) and glTF 2.0 (.gltf, .glb). What is read and what is
-// refused: docs/mesh.md.
+// refused: docs/reference/mesh.md.
 #pragma once
 
 #include <cstddef>

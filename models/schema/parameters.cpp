@@ -8,6 +8,7 @@
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/stereo_file.h"
 
 namespace enc::models {
 namespace {
@@ -144,8 +145,15 @@ class RoundToText final : public Named {
 
 std::vector<Parameter> parameters(const Setup& setup) {
   Setup copy = setup;  // visitors may write, this one does not
+  if (!setup.calibration.empty()) copy.rig.camera.calibration = setup.calibration;
   List list;
   walk(list, copy);
+  if (!setup.calibration.empty())
+    for (Parameter& p : list.found)
+      if (of_calibration(p.name)) {
+        p.source = setup.calibration;
+        p.confidence = word_of(Confidence::derived);
+      }
   return list.found;
 }
 

@@ -3,7 +3,6 @@
 // Structs are in SI, keys carry the file's unit.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -52,8 +51,9 @@ struct Choice {
   Words words;
   std::uint8_t* index;
 };
+// A span: exactly so many numbers.
 using Target = std::variant<double*, std::int64_t*, std::string*, Choice, Vec3*, std::vector<double>*,
-                            std::vector<Vec3>*, std::array<double, 4>*>;
+                            std::vector<Vec3>*, std::span<double>>;
 
 class Visitor {
  public:
@@ -82,6 +82,15 @@ void describe(Visitor&, ArmRig&);
 void describe(Visitor&, PropSpec&);
 void describe(Visitor&, UserSpec&);
 void describe(Visitor&, InteractionSpec&);
+void describe(Visitor&, StereoRig&);
+// The part of it that a calibration knows, which that writes as a rig has it.
+struct HeadKeys {
+  std::string_view source;
+  Presence presence = Presence::defaulted;
+};
+void describe_size(Visitor&, StereoRig&, const HeadKeys&);
+void describe_lenses(Visitor&, StereoRig&, const HeadKeys&);  // tables [left], [right]
+void describe(Visitor&, VisionRig&);
 void describe(Visitor&, sim::ArmTruth&);
 void describe(Visitor&, std::string_view table, PoseSpec&);
 void describe(Visitor&, sim::TwinSpec&);

@@ -98,10 +98,12 @@ void describe(Visitor& v, ArmRig& a) {
          {"gravity", "what is done against it: nothing, eq. 5 with the prop in m_a, or the prop at the tip",
           "[VisHap eq. 5]", chosen},
          a.gravity);
-  v.value({"stiffness_N_per_m", "K_p of eq. 2", "docs/plane_button.md", chosen, kPositive}, &a.stiffness);
-  v.value({"damping_Ns_per_m", "K_v of eq. 2", "docs/plane_button.md", chosen, kPositive}, &a.damping);
-  v.value({"filter_hz", "a / 2 pi of eq. 3 in its s-domain form, a / (s + a)", "docs/plane_button.md", chosen,
-           kPositive},
+  v.value({"stiffness_N_per_m", "K_p of eq. 2", "docs/reference/plane_button.md", chosen, kPositive},
+          &a.stiffness);
+  v.value({"damping_Ns_per_m", "K_v of eq. 2", "docs/reference/plane_button.md", chosen, kPositive},
+          &a.damping);
+  v.value({"filter_hz", "a / 2 pi of eq. 3 in its s-domain form, a / (s + a)",
+           "docs/reference/plane_button.md", chosen, kPositive},
           &a.filter);
   v.value({"peak_N", "what the tip pushes with at most", "sources/arm 1", published, kPositive}, &a.peak);
   v.value({"continuous_N", "and for hours", "sources/arm 1", published, kPositive}, &a.continuous);
@@ -110,20 +112,20 @@ void describe(Visitor& v, ArmRig& a) {
   per_joint(v, {"continuous_torque_Nm", "of each motor, for hours", "sources/arm 3", published, kPositive},
             a.continuous_torque);
   describe(v, a.thermal);
-  v.value({"speed_mm_s", "of the target on its way to where the finger will touch", "docs/reaching.md",
-           chosen, kPositive},
+  v.value({"speed_mm_s", "of the target on its way to where the finger will touch",
+           "docs/reference/reaching.md", chosen, kPositive},
           &a.speed);
-  v.value({"acceleration_m_s2", "of that", "docs/reaching.md", chosen, kPositive}, &a.acceleration);
+  v.value({"acceleration_m_s2", "of that", "docs/reference/reaching.md", chosen, kPositive}, &a.acceleration);
   v.value({"settle_ms", "in which the target follows a leap of the finger that is seen",
-           "docs/plane_button.md", chosen, kPositive},
+           "docs/reference/plane_button.md", chosen, kPositive},
           &a.settle);
-  v.value({"prop_lag_ms", "of a driven prop's surface behind what it is told", "docs/objects.md", assumed,
-           kNotNegative},
+  v.value({"prop_lag_ms", "of a driven prop's surface behind what it is told", "docs/reference/objects.md",
+           assumed, kNotNegative},
           &a.prop_lag);
   v.value({"stale_ms", "an older sample is lost", "sources/choices 5", assumed, kPositive}, &a.stale);
   v.value({"least_dexterity",
            "nearer to a singular pose no object may be",
-           "docs/phantom.md",
+           "docs/reference/phantom.md",
            chosen,
            {0.0, 1.0}},
           &a.least_dexterity);
@@ -156,28 +158,28 @@ void describe(Visitor& v, sim::ArmTruth& a) {
   each({"continuous_torque_Nm", "of each motor, for hours", "sources/arm 3", published, kPositive},
        a.continuous_torque);
   describe(v, a.thermal);
-  v.value({"velocity_window_ms", "over which the device differences its encoders", "docs/phantom_twin.md",
-           assumed, kPositive},
+  v.value({"velocity_window_ms", "over which the device differences its encoders",
+           "docs/reference/phantom_twin.md", assumed, kPositive},
           &a.velocity_window);
   v.value(
       {"watchdog_ms", "without a command, then the motors are off", "sources/choices 16", chosen, kPositive},
       &a.watchdog);
-  v.value({"gimbal_time_ms", "in which the prop turns to another surface", "docs/phantom_twin.md", assumed,
-           kPositive},
+  v.value({"gimbal_time_ms", "in which the prop turns to another surface", "docs/reference/phantom_twin.md",
+           assumed, kPositive},
           &a.gimbal_time);
   v.value({"contact_time_ms", "of the stop between finger and prop", "sources/twin 3", derived, kPositive},
           &a.contact_time);
-  v.value(
-      {"drum_time_ms", "of the motor that drives a prop's surface", "docs/objects.md", assumed, kPositive},
-      &a.drum_time);
-  v.value({"belt_time_ms", "of the stop between finger and the belt of a drum", "docs/objects.md", assumed,
+  v.value({"drum_time_ms", "of the motor that drives a prop's surface", "docs/reference/objects.md", assumed,
            kPositive},
-          &a.belt_time);
-  v.value({"belt_impedance", "of that stop, of MuJoCo; 1: it does not give", "docs/objects.md", assumed,
-           Range{0.5, 0.9999}},
-          &a.belt_impedance);
-  v.value({"belt_friction_time_ms", "in which friction takes out a slip on that belt", "docs/objects.md",
+          &a.drum_time);
+  v.value({"belt_time_ms", "of the stop between finger and the belt of a drum", "docs/reference/objects.md",
            assumed, kPositive},
+          &a.belt_time);
+  v.value({"belt_impedance", "of that stop, of MuJoCo; 1: it does not give", "docs/reference/objects.md",
+           assumed, Range{0.5, 0.9999}},
+          &a.belt_impedance);
+  v.value({"belt_friction_time_ms", "in which friction takes out a slip on that belt",
+           "docs/reference/objects.md", assumed, kPositive},
           &a.belt_friction_time);
   v.value({"prop_friction", "of a finger on the prop", "sources/hand 1", assumed, kNotNegative},
           &a.prop_friction);
@@ -216,29 +218,29 @@ void describe(Visitor& v, InteractionSpec& i) {
             &i.floor);
   }
   if (i.kind == Interaction::hit || i.kind == Interaction::shift)
-    v.value({"mass_kg", "of what moves", "docs/objects.md", chosen, kPositive}, &i.mass);
+    v.value({"mass_kg", "of what moves", "docs/reference/objects.md", chosen, kPositive}, &i.mass);
   if (i.kind == Interaction::hit || i.kind == Interaction::shift) {
     v.value({"restitution",
              "speed at which finger and object part, over that at which they met",
-             "docs/objects.md",
+             "docs/reference/objects.md",
              chosen,
              {0.05, 1.0}},
             &i.restitution);
-    v.value({"travel_mm", "of a tile to its end; of a ball until it is put back", "docs/objects.md", chosen,
-             kPositive},
+    v.value({"travel_mm", "of a tile to its end; of a ball until it is put back", "docs/reference/objects.md",
+             chosen, kPositive},
             &i.travel);
   }
   if (i.kind == Interaction::shift || i.kind == Interaction::spin)
     v.value({"way",
              "of length 1, along which it moves, in O; z is outward",
-             "docs/objects.md",
+             "docs/reference/objects.md",
              chosen,
              {-1.0, 1.0}},
             &i.way);
   if (i.kind == Interaction::shift)
-    v.value({"friction_N", "that stops it", "docs/objects.md", chosen, kNotNegative}, &i.friction);
+    v.value({"friction_N", "that stops it", "docs/reference/objects.md", chosen, kNotNegative}, &i.friction);
   if (i.kind == Interaction::spin)
-    v.value({"speed_mm_s", "of its surface", "docs/objects.md", chosen}, &i.speed);
+    v.value({"speed_mm_s", "of its surface", "docs/reference/objects.md", chosen}, &i.speed);
 }
 
 }  // namespace enc::models

@@ -85,7 +85,7 @@ void describe(Visitor& v, TrackerRig& t) {
           &t.acceleration_noise);
   v.value({"surprise_noise_m_s2_per_sqrt_hz",
            "a pose four sigma off raises the noise to constant_velocity, up to this; 0: it does not",
-           "docs/reaching.md", chosen, kNotNegative},
+           "docs/reference/reaching.md", chosen, kNotNegative},
           &t.surprise_noise);
   v.value({"jerk_noise_m_s3_per_sqrt_hz", "what drives the tip, to constant_acceleration",
            "sources/tracking 4", derived, kPositive},
@@ -118,16 +118,16 @@ void describe(Visitor& v, DisplayRig& d) {
       v,
       {"tip",
        "what dents the seen surface: the newest pose; that carried on; or, while it presses, the haptic-tip",
-       "docs/synchrony.md", chosen},
+       "docs/notes/synchrony.md", chosen},
       d.tip);
   v.value({"lead_ms",
            "fused: how far ahead; half a frame and the way back",
-           "docs/synchrony.md",
+           "docs/notes/synchrony.md",
            chosen,
            {0.0, 200.0}},
           &d.lead);
   v.value({"compliance_um_per_N", "fused: believed of tool and haptic-tip where they touch",
-           "docs/synchrony.md", assumed, kNotNegative},
+           "docs/notes/synchrony.md", assumed, kNotNegative},
           &d.compliance);
   v.value({"overdue_ms", "an older visual surface means hold", "[VHMR 3.5]", assumed, kPositive}, &d.overdue);
   v.value(
@@ -163,7 +163,7 @@ void describe(Visitor& v, ContactRig& c) {
 }
 
 void describe(Visitor& v, AdmittanceRig& a) {
-  const std::string_view source = "docs/model.md (damping)";
+  const std::string_view source = "docs/reference/model.md (damping)";
   choice(v, {"damping", "none, or as much as the energy that is seen to swing asks for", source, chosen},
          a.damping);
   v.value({"margin", "of the damping over what suffices", "sources/hexapod 5", derived, kPositive},
@@ -237,6 +237,9 @@ void describe(Visitor& v, RigSpec& r) {
   if (!table_if(v, "arm", r.arm.driver != "none", [&] { describe(v, r.arm); })) r.arm.driver = "none";
   table(v, "force", [&] { describe(v, r.force); });
   table(v, "tracker", [&] { describe(v, r.tracker); });
+  if (!table_if(v, "camera", r.camera.driver != "none", [&] { describe(v, r.camera); }))
+    r.camera.driver = "none";
+  table_if(v, "vision", r.camera.driver != "none", [&] { describe(v, r.vision); });
   table(v, "display", [&] { describe(v, r.display); });
   table(v, "gripper", [&] { describe(v, r.gripper); });
   table(v, "contact", [&] { describe(v, r.contact); });

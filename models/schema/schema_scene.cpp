@@ -43,7 +43,7 @@ void describe(Visitor& v, ObjectSpec& o) {
   if (o.shape == ShapeKind::button) {
     v.value({"width_mm", "of its face", "[VisHap 2.2]", chosen, kPositive, needed}, &o.width);
     v.value({"height_mm", "of its face", "[VisHap 2.2]", chosen, kPositive, needed}, &o.height);
-    v.value({"thickness_mm", "of the solid behind its face", "docs/objects.md", chosen, kPositive},
+    v.value({"thickness_mm", "of the solid behind its face", "docs/reference/objects.md", chosen, kPositive},
             &o.thickness);
   }
   v.value({"behaviour",
@@ -98,8 +98,8 @@ void describe(Visitor& v, FollowSpec& f) {
   v.value({"hysteresis_mm", "another object must be nearer by this to take over", "[VisHap 3]", assumed,
            kNotNegative},
           &f.hysteresis);
-  v.value({"ahead_ms", "the nearest object is that of where the tool will be by then", "docs/reaching.md",
-           chosen, kNotNegative},
+  v.value({"ahead_ms", "the nearest object is that of where the tool will be by then",
+           "docs/reference/reaching.md", chosen, kNotNegative},
           &f.ahead);
 }
 
@@ -194,6 +194,7 @@ void describe(Visitor& v, SceneSpec& s) {
   part(v, "prop", s.prop, [&](PropSpec& p) { describe(v, p); });
   part(v, "force", s.force, [](ForceSpec&) {});
   part(v, "tracker", s.tracker, [](TrackerSpec&) {});
+  part(v, "camera", s.camera, [](CameraSpec&) {});
   part(v, "display", s.display, [](DisplaySpec&) {});
   part(v, "gripper", s.gripper, [&](GripperSpec& g) {
     v.value({"tool", "clamped tool, by name; empty: the first", "[VHMR 4.1]", chosen}, &g.tool);
@@ -234,8 +235,9 @@ void describe(Visitor& v, ResponseSpec& r) {
            needed,
            {},
            true},
-          &r.press);
-  v.value({"release_N_per_mm_k", "the same, releasing", source, derived, kAny, needed, {}, true}, &r.release);
+          std::span<double>(r.press));
+  v.value({"release_N_per_mm_k", "the same, releasing", source, derived, kAny, needed, {}, true},
+          std::span<double>(r.release));
   part(v, "stops", r.stops, [&](StopsSpec& s) { describe(v, s); });
 }
 

@@ -1,5 +1,7 @@
 // What the simulated devices, room and person really are: [truth.*] of models/rigs/sim.toml. The core never
 // sees it.
+#include <span>
+
 #include "models/schema/schema_walk.h"
 
 namespace enc::models {
@@ -105,7 +107,7 @@ void describe(Visitor& v, sim::ForceTruth& f) {
   v.value({"noise_N", "rms of a sample", "sources/force_sensor 2", assumed, kNotNegative}, &f.noise);
   v.value({"oversampling",
            "readings, each with noise and steps, averaged into a sample",
-           "docs/model.md",
+           "docs/reference/model.md",
            chosen,
            {1.0, 64.0}},
           &f.oversampling);
@@ -119,7 +121,7 @@ void describe(Visitor& v, sim::ForceTruth& f) {
            "sources/force_sensor 2", assumed, kNotNegative},
           &f.push_drift);
   v.value({"drift_ahead_s", "before a push, in which its zero gets there; 0: at once as it begins",
-           "docs/model.md", chosen, kNotNegative},
+           "docs/reference/model.md", chosen, kNotNegative},
           &f.drift_ahead);
   v.value(
       {"turned_deg", "of the sensor against where the rig says it is", "injected", chosen, {-180.0, 180.0}},
@@ -151,7 +153,7 @@ void describe(Visitor& v, sim::TrackerTruth& t) {
           &t.noise);
   v.value({"turn_noise_deg",
            "rms, each frame, about each axis of W; 0: what noise_mm has of it is all",
-           "docs/synchrony.md",
+           "docs/notes/synchrony.md",
            assumed,
            {0.0, 10.0}},
           &t.turn_noise);
@@ -172,14 +174,14 @@ void describe(Visitor& v, sim::CameraTruth& c) {
   v.value(
       {"baseline_mm", "from the left camera to the right one", "sources/tracking 7", published, kPositive},
       &c.baseline);
-  v.value({"focal_px", "of both cameras", "sources/tracking 7", derived, kPositive}, &c.focal);
-  v.value({"width_px", "of an image", "sources/tracking 7", assumed, {1.0, 10000.0}}, &c.width);
-  v.value({"height_px", "of an image", "sources/tracking 7", assumed, {1.0, 10000.0}}, &c.height);
+  v.value({"focal_px", "of both cameras", "sources/tracking 7", derived, {10.0, 1e5}}, &c.focal);
+  v.value({"width_px", "of an image", "sources/tracking 7", assumed, {16.0, 4096.0}}, &c.width);
+  v.value({"height_px", "of an image", "sources/tracking 7", assumed, {16.0, 4096.0}}, &c.height);
   v.value({"rate_hz", "frames", "[VisHap 2.3.1]", published, kRates}, &c.rate);
   v.value({"matching_px", "rms of a frame, of the disparity", "sources/tracking 7", assumed, kNotNegative},
           &c.matching);
-  v.value({"pointing_px", "rms of a frame, of the place in the left image", "docs/registration.md", assumed,
-           kNotNegative},
+  v.value({"pointing_px", "rms of a frame, of the place in the left image", "docs/guide/registration.md",
+           assumed, kNotNegative},
           &c.pointing);
   v.value({"standing_px", "rms of the part that stays while nothing moves, of place and disparity",
            "sources/tracking 7", assumed, kNotNegative},
@@ -187,6 +189,16 @@ void describe(Visitor& v, sim::CameraTruth& c) {
   v.value({"disparity_step_px", "smallest change of a disparity; 0: none", "sources/tracking 7", published,
            kNotNegative},
           &c.disparity_step);
+  choice(v, {"scenery", "what stands behind the hand", "docs/notes/segmentation.md", chosen}, c.scenery);
+  choice(v, {"skin", "colour of the hand", "docs/notes/segmentation.md", chosen}, c.skin);
+  v.value({"hand_from_s", "until then the hand is out of the picture", "[VisHap 3]", chosen, kNotNegative},
+          &c.hand_from);
+  v.value({"noise_of_255", "rms of a pixel", "sources/tracking 7", assumed, {0.0, 30.0}}, &c.noise);
+  v.value({"exposure", "of the light that is there", "injected", chosen, kPositive}, &c.exposure);
+  v.value({"stalls_at_s", "no frame from then on; unset: never", "injected", chosen, kNotNegative, optional},
+          &c.stalls_at);
+  v.value({"distortion", "of both lenses: k1, k2, p1, p2, k3", "sources/tracking 7", assumed, {-10.0, 10.0}},
+          std::span<double>(c.distortion));
 }
 
 void describe(Visitor& v, sim::DisplayTruth& d) {
@@ -208,7 +220,7 @@ void describe(Visitor& v, sim::HandTruth& h) {
            kPositive},
           &h.integral_time);
   v.value({"strength_N", "pushes with no more: what a finger or a light tool is pushed with",
-           "docs/reaching.md", assumed, kPositive},
+           "docs/reference/reaching.md", assumed, kPositive},
           &h.strength);
   v.value({"tremor_mm", "rms", "sources/hand 2", assumed, kNotNegative}, &h.tremor);
   v.value({"tremor_rate_hz", "of the tremor", "sources/hand 2", published, kPositive}, &h.tremor_rate);
@@ -229,18 +241,22 @@ void describe(Visitor& v, sim::HandTruth& h) {
   v.value(
       {"aborted", "share of the reaches of a session that turn back", "sources/hand 4", assumed, {0.0, 1.0}},
       &h.aborted);
-  v.value(
-      {"tilt_deg", "of the tool about its tip, to either side", "docs/synchrony.md", assumed, {0.0, 45.0}},
-      &h.tilt);
-  v.value({"tilt_rate_hz", "of that tilting", "docs/synchrony.md", assumed, kNotNegative}, &h.tilt_rate);
+  v.value({"tilt_deg",
+           "of the tool about its tip, to either side",
+           "docs/notes/synchrony.md",
+           assumed,
+           {0.0, 45.0}},
+          &h.tilt);
+  v.value({"tilt_rate_hz", "of that tilting", "docs/notes/synchrony.md", assumed, kNotNegative},
+          &h.tilt_rate);
 }
 
 void describe(Visitor& v, sim::ContactTruth& c) {
   v.value({"compliance_um_per_N", "of tool tip and haptic-tip where they touch: they come nearer",
-           "docs/synchrony.md", assumed, kNotNegative},
+           "docs/notes/synchrony.md", assumed, kNotNegative},
           &c.compliance);
-  v.value({"flexure_um_per_N", "of the tool: its markers go on where its tip stops", "docs/synchrony.md",
-           assumed, kNotNegative},
+  v.value({"flexure_um_per_N", "of the tool: its markers go on where its tip stops",
+           "docs/notes/synchrony.md", assumed, kNotNegative},
           &c.flexure);
 }
 

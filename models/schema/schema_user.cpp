@@ -79,13 +79,13 @@ void describe(Visitor& v, SessionSpec& s) {
 }
 
 void describe(Visitor& v, ReachesSpec& r) {
-  v.value({"count", "reaches", "docs/reaching.md", chosen, {1.0, 1e6}}, &r.count);
+  v.value({"count", "reaches", "docs/reference/reaching.md", chosen, {1.0, 1e6}}, &r.count);
   v.value({"spread_mm", "of a plane, places are even over this around the point of it that is named",
-           "docs/reaching.md", chosen, kPositive},
+           "docs/reference/reaching.md", chosen, kPositive},
           &r.spread);
   v.value({"polar_max_deg",
            "of a sphere, places are even over the directions up to here from +z of W",
-           "docs/reaching.md",
+           "docs/reference/reaching.md",
            assumed,
            {0.0, 85.0}},
           &r.polar_most);

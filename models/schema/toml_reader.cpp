@@ -90,10 +90,10 @@ class Value {
     to->clear();
     for (const toml::node& item : list(node_, "", 0)) to->push_back(triple(item, element(to->size())));
   }
-  void read(std::array<double, 4>* to) const {
-    const toml::array& array = list(node_, "", to->size());
-    for (std::size_t i = 0; i < to->size(); ++i)
-      (*to)[i] = number(*array.get(i), element(i), static_cast<int>(i) + 1);
+  void read(std::span<double> to) const {
+    const toml::array& array = list(node_, "", to.size());
+    for (std::size_t i = 0; i < to.size(); ++i)
+      to[i] = number(*array.get(i), element(i), static_cast<int>(i) + 1);
   }
 
   static std::string element(std::size_t i) { return fmt::format("[{}]", i); }

@@ -27,8 +27,8 @@ struct Text {
   std::string operator()(const std::vector<Vec3>* v) const {
     return list(v->size(), [&](std::size_t i) { return (*this)(&(*v)[i]); });
   }
-  std::string operator()(const std::array<double, 4>* v) const {
-    return list(v->size(), [&](std::size_t i) { return text_of(unit, (*v)[i], static_cast<int>(i) + 1); });
+  std::string operator()(std::span<double> v) const {
+    return list(v.size(), [&](std::size_t i) { return text_of(unit, v[i], static_cast<int>(i) + 1); });
   }
   template <class Item>
   static std::string list(std::size_t size, Item item) {

@@ -52,8 +52,8 @@ struct Kind {
   std::string operator()(const std::vector<Vec3>*) const {
     return "a list of points [x, y, z]" + unit_words(key);
   }
-  std::string operator()(const std::array<double, 4>*) const { return many("4 "); }
-  [[nodiscard]] std::string many(const char* count) const {
+  std::string operator()(std::span<double> v) const { return many(fmt::format("{} ", v.size())); }
+  [[nodiscard]] std::string many(const std::string& count) const {
     return count + sign(key.range) + "numbers" + bounds(key.range) + unit_words(key);
   }
 };
@@ -63,7 +63,10 @@ struct Example {
   std::string operator()(const double*) const {
     return std::isfinite(key.range.high) ? fmt::format("{}", key.range.high) : "1.5";
   }
-  std::string operator()(const std::int64_t*) const { return "1"; }
+  std::string operator()(const std::int64_t* usual) const {
+    const auto value = static_cast<double>(*usual);
+    return fmt::format("{}", value >= key.range.low && value <= key.range.high ? *usual : 1);
+  }
   std::string operator()(const std::string*) const { return word(key.words); }
   std::string operator()(const Choice& choice) const { return word(choice.words); }
   std::string operator()(const Vec3*) const {
@@ -72,7 +75,11 @@ struct Example {
   }
   std::string operator()(const std::vector<double>*) const { return "[10, 20]"; }
   std::string operator()(const std::vector<Vec3>*) const { return "[[0, 0, 0], [52, 0, 0], [0, 41, 0]]"; }
-  std::string operator()(const std::array<double, 4>*) const { return "[0.6, 0.4, 0.0, 0.0]"; }
+  std::string operator()(std::span<double> v) const {
+    std::string text = "[0.6, 0.4";
+    for (std::size_t i = 2; i < v.size(); ++i) text += ", 0.0";
+    return text + "]";
+  }
   static std::string word(Words words) {
     return fmt::format("\"{}\"", words.empty() ? "name" : words.back());
   }
@@ -119,13 +126,24 @@ std::string expected(const Key& key, const Target& target) {
 
 std::string example_of(const Key& key, const Target& target) { return std::visit(Example{key}, target); }
 
+std::string lower_case(std::string text) {
+  for (char& c : text) c = lower(c);
+  return text;
+}
+
+std::string printable(std::string text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (byte(i) < ' ' || byte(i) == 127) text[i] = ' ';
+    // U+0080 to U+009F, which terminals obey as well
+    if (byte(i) == 0xC2 && i + 1 < text.size() && byte(i + 1) < 0xA0) text.replace(i, 2, "  ");
+  }
+  return text;
+}
+
 std::string quoted(const std::string& text) {
   constexpr std::size_t kMost = 80;
-  std::string line = text.substr(0, kMost);
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
-  }
-  return fmt::format("'{}{}'", line, text.size() > kMost ? "..." : "");
+  return fmt::format("'{}{}'", printable(text.substr(0, kMost)), text.size() > kMost ? "..." : "");
 }
 
 std::string quoted_toml(const std::string& text) {

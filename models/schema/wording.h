@@ -20,6 +20,9 @@ std::string missing_text(const std::string& table, const Key& key, const Target&
 // "unknown key 'filtr_hz'; expected a key of [force]; did you mean ...?"
 std::string unknown_text(const std::string& table, std::string_view key,
                          const std::vector<std::string>& known);
+std::string lower_case(std::string text);  // A to Z alone
+// For a terminal, on one line: what would move its cursor or change its colours is a space
+std::string printable(std::string text);
 // 'text' on one line, cut when long
 std::string quoted(const std::string& text);
 // "text", as TOML writes it

@@ -15,7 +15,7 @@ namespace {
 // The tables of rig and truth that nothing in this scene reads.
 std::vector<std::string> unread(const Setup& setup) {
   const SceneSpec& s = setup.scene;
-  std::vector<std::string> tables{"truth.camera"};  // only `encounter calibrate` reads it
+  std::vector<std::string> tables;
   const auto without = [&](bool part, std::initializer_list<const char*> its) {
     if (!part) tables.insert(tables.end(), its.begin(), its.end());
   };
@@ -26,6 +26,8 @@ std::vector<std::string> unread(const Setup& setup) {
   without(s.arm.has_value(), {"rig.arm", "truth.arm"});
   without(s.force.has_value(), {"truth.force", "rig.frames.H_F", "truth.frames.H_F"});
   without(s.tracker.has_value(), {"rig.tracker", "truth.tracker", "rig.frames.W_C", "truth.frames.W_C"});
+  without(s.camera.has_value(), {"rig.camera", "rig.vision", "truth.camera"});
+  if (s.camera) tables.emplace_back("truth.tracker");
   without(s.display.has_value(), {"rig.display", "truth.display", "rig.frames.W_S", "rig.frames.G_L"});
   without(s.gripper.has_value(), {"rig.gripper", "truth.gripper"});
   without(s.user.has_value(), {"truth.hand", "truth.contact"});

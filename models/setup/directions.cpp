@@ -26,7 +26,8 @@ constexpr Range kQuarter{0.0, 90.0};
 
 void describe(Visitor& v, std::int64_t& format, std::vector<Direction>& directions) {
   const auto key = [](std::string_view name, std::string_view meaning, Range range) {
-    return Key{name, meaning, "docs/indentation.md", Confidence::derived, range, Presence::needed, {}, true};
+    return Key{name, meaning, "docs/notes/indentation.md", Confidence::derived, range, Presence::needed,
+               {},   true};
   };
   v.value(key("format", "version of this format; this program reads version 1", {1.0, 1.0}), &format);
   directions.resize(v.open_list("direction", directions.size()));

@@ -30,6 +30,7 @@ std::string driverless(const RigSpec& rig, const std::string& name) {
 std::set<std::string> drivers_of(const RigSpec& rig) {
   std::set<std::string> names;
   each_role([&](const auto& role) { names.insert((rig.*role.rig).driver); });
+  names.insert(rig.camera.driver);
   names.erase("sim");
   names.erase("none");
   return names;

@@ -319,6 +319,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   for (const std::string& text : overrides) {
     if (of_behaviour(text)) set(setup, text);
   }
+  fill_camera(setup);
   mend_normals(setup);
   check(setup);
   note_props(setup);

@@ -31,6 +31,7 @@ struct Setup {
   std::string scene_path, rig_path;
   Places places;                   // of each key that a file or --set gives, under the name that --set takes
   std::vector<std::string> notes;  // what was repaired, and what is doubtful, one line each
+  std::string calibration;         // file that the camera's numbers are of; empty: the rig's own
 };
 
 // rig: "sim", or another file in models/rigs without ".toml", or a path; empty: the one in the scene file, or
@@ -81,6 +82,9 @@ void fill_curves(Setup& setup, const std::string& models_dir);
 // Finds, loads and checks the meshes of the objects: beside the scene or in models_dir/meshes, never
 // elsewhere.
 void fill_meshes(Setup& setup, const std::string& models_dir);
+// The calibration that the rig's [camera] names, beside the rig's file. Throws Error where there are numbers
+// beside it, too: which are meant?
+void fill_camera(Setup& setup);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_props(Setup& setup);    // objects that want another prop than is mounted
 void check(const Setup& setup);   // what one key alone does not show; throws

@@ -68,7 +68,7 @@ void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more
   if (parts.truth.friction_form == ArmFriction::dry) {
     driven->frictionloss = parts.truth.friction[i];
     // What holds must not creep: with MuJoCo's own impedance of 0.9 a tip under half of the friction does,
-    // 0.1 mm in a second. Its time constant stays (docs/phantom_twin.md).
+    // 0.1 mm in a second. Its time constant stays (docs/reference/phantom_twin.md).
     driven->solimp_friction[0] = driven->solimp_friction[1] = 0.9999;
   }
   driven->limited = mjLIMITED_TRUE;
@@ -131,13 +131,13 @@ struct Carried {
   double second = 0.0, third = 0.0;  // inertia without a body, of the joints of motors 2 and 3, kg m^2
 };
 
-// The parallelogram without its loop (docs/phantom_twin.md). The link stays parallel to the upper arm and the
-// crank to the forearm, so their own inertias are added to those. A mass m at a u2 + b u3, u2 along the upper
-// arm and u3 along the forearm, moves by m a^2, m a b and m b^2, and so does m / 4 at twice of both: the
-// link's middle, at l1 / 2 and l3, becomes a point of the forearm, 2 l3 from the elbow. The crank has a = 0
-// and is inertia alone. Weight goes by m a and m b, which this does not keep: that of the forearm is put
-// right by gravity compensation, then that of the upper arm by its centre of mass. Its mass is free, since it
-// turns about a point that stands still: it is large enough for its inertia to hold it.
+// The parallelogram without its loop (docs/reference/phantom_twin.md). The link stays parallel to the upper
+// arm and the crank to the forearm, so their own inertias are added to those. A mass m at a u2 + b u3, u2
+// along the upper arm and u3 along the forearm, moves by m a^2, m a b and m b^2, and so does m / 4 at twice
+// of both: the link's middle, at l1 / 2 and l3, becomes a point of the forearm, 2 l3 from the elbow. The
+// crank has a = 0 and is inertia alone. Weight goes by m a and m b, which this does not keep: that of the
+// forearm is put right by gravity compensation, then that of the upper arm by its centre of mass. Its mass is
+// free, since it turns about a point that stands still: it is large enough for its inertia to hold it.
 Carried carried(const PhantomGeometry& g) {
   check_about_hinge(g.m_be, g.I_be.x(), g.I_be.y(), g.l5, "truth.arm.machine.I_be");
   check_about_hinge(g.m_df, g.I_df.x(), g.I_df.z(), g.l6, "truth.arm.machine.I_df");

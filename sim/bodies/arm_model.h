@@ -1,6 +1,6 @@
 // An arm and its prop as bodies of MuJoCo: exact lengths, masses and inertias, rotors as armature, friction
 // and limits. A PHANToM is a turret with two hinges: what its parallelogram carries is counted to those
-// (docs/phantom_twin.md).
+// (docs/reference/phantom_twin.md).
 #pragma once
 
 #include <array>

@@ -56,17 +56,22 @@ OffscreenContext::OffscreenContext() {
     no_picture("EGL offers no OpenGL");
   context_ = function<decltype(&eglCreateContext)>(library_, "eglCreateContext")(display_, config,
                                                                                  EGL_NO_CONTEXT, nullptr);
-  const auto current = function<decltype(&eglMakeCurrent)>(library_, "eglMakeCurrent");
-  if (context_ == EGL_NO_CONTEXT || !current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-    no_picture("EGL makes no OpenGL context");
+  if (context_ == EGL_NO_CONTEXT) no_picture("EGL makes no OpenGL context");
+  make_current();
 }
 
-// The library stays open: Mesa leaves thread-local data behind that outlives a dlclose.
+void OffscreenContext::make_current() const {
+  const auto current = function<decltype(&eglMakeCurrent)>(library_, "eglMakeCurrent");
+  if (!current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+    no_picture("EGL makes no OpenGL context current");
+}
+
+// The library stays open: Mesa leaves thread-local data behind that outlives a dlclose. So does the display:
+// EGL has one for the whole process, and other contexts may live on it.
 OffscreenContext::~OffscreenContext() {
   function<decltype(&eglMakeCurrent)>(library_, "eglMakeCurrent")(display_, EGL_NO_SURFACE, EGL_NO_SURFACE,
                                                                   EGL_NO_CONTEXT);
   function<decltype(&eglDestroyContext)>(library_, "eglDestroyContext")(display_, context_);
-  function<decltype(&eglTerminate)>(library_, "eglTerminate")(display_);
 }
 
 }  // namespace enc::sim

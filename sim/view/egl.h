@@ -4,6 +4,7 @@
 
 namespace enc::sim {
 
+// Made current for the thread that makes it. Several may live at a time.
 class OffscreenContext {
  public:
   // Throws Error (kind device) that names the Debian packages, where there is no EGL or no driver.
@@ -11,6 +12,8 @@ class OffscreenContext {
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
+  // Draws into this one from now on. On the thread that made it.
+  void make_current() const;
 
  private:
   void* library_ = nullptr;

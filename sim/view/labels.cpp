@@ -56,7 +56,7 @@ void spread(std::vector<Placed>& labels, bool left, double pitch, double top, do
   }
 }
 
-void write(const std::string& text, double x, double middle, const Picture& picture,
+void write(const std::string& text, double x, double middle, const Image& picture,
            const mjrContext& context) {
   const double base = middle + 0.3 * context.charHeightBig;
   mjr_text(mjFONT_BIG, text.c_str(), &context, static_cast<float>(x / picture.width),
@@ -65,7 +65,7 @@ void write(const std::string& text, double x, double middle, const Picture& pict
 
 }  // namespace
 
-void letter(Picture& picture, const mjvScene& scene, const mjrContext& context, const ViewRequest& request,
+void letter(Image& picture, const mjvScene& scene, const mjrContext& context, const ViewRequest& request,
             int finer) {
   const double margin = 14.0 * finer;
   const double pitch = 1.5 * context.charHeightBig;
@@ -87,7 +87,7 @@ void letter(Picture& picture, const mjvScene& scene, const mjrContext& context, 
     write(label.text, x, label.row, picture, context);
     stroke(picture, end, label.row, label.x, label.y, 1.0 * finer, 2.5 * finer, kLine);
   }
-  Picture mask(picture.width, picture.height);
+  Image mask(picture.width, picture.height);
   mjr_readPixels(mask.rgb.data(), nullptr, all, &context);
   flip(mask);
   ink_through(picture, mask, kText);

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "sim/bodies/mujoco.h"
-#include "sim/view/picture.h"
+#include "sim/picture/picture.h"
 #include "sim/view/view.h"
 
 namespace enc::sim {
 
 // `finer`: how many pixels of `picture` one pixel of the final picture has.
-void letter(Picture& picture, const mjvScene& scene, const mjrContext& context, const ViewRequest& request,
+void letter(Image& picture, const mjvScene& scene, const mjrContext& context, const ViewRequest& request,
             int finer);
 
 }  // namespace enc::sim

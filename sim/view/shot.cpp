@@ -8,37 +8,19 @@
 #include "core/error.h"
 #include "core/module.h"
 #include "sim/bodies/mujoco.h"
+#include "sim/picture/picture.h"
 #include "sim/view/egl.h"
 #include "sim/view/labels.h"
-#include "sim/view/picture.h"
+#include "sim/view/renderer.h"
 #include "sim/view/view.h"
 
 namespace enc::sim {
 namespace {
 
-constexpr int kFiner = 3;  // smooth edges: drawn so many times larger
+constexpr int kRoom = 1000;  // geoms
+constexpr int kFiner = 3;    // smooth edges: drawn so many times larger
 constexpr double kBackdrop =
     4.0;  // m from the eye; a white wall, because what is translucent must mix with something
-
-// Frees MuJoCo's scene and renderer, in that order, while the context is still there.
-struct Renderer {
-  mjvScene scene;
-  mjrContext context;
-  explicit Renderer(const mjModel* model, int width, int height) {
-    mjv_defaultScene(&scene);
-    mjr_defaultContext(&context);
-    mjv_makeScene(model, &scene, 1000);
-    mjr_makeContext(model, &context, mjFONTSCALE_300);
-    mjr_resizeOffscreen(width, height, &context);
-    mjr_setBuffer(mjFB_OFFSCREEN, &context);
-  }
-  ~Renderer() {
-    mjr_freeContext(&context);
-    mjv_freeScene(&scene);
-  }
-  Renderer(const Renderer&) = delete;
-  Renderer& operator=(const Renderer&) = delete;
-};
 
 // The model with its picture settings changed; physics never sees the copy.
 ModelPtr picture_model(const ViewRequest& request) {
@@ -142,7 +124,7 @@ void aim(Renderer& r, const mjModel* model, const ViewRequest& request) {
 }
 
 // Multiplies the white backdrop, and what shines through from it, by a soft gradient.
-void tint_backdrop(Picture& picture, const std::vector<float>& depth, const mjvGLCamera& eye) {
+void tint_backdrop(Image& picture, const std::vector<float>& depth, const mjvGLCamera& eye) {
   // Depth of a plane a little in front of the backdrop, as OpenGL stores it.
   const double from = static_cast<double>(eye.frustum_near);
   const double to = static_cast<double>(eye.frustum_far);
@@ -160,10 +142,10 @@ void tint_backdrop(Picture& picture, const std::vector<float>& depth, const mjvG
   }
 }
 
-Picture drawn(Renderer& r, const ViewRequest& request) {
+Image drawn(Renderer& r, const ViewRequest& request) {
   const mjrRect all{0, 0, kFiner * request.width, kFiner * request.height};
   mjr_render(all, &r.scene, &r.context);
-  Picture picture(all.width, all.height);
+  Image picture(all.width, all.height);
   std::vector<float> depth(static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height));
   mjr_readPixels(picture.rgb.data(), depth.data(), all, &r.context);
   flip(picture);
@@ -177,7 +159,7 @@ std::string shot(const ViewRequest& request) {
     throw Error("a picture is 64 to 4000 pixels wide and high");
   const OffscreenContext context;
   const ModelPtr model = picture_model(request);
-  Renderer renderer(model.get(), kFiner * request.width, kFiner * request.height);
+  Renderer renderer(model.get(), kRoom, mjFONTSCALE_300, kFiner * request.width, kFiner * request.height);
   aim(renderer, model.get(), request);
   add_backdrop(renderer.scene);
   add_extras(renderer.scene, request);

@@ -52,7 +52,7 @@ TEST(SimulatedTracker, NewsIsToldOnceAndOtherwiseTheSampleIsLeftAlone) {
 
 // Server at 100 Hz polls exposures at 120 Hz: 100 packets a second. Age when one reaches the core, on
 // average: 3.5 ms to the host, half an exposure period (4.17 ms) in the server's wait, 9.2 ms of its
-// application, 0.5 ms of network, half a tick. (docs/tracking.md)
+// application, 0.5 ms of network, half a tick. (docs/notes/tracking.md)
 TEST(SimulatedTracker, RateAndAgeAreThoseOfTheRig) {
   Twin twin;
   const Tally tally = watch(twin, 60.0);

@@ -49,7 +49,7 @@ struct SquareMean {
 
 class PressMeasure {
  public:
-  static constexpr double kOff = 0.5;      // N (docs/encounter.md)
+  static constexpr double kOff = 0.5;      // N (docs/notes/encounter.md)
   static constexpr double kLasting = 0.5;  // s
 
   explicit PressMeasure(const models::Setup& setup) : setup_(setup) {}
@@ -93,7 +93,7 @@ class PressMeasure {
 };
 
 // How far the tip may be from the tool when it is met at an approach speed, from the numbers of rig and twin
-// alone: docs/encounter.md.
+// alone: docs/notes/encounter.md.
 [[nodiscard]] double miss_bound(const models::Setup& setup, double approach_speed);
 
 // By how much the machine answers late to a force, as the rig believes, s: filter, servo, dead time, two

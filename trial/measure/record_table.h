@@ -1,5 +1,5 @@
 // A run as a table with named columns, for `encounter fit`, `encounter calibrate` and for programs that know
-// nothing of Encounter (docs/rig.md).
+// nothing of Encounter (docs/guide/rig.md).
 #pragma once
 
 #include <string>

@@ -66,6 +66,8 @@ TEST(Bench, WhatIsWrongIsSaidBeforeAnythingRuns) {
   EXPECT_THAT(refused({"encounter", "--repeats=-1"}), HasSubstr("--repeats"));
   EXPECT_THAT(refused({"encounter", "--repeats=0"}), HasSubstr("--repeats"));
   EXPECT_THAT(refused({"encounter", "--repeats=1", "--set", "user.dpth_mm=1"}), HasSubstr("depth_mm"));
+  EXPECT_THAT(refused({"nearest", "--quick", "--set", "rig.vision.tile_px=3"}),
+              HasSubstr("--set: nearest reads no scene that it could change"));
 }
 
 // A file stands where the folder should be; said before the benchmark has run, or its minutes are lost.

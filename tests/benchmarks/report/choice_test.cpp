@@ -12,6 +12,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
 
 std::vector<std::string> names_of(const std::vector<Choice>& choices) {
   std::vector<std::string> names;
@@ -76,6 +77,24 @@ TEST(Choice, WhatDoesNotExistIsRefusedWithTheNearest) {
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("unknown figure 'press.restor.max'; did you mean 'press.restore.max'?"));
   }
+}
+
+// Nothing is passed over in silence: what --set cannot change refuses it, by name.
+TEST(Choice, WhatReadsNoSceneTakesNoSettings) {
+  const std::string models = ENCOUNTER_SOURCE_DIR "/models";
+  std::vector<std::string> left;
+  EXPECT_THAT(names_of(settable(chosen({"press", "registration"}), true, models, left)),
+              ElementsAre("press", "registration"));
+  try {
+    (void)settable(chosen({"press", "nearest", "response.energy_stop"}), true, models, left);
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("--set: nearest, response read no scene"));
+  }
+  left.clear();
+  const std::size_t kept = settable(chosen({}), false, models, left).size();
+  EXPECT_EQ(kept + left.size(), benchmarks().size());
+  EXPECT_THAT(left, IsSupersetOf({"footprint", "nearest", "response"}));
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ Report small_report() {
                     {"press.c.max", kUnset, 3.0, "N", Role::ours, kUnset, kUnset, ""}};
   result.tables = {{"press.rows", "Rows", {"name", "value (mm)"}, {{"x, \"y\"", "1"}, {"z", "2"}}}};
   result.plots = {small_plot()};
+  result.pictures = {{"press.seen", "Seen", "What the camera sees.", "Many"}};
   add_result(report, std::move(result));
   return report;
 }
@@ -110,7 +111,8 @@ TEST(ReportHtml, IsOnePageWithItsPicturesAndWithoutScriptsOrLinksOut) {
   EXPECT_EQ(count_of(page, "<svg"), 1U);
   EXPECT_EQ(count_of(page, "<?xml"), 0U);
   EXPECT_THAT(page, Not(HasSubstr("<script")));
-  EXPECT_THAT(page, Not(HasSubstr("src=")));
+  EXPECT_EQ(count_of(page, "src="), 1U);
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64,TWFueQ==\""));
   EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
   EXPECT_THAT(page, HasSubstr("Missing: speed"));
   EXPECT_LT(page.find("<svg"), page.find("<table"));
@@ -180,9 +182,9 @@ TEST(ReportFiles, AreAllThereAndNothingElse) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder.path() / "out"))
     names.push_back(entry.path().filename());
-  EXPECT_THAT(names,
-              ::testing::UnorderedElementsAre("REPORT.md", "report.html", "results.json", "press.csv",
-                                              "press.rows.csv", "press.demo.plot.csv", "press.demo.svg"));
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("REPORT.md", "report.html", "results.json", "press.csv",
+                                                     "press.rows.csv", "press.demo.plot.csv",
+                                                     "press.demo.svg", "press.seen.png"));
   EXPECT_EQ(bytes_of(folder.path() / "out/press.rows.csv"), "name,value (mm)\n\"x, \"\"y\"\"\",1\nz,2\n");
   EXPECT_EQ(bytes_of(folder.path() / "out/press.demo.plot.csv"),
             "series,paper,x,y,low,high\ntwin,0,1,1,0.5,2\ntwin,0,2,,,\ntwin,0,3,3,2,4\ntwin,0,4,5,4,6\n"

@@ -46,7 +46,7 @@ TEST(Limits, CheckNamesTheSoftestSpringAndWhatIsSofter) {
   const Result check = run_program(with({"check", scene("stiffness")}, kSoft));
   EXPECT_EQ(check.code, 0);
   EXPECT_THAT(check.out, AllOf(HasSubstr("UNSTEADY: object 'wall'"),
-                               HasSubstr("a spring stands still from 0.36"), HasSubstr("; from 0.59")));
+                               HasSubstr("softest spring that stands still: 0.36"), HasSubstr(", 0.59")));
   EXPECT_THAT(run_program({"check", scene("tennis_ball")}).out, Not(HasSubstr("UNSTEADY")));
 }
 

@@ -132,7 +132,7 @@ TEST_F(Program, CheckPrintsTheFramesAndTheResolvedScene) {
   EXPECT_EQ(r.err, "");
   for (const char* edge : {"X_WR", "X_RH", "X_HF", "X_WC", "X_CT", "X_WO", "X_WN"})
     EXPECT_THAT(r.out, HasSubstr(std::string("\n  ") + edge + "  "));
-  EXPECT_THAT(r.out, HasSubstr("left out    display"));
+  EXPECT_THAT(r.out, HasSubstr("left out    camera, display"));
   EXPECT_THAT(run_program({"check", plane(), "--resolved"}).out,
               AllOf(HasSubstr("format = 1\n"), HasSubstr("[rig.loop]\nrate_hz = 1000\n"),
                     HasSubstr("[truth.tracker]\n"), HasSubstr("press_N_per_mm_k = [2, 0, 0, 0]")));

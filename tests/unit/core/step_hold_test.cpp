@@ -190,7 +190,7 @@ TEST(Hold, ForHealthThatIsNotGood) {
   loop.spoil = [&](Inputs& in) { draw(in, loop); };
   to_contact(loop);
   expect_hold_and_recovery(
-      loop, [](Inputs& in) { in.tool.health = Health::fault; }, kToolInvalid, "tool fault");
+      loop, [](Inputs& in) { in.tool.health = Health::fault; }, kTrackerFault, "tool fault");
   expect_hold_and_recovery(
       loop, [](Inputs& in) { in.wrench.health = Health::fault; }, kForceInvalid, "force fault");
   expect_hold_and_recovery(

@@ -10,8 +10,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/record/fields.h"
 #include "models/schema/schema.h"
+#include "models/schema/toml_writer.h"
 #include "models/setup/scene_file.h"
+#include "sim/truth_fields.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"
 
@@ -78,6 +81,25 @@ Told told_by(const Setup& setup) {
   return {hash, trial.truth().tip.e()};
 }
 
+// Every tick's commands and truth, but not what only a display is told.
+std::uint64_t outcome_of(const Setup& setup, bool draw_all, RecordWriter* record) {
+  StateHash outcome;
+  trial::TrialOptions options;
+  options.seconds = 5.0;
+  options.draw_all = draw_all;
+  options.watch = [&](const trial::Glance& glance) {
+    Outputs out = glance.out;
+    out.view = {};
+    sim::Truth truth = glance.truth;
+    fields(outcome, out);
+    fields(outcome, truth);
+  };
+  trial::Trial trial(setup, options);
+  trial.record_to(record);
+  trial.run();
+  return outcome.value;
+}
+
 std::vector<std::string> scenes() { return files_in(kModels, "scenes"); }
 models::Setup shipped(const std::string& scene) { return load(kModels + "/scenes/" + scene + ".toml", ""); }
 
@@ -98,6 +120,24 @@ TEST_P(BuiltScene, LeavesOutWhatNothingReads) {
   models::Setup spoiled = scene;
   EXPECT_GT(spoil_left_out(spoiled), 20);
   EXPECT_EQ(told_by(spoiled), told_by(scene));
+}
+
+// Every table of rig and truth in the file, the display where the scene may have one, bodies that are only
+// drawn, and a record: what is felt is that of the scene with only what it builds.
+TEST_P(BuiltScene, WithEverythingOnGivesTheSameBits) {
+  const test::TemporaryFolder folder;
+  models::Setup scene = shipped(GetParam());
+  const std::string minimal = folder.file("minimal.toml"), everything = folder.file("everything.toml");
+  const bool shows = scene.scene.manipulator && scene.scene.user && !scene.scene.travel;
+  if (shows) scene.scene.display.reset();
+  std::ofstream(minimal) << built_scene(scene);
+  if (shows) scene.scene.display.emplace();
+  std::ofstream(everything) << write_toml(
+      [&](Visitor& visitor) { describe_all(visitor, scene.scene, scene.rig, scene.twin); });
+  const models::Setup most = load(everything, "");
+  RecordWriter record(folder.file("everything.encrec"), record_texts(most),
+                      layout_hash(trial::Trial(most, {}).scene()));
+  EXPECT_EQ(outcome_of(most, true, &record), outcome_of(load(minimal, ""), false, nullptr));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, BuiltScene, testing::ValuesIn(scenes()),

@@ -33,6 +33,7 @@ models::Setup in_code(const Setup& like) {
   rig.arm.machine.kind = like.rig.arm.machine.kind;
   rig.force.driver = like.rig.force.driver;
   rig.tracker.driver = like.rig.tracker.driver;
+  rig.camera.driver = like.rig.camera.driver;
   rig.display.driver = like.rig.display.driver;
   rig.gripper.driver = like.rig.gripper.driver;
   code.twin.arm.there = like.twin.arm.there;

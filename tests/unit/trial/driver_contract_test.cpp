@@ -179,7 +179,7 @@ TEST_F(DriverContract, ATableIsReadStrictly) {
   EXPECT_EQ(refusal(replaced(kTable, "4712", "\"4712\"")),
             at(3, 1) +
                 "'port' is a text; expected a whole number from 1 to 65535 (of the box); write it like "
-                "'port = 1'");
+                "'port = 4711'");
   EXPECT_THAT(refusal(replaced(kTable, "4712", "4712.0")),
               StartsWith(at(3, 1) + "'port' is a number with a fraction"));
   EXPECT_THAT(refusal(replaced(kTable, "4712", "70000")), StartsWith(at(3, 1) + "'port' is 70000"));

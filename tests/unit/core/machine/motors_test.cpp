@@ -124,7 +124,7 @@ TEST(Motors, TheShareKeepsEachMotorWithinWhatItHas) {
   EXPECT_EQ(limit, MotorLimit::heat);
 }
 
-// docs/plane_button.md has the eigenvalues of the same loop: 1213 to 2378 N/m.
+// docs/reference/plane_button.md has the eigenvalues of the same loop: 1213 to 2378 N/m.
 TEST(Motors, TheStiffestSpringIsThatOfTheDocumentedLoop) {
   ArmRig rig;
   rig.stiffness = 300.0;

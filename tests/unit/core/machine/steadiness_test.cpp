@@ -11,7 +11,8 @@ namespace {
 
 Response spring(double k, double limit) { return {{{k, 0, 0, 0}, {k, 0, 0, 0}, limit}, 0.0}; }
 
-// The twin swings by 10 mm at 150 N/m under this hand, and stands still from 260 N/m on (docs/stiffness.md).
+// The twin swings by 10 mm at 150 N/m under this hand, and stands still from 260 N/m on
+// (docs/notes/stiffness.md).
 TEST(Steadiness, ASoftSpringSwingsAndAFirmOneStandsStill) {
   const Steadiness loop{RigSpec{}};
   EXPECT_NEAR(loop.swing(spring(150.0, 0.023), 0.0172, 0.023, 2.0), 10e-3, 2e-3);

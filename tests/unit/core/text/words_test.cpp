@@ -26,9 +26,10 @@ std::string_view spelled() {
 template <class Enum>
 class EnumWords : public ::testing::Test {};
 using All = ::testing::Types<ShapeKind, Tangential, Reversal, TipShape, Interaction, PropKind, TremorForm,
-                             UserKind, TravelWays, ManipulatorKind, Prediction, SeenTip, Damping, Tare,
-                             ArmKind, JointKind, GravityForm, sim::HexapodForm, sim::TrackerClocks,
-                             sim::Packets, sim::ArmFriction, sim::BallSet, models::Confidence>;
+                             UserKind, TravelWays, ManipulatorKind, Prediction, SegmentationMethod,
+                             SquareReading, SeenTip, Damping, Tare, ArmKind, JointKind, GravityForm,
+                             sim::HexapodForm, sim::TrackerClocks, sim::Packets, sim::ArmFriction,
+                             sim::BallSet, sim::Scenery, sim::Tone, models::Confidence>;
 TYPED_TEST_SUITE(EnumWords, All);
 
 TYPED_TEST(EnumWords, AreTheNamesOfTheValues) {

@@ -1,0 +1,176 @@
+#include "benchmarks/segmentation/pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "sim/camera/skin_tones.h"
+
+namespace enc::bench::segmentation {
+namespace {
+
+using namespace staged;
+
+constexpr std::uint64_t kBackgrounds = 10;  // [VisHap 3]
+constexpr int kMostTries = 200;
+constexpr double kPalm = 0.11;  // m, from the tip to the palm's middle
+
+// The background's frames, then hands.
+class Scene {
+ public:
+  explicit Scene(const Place& place)
+      : rig_(head(kWidth)), stage_(place.camera->stage(spec(rig_, place))), stream_(place.seed, "pairs") {
+    for (; frame_ < kBackgrounds; ++frame_) {
+      stage_->draw(nullptr, {}, {}, frame_, pair_.left, pair_.right);
+      background_.push_back(pair_.left);
+    }
+  }
+  [[nodiscard]] const std::vector<Image>& background() const { return background_; }
+  // A hand that is large enough.
+  const Pair& take(const Take& take) {
+    for (int i = 0; i < kMostTries; ++i) {
+      do {
+        shot_ = drawn(rig_, {.near = 0.28, .far = 0.42}, take.tone, stream_);
+      } while (!palm_in_view());
+      if (share(draw(take.light)) >= kLeastHand) return pair_;
+    }
+    throw Error("no hand came as large as the pairs are to have");
+  }
+  const Pair& move_on(const sim::Light& light, const Vec<'C'>& by) {
+    shot_.pose.tip = shot_.pose.tip + by;
+    return draw(light);
+  }
+  [[nodiscard]] static double share(const Pair& pair) {
+    const auto on = std::count_if(pair.truth.skin.on.begin(), pair.truth.skin.on.end(),
+                                  [](std::uint8_t x) { return x != 0; });
+    return static_cast<double>(on) / static_cast<double>(pair.truth.skin.on.size());
+  }
+
+ private:
+  // Spares drawing what is sure to be too small.
+  [[nodiscard]] bool palm_in_view() const {
+    const Point<'C'> palm = shot_.pose.tip + Vec<'C'>(-kPalm * shot_.pose.along.e().normalized());
+    const Lens& lens = rig_.left;
+    const double z = palm.xyz[2];
+    const double column = lens.centre_x + lens.focal_x * palm.xyz[0] / z;
+    const double row = lens.centre_y + lens.focal_y * palm.xyz[1] / z;
+    return z > 0.0 && column > 0.0 && row > 0.0 && column < kWidth && row < kHeight;
+  }
+  static sim::StageSpec spec(const StereoRig& rig, const Place& place) {
+    sim::StageSpec spec;
+    spec.camera = rig;
+    spec.scenery = place.scenery;
+    spec.seed = place.seed;
+    spec.sensor.exposure = place.exposure;
+    return spec;
+  }
+  const Pair& draw(const sim::Light& light) {
+    stage_->draw(&shot_.pose, shot_.look, light, frame_++, pair_.left, pair_.right, &pair_.truth);
+    return pair_;
+  }
+
+  StereoRig rig_;
+  std::unique_ptr<sim::Stage> stage_;
+  sim::Stream stream_;
+  std::uint64_t frame_ = 0;
+  std::vector<Image> background_;
+  Shot shot_;
+  Pair pair_;
+};
+
+// All methods, once each has learned a background.
+class Judges {
+ public:
+  Judges(const Place& place, const std::vector<Image>& background) {
+    for (const SegmentationMethod method : {SegmentationMethod::published, SegmentationMethod::ours})
+      own_.emplace_back(spec_of(place.skin, method), kWidth, kHeight);
+    if (place.opencv != nullptr)
+      for (const auto make : {place.opencv->mog2, place.opencv->knn})
+        peers_.push_back(make(range_of(place.skin)));
+    for (const Image& image : background) {
+      for (Segmenter& each : own_) each.learn(image.view());
+      for (const auto& each : peers_) each->learn(image.view());
+    }
+  }
+  void judge(const Pair& pair, Judged& judged, bool keeps) {
+    Mask found(kWidth, kHeight);
+    const Mask& truth = pair.truth.skin;
+    judged.by[nothing] = compare(found, truth);
+    for (const std::size_t i : {published, ours}) {
+      own_[i].segment(pair.left.view(), found.whole(), found);
+      judged.by[i] = compare(found, truth);
+      if (keeps) (i == published ? judged.shown.published : judged.shown.ours) = found;
+    }
+    for (std::size_t i = 0; i < peers_.size(); ++i) {
+      peers_[i]->segment(pair.left.view(), found);
+      judged.by[mog2 + i] = compare(found, truth);
+    }
+  }
+
+ private:
+  std::vector<Segmenter> own_;
+  std::vector<std::unique_ptr<SegmentationPeer>> peers_;
+};
+
+}  // namespace
+
+SegmentationSpec spec_of(const SkinModel& skin, SegmentationMethod method) {
+  SegmentationSpec spec;
+  spec.model = skin;
+  spec.method = method;
+  return spec;
+}
+
+HueRange range_of(const SkinModel& skin) {
+  const double width = SegmentationSpec{}.skin * skin.spread;
+  const auto at = [](double angle) {
+    return static_cast<int>(std::lround(angle / (2.0 * std::numbers::pi) * 256.0)) & 255;
+  };
+  return {at(skin.hue - width), at(skin.hue + width)};
+}
+
+SegmentationPair Material::pair() const {
+  SegmentationPair pair{{}, image.view(), &truth};
+  for (const Image& each : background) pair.background.push_back(each.view());
+  return pair;
+}
+
+std::vector<Judged> judge(const Place& place) {
+  Scene scene(place);
+  Judges judges(place, scene.background());
+  std::vector<Judged> all;
+  for (const Take& take : place.takes) {
+    const Pair& pair = scene.take(take);
+    Judged judged{.take = take, .hand = Scene::share(pair)};
+    judges.judge(pair, judged, place.keeps);
+    if (place.keeps) {
+      judged.shown.background = scene.background().back();
+      judged.shown.image = pair.left;
+      judged.shown.truth = pair.truth.skin;
+    }
+    all.push_back(std::move(judged));
+  }
+  return all;
+}
+
+Material material(const Place& place, const Take& take) {
+  Scene scene(place);
+  const Pair& pair = scene.take(take);
+  return {scene.background(), pair.left, pair.truth.skin};
+}
+
+Sequence sequence(const Place& place, const Take& take, std::size_t frames) {
+  Scene scene(place);
+  Sequence all{.background = scene.background()};
+  const Pair* pair = &scene.take(take);
+  for (std::size_t i = 0; i < frames; ++i) {
+    all.left.push_back(pair->left);
+    all.right.push_back(pair->right);
+    all.truth.push_back(pair->truth.skin);
+    pair = &scene.move_on(take.light, Vec<'C'>(i % 2 == 0 ? 0.003 : -0.002, 0.001, 0.0));
+  }
+  return all;
+}
+
+}  // namespace enc::bench::segmentation

@@ -1,0 +1,89 @@
+// Where in a mask of skin a fingertip is: steps 1 to 10 of the published pseudo-code, then the cap's circle
+// fitted to the mask's edge [VisHap 2.1.2].
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/text/words.h"
+#include "core/vision/finger/finger_spec.h"
+#include "core/vision/image.h"
+#include "core/vision/stereo/disparity_map.h"
+#include "core/vision/stereo/triangulate.h"
+
+namespace enc {
+
+// Pixels that a step has dismissed; those that reach step 10 are candidates.
+struct StepCounts {
+  std::int64_t visited = 0, no_skin = 0, no_depth = 0, too_small = 0, circle = 0, square = 0, pairs = 0;
+  std::int64_t candidates = 0;
+};
+
+struct Fingertip {
+  bool found = false;
+  int x = -1, y = -1;                    // px, of the candidate that was taken
+  double column = kUnset, row = kUnset;  // px, the tip's centre
+  double radius = kUnset;                // px, r of step 3 there
+  // As a camera sees it that looks straight at the tip, core/vision/finger/tangent.h:
+  double outline = kUnset;              // px, radius of the circle that was fitted
+  double along_x = 0.0, along_y = 0.0;  // unit vector, from the tip to the knuckle
+  double score = kUnset;                // share of skin in the circle
+  bool fitted = false;
+};
+
+class FingertipFinder {
+ public:
+  // `r_most`, px: of the nearest depth. K / f B = R / B is px of radius for a pixel of disparity.
+  FingertipFinder(const FingertipSpec& spec, const RectifiedPair& pair, double r_most, int width, int height);
+
+  // Candidates are sought within `search`. The mask and the disparity count as far as reach(r) beyond, and
+  // outside of the image nothing is skin; a pixel whose square S leaves it is dismissed. Of the best scores
+  // the first pixel in reading order is taken, and the middle of those within r of it is where the fit
+  // begins.
+  //
+  // `expected`: where the finger is foreseen that is followed. Of several fingertips that are about as good
+  // the one nearest to that is taken.
+  Fingertip find(const Mask& skin, const DisparityMap& disparity, const Region& search,
+                 const Triplet& expected = {});
+  [[nodiscard]] const StepCounts& counts() const { return counts_; }
+  struct Candidate {
+    int x, y;
+    float score, radius;
+    bool straight;  // a finger as long as stretch_radii
+  };
+  [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
+  // How far from a pixel with that disparity steps 4 to 10 look, px.
+  [[nodiscard]] int reach(double disparity) const;
+  [[nodiscard]] double radius_of(double disparity) const { return per_disparity_ * disparity; }
+
+ private:
+  struct Disc {
+    std::vector<std::int16_t> half;  // of each row, from the middle row down; px
+    std::int32_t area = 0;
+  };
+  void sum(const Mask& skin, const Region& part);
+  [[nodiscard]] int in_row(int y, int x0, int x1) const;  // skin in columns x0 to x1 of row y, both included
+  [[nodiscard]] int in_column(int x, int y0, int y1) const;
+  [[nodiscard]] const Disc& disc(double radius) const;
+  [[nodiscard]] int in_circle(int x, int y, const Disc& disc) const;
+  [[nodiscard]] int along_square(int x, int y, int half) const;
+  [[nodiscard]] int diagonal_pairs(const Mask& skin, int x, int y, int half) const;
+  [[nodiscard]] int half_side(double radius) const;
+  [[nodiscard]] int stretch(double radius) const;  // px, half a side of the second square
+  void look_at(const Mask& skin, const DisparityMap& disparity, int x, int y);
+  [[nodiscard]] const Candidate& chosen(const Triplet& expected) const;
+  [[nodiscard]] Fingertip best(const Mask& skin, const Triplet& expected) const;
+
+  FingertipSpec spec_;
+  RectifiedPair pair_;
+  double per_disparity_ = 0.0, r_most_ = 0.0;
+  int width_ = 0, height_ = 0;
+  std::vector<Disc> discs_;  // of radii in steps of 1/4 px
+  std::vector<std::uint16_t> rows_, columns_;
+  Region part_;  // of which rows_ and columns_ hold
+  StepCounts counts_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace enc

@@ -1,0 +1,194 @@
+#include "core/vision/finger/hand_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/vision/finger/cap_fit.h"
+#include "core/vision/finger/cap_match.h"
+
+namespace enc {
+namespace {
+
+// The least box round the skin within `window`; empty where there is none.
+Region box_of(const Mask& skin, const Region& window) {
+  if (window.empty()) return {};
+  Region box{window.x1, window.y1, window.x0, window.y0};
+  for (int y = window.y0; y < window.y1; ++y) {
+    const std::uint8_t* row = skin.row(y);
+    for (int x = window.x0; x < window.x1; ++x)
+      if (row[x] != 0) {
+        box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), y + 1};
+        x = std::max(x, box.x1 - 1);  // what is between changes nothing
+      }
+  }
+  return box;
+}
+
+Region grown(const Region& region, int by) {
+  return {region.x0 - by, region.y0 - by, region.x1 + by, region.y1 + by};
+}
+
+// Every tile is foreground, so that hue alone tells skin.
+SegmentationSpec without_background(SegmentationSpec spec) {
+  spec.method = SegmentationMethod::published;
+  spec.background_frames = 1;
+  spec.match = 2.0;
+  return spec;
+}
+
+}  // namespace
+
+HandScene::HandScene(const StereoRig& rig, const SegmentationSpec& segmentation,
+                     const FingertipSpec& fingertip, const MatchSpec& match)
+    : rectifier_(rig),
+      segmentation_(segmentation),
+      segmenter_(segmentation, rectifier_.width(), rectifier_.height()),
+      matcher_(match, pair()),
+      finder_(fingertip, pair(), fingertip.radius / pair().baseline * matcher_.most(), rectifier_.width(),
+              rectifier_.height()),
+      grey_left_(rectifier_.width(), rectifier_.height()),
+      grey_right_(rectifier_.width(), rectifier_.height()),
+      skin_(rectifier_.width(), rectifier_.height()),
+      disparity_(rectifier_.width(), rectifier_.height()) {
+  if (rectifier_.none_needed()) return;
+  left_ = Image(rectifier_.width(), rectifier_.height());
+  right_ = left_;
+}
+
+ImageView HandScene::rectified(Side side, const ImageView& raw, const Region& part) {
+  if (rectifier_.none_needed()) return raw;
+  Image& to = side == Side::left ? left_ : right_;
+  rectifier_.part(side, raw, part, to);
+  return to.view();
+}
+
+Region HandScene::segment(Segmenter& segmenter, const ImageView& raw, const Region& wanted) {
+  // Tiles and the median look a little beyond what they tell, the light of a frame is measured all over it.
+  const bool all = segmentation_.method == SegmentationMethod::ours;
+  const int beyond = segmentation_.median + 2 * segmentation_.tile;
+  const Region part = all ? this->frame() : grown(segmenter.on_grid(wanted), beyond);
+  const ImageView image = rectified(Side::left, raw, part);
+  return segmenter.segment(image, wanted, skin_);
+}
+
+void HandScene::learn(const StereoFrame& frame) {
+  look_for_finger_in_background(frame);
+  segmenter_.learn(rectified(Side::left, frame.left, this->frame()));
+  if (segmenter_.learned()) hue_alone_.reset();
+}
+
+void HandScene::look_for_finger_in_background(const StereoFrame& frame) {
+  if (!hue_alone_) {
+    hue_alone_ = std::make_unique<Segmenter>(without_background(segmentation_), rectifier_.width(),
+                                             rectifier_.height());
+    hue_alone_->learn(rectified(Side::left, frame.left, this->frame()));
+  }
+  if (finger_in_background_ || !hue_alone_->learned()) return;
+  segment(*hue_alone_, frame.left, this->frame());
+  match(frame, this->frame(), this->frame());
+  Seen seen;
+  seen.tip = finder_.find(skin_, disparity_, this->frame());
+  finger_in_background_ = seen.tip.found && (seen.tip.fitted || seen.tip.score > 0.8);
+}
+
+// `around` is what may be asked of the images later, `window` what is asked of the disparity now.
+void HandScene::match(const StereoFrame& frame, const Region& window, const Region& around) {
+  disparity_.match(matcher_, grey_left_, grey_right_, skin_, Region{});
+  const Region box = box_of(skin_, around);
+  if (box.empty()) return;
+  const Region cells = grown(box, DisparityMap::kCell);
+  const Region left = matcher_.left_of(cells), right = matcher_.right_of(cells);
+  to_grey(rectified(Side::left, frame.left, left), left, grey_left_);
+  to_grey(rectified(Side::right, frame.right, right), right, grey_right_);
+  disparity_.match(matcher_, grey_left_, grey_right_, skin_, window.cut(box));
+}
+
+// Beyond each pixel of skin with its depth.
+int HandScene::farthest_reach(const Region& window) const {
+  float most = 0.0F;
+  const Region box = box_of(skin_, window);
+  for (int y = box.y0; y < box.y1; ++y)
+    for (int x = box.x0; x < box.x1; ++x)
+      if (skin_.at(x, y) && disparity_.at(x, y) > most) most = disparity_.at(x, y);
+  return finder_.reach(static_cast<double>(most));
+}
+
+HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, const Triplet& expected) {
+  Seen seen;
+  const double thought = expected.disparity > 0.0 ? 1.3 * expected.disparity : 0.0;
+  const int first = std::max(DisparityMap::kReach, finder_.reach(thought));
+  Region around = grown(window, first).cut(this->frame());
+  Region segmented = segment(segmenter_, frame.left, around);
+  match(frame, window, around);
+  // A finger that is nearer than thought needs more round it.
+  if (const int reach = farthest_reach(window); reach > first) {
+    around = grown(window, reach).cut(this->frame());
+    segmented = segment(segmenter_, frame.left, around);
+    match(frame, window, around);
+  }
+  seen.pixels = segmented.pixels();
+  seen.tip = finder_.find(skin_, disparity_, window, expected);
+  if (!seen.tip.found) return seen;
+  if (seen.tip.fitted) sharpen(seen.tip);
+  measure(seen, expected.disparity);
+  return seen;
+}
+
+// Of blocks of the finger next to the tip. One that has more of the background than of a thin finger tells
+// how far that is, and skin of little detail is like itself elsewhere: all are told by which the cap would
+// not look much larger or smaller than it does. The candidate's own comes first.
+std::size_t HandScene::surfaces_of(const Fingertip& tip, Surfaces& surfaces) {
+  constexpr double kOther = 1.6;  // times as large: more than K and the mask may be off
+  std::size_t count = 0;
+  const auto take = [&](float surface) {
+    const auto end = surfaces.begin() + static_cast<std::ptrdiff_t>(count);
+    const auto same = [&](float other) { return std::abs(surface - other) < 1.0F; };
+    const double size = finder_.radius_of(static_cast<double>(surface)) / tip.outline;
+    if (size < kOther && size > 1.0 / kOther && std::none_of(surfaces.begin(), end, same))
+      surfaces[count++] = surface;
+  };
+  take(disparity_.at(tip.x, tip.y));
+  for (const double back : {0.0, 0.5, 1.0, 1.5})
+    for (const double aside : {-0.4, 0.0, 0.4}) {
+      const auto x = static_cast<int>(tip.column + tip.outline * (back * tip.along_x - aside * tip.along_y));
+      const auto y = static_cast<int>(tip.row + tip.outline * (back * tip.along_y + aside * tip.along_x));
+      if (skin_.whole().contains(x, y) && skin_.at(x, y))
+        take(matcher_.at(grey_left_, grey_right_, x, y, &skin_).pixels);
+    }
+  if (count == 0) surfaces[count++] = disparity_.at(tip.x, tip.y);
+  return count;
+}
+
+void HandScene::sharpen(Fingertip& tip) const {
+  const CapFit fit{true, {tip.column, tip.row}, tip.outline, tip.along_x, tip.along_y};
+  const CapFit sharp = sharpen_cap(skin_, grey_left_, pair(), fit);
+  tip.column = sharp.centre.column;
+  tip.row = sharp.centre.row;
+  tip.outline = sharp.radius;
+  tip.along_x = sharp.along_x;
+  tip.along_y = sharp.along_y;
+}
+
+// A followed finger cannot have come much nearer or gone much farther since the last frame: where the blocks
+// say so, it is looked for where it is expected.
+void HandScene::measure(Seen& seen, double expected) {
+  constexpr double kUnrefined = 0.5;  // px rms, of a block that sees a cap
+  constexpr double kNearer = 1.25;    // times: 3 m/s at 600 mm and 20 Hz
+  Surfaces surfaces{};
+  const std::size_t count = surfaces_of(seen.tip, surfaces);
+  const auto match = [&](std::span<const float> from) {
+    return match_cap(grey_left_, grey_right_, skin_, seen.tip, pair(), from);
+  };
+  CapDisparity cap = match(std::span(surfaces.data(), count));
+  const double nearer = cap.good ? cap.disparity / expected : kUnset;
+  if (expected > 0.0 && !(nearer < kNearer && nearer > 1.0 / kNearer)) {
+    const std::array front{static_cast<float>(front_of(expected, seen.tip.outline, pair().focal))};
+    if (const CapDisparity there = match(front); there.good) cap = there;
+  }
+  const auto surface = static_cast<double>(disparity_.at(seen.tip.x, seen.tip.y));
+  seen.disparity = cap.good ? cap.disparity : middle_of(surface, seen.tip.outline, pair().focal);
+  seen.variance = cap.good ? cap.variance : kUnrefined * kUnrefined;
+}
+
+}  // namespace enc

@@ -1,0 +1,65 @@
+// One look at a pair of images: what is skin in a window of them, how far it is, and where the fingertip is.
+// Knows nothing of the frames before but the background.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "core/devices/stereo_camera.h"
+#include "core/vision/finger/fingertip.h"
+#include "core/vision/segmentation/segmenter.h"
+#include "core/vision/stereo/rectify.h"
+
+namespace enc {
+
+class HandScene {
+ public:
+  HandScene(const StereoRig& rig, const SegmentationSpec& segmentation, const FingertipSpec& fingertip,
+            const MatchSpec& match);
+
+  // A frame of the background.
+  void learn(const StereoFrame& frame);
+  [[nodiscard]] bool learned() const { return segmenter_.learned(); }
+  [[nodiscard]] bool finger_in_background() const { return finger_in_background_; }
+
+  struct Seen {
+    Fingertip tip;
+    double disparity = kUnset, variance = kUnset;  // px, px^2, of the middle of the cap
+    std::int64_t pixels = 0;                       // segmented
+  };
+  // Candidates are sought within `window`. `expected`: where a finger that is followed is foreseen, or NaN.
+  // It says which of several fingers is meant, and its disparity how much is segmented at first.
+  Seen look(const StereoFrame& frame, const Region& window, const Triplet& expected);
+
+  [[nodiscard]] Region frame() const { return {0, 0, rectifier_.width(), rectifier_.height()}; }
+  [[nodiscard]] const RectifiedPair& pair() const { return rectifier_.pair(); }
+  [[nodiscard]] const Mask& skin() const { return skin_; }
+  [[nodiscard]] const DisparityMap& disparity() const { return disparity_; }
+  [[nodiscard]] const FingertipFinder& finder() const { return finder_; }
+
+ private:
+  // The rectified image, up to date within `part`.
+  ImageView rectified(Side side, const ImageView& raw, const Region& part);
+  Region segment(Segmenter& segmenter, const ImageView& raw, const Region& wanted);
+  void match(const StereoFrame& frame, const Region& window, const Region& around);
+  [[nodiscard]] int farthest_reach(const Region& window) const;
+  using Surfaces = std::array<float, 13>;  // px of disparity
+  std::size_t surfaces_of(const Fingertip& tip, Surfaces& surfaces);
+  void sharpen(Fingertip& tip) const;
+  void measure(Seen& seen, double expected);
+  void look_for_finger_in_background(const StereoFrame& frame);
+
+  Rectifier rectifier_;
+  SegmentationSpec segmentation_;
+  Segmenter segmenter_;
+  std::unique_ptr<Segmenter> hue_alone_;  // while the background is learned
+  Matcher matcher_;
+  FingertipFinder finder_;
+  Image left_, right_;
+  Grey grey_left_, grey_right_;
+  Mask skin_;
+  DisparityMap disparity_;
+  bool finger_in_background_ = false;
+};
+
+}  // namespace enc

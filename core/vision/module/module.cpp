@@ -1,0 +1,22 @@
+// What the program finds in encounter_vision.so.
+#include "core/module.h"
+
+#include "core/vision/vision_module.h"
+#include "core/vision/vision_tracker.h"
+
+namespace {
+
+std::unique_ptr<enc::PoseTracker> tracker(std::unique_ptr<enc::StereoCamera> camera,
+                                          const enc::StereoRig& rig, const enc::VisionRig& vision) {
+  return std::make_unique<enc::VisionTracker>(std::move(camera), rig,
+                                              enc::FingerTracker(rig, vision.segmentation, vision.fingertip,
+                                                                 vision.track, vision.match, vision.search));
+}
+constexpr enc::VisionModule kVision{.tracker = tracker};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
+  static const enc::ModuleInfo kInfo{.name = "vision", .vision = &kVision};
+  return &kInfo;
+}

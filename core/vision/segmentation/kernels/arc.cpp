@@ -1,0 +1,40 @@
+#include "core/vision/segmentation/kernels/arc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace enc::segmentation {
+
+Arc skin_arc(const SkinModel& model, double spreads) {
+  constexpr double kStep = 2.0 * std::numbers::pi / kHues;
+  const double half = spreads * model.spread;
+  if (half >= std::numbers::pi) return {0, kHues};
+  const auto first = static_cast<int>(std::ceil((model.hue - half) / kStep - 0.5));
+  const auto last = static_cast<int>(std::floor((model.hue + half) / kStep - 0.5));
+  return {((first % kHues) + kHues) % kHues, std::clamp(last - first + 1, 0, kHues)};
+}
+
+Cut cut_of(const Arc& arc, const HueRule& rule) {
+  Cut cut{};
+  cut.least_chroma = std::max<std::uint8_t>(1, rule.least_chroma);
+  cut.least_value = rule.least_value;
+  Arc part = arc;
+  if (arc.count > kHues / 2) {
+    part = {(arc.first + arc.count) % kHues, kHues - arc.count};
+    cut.opposite = 255;
+  }
+  std::fill(std::begin(cut.sextant), std::end(cut.sextant), std::uint8_t{Cut::never});
+  if (part.count == 0) return cut;
+  // An end at the first hue of a sextant is share 256 of the one before: a pixel there may be seen as either.
+  const int from = (part.first + kHues - 1) % kHues;
+  const int to = from + part.count;
+  for (int sextant = from / kSextant; sextant <= to / kSextant; ++sextant) cut.sextant[sextant % 6] = 0;
+  cut.sextant[from / kSextant] |= Cut::past_from;
+  cut.sextant[to / kSextant % 6] |= Cut::before_to;
+  cut.from = static_cast<std::uint16_t>(from % kSextant + 1);
+  cut.to = static_cast<std::uint16_t>(to % kSextant + 1);
+  return cut;
+}
+
+}  // namespace enc::segmentation

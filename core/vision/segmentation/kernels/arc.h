@@ -1,0 +1,22 @@
+// What of the circle of hue is skin.
+#pragma once
+
+#include "core/vision/segmentation/kernels/hue.h"
+#include "core/vision/segmentation/kernels/kernels.h"
+#include "core/vision/segmentation/skin.h"
+
+namespace enc::segmentation {
+
+// Hues `first` to `first + count - 1`, modulo kHues.
+struct Arc {
+  int first = 0, count = 0;
+  [[nodiscard]] bool has(int hue) const { return hue != kNoHue && (hue - first + kHues) % kHues < count; }
+};
+
+// A probability above a threshold is a difference below one: at most `spreads` spreads from the mean.
+[[nodiscard]] Arc skin_arc(const SkinModel& model, double spreads);
+
+// As the kernels take it.
+[[nodiscard]] Cut cut_of(const Arc& arc, const HueRule& rule);
+
+}  // namespace enc::segmentation

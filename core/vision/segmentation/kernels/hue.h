@@ -1,0 +1,62 @@
+// The hue of a pixel in integers, exact: 0 to 1535 once round the circle, 256 to each of its six sextants,
+// with red at 0, yellow at 256, green at 512, blue at 1024. Within a sextant it is floor(256 d / chroma),
+// where chroma = most - least of R, G, B, and d is how far the middle one has come from one end to the other.
+//
+// Where the chroma or the most is below HueRule the hue is that of the noise: the pixel has none. It is then
+// in no bin of hue, and never skin. [VisHap 2.1.1] has no rule for it. The chroma decides how good a hue is,
+// however dark the pixel: skin of a brightest channel of 20 has a chroma of 12.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numbers>
+
+namespace enc::segmentation {
+
+inline constexpr int kHues = 1536, kSextant = 256;
+inline constexpr int kNoHue = -1;
+
+struct HueRule {
+  std::uint8_t least_chroma = 12;  // of 255: with 1.5 of noise the hue is then good to 0.15 rad
+  std::uint8_t least_value = 16;   // of 255: of the brightest channel; below, black itself has a colour
+};
+
+namespace detail {
+
+// Sextant and d / chroma.
+struct Position {
+  int sextant = 0, d = 0, chroma = 0;
+};
+inline Position position_of(int r, int g, int b, int most, int least) {
+  const int chroma = most - least;
+  if (r == most && b == least) return {0, g - b, chroma};
+  if (g == most && b == least) return {1, g - r, chroma};
+  if (g == most && r == least) return {2, b - r, chroma};
+  if (b == most && r == least) return {3, b - g, chroma};
+  if (b == most && g == least) return {4, r - g, chroma};
+  return {5, r - b, chroma};
+}
+
+}  // namespace detail
+
+[[nodiscard]] inline bool has_hue(int most, int least, const HueRule& rule) {
+  return most - least >= std::max<int>(1, rule.least_chroma) && most >= rule.least_value;
+}
+
+[[nodiscard]] inline int hue_of(int r, int g, int b, const HueRule& rule) {
+  const int most = std::max(r, std::max(g, b)), least = std::min(r, std::min(g, b));
+  if (!has_hue(most, least, rule)) return kNoHue;
+  const auto at = detail::position_of(r, g, b, most, least);
+  return (kSextant * at.sextant + kSextant * at.d / at.chroma) % kHues;
+}
+
+// The same before rounding down, rad, 0 to 2 pi; of a pixel that has a hue.
+[[nodiscard]] inline double exact_hue(int r, int g, int b) {
+  const auto at = detail::position_of(r, g, b, std::max(r, std::max(g, b)), std::min(r, std::min(g, b)));
+  return (at.sextant + static_cast<double>(at.d) / at.chroma) * (std::numbers::pi / 3.0);
+}
+
+// The middle of what `hue` stands for, rad, 0 to 2 pi.
+[[nodiscard]] inline double angle_of(int hue) { return (hue + 0.5) * (2.0 * std::numbers::pi / kHues); }
+
+}  // namespace enc::segmentation

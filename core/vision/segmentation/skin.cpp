@@ -1,0 +1,80 @@
+#include "core/vision/segmentation/skin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+
+#include "core/error.h"
+
+namespace enc {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+}  // namespace
+
+void SkinLearner::add(const ImageView& image, const Mask& hand) {
+  if (image.width != hand.width || image.height != hand.height)
+    throw Error("the image has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                " pixels and its mask " + std::to_string(hand.width) + " x " + std::to_string(hand.height) +
+                "; expected the same");
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      if (!hand.at(x, y)) continue;
+      const std::uint8_t* p = image.at(x, y);
+      const int hue = segmentation::hue_of(p[0], p[1], p[2], rule_);
+      if (hue == segmentation::kNoHue) continue;
+      // A hue of 0 may be the end of the last sextant, too.
+      const double middle = segmentation::angle_of(hue);
+      ++count_[static_cast<std::size_t>(hue)];
+      sum_[static_cast<std::size_t>(hue)] +=
+          middle + std::remainder(segmentation::exact_hue(p[0], p[1], p[2]) - middle, kTurn);
+      ++pixels_;
+    }
+}
+
+SkinModel SkinLearner::model() const {
+  if (pixels_ < 2) throw Error("no skin to learn from: expected masks that have pixels with a hue");
+  // Each with the mean of the exact hues that are its own.
+  const auto each = [this](const auto& take) {
+    for (std::size_t hue = 0; hue < count_.size(); ++hue)
+      if (count_[hue] != 0)
+        take(sum_[hue] / static_cast<double>(count_[hue]), static_cast<double>(count_[hue]));
+  };
+  double x = 0.0, y = 0.0;
+  each([&](double hue, double n) {
+    x += n * std::cos(hue);
+    y += n * std::sin(hue);
+  });
+  const auto all = static_cast<double>(pixels_);
+  if (std::hypot(x, y) < 1e-3 * all)
+    throw Error("the masks' pixels have all hues alike; expected the hues of skin");
+  SkinModel model;
+  model.hue = std::atan2(y, x);
+  // Mean and spread of the differences from there, each the short way round.
+  double sum = 0.0, squares = 0.0;
+  each([&](double hue, double n) {
+    const double away = std::remainder(hue - model.hue, kTurn);
+    sum += n * away;
+    squares += n * away * away;
+  });
+  const double mean = sum / all;
+  model.hue += mean;
+  if (model.hue < 0.0) model.hue += kTurn;
+  model.spread = std::sqrt(std::max(0.0, squares / all - mean * mean));
+  return model;
+}
+
+SkinModel learn_skin(std::span<const ImageView> images, std::span<const Mask> hands,
+                     const segmentation::HueRule& rule) {
+  if (images.size() != hands.size())
+    throw Error(std::to_string(images.size()) + " images with " + std::to_string(hands.size()) +
+                " masks of hands; expected one for each");
+  SkinLearner learner(rule);
+  for (std::size_t i = 0; i < images.size(); ++i) learner.add(images[i], hands[i]);
+  return learner.model();
+}
+
+}  // namespace enc

@@ -1,0 +1,95 @@
+#include "core/vision/stereo/match.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+
+#include "core/vision/rig/vision_check.h"
+
+namespace enc {
+namespace {
+
+constexpr int kBeside = 2;  // px on either side of the best place that belong to it
+
+bool all_on(const Mask& mask, int x0, int y0, int columns, int rows) {
+  for (int y = y0; y < y0 + rows; ++y)
+    if (std::memchr(mask.row(y) + x0, 0, static_cast<std::size_t>(columns)) != nullptr) return false;
+  return true;
+}
+
+static_assert(kMostDisparity == match_kernel::kMost);
+
+}  // namespace
+
+Matcher::Matcher(const MatchSpec& spec, const RectifiedPair& pair, const match_kernel::Kernel& kernel)
+    : spec_(spec), kernel_(kernel) {
+  const double product = pair.focal * pair.baseline;
+  check(spec, product);
+  const double most = std::ceil(product / spec.nearest);
+  most_ = std::max(2, static_cast<int>(most));
+  least_ = std::max(0, static_cast<int>(std::floor(product / spec.farthest)) - 1);
+}
+
+Region Matcher::left_of(const Region& wanted) const {
+  const int aside = spec_.columns / 2 + (spec_.agreement >= 0.0 ? most_ - least_ : 0);
+  return {wanted.x0 - aside, wanted.y0 - spec_.rows / 2, wanted.x1 + aside, wanted.y1 + spec_.rows / 2};
+}
+
+Region Matcher::right_of(const Region& wanted) const {
+  return {wanted.x0 - most_ - spec_.columns / 2, wanted.y0 - spec_.rows / 2,
+          wanted.x1 - least_ + spec_.columns / 2, wanted.y1 + spec_.rows / 2};
+}
+
+void Matcher::compare(const Block& block, const std::uint8_t* strip, std::size_t stride, int count) {
+  if (block.on != nullptr)
+    kernel_.compare_masked(block.level, block.stride, block.on, block.on_stride, strip, stride, spec_.columns,
+                           spec_.rows, count, cost_.data());
+  else
+    kernel_.compare(block.level, block.stride, strip, stride, spec_.columns, spec_.rows, count, cost_.data());
+}
+
+// A block of an even width has its middle between two columns: the upper left pixel of the block of (x, y) is
+// (x - columns / 2, y - rows / 2).
+Disparity Matcher::at(const Grey& left, const Grey& right, int x, int y, const Mask* mask) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const int x0 = x - spec_.columns / 2, y0 = y - spec_.rows / 2;
+  const bool inside =
+      x0 >= 0 && y0 >= 0 && x0 + spec_.columns <= left.width && y0 + spec_.rows <= left.height;
+  const int most = std::min(most_, x0);
+  const int count = most - least_ + 1;
+  if (!inside || count < 3) return {Matched::outside, kNone};
+  std::uint16_t* cost = cost_.data();
+  Block block{left.at(x0, y0), left.stride, nullptr, 0};
+  if (mask != nullptr && !all_on(*mask, x0, y0, spec_.columns, spec_.rows)) {
+    block.on = mask->row(y0) + x0;
+    block.on_stride = static_cast<std::size_t>(mask->width);
+  }
+  compare(block, right.at(x0 - most, y0), right.stride, count);
+  const int best = kernel_.least(cost, count);
+  if (best == 0 || best == count - 1) return {Matched::at_limit, kNone};
+  const int below = cost[best - 1], lowest = cost[best], above = cost[best + 1];
+  const int from = std::max(0, best - kBeside), to = std::min(count - 1, best + kBeside);
+  std::fill(cost + from, cost + to + 1, std::uint16_t{0xffff});
+  const int next = cost[kernel_.least(cost, count)];
+  if (static_cast<double>(next) <= (1.0 + spec_.uniqueness) * lowest) return {Matched::not_unique, kNone};
+  const int disparity = most - best;
+  block.level = right.at(x0 - disparity, y0);
+  block.stride = right.stride;
+  if (spec_.agreement >= 0.0 && !mutual(left, block, x0 - disparity, y0, disparity))
+    return {Matched::not_mutual, kNone};
+  const int bend = below - 2 * lowest + above;
+  const double shift = bend > 0 ? 0.5 * (below - above) / bend : 0.0;  // of the place; to the right
+  return {Matched::yes, static_cast<float>(disparity - shift)};
+}
+
+// A block that is at `column` of the right image, sought in the left one.
+bool Matcher::mutual(const Grey& left, const Block& block, int column, int y, int disparity) {
+  const int most = std::min(most_, left.width - spec_.columns - column);
+  compare(block, left.at(column + least_, y), left.stride, most - least_ + 1);
+  const int back = least_ + kernel_.least(cost_.data(), most - least_ + 1);
+  return std::abs(back - disparity) <= spec_.agreement;
+}
+
+}  // namespace enc

@@ -1,0 +1,92 @@
+#include "core/vision/vision_tracker.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "core/vision/rig/vision_check.h"
+
+namespace enc {
+namespace {
+
+constexpr std::array kReasons{"", "another size than the rig file's", "an image is missing",
+                              "a stamp not after the last one, or to come"};
+
+std::string text_of(const ImageSize& size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height) + " px";
+}
+
+}  // namespace
+
+VisionTracker::VisionTracker(std::unique_ptr<StereoCamera> camera, const StereoRig& rig,
+                             FingerTracker tracker)
+    : camera_(std::move(camera)), tracker_(std::move(tracker)) {
+  check_timing(rig);
+  if (const ImageSize is = camera_->size(); is != ImageSize{} && is != rig.size())
+    throw Error("the images are " + text_of(is) + " and the rig file says " + text_of(rig.size()) +
+                    "; expected the same; give the numbers of the camera that made them",
+                "rig.camera.width_px");
+  latency_ = from_seconds(rig.latency);
+  patience_ = from_seconds(rig.latency + 3.0 / rig.rate);
+}
+
+std::string VisionTracker::describe() const { return "fingertip of " + camera_->describe(); }
+
+std::vector<std::string> VisionTracker::remarks() const {
+  std::vector<std::string> lines = camera_->remarks();
+  if (!tracker_.learned())
+    lines.push_back("vision: the background was not learned, of which " + std::to_string(background_) +
+                    " frames came; no finger was looked for");
+  if (tracker_.finger_in_background())
+    lines.emplace_back(
+        "vision: a finger stood in the frames of which the background was learned, and is seen badly there; "
+        "start again without it");
+  for (std::size_t i = 1; i < refused_.size(); ++i)
+    if (refused_[i] > 0)
+      lines.push_back("vision: " + std::to_string(refused_[i]) + " frames were not used: " + kReasons[i]);
+  return lines;
+}
+
+void VisionTracker::take(Time now, const Stamped<StereoFrame>& frame) {
+  if (frame.health != Health::ok) return;
+  const bool to_come = frame.t > now;
+  Finger finger;
+  if (!to_come) finger = tracker_.see(frame.value, frame.t);
+  if (const Refused refused = to_come ? Refused::stamp : tracker_.stats().refused; refused != Refused::no) {
+    ++refused_[static_cast<std::size_t>(refused)];
+    return;
+  }
+  background_ += finger.state == FingerState::learning ? 1 : 0;
+  if (count_ == line_.size()) {  // loses the oldest, as a socket's buffer would
+    first_ = (first_ + 1) % line_.size();
+    --count_;
+  }
+  line_[(first_ + count_) % line_.size()] = finger;
+  ++count_;
+}
+
+bool VisionTracker::stalled(Time now, Stamped<TrackedTool>& newest) {
+  if (said_stale_ || last_.health == Health::absent || age(now, last_.t) <= seconds(patience_)) return false;
+  said_stale_ = true;
+  last_.health = Health::stale;
+  newest = last_;
+  return true;
+}
+
+bool VisionTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
+  if (camera_->poll(now, frame_)) take(now, frame_);
+  bool due = false;
+  while (count_ > 0 && age(now, line_[first_].exposed) >= seconds(latency_)) {  // the newest that is due
+    told_ = line_[first_];
+    first_ = (first_ + 1) % line_.size();
+    --count_;
+    due = true;
+  }
+  if (!due) return stalled(now, newest);
+  said_stale_ = false;
+  last_ = {{-1, {}}, told_.exposed, Health::ok};
+  if (told_.state == FingerState::seen) last_.value = {kFinger, {Quat::Identity(), told_.tip}};
+  newest = last_;
+  return true;
+}
+
+}  // namespace enc

@@ -1,0 +1,39 @@
+// Where stereo frames come from: a folder of images, or a video that ffmpeg reads. A source may wait: it is
+// read by a thread of its own (playback.h).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hw_drivers/images/files/pair_list.h"
+
+namespace enc::images {
+
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  // The next pair, of size(); false at the end. Throws Error in one line. `into` keeps its memory.
+  virtual bool next(ImagePair& into) = 0;
+  [[nodiscard]] virtual ImageSize size() const = 0;  // of each image
+  [[nodiscard]] virtual std::string words() const = 0;
+  // From another thread: a next() that waits comes back soon, and all others say false.
+  virtual void stop() noexcept {}
+};
+
+// [driver.images]
+struct Reel {
+  std::string path;
+  Layout layout = Layout::pairs;
+  double rate = 20.0;      // Hz
+  std::int64_t start = 0;  // number of the first frame
+  bool repeat = false;
+};
+
+// Looks at all that can be known beforehand. Throws Error in one line.
+[[nodiscard]] std::unique_ptr<FrameSource> open_reel(const Reel& reel);
+
+// The two kinds.
+[[nodiscard]] std::unique_ptr<FrameSource> open_folder(const Reel& reel);
+[[nodiscard]] std::unique_ptr<FrameSource> open_video(const Reel& reel);
+
+}  // namespace enc::images

@@ -1,0 +1,25 @@
+// The module encounter_camera: the twin's stereo head. OpenGL is mapped by it alone.
+#include "core/module.h"
+
+#include "sim/camera/context.h"
+#include "sim/camera/stage.h"
+#include "sim/camera/twin_camera.h"
+
+namespace enc::sim {
+namespace {
+
+std::unique_ptr<Stage> stage(const StageSpec& spec) { return std::make_unique<Stage>(spec); }
+
+std::unique_ptr<StereoCamera> camera(const TwinCameraSpec& spec, Show show) {
+  return std::make_unique<TwinCamera>(spec, std::move(show));
+}
+
+constexpr CameraModule kCamera{stage, camera, renderer_problem};
+constexpr ModuleInfo kInfo{.name = "camera", .camera = &kCamera};
+
+}  // namespace
+}  // namespace enc::sim
+
+extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
+  return &enc::sim::kInfo;
+}

@@ -1,0 +1,234 @@
+// MuJoCo's classic renderer, one drawing for each eye. The background never changes; a hand is appended to it
+// as geoms of the picture alone. Light, exposure and white balance are strengths of lamps, so that they are
+// exact and saturate where a sensor does.
+#include "sim/camera/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "core/error.h"
+#include "sim/camera/context.h"
+#include "sim/camera/hand.h"
+#include "sim/camera/scenery.h"
+#include "sim/camera/sensor.h"
+#include "sim/camera/warp.h"
+#include "sim/view/renderer.h"
+
+namespace enc::sim {
+namespace {
+
+constexpr double kNear = 0.05, kFar = 6.0;  // m
+constexpr int kRoom = 256;                  // geoms
+
+// OpenGL would cut light at 1 before the texture darkens it.
+void let_light_exceed_one(const DrawingContext& context) {
+  constexpr unsigned kClampVertexColour = 0x891A;
+  const auto clamp = reinterpret_cast<void (*)(unsigned, unsigned)>(context.function("glClampColor"));
+  if (clamp == nullptr)
+    throw Error("this OpenGL has no glClampColor: Mesa is too old", {}, ErrorKind::device);
+  clamp(kClampVertexColour, 0);
+}
+
+mjvGLCamera gl_camera(const Warp& warp, const Pose<'C', 'D'>& X_CE) {
+  mjvGLCamera c{};
+  const Vec3 forward = X_CE.q() * Vec3(0, 0, 1), up = X_CE.q() * Vec3(0, -1, 0);
+  for (int i = 0; i < 3; ++i) {
+    c.pos[i] = static_cast<float>(X_CE.p()(i));
+    c.forward[i] = static_cast<float>(forward(i));
+    c.up[i] = static_cast<float>(up(i));
+  }
+  c.frustum_center = static_cast<float>(kNear * 0.5 * (warp.left() + warp.right()));
+  c.frustum_width = static_cast<float>(kNear * 0.5 * (warp.right() - warp.left()));  // half of it
+  c.frustum_top = static_cast<float>(-kNear * warp.top());
+  c.frustum_bottom = static_cast<float>(-kNear * warp.bottom());
+  c.frustum_near = static_cast<float>(kNear);
+  c.frustum_far = static_cast<float>(kFar);
+  return c;
+}
+
+const StageSpec& checked(const StageSpec& spec) {
+  const StereoRig& c = spec.camera;
+  if (c.width < 16 || c.height < 16 || c.width > 4096 || c.height > 4096)
+    throw Error("a camera's images are 16 to 4096 pixels wide and high", "truth.camera.width_px");
+  for (const Lens* lens : {&c.left, &c.right})
+    if (!(lens->focal_x > 1.0 && lens->focal_y > 1.0 && std::isfinite(lens->centre_x + lens->centre_y)))
+      throw Error("a camera's focal length is more than 1 px", "truth.camera.focal_px");
+  if (!c.X_CD.valid()) throw Error("the pose of the right camera is no pose", "truth.camera.baseline_mm");
+  const int samples = spec.finish.samples;
+  if (samples < 0 || samples > 16 || (samples & (samples - 1)) != 0)
+    throw Error("samples of a pixel are 0, 1, 2, 4, 8 or 16");
+  if (!(spec.sensor.exposure >= 0.0)) throw Error("an exposure is not negative", "truth.camera.exposure");
+  return spec;
+}
+
+}  // namespace
+
+struct Stage::Parts {
+  explicit Parts(const StageSpec& given);
+
+  void light(const Light& light);
+  void render(int eye, bool segments);
+  void read(int eye, Image& picture, std::uint64_t frame);
+  void tell_truth(const HandPose* hand, const HandLook& look, PixelTruth& truth);
+
+  StageSpec spec;
+  int width, height;
+  std::unique_ptr<DrawingContext> context;
+  ModelPtr model;
+  std::array<Warp, 2> warp;
+  Renderer renderer;
+  std::array<mjvGLCamera, 2> eyes;
+  SensorNoise noise;
+  std::optional<HandDrawing> hands;
+  std::vector<std::uint8_t> drawing;
+  std::vector<float> depth;
+};
+
+Stage::Parts::Parts(const StageSpec& given)
+    : spec(checked(given)),
+      width(static_cast<int>(given.camera.width)),
+      height(static_cast<int>(given.camera.height)),
+      context(drawing_context()),
+      model(scenery_model(given)),
+      warp{Warp(given.camera.left, width, height), Warp(given.camera.right, width, height)},
+      renderer(model.get(), kRoom, mjFONTSCALE_50, std::max(warp[0].width(), warp[1].width()),
+               std::max(warp[0].height(), warp[1].height())),
+      eyes{gl_camera(warp[0], Pose<'C', 'D'>::identity()), gl_camera(warp[1], given.camera.X_CD)},
+      noise(given.sensor.noise, given.seed) {
+  let_light_exceed_one(*context);
+  const DataPtr data(mj_makeData(model.get()));
+  if (!data) throw Error("not enough memory for a scenery", {}, ErrorKind::device);
+  mj_kinematics(model.get(), data.get());
+  mjvOption option;
+  mjv_defaultOption(&option);
+  mjvCamera camera;
+  mjv_defaultCamera(&camera);
+  mjv_updateScene(model.get(), data.get(), &option, nullptr, &camera, mjCAT_ALL, &renderer.scene);
+  hands.emplace(model.get(), renderer.scene);
+  for (const mjtRndFlag flag : {mjRND_FOG, mjRND_HAZE, mjRND_SKYBOX}) renderer.scene.flags[flag] = 0;
+  renderer.scene.flags[mjRND_SHADOW] = spec.finish.shadows ? 1 : 0;
+  renderer.scene.flags[mjRND_REFLECTION] = spec.finish.reflections ? 1 : 0;
+  const std::size_t most =
+      std::max(static_cast<std::size_t>(warp[0].width()) * static_cast<std::size_t>(warp[0].height()),
+               static_cast<std::size_t>(warp[1].width()) * static_cast<std::size_t>(warp[1].height()));
+  drawing.resize(3 * most);
+}
+
+// A lamp over the viewer's shoulder, a weaker one beside the camera, and what the room throws back.
+void Stage::Parts::light(const Light& light) {
+  mjvScene& scene = renderer.scene;
+  scene.nlight = 2;
+  const double turned = 0.45 * std::numbers::pi * std::clamp(light.side, -1.0, 1.0);
+  const Vec3 from[2] = {Vec3(std::sin(turned), -0.75, -std::cos(turned)).normalized(), Vec3(0, 0, -1)};
+  const double strength[2] = {0.62, 0.26}, around[2] = {0.30, 0.0};
+  for (int i = 0; i < 2; ++i) {
+    mjvLight& lamp = scene.lights[i];
+    lamp = mjvLight{};
+    lamp.id = -1;
+    lamp.type = mjLIGHT_DIRECTIONAL;
+    lamp.attenuation[0] = 1.0F;
+    lamp.castshadow = i == 0 ? 1 : 0;
+    for (int c = 0; c < 3; ++c) {
+      const double gain = light.gain * spec.sensor.exposure *
+                          static_cast<double>(light.colour[static_cast<std::size_t>(c)] *
+                                              spec.sensor.white[static_cast<std::size_t>(c)]);
+      lamp.dir[c] = static_cast<float>(-from[i](c));
+      lamp.pos[c] = static_cast<float>(from[i](c));
+      lamp.diffuse[c] = static_cast<float>(gain * strength[i]);
+      lamp.ambient[c] = static_cast<float>(gain * around[i]);
+    }
+  }
+}
+
+void Stage::Parts::render(int eye, bool segments) {
+  const auto e = static_cast<std::size_t>(eye);
+  renderer.scene.camera[0] = renderer.scene.camera[1] = eyes[e];
+  renderer.scene.flags[mjRND_SEGMENT] = renderer.scene.flags[mjRND_IDCOLOR] = segments ? 1 : 0;
+  mjr_render({0, 0, warp[e].width(), warp[e].height()}, &renderer.scene, &renderer.context);
+}
+
+void Stage::Parts::read(int eye, Image& picture, std::uint64_t frame) {
+  const Warp& w = warp[static_cast<std::size_t>(eye)];
+  if (picture.width != width || picture.height != height) picture = Image(width, height);
+  mjr_readPixels(drawing.data(), nullptr, {0, 0, w.width(), w.height()}, &renderer.context);
+  w.colours(drawing.data(), picture);
+  noise.add(picture, frame, static_cast<std::uint64_t>(eye));
+}
+
+namespace {
+
+// A cap in the picture: its centre, and the radius of the circle of its outline's area.
+void tell_cap(const Lens& lens, const Vec3& centre, double radius, PixelTruth& truth) {
+  truth.column = truth.row = truth.radius = kUnset;
+  const double distance2 = centre.squaredNorm();
+  if (!(centre.z() > radius)) return;
+  const auto [column, row] = projected(lens, centre);
+  truth.column = column;
+  truth.row = row;
+  // The outline is the circle of the sphere in which rays from the camera touch it.
+  const double share = radius * radius / distance2;
+  const Vec3 middle = (1.0 - share) * centre;
+  const double rim = radius * std::sqrt(1.0 - share);
+  const Vec3 a = centre.unitOrthogonal(), b = centre.normalized().cross(a);
+  constexpr int kPoints = 256;
+  double area = 0.0;
+  std::array<double, 2> before{};
+  for (int i = 0; i <= kPoints; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kPoints;
+    const auto p = projected(lens, middle + rim * (std::cos(angle) * a + std::sin(angle) * b));
+    if (i > 0) area += 0.5 * (before[0] * p[1] - p[0] * before[1]);
+    before = p;
+  }
+  truth.radius = std::sqrt(std::abs(area) / std::numbers::pi);
+}
+
+}  // namespace
+
+void Stage::Parts::tell_truth(const HandPose* hand, const HandLook& look, PixelTruth& truth) {
+  const Warp& w = warp[0];
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (truth.skin.width != width || truth.skin.height != height) truth.skin = Mask(width, height);
+  truth.depth.resize(pixels);
+  depth.resize(static_cast<std::size_t>(w.width()) * static_cast<std::size_t>(w.height()));
+  render(0, true);
+  mjr_readPixels(drawing.data(), depth.data(), {0, 0, w.width(), w.height()}, &renderer.context);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t at = w.nearest(x, y);
+      const std::uint8_t* c = drawing.data() + 3 * at;
+      const int geom = (c[0] + 256 * c[1] + 65536 * c[2]) - 1;
+      const bool is_skin = geom < renderer.scene.ngeom && hands->is_skin(geom);
+      truth.skin.row(y)[x] = is_skin ? 255 : 0;
+      const double d = static_cast<double>(depth[at]);
+      truth.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)] =
+          d >= 1.0 ? std::numeric_limits<float>::infinity()
+                   : static_cast<float>(kNear * kFar / (kFar - d * (kFar - kNear)));
+    }
+  truth.column = truth.row = truth.radius = kUnset;
+  if (hand != nullptr) tell_cap(spec.camera.left, hand->tip.e(), 0.5 * look.finger_width, truth);
+}
+
+Stage::Stage(const StageSpec& spec) : parts_(std::make_unique<Parts>(spec)) {}
+Stage::~Stage() { parts_->context->make_current(); }
+
+void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
+                 Image& left, Image& right, PixelTruth* truth) {
+  Parts& p = *parts_;
+  p.context->make_current();
+  p.renderer.scene.ngeom = p.hands->background();
+  if (hand != nullptr) p.hands->add(*hand, look, p.renderer.scene);
+  p.light(light);
+  p.render(0, false);
+  p.read(0, left, frame);
+  p.render(1, false);
+  p.read(1, right, frame);
+  if (truth != nullptr) p.tell_truth(hand, look, *truth);
+}
+
+const char* Stage::renderer() const { return parts_->context->name(); }
+
+}  // namespace enc::sim

@@ -1,0 +1,113 @@
+// What stands before the stereo head of the twin, drawn off screen: a background, a hand, light, lenses and
+// sensors. Truth per pixel is for benchmarks and tests alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/devices/stereo_camera.h"
+#include "core/devices/stereo_rig.h"
+#include "core/frames.h"
+#include "core/time.h"
+#include "core/vision/image.h"
+#include "sim/camera/picture_spec.h"
+
+namespace enc::sim {
+
+// Linear, 0 to 1; so are the images: a sensor's value is proportional to the light, without gamma.
+using Rgb = std::array<float, 3>;
+
+struct HandLook {
+  Rgb skin{0.76F, 0.55F, 0.43F};
+  Rgb sleeve{0.15F, 0.22F, 0.45F};
+  double finger_width = 0.016;  // m, at the cap
+  double taper = 1.15;          // width at the knuckle over that at the cap
+  double bare = 0.05;           // m of the forearm that the sleeve leaves bare
+};
+
+// A pointing hand: one finger straight, the others folded.
+struct HandPose {
+  Point<'C'> tip;     // centre of the cap's sphere
+  Vec<'C'> along;     // from knuckle to tip; any length
+  double roll = 0.0;  // rad, about it
+};
+
+struct Light {
+  double gain = 1.0;  // of all light
+  double side = 0.0;  // -1 to 1: how far the lamp is to the left or right
+  Rgb colour{1, 1, 1};
+};
+
+struct SensorLook {
+  double noise = 1.5;     // of 255, rms
+  double exposure = 1.0;  // times the light
+  Rgb white{1, 1, 1};     // gains of the channels
+};
+
+// What costs time and is off: 19 ms of CPU a pair without.
+struct Finish {
+  int samples = 0;  // of each pixel, for smooth edges; 0 or a power of two to 16
+  bool shadows = false, reflections = false;
+};
+
+struct StageSpec {
+  StereoRig camera;  // the true one
+  Scenery scenery = Scenery::office;
+  std::uint64_t seed = 1;  // of the scenery's things and colours, and of noise
+  SensorLook sensor;
+  Finish finish;
+};
+
+struct PixelTruth {
+  Mask skin;                             // of the left image
+  std::vector<float> depth;              // m along z of C, of the left image; infinite where nothing is
+  double column = kUnset, row = kUnset;  // of the centre of the cap, px, in the left image
+  double radius = kUnset;                // of the circle of its outline's area, px
+};
+
+// Draws on the thread that made it: an OpenGL context belongs to one thread at a time.
+class Stage {
+ public:
+  // Throws Error (kind device) where neither EGL nor OSMesa can draw.
+  explicit Stage(const StageSpec& spec);
+  virtual ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  // Null hand: the background alone. `frame` seeds the noise. Truth where asked for.
+  virtual void draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
+                    Image& left, Image& right, PixelTruth* truth = nullptr);
+  [[nodiscard]] virtual const char* renderer() const;  // "EGL", "OSMesa"
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// What a camera of the twin looks at, at an exposure.
+struct Shown {
+  bool hand = false;  // else the background alone
+  HandPose pose;
+  HandLook look;
+  Light light;
+};
+using Show = std::function<Shown(Time exposed)>;
+
+struct TwinCameraSpec {
+  StageSpec stage;
+  Time stalls = Time::max();  // no exposure from then on
+};
+
+// The module encounter_camera. Whoever asks draws on the thread that asked.
+struct CameraModule {
+  std::unique_ptr<Stage> (*stage)(const StageSpec& spec) = nullptr;
+  std::unique_ptr<StereoCamera> (*camera)(const TwinCameraSpec& spec, Show show) = nullptr;
+  // Why EGL ("egl") or OSMesa ("osmesa") cannot draw; empty where it can.
+  std::string (*renderer_problem)(const char* kind) = nullptr;
+};
+
+}  // namespace enc::sim

@@ -1,0 +1,55 @@
+// How one camera of a stage is drawn: an off-axis frustum with its exact intrinsics and, where its lens bends
+// the picture, a somewhat larger drawing that is bent afterwards.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/devices/stereo_rig.h"
+#include "core/frames.h"
+#include "core/vision/image.h"
+
+namespace enc::sim {
+
+// On the plane z = 1: where a lens moves what a pinhole would see at (x, y), and back. The way back is NaN
+// where no point is moved there.
+[[nodiscard]] std::array<double, 2> distorted(const Lens& lens, double x, double y);
+[[nodiscard]] std::array<double, 2> undistorted(const Lens& lens, double x, double y);
+// Of a point in front of the camera, in its own frame: px.
+[[nodiscard]] std::array<double, 2> projected(const Lens& lens, const Vec3& point);
+
+class Warp {
+ public:
+  // Throws Error where the lens bends so far that a pixel has no direction, or needs a drawing more than
+  // three times as wide or high.
+  Warp(const Lens& lens, int width, int height);
+
+  [[nodiscard]] bool bends() const { return bends_; }
+  // The drawing: its size, and its edges on the plane z = 1, y down.
+  [[nodiscard]] int width() const { return drawn_width_; }
+  [[nodiscard]] int height() const { return drawn_height_; }
+  [[nodiscard]] double left() const { return left_; }
+  [[nodiscard]] double right() const { return right_; }
+  [[nodiscard]] double top() const { return top_; }
+  [[nodiscard]] double bottom() const { return bottom_; }
+
+  // The picture out of the drawing, whose first row is the lowest, as OpenGL has it.
+  void colours(const std::uint8_t* drawing, Image& picture) const;
+  // As colours(), of the pixel of the drawing that is nearest.
+  [[nodiscard]] std::size_t nearest(int x, int y) const;
+
+ private:
+  struct Tap {  // upper left of four neighbours in the drawing, and shares of the right and lower ones
+    std::uint32_t at;
+    std::uint8_t right, lower;  // of 256
+  };
+  void find_taps(const Lens& lens);
+
+  int width_, height_, drawn_width_, drawn_height_;
+  double left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
+  bool bends_ = false;
+  std::vector<Tap> taps_;
+};
+
+}  // namespace enc::sim

@@ -1,0 +1,22 @@
+// Drawing on images, and their way into a file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/vision/image.h"
+
+namespace enc::sim {
+
+using Ink = std::array<std::uint8_t, 3>;
+
+void flip(Image& picture);  // OpenGL's first row is the lowest
+// A straight stroke of a width, in pixels, with a round dot of `dot` pixels radius at its end.
+void stroke(Image& picture, double x0, double y0, double x1, double y1, double width, double dot, Ink ink);
+// Inks the picture where the mask is bright.
+void ink_through(Image& picture, const Image& mask, Ink ink);
+[[nodiscard]] Image shrunk(const Image& picture, int factor);  // mean of factor x factor pixels
+[[nodiscard]] std::string png(const Image& picture);           // its bytes; throws Error
+
+}  // namespace enc::sim

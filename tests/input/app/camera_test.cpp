@@ -1,0 +1,192 @@
+// A scene that looks through a camera, as a person runs it: with the twin's, with a folder of images, and
+// what is refused.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "sim/picture/picture.h"
+#include "tests/input/app/program.h"
+
+namespace enc::tests {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kScene = ENCOUNTER_SOURCE_DIR "/models/scenes/camera/wall.toml";
+
+class Camera : public Program {
+ protected:
+  [[nodiscard]] static Result run(const Words& more) {
+    Words words{"run", kScene};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  }
+  // A rig whose camera is a folder of images.
+  [[nodiscard]] std::string images_rig(const std::string& folder) const {
+    std::string text = text_of(path("models/rigs/vishap.toml"));
+    text = replaced(text,
+                    "[camera]                              # of scenes that look through one: STH-MDCS "
+                    "(sources/tracking 7)\ndriver = \"sim\"",
+                    "[driver.images]\npath = \"" + folder + "\"\n[camera]\ndriver = \"images\"");
+    write("models/rigs/files.toml", text);
+    return path("models/rigs/files.toml");
+  }
+  [[nodiscard]] static std::string text_of(const std::string& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+};
+
+std::string line_of(const std::string& text, const std::string& begins) {
+  const std::size_t at = text.find("\n" + begins);
+  return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+}
+
+TEST_F(Camera, TheTwinsFingerIsSeenAndRepeatsToTheBit) {
+  const Result once = run({"--for-s", "3"}), again = run({"--for-s", "3"});
+  EXPECT_THAT(once.out, AllOf(HasSubstr("tracker (vision)"),
+                              HasSubstr("camera (640 x 480 at 20 Hz, simulated)"), HasSubstr("follow")))
+      << once.err;
+  EXPECT_FALSE(line_of(once.out, "state hash").empty()) << once.out;
+  EXPECT_EQ(line_of(once.out, "state hash"), line_of(again.out, "state hash"));
+}
+
+TEST_F(Camera, OneThatStallsIsHeldAndNothingIsFeltFromOldData) {
+  const Result stalls = run({"--for-s", "4", "--set", "truth.camera.stalls_at_s=2.5"});
+  EXPECT_THAT(stalls.out, AllOf(HasSubstr("hold        at 2.6"), HasSubstr("tracker lost or at fault"),
+                                HasSubstr("link        tracker lost at 2.6"), HasSubstr("; 0 contacts")));
+}
+
+TEST_F(Camera, NeedsATrackerAnArmAndARigThatHasOne) {
+  write("models/scenes/seen.toml", text_of(kScene));
+  const auto without = [&](const std::string& table) {
+    write("models/scenes/seen.toml", replaced(text_of(kScene), "\n" + table, "\n#" + table));
+    return refused({"check", path("models/scenes/seen.toml")});
+  };
+  EXPECT_THAT(without("[tracker]"), HasSubstr("expected a [tracker]; add it"));
+  EXPECT_THAT(refused({"check", kScene, "--rig", "sim"}),
+              HasSubstr("has none; expected a [camera] with a driver"));
+  edit("models/scenes/tennis_ball.toml", "[tracker]\n", "[tracker]\n[camera]\n");
+  EXPECT_THAT(refused({"check", ball(), "--rig", "vishap"}), HasSubstr("an [arm]"));
+}
+
+TEST_F(Camera, AFolderThatIsNoSequenceIsOneLine) {
+  const std::string rig = images_rig(path("nowhere"));
+  EXPECT_THAT(refused({"run", kScene, "--rig", rig, "--for-s", "1"}, 3),
+              HasSubstr("nowhere: is not there; expected a folder of images or a video"));
+}
+
+// A sequence that was recorded gives the same every time, however busy the machine is.
+TEST_F(Camera, AFolderRepeatsToTheBit) {
+  const std::string folder = path("frames");
+  std::filesystem::create_directory(folder);
+  for (int i = 10; i < 30; ++i)
+    for (const char* side : {"left", "right"}) {
+      Image image(640, 480);
+      std::fill(image.rgb.begin(), image.rgb.end(), static_cast<std::uint8_t>(4 * i));
+      std::ofstream(folder + "/" + side + std::to_string(i) + ".png", std::ios::binary) << sim::png(image);
+    }
+  const Words words{"run", kScene, "--rig", images_rig(folder), "--for-s", "0.9"};
+  const Result once = run_program(words), again = run_program(words);
+  EXPECT_EQ(once.code, 0) << once.err << once.out;
+  EXPECT_FALSE(line_of(once.out, "state hash").empty()) << once.out;
+  EXPECT_EQ(line_of(once.out, "state hash"), line_of(again.out, "state hash"));
+  EXPECT_THAT(once.out, Not(HasSubstr("came late")));
+
+  const Result few = run_program({"run", kScene, "--rig", images_rig(folder), "--for-s", "0.2"});
+  EXPECT_THAT(few.out, HasSubstr("the background was not learned, of which 5 frames came"));
+  Words half = words;
+  for (const char* set : {"rig.camera.width_px=320", "rig.camera.left.centre_px=[160, 240]",
+                          "rig.camera.right.centre_px=[160, 240]"})
+    half.insert(half.end(), {"--set", set});
+  EXPECT_THAT(refused(half), HasSubstr("640 x 480 px and the rig file says 320 x 480 px"));
+}
+
+// check refuses what run would, with the same words.
+TEST_F(Camera, NumbersThatDoNotFitEachOtherAreSaidByCheck) {
+  const auto line = [&](const std::string& set) { return refused({"check", kScene, "--set", set}); };
+  EXPECT_THAT(line("rig.vision.median_px=4"), HasSubstr("the side of the median filter is even"));
+  EXPECT_THAT(line("rig.vision.block_rows_px=6"), HasSubstr("a block has 6 rows; expected 3, 5, 7"));
+  EXPECT_THAT(line("rig.vision.block_columns_px=9"), HasSubstr("expected 8, 12 or 16"));
+  EXPECT_THAT(line("rig.vision.nearest_mm=50"), HasSubstr("raise 'nearest_mm'"));
+  EXPECT_THAT(line("rig.vision.farthest_mm=100"), HasSubstr("'farthest_mm' is not beyond"));
+  EXPECT_THAT(line("rig.camera.latency_ms=5000"), HasSubstr("more than 60 frames are on their way"));
+  EXPECT_THAT(line("rig.vision.search_px=[700, 0, 800, 100]"), HasSubstr("outside of the image"));
+  EXPECT_THAT(line("truth.camera.noise_of_255=31"), HasSubstr("noise_of_255"));
+  EXPECT_THAT(line("truth.camera.width_px=320"),
+              HasSubstr("the rig's images are 640 x 480 px and the twin's 320 x 480"));
+}
+
+// A rig whose numbers are in a file: they are its own, nothing beside it is passed over, and it is named.
+TEST_F(Camera, ACalibrationSaysAllAndIsNamed) {
+  write("models/rigs/head.toml",
+        "format = 1\ntitle = \"13 pairs\"\nwidth_px = 640\nheight_px = 480\n\n"
+        "[left]\nfocal_px = [700.5, 700]\ncentre_px = [318.25, 241.5]\n"
+        "distortion = [-0.1, 0.02, 0, 0, 0]\n\n"
+        "[right]\nfocal_px = [701, 701.5]\ncentre_px = [320, 240]\n"
+        "distortion = [-0.1, 0.02, 0, 0, 0]\nposition_mm = [90.1, 0.2, -0.1]\n"
+        "rotation_deg = [0.1, -0.4, 0.03]\n");
+  const std::string own =
+      replaced(text_of(path("models/rigs/vishap.toml")), "rate_hz = 20\nlatency_ms = 50\n\n[vision]",
+               "rate_hz = 20\nlatency_ms = 50\ncalibration = \"head.toml\"\n\n[vision]");
+  const std::string rig = path("models/rigs/mine.toml");
+  write("models/rigs/mine.toml", own);
+  const Result params = run_program({"params", kScene, "--rig", rig});
+  EXPECT_THAT(params.out,
+              AllOf(HasSubstr("\nrig.camera.calibration,,head.toml,"),
+                    HasSubstr("\nrig.camera.left.focal_px,px,\"[700.5, 700]\",head.toml,derived,"),
+                    HasSubstr("\nrig.camera.rate_hz,Hz,20,[VisHap 2.3.1],")))
+      << params.err;
+
+  const Result resolved = run_program({"check", kScene, "--rig", rig, "--resolved"});
+  EXPECT_THAT(resolved.out.substr(0, resolved.out.find('\n')), HasSubstr("mine.toml, camera by head.toml"));
+  write("alone.toml", resolved.out);
+  const std::string hash = line_of(run({"--rig", rig, "--for-s", "1"}).out, "state hash");
+  EXPECT_FALSE(hash.empty());
+  EXPECT_EQ(line_of(run_program({"run", path("alone.toml"), "--for-s", "1"}).out, "state hash"), hash);
+
+  EXPECT_THAT(refused({"check", kScene, "--rig", rig, "--set", "rig.camera.left.focal_px=[800, 800]"}),
+              AllOf(HasSubstr("--set rig.camera.left.focal_px=[800, 800]: "),
+                    HasSubstr("by the calibration 'head.toml'; expected one of the two")));
+  write("models/rigs/mine.toml", replaced(own, "calibration =", "width_px = 320\ncalibration ="));
+  const std::string place = line_and_column(text_of(rig), "width_px = 320");
+  EXPECT_THAT(refused({"check", kScene, "--rig", rig}),
+              HasSubstr(rig + ":" + place + ": rig.camera.width_px is said here and by the calibration"));
+}
+
+TEST_F(Camera, APictureIsDrawnWithoutVision) {
+  const Result r = run_program({"view", kScene, "--at-s", "0.5", "--shot", path("wall.png")});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("drawn without vision"));
+  EXPECT_THAT(text_of(path("wall.png")), testing::StartsWith("\x89PNG"));
+}
+
+TEST_F(Camera, ATrueLensHasFiveNumbers) {
+  EXPECT_THAT(refused({"check", kScene, "--set", "truth.camera.distortion=[-0.1, 0.02]"}),
+              HasSubstr("has 2 elements; expected 5 numbers"));
+}
+
+TEST_F(Camera, DoctorSaysWhatVisionNeeds) {
+  const Result there = run_program({"doctor"}), bare = run_program({"doctor"}, {{"PATH", "/nowhere"}});
+  EXPECT_THAT(there.out, AllOf(HasSubstr("\nok      vision, for scenes with a camera (module vision)\n"),
+                               HasSubstr("OpenCV, for calibrations out of images (module calibration)")));
+  EXPECT_THAT(bare.out, HasSubstr("\nnote    ffmpeg, for videos as a stereo camera: apt-get install ffmpeg"));
+}
+
+TEST_F(Camera, AWrongKeyOfVisionIsSaidWithItsPlace) {
+  EXPECT_THAT(refused({"check", kScene, "--set", "rig.vision.tile_px=0"}), HasSubstr("tile_px"));
+  EXPECT_THAT(refused({"check", kScene, "--set", "rig.vision.tile=5"}), HasSubstr("did you mean"));
+  EXPECT_THAT(
+      refused({"check", kScene, "--set", "rig.camera.left.centre_px=[900, 10]"}),
+      AllOf(HasSubstr("left.centre_px is 900, 10"), HasSubstr("a place in an image of 640 x 480 px")));
+  EXPECT_THAT(refused({"check", kScene, "--set", "rig.camera.right.position_mm=[-90, 0, 0]"}),
+              HasSubstr("a camera to the right of the left one"));
+}
+
+}  // namespace
+}  // namespace enc::tests

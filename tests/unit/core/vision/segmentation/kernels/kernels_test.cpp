@@ -1,0 +1,201 @@
+// The AVX2 kernels against their plain twins: equal to the bit, for every colour there is, over random images
+// and at every width up to where the fast form has run more than once.
+#include "core/vision/segmentation/kernels/kernels.h"
+
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/vision/segmentation/kernels/arc.h"
+
+namespace enc::segmentation {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Bytes noise(int n, std::uint32_t seed, int most = 255) {
+  std::mt19937 random(seed);
+  Bytes bytes(at(n));
+  for (auto& b : bytes) b = static_cast<std::uint8_t>(random() % static_cast<std::uint32_t>(most + 1));
+  return bytes;
+}
+Bytes mask(int n, std::uint32_t seed) {
+  Bytes bytes = noise(n, seed);
+  for (auto& b : bytes) b = b > 127 ? 255 : 0;
+  return bytes;
+}
+
+class Twins : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (avx2_kernels() == nullptr) GTEST_SKIP() << "this processor has no AVX2";
+  }
+  const Kernels& plain = plain_kernels();
+  const Kernels& fast = kernels();
+};
+
+// Arcs of all kinds: short, over red, on the edges of sextants, of more than half a turn, none and all.
+std::vector<Arc> arcs() {
+  std::vector<Arc> all{{0, 0},   {0, kHues},  {0, 1},      {1535, 2},  {256, 256},  {255, 2},
+                       {256, 1}, {1400, 300}, {100, 768},  {100, 769}, {900, 1535}, {512, 1},
+                       {511, 1}, {5, 1000},   {1280, 256}, {20, 100}};
+  std::mt19937 random(3);
+  for (int i = 0; i < 12; ++i)
+    all.push_back({static_cast<int>(random() % kHues), static_cast<int>(random() % (kHues + 1))});
+  return all;
+}
+
+// Red by red, each with every green and blue: 2^24 colours.
+TEST_F(Twins, ReadEveryColourAlike) {
+  const Cut cut = cut_of({1500, 130}, HueRule{});
+  constexpr int kN = 65536;
+  Bytes rgb(3 * kN), skin(kN), skin_fast(kN);
+  std::vector<std::uint32_t> columns(kN), columns_fast(kN);
+  for (int r = 0; r < 256; ++r) {
+    for (int i = 0; i < kN; ++i) {
+      rgb[at(3 * i)] = static_cast<std::uint8_t>(r);
+      rgb[at(3 * i + 1)] = static_cast<std::uint8_t>(i >> 8);
+      rgb[at(3 * i + 2)] = static_cast<std::uint8_t>(i & 255);
+    }
+    plain.read_rows({rgb.data(), kN, 1}, kN, kBins, cut, columns.data(), skin.data());
+    fast.read_rows({rgb.data(), kN, 1}, kN, kBins, cut, columns_fast.data(), skin_fast.data());
+    ASSERT_EQ(skin, skin_fast) << r;
+    ASSERT_EQ(columns, columns_fast) << r;
+    columns.assign(kN, 0U);
+    columns_fast.assign(kN, 0U);
+  }
+}
+
+// Colours that lie on the edges of sextants, and near them, among the others.
+Bytes edgy(int n, std::uint32_t seed) {
+  Bytes rgb = noise(3 * n, seed);
+  for (int i = 0; i + 2 < 3 * n; i += 3) {
+    if (i % 2 == 0) rgb[at(i + i % 3)] = rgb[at(i + (i + 1) % 3)];
+    if (i % 5 == 0) rgb[at(i + 2)] = rgb[at(i + 1)];
+    if (i % 7 == 0) rgb[at(i)] = rgb[at(i + 1)];
+  }
+  return rgb;
+}
+
+TEST_F(Twins, KnowEveryArcAlike) {
+  constexpr int kN = 4096;
+  const Bytes rgb = edgy(kN, 1);
+  for (const HueRule& rule : {HueRule{}, HueRule{0, 0}, HueRule{255, 255}, HueRule{40, 128}})
+    for (const Arc& arc : arcs()) {
+      const Cut cut = cut_of(arc, rule);
+      Bytes skin(kN), skin_fast(kN);
+      std::vector<std::uint32_t> columns(kN), columns_fast(kN);
+      plain.read_rows({rgb.data(), kN, 1}, kN, kBins, cut, columns.data(), skin.data());
+      fast.read_rows({rgb.data(), kN, 1}, kN, kBins, cut, columns_fast.data(), skin_fast.data());
+      EXPECT_EQ(skin, skin_fast) << arc.first << " " << arc.count;
+      EXPECT_EQ(columns, columns_fast);
+      for (int i = 0; i < kN; ++i) {
+        const int hue = hue_of(rgb[at(3 * i)], rgb[at(3 * i + 1)], rgb[at(3 * i + 2)], rule);
+        ASSERT_EQ(skin[at(i)] != 0, arc.has(hue)) << arc.first << " " << arc.count << " hue " << hue;
+      }
+    }
+}
+
+TEST_F(Twins, AgreeAtEveryWidth) {
+  const Cut cut = cut_of({1450, 200}, HueRule{});
+  for (int n = 0; n <= 100; ++n) {
+    const Bytes rgb = noise(3 * n, static_cast<std::uint32_t>(n)), a = mask(n, 1), b = mask(n, 2),
+                c = mask(n, 3);
+    for (const int bins : {kBins, 5}) {
+      Bytes skin(at(n)), skin_fast(at(n));
+      std::vector<std::uint32_t> columns(at(n), 7U), columns_fast(at(n), 7U);
+      plain.read_rows({rgb.data(), n, 1}, n, bins, cut, columns.data(), skin.data());
+      fast.read_rows({rgb.data(), n, 1}, n, bins, cut, columns_fast.data(), skin_fast.data());
+      EXPECT_EQ(skin, skin_fast) << n;
+      EXPECT_EQ(columns, columns_fast) << n;
+    }
+    Bytes row = b, row_fast = b;
+    plain.and_row(a.data(), n, row.data());
+    fast.and_row(a.data(), n, row_fast.data());
+    EXPECT_EQ(row, row_fast) << n;
+    plain.join_row(a.data(), b.data(), c.data(), n, row.data());
+    fast.join_row(a.data(), b.data(), c.data(), n, row_fast.data());
+    EXPECT_EQ(row, row_fast) << n;
+    Bytes sums = noise(n, 4), sums_fast = sums;
+    using Rows = std::pair<const std::uint8_t*, const std::uint8_t*>;
+    for (const auto& [add, drop] :
+         {Rows{a.data(), b.data()}, Rows{nullptr, c.data()}, Rows{a.data(), nullptr}}) {
+      plain.slide(add, drop, n, sums.data());
+      fast.slide(add, drop, n, sums_fast.data());
+      EXPECT_EQ(sums, sums_fast) << n;
+    }
+  }
+}
+
+TEST_F(Twins, FindTheSameMajority) {
+  for (const int side : {1, 3, 5, 9, kMostMedian})
+    for (int n = 1; n <= 80; n += 3) {
+      const Bytes sums = noise(n + side, static_cast<std::uint32_t>(n + side), side);
+      Bytes out(at(n)), out_fast(at(n));
+      plain.majority_row(sums.data(), n, side, out.data());
+      fast.majority_row(sums.data(), n, side, out_fast.data());
+      EXPECT_EQ(out, out_fast) << side << " " << n;
+    }
+}
+
+// Histograms of tiles of 225 px at most, whose bins fill a byte.
+TEST_F(Twins, MatchAlike) {
+  std::mt19937 random(5);
+  for (const int pixels : {1, 5, 25, 225})
+    for (int n = 0; n <= 21; ++n) {
+      const auto histogram = [&] {
+        std::uint64_t sum = 0;
+        const auto many = random() % static_cast<std::uint32_t>(pixels + 1);
+        const auto bins = 1 + random() % 8;
+        for (std::uint32_t i = 0; i < many; ++i) sum += std::uint64_t{1} << (8 * (random() % bins));
+        return sum;
+      };
+      std::vector<std::uint64_t> seen, model;
+      for (int i = 0; i < n; ++i) {
+        seen.push_back(histogram());
+        model.push_back(i % 3 == 0 ? seen.back() : histogram());
+      }
+      for (const int need : {0, 1, (pixels + 1) / 2, pixels, pixels + 1}) {
+        Bytes found(at(n)), found_fast(at(n));
+        plain.match_row(seen.data(), model.data(), n, pixels, need, found.data());
+        fast.match_row(seen.data(), model.data(), n, pixels, need, found_fast.data());
+        EXPECT_EQ(found, found_fast) << pixels << " " << n << " " << need;
+      }
+    }
+}
+
+// Frames that are the background in other light, and noise; limits from none to all.
+TEST_F(Twins, SeeTheSameChange) {
+  std::mt19937 random(7);
+  const auto word = [&](std::uint32_t most) { return static_cast<std::uint16_t>(random() % (most + 1)); };
+  for (int round = 0; round < 400; ++round) {
+    const int n = 1 + round % 131;
+    const Bytes red = noise(n, random() % 99), green = noise(n, 1), blue = noise(n, 2), still = noise(n, 3);
+    Bytes rgb = noise(3 * n, static_cast<std::uint32_t>(round));
+    for (int i = 0; i < n && round % 2 == 0; ++i) {
+      rgb[at(3 * i)] = static_cast<std::uint8_t>(red[at(i)] - red[at(i)] / 8);
+      rgb[at(3 * i + 1)] =
+          static_cast<std::uint8_t>(green[at(i)] - green[at(i)] / 8 + (i % 5 == 0 ? i % 3 : 0));
+      rgb[at(3 * i + 2)] = static_cast<std::uint8_t>(blue[at(i)] - blue[at(i)] / 8);
+    }
+    std::vector<std::uint16_t> side;
+    for (int i = 0; i < n; ++i) side.push_back(word(round % 3 == 0 ? 65535 : 20000));
+    const ChangeRow row{rgb.data(), red.data(), green.data(), blue.data(), still.data(), side.data()};
+    const std::uint32_t most = round % 7 == 0 ? 65535U : 3000U;
+    const Explained light{
+        {word(8192), word(8192), 896}, {word(256), word(256), 256}, word(most), word(most), word(most)};
+    const Cut cut = cut_of({word(1535), 768 + word(768)}, HueRule{1, 0});
+    Bytes strong(at(n)), skin(at(n)), strong_fast(at(n)), skin_fast(at(n));
+    plain.change_row(row, n, light, cut, strong.data(), skin.data());
+    fast.change_row(row, n, light, cut, strong_fast.data(), skin_fast.data());
+    ASSERT_EQ(skin, skin_fast) << round;
+    ASSERT_EQ(strong, strong_fast) << round;
+  }
+}
+
+}  // namespace
+}  // namespace enc::segmentation

@@ -1,0 +1,264 @@
+// A camera that plays files: which frame comes when, and what it says when there are no more.
+#include "hw_drivers/images/play/image_camera.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "core/error.h"
+#include "sim/picture/picture.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::images {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+struct Notes : Log {
+  std::mutex mutex;
+  std::vector<std::string> lines;
+  void say(const std::string& line) override {
+    const std::lock_guard lock(mutex);
+    lines.push_back(line);
+  }
+  std::string all() {
+    const std::lock_guard lock(mutex);
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    return text;
+  }
+};
+bool eventually(const std::function<bool()>& is) {
+  for (int i = 0; i < 2000 && !is(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  return is();
+}
+
+Time at(double s) { return Time(from_seconds(s)); }
+
+class ImageCameraTest : public testing::Test {
+ protected:
+  ImageCameraTest() {
+    for (int i = 0; i < 10; ++i) put(i);
+    reel_.path = folder_.path().string();
+    reel_.rate = 20.0;
+  }
+  // Frame i has the grey value 10 i on the left and 10 i + 1 on the right.
+  void put(int i) const {
+    for (const char* side : {"left", "right"}) {
+      Image image(8, 4);
+      image.rgb.assign(image.rgb.size(), static_cast<std::uint8_t>(10 * i + (*side == 'r' ? 1 : 0)));
+      std::ofstream(folder_.file(side + std::to_string(i) + ".png"), std::ios::binary) << sim::png(image);
+    }
+  }
+  [[nodiscard]] std::string refusal() {
+    try {
+      const ImageCamera camera(reel_, notes_, true);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::device);
+      EXPECT_THAT(e.what(), testing::Not(HasSubstr("\n")));
+      return e.what();
+    }
+    return {};
+  }
+  test::TemporaryFolder folder_;
+  Reel reel_;
+  Notes notes_;
+};
+
+struct Seen {
+  double t = 0.0, exposed = 0.0;
+  int left = -1, right = -1;
+  Health health = Health::absent;
+  bool operator==(const Seen&) const = default;
+};
+std::vector<Seen> seen(ImageCamera& camera, double from, double to, double step) {
+  std::vector<Seen> all;
+  Stamped<StereoFrame> newest;
+  const int steps = static_cast<int>(std::lround((to - from) / step));
+  for (int i = 0; i < steps; ++i) {
+    const double t = from + i * step;
+    if (camera.poll(at(t), newest))
+      all.push_back({t, seconds(newest.t.time_since_epoch()), newest.value.left.rgb[0],
+                     newest.value.right.rgb[0], newest.health});
+  }
+  return all;
+}
+
+TEST_F(ImageCameraTest, FrameNIsOfNOverTheRateAfterTheFirstPoll) {
+  ImageCamera camera(reel_, notes_, true);
+  EXPECT_EQ(camera.describe(), "images " + reel_.path + ", 10 pairs: 8 x 4 px each at 20 Hz");
+  const std::vector<Seen> all = seen(camera, 3.0, 3.4, 0.7e-3);
+  ASSERT_EQ(all.size(), 8U);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    EXPECT_NEAR(all[n].exposed, 3.0 + static_cast<double>(n) / 20.0, 1e-9);
+    EXPECT_LT(all[n].t - all[n].exposed, 0.8e-3);
+    EXPECT_EQ(all[n].left, 10 * static_cast<int>(n));
+    EXPECT_EQ(all[n].right, all[n].left + 1);
+    EXPECT_EQ(all[n].health, Health::ok);
+  }
+}
+
+// Polled less often than frames come: the newest, and those between are passed over.
+TEST_F(ImageCameraTest, TheNewestThatIsDue) {
+  ImageCamera camera(reel_, notes_, true);
+  const std::vector<Seen> all = seen(camera, 0.0, 0.6, 0.2);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[1].left, 40);
+  EXPECT_EQ(all[2].left, 80);
+  EXPECT_NEAR(all[2].exposed, 0.4, 1e-9);
+}
+
+TEST_F(ImageCameraTest, EveryRunSeesTheSame) {
+  reel_.repeat = true;
+  reel_.rate = 60.0;
+  ImageCamera first(reel_, notes_, true), second(reel_, notes_, true);
+  const std::vector<Seen> all = seen(first, 0.0, 3.0, 1e-3);
+  EXPECT_EQ(all.size(), 180U);
+  EXPECT_EQ(all, seen(second, 0.0, 3.0, 1e-3));
+  EXPECT_EQ(all[13].left, 30);
+  EXPECT_THAT(notes_.all(), IsEmpty());  // none came late
+}
+
+TEST_F(ImageCameraTest, TheEndIsToldOnceAndIsALostLink) {
+  reel_.start = 7;
+  ImageCamera camera(reel_, notes_, true);
+  EXPECT_TRUE(camera.linked());
+  const std::vector<Seen> all = seen(camera, 0.0, 2.0, 1e-3);
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(all[0].left, 70);
+  EXPECT_EQ(all[3].health, Health::stale);
+  EXPECT_EQ(all[3].left, 90);  // the last one once more, with its own time
+  EXPECT_EQ(all[3].exposed, all[2].exposed);
+  EXPECT_FALSE(camera.linked());
+  EXPECT_TRUE(eventually([&] { return notes_.all().find("ended after 3 frames") != std::string::npos; }));
+}
+
+// Polled so seldom that the last frame and the end come at once: the frame counts.
+TEST_F(ImageCameraTest, TheLastFrameIsGoodThoughTheEndIsKnown) {
+  ImageCamera camera(reel_, notes_, true);
+  const std::vector<Seen> all = seen(camera, 0.0, 3.0, 0.6);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[1].left, 90);
+  EXPECT_EQ(all[1].health, Health::ok);
+  EXPECT_EQ(all[2].health, Health::stale);
+}
+
+TEST_F(ImageCameraTest, ADamagedFileInMidRunIsAFaultWithItsName) {
+  std::filesystem::resize_file(folder_.file("right4.png"), 60);
+  ImageCamera camera(reel_, notes_, true);
+  const std::vector<Seen> all = seen(camera, 0.0, 1.0, 1e-3);
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_EQ(all[4].health, Health::fault);
+  EXPECT_EQ(all[4].left, 30);
+  EXPECT_FALSE(camera.linked());
+  EXPECT_TRUE(eventually([&] { return !notes_.all().empty(); }));
+  EXPECT_THAT(notes_.all(), AllOf(HasSubstr(folder_.file("right4.png")), HasSubstr("cut off")));
+}
+
+TEST_F(ImageCameraTest, WhatCanBeKnownBeforehandIsRefusedBeforehand) {
+  reel_.start = 10;
+  EXPECT_THAT(refusal(), HasSubstr("has 10 frames and start is 10"));
+  reel_.start = 0;
+  std::filesystem::remove(folder_.file("right4.png"));
+  EXPECT_THAT(refusal(), AllOf(StartsWith(folder_.file("left4.png")), HasSubstr("has no right image")));
+  reel_.path = folder_.file("none");
+  EXPECT_THAT(refusal(), AllOf(StartsWith(folder_.file("none")), HasSubstr("is not there")));
+  // Nobody waits for a named pipe.
+  reel_.path = folder_.file("pipe");
+  ASSERT_EQ(mkfifo(reel_.path.c_str(), 0600), 0);
+  EXPECT_THAT(refusal(), HasSubstr("is neither a file nor a folder; expected a folder of images or a video"));
+  ASSERT_EQ(mkfifo(folder_.file("left4x.png").c_str(), 0600), 0);
+  put(4);
+  std::filesystem::copy_file(folder_.file("left0.png"), folder_.file("right4x.png"));
+  reel_.path = folder_.path().string();
+  EXPECT_THAT(refusal(), AllOf(StartsWith(folder_.file("left4x.png")), HasSubstr("is no file")));
+}
+
+TEST_F(ImageCameraTest, IsGoneAtOnceWhereverItIs) {
+  for (double to : {0.0, 0.1, 0.3, 2.0}) {
+    ImageCamera camera(reel_, notes_, true);
+    seen(camera, 0.0, to, 1e-2);
+  }
+}
+
+// ---- on the wall clock: never a wait
+// -------------------------------------------------------------------------
+
+// Slower than its rate, and after some frames it waits for good.
+class SlowSource final : public FrameSource {
+ public:
+  explicit SlowSource(int stalls_after) : stalls_after_(stalls_after) {}
+  bool next(ImagePair& into) override {
+    into.left = into.right = Image(2, 2);
+    for (int i = 0; i < 5000 && count_ == stalls_after_ && !stopped_; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    return !stopped_ && ++count_ <= 4;
+  }
+  [[nodiscard]] ImageSize size() const override { return {2, 2}; }
+  [[nodiscard]] std::string words() const override { return "slow"; }
+  void stop() noexcept override { stopped_ = true; }
+
+ private:
+  int stalls_after_;
+  std::atomic<int> count_ = 0;
+  std::atomic<bool> stopped_ = false;
+};
+
+// Run far ahead of the wall clock: every frame is waited for, however slowly it is read.
+TEST(Playback, ARunThatKeepsNoWallClockWaits) {
+  std::string said;
+  Playback playback(
+      std::make_unique<SlowSource>(-1), 1000.0, [&](const std::string& line) { said += line; }, true);
+  for (int ms = 0; ms < 4; ++ms) EXPECT_TRUE(playback.take(Time(Duration(1'000'000 * ms)))) << ms;
+  EXPECT_FALSE(playback.take(Time(Duration(4'000'000))));
+  EXPECT_EQ(playback.state(), Playback::State::ended);
+  EXPECT_EQ(said, "");
+}
+
+TEST(Playback, OnTheWallClockNobodyWaitsForAStall) {
+  std::string said;
+  std::mutex mutex;
+  Playback playback(
+      std::make_unique<SlowSource>(3), 100.0,
+      [&](const std::string& line) {
+        const std::lock_guard lock(mutex);
+        said += line;
+      },
+      false);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::steady_clock::now() - begin; };
+  std::optional<Duration> first;
+  Playback::State state = Playback::State::playing;
+  while (passed() < std::chrono::milliseconds(900) && state != Playback::State::stalled) {
+    const auto before = passed();
+    if (!first) first = before;
+    playback.take(Time(before));
+    EXPECT_LT(passed() - before, std::chrono::milliseconds(20));
+    state = playback.state();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(state, Playback::State::stalled);  // half a second, and three frames
+  EXPECT_GE(passed(), std::chrono::milliseconds(500));
+  EXPECT_EQ(playback.exposed() - Time(*first), Duration(20'000'000));
+  const auto said_late = [&] {
+    const std::lock_guard lock(mutex);
+    return said.find("frame 3 came late") != std::string::npos &&
+           said.find("stalled after 3 frames") != std::string::npos;
+  };
+  EXPECT_TRUE(eventually(said_late));
+}
+
+}  // namespace
+}  // namespace enc::images

@@ -1,0 +1,22 @@
+// Words of a file that go to a terminal.
+#include "models/schema/wording.h"
+
+#include <gtest/gtest.h>
+
+namespace enc::models {
+namespace {
+
+TEST(Wording, WhatMovesATerminalsCursorIsASpace) {
+  EXPECT_EQ(printable("left\033[2J\r\n\t01\x7F.png"), "left [2J   01 .png");
+  EXPECT_EQ(printable("a\xC2\x9B"
+                      "31m"),
+            "a  31m");  // U+009B, a terminal's other way to begin
+  EXPECT_EQ(printable("H\xC3\xA4nde \xC2\xB5m \xE2\x80\xA6"), "H\xC3\xA4nde \xC2\xB5m \xE2\x80\xA6");
+  EXPECT_EQ(printable("\xC2"), "\xC2");
+  EXPECT_EQ(quoted("a\nb"), "'a b'");
+}
+
+TEST(Wording, LowerCaseIsOfTheLatinLetters) { EXPECT_EQ(lower_case(".JPG\xC3\x84"), ".jpg\xC3\x84"); }
+
+}  // namespace
+}  // namespace enc::models

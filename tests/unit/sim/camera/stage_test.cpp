@@ -1,0 +1,278 @@
+// What a stage's pictures are: the same for the same seed, with the light, exposure and colours asked for;
+// an office without skin's hue; two stages at a time; EGL beside OSMesa.
+#include "sim/camera/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.h"
+#include "sim/camera/skin_tones.h"
+
+namespace enc::sim {
+namespace {
+
+const HandPose kHand{{0.01, -0.03, 0.38}, {0.2, -1, 0}, 0.2};
+
+StageSpec small(Scenery scenery = Scenery::office, std::uint64_t seed = 1) {
+  StageSpec spec;
+  spec.scenery = scenery;
+  spec.seed = seed;
+  spec.camera.width = 320;
+  spec.camera.height = 240;
+  spec.camera.left = spec.camera.right = {360.5, 360.5, 159.5, 119.5, {}};
+  return spec;
+}
+
+Image drawn(const StageSpec& spec, const HandPose* hand = &kHand, const Light& light = {},
+            std::uint64_t frame = 0) {
+  Stage stage(spec);
+  Image left, right;
+  stage.draw(hand, {}, light, frame, left, right);
+  return left;
+}
+
+// Hue in degrees and saturation.
+std::array<double, 2> hue(const std::uint8_t* p) {
+  const double most = std::max({p[0], p[1], p[2]}), least = std::min({p[0], p[1], p[2]});
+  if (most == least) return {0, 0};
+  const double span = most - least;
+  double h = most == p[0]   ? (p[1] - p[2]) / span
+             : most == p[1] ? 2 + (p[2] - p[0]) / span
+                            : 4 + (p[0] - p[1]) / span;
+  h *= 60.0;
+  return {h < 0 ? h + 360 : h, span / most};
+}
+
+TEST(Stage, TheSameSeedGivesTheSameBits) {
+  for (const Scenery scenery : {Scenery::office, Scenery::clutter, Scenery::skin_hued}) {
+    const Image one = drawn(small(scenery, 3));
+    EXPECT_EQ(one.rgb, drawn(small(scenery, 3)).rgb);
+    EXPECT_NE(one.rgb, drawn(small(scenery, 4)).rgb);
+  }
+  EXPECT_NE(drawn(small()).rgb, drawn(small(), &kHand, {}, 1).rgb);  // noise
+  StageSpec still = small();
+  still.sensor.noise = 0.0;
+  EXPECT_EQ(drawn(still).rgb, drawn(still, &kHand, {}, 1).rgb);
+}
+
+TEST(Stage, APictureDoesNotDependOnThoseBefore) {
+  Stage stage(small());
+  Image left, right, again, other;
+  stage.draw(&kHand, {}, {}, 5, left, right);
+  stage.draw(nullptr, {}, {0.4, -1, {1, 0.5F, 0.5F}}, 6, again, other);
+  PixelTruth truth;
+  stage.draw(&kHand, {}, {}, 5, again, other, &truth);
+  EXPECT_EQ(left.rgb, again.rgb);
+  EXPECT_EQ(right.rgb, other.rgb);
+  stage.draw(&kHand, {}, {}, 5, again, other);
+  EXPECT_EQ(left.rgb, again.rgb);
+}
+
+// Values of a sensor are proportional to light, and end at 255.
+TEST(Stage, LightExposureAndWhiteBalanceMultiply) {
+  StageSpec spec = small();
+  spec.sensor.noise = 0.0;
+  const Image one = drawn(spec);
+  const Image brighter = drawn(spec, &kHand, {1.6, 0, {1, 1, 1}});
+  spec.sensor.exposure = 0.5;
+  const Image half = drawn(spec);
+  spec.sensor = {0.0, 1.0, {1.25F, 1, 0.5F}};
+  const Image balanced = drawn(spec);
+  for (std::size_t i = 0; i < one.rgb.size(); ++i) {
+    EXPECT_NEAR(half.rgb[i], 0.5 * one.rgb[i], 1.01) << i;
+    EXPECT_NEAR(brighter.rgb[i], std::min(255.0, 1.6 * one.rgb[i]), 2.01) << i;
+    const double gain = i % 3 == 0 ? 1.25 : i % 3 == 1 ? 1.0 : 0.5;
+    EXPECT_NEAR(balanced.rgb[i], std::min(255.0, gain * one.rgb[i]), 1.51) << i;
+  }
+}
+
+TEST(Stage, TheLampsSideShows) {
+  StageSpec spec = small();
+  spec.sensor.noise = 0.0;
+  Stage stage(spec);
+  Image left_lit, right_lit, other;
+  PixelTruth truth;
+  stage.draw(&kHand, {}, {1, -1, {1, 1, 1}}, 0, left_lit, other, &truth);
+  stage.draw(&kHand, {}, {1, 1, {1, 1, 1}}, 0, right_lit, other);
+  const int row = static_cast<int>(std::lround(truth.row + 2 * truth.radius));
+  int first = 0, last = 319;
+  while (!truth.skin.at(first, row)) ++first;
+  while (!truth.skin.at(last, row)) --last;
+  EXPECT_GT(left_lit.at(first + 1, row)[0], right_lit.at(first + 1, row)[0] + 20);
+  EXPECT_LT(left_lit.at(last - 1, row)[0] + 20, right_lit.at(last - 1, row)[0]);
+}
+
+TEST(Stage, AnOfficeHasNothingOfTheHueOfSkin) {
+  for (const Scenery scenery : {Scenery::office, Scenery::clutter})
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      StageSpec spec = small(scenery, seed);
+      spec.sensor.noise = 0.0;
+      const Image office = drawn(spec, nullptr);
+      int skin_hued = 0;
+      for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 320; ++x) {
+          const auto [h, saturation] = hue(office.view().at(x, y));
+          skin_hued += saturation > 0.2 && office.view().at(x, y)[0] > 20 && (h < 50 || h > 345) ? 1 : 0;
+        }
+      EXPECT_EQ(skin_hued, 0) << seed;
+    }
+  int skin_hued = 0;
+  const Image room = drawn(small(Scenery::skin_hued), nullptr);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const auto [h, saturation] = hue(room.view().at(x, y));
+      skin_hued += saturation > 0.2 && (h < 50 || h > 345) ? 1 : 0;
+    }
+  EXPECT_GT(skin_hued, 320 * 240 / 2);
+}
+
+TEST(Stage, SkinHasTheHueOfItsTone) {
+  StageSpec spec = small();
+  spec.sensor.noise = 0.0;
+  Stage stage(spec);
+  Image left, right;
+  PixelTruth truth;
+  for (const SkinTone& tone : kSkinTones) {
+    HandLook look;
+    look.skin = tone.colour;
+    stage.draw(&kHand, look, {}, 0, left, right, &truth);
+    double sum[3] = {0, 0, 0};
+    for (std::size_t i = 0; i < truth.skin.on.size(); ++i)
+      if (truth.skin.on[i] != 0)
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += left.rgb[3 * i + c];
+    EXPECT_NEAR(sum[1] / sum[0], static_cast<double>(tone.colour[1] / tone.colour[0]), 0.04)
+        << word_of(tone.tone);
+    EXPECT_NEAR(sum[2] / sum[0], static_cast<double>(tone.colour[2] / tone.colour[0]), 0.04)
+        << word_of(tone.tone);
+  }
+}
+
+TEST(Stage, AHandFillsAsMuchAsItsDistanceSays) {
+  Stage stage(small());
+  Image left, right;
+  PixelTruth truth;
+  const auto share = [&](double z) {
+    const HandPose hand{{0.25 * z, -0.15 * z, z}, {0.8, -0.6, 0}, 0.0};
+    HandLook look;
+    look.bare = 0.2;
+    stage.draw(&hand, look, {}, 0, left, right, &truth);
+    return static_cast<double>(std::count(truth.skin.on.begin(), truth.skin.on.end(), 255)) / (320.0 * 240.0);
+  };
+  EXPECT_GT(share(0.30), 0.15);
+  EXPECT_GT(share(0.45), 0.15);
+  EXPECT_LT(share(0.90), 0.08);
+}
+
+TEST(Stage, TwoStagesLiveSideBySide) {
+  const Image alone = drawn(small(Scenery::office, 1)), other_alone = drawn(small(Scenery::clutter, 2));
+  Stage one(small(Scenery::office, 1));
+  Image left, right;
+  {
+    Stage two(small(Scenery::clutter, 2));
+    two.draw(&kHand, {}, {}, 0, left, right);
+    EXPECT_EQ(left.rgb, other_alone.rgb);
+    one.draw(&kHand, {}, {}, 0, left, right);
+    EXPECT_EQ(left.rgb, alone.rgb);
+    two.draw(&kHand, {}, {}, 0, left, right);
+    EXPECT_EQ(left.rgb, other_alone.rgb);
+  }
+  one.draw(&kHand, {}, {}, 0, left, right);
+  EXPECT_EQ(left.rgb, alone.rgb);
+}
+
+TEST(Stage, FinishChangesEdgesAndShadowsNotTheTruth) {
+  StageSpec spec = small();
+  spec.sensor.noise = 0.0;
+  Stage plain(spec);
+  spec.finish = {4, true, true};
+  Stage fine(spec);
+  Image a, b, other;
+  PixelTruth truth_a, truth_b;
+  plain.draw(&kHand, {}, {}, 0, a, other, &truth_a);
+  fine.draw(&kHand, {}, {}, 0, b, other, &truth_b);
+  EXPECT_NE(a.rgb, b.rgb);
+  std::int64_t differ = 0;
+  for (std::size_t i = 0; i < truth_a.skin.on.size(); ++i)
+    differ += truth_a.skin.on[i] != truth_b.skin.on[i] ? 1 : 0;
+  EXPECT_LT(differ, 320 * 240 / 200);
+}
+
+TEST(Stage, BadSpecsAreRefused) {
+  const auto refused = [](auto change) {
+    StageSpec spec = small();
+    change(spec);
+    EXPECT_THROW(const Stage stage(spec), Error);
+  };
+  refused([](StageSpec& s) { s.camera.width = 1; });
+  refused([](StageSpec& s) { s.camera.left.focal_x = 0; });
+  refused([](StageSpec& s) { s.camera.right.centre_y = kUnset; });
+  refused([](StageSpec& s) { s.camera.X_CD = {}; });
+  refused([](StageSpec& s) { s.sensor.noise = -1; });
+  refused([](StageSpec& s) { s.finish.samples = 3; });
+}
+
+// This program again, as a child that draws with the other library: MuJoCo looks OpenGL up once a process.
+std::vector<char> drawn_by(const char* kind) {
+  const std::string file = testing::TempDir() + "stage_" + kind + "_" + std::to_string(getpid());
+  const pid_t child = fork();
+  if (child == 0) {
+    setenv("ENCOUNTER_GL", kind, 1);
+    setenv("ENCOUNTER_TEST_PICTURE", file.c_str(), 1);
+    setenv("ASAN_OPTIONS", "detect_leaks=0", 1);  // libOSMesa keeps 480 bytes of its own
+    unsetenv("GTEST_TOTAL_SHARDS");
+    unsetenv("GTEST_SHARD_INDEX");
+    execl("/proc/self/exe", "test", "--gtest_filter=StageRenderer.Draws", "--gtest_brief=1", nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0) << kind;
+  std::ifstream in(file, std::ios::binary);
+  std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  unlink(file.c_str());
+  return bytes;
+}
+
+TEST(StageRenderer, Draws) {
+  const char* file = std::getenv("ENCOUNTER_TEST_PICTURE");
+  if (file == nullptr) GTEST_SKIP() << "a part of EglAndOsMesaDrawTheSame";
+  const Image picture = drawn(small(Scenery::clutter, 5));
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(picture.rgb.data()),
+             static_cast<std::streamsize>(picture.rgb.size()));
+}
+
+TEST(StageRenderer, EglAndOsMesaDrawTheSame) {
+  void* library = dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
+  if (library == nullptr) GTEST_SKIP() << "libosmesa6 is not there";
+  const std::vector<char> egl = drawn_by("egl"), mesa = drawn_by("osmesa");
+  ASSERT_EQ(egl.size(), 3U * 320 * 240);
+  ASSERT_EQ(mesa.size(), egl.size());
+  std::size_t differ = 0;
+  int most = 0;
+  for (std::size_t i = 0; i < egl.size(); ++i) {
+    const int d = std::abs(static_cast<unsigned char>(egl[i]) - static_cast<unsigned char>(mesa[i]));
+    differ += d > 0 ? 1 : 0;
+    most = std::max(most, d);
+  }
+  std::printf("EGL and OSMesa: %zu of %zu values differ, by at most %d of 255\n", differ, egl.size(), most);
+  // Where EGL draws with a graphics card the edges are its own.
+  EXPECT_LT(differ, egl.size() / 20);
+}
+
+TEST(StageRenderer, AnUnknownOneIsRefused) {
+  setenv("ENCOUNTER_GL", "vulkan", 1);
+  EXPECT_THROW(const Stage stage(small()), Error);
+  unsetenv("ENCOUNTER_GL");
+}
+
+}  // namespace
+}  // namespace enc::sim

@@ -1,0 +1,36 @@
+// One device of a driver's module, made or refused in one clear line.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/devices/driver.h"
+#include "core/error.h"
+#include "models/setup/driver_table.h"
+#include "trial/assemble.h"
+#include "trial/prepare.h"
+
+namespace enc::trial {
+
+// `make` is the module's member for such a device, `name` is for messages: "force sensor", `waits` is
+// Offer's. Throws Error (kind device).
+template <class Device>
+std::unique_ptr<Device> driver_device(const std::string& driver, Maker<Device> DriverModule::*make,
+                                      const char* name, const models::Setup& setup,
+                                      const DriverSource& modules, Log& log, bool waits) {
+  const ModuleInfo& module = modules(driver);
+  if (module.driver == nullptr || module.driver->*make == nullptr)
+    throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, name),
+                {}, ErrorKind::device);
+  models::DriverTableReader table(setup, driver);
+  const Reach reach = reach_of(setup.rig);
+  auto device =
+      (module.driver->*make)({table, setup.rig, reach, from_seconds(1.0 / setup.rig.loop.rate), log, waits});
+  if (!device)
+    throw Error(fmt::format("module '{}' made no {}; mend the driver", driver, name), {}, ErrorKind::device);
+  return device;
+}
+
+}  // namespace enc::trial
