@@ -6,6 +6,7 @@
 #include <encounter_version.h>
 #include <fmt/format.h>
 
+#include "benchmarks/kit/benchmark.h"
 #include "benchmarks/questionnaire/form.h"
 #include "benchmarks/report/machine.h"
 #include "benchmarks/report/plot.h"

@@ -32,15 +32,12 @@ struct Row {
   sim::Light light{};
   std::optional<sim::Tone> tone{};  // none: fair to brown in turn
   double exposure = 1.0;
-  bool judged = true;  // of ours; not where the image itself has no hue: clipped, or as dark as the noise
+  bool judged = true;  // of ours as in the office; else, where the image itself has no hue, beside the other
 };
 const std::array<Row, 11> kRows{{
     {.id = "clutter", .title = "clutter", .scenery = sim::Scenery::clutter},
     {.id = "gain_half", .title = "half the light", .light = {.gain = 0.5}},
-    {.id = "gain_double",
-     .title = "twice the light, which clips fair skin",
-     .light = {.gain = 2.0},
-     .judged = false},
+    {.id = "gain_double", .title = "twice the light, which clips fair skin", .light = {.gain = 2.0}},
     {.id = "side", .title = "a lamp from the left, 0.8", .light = {.side = 0.8}},
     {.id = "colour", .title = "a lamp of RGB 1.25, 1, 0.75", .light = {.colour = {1.25F, 1.0F, 0.75F}}},
     {.id = "skin_hued", .title = "wood and cardboard", .scenery = sim::Scenery::skin_hued},
@@ -48,7 +45,7 @@ const std::array<Row, 11> kRows{{
      .title = "wood and cardboard, 0.7 of the light",
      .scenery = sim::Scenery::skin_hued,
      .light = {.gain = 0.7}},
-    {.id = "dark", .title = "dark skin", .tone = sim::Tone::dark, .judged = false},
+    {.id = "dark", .title = "dark skin", .tone = sim::Tone::dark},
     {.id = "dark_exposed",
      .title = "dark skin, exposed twice as long",
      .tone = sim::Tone::dark,
@@ -155,7 +152,8 @@ void judge_rows(Bench& bench, Table& table, const std::vector<Judged>& pairs) {
     bench.figure(fmt::format("{}.published.correct.mean", row.id), in_percent(theirs.correct), "%",
                  fmt::format("{}: the published method", row.title));
     bench.figure(fmt::format("{}.ours.correct.mean", row.id), in_percent(own.correct), "%",
-                 row.judged ? at_least(98.16) : Bounds{}, fmt::format("{}: ours", row.title));
+                 at_least(row.judged ? 98.16 : 1e2 * theirs.correct.value),
+                 fmt::format("{}: ours", row.title));
     bench.figure(fmt::format("{}.ours.iou.mean", row.id), own.iou.value, "",
                  row.judged ? at_least(0.9) : Bounds{}, fmt::format("{}: ours", row.title));
     add_rows(table, row.title, pairs, of);
@@ -170,18 +168,21 @@ void judge_never_seen(Bench& bench, Table& table, const std::vector<Judged>& see
     const char* id;
     Mean Score::*mean;
   };
-  for (const Method method : {published, ours})
+  for (const Method method : {published, ours}) {
+    const char* id = method == published ? "published" : "ours";
+    tell(bench, fmt::format("never_seen.{}", id), score(fresh, method),
+         fmt::format("{}, on seeds never looked at", kMethods[method]), false);
     for (const Line& line :
          {Line{"correct", &Score::correct}, Line{"false_positives", &Score::false_positives},
           Line{"false_negatives", &Score::false_negatives}}) {
       const Mean a = score(seen, method).*line.mean, b = score(fresh, method).*line.mean;
       bench.figure(
-          fmt::format("never_seen.{}.{}.apart", method == published ? "published" : "ours", line.id),
-          apart(a, b), "", at_most(1.0),
+          fmt::format("never_seen.{}.{}.apart", id, line.id), apart(a, b), "", at_most(1.0),
           fmt::format("{:.3f} ({}) % on seeds never looked at, {:.3f} ({}) % on the others: the difference "
                       "over its 95 % interval",
                       1e2 * b.value, interval_text(b, 3), 1e2 * a.value, interval_text(a, 3)));
     }
+  }
 }
 
 // Half as wide and high.
@@ -235,9 +236,9 @@ void run(Bench& bench) {
   tell_skin(bench, like.skin, by_tone);
 
   const std::size_t pairs = bench.context.count(24, 4);
-  const std::uint64_t seed = kTest + bench.context.seed * 1000;
+  const std::uint64_t seed = test_seed(bench.context);
   const auto paper = judged(bench, of_the_paper(like, seed + 100, pairs));
-  const auto rows = judged(bench, of_rows(like, seed + 200, bench.context.quick ? 1 : 4));
+  const auto rows = judged(bench, of_rows(like, seed + 200, bench.context.quick ? 1 : 8));
   Table table{"pairs",
               "Segmentation: percent of all pixels, means over pairs with their 95 % intervals",
               {"pairs of", "method", "pairs", "correct", "false positives", "false negatives", "IoU"}};

@@ -87,6 +87,34 @@ void beside_pipeline(Bench& bench, Course& course) {
                            100.0 * (1.0 - other.correct())));
 }
 
+// Ours keeps the pixels of foreground tiles that have a hue, were every hue skin. Theirs tells the tiles.
+double unlike_tiles(Course& course, s::Tiles& tiles, TilePeer& peer) {
+  const int side = course.spec.tile;
+  const s::Grid grid{kWidth, kHeight, side};
+  const s::Cut any = s::cut_of({0, s::kHues}, course.spec.hue);
+  std::vector<std::uint8_t> theirs;
+  std::size_t unlike = 0, all = 0;
+  for (std::size_t i = 0; i < kRing; ++i) {
+    const ImageView image = course.view(i);
+    tiles.candidates(image, grid.whole(), course.spec.match, any, course.found);
+    peer.match(image, course.spec.match, theirs);
+    std::size_t tile = 0;
+    for (int y = 0; y + side <= kHeight; y += side)
+      for (int x = 0; x + side <= kWidth; x += side, ++tile) {
+        bool hued = true, found = false;
+        for (int j = 0; j < side * side; ++j) {
+          const std::uint8_t* p = image.at(x + j % side, y + j / side);
+          hued = hued && s::hue_of(p[0], p[1], p[2], course.spec.hue) != s::kNoHue;
+          found = found || course.found.at(x + j % side, y + j / side);
+        }
+        if (!hued) continue;
+        ++all;
+        unlike += found == (theirs[tile] != 0) ? 0U : 1U;
+      }
+  }
+  return static_cast<double>(unlike) / static_cast<double>(all);
+}
+
 void beside_parts(Bench& bench, Course& course) {
   const OpenCv& opencv = *course.place.opencv;
   const SegmentationSpec& spec = course.spec;
@@ -99,6 +127,9 @@ void beside_parts(Bench& bench, Course& course) {
   const auto histograms = opencv.tiles(spec.tile, spec.bins);
   histograms->learn(mean.view());
   std::vector<std::uint8_t> changed;
+  bench.figure(
+      "tiles.unlike.mean", 100.0 * unlike_tiles(course, tiles, *histograms), "%", at_most(1.0),
+      "of the tiles whose pixels all have a hue: those that calcHist and compareHist call otherwise");
   const Race tiled(course.rounds,
                    {on_ring(course.frames,
                             [&](std::size_t i) {

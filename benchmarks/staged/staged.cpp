@@ -4,12 +4,22 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "core/error.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/picture/picture.h"
 
 namespace enc::bench::staged {
+
+std::uint64_t test_seed(const BenchContext& context) {
+  constexpr std::uint64_t kEach = 1000, kMost = (kNeverSeen - kTest) / kEach - 1;
+  if (context.seed > kMost)
+    throw Error("the seed is " + std::to_string(context.seed) + "; here it is at most " +
+                std::to_string(kMost) + ", because sceneries from " + std::to_string(kNeverSeen) +
+                " on are kept for what nobody looked at");
+  return kTest + context.seed * kEach;
+}
 
 const sim::CameraModule& camera(const BenchContext& context) {
   const ModuleInfo* module = context.module ? context.module("camera") : nullptr;
@@ -73,6 +83,8 @@ SkinModel learned_skin(const sim::CameraModule& camera, int width, std::vector<S
   }
   return learner.model();
 }
+
+double within_cap(const sim::PixelTruth& truth) { return std::max(2.0, truth.radius); }
 
 std::string png(const std::vector<Image>& images) {
   int width = 0, height = 0;

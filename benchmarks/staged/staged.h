@@ -18,6 +18,9 @@ namespace enc::bench::staged {
 // by nobody while vision was built.
 inline constexpr std::uint64_t kTraining = 1000, kTest = 2000, kNeverSeen = 1'000'000'000;
 
+// Of the user's --seed: where the benchmark's sceneries begin. Throws Error for one that reaches those that
+// nobody looked at.
+[[nodiscard]] std::uint64_t test_seed(const BenchContext& context);
 // The module that draws. Throws Error where it is not built.
 [[nodiscard]] const sim::CameraModule& camera(const BenchContext& context);
 
@@ -45,6 +48,9 @@ struct Pair {
   Image left, right;
   sim::PixelTruth truth;
 };
+
+// px: a tip that is found farther from the true one is another thing, not a tip found badly.
+[[nodiscard]] double within_cap(const sim::PixelTruth& truth);
 
 // Images side by side, as the bytes of a PNG.
 [[nodiscard]] std::string png(const std::vector<Image>& images);

@@ -106,6 +106,7 @@ struct TwinCameraSpec {
 struct CameraModule {
   std::unique_ptr<Stage> (*stage)(const StageSpec& spec) = nullptr;
   std::unique_ptr<StereoCamera> (*camera)(const TwinCameraSpec& spec, Show show) = nullptr;
+  std::function<void(const HandPose& hand)> (*raw_calls)(const StageSpec& spec) = nullptr;  // raw_calls.h
   // Why EGL ("egl") or OSMesa ("osmesa") cannot draw; empty where it can.
   std::string (*renderer_problem)(const char* kind) = nullptr;
 };

@@ -223,9 +223,10 @@ Start sought(Comparison& cap, double from, double range, double slope) {
   return best;
 }
 
-// Newton, with what is known of slopes beforehand.
-CapDisparity settled(Comparison& cap, const Start& start, double range, double& left_over) {
+// Newton, with what is known of slopes beforehand. A range of 0 keeps the disparity.
+CapDisparity settled(Comparison& cap, const Start& start, double range) {
   constexpr int kRounds = 12, kChoices = 4;
+  constexpr double kKept = 1e-3;  // px: of no account
   CapDisparity found{.disparity = start.disparity, .slope = start.slope};
   for (int round = 0; round < kRounds; ++round) {
     // Pixels at the rim that come and go with the slope must not keep it from settling.
@@ -238,26 +239,27 @@ CapDisparity settled(Comparison& cap, const Start& start, double range, double& 
     const double each = std::max(sums.left_over() / (sums.n - 3.0), 1.0), known = each / (kSlopes * kSlopes);
     sums.normal(2, 2) += known;
     sums.right[2] += known * found.slope;
+    if (range == 0.0) sums.normal(1, 1) += each / (kKept * kKept);
     const Mat3 inverse = sums.normal.inverse();
     const Vec3 step = -(inverse * sums.right);
     if (!step.allFinite()) return {};
     found.disparity += std::clamp(step[1], -0.7, 0.7);
     found.slope = std::clamp(found.slope + std::clamp(step[2], -0.3, 0.3), -kSteepest, kSteepest);
-    left_over = each;
+    found.left_over = each;
     found.variance = each * inverse(1, 1);
     found.good = std::abs(step[1]) < 0.05;
     if (std::abs(step[1]) < 0.005 && std::abs(step[2]) < 0.01) break;
   }
-  found.good = found.good && std::abs(found.disparity - start.disparity) < range;
+  found.good = found.good && std::abs(found.disparity - start.disparity) < std::max(range, 0.1);
   return found;
 }
 
 // Less is left over; where about as much is, the end of the finger decides.
-bool better(const Comparison& cap, const CapDisparity& found, double left_over, const CapDisparity& best,
-            double least) {
+bool better(const Comparison& cap, const CapDisparity& found, const CapDisparity& best) {
   constexpr double kAlike = 1.3, kApart = 2.0;  // px
-  const bool alike = left_over < kAlike * least && least < kAlike * left_over;
-  if (!alike || std::abs(found.disparity - best.disparity) < kApart) return !(left_over >= least);
+  const bool alike = found.left_over < kAlike * best.left_over && best.left_over < kAlike * found.left_over;
+  if (!alike || std::abs(found.disparity - best.disparity) < kApart)
+    return !(found.left_over >= best.left_over);
   return cap.end(found.disparity) > cap.end(best.disparity);
 }
 
@@ -274,19 +276,26 @@ double middle_of(double surface, double outline, double focal) {
 CapDisparity match_cap(const Grey& left, const Grey& right, const Mask& skin, const Fingertip& tip,
                        const RectifiedPair& pair, std::span<const float> surfaces) {
   CapDisparity best;
-  double least = kUnset;
   Comparison few(left, right, skin, tip, pair, kFirst), all(left, right, skin, tip, pair, kMost);
   for (const float surface : surfaces) {
     const double from = middle_of(static_cast<double>(surface), tip.outline, pair.focal);
     const double range = range_of(from, tip.outline, pair.focal);
     if (std::abs(from - best.disparity) < range) continue;  // found already
     for (const double slope : {0.0, -1.5 * kSlopes, 1.5 * kSlopes}) {
-      double left_over = kUnset;
-      const CapDisparity found = settled(all, sought(few, from, range, slope), range, left_over);
-      if (!found.good || !better(all, found, left_over, best, least)) continue;
-      least = left_over;
-      best = found;
+      const CapDisparity found = settled(all, sought(few, from, range, slope), range);
+      if (found.good && better(all, found, best)) best = found;
     }
+  }
+  return best;
+}
+
+CapDisparity match_cap_at(const Grey& left, const Grey& right, const Mask& skin, const Fingertip& tip,
+                          const RectifiedPair& pair, double disparity) {
+  CapDisparity best;
+  Comparison cap(left, right, skin, tip, pair, kMost);
+  for (const double slope : {0.0, -1.5 * kSlopes, 1.5 * kSlopes}) {
+    const CapDisparity found = settled(cap, {.disparity = disparity, .slope = slope}, 0.0);
+    if (found.good && !(found.left_over >= best.left_over)) best = found;
   }
   return best;
 }

@@ -16,12 +16,16 @@ struct CapDisparity {
   double disparity = kUnset;  // px, of the cap's middle
   double variance = kUnset;   // px^2: from what is left over and how much detail there is
   double slope = kUnset;      // rad, from the tip to the knuckle away from the camera
+  double left_over = kUnset;  // grey levels^2 of a pixel
 };
 
 // `surfaces` are disparities of the finger's front near the cap; some may be wrong.
 [[nodiscard]] CapDisparity match_cap(const Grey& left, const Grey& right, const Mask& skin,
                                      const Fingertip& tip, const RectifiedPair& pair,
                                      std::span<const float> surfaces);
+// The same were the middle's disparity known to be this one: only the slope is sought.
+[[nodiscard]] CapDisparity match_cap_at(const Grey& left, const Grey& right, const Mask& skin,
+                                        const Fingertip& tip, const RectifiedPair& pair, double disparity);
 // The disparity of the middle of a cap whose front has that one.
 [[nodiscard]] double middle_of(double surface, double outline, double focal);
 [[nodiscard]] double front_of(double middle, double outline, double focal);

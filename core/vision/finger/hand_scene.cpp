@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/vision/finger/cap_fit.h"
-#include "core/vision/finger/cap_match.h"
+#include "core/vision/finger/silhouette.h"
 
 namespace enc {
 namespace {
@@ -29,6 +29,8 @@ Region grown(const Region& region, int by) {
   return {region.x0 - by, region.y0 - by, region.x1 + by, region.y1 + by};
 }
 
+constexpr double kOther = 1.6;  // times as large a cap: more than K and the mask may be off
+
 // Every tile is foreground, so that hue alone tells skin.
 SegmentationSpec without_background(SegmentationSpec spec) {
   spec.method = SegmentationMethod::published;
@@ -45,15 +47,20 @@ HandScene::HandScene(const StereoRig& rig, const SegmentationSpec& segmentation,
       segmentation_(segmentation),
       segmenter_(segmentation, rectifier_.width(), rectifier_.height()),
       matcher_(match, pair()),
-      finder_(fingertip, pair(), fingertip.radius / pair().baseline * matcher_.most(), rectifier_.width(),
-              rectifier_.height()),
+      finder_(finder_with(fingertip)),
       grey_left_(rectifier_.width(), rectifier_.height()),
       grey_right_(rectifier_.width(), rectifier_.height()),
       skin_(rectifier_.width(), rectifier_.height()),
+      right_skin_(rectifier_.width(), rectifier_.height()),
       disparity_(rectifier_.width(), rectifier_.height()) {
   if (rectifier_.none_needed()) return;
   left_ = Image(rectifier_.width(), rectifier_.height());
   right_ = left_;
+}
+
+FingertipFinder HandScene::finder_with(const FingertipSpec& fingertip) const {
+  return {fingertip, pair(), fingertip.radius / pair().baseline * matcher_.most(), rectifier_.width(),
+          rectifier_.height()};
 }
 
 ImageView HandScene::rectified(Side side, const ImageView& raw, const Region& part) {
@@ -63,19 +70,27 @@ ImageView HandScene::rectified(Side side, const ImageView& raw, const Region& pa
   return to.view();
 }
 
+// Tiles and the median look a little beyond what they tell.
+Region HandScene::read_for(const Segmenter& segmenter, const Region& wanted) const {
+  return grown(segmenter.on_grid(wanted), segmentation_.median + 2 * segmentation_.tile);
+}
+
 Region HandScene::segment(Segmenter& segmenter, const ImageView& raw, const Region& wanted) {
-  // Tiles and the median look a little beyond what they tell, the light of a frame is measured all over it.
+  // The light of a frame is measured all over it.
   const bool all = segmentation_.method == SegmentationMethod::ours;
-  const int beyond = segmentation_.median + 2 * segmentation_.tile;
-  const Region part = all ? this->frame() : grown(segmenter.on_grid(wanted), beyond);
+  const Region part = all ? this->frame() : read_for(segmenter, wanted);
   const ImageView image = rectified(Side::left, raw, part);
   return segmenter.segment(image, wanted, skin_);
+}
+
+void HandScene::segment_right(const StereoFrame& frame, const Region& wanted) {
+  const Region part = read_for(*hue_alone_, wanted).cut(this->frame());
+  hue_alone_->segment(rectified(Side::right, frame.right, part), wanted, right_skin_);
 }
 
 void HandScene::learn(const StereoFrame& frame) {
   look_for_finger_in_background(frame);
   segmenter_.learn(rectified(Side::left, frame.left, this->frame()));
-  if (segmenter_.learned()) hue_alone_.reset();
 }
 
 void HandScene::look_for_finger_in_background(const StereoFrame& frame) {
@@ -131,7 +146,7 @@ HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, 
   seen.tip = finder_.find(skin_, disparity_, window, expected);
   if (!seen.tip.found) return seen;
   if (seen.tip.fitted) sharpen(seen.tip);
-  measure(seen, expected.disparity);
+  measure(seen, frame, expected.disparity);
   return seen;
 }
 
@@ -139,7 +154,6 @@ HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, 
 // how far that is, and skin of little detail is like itself elsewhere: all are told by which the cap would
 // not look much larger or smaller than it does. The candidate's own comes first.
 std::size_t HandScene::surfaces_of(const Fingertip& tip, Surfaces& surfaces) {
-  constexpr double kOther = 1.6;  // times as large: more than K and the mask may be off
   std::size_t count = 0;
   const auto take = [&](float surface) {
     const auto end = surfaces.begin() + static_cast<std::ptrdiff_t>(count);
@@ -160,6 +174,20 @@ std::size_t HandScene::surfaces_of(const Fingertip& tip, Surfaces& surfaces) {
   return count;
 }
 
+// Where in the right image the tip's shape is, within the same bounds.
+std::size_t HandScene::shapes_of(const Fingertip& tip, const StereoFrame& frame, std::span<float> surfaces) {
+  const double middle = tip.outline / finder_.radius_of(1.0);
+  const Range range{std::max(matcher_.least(), static_cast<int>(middle / kOther)),
+                    std::min(matcher_.most(), static_cast<int>(middle * kOther))};
+  const Region part = opposite(tip, range, this->frame());
+  if (range.most <= range.least || part.empty()) return 0;
+  segment_right(frame, part);
+  const std::size_t count = alike_shapes(skin_, right_skin_, tip, range, surfaces);
+  for (float& shift : surfaces.first(count))
+    shift = static_cast<float>(front_of(static_cast<double>(shift), tip.outline, pair().focal));
+  return count;
+}
+
 void HandScene::sharpen(Fingertip& tip) const {
   const CapFit fit{true, {tip.column, tip.row}, tip.outline, tip.along_x, tip.along_y};
   const CapFit sharp = sharpen_cap(skin_, grey_left_, pair(), fit);
@@ -170,13 +198,58 @@ void HandScene::sharpen(Fingertip& tip) const {
   tip.along_y = sharp.along_y;
 }
 
+// The cap's outline is that of its middle in the right image, too: where it lies there. NaN where it cannot
+// be fitted, or not to one like that of the left image in the same row.
+double HandScene::outline_disparity(const Fingertip& tip, const StereoFrame& frame, double disparity) {
+  constexpr double kAlike = 0.15;                  // of the radius
+  constexpr double kSameRow = 1.0, kMisfit = 0.7;  // px
+  // Radii: how far the fit moves at most, and how far it looks from there.
+  constexpr double kMoves = 2.0, kAround = kFarthest * (1.0 + kAlike) + kMoves;
+  const Pixel start{tip.column - disparity, tip.row};
+  const auto x = static_cast<int>(start.column), y = static_cast<int>(start.row);
+  const int far = static_cast<int>(kAround * tip.outline) + 1;
+  const Region part = Region{x - far, y - far, x + far + 1, y + far + 1}.cut(this->frame());
+  if (part.empty()) return kUnset;
+  segment_right(frame, part);
+  const auto fits = [&](const CapFit& fit) {
+    return fit.good && std::abs(fit.radius / tip.outline - 1.0) < kAlike &&
+           std::hypot(fit.centre.column - start.column, fit.centre.row - start.row) < kMoves * tip.outline;
+  };
+  const CapFit rough = fit_cap(right_skin_, pair(), start, tip.outline);
+  if (!fits(rough)) return kUnset;
+  const CapFit fine = sharpen_cap(right_skin_, grey_right_, pair(), rough);
+  const bool same = fits(fine) && std::abs(fine.centre.row - tip.row) < kSameRow && fine.misfit < kMisfit;
+  return same ? tip.column - fine.centre.column : kUnset;
+}
+
+// The outline in the right image tells of a place that no block did. And dark skin of little detail fits
+// nearly as well a pixel off, with another slope: where it does so at the place that the outline tells, that
+// is right.
+void HandScene::confirm(const Fingertip& tip, const StereoFrame& frame, CapDisparity& cap) {
+  constexpr double kElsewhere = 3.0, kApart = 0.8;  // px
+  constexpr double kAlike = 1.2;                    // times what is left over
+  constexpr double kOutline = 0.3;                  // px rms, of the outline's disparity
+  const double outline = outline_disparity(tip, frame, cap.disparity);
+  if (std::abs(outline - cap.disparity) > kElsewhere) {
+    const std::array front{static_cast<float>(front_of(outline, tip.outline, pair().focal))};
+    const CapDisparity there = match_cap(grey_left_, grey_right_, skin_, tip, pair(), front);
+    if (there.good && there.left_over < cap.left_over) cap = there;
+  }
+  if (!(std::abs(outline - cap.disparity) > kApart)) return;
+  const CapDisparity there = match_cap_at(grey_left_, grey_right_, skin_, tip, pair(), outline);
+  if (!there.good || there.left_over > kAlike * cap.left_over) return;
+  cap = there;
+  cap.variance = kOutline * kOutline;
+}
+
 // A followed finger cannot have come much nearer or gone much farther since the last frame: where the blocks
 // say so, it is looked for where it is expected.
-void HandScene::measure(Seen& seen, double expected) {
+void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
   constexpr double kUnrefined = 0.5;  // px rms, of a block that sees a cap
   constexpr double kNearer = 1.25;    // times: 3 m/s at 600 mm and 20 Hz
   Surfaces surfaces{};
-  const std::size_t count = surfaces_of(seen.tip, surfaces);
+  std::size_t count = surfaces_of(seen.tip, surfaces);
+  if (!(expected > 0.0)) count += shapes_of(seen.tip, frame, std::span(surfaces).subspan(count));
   const auto match = [&](std::span<const float> from) {
     return match_cap(grey_left_, grey_right_, skin_, seen.tip, pair(), from);
   };
@@ -186,6 +259,7 @@ void HandScene::measure(Seen& seen, double expected) {
     const std::array front{static_cast<float>(front_of(expected, seen.tip.outline, pair().focal))};
     if (const CapDisparity there = match(front); there.good) cap = there;
   }
+  if (cap.good && seen.tip.fitted) confirm(seen.tip, frame, cap);
   const auto surface = static_cast<double>(disparity_.at(seen.tip.x, seen.tip.y));
   seen.disparity = cap.good ? cap.disparity : middle_of(surface, seen.tip.outline, pair().focal);
   seen.variance = cap.good ? cap.variance : kUnrefined * kUnrefined;

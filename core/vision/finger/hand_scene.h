@@ -4,8 +4,10 @@
 
 #include <array>
 #include <memory>
+#include <span>
 
 #include "core/devices/stereo_camera.h"
+#include "core/vision/finger/cap_match.h"
 #include "core/vision/finger/fingertip.h"
 #include "core/vision/segmentation/segmenter.h"
 #include "core/vision/stereo/rectify.h"
@@ -36,28 +38,36 @@ class HandScene {
   [[nodiscard]] const Mask& skin() const { return skin_; }
   [[nodiscard]] const DisparityMap& disparity() const { return disparity_; }
   [[nodiscard]] const FingertipFinder& finder() const { return finder_; }
+  // Of the same images, with other factors.
+  [[nodiscard]] FingertipFinder finder_with(const FingertipSpec& fingertip) const;
 
  private:
   // The rectified image, up to date within `part`.
   ImageView rectified(Side side, const ImageView& raw, const Region& part);
+  [[nodiscard]] Region read_for(const Segmenter& segmenter, const Region& wanted) const;
   Region segment(Segmenter& segmenter, const ImageView& raw, const Region& wanted);
+  // Of the hue of skin in the right image, in right_skin_.
+  void segment_right(const StereoFrame& frame, const Region& wanted);
   void match(const StereoFrame& frame, const Region& window, const Region& around);
   [[nodiscard]] int farthest_reach(const Region& window) const;
-  using Surfaces = std::array<float, 13>;  // px of disparity
+  using Surfaces = std::array<float, 17>;  // px of disparity
   std::size_t surfaces_of(const Fingertip& tip, Surfaces& surfaces);
+  std::size_t shapes_of(const Fingertip& tip, const StereoFrame& frame, std::span<float> surfaces);
   void sharpen(Fingertip& tip) const;
-  void measure(Seen& seen, double expected);
+  [[nodiscard]] double outline_disparity(const Fingertip& tip, const StereoFrame& frame, double disparity);
+  void confirm(const Fingertip& tip, const StereoFrame& frame, CapDisparity& cap);
+  void measure(Seen& seen, const StereoFrame& frame, double expected);
   void look_for_finger_in_background(const StereoFrame& frame);
 
   Rectifier rectifier_;
   SegmentationSpec segmentation_;
   Segmenter segmenter_;
-  std::unique_ptr<Segmenter> hue_alone_;  // while the background is learned
+  std::unique_ptr<Segmenter> hue_alone_;  // from the first frame of the background on
   Matcher matcher_;
   FingertipFinder finder_;
   Image left_, right_;
   Grey grey_left_, grey_right_;
-  Mask skin_;
+  Mask skin_, right_skin_;  // the latter by hue alone, where a tip may be
   DisparityMap disparity_;
   bool finger_in_background_ = false;
 };

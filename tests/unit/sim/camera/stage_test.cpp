@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -14,6 +15,8 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/vision/finger/finger_tracker.h"
+#include "core/vision/segmentation/skin.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::sim {
@@ -241,31 +244,64 @@ std::vector<char> drawn_by(const char* kind) {
   return bytes;
 }
 
+// The fingertip in six frames of a hand that moves, m; NaN where it is not seen.
+std::vector<double> followed() {
+  Stage stage(small());
+  Image left, right;
+  PixelTruth truth;
+  SkinLearner learner;
+  stage.draw(&kHand, {}, {}, 100, left, right, &truth);
+  learner.add(left.view(), truth.skin);
+  SegmentationSpec segmentation;
+  segmentation.model = learner.model();
+  FingerTracker tracker(small().camera, segmentation, {}, {});
+  std::vector<double> tips;
+  for (std::uint64_t frame = 0; frame < 16; ++frame) {
+    HandPose hand = kHand;
+    hand.tip = Point<'C'>(Vec3(kHand.tip.e() + 0.01 * static_cast<double>(frame) * Vec3(0.3, 0.5, 0.8)));
+    stage.draw(frame < 10 ? nullptr : &hand, {}, {}, frame, left, right);
+    const Finger finger =
+        tracker.see({left.view(), right.view()}, Time(from_seconds(0.05 * static_cast<double>(frame))));
+    if (frame >= 10) tips.insert(tips.end(), finger.tip.xyz.begin(), finger.tip.xyz.end());
+  }
+  return tips;
+}
+
 TEST(StageRenderer, Draws) {
   const char* file = std::getenv("ENCOUNTER_TEST_PICTURE");
   if (file == nullptr) GTEST_SKIP() << "a part of EglAndOsMesaDrawTheSame";
   const Image picture = drawn(small(Scenery::clutter, 5));
+  const std::vector<double> tips = followed();
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(picture.rgb.data()),
-             static_cast<std::streamsize>(picture.rgb.size()));
+             static_cast<std::streamsize>(picture.rgb.size()))
+      .write(reinterpret_cast<const char*>(tips.data()),
+             static_cast<std::streamsize>(tips.size() * sizeof(double)));
 }
 
 TEST(StageRenderer, EglAndOsMesaDrawTheSame) {
+  constexpr std::size_t kPicture = 3UL * 320 * 240, kTips = 3 * 6;
   void* library = dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) GTEST_SKIP() << "libosmesa6 is not there";
   const std::vector<char> egl = drawn_by("egl"), mesa = drawn_by("osmesa");
-  ASSERT_EQ(egl.size(), 3U * 320 * 240);
+  ASSERT_EQ(egl.size(), kPicture + kTips * sizeof(double));
   ASSERT_EQ(mesa.size(), egl.size());
   std::size_t differ = 0;
   int most = 0;
-  for (std::size_t i = 0; i < egl.size(); ++i) {
+  for (std::size_t i = 0; i < kPicture; ++i) {
     const int d = std::abs(static_cast<unsigned char>(egl[i]) - static_cast<unsigned char>(mesa[i]));
     differ += d > 0 ? 1 : 0;
     most = std::max(most, d);
   }
-  std::printf("EGL and OSMesa: %zu of %zu values differ, by at most %d of 255\n", differ, egl.size(), most);
+  std::printf("EGL and OSMesa: %zu of %zu values differ, by at most %d of 255\n", differ, kPicture, most);
   // Where EGL draws with a graphics card the edges are its own.
-  EXPECT_LT(differ, egl.size() / 20);
+  EXPECT_LT(differ, kPicture / 20);
+  for (std::size_t i = 0; i < kTips; ++i) {
+    double a = kUnset, b = kUnset;
+    std::memcpy(&a, egl.data() + kPicture + i * sizeof(double), sizeof(double));
+    std::memcpy(&b, mesa.data() + kPicture + i * sizeof(double), sizeof(double));
+    EXPECT_NEAR(a, b, differ == 0 ? 0.0 : 0.002) << i;
+  }
 }
 
 TEST(StageRenderer, AnUnknownOneIsRefused) {

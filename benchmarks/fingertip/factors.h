@@ -1,0 +1,11 @@
+// The factors that the printed pseudo-code has lost, steps 5 and 7: what each value of them finds.
+#pragma once
+
+#include "benchmarks/staged/staged.h"
+
+namespace enc::bench::fingertip::factors {
+
+// On training seeds, so that whoever chooses a value by them has not looked at those that are judged.
+void tell(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin);
+
+}  // namespace enc::bench::fingertip::factors
