@@ -229,6 +229,19 @@ void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light,
   if (truth != nullptr) p.tell_truth(hand, look, *truth);
 }
 
+void Stage::draw_only(const HandPose& hand, const HandLook& look) {
+  Parts& p = *parts_;
+  p.context->make_current();
+  p.renderer.scene.ngeom = p.hands->background();
+  p.hands->add(hand, look, p.renderer.scene);
+  p.light({});
+  for (const int eye : {0, 1}) {
+    p.render(eye, false);
+    const Warp& w = p.warp[static_cast<std::size_t>(eye)];
+    mjr_readPixels(p.drawing.data(), nullptr, {0, 0, w.width(), w.height()}, &p.renderer.context);
+  }
+}
+
 const char* Stage::renderer() const { return parts_->context->name(); }
 
 }  // namespace enc::sim

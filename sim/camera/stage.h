@@ -81,6 +81,9 @@ class Stage {
   // Null hand: the background alone. `frame` seeds the noise. Truth where asked for.
   virtual void draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
                     Image& left, Image& right, PixelTruth* truth = nullptr);
+  // MuJoCo's own calls for a pair, mjr_render and mjr_readPixels for each eye, and nothing else: what drawing
+  // costs without us. For benchmarks.
+  virtual void draw_only(const HandPose& hand, const HandLook& look);
   [[nodiscard]] virtual const char* renderer() const;  // "EGL", "OSMesa"
 
  private:
@@ -106,7 +109,6 @@ struct TwinCameraSpec {
 struct CameraModule {
   std::unique_ptr<Stage> (*stage)(const StageSpec& spec) = nullptr;
   std::unique_ptr<StereoCamera> (*camera)(const TwinCameraSpec& spec, Show show) = nullptr;
-  std::function<void(const HandPose& hand)> (*raw_calls)(const StageSpec& spec) = nullptr;  // raw_calls.h
   // Why EGL ("egl") or OSMesa ("osmesa") cannot draw; empty where it can.
   std::string (*renderer_problem)(const char* kind) = nullptr;
 };

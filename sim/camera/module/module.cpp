@@ -2,7 +2,6 @@
 #include "core/module.h"
 
 #include "sim/camera/context.h"
-#include "sim/camera/raw_calls.h"
 #include "sim/camera/stage.h"
 #include "sim/camera/twin_camera.h"
 
@@ -15,7 +14,7 @@ std::unique_ptr<StereoCamera> camera(const TwinCameraSpec& spec, Show show) {
   return std::make_unique<TwinCamera>(spec, std::move(show));
 }
 
-constexpr CameraModule kCamera{stage, camera, raw_calls, renderer_problem};
+constexpr CameraModule kCamera{stage, camera, renderer_problem};
 constexpr ModuleInfo kInfo{.name = "camera", .camera = &kCamera};
 
 }  // namespace
