@@ -14,6 +14,9 @@ constexpr int kFewest = 50;            // samples that say something of the ligh
 constexpr double kMostGain = 8.0;
 constexpr std::size_t kSteps = 16384;  // of a median
 constexpr double kSpread = 1.4826;     // of a Gaussian, over its median of |x|
+// Share of the brightness: with more left unexplained, what was measured is not the background's light but a
+// hand's, as where the background is clipped and the hand is not.
+constexpr double kNonsense = 0.2;
 
 }  // namespace
 
@@ -159,6 +162,7 @@ Light LightMeter::measure(const ImageView& frame) {
   light.bright = kSpread * median(1.0, [&](const Sample& s) {
                    return std::abs(s.ratio - (light.middle + light.across * s.at_x + light.down * s.at_y));
                  });
+  if (light.bright > kNonsense) return {};
   light.colour =
       kSpread * median(1.0, [&](const Sample& s) {
         const double seen = s.seen[0] + s.seen[1] + s.seen[2], was = seen / std::max(s.ratio, 1e-3);

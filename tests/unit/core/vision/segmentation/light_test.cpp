@@ -69,5 +69,12 @@ TEST(Light, OfTooFewSamplesIsOne) {
   EXPECT_EQ(clipped.gain, (std::array{1.0, 1.0, 1.0}));
 }
 
+// Most of the background is clipped, a hand before it is not: it says nothing of the light.
+TEST(Light, OfAHandAloneIsOne) {
+  const Light light = measured(frame([](double) { return std::array{3.2, 1.9, 3.2}; }, 0.62));
+  EXPECT_EQ(light.gain, (std::array{1.0, 1.0, 1.0}));
+  EXPECT_EQ(light.bright, 0.0);
+}
+
 }  // namespace
 }  // namespace enc::segmentation
