@@ -69,11 +69,16 @@ TEST(Light, OfTooFewSamplesIsOne) {
   EXPECT_EQ(clipped.gain, (std::array{1.0, 1.0, 1.0}));
 }
 
-// Most of the background is clipped, a hand before it is not: it says nothing of the light.
+// Most of the background is clipped, a shaded hand before it is not: it says nothing of the light.
 TEST(Light, OfAHandAloneIsOne) {
-  const Light light = measured(frame([](double) { return std::array{3.2, 1.9, 3.2}; }, 0.62));
+  Image image = frame([](double) { return std::array{3.0, 3.0, 3.0}; });
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth - y; ++x)
+      for (int c = 0; c < 3; ++c) image.at(x, y)[c] = static_cast<std::uint8_t>((60 + x / 3) * (5 - c) / 5);
+  const Light light = measured(image);
   EXPECT_EQ(light.gain, (std::array{1.0, 1.0, 1.0}));
   EXPECT_EQ(light.bright, 0.0);
+  EXPECT_EQ(light.middle, 1.0);
 }
 
 }  // namespace
