@@ -16,7 +16,7 @@ constexpr std::size_t kSteps = 16384;  // of a median
 constexpr double kSpread = 1.4826;     // of a Gaussian, over its median of |x|
 // Share of the brightness: with more left unexplained, what was measured is not the background's light but a
 // hand's, as where the background is clipped and the hand is not.
-constexpr double kNonsense = 0.1;
+constexpr double kNonsense = 0.125;
 
 }  // namespace
 
