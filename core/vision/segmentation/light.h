@@ -23,8 +23,8 @@ struct Light {
 
 // Half of a frame's samples may be a hand: gains are medians (those of red and blue are of their ratio to
 // green), the plane is fitted to what lies near it, and what is left is the median of the remainders, as a
-// Gaussian's standard deviation. Where that is an eighth of the brightness the light is not known, and said to
-// be what it was.
+// Gaussian's standard deviation. Where that is an eighth of the brightness the light is not known, and said
+// to be what it was.
 class LightMeter {
  public:
   LightMeter(const Image& background, const Grid& grid);
