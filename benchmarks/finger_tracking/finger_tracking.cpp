@@ -19,6 +19,7 @@ using namespace staged;
 
 constexpr double kSpeed = 0.300;         // m/s
 constexpr double kRate = 20.0;           // Hz
+constexpr std::size_t kHides = 50;       // frames
 constexpr double kVelocityBound = 60.0;  // mm/s rms, a fifth of the speed: said before it was measured
 
 // Round and round before the head, never the same way, at one speed.
@@ -57,7 +58,7 @@ struct Asked {
   bool window = true;
   std::size_t frames = 1000;
   std::uint64_t seed = 1;
-  bool hides = false;  // for 6 frames in every 50
+  bool hides = false;  // for 6 frames in every kHides
 };
 
 struct Walk {
@@ -129,7 +130,7 @@ Walk follow(const Asked& asked) {
   const double dt = 1.0 / kRate;
   int hidden = 0, since = -1;
   for (std::size_t frame = 0; frame < asked.frames + 10; ++frame) {
-    const bool hand = frame >= 10 && !(asked.hides && (frame % 50) >= 44);
+    const bool hand = frame >= 10 && !(asked.hides && (frame % kHides) >= kHides - 6);
     play.draw(hand, pair);
     const double start = thread_seconds();
     const Finger finger = tracker.see({pair.left.view(), pair.right.view()},
@@ -174,7 +175,7 @@ void judge_window(Bench& bench, const Walk& windowed, const Walk& whole) {
       "frames in which window and whole frame give the same column, row, disparity and variance, to the "
       "bit");
   bench.figure("window.pixels.mean", 100.0 * mean(windowed.pixels) / mean(whole.pixels), "%", at_most(25.0),
-               "pixels that are segmented, of the whole frame's");
+               "pixels of the left image that are segmented, of the whole frame's");
   bench.figure("window.speed_up.median", median(whole.seconds) / median(windowed.seconds), "x", at_least(2.0),
                "CPU time of a frame without the window over that with it");
   bench.figure("window.time.median", median(windowed.seconds) * 1e3, "ms", "a stereo frame, with the window");
@@ -303,8 +304,9 @@ void run(Bench& bench) {
   }
   judge_window(bench, walks[0], walks[1]);
   const std::vector<double>& back = walks[2].reacquired;
+  const std::size_t hidden = hiding.frames / kHides;
   bench.figure("hidden.back.count", static_cast<double>(back.size()), "times",
-               exactly(static_cast<double>(hiding.frames / 50)), "a finger that was hidden is seen again");
+               exactly(static_cast<double>(hidden)), "a finger that was hidden is seen again");
   bench.figure("hidden.back_after.max", back.empty() ? kUnset : *std::max_element(back.begin(), back.end()),
                "frames", at_most(2.0),
                "after six frames without a finger: until it is seen again, counted from 1");

@@ -55,7 +55,9 @@ struct Place {
 
 // The straight finger points away, so that the fist is before it: folded fingers and a thumb are left.
 Shot fist(const StereoRig& rig, const Draw& draw, sim::Tone tone, sim::Stream& stream) {
-  Shot shot = drawn(rig, draw, tone, stream);
+  Draw farther = draw;
+  farther.near = 0.35;  // the fist is a finger's length nearer
+  Shot shot = drawn(rig, farther, tone, stream);
   const Vec3 ray = shot.pose.tip.e().normalized();
   const double aslant = 0.15 * stream.uniform(), side = 2.0 * std::numbers::pi * stream.uniform();
   shot.pose.along = Vec<'C'>(Vec3(ray + aslant * Vec3(std::cos(side), std::sin(side), 0.0)));

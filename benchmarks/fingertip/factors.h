@@ -1,4 +1,5 @@
-// The factors that the printed pseudo-code has lost, steps 5 and 7: what each value of them finds.
+// The factors that the printed pseudo-code has lost, steps 5 and 7, and the size of the square of step 6:
+// what each value of them finds.
 #pragma once
 
 #include "benchmarks/staged/staged.h"

@@ -170,7 +170,7 @@ void judge_tips(Bench& bench, const std::vector<Found>& shots, const std::string
   const std::vector<double> off = offs(shots, 0);
   bench.figure(id + ".found.percent", percent(off.size(), shots.size()), "%",
                shots.size() < kEnough ? Bounds{} : at_least(99.0),
-               fmt::format("of {} frames; a tip beside the cap, more than 2 px off, counts as not found",
+               fmt::format("of {} frames; a tip beyond the cap, and 2 px off at least, counts as not found",
                            shots.size()));
   bench.figure(id + ".error.median", median(off), "px", at_most(most_median), "of the middle of the cap");
   bench.figure(id + ".error.p95", percentile(off, 0.95), "px", "of the middle of the cap");
@@ -186,11 +186,21 @@ void judge_empty(Bench& bench, const std::vector<Cell>& cells) {
                fmt::format("of {} of the background alone: those in which there is a fingertip", empty));
 }
 
+void judge_gross(Bench& bench, const std::vector<Found>& shots, const std::string& id) {
+  constexpr double kGross = 3.0;  // px
+  const std::vector<double> errors = known(shots, &Found::disparity);
+  const auto gross =
+      std::count_if(errors.begin(), errors.end(), [](double error) { return std::abs(error) > kGross; });
+  bench.figure(id + ".gross.count", static_cast<double>(gross), "frames", exactly(0.0),
+               fmt::format("of {} with an error in disparity beyond {:g} px", errors.size(), kGross));
+}
+
 // Z^2 sigma / (f B), with the sigma that the disparity turned out to have.
 void judge_depth(Bench& bench, const StereoRig& rig, const std::vector<Found>& shots) {
   const double fb = rig.left.focal_x * rig.X_CD.p().x();
   const double sigma = rms(known(shots, &Found::disparity));
   bench.figure("disparity.error.rms", sigma, "px", "of the cap's middle");
+  judge_gross(bench, shots, "disparity");
   Series seen{.name = "twin", .mark = Mark::both}, law{.name = "Z2 sigma / (f B)"};
   double worst = 0.0, at_600 = kUnset;
   for (std::size_t i = 0; i + 1 < kDepths.size(); ++i) {
@@ -255,11 +265,13 @@ void run(Bench& bench) {
     if (width != 640) continue;
     judge_empty(bench, cells);
     const std::vector<double> outlines = known(found, &Found::outline);
-    bench.figure(
-        "outline.off.p99", percentile(outlines, 0.99), "px", at_most(1.0),
-        fmt::format("radius of the cap as drawn, in {} frames, against r = K / z, which is that of a "
-                    "camera that looks straight at it; the most is {:.2f} px",
-                    outlines.size(), *std::max_element(outlines.begin(), outlines.end())));
+    const double most = outlines.empty() ? kUnset : *std::max_element(outlines.begin(), outlines.end());
+    bench.figure("outline.frames.percent", percent(outlines.size(), found.size()), "%", at_least(50.0),
+                 "frames in which the cap's outline lies before the background all along");
+    bench.figure("outline.off.p99", percentile(outlines, 0.99), "px", at_most(1.0),
+                 fmt::format("in these, radius of the cap as drawn against r = K / z, which is that of a cap "
+                             "in the image's middle; the most is {:.2f} px",
+                             most));
     for (const std::size_t scale : {1U, 2U}) {
       const std::vector<double> off = offs(found, scale);
       const std::string id = fmt::format("k.{:.0f}", 100.0 * kScales[scale]);
@@ -271,7 +283,9 @@ void run(Bench& bench) {
     factors::tell(bench, module, skin);
     if (!bench.context.quick) {
       like.seed = kNeverSeen + 500;
-      judge_tips(bench, all_of(bench.each(all_widths(like, stages / 2), look_at)), "never_seen", 1.0);
+      const std::vector<Found> fresh = all_of(bench.each(all_widths(like, stages / 2), look_at));
+      judge_tips(bench, fresh, "never_seen", 1.0);
+      judge_gross(bench, fresh, "never_seen");
     }
     bench.picture({"fig3", "Fingertip", "A frame and its skin; the cross is the fingertip [VisHap Fig 3].",
                    png(cells.front().picture)});

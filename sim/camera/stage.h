@@ -48,7 +48,7 @@ struct SensorLook {
   Rgb white{1, 1, 1};     // gains of the channels
 };
 
-// What costs time and is off: 19 ms of CPU a pair without.
+// What costs time and is off: a pair takes 19 to 40 ms of CPU without.
 struct Finish {
   int samples = 0;  // of each pixel, for smooth edges; 0 or a power of two to 16
   bool shadows = false, reflections = false;
@@ -81,8 +81,8 @@ class Stage {
   // Null hand: the background alone. `frame` seeds the noise. Truth where asked for.
   virtual void draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
                     Image& left, Image& right, PixelTruth* truth = nullptr);
-  // MuJoCo's own calls for a pair, mjr_render and mjr_readPixels for each eye, and nothing else: what drawing
-  // costs without us. For benchmarks.
+  // The same picture by MuJoCo's own calls alone, mjr_render and mjr_readPixels for each eye, without lens,
+  // sensor and images. For benchmarks.
   virtual void draw_only(const HandPose& hand, const HandLook& look);
   [[nodiscard]] virtual const char* renderer() const;  // "EGL", "OSMesa"
 

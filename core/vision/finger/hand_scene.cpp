@@ -31,6 +31,12 @@ Region grown(const Region& region, int by) {
 
 constexpr double kOther = 1.6;  // times as large a cap: more than K and the mask may be off
 
+// Of a disparity over the one that was expected: 3 m/s at 600 mm and 20 Hz.
+bool is_near(double ratio) {
+  constexpr double kNearer = 1.25;
+  return ratio < kNearer && ratio > 1.0 / kNearer;
+}
+
 // Every tile is foreground, so that hue alone tells skin.
 SegmentationSpec without_background(SegmentationSpec spec) {
   spec.method = SegmentationMethod::published;
@@ -83,9 +89,11 @@ Region HandScene::segment(Segmenter& segmenter, const ImageView& raw, const Regi
   return segmenter.segment(image, wanted, skin_);
 }
 
-void HandScene::segment_right(const StereoFrame& frame, const Region& wanted) {
-  const Region part = read_for(*hue_alone_, wanted).cut(this->frame());
-  hue_alone_->segment(rectified(Side::right, frame.right, part), wanted, right_skin_);
+ImageView HandScene::segment_right(const StereoFrame& frame, const Region& wanted) {
+  const ImageView right =
+      rectified(Side::right, frame.right, read_for(*hue_alone_, wanted).cut(this->frame()));
+  hue_alone_->segment(right, wanted, right_skin_);
+  return right;
 }
 
 void HandScene::learn(const StereoFrame& frame) {
@@ -112,7 +120,8 @@ void HandScene::match(const StereoFrame& frame, const Region& window, const Regi
   disparity_.match(matcher_, grey_left_, grey_right_, skin_, Region{});
   const Region box = box_of(skin_, around);
   if (box.empty()) return;
-  const Region cells = grown(box, DisparityMap::kCell);
+  constexpr int kBeyond = 8;  // px: how far the fit of the cap looks beyond the mask
+  const Region cells = grown(box, DisparityMap::kCell + kBeyond);
   const Region left = matcher_.left_of(cells), right = matcher_.right_of(cells);
   to_grey(rectified(Side::left, frame.left, left), left, grey_left_);
   to_grey(rectified(Side::right, frame.right, right), right, grey_right_);
@@ -210,7 +219,7 @@ double HandScene::outline_disparity(const Fingertip& tip, const StereoFrame& fra
   const int far = static_cast<int>(kAround * tip.outline) + 1;
   const Region part = Region{x - far, y - far, x + far + 1, y + far + 1}.cut(this->frame());
   if (part.empty()) return kUnset;
-  segment_right(frame, part);
+  to_grey(segment_right(frame, part), part, grey_right_);
   const auto fits = [&](const CapFit& fit) {
     return fit.good && std::abs(fit.radius / tip.outline - 1.0) < kAlike &&
            std::hypot(fit.centre.column - start.column, fit.centre.row - start.row) < kMoves * tip.outline;
@@ -219,34 +228,36 @@ double HandScene::outline_disparity(const Fingertip& tip, const StereoFrame& fra
   if (!fits(rough)) return kUnset;
   const CapFit fine = sharpen_cap(right_skin_, grey_right_, pair(), rough);
   const bool same = fits(fine) && std::abs(fine.centre.row - tip.row) < kSameRow && fine.misfit < kMisfit;
-  return same ? tip.column - fine.centre.column : kUnset;
+  const double found = tip.column - fine.centre.column;
+  return same && found >= matcher_.least() && found <= matcher_.most() ? found : kUnset;
 }
 
 // The outline in the right image tells of a place that no block did. And dark skin of little detail fits
 // nearly as well a pixel off, with another slope: where it does so at the place that the outline tells, that
-// is right.
-void HandScene::confirm(const Fingertip& tip, const StereoFrame& frame, CapDisparity& cap) {
+// is right. Neither leads away from where a followed finger is expected.
+void HandScene::confirm(const Fingertip& tip, const StereoFrame& frame, double expected, CapDisparity& cap) {
   constexpr double kElsewhere = 3.0, kApart = 0.8;  // px
   constexpr double kAlike = 1.2;                    // times what is left over
-  constexpr double kOutline = 0.3;                  // px rms, of the outline's disparity
+  constexpr double kDisagree = 0.5;                 // px rms, where outline and match are apart
   const double outline = outline_disparity(tip, frame, cap.disparity);
+  if (expected > 0.0 && !is_near(outline / expected)) return;
   if (std::abs(outline - cap.disparity) > kElsewhere) {
     const std::array front{static_cast<float>(front_of(outline, tip.outline, pair().focal))};
     const CapDisparity there = match_cap(grey_left_, grey_right_, skin_, tip, pair(), front);
     if (there.good && there.left_over < cap.left_over) cap = there;
   }
-  if (!(std::abs(outline - cap.disparity) > kApart)) return;
+  const double apart = std::abs(outline - cap.disparity);
+  if (!(apart > kApart && apart <= kElsewhere)) return;
   const CapDisparity there = match_cap_at(grey_left_, grey_right_, skin_, tip, pair(), outline);
   if (!there.good || there.left_over > kAlike * cap.left_over) return;
   cap = there;
-  cap.variance = kOutline * kOutline;
+  cap.variance = kDisagree * kDisagree;
 }
 
 // A followed finger cannot have come much nearer or gone much farther since the last frame: where the blocks
 // say so, it is looked for where it is expected.
 void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
   constexpr double kUnrefined = 0.5;  // px rms, of a block that sees a cap
-  constexpr double kNearer = 1.25;    // times: 3 m/s at 600 mm and 20 Hz
   Surfaces surfaces{};
   std::size_t count = surfaces_of(seen.tip, surfaces);
   if (!(expected > 0.0)) count += shapes_of(seen.tip, frame, std::span(surfaces).subspan(count));
@@ -254,12 +265,11 @@ void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
     return match_cap(grey_left_, grey_right_, skin_, seen.tip, pair(), from);
   };
   CapDisparity cap = match(std::span(surfaces.data(), count));
-  const double nearer = cap.good ? cap.disparity / expected : kUnset;
-  if (expected > 0.0 && !(nearer < kNearer && nearer > 1.0 / kNearer)) {
+  if (expected > 0.0 && !(cap.good && is_near(cap.disparity / expected))) {
     const std::array front{static_cast<float>(front_of(expected, seen.tip.outline, pair().focal))};
     if (const CapDisparity there = match(front); there.good) cap = there;
   }
-  if (cap.good && seen.tip.fitted) confirm(seen.tip, frame, cap);
+  if (cap.good && seen.tip.fitted) confirm(seen.tip, frame, expected, cap);
   const auto surface = static_cast<double>(disparity_.at(seen.tip.x, seen.tip.y));
   seen.disparity = cap.good ? cap.disparity : middle_of(surface, seen.tip.outline, pair().focal);
   seen.variance = cap.good ? cap.variance : kUnrefined * kUnrefined;

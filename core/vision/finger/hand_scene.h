@@ -46,8 +46,8 @@ class HandScene {
   ImageView rectified(Side side, const ImageView& raw, const Region& part);
   [[nodiscard]] Region read_for(const Segmenter& segmenter, const Region& wanted) const;
   Region segment(Segmenter& segmenter, const ImageView& raw, const Region& wanted);
-  // Of the hue of skin in the right image, in right_skin_.
-  void segment_right(const StereoFrame& frame, const Region& wanted);
+  // Of the hue of skin in the right image, in right_skin_. Returns that image.
+  ImageView segment_right(const StereoFrame& frame, const Region& wanted);
   void match(const StereoFrame& frame, const Region& window, const Region& around);
   [[nodiscard]] int farthest_reach(const Region& window) const;
   using Surfaces = std::array<float, 17>;  // px of disparity
@@ -55,7 +55,7 @@ class HandScene {
   std::size_t shapes_of(const Fingertip& tip, const StereoFrame& frame, std::span<float> surfaces);
   void sharpen(Fingertip& tip) const;
   [[nodiscard]] double outline_disparity(const Fingertip& tip, const StereoFrame& frame, double disparity);
-  void confirm(const Fingertip& tip, const StereoFrame& frame, CapDisparity& cap);
+  void confirm(const Fingertip& tip, const StereoFrame& frame, double expected, CapDisparity& cap);
   void measure(Seen& seen, const StereoFrame& frame, double expected);
   void look_for_finger_in_background(const StereoFrame& frame);
 

@@ -51,7 +51,7 @@ std::size_t alike_shapes(const Mask& left, const Mask& right, const Fingertip& t
   for (int shift = range.least; shift <= most; ++shift) {
     of(shift) = alike(left, right, lay, shift);
     best = std::max(best, of(shift));
-    worst = std::min(worst, of(shift));
+    if (shift <= lay.x0) worst = std::min(worst, of(shift));  // all of it is in the image
   }
   if (best - worst < kTells) return 0;
   std::size_t count = 0;

@@ -72,6 +72,10 @@ TEST(Silhouette, ABackgroundOfTheHueOfSkinTellsNothing) {
   std::fill(scene.right.on.begin(), scene.right.on.end(), std::uint8_t{255});
   std::array<float, 4> shifts{};
   EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), shifts), 0U);
+  Scene edge(hand_at({-0.09, 0.0, 0.4}, {0, -1, 0}));  // some shifts lead out of the right image
+  ASSERT_LT(edge.tip.column - edge.tip.outline, 1.6 * edge.disparity);
+  std::fill(edge.right.on.begin(), edge.right.on.end(), std::uint8_t{255});
+  EXPECT_EQ(alike_shapes(edge.left, edge.right, edge.tip, round(edge.disparity), shifts), 0U);
 }
 
 TEST(Silhouette, NoMoreThanThereIsRoomFor) {
