@@ -122,9 +122,7 @@ void tell(Bench& bench, const sim::CameraModule& camera, const SkinModel& skin) 
   const std::size_t places = bench.context.quick ? 2 : 16;
   std::vector<Place> asked;
   for (std::size_t i = 0; i < places; ++i)
-    asked.push_back({&camera, skin,
-                     0.010 + 0.015 * (static_cast<double>(i) + 0.5) / static_cast<double>(places),
-                     kTraining + 500 + i});
+    asked.push_back({&camera, skin, finger_width(i, places), kTraining + 500 + i});
   Cell sum{};
   for (const Cell& cell : bench.each(asked, look_at))
     for (std::size_t k = 0; k < kKinds; ++k)

@@ -246,7 +246,7 @@ void tell_steps(Bench& bench, const std::vector<Cell>& cells) {
 std::vector<Asked> all_widths(const Asked& like, std::size_t stages) {
   std::vector<Asked> all(stages, like);
   for (std::size_t i = 0; i < stages; ++i) {
-    all[i].width = 0.010 + 0.015 * (static_cast<double>(i) + 0.5) / static_cast<double>(stages);
+    all[i].width = finger_width(i, stages);
     all[i].seed += i;
   }
   return all;

@@ -40,6 +40,12 @@ StereoRig head(int width) {
   return rig;
 }
 
+double finger_width(std::size_t person, std::size_t persons) {
+  constexpr Draw kAll;
+  return kAll.thin +
+         (kAll.thick - kAll.thin) * (static_cast<double>(person) + 0.5) / static_cast<double>(persons);
+}
+
 Shot drawn(const StereoRig& rig, const Draw& draw, sim::Tone tone, sim::Stream& stream) {
   const auto between = [&](double low, double high) { return low + (high - low) * stream.uniform(); };
   const double z = between(draw.near, draw.far);

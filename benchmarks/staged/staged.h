@@ -32,6 +32,8 @@ struct Draw {
   double thin = 0.010, thick = 0.025;  // m, width of the finger
   double tilt = 0.6;                   // rad, the finger out of the image's plane, either way
 };
+// m, of the finger of one of so many persons: evenly from thin to thick, as Draw has them.
+[[nodiscard]] double finger_width(std::size_t person, std::size_t persons);
 struct Shot {
   sim::HandPose pose;
   sim::HandLook look;

@@ -186,8 +186,8 @@ std::size_t HandScene::surfaces_of(const Fingertip& tip, Surfaces& surfaces) {
 // Where in the right image the tip's shape is, within the same bounds.
 std::size_t HandScene::shapes_of(const Fingertip& tip, const StereoFrame& frame, std::span<float> surfaces) {
   const double middle = tip.outline / finder_.radius_of(1.0);
-  const Range range{std::max(matcher_.least(), static_cast<int>(middle / kOther)),
-                    std::min(matcher_.most(), static_cast<int>(middle * kOther))};
+  const ShiftRange range{std::max(matcher_.least(), static_cast<int>(middle / kOther)),
+                         std::min(matcher_.most(), static_cast<int>(middle * kOther))};
   const Region part = opposite(tip, range, this->frame());
   if (range.most <= range.least || part.empty()) return 0;
   segment_right(frame, part);
@@ -232,6 +232,11 @@ double HandScene::outline_disparity(const Fingertip& tip, const StereoFrame& fra
   return same && found >= matcher_.least() && found <= matcher_.most() ? found : kUnset;
 }
 
+CapDisparity HandScene::match_from(const Fingertip& tip, double middle) const {
+  const std::array front{static_cast<float>(front_of(middle, tip.outline, pair().focal))};
+  return match_cap(grey_left_, grey_right_, skin_, tip, pair(), front);
+}
+
 // The outline in the right image tells of a place that no block did. And dark skin of little detail fits
 // nearly as well a pixel off, with another slope: where it does so at the place that the outline tells, that
 // is right. Neither leads away from where a followed finger is expected.
@@ -242,8 +247,7 @@ void HandScene::confirm(const Fingertip& tip, const StereoFrame& frame, double e
   const double outline = outline_disparity(tip, frame, cap.disparity);
   if (expected > 0.0 && !is_near(outline / expected)) return;
   if (std::abs(outline - cap.disparity) > kElsewhere) {
-    const std::array front{static_cast<float>(front_of(outline, tip.outline, pair().focal))};
-    const CapDisparity there = match_cap(grey_left_, grey_right_, skin_, tip, pair(), front);
+    const CapDisparity there = match_from(tip, outline);
     if (there.good && there.left_over < cap.left_over) cap = there;
   }
   const double apart = std::abs(outline - cap.disparity);
@@ -261,13 +265,10 @@ void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
   Surfaces surfaces{};
   std::size_t count = surfaces_of(seen.tip, surfaces);
   if (!(expected > 0.0)) count += shapes_of(seen.tip, frame, std::span(surfaces).subspan(count));
-  const auto match = [&](std::span<const float> from) {
-    return match_cap(grey_left_, grey_right_, skin_, seen.tip, pair(), from);
-  };
-  CapDisparity cap = match(std::span(surfaces.data(), count));
+  CapDisparity cap = match_cap(grey_left_, grey_right_, skin_, seen.tip, pair(),
+                               std::span<const float>(surfaces.data(), count));
   if (expected > 0.0 && !(cap.good && is_near(cap.disparity / expected))) {
-    const std::array front{static_cast<float>(front_of(expected, seen.tip.outline, pair().focal))};
-    if (const CapDisparity there = match(front); there.good) cap = there;
+    if (const CapDisparity there = match_from(seen.tip, expected); there.good) cap = there;
   }
   if (cap.good && seen.tip.fitted) confirm(seen.tip, frame, expected, cap);
   const auto surface = static_cast<double>(disparity_.at(seen.tip.x, seen.tip.y));

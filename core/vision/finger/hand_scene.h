@@ -56,6 +56,8 @@ class HandScene {
   void sharpen(Fingertip& tip) const;
   [[nodiscard]] double outline_disparity(const Fingertip& tip, const StereoFrame& frame, double disparity);
   void confirm(const Fingertip& tip, const StereoFrame& frame, double expected, CapDisparity& cap);
+  // From a disparity of the cap's middle.
+  [[nodiscard]] CapDisparity match_from(const Fingertip& tip, double middle) const;
   void measure(Seen& seen, const StereoFrame& frame, double expected);
   void look_for_finger_in_background(const StereoFrame& frame);
 

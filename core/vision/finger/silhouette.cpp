@@ -36,12 +36,12 @@ double alike(const Mask& left, const Mask& right, const Lay& lay, int shift) {
 
 }  // namespace
 
-Region opposite(const Fingertip& tip, const Range& range, const Region& image) {
+Region opposite(const Fingertip& tip, const ShiftRange& range, const Region& image) {
   const Lay lay(tip, image);
   return Region{lay.x0 - range.most, lay.y0, lay.x1 - range.least, lay.y1}.cut(image);
 }
 
-std::size_t alike_shapes(const Mask& left, const Mask& right, const Fingertip& tip, const Range& range,
+std::size_t alike_shapes(const Mask& left, const Mask& right, const Fingertip& tip, const ShiftRange& range,
                          std::span<float> shifts) {
   const Lay lay(tip, left.whole());
   std::array<double, 512> share{};

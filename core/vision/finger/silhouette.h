@@ -12,14 +12,14 @@
 namespace enc {
 
 // Disparities of the cap's middle, px.
-struct Range {
+struct ShiftRange {
   int least = 0, most = 0;
 };
 
 // What of the right image is looked at.
-[[nodiscard]] Region opposite(const Fingertip& tip, const Range& range, const Region& image);
+[[nodiscard]] Region opposite(const Fingertip& tip, const ShiftRange& range, const Region& image);
 // The shifts at which the two agree best, up to as many as there is room for; how many. Best first.
-std::size_t alike_shapes(const Mask& left, const Mask& right, const Fingertip& tip, const Range& range,
+std::size_t alike_shapes(const Mask& left, const Mask& right, const Fingertip& tip, const ShiftRange& range,
                          std::span<float> shifts);
 
 }  // namespace enc

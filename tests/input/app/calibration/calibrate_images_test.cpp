@@ -12,6 +12,7 @@
 #include "models/setup/stereo_file.h"
 #include "sim/picture/picture.h"
 #include "tests/support/bytes_of.h"
+#include "tests/support/one_line.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/vision/chessboard.h"
@@ -56,11 +57,7 @@ class CalibrateImages : public testing::Test {
   }
   // What one line on stderr says, with exit code 2.
   [[nodiscard]] std::string line(const std::vector<std::string>& more = {}) const {
-    const Result r = calibrate(more);
-    EXPECT_EQ(r.code, 2) << r.out;
-    EXPECT_EQ(r.out, "");
-    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
-    return r.err;
+    return one_line(calibrate(more));
   }
   test::TemporaryFolder temporary_;
   std::string folder_ = temporary_.file("pairs");

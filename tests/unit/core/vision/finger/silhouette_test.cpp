@@ -36,7 +36,7 @@ struct Scene {
 drawn::HandAt hand_at(const Vec3& tip, const Vec3& along) {
   return {.tip = tip, .along = along, .radius = 0.010, .length = 0.05};
 }
-Range round(double disparity) {
+ShiftRange round(double disparity) {
   return {static_cast<int>(0.6 * disparity), static_cast<int>(1.6 * disparity)};
 }
 
@@ -56,7 +56,7 @@ TEST(Silhouette, TheShiftIsThatOfTheTip) {
 
 TEST(Silhouette, ReadsOnlyWhatItSays) {
   Scene scene(hand_at({0.02, 0.0, 0.5}, {1, 0.1, 0.2}));
-  const Range range = round(scene.disparity);
+  const ShiftRange range = round(scene.disparity);
   std::array<float, 4> before{}, after{};
   const std::size_t count = alike_shapes(scene.left, scene.right, scene.tip, range, before);
   const Region read = opposite(scene.tip, range, scene.right.whole());
