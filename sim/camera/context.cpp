@@ -83,6 +83,11 @@ std::unique_ptr<DrawingContext> made(const char* mujoco_gl) {
 
 }  // namespace
 
+std::unique_lock<std::mutex> alone() {
+  static std::mutex mutex;
+  return std::unique_lock(mutex);
+}
+
 std::unique_ptr<DrawingContext> drawing_context() {
   // Mesa's software rasteriser draws in this thread instead of one more for each core.
   setenv("LP_NUM_THREADS", "0", 0);
@@ -105,6 +110,7 @@ std::unique_ptr<DrawingContext> drawing_context() {
 }
 
 std::string renderer_problem(const char* kind) {
+  const auto lock = alone();
   setenv("LP_NUM_THREADS", "0", 0);
   try {
     if (std::string(kind) == "egl")

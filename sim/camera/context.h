@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace enc::sim {
@@ -14,6 +15,10 @@ class DrawingContext {
   [[nodiscard]] virtual const char* name() const = 0;
   [[nodiscard]] virtual void* function(const char* name) const = 0;  // of OpenGL; null where there is none
 };
+
+// Whoever makes, uses or destroys a context holds this meanwhile: one thread of the process draws at a time.
+// Mesa's contexts look into the lists of all others of their kind, which another thread would be changing.
+[[nodiscard]] std::unique_lock<std::mutex> alone();
 
 // EGL, else OSMesa; the environment's ENCOUNTER_GL=egl or ENCOUNTER_GL=osmesa says which. Current when it
 // returns. All contexts of a process are of one kind: MuJoCo looks OpenGL up once. Throws Error (kind device)

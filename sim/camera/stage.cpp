@@ -212,12 +212,20 @@ void Stage::Parts::tell_truth(const HandPose* hand, const HandLook& look, PixelT
   if (hand != nullptr) tell_cap(spec.camera.left, hand->tip.e(), 0.5 * look.finger_width, truth);
 }
 
-Stage::Stage(const StageSpec& spec) : parts_(std::make_unique<Parts>(spec)) {}
-Stage::~Stage() { parts_->context->make_current(); }
+Stage::Stage(const StageSpec& spec) {
+  const auto lock = alone();
+  parts_ = std::make_unique<Parts>(spec);
+}
+Stage::~Stage() {
+  const auto lock = alone();
+  parts_->context->make_current();
+  parts_.reset();
+}
 
 void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
                  Image& left, Image& right, PixelTruth* truth) {
   Parts& p = *parts_;
+  const auto lock = alone();
   p.context->make_current();
   p.renderer.scene.ngeom = p.hands->background();
   if (hand != nullptr) p.hands->add(*hand, look, p.renderer.scene);
@@ -231,6 +239,7 @@ void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light,
 
 void Stage::draw_only(const HandPose& hand, const HandLook& look) {
   Parts& p = *parts_;
+  const auto lock = alone();
   p.context->make_current();
   p.renderer.scene.ngeom = p.hands->background();
   p.hands->add(hand, look, p.renderer.scene);

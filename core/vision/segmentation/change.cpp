@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/vision/segmentation/dim.h"
+
 namespace enc::segmentation {
 namespace {
 
@@ -39,6 +41,7 @@ Change::Change(const Kernels& kernels, const Grid& grid, const Image& mean, cons
       surroundings_(kernels, kSurroundings, grid.width),
       strong_(grid.width, grid.height),
       skin_(grid.width, grid.height),
+      dim_(grid.width, grid.height),
       near_(grid.width, grid.height) {
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) {
@@ -69,14 +72,17 @@ void Change::candidates(const ImageView& frame, const Region& region, double cha
   const Light light = meter_.measure(frame);
   const Explained how = explained(light, change);
   const Region wide = grid_.touched(region, surroundings_.margin());
-  for (int y = wide.y0; y < wide.y1; ++y) {
-    if (y == wide.y0 || y % grid_.tile == 0) row_of(light, y, wide);
-    const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width) +
-                    static_cast<std::size_t>(wide.x0);
-    const ChangeRow row{frame.at(wide.x0, y), red_.data() + at,   green_.data() + at,
-                        blue_.data() + at,    noise_.data() + at, side_.data() + wide.x0};
-    kernels_.change_row(row, wide.width(), how, cut, strong_.row(y) + wide.x0, skin_.row(y) + wide.x0);
+  const Region widest = grid_.touched(wide, kDimAround);
+  for (int y = widest.y0; y < widest.y1; ++y) {
+    if (y == widest.y0 || y % grid_.tile == 0) row_of(light, y, widest);
+    const int x = widest.x0;
+    const auto at =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width) + static_cast<std::size_t>(x);
+    const ChangeRow row{frame.at(x, y),    red_.data() + at,   green_.data() + at,
+                        blue_.data() + at, noise_.data() + at, side_.data() + x};
+    kernels_.change_row(row, widest.width(), how, cut, strong_.row(y) + x, skin_.row(y) + x, dim_.row(y) + x);
   }
+  find_dim(frame, dim_, wide, how.white, cut, strong_);
   surroundings_.filter(strong_, region, near_);
   for (int y = region.y0; y < region.y1; ++y)
     kernels_.join_row(strong_.row(y) + region.x0, near_.row(y) + region.x0, skin_.row(y) + region.x0,

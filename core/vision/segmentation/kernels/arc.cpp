@@ -37,4 +37,18 @@ Cut cut_of(const Arc& arc, const HueRule& rule) {
   return cut;
 }
 
+bool in_cut(int hue, const Cut& cut) {
+  if (hue == kNoHue) return false;
+  const int share = hue % kSextant;
+  const auto asks = [&](int sextant, int of) {
+    const std::uint8_t what = cut.sextant[sextant];
+    return (what & Cut::never) == 0 && ((what & Cut::past_from) == 0 || of >= cut.from) &&
+           ((what & Cut::before_to) == 0 || of < cut.to);
+  };
+  // The first hue of a sextant is also the last of the one before: an end of 256 lies there.
+  const int sextant = hue / kSextant;
+  const bool in = share > 0 ? asks(sextant, share) : asks((sextant + 5) % 6, kSextant);
+  return in != (cut.opposite != 0);
+}
+
 }  // namespace enc::segmentation

@@ -43,11 +43,16 @@ inline Position position_of(int r, int g, int b, int most, int least) {
   return most - least >= std::max<int>(1, rule.least_chroma) && most >= rule.least_value;
 }
 
+// Whatever rule it meets: of three numbers that differ, sums of pixels among them.
+[[nodiscard]] inline int hue_of_any(int r, int g, int b, int most, int least) {
+  const auto at = detail::position_of(r, g, b, most, least);
+  return (kSextant * at.sextant + kSextant * at.d / at.chroma) % kHues;
+}
+
 [[nodiscard]] inline int hue_of(int r, int g, int b, const HueRule& rule) {
   const int most = std::max(r, std::max(g, b)), least = std::min(r, std::min(g, b));
   if (!has_hue(most, least, rule)) return kNoHue;
-  const auto at = detail::position_of(r, g, b, most, least);
-  return (kSextant * at.sextant + kSextant * at.d / at.chroma) % kHues;
+  return hue_of_any(r, g, b, most, least);
 }
 
 // The same before rounding down, rad, 0 to 2 pi; of a pixel that has a hue.

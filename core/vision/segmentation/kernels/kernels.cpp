@@ -3,24 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/vision/segmentation/kernels/arc.h"
 #include "core/vision/segmentation/kernels/hue.h"
 
 namespace enc::segmentation {
 namespace {
-
-bool in_cut(int hue, const Cut& cut) {
-  if (hue == kNoHue) return false;
-  const int share = hue % kSextant;
-  const auto asks = [&](int sextant, int of) {
-    const std::uint8_t what = cut.sextant[sextant];
-    return (what & Cut::never) == 0 && ((what & Cut::past_from) == 0 || of >= cut.from) &&
-           ((what & Cut::before_to) == 0 || of < cut.to);
-  };
-  // The first hue of a sextant is also the last of the one before: an end of 256 lies there.
-  const int sextant = hue / kSextant;
-  const bool in = share > 0 ? asks(sextant, share) : asks((sextant + 5) % 6, kSextant);
-  return in != (cut.opposite != 0);
-}
 
 std::uint8_t mask(bool on) { return on ? 255 : 0; }
 
@@ -71,7 +58,7 @@ bool changed(const Pixel& seen, const Pixel& expected, int noise, int side, cons
 }
 
 void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& cut, std::uint8_t* strong,
-                std::uint8_t* skin) {
+                std::uint8_t* skin, std::uint8_t* dim) {
   const HueRule rule{cut.least_chroma, cut.least_value};
   const auto expected = [&](int channel, std::uint8_t mean) {
     return std::min(mean * light.gain[channel] >> 8, 1020);
@@ -85,7 +72,9 @@ void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& 
     const Pixel was{expected(0, row.red[x]), expected(1, row.green[x]), expected(2, row.blue[x])};
     const int hue = hue_of(white(0, p[0]), white(1, p[1]), white(2, p[2]), rule);
     skin[x] = mask(in_cut(hue, cut));
-    strong[x] = skin[x] & mask(changed(seen, was, row.noise[x], row.side[x], light));
+    const std::uint8_t other = mask(changed(seen, was, row.noise[x], row.side[x], light));
+    strong[x] = skin[x] & other;
+    dim[x] = hue == kNoHue ? other : 0;
   }
 }
 

@@ -209,25 +209,28 @@ V whiter(V channel, unsigned gain) {
 }
 
 void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& cut, std::uint8_t* strong,
-                std::uint8_t* skin) {
+                std::uint8_t* skin, std::uint8_t* dim) {
   int x = 0;
   for (; x + 32 <= n; x += 32) {
     const Rgb p = load_rgb(row.rgb + 3 * x);
     const Rgb mean{load(row.red + x), load(row.green + x), load(row.blue + x)};
     const V noise = load(row.noise + x);
     const Rgb white{whiter(p.r, light.white[0]), whiter(p.g, light.white[1]), whiter(p.b, light.white[2])};
-    const V is_skin = skin_of(hue_of(white, cut), cut);
+    const Hue hue = hue_of(white, cut);
+    const V is_skin = skin_of(hue, cut);
     store(skin + x, is_skin);
     // Unpacking takes words 0 to 7 and 16 to 23 of the row first.
     const V one = load(row.side + x), two = load(row.side + x + 16);
     const V a = changed(low(p), low(mean), low(noise), _mm256_permute2x128_si256(one, two, 0x20), light);
     const V b = changed(high(p), high(mean), high(noise), _mm256_permute2x128_si256(one, two, 0x31), light);
-    store(strong + x, _mm256_and_si256(is_skin, _mm256_packs_epi16(a, b)));
+    const V other = _mm256_packs_epi16(a, b);
+    store(strong + x, _mm256_and_si256(is_skin, other));
+    store(dim + x, _mm256_andnot_si256(hue.with, other));
   }
   if (x == n) return;
   const ChangeRow rest{row.rgb + 3 * x, row.red + x,   row.green + x,
                        row.blue + x,    row.noise + x, row.side + x};
-  plain_kernels().change_row(rest, n - x, light, cut, strong + x, skin + x);
+  plain_kernels().change_row(rest, n - x, light, cut, strong + x, skin + x, dim + x);
 }
 
 void and_row(const std::uint8_t* with, int n, std::uint8_t* row) {

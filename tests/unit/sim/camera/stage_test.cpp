@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -265,6 +266,18 @@ std::vector<double> followed() {
     if (frame >= 10) tips.insert(tips.end(), finger.tip.xyz.begin(), finger.tip.xyz.end());
   }
   return tips;
+}
+
+TEST(Stage, SeveralThreadsDrawAtATime) {
+  const Image alone = drawn(small(Scenery::clutter, 3));
+  std::array<int, 3> same{};
+  std::vector<std::thread> threads;
+  for (int& count : same)
+    threads.emplace_back([&] {
+      for (int i = 0; i < 5; ++i) count += drawn(small(Scenery::clutter, 3)).rgb == alone.rgb ? 1 : 0;
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const int count : same) EXPECT_EQ(count, 5);
 }
 
 TEST(StageRenderer, Draws) {

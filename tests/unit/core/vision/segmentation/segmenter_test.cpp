@@ -25,7 +25,7 @@ using Colour = std::array<double, 3>;  // of 255
 constexpr Colour kSkin{200, 150, 125}, kWall{130, 140, 165}, kDesk{70, 120, 80}, kWood{170, 127, 106};
 
 struct Scene {
-  Colour wall = kWall;
+  Colour wall = kWall, skin = kSkin;
   std::function<Colour(double, double)> light = [](double, double) { return Colour{1, 1, 1}; };
   double noise = 1.5;
   int width = 320, height = 240;
@@ -42,7 +42,7 @@ struct Scene {
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const double u = static_cast<double>(x) / width, v = static_cast<double>(y) / height;
-        const Colour c = with_hand && hand(x, y) ? kSkin : (v > 0.75 ? kDesk : wall);
+        const Colour c = with_hand && hand(x, y) ? skin : (v > 0.75 ? kDesk : wall);
         const double pattern = (x / 24 + y / 24) % 2 != 0 ? 1.0 : 0.85;
         const Colour lit = with_hand ? light(u, v) : Colour{1, 1, 1};
         for (std::size_t i = 0; i < 3; ++i)
@@ -98,6 +98,11 @@ TEST(Segmenter, GivesOfARegionTheBitsOfTheWhole) {
         if (random() % 2 != 0)
           for (int c = 0; c < 3; ++c)
             image.at(i % width, i / width)[c] = static_cast<std::uint8_t>(kSkin[static_cast<std::size_t>(c)]);
+      for (int i = width * height / 2; i < width * height * 3 / 4; ++i)  // and what has no hue alone
+        if (random() % 2 != 0)
+          for (int c = 0; c < 3; ++c)
+            image.at(i % width, i / width)[c] =
+                static_cast<std::uint8_t>(kSkin[static_cast<std::size_t>(c)] * 0.08 + random() % 3);
       Image other(width, height);  // so that nothing is left of a frame before
       for (std::size_t i = 0; i < other.rgb.size(); ++i)
         other.rgb[i] = static_cast<std::uint8_t>(kSkin[i % 3]);
@@ -243,6 +248,16 @@ TEST(Segmenter, ThePublishedMethodLosesSkinInABluerLight) {
   Scene scene;
   scene.light = [](double, double) { return Colour{0.8, 0.95, 1.15}; };
   EXPECT_LT(judged(SegmentationMethod::published, scene).iou(), 0.1);
+}
+
+// No pixel has a hue: a chroma of 6, with 1.5 of noise.
+TEST(Segmenter, OursSeesAHandTooDimForAHue) {
+  Scene scene;
+  scene.skin = {16, 12, 10};
+  EXPECT_LT(judged(SegmentationMethod::published, scene).iou(), 0.1);
+  EXPECT_GT(judged(SegmentationMethod::ours, scene).iou(), 0.9);
+  scene.skin = {16, 16, 16};  // nor the hue of skin
+  EXPECT_LT(judged(SegmentationMethod::ours, scene).iou(), 0.01);
 }
 
 TEST(Segmenter, OursSeesAHandBeforeWood) {

@@ -188,12 +188,15 @@ TEST_F(Twins, SeeTheSameChange) {
     const std::uint32_t most = round % 7 == 0 ? 65535U : 3000U;
     const Explained light{
         {word(8192), word(8192), 896}, {word(256), word(256), 256}, word(most), word(most), word(most)};
-    const Cut cut = cut_of({word(1535), 768 + word(768)}, HueRule{1, 0});
-    Bytes strong(at(n)), skin(at(n)), strong_fast(at(n)), skin_fast(at(n));
-    plain.change_row(row, n, light, cut, strong.data(), skin.data());
-    fast.change_row(row, n, light, cut, strong_fast.data(), skin_fast.data());
+    const HueRule rule{static_cast<std::uint8_t>(round % 5 == 0 ? 40 : 1),
+                       static_cast<std::uint8_t>(round % 5 == 0 ? 60 : 0)};
+    const Cut cut = cut_of({word(1535), 768 + word(768)}, rule);
+    Bytes strong(at(n)), skin(at(n)), dim(at(n)), strong_fast(at(n)), skin_fast(at(n)), dim_fast(at(n));
+    plain.change_row(row, n, light, cut, strong.data(), skin.data(), dim.data());
+    fast.change_row(row, n, light, cut, strong_fast.data(), skin_fast.data(), dim_fast.data());
     ASSERT_EQ(skin, skin_fast) << round;
     ASSERT_EQ(strong, strong_fast) << round;
+    ASSERT_EQ(dim, dim_fast) << round;
   }
 }
 
