@@ -32,7 +32,8 @@ struct Row {
   sim::Light light{};
   std::optional<sim::Tone> tone{};  // none: fair to brown in turn
   double exposure = 1.0;
-  bool outlined = true;  // judged by the intersection over union, too
+  // Clips fair skin: judged by the mean over all tones, which a quick run has not, and not by its outline.
+  bool clips = false;
 };
 const std::array<Row, 11> kRows{{
     {.id = "clutter", .title = "clutter", .scenery = sim::Scenery::clutter},
@@ -40,7 +41,7 @@ const std::array<Row, 11> kRows{{
     {.id = "gain_double",
      .title = "twice the light, which clips fair skin",
      .light = {.gain = 2.0},
-     .outlined = false},
+     .clips = true},
     {.id = "side", .title = "a lamp from the left, 0.8", .light = {.side = 0.8}},
     {.id = "colour", .title = "a lamp of RGB 1.25, 1, 0.75", .light = {.colour = {1.25F, 1.0F, 0.75F}}},
     {.id = "skin_hued", .title = "wood and cardboard", .scenery = sim::Scenery::skin_hued},
@@ -154,10 +155,11 @@ void judge_rows(Bench& bench, Table& table, const std::vector<Judged>& pairs) {
     const Score theirs = score(pairs, published, of), own = score(pairs, ours, of);
     bench.figure(fmt::format("{}.published.correct.mean", row.id), in_percent(theirs.correct), "%",
                  fmt::format("{}: the published method", row.title));
-    bench.figure(fmt::format("{}.ours.correct.mean", row.id), in_percent(own.correct), "%", at_least(98.16),
+    bench.figure(fmt::format("{}.ours.correct.mean", row.id), in_percent(own.correct), "%",
+                 row.clips && bench.context.quick ? Bounds{} : at_least(98.16),
                  fmt::format("{}: ours", row.title));
     bench.figure(fmt::format("{}.ours.iou.mean", row.id), own.iou.value, "",
-                 row.outlined ? at_least(0.9) : Bounds{}, fmt::format("{}: ours", row.title));
+                 row.clips ? Bounds{} : at_least(0.9), fmt::format("{}: ours", row.title));
     add_rows(table, row.title, pairs, of);
   }
 }
