@@ -137,10 +137,10 @@ std::string notes_text(const SkinStudy& study) {
                     study.model.spread * kDeg));
   const double without = 1.0 - static_cast<double>(learned(study)) / static_cast<double>(study.hand.all);
   if (without > kManyWithout)
-    say(
-        fmt::format("{:.0f} % of the hand has no hue and will not be found as skin: give it more light, or "
-                    "expose longer",
-                    1e2 * without));
+    say(fmt::format(
+        "{:.0f} % of the hand has no hue and will hardly be found as skin: give it more light, or "
+        "expose longer",
+        1e2 * without));
   return out;
 }
 

@@ -83,7 +83,7 @@ std::unique_ptr<DrawingContext> made(const char* mujoco_gl) {
 
 }  // namespace
 
-std::unique_lock<std::mutex> alone() {
+std::unique_lock<std::mutex> drawing_lock() {
   static std::mutex mutex;
   return std::unique_lock(mutex);
 }
@@ -110,7 +110,7 @@ std::unique_ptr<DrawingContext> drawing_context() {
 }
 
 std::string renderer_problem(const char* kind) {
-  const auto lock = alone();
+  const auto lock = drawing_lock();
   setenv("LP_NUM_THREADS", "0", 0);
   try {
     if (std::string(kind) == "egl")

@@ -16,9 +16,10 @@ class DrawingContext {
   [[nodiscard]] virtual void* function(const char* name) const = 0;  // of OpenGL; null where there is none
 };
 
-// Whoever makes, uses or destroys a context holds this meanwhile: one thread of the process draws at a time.
-// Mesa's contexts look into the lists of all others of their kind, which another thread would be changing.
-[[nodiscard]] std::unique_lock<std::mutex> alone();
+// Whoever makes, uses or destroys a context of this module holds this meanwhile: one thread of the process
+// draws at a time. Without it a benchmark crashed once in Mesa 22.3.6, where it asks whether a resource is
+// referenced by a drawing: those of other threads' contexts are asked as well.
+[[nodiscard]] std::unique_lock<std::mutex> drawing_lock();
 
 // EGL, else OSMesa; the environment's ENCOUNTER_GL=egl or ENCOUNTER_GL=osmesa says which. Current when it
 // returns. All contexts of a process are of one kind: MuJoCo looks OpenGL up once. Throws Error (kind device)

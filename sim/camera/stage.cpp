@@ -213,11 +213,11 @@ void Stage::Parts::tell_truth(const HandPose* hand, const HandLook& look, PixelT
 }
 
 Stage::Stage(const StageSpec& spec) {
-  const auto lock = alone();
+  const auto lock = drawing_lock();
   parts_ = std::make_unique<Parts>(spec);
 }
 Stage::~Stage() {
-  const auto lock = alone();
+  const auto lock = drawing_lock();
   parts_->context->make_current();
   parts_.reset();
 }
@@ -225,7 +225,7 @@ Stage::~Stage() {
 void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
                  Image& left, Image& right, PixelTruth* truth) {
   Parts& p = *parts_;
-  const auto lock = alone();
+  const auto lock = drawing_lock();
   p.context->make_current();
   p.renderer.scene.ngeom = p.hands->background();
   if (hand != nullptr) p.hands->add(*hand, look, p.renderer.scene);
@@ -239,7 +239,7 @@ void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light,
 
 void Stage::draw_only(const HandPose& hand, const HandLook& look) {
   Parts& p = *parts_;
-  const auto lock = alone();
+  const auto lock = drawing_lock();
   p.context->make_current();
   p.renderer.scene.ngeom = p.hands->background();
   p.hands->add(hand, look, p.renderer.scene);

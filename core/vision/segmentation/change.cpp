@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/vision/segmentation/dim.h"
-
 namespace enc::segmentation {
 namespace {
 
@@ -39,16 +37,17 @@ Change::Change(const Kernels& kernels, const Grid& grid, const Image& mean, cons
       side_(static_cast<std::size_t>(grid.width)),
       meter_(mean, grid),
       surroundings_(kernels, kSurroundings, grid.width),
+      dim_(grid.width),
       strong_(grid.width, grid.height),
       skin_(grid.width, grid.height),
-      dim_(grid.width, grid.height),
+      hueless_(grid.width, grid.height),
       near_(grid.width, grid.height) {
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) {
       const std::uint8_t* p = mean.view().at(x, y);
-      red_.push_back(p[0]);
-      green_.push_back(p[1]);
-      blue_.push_back(p[2]);
+      background_.red.push_back(p[0]);
+      background_.green.push_back(p[1]);
+      background_.blue.push_back(p[2]);
       noise_.push_back(fixed<std::uint8_t>(
           noise[static_cast<std::size_t>(y / grid.tile * grid.columns() + x / grid.tile)], 8.0));
     }
@@ -72,17 +71,22 @@ void Change::candidates(const ImageView& frame, const Region& region, double cha
   const Light light = meter_.measure(frame);
   const Explained how = explained(light, change);
   const Region wide = grid_.touched(region, surroundings_.margin());
-  const Region widest = grid_.touched(wide, kDimAround);
+  const Region widest = grid_.touched(wide, Hueless::kAround);
   for (int y = widest.y0; y < widest.y1; ++y) {
     if (y == widest.y0 || y % grid_.tile == 0) row_of(light, y, widest);
     const int x = widest.x0;
     const auto at =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width) + static_cast<std::size_t>(x);
-    const ChangeRow row{frame.at(x, y),    red_.data() + at,   green_.data() + at,
-                        blue_.data() + at, noise_.data() + at, side_.data() + x};
-    kernels_.change_row(row, widest.width(), how, cut, strong_.row(y) + x, skin_.row(y) + x, dim_.row(y) + x);
+    const ChangeRow row{frame.at(x, y),
+                        background_.red.data() + at,
+                        background_.green.data() + at,
+                        background_.blue.data() + at,
+                        noise_.data() + at,
+                        side_.data() + x};
+    kernels_.change_row(row, widest.width(), how, cut, strong_.row(y) + x, skin_.row(y) + x,
+                        hueless_.row(y) + x);
   }
-  find_dim(frame, dim_, wide, how.white, cut, strong_);
+  dim_.find(frame, background_, hueless_, wide, how.white, cut, strong_);
   surroundings_.filter(strong_, region, near_);
   for (int y = region.y0; y < region.y1; ++y)
     kernels_.join_row(strong_.row(y) + region.x0, near_.row(y) + region.x0, skin_.row(y) + region.x0,

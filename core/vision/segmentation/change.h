@@ -7,7 +7,7 @@
 // unexplained in this very frame, so that they are narrow while the light is steady; and skin is judged in
 // the background's light, so that a lamp of another colour does not move its hue. A pixel of the hue of skin
 // that most of its surroundings surely are is skin as well (hysteresis): it fills what looks like the
-// background. A changed pixel too dim for a hue is judged with those around it (dim.h).
+// background. A changed pixel too dim for a hue is judged with those around it (hueless.h).
 //
 // It fails where a hand covers more than half of the frame (its colour is then taken for the light's), where
 // light changes in patches with edges (a shadow of the hand on a skin-hued surface; elsewhere the hue of the
@@ -20,6 +20,7 @@
 
 #include "core/vision/image.h"
 #include "core/vision/segmentation/grid.h"
+#include "core/vision/segmentation/hueless.h"
 #include "core/vision/segmentation/kernels/arc.h"
 #include "core/vision/segmentation/kernels/kernels.h"
 #include "core/vision/segmentation/kernels/majority.h"
@@ -39,11 +40,13 @@ class Change {
 
   const Kernels& kernels_;
   Grid grid_;
-  std::vector<std::uint8_t> red_, green_, blue_, noise_;
+  Planes background_;
+  std::vector<std::uint8_t> noise_;
   std::vector<std::uint16_t> side_;
   LightMeter meter_;
   Majority surroundings_;
-  Mask strong_, skin_, dim_, near_;
+  Hueless dim_;
+  Mask strong_, skin_, hueless_, near_;
 };
 
 }  // namespace enc::segmentation

@@ -29,7 +29,7 @@ struct SegmentationSpec {
   double skin = 2.5;           // a pixel whose hue is at most so many spreads from the mean is skin
   double change = 4.0;         // ours: so many times the background's noise, and what light leaves, is none
   int median = 5;              // px, side of the filter; odd, 1 to 15
-  segmentation::HueRule hue;   // grey and dark pixels have no hue: they are never skin
+  segmentation::HueRule hue;   // grey and dark pixels have no hue: alone they are no skin
   SkinModel model;
 };
 

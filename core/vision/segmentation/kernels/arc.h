@@ -18,6 +18,6 @@ struct Arc {
 
 // As the kernels take it.
 [[nodiscard]] Cut cut_of(const Arc& arc, const HueRule& rule);
-[[nodiscard]] bool in_cut(int hue, const Cut& cut);
+[[nodiscard]] bool in_cut(int hue, const Cut& cut);  // kNoHue never is
 
 }  // namespace enc::segmentation

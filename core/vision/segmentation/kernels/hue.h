@@ -3,8 +3,8 @@
 // where chroma = most - least of R, G, B, and d is how far the middle one has come from one end to the other.
 //
 // Where the chroma or the most is below HueRule the hue is that of the noise: the pixel has none. It is then
-// in no bin of hue, and never skin. [VisHap 2.1.1] has no rule for it. The chroma decides how good a hue is,
-// however dark the pixel: skin of a brightest channel of 20 has a chroma of 12.
+// in no bin of hue, and by itself no skin (hueless.h). [VisHap 2.1.1] has no rule for it. The chroma decides
+// how good a hue is, however dark the pixel: skin of a brightest channel of 20 has a chroma of 12.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ inline Position position_of(int r, int g, int b, int most, int least) {
   return most - least >= std::max<int>(1, rule.least_chroma) && most >= rule.least_value;
 }
 
-// Whatever rule it meets: of three numbers that differ, sums of pixels among them.
+// Without HueRule, of any numbers, such as sums of pixels; they must not all be equal.
 [[nodiscard]] inline int hue_of_any(int r, int g, int b, int most, int least) {
   const auto at = detail::position_of(r, g, b, most, least);
   return (kSextant * at.sextant + kSextant * at.d / at.chroma) % kHues;

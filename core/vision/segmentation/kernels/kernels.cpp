@@ -58,7 +58,7 @@ bool changed(const Pixel& seen, const Pixel& expected, int noise, int side, cons
 }
 
 void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& cut, std::uint8_t* strong,
-                std::uint8_t* skin, std::uint8_t* dim) {
+                std::uint8_t* skin, std::uint8_t* hueless) {
   const HueRule rule{cut.least_chroma, cut.least_value};
   const auto expected = [&](int channel, std::uint8_t mean) {
     return std::min(mean * light.gain[channel] >> 8, 1020);
@@ -72,9 +72,9 @@ void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& 
     const Pixel was{expected(0, row.red[x]), expected(1, row.green[x]), expected(2, row.blue[x])};
     const int hue = hue_of(white(0, p[0]), white(1, p[1]), white(2, p[2]), rule);
     skin[x] = mask(in_cut(hue, cut));
-    const std::uint8_t other = mask(changed(seen, was, row.noise[x], row.side[x], light));
-    strong[x] = skin[x] & other;
-    dim[x] = hue == kNoHue ? other : 0;
+    const std::uint8_t unlike = mask(changed(seen, was, row.noise[x], row.side[x], light));
+    strong[x] = skin[x] & unlike;
+    hueless[x] = hue == kNoHue ? unlike : 0;
   }
 }
 

@@ -209,7 +209,7 @@ V whiter(V channel, unsigned gain) {
 }
 
 void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& cut, std::uint8_t* strong,
-                std::uint8_t* skin, std::uint8_t* dim) {
+                std::uint8_t* skin, std::uint8_t* hueless) {
   int x = 0;
   for (; x + 32 <= n; x += 32) {
     const Rgb p = load_rgb(row.rgb + 3 * x);
@@ -223,14 +223,14 @@ void change_row(const ChangeRow& row, int n, const Explained& light, const Cut& 
     const V one = load(row.side + x), two = load(row.side + x + 16);
     const V a = changed(low(p), low(mean), low(noise), _mm256_permute2x128_si256(one, two, 0x20), light);
     const V b = changed(high(p), high(mean), high(noise), _mm256_permute2x128_si256(one, two, 0x31), light);
-    const V other = _mm256_packs_epi16(a, b);
-    store(strong + x, _mm256_and_si256(is_skin, other));
-    store(dim + x, _mm256_andnot_si256(hue.with, other));
+    const V unlike = _mm256_packs_epi16(a, b);
+    store(strong + x, _mm256_and_si256(is_skin, unlike));
+    store(hueless + x, _mm256_andnot_si256(hue.with, unlike));
   }
   if (x == n) return;
   const ChangeRow rest{row.rgb + 3 * x, row.red + x,   row.green + x,
                        row.blue + x,    row.noise + x, row.side + x};
-  plain_kernels().change_row(rest, n - x, light, cut, strong + x, skin + x, dim + x);
+  plain_kernels().change_row(rest, n - x, light, cut, strong + x, skin + x, hueless + x);
 }
 
 void and_row(const std::uint8_t* with, int n, std::uint8_t* row) {

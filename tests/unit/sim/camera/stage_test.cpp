@@ -3,6 +3,8 @@
 #include "sim/camera/stage.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -18,6 +20,7 @@
 #include "core/error.h"
 #include "core/vision/finger/finger_tracker.h"
 #include "core/vision/segmentation/skin.h"
+#include "sim/camera/context.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::sim {
@@ -268,7 +271,23 @@ std::vector<double> followed() {
   return tips;
 }
 
-TEST(Stage, SeveralThreadsDrawAtATime) {
+TEST(Stage, AThreadWaitsUntilAnotherHasDrawn) {
+  std::atomic<bool> drawn_by_then = false;
+  std::thread thread;
+  {
+    const auto lock = drawing_lock();
+    thread = std::thread([&] {
+      drawn(small());
+      drawn_by_then = true;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_FALSE(drawn_by_then);
+  }
+  thread.join();
+  EXPECT_TRUE(drawn_by_then);
+}
+
+TEST(Stage, SeveralThreadsDrawTheSame) {
   const Image alone = drawn(small(Scenery::clutter, 3));
   std::array<int, 3> same{};
   std::vector<std::thread> threads;

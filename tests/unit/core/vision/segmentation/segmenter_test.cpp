@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -85,9 +86,10 @@ TEST(Segmenter, FindsAHandByBothMethods) {
 
 TEST(Segmenter, GivesOfARegionTheBitsOfTheWhole) {
   std::mt19937 random(3);
-  for (const auto& [width, height] : {std::pair{320, 240}, {123, 77}})
+  for (const auto& [width, height, wall] :
+       {std::tuple{320, 240, kWood}, {123, 77, kWood}, {320, 240, kWall}, {123, 77, kWall}})
     for (const auto method : kBoth) {
-      Scene scene{.wall = kWood, .light = [](double u, double) {
+      Scene scene{.wall = wall, .light = [](double u, double) {
                     return Colour{0.6 + 0.8 * u, 0.6 + 0.8 * u, 0.6 + 0.8 * u};
                   }};
       scene.width = width;
@@ -102,7 +104,7 @@ TEST(Segmenter, GivesOfARegionTheBitsOfTheWhole) {
         if (random() % 2 != 0)
           for (int c = 0; c < 3; ++c)
             image.at(i % width, i / width)[c] =
-                static_cast<std::uint8_t>(kSkin[static_cast<std::size_t>(c)] * 0.08 + random() % 3);
+                static_cast<std::uint8_t>(0.1 * kSkin[static_cast<std::size_t>(c)] + random() % 4);
       Image other(width, height);  // so that nothing is left of a frame before
       for (std::size_t i = 0; i < other.rgb.size(); ++i)
         other.rgb[i] = static_cast<std::uint8_t>(kSkin[i % 3]);
@@ -125,6 +127,41 @@ TEST(Segmenter, GivesOfARegionTheBitsOfTheWhole) {
           }
       }
     }
+}
+
+// Stripes of wall, before which dim skin comes and goes, and of wood, which is skin where most around it is:
+// what is around a region decides at its edge, and what is around that decides there.
+TEST(Segmenter, GivesOfARegionTheBitsOfTheWholeWhereSurroundingsDecide) {
+  constexpr int kWidth = 160, kHeight = 120;
+  std::mt19937 random(11);
+  const auto frame = [&](bool hand) {
+    Image image(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const bool wood = x / 3 % 2 != 0, dim = hand && !wood && random() % 4 != 0;
+        for (std::size_t c = 0; c < 3; ++c)
+          image.at(x, y)[c] = static_cast<std::uint8_t>(dim ? 0.1 * kSkin[c] + random() % 5
+                                                            : (wood ? kWood : kWall)[c] + random() % 3);
+      }
+    return image;
+  };
+  SegmentationSpec spec = spec_of(SegmentationMethod::ours);
+  spec.tile = 1;  // nothing is rounded up
+  Segmenter segmenter(spec, kWidth, kHeight);
+  while (!segmenter.learned()) segmenter.learn(frame(false).view());
+  const Image image = frame(true), other = frame(true), empty = frame(false);
+  Mask whole(kWidth, kHeight), part(kWidth, kHeight);
+  segmenter.segment(image.view(), whole.whole(), whole);
+  const auto skin = std::count(whole.on.begin(), whole.on.end(), 255);
+  EXPECT_GT(skin, kWidth * kHeight / 10);
+  EXPECT_LT(skin, kWidth * kHeight * 9 / 10);
+  for (int i = 0; i < 400; ++i) {
+    const int x = static_cast<int>(random() % kWidth), y = static_cast<int>(random() % kHeight);
+    segmenter.segment(i % 2 == 0 ? other.view() : empty.view(), part.whole(), part);
+    const Region done = segmenter.segment(image.view(), {x, y, x + 20, y + 20}, part);
+    for (int v = done.y0; v < done.y1; ++v)
+      for (int u = done.x0; u < done.x1; ++u) ASSERT_EQ(part.at(u, v), whole.at(u, v)) << u << " " << v;
+  }
 }
 
 TEST(Segmenter, HasOneGridOfTiles) {
@@ -258,6 +295,14 @@ TEST(Segmenter, OursSeesAHandTooDimForAHue) {
   EXPECT_GT(judged(SegmentationMethod::ours, scene).iou(), 0.9);
   scene.skin = {16, 16, 16};  // nor the hue of skin
   EXPECT_LT(judged(SegmentationMethod::ours, scene).iou(), 0.01);
+}
+
+// On brown: dim, and of the hue of skin.
+TEST(Segmenter, OursTakesAShadowForNoHand) {
+  Scene scene;
+  scene.wall = {60, 45, 38};
+  scene.light = [](double u, double) { return u < 0.25 ? Colour{0.5, 0.5, 0.5} : Colour{1, 1, 1}; };
+  EXPECT_LT(judged(SegmentationMethod::ours, scene).false_positives(), 0.005);
 }
 
 TEST(Segmenter, OursSeesAHandBeforeWood) {

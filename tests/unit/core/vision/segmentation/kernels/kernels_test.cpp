@@ -191,12 +191,13 @@ TEST_F(Twins, SeeTheSameChange) {
     const HueRule rule{static_cast<std::uint8_t>(round % 5 == 0 ? 40 : 1),
                        static_cast<std::uint8_t>(round % 5 == 0 ? 60 : 0)};
     const Cut cut = cut_of({word(1535), 768 + word(768)}, rule);
-    Bytes strong(at(n)), skin(at(n)), dim(at(n)), strong_fast(at(n)), skin_fast(at(n)), dim_fast(at(n));
-    plain.change_row(row, n, light, cut, strong.data(), skin.data(), dim.data());
-    fast.change_row(row, n, light, cut, strong_fast.data(), skin_fast.data(), dim_fast.data());
+    Bytes strong(at(n)), skin(at(n)), hueless(at(n)), strong_fast(at(n)), skin_fast(at(n)),
+        hueless_fast(at(n));
+    plain.change_row(row, n, light, cut, strong.data(), skin.data(), hueless.data());
+    fast.change_row(row, n, light, cut, strong_fast.data(), skin_fast.data(), hueless_fast.data());
     ASSERT_EQ(skin, skin_fast) << round;
     ASSERT_EQ(strong, strong_fast) << round;
-    ASSERT_EQ(dim, dim_fast) << round;
+    ASSERT_EQ(hueless, hueless_fast) << round;
   }
 }
 
