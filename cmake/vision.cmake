@@ -38,7 +38,9 @@ endif()
 
 find_package(OpenCVParts)
 if(OpenCVParts_FOUND AND TARGET enc_images)
-  enc_library(enc_calibration "core/vision/calibration" enc_core opencv::parts)
+  # Private: what links it compiles as without OpenCV, so that `lean` takes its objects from ccache.
+  enc_library(enc_calibration "core/vision/calibration" enc_core)
+  target_link_libraries(enc_calibration PRIVATE opencv::parts)
   file(GLOB sources CONFIGURE_DEPENDS app/calibration/*.cpp)
   if(sources)
     enc_module(calibration calibration "${sources}" enc_calibration enc_vision enc_images enc_picture enc_models nlohmann_json::nlohmann_json fmt::fmt)
