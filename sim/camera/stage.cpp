@@ -69,6 +69,7 @@ const StageSpec& checked(const StageSpec& spec) {
 struct Stage::Parts {
   explicit Parts(const StageSpec& given);
 
+  [[nodiscard]] std::unique_lock<std::mutex> current() const;  // and so as long as it is held
   void light(const Light& light);
   void render(int eye, bool segments);
   void read(int eye, Image& picture, std::uint64_t frame);
@@ -115,6 +116,12 @@ Stage::Parts::Parts(const StageSpec& given)
       std::max(static_cast<std::size_t>(warp[0].width()) * static_cast<std::size_t>(warp[0].height()),
                static_cast<std::size_t>(warp[1].width()) * static_cast<std::size_t>(warp[1].height()));
   drawing.resize(3 * most);
+}
+
+std::unique_lock<std::mutex> Stage::Parts::current() const {
+  auto lock = drawing_lock();
+  context->make_current();
+  return lock;
 }
 
 // A lamp over the viewer's shoulder, a weaker one beside the camera, and what the room throws back.
@@ -217,16 +224,14 @@ Stage::Stage(const StageSpec& spec) {
   parts_ = std::make_unique<Parts>(spec);
 }
 Stage::~Stage() {
-  const auto lock = drawing_lock();
-  parts_->context->make_current();
+  const auto lock = parts_->current();
   parts_.reset();
 }
 
 void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
                  Image& left, Image& right, PixelTruth* truth) {
   Parts& p = *parts_;
-  const auto lock = drawing_lock();
-  p.context->make_current();
+  const auto lock = p.current();
   p.renderer.scene.ngeom = p.hands->background();
   if (hand != nullptr) p.hands->add(*hand, look, p.renderer.scene);
   p.light(light);
@@ -239,8 +244,7 @@ void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light,
 
 void Stage::draw_only(const HandPose& hand, const HandLook& look) {
   Parts& p = *parts_;
-  const auto lock = drawing_lock();
-  p.context->make_current();
+  const auto lock = p.current();
   p.renderer.scene.ngeom = p.hands->background();
   p.hands->add(hand, look, p.renderer.scene);
   p.light({});

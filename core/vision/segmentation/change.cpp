@@ -37,7 +37,7 @@ Change::Change(const Kernels& kernels, const Grid& grid, const Image& mean, cons
       side_(static_cast<std::size_t>(grid.width)),
       meter_(mean, grid),
       surroundings_(kernels, kSurroundings, grid.width),
-      dim_(grid.width),
+      by_sums_(grid.width),
       strong_(grid.width, grid.height),
       skin_(grid.width, grid.height),
       hueless_(grid.width, grid.height),
@@ -86,7 +86,7 @@ void Change::candidates(const ImageView& frame, const Region& region, double cha
     kernels_.change_row(row, widest.width(), how, cut, strong_.row(y) + x, skin_.row(y) + x,
                         hueless_.row(y) + x);
   }
-  dim_.find(frame, background_, hueless_, wide, how.white, cut, strong_);
+  by_sums_.find(frame, background_, hueless_, wide, how.white, cut, strong_);
   surroundings_.filter(strong_, region, near_);
   for (int y = region.y0; y < region.y1; ++y)
     kernels_.join_row(strong_.row(y) + region.x0, near_.row(y) + region.x0, skin_.row(y) + region.x0,

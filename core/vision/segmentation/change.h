@@ -45,7 +45,7 @@ class Change {
   std::vector<std::uint16_t> side_;
   LightMeter meter_;
   Majority surroundings_;
-  Hueless dim_;
+  Hueless by_sums_;
   Mask strong_, skin_, hueless_, near_;
 };
 

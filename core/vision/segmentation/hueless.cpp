@@ -8,11 +8,11 @@
 namespace enc::segmentation {
 namespace {
 
-// Derived from the twin's skins, whose chroma is 0.3 of the brightest channel or more: at least one in so
+// Derived from the twin's skins, whose chroma is 0.45 of the brightest channel or more: at least one in so
 // many. It keeps away what is bright as well, so that no time is lost with that.
 constexpr int kLeastSaturation = 4;
-constexpr int kNoise = 8;             // of one pixel's chroma, for the first look
-constexpr int kBackgroundChroma = 4;  // the mean of ten frames has a third of the noise of one
+constexpr int kNoise = 8;  // of one pixel's chroma, for the first look, which leaves the light's colour in
+constexpr HueRule kOfBackground{.least_chroma = 4, .least_value = 0};  // ten frames: a third of the noise
 
 bool may_be_skin(const std::uint8_t* p) {
   const int most = std::max(p[0], std::max(p[1], p[2])), least = std::min(p[0], std::min(p[1], p[2]));
@@ -20,9 +20,7 @@ bool may_be_skin(const std::uint8_t* p) {
 }
 
 bool of_skins_hue(const Planes& background, std::size_t at, const Cut& cut) {
-  const int r = background.red[at], g = background.green[at], b = background.blue[at];
-  const int most = std::max(r, std::max(g, b)), least = std::min(r, std::min(g, b));
-  return most - least >= kBackgroundChroma && in_cut(hue_of_any(r, g, b, most, least), cut);
+  return in_cut(hue_of(background.red[at], background.green[at], background.blue[at], kOfBackground), cut);
 }
 
 }  // namespace

@@ -54,8 +54,7 @@ struct Kernels {
   void (*match_row)(const std::uint64_t* seen, const std::uint64_t* model, int n, int pixels, int need,
                     std::uint8_t* found);
   // skin: pixels of the hue of skin once the light's colour is taken away. strong: those of them that the
-  // light does not explain. hueless: what it does not explain and
-  // has no hue.
+  // light does not explain. hueless: what it does not explain and has no hue.
   void (*change_row)(const ChangeRow& row, int n, const Explained& light, const Cut& cut,
                      std::uint8_t* strong, std::uint8_t* skin, std::uint8_t* hueless);
   void (*and_row)(const std::uint8_t* with, int n, std::uint8_t* row);

@@ -22,7 +22,8 @@ class HuelessTest : public testing::Test {
  protected:
   HuelessTest() : hueless_(kSide, kSide) {
     for (auto* plane : {&background_.red, &background_.green, &background_.blue})
-      plane->assign(std::size_t{kSide} * kSide, 150);
+      plane->resize(std::size_t{kSide} * kSide);
+    behind({150, 150, 150});
     std::fill(hueless_.on.begin(), hueless_.on.end(), std::uint8_t{255});
   }
   void paint(const Colour& colour, double noise = 0.0) {
