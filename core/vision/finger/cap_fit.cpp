@@ -177,8 +177,11 @@ CapFit fit_cap(const Mask& mask, const RectifiedPair& pair, const Pixel& start, 
   const Around skin = around(mask, start, radius);
   CapFit fit{false, start, radius};
   for (int i = 0; i < kRounds; ++i) {
-    // At first beyond the square's corner, through which a finger may be seen from far behind its tip.
-    if (!improve(skin, nullptr, pair, i == 0 ? 2.4 : 1.6, (i < 2 ? 1.5 : 0.35) * fit.radius, fit)) return fit;
+    // At first beyond the square's corner, through which a finger may be seen from far behind its tip; not
+    // where the image ends before that.
+    const double most = (i < 2 ? 1.5 : 0.35) * fit.radius;
+    const bool begun = i == 0 && improve(skin, nullptr, pair, 2.4, most, fit);
+    if (!begun && !improve(skin, nullptr, pair, 1.6, most, fit)) return fit;
     const double off = std::hypot(fit.centre.column - start.column, fit.centre.row - start.row);
     if (!(off < 2.0 * radius && fit.radius > 0.4 * radius && fit.radius < 2.0 * radius)) return fit;
   }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/vision/finger/tangent.h"
+#include "core/vision/stereo/smoothed.h"
 
 namespace enc {
 namespace {
@@ -22,16 +23,21 @@ constexpr double kAslant = 0.5;
 constexpr double kSlopes = 0.3;    // rad rms, of fingers against the image
 constexpr double kSteepest = 1.2;  // rad
 constexpr double kLittle = 1e-3;   // rad, for the derivative
+// Of a cap's radius: how far each pixel is smoothed (rms), so that of dark skin seen from near more is left
+// than noise. Twice as far mixes in what is beyond the rim.
+constexpr double kSmooth = 1.0 / 18.0;
+constexpr int kMostPasses = 8;  // px
 
 // A grey level between two columns: the cubic through four [Catmull and Rom], and its slope.
 struct Level {
   double value, slope;
 };
-Level level_at(const Grey& image, double x, int y) {
+Level level_at(const Smoothed& image, double x, int y) {
   const int left = static_cast<int>(std::floor(x));
   const double t = x - left;
-  const std::uint8_t* p = image.at(left, y);
-  const double a = p[-1], b = p[0], c = p[1], d = p[2];
+  const float* p = image.at(left, y) - 1;
+  const auto a = static_cast<double>(p[0]), b = static_cast<double>(p[1]);
+  const auto c = static_cast<double>(p[2]), d = static_cast<double>(p[3]);
   const double k1 = 0.5 * (c - a), k2 = a - 2.5 * b + 2.0 * c - 0.5 * d, k3 = 0.5 * (d - a) + 1.5 * (b - c);
   return {b + t * (k1 + t * (k2 + t * k3)), k1 + t * (2.0 * k2 + t * 3.0 * k3)};
 }
@@ -119,15 +125,41 @@ class Bent {
   double eye_;
 };
 
+// The cap and what counts of the finger behind it.
+Region part_of(const Fingertip& tip, const Region& image) {
+  const double far = 1.2 * tip.outline * (1.0 + kBehind);
+  return Region{static_cast<int>(tip.column - far), static_cast<int>(tip.row - far),
+                static_cast<int>(tip.column + far) + 1, static_cast<int>(tip.row + far) + 1}
+      .cut(image);
+}
+
+struct Views {
+  Smoothed left, right;
+};
+
+// Both images of it, where its middle has one of these disparities.
+Views views_of(const Grey& left, const Grey& right, const Fingertip& tip, double least, double most) {
+  constexpr double kSlack = 1.1;  // nearer and farther parts of the finger
+  constexpr int kCubic = 3;       // px: columns round a place that are read
+  const int passes =
+      std::min(kMostPasses, static_cast<int>(2.0 * kSmooth * kSmooth * tip.outline * tip.outline));
+  const Region own = part_of(tip, {0, 0, left.width, left.height});
+  const Region other{own.x0 - static_cast<int>(kSlack * most) - kCubic, own.y0,
+                     own.x1 - static_cast<int>(least / kSlack) + kCubic, own.y1};
+  return {Smoothed(left, own, passes), Smoothed(right, other, passes)};
+}
+
 class Comparison {
  public:
-  Comparison(const Grey& left, const Grey& right, const Mask& skin, const Fingertip& tip,
+  Comparison(const Grey& left, const Grey& right, const Views& views, const Mask& skin, const Fingertip& tip,
              const RectifiedPair& pair, std::size_t most)
-      : left_(left), right_(right), skin_(skin), tip_(tip), tangent_(pair, {tip.column, tip.row}) {
-    const double far = 1.2 * tip.outline * (1.0 + kBehind);
-    part_ = Region{static_cast<int>(tip.column - far), static_cast<int>(tip.row - far),
-                   static_cast<int>(tip.column + far) + 1, static_cast<int>(tip.row + far) + 1}
-                .cut(skin.whole());
+      : left_(left),
+        right_(right),
+        views_(views),
+        skin_(skin),
+        tip_(tip),
+        tangent_(pair, {tip.column, tip.row}),
+        part_(part_of(tip, skin.whole())) {
     const double pixels = tip.outline * tip.outline * (1.6 + 2.0 * kBehind);
     step_ = static_cast<int>(std::ceil(std::sqrt(pixels / static_cast<double>(most))));
   }
@@ -146,15 +178,24 @@ class Comparison {
     const auto kept = std::remove_if(spots_.begin(), end(), [&](Spot& spot) { return !bent.lay(spot); });
     count_ = static_cast<std::size_t>(kept - spots_.begin());
   }
+  // Those that differ by much more than the others: a reflection, a speck, what is before the finger.
+  void drop_odd(double disparity, const Sums& sums) {
+    constexpr double kOdd = 3.5, kLeast = 3.0;  // rms of all, grey levels
+    const double most = std::max(kOdd * std::sqrt(sums.left_over() / sums.n), kLeast);
+    const double usual = sums.right[0] / sums.n;
+    const auto kept = std::remove_if(spots_.begin(), end(), [&](const Spot& spot) {
+      const Residue residue = at(spot, disparity);
+      return residue.seen && std::abs(residue.levels - usual) > most;
+    });
+    count_ = static_cast<std::size_t>(kept - spots_.begin());
+  }
   // The brightness of the images may differ.
   [[nodiscard]] Sums at(double disparity) const {
     Sums sums;
     for (const Spot& spot : std::span(spots_.data(), count_)) {
-      const double column = spot.x - disparity * spot.nearness;
-      if (column < 1.0 || column >= right_.width - 2) continue;
-      const Level there = level_at(right_, column, spot.y);
-      const Vec3 slope(1.0, there.slope * spot.nearness, there.slope * disparity * spot.by_slope);
-      const double residue = *left_.at(spot.x, spot.y) - there.value;
+      const auto [seen, residue, change] = at(spot, disparity);
+      if (!seen) continue;
+      const Vec3 slope(1.0, change * spot.nearness, change * disparity * spot.by_slope);
       ++sums.n;
       sums.normal += slope * slope.transpose();
       sums.right += slope * residue;
@@ -188,7 +229,19 @@ class Comparison {
  private:
   using Spots = std::array<Spot, kMost>;
   [[nodiscard]] Spots::iterator end() { return spots_.begin() + static_cast<std::ptrdiff_t>(count_); }
+  struct Residue {
+    bool seen = false;
+    double levels = 0.0, slope = 0.0;  // grey levels, those of a pixel to the right
+  };
+  [[nodiscard]] Residue at(const Spot& spot, double disparity) const {
+    const double column = spot.x - disparity * spot.nearness;
+    const Region& part = views_.right.part();
+    if (column < part.x0 + 1 || column >= part.x1 - 2) return {};
+    const Level there = level_at(views_.right, column, spot.y);
+    return {true, static_cast<double>(*views_.left.at(spot.x, spot.y)) - there.value, there.slope};
+  }
   const Grey &left_, &right_;
+  const Views& views_;
   const Mask& skin_;
   const Fingertip& tip_;
   Tangent tangent_;
@@ -226,7 +279,8 @@ Start sought(Comparison& cap, double from, double range, double slope) {
 // Newton, with what is known of slopes beforehand. A range of 0 keeps the disparity.
 CapDisparity settled(Comparison& cap, const Start& start, double range) {
   constexpr int kRounds = 12, kChoices = 4;
-  constexpr double kKept = 1e-3;  // px: of no account
+  constexpr double kKept = 1e-3;   // px: of no account
+  constexpr double kExact = 0.05;  // grey levels^2: pictures without noise are not exact to the bit
   CapDisparity found{.disparity = start.disparity, .slope = start.slope};
   for (int round = 0; round < kRounds; ++round) {
     // Pixels at the rim that come and go with the slope must not keep it from settling.
@@ -236,7 +290,11 @@ CapDisparity settled(Comparison& cap, const Start& start, double range) {
       cap.bend(found.disparity, found.slope);
     Sums sums = cap.at(found.disparity);
     if (sums.n < kFewest) return {};
-    const double each = std::max(sums.left_over() / (sums.n - 3.0), 1.0), known = each / (kSlopes * kSlopes);
+    cap.drop_odd(found.disparity, sums);
+    sums = cap.at(found.disparity);
+    if (sums.n < kFewest) return {};
+    const double each = std::max(sums.left_over() / (sums.n - 3.0), kExact);
+    const double known = each / (kSlopes * kSlopes);
     sums.normal(2, 2) += known;
     sums.right[2] += known * found.slope;
     if (range == 0.0) sums.normal(1, 1) += each / (kKept * kKept);
@@ -276,10 +334,18 @@ double middle_of(double surface, double outline, double focal) {
 CapDisparity match_cap(const Grey& left, const Grey& right, const Mask& skin, const Fingertip& tip,
                        const RectifiedPair& pair, std::span<const float> surfaces) {
   CapDisparity best;
-  Comparison few(left, right, skin, tip, pair, kFirst), all(left, right, skin, tip, pair, kMost);
+  if (surfaces.empty()) return best;
+  const auto [least, most] = std::minmax_element(surfaces.begin(), surfaces.end());
+  const auto middle = [&](float surface) {
+    return middle_of(static_cast<double>(surface), tip.outline, pair.focal);
+  };
+  const auto reach = [&](double from) { return range_of(from, tip.outline, pair.focal); };
+  const Views views = views_of(left, right, tip, middle(*least) - reach(middle(*least)),
+                               middle(*most) + reach(middle(*most)));
+  Comparison few(left, right, views, skin, tip, pair, kFirst),
+      all(left, right, views, skin, tip, pair, kMost);
   for (const float surface : surfaces) {
-    const double from = middle_of(static_cast<double>(surface), tip.outline, pair.focal);
-    const double range = range_of(from, tip.outline, pair.focal);
+    const double from = middle(surface), range = reach(from);
     if (std::abs(from - best.disparity) < range) continue;  // found already
     for (const double slope : {0.0, -1.5 * kSlopes, 1.5 * kSlopes}) {
       const CapDisparity found = settled(all, sought(few, from, range, slope), range);
@@ -292,7 +358,8 @@ CapDisparity match_cap(const Grey& left, const Grey& right, const Mask& skin, co
 CapDisparity match_cap_at(const Grey& left, const Grey& right, const Mask& skin, const Fingertip& tip,
                           const RectifiedPair& pair, double disparity) {
   CapDisparity best;
-  Comparison cap(left, right, skin, tip, pair, kMost);
+  const Views views = views_of(left, right, tip, disparity, disparity);
+  Comparison cap(left, right, views, skin, tip, pair, kMost);
   for (const double slope : {0.0, -1.5 * kSlopes, 1.5 * kSlopes}) {
     const CapDisparity found = settled(cap, {.disparity = disparity, .slope = slope}, 0.0);
     if (found.good && !(found.left_over >= best.left_over)) best = found;

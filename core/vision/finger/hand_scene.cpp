@@ -237,19 +237,15 @@ CapDisparity HandScene::match_from(const Fingertip& tip, double middle) const {
   return match_cap(grey_left_, grey_right_, skin_, tip, pair(), front);
 }
 
-// The outline in the right image tells of a place that no block did. And dark skin of little detail fits
-// nearly as well a pixel off, with another slope: where it does so at the place that the outline tells, that
-// is right. Neither leads away from where a followed finger is expected.
+// Dark skin of little detail fits nearly as well a pixel off, with another slope: where it does so at the
+// place that the outline in the right image tells, that is right. It does not lead away from where a followed
+// finger is expected.
 void HandScene::confirm(const Fingertip& tip, const StereoFrame& frame, double expected, CapDisparity& cap) {
-  constexpr double kElsewhere = 3.0, kApart = 0.8;  // px
+  constexpr double kApart = 0.8, kElsewhere = 6.0;  // px
   constexpr double kAlike = 1.2;                    // times what is left over
   constexpr double kDisagree = 0.5;                 // px rms, where outline and match are apart
   const double outline = outline_disparity(tip, frame, cap.disparity);
   if (expected > 0.0 && !is_near(outline / expected)) return;
-  if (std::abs(outline - cap.disparity) > kElsewhere) {
-    const CapDisparity there = match_from(tip, outline);
-    if (there.good && there.left_over < cap.left_over) cap = there;
-  }
   const double apart = std::abs(outline - cap.disparity);
   if (!(apart > kApart && apart <= kElsewhere)) return;
   const CapDisparity there = match_cap_at(grey_left_, grey_right_, skin_, tip, pair(), outline);
