@@ -22,26 +22,30 @@ struct HandMesh {
 // Its x, y and z as columns, in C. `along` of no length points up.
 [[nodiscard]] Mat3 hand_axes(const HandPose& pose);
 
-// Puts hands into a picture of a model that scenery_model() made.
+// Puts a hand, and things, into a picture of a model that scenery_model() made.
 class HandDrawing {
  public:
   // Takes the hand's own geoms out of a picture that was just made.
   HandDrawing(const mjModel* model, mjvScene& scene);
-  // Appends a hand.
-  void add(const HandPose& pose, const HandLook& look, mjvScene& scene) const;
+  // Puts in what is shown, in place of what was there but the background.
+  void show(const Shown& shown, mjvScene& scene);
+  // Of the last that was shown.
   [[nodiscard]] bool is_skin(int geom) const {
-    return geom >= background_ && geom != background_ + sleeve_at_;
+    return geom >= background_ && geom < things_ && geom != background_ + sleeve_at_;
   }
+  [[nodiscard]] bool is_thing(int geom) const { return geom >= things_; }
   [[nodiscard]] int background() const { return background_; }  // geoms
 
  private:
+  void add_hand(const HandPose& pose, const HandLook& look, mjvScene& scene) const;
+  void add_thing(const Thing& thing, mjvScene& scene) const;
   void add_finger(const HandPose& pose, const HandLook& look, mjvScene& scene) const;
   void add_mesh(const mjvGeom& mesh, const Vec3& at, const Mat3& axes, const Rgb& colour,
                 mjvScene& scene) const;
 
   const mjModel* model_;
   mjvGeom skin_, sleeve_, tube_;
-  int background_ = 0, sleeve_at_ = 0;
+  int background_ = 0, sleeve_at_ = 0, things_ = 0;  // geoms
 };
 
 }  // namespace enc::sim

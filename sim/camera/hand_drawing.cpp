@@ -77,7 +77,26 @@ void HandDrawing::add_finger(const HandPose& pose, const HandLook& look, mjvScen
   }
 }
 
-void HandDrawing::add(const HandPose& pose, const HandLook& look, mjvScene& scene) const {
+void HandDrawing::show(const Shown& shown, mjvScene& scene) {
+  scene.ngeom = background_;
+  if (shown.hand) add_hand(shown.pose, shown.look, scene);
+  things_ = scene.ngeom;
+  for (const Thing& thing : shown.things) add_thing(thing, scene);
+}
+
+void HandDrawing::add_thing(const Thing& thing, mjvScene& scene) const {
+  mjvGeom& geom = appended(skin_, thing.colour, scene);
+  geom.dataid = -1;
+  const bool sphere = thing.shape == ThingShape::sphere, capsule = thing.shape == ThingShape::capsule;
+  geom.type = sphere ? mjGEOM_SPHERE : capsule ? mjGEOM_CAPSULE : mjGEOM_BOX;
+  const Vec3 size = sphere    ? Vec3::Constant(thing.half.x())
+                    : capsule ? Vec3(thing.half.x(), thing.half.x(), thing.half.z())
+                              : thing.half;
+  for (int i = 0; i < 3; ++i) geom.size[i] = static_cast<float>(size(i));
+  place(geom, thing.at.e(), thing.axes);
+}
+
+void HandDrawing::add_hand(const HandPose& pose, const HandLook& look, mjvScene& scene) const {
   add_finger(pose, look, scene);
   const double scale = size_of(look);
   const Mat3 axes = scale * hand_axes(pose);

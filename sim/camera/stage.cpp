@@ -73,7 +73,7 @@ struct Stage::Parts {
   void light(const Light& light);
   void render(int eye, bool segments);
   void read(int eye, Image& picture, std::uint64_t frame);
-  void tell_truth(const HandPose* hand, const HandLook& look, PixelTruth& truth);
+  void tell_truth(const Shown& shown, PixelTruth& truth);
 
   StageSpec spec;
   int width, height;
@@ -194,10 +194,11 @@ void tell_cap(const Lens& lens, const Vec3& centre, double radius, PixelTruth& t
 
 }  // namespace
 
-void Stage::Parts::tell_truth(const HandPose* hand, const HandLook& look, PixelTruth& truth) {
+void Stage::Parts::tell_truth(const Shown& shown, PixelTruth& truth) {
   const Warp& w = warp[0];
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (truth.skin.width != width || truth.skin.height != height) truth.skin = Mask(width, height);
+  for (Mask* mask : {&truth.skin, &truth.things})
+    if (mask->width != width || mask->height != height) *mask = Mask(width, height);
   truth.depth.resize(pixels);
   depth.resize(static_cast<std::size_t>(w.width()) * static_cast<std::size_t>(w.height()));
   render(0, true);
@@ -207,8 +208,9 @@ void Stage::Parts::tell_truth(const HandPose* hand, const HandLook& look, PixelT
       const std::size_t at = w.nearest(x, y);
       const std::uint8_t* c = drawing.data() + 3 * at;
       const int geom = (c[0] + 256 * c[1] + 65536 * c[2]) - 1;
-      const bool is_skin = geom < renderer.scene.ngeom && hands->is_skin(geom);
-      truth.skin.row(y)[x] = is_skin ? 255 : 0;
+      const bool is_geom = geom >= 0 && geom < renderer.scene.ngeom;
+      truth.skin.row(y)[x] = is_geom && hands->is_skin(geom) ? 255 : 0;
+      truth.things.row(y)[x] = is_geom && hands->is_thing(geom) ? 255 : 0;
       const double d = static_cast<double>(depth[at]);
       truth.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                   static_cast<std::size_t>(x)] =
@@ -216,7 +218,7 @@ void Stage::Parts::tell_truth(const HandPose* hand, const HandLook& look, PixelT
                    : static_cast<float>(kNear * kFar / (kFar - d * (kFar - kNear)));
     }
   truth.column = truth.row = truth.radius = kUnset;
-  if (hand != nullptr) tell_cap(spec.camera.left, hand->tip.e(), 0.5 * look.finger_width, truth);
+  if (shown.hand) tell_cap(spec.camera.left, shown.pose.tip.e(), 0.5 * shown.look.finger_width, truth);
 }
 
 Stage::Stage(const StageSpec& spec) {
@@ -230,23 +232,25 @@ Stage::~Stage() {
 
 void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
                  Image& left, Image& right, PixelTruth* truth) {
+  draw({hand != nullptr, hand != nullptr ? *hand : HandPose{}, look, light, {}}, frame, left, right, truth);
+}
+
+void Stage::draw(const Shown& shown, std::uint64_t frame, Image& left, Image& right, PixelTruth* truth) {
   Parts& p = *parts_;
   const auto lock = p.current();
-  p.renderer.scene.ngeom = p.hands->background();
-  if (hand != nullptr) p.hands->add(*hand, look, p.renderer.scene);
-  p.light(light);
+  p.hands->show(shown, p.renderer.scene);
+  p.light(shown.light);
   p.render(0, false);
   p.read(0, left, frame);
   p.render(1, false);
   p.read(1, right, frame);
-  if (truth != nullptr) p.tell_truth(hand, look, *truth);
+  if (truth != nullptr) p.tell_truth(shown, *truth);
 }
 
 void Stage::draw_only(const HandPose& hand, const HandLook& look) {
   Parts& p = *parts_;
   const auto lock = p.current();
-  p.renderer.scene.ngeom = p.hands->background();
-  p.hands->add(hand, look, p.renderer.scene);
+  p.hands->show({true, hand, look, {}, {}}, p.renderer.scene);
   p.light({});
   for (const int eye : {0, 1}) {
     p.render(eye, false);

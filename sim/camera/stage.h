@@ -15,32 +15,9 @@
 #include "core/time.h"
 #include "core/vision/image.h"
 #include "sim/camera/picture_spec.h"
+#include "sim/camera/shown.h"
 
 namespace enc::sim {
-
-// Linear, 0 to 1; so are the images: a sensor's value is proportional to the light, without gamma.
-using Rgb = std::array<float, 3>;
-
-struct HandLook {
-  Rgb skin{0.76F, 0.55F, 0.43F};
-  Rgb sleeve{0.15F, 0.22F, 0.45F};
-  double finger_width = 0.016;  // m, at the cap
-  double taper = 1.15;          // width at the knuckle over that at the cap
-  double bare = 0.05;           // m of the forearm that the sleeve leaves bare
-};
-
-// A pointing hand: one finger straight, the others folded.
-struct HandPose {
-  Point<'C'> tip;     // centre of the cap's sphere
-  Vec<'C'> along;     // from knuckle to tip; any length
-  double roll = 0.0;  // rad, about it
-};
-
-struct Light {
-  double gain = 1.0;  // of all light
-  double side = 0.0;  // -1 to 1: how far the lamp is to the left or right
-  Rgb colour{1, 1, 1};
-};
 
 struct SensorLook {
   double noise = 1.5;     // of 255, rms
@@ -64,6 +41,7 @@ struct StageSpec {
 
 struct PixelTruth {
   Mask skin;                             // of the left image
+  Mask things;                           // likewise: where one of Shown::things is what is seen
   std::vector<float> depth;              // m along z of C, of the left image; infinite where nothing is
   double column = kUnset, row = kUnset;  // of the centre of the cap, px, in the left image
   double radius = kUnset;                // of the circle of its outline's area, px
@@ -78,9 +56,12 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  // Null hand: the background alone. `frame` seeds the noise. Truth where asked for.
-  virtual void draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
-                    Image& left, Image& right, PixelTruth* truth = nullptr);
+  // `frame` seeds the noise. Truth where asked for. Throws Error where there are too many things.
+  virtual void draw(const Shown& shown, std::uint64_t frame, Image& left, Image& right,
+                    PixelTruth* truth = nullptr);
+  // A hand and nothing else; null: the background alone.
+  void draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame, Image& left,
+            Image& right, PixelTruth* truth = nullptr);
   // The same picture by MuJoCo's own calls alone, mjr_render and mjr_readPixels for each eye, without lens,
   // sensor and images. For benchmarks.
   virtual void draw_only(const HandPose& hand, const HandLook& look);
@@ -91,13 +72,6 @@ class Stage {
   std::unique_ptr<Parts> parts_;
 };
 
-// What a camera of the twin looks at, at an exposure.
-struct Shown {
-  bool hand = false;  // else the background alone
-  HandPose pose;
-  HandLook look;
-  Light light;
-};
 using Show = std::function<Shown(Time exposed)>;
 
 struct TwinCameraSpec {

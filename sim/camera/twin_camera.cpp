@@ -19,9 +19,7 @@ bool TwinCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
     due = due || next < spec_.stalls;
   if (!due || !linked_) return silent(now, newest);
   try {
-    const Shown shown = show_(now);
-    stage_.draw(shown.hand ? &shown.pose : nullptr, shown.look, shown.light,
-                static_cast<std::uint64_t>(exposures_.n), left_, right_);
+    stage_.draw(show_(now), static_cast<std::uint64_t>(exposures_.n), left_, right_);
   } catch (const std::exception& e) {
     spec_.stalls = now;  // a camera that cannot draw says nothing more
     failure_ = e.what();

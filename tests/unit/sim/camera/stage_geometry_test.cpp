@@ -131,6 +131,48 @@ TEST(StageGeometry, TheRightCameraIsWhereItsPoseSays) {
   }
 }
 
+// A ball is where a pinhole has it, a rod and a box are as large as they are, and none of it is skin.
+TEST(StageGeometry, ThingsAreWhereTheyAreShown) {
+  const StageSpec spec = still();
+  Stage stage(spec);
+  Image left, right;
+  PixelTruth truth;
+  const auto pixels = [&](const Shown& shown) {
+    stage.draw(shown, 0, left, right, &truth);
+    Outline o{0, 0, 0};
+    for (int y = 0; y < truth.things.height; ++y)
+      for (int x = 0; x < truth.things.width; ++x) {
+        if (!truth.things.at(x, y)) continue;
+        o = {o.column + x, o.row + y, o.area + 1.0};
+      }
+    return Outline{o.column / o.area, o.row / o.area, o.area};
+  };
+  Shown shown;
+  const Vec3 at(0.05, -0.03, 0.5);
+  shown.things = {{ThingShape::sphere, Point<'C'>(at), Mat3::Identity(), {0.03, 0, 0}, {0.1F, 0.6F, 0.2F}}};
+  const Outline ball = pixels(shown), wanted = outline(spec.camera.left, at, 0.03);
+  EXPECT_NEAR(ball.column, wanted.column, 0.1);
+  EXPECT_NEAR(ball.row, wanted.row, 0.1);
+  EXPECT_NEAR(ball.area / wanted.area, 1.0, 0.01);
+
+  const double px = spec.camera.left.focal_x / 0.5;  // of a metre at that depth
+  const Mat3 along_x = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX()).toRotationMatrix();
+  shown.things = {{ThingShape::capsule, Point<'C'>(0, 0, 0.5), along_x, {0.004, 0, 0.06}, {}}};
+  EXPECT_NEAR(pixels(shown).area / (px * px), 0.12 * 0.008 + M_PI * 0.004 * 0.004, 3e-5);
+  shown.things = {{ThingShape::box, Point<'C'>(0, 0, 0.5), Mat3::Identity(), {0.04, 0.02, 1e-4}, {}}};
+  EXPECT_NEAR(pixels(shown).area / (px * px), 0.08 * 0.04, 3e-5);
+
+  // What is nearer hides what is behind it.
+  shown.hand = true;
+  shown.pose = {Point<'C'>(0, 0, 0.45), {0, -1, 0}, 0.0};
+  const double shown_box = pixels(shown).area;
+  EXPECT_LT(shown_box / (px * px), 0.9 * 0.08 * 0.04);
+  for (int y = 0; y < truth.things.height; ++y)
+    for (int x = 0; x < truth.things.width; ++x) ASSERT_FALSE(truth.things.at(x, y) && truth.skin.at(x, y));
+  shown.things.clear();
+  EXPECT_TRUE(std::isnan(pixels(shown).row));  // nothing is left of it
+}
+
 // r = K / z with K = f R [VisHap 2.1.2].
 TEST(StageGeometry, TheOutlinesRadiusFollowsTheDepth) {
   const StageSpec spec = still();

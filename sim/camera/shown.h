@@ -1,0 +1,56 @@
+// What moves before the stereo head of the twin: a hand, parts of the haptic device, the light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc::sim {
+
+// Linear, 0 to 1; so are the images: a sensor's value is proportional to the light, without gamma.
+using Rgb = std::array<float, 3>;
+
+struct HandLook {
+  Rgb skin{0.76F, 0.55F, 0.43F};
+  Rgb sleeve{0.15F, 0.22F, 0.45F};
+  double finger_width = 0.016;  // m, at the cap
+  double taper = 1.15;          // width at the knuckle over that at the cap
+  double bare = 0.05;           // m of the forearm that the sleeve leaves bare
+};
+
+// A pointing hand: one finger straight, the others folded.
+struct HandPose {
+  Point<'C'> tip;     // centre of the cap's sphere
+  Vec<'C'> along;     // from knuckle to tip; any length
+  double roll = 0.0;  // rad, about it
+};
+
+// A part of the haptic device, or something else that moves, as the camera has it before it.
+enum class ThingShape : std::uint8_t { sphere, capsule, box };
+struct Thing {
+  ThingShape shape = ThingShape::sphere;
+  Point<'C'> at;                 // its middle
+  Mat3 axes = Mat3::Identity();  // its x, y and z as columns, in C
+  Vec3 half{0.01, 0.01, 0.01};   // m: sphere: x is its radius; capsule: x its radius, z half its length
+                                 // without the caps, along z; box: half its sides
+  Rgb colour{0.25F, 0.26F, 0.28F};
+};
+
+struct Light {
+  double gain = 1.0;  // of all light
+  double side = 0.0;  // -1 to 1: how far the lamp is to the left or right
+  Rgb colour{1, 1, 1};
+};
+
+// What a camera of the twin looks at, at an exposure.
+struct Shown {
+  bool hand = false;  // else none
+  HandPose pose;
+  HandLook look;
+  Light light;
+  std::vector<Thing> things;  // beside the background and the hand
+};
+
+}  // namespace enc::sim
