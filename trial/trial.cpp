@@ -58,10 +58,13 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   const bool wall = slots.real && keeps_wall_time(setup_, options_.drivers);
   const double pace = pace_of(options_, wall);
   if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
-  if (slots.machine && options_.armed && setup_.scene.camera)
+  // What keeps no wall clock works within the loop, so that it is the same in every run.
+  const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
+  if (slots.machine && options_.armed && setup_.scene.camera && !threaded)
     throw Error(models::place_of(setup_, "camera") +
-                ": vision works within the haptic loop, where a frame takes many periods; expected a tracker "
-                "that does not; a real machine is not armed for it");
+                ": vision through a camera that is simulated, or only plays, works within the haptic loop, "
+                "where a frame takes many periods; expected a real camera, for which it has a thread of its "
+                "own; a real machine is not armed for it");
   simulated_ = !slots.real;
   if (slots.simulated || !slots.real) {
     world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
@@ -74,7 +77,9 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (setup_.scene.camera) {
     if (!options_.drivers)
       throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
-    rig_.tracker = make_vision(setup_, options_.drivers, {world_.get(), options_.seed, log_, pace == 0.0});
+    rig_.tracker =
+        make_vision(setup_, options_.drivers, {world_.get(), options_.seed, log_, pace == 0.0, threaded});
+    result_.vision.threaded = threaded;
   }
   if (slots.real) result_.devices = describe_drivers(rig_, setup_);
   in_.withheld = slots.machine && !options_.armed;
@@ -98,6 +103,8 @@ Trial::Trial(models::Setup setup, TrialOptions options)
                     setup_.scene_path, length, kLongest));
   last_tick_ = std::llround(length / scene_.dt);
   result_.step_ns.reserve(static_cast<std::size_t>(last_tick_) + 1);
+  if (pace > 0.0) result_.period_ns.reserve(static_cast<std::size_t>(last_tick_) + 1);
+  if (setup_.scene.camera) result_.vision.reserve(length * setup_.rig.camera.rate);
 }
 
 void Trial::count() {
@@ -128,6 +135,7 @@ bool Trial::tick() {
   now_ = rig_.clock->next();
   gate_.unmark(in_);
   rig_.read(now_.t, in_);
+  if (setup_.scene.camera) result_.vision.see(now_.t, in_.tool);
   gate_.mark(rig_, now_.t, in_);
   if (options_.disturb) options_.disturb(in_);
   const WallClock::time_point before = WallClock::now();
@@ -139,6 +147,9 @@ bool Trial::tick() {
   gate_.write(rig_, out_);
   if (result_.step_ns.size() < result_.step_ns.capacity())
     result_.step_ns.push_back(nanoseconds(after - before));
+  if (result_.ticks > 0 && result_.period_ns.size() < result_.period_ns.capacity())
+    result_.period_ns.push_back(nanoseconds(before.time_since_epoch() - before_));
+  before_ = before.time_since_epoch();
   count();
   if (record_ != nullptr) {
     record_->write(now_, in_, out_, hash_.value);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -99,6 +100,7 @@ class Trial {
   Outputs out_;
   State state_;
   StateHash hash_;
+  std::chrono::nanoseconds before_{};  // of the wall clock, when the last step() began
   TrialResult result_;
   std::int64_t last_tick_ = 0;
   RecordWriter* record_ = nullptr;

@@ -11,6 +11,7 @@
 #include "core/mode.h"
 #include "trial/assemble.h"
 #include "trial/gate.h"
+#include "trial/trackers/frame_times.h"
 
 namespace enc::trial {
 
@@ -24,7 +25,9 @@ struct TrialResult {
   Mode last_mode = Mode::away;
   std::uint32_t last_why = 0;
   std::uint64_t hash = 0;
-  std::vector<std::uint32_t> step_ns;  // of each step(), as the wall clock saw it
+  std::vector<std::uint32_t> step_ns;    // of each step(), as the wall clock saw it
+  std::vector<std::uint32_t> period_ns;  // where a pace is kept: from one step() to the next, likewise
+  FrameTimes vision;                     // where the scene has a camera
   std::int64_t diverged_at = -1;
   std::string divergence;
   bool stopped = false;              // record could not be written

@@ -7,6 +7,7 @@
 #include "sim/camera/skin_tones.h"
 #include "sim/camera/stage.h"
 #include "trial/driver_device.h"
+#include "trial/trackers/threaded_tracker.h"
 
 namespace enc::trial {
 namespace {
@@ -66,7 +67,10 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
                             : driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera",
                                             setup, modules, offer.log, offer.waits);
     const auto& vision = *static_cast<const VisionModule*>(modules("vision").vision);
-    return vision.tracker(std::move(camera), setup.rig.camera, setup.rig.vision);
+    const Release release = offer.threaded ? Release::when_done : Release::when_due;
+    auto tracker = vision.tracker(std::move(camera), setup.rig.camera, setup.rig.vision, release);
+    if (!offer.threaded) return tracker;
+    return std::make_unique<ThreadedTracker>(std::move(tracker));
   } catch (const Error& e) {
     if (e.key().empty()) throw;
     throw Error(models::place_of(setup, e.key()) + ": " + e.what(), {}, e.kind());

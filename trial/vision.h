@@ -15,7 +15,8 @@ struct VisionOffer {
   const sim::World* world = nullptr;  // of the twin's camera, which sees its hand; outlives the tracker
   std::uint64_t seed = 0;
   Log& log;
-  bool waits = false;  // as in Offer
+  bool waits = false;     // as in Offer
+  bool threaded = false;  // in a thread of its own: not through the twin's camera, whose world is the loop's
 };
 
 // Loads the modules that it takes. Throws Error (kind device) where a module is missing or a device is not

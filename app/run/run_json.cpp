@@ -5,6 +5,7 @@
 #include "app/built.h"
 #include "app/process.h"
 #include "app/run/run_report.h"
+#include "models/order_statistics.h"
 
 namespace enc::app {
 namespace {
@@ -55,6 +56,23 @@ Json pushes_json(const trial::ProbeMeasure& measure) {
   return list;
 }
 
+Json times_json(const std::vector<std::uint32_t>& ns) {
+  const StepTimes times = step_times(ns);
+  return {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
+}
+
+Json vision_json(const trial::FrameTimes& vision) {
+  const auto ms = [](const std::vector<double>& s) -> Json {
+    return {{"p50", number(models::percentile(s, 0.5) * 1e3)},
+            {"p99", number(models::percentile(s, 0.99) * 1e3)}};
+  };
+  return {{"threaded", vision.threaded},
+          {"frames", vision.frames},
+          {"rate_hz", number(vision.rate())},
+          {"interval_ms", ms(vision.intervals)},
+          {"age_ms", ms(vision.ages)}};
+}
+
 // Of a machine that holds a deflection against a force.
 void press_figures(Json& json, const trial::PressMeasure& presses) {
   json["rmse_press_N"] = number(presses.rmse_press());
@@ -100,8 +118,9 @@ std::string run_json(const RunReport& r) {
     json["force_error_N"] = number(r.pushes.force_error());
   }
   if (!r.scene.impedance()) press_figures(json, r.presses);
-  const StepTimes times = step_times(r.result.step_ns);
-  json["step_ns"] = {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
+  json["step_ns"] = times_json(r.result.step_ns);
+  if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns);
+  if (r.result.vision.frames > 0) json["vision"] = vision_json(r.result.vision);
   json["simulated_s"] = r.result.simulated;
   json["wall_s"] = r.result.wall;
   json["times_real_time"] = number(r.result.simulated / r.result.wall);

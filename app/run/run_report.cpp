@@ -212,6 +212,25 @@ std::string pushed_lines(const RunReport& r) {
                      peak(pushes, &trial::PressFigures::peak_deflection) * 1e3);
 }
 
+// Rates and jitter of the two loops; of the haptic one by the wall clock, where it keeps that.
+std::string vision_lines(const trial::TrialResult& result) {
+  const trial::FrameTimes& vision = result.vision;
+  if (vision.frames == 0) return "";
+  const auto ms = [](const std::vector<double>& s, double share) {
+    return models::percentile(s, share) * 1e3;
+  };
+  std::string text = fmt::format(
+      "vision      {:.2f} frames/s {}; from frame to frame p50 {:.1f}, p99 {:.1f} ms; old when told p50 "
+      "{:.1f}, p99 {:.1f} ms\n",
+      vision.rate(), vision.threaded ? "in a thread of its own" : "within the loop",
+      ms(vision.intervals, 0.5), ms(vision.intervals, 0.99), ms(vision.ages, 0.5), ms(vision.ages, 0.99));
+  if (result.period_ns.empty()) return text;
+  const StepTimes period = step_times(result.period_ns);
+  return text +
+         fmt::format("loop        from tick to tick p50 {:.3f}, p99 {:.3f}, p99.9 {:.3f}, max {:.3f} ms\n",
+                     period.p50 * 1e-6, period.p99 * 1e-6, period.p999 * 1e-6, period.max * 1e-6);
+}
+
 }  // namespace
 
 StepTimes step_times(const std::vector<std::uint32_t>& ns) {
@@ -259,6 +278,7 @@ std::string run_text(const RunReport& r) {
                         r.result.last_why == 0 ? "none" : why_text(r.result.last_why));
   for (const std::string& line : r.crossed) text += "LIMIT       " + line + "\n";
   text += questionnaire_text(r.setup);
+  text += vision_lines(r.result);
   const StepTimes times = step_times(r.result.step_ns);
   text += fmt::format("tick        step() p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.1f} us\n",
                       times.p50 * 1e-3, times.p99 * 1e-3, times.p999 * 1e-3, times.max * 1e-3);

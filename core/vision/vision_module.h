@@ -1,6 +1,7 @@
 // The module encounter_vision: what a scene without a camera never loads.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "core/devices/pose_tracker.h"
@@ -10,11 +11,17 @@
 
 namespace enc {
 
+// When a place is told.
+enum class Release : std::uint8_t {
+  when_due,  // the rig's latency after the exposure, however long the work took: the same in every run
+  when_done  // in wall time, as soon as it is there
+};
+
 struct VisionModule {
   // A tracker of a bare fingertip that looks through the camera. Throws Error where the numbers are
   // impossible.
   std::unique_ptr<PoseTracker> (*tracker)(std::unique_ptr<StereoCamera> camera, const StereoRig& rig,
-                                          const VisionRig& vision) = nullptr;
+                                          const VisionRig& vision, Release release) = nullptr;
 };
 
 }  // namespace enc

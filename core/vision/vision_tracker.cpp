@@ -18,14 +18,14 @@ std::string text_of(const ImageSize& size) {
 }  // namespace
 
 VisionTracker::VisionTracker(std::unique_ptr<StereoCamera> camera, const StereoRig& rig,
-                             FingerTracker tracker)
+                             FingerTracker tracker, Release release)
     : camera_(std::move(camera)), tracker_(std::move(tracker)) {
   check_timing(rig);
   if (const ImageSize is = camera_->size(); is != ImageSize{} && is != rig.size())
     throw Error("the images are " + text_of(is) + " and the rig file says " + text_of(rig.size()) +
                     "; expected the same; give the numbers of the camera that made them",
                 "rig.camera.width_px");
-  latency_ = from_seconds(rig.latency);
+  wait_ = release == Release::when_due ? from_seconds(rig.latency) : Duration::min();
   patience_ = from_seconds(rig.latency + 3.0 / rig.rate);
 }
 
@@ -75,7 +75,7 @@ bool VisionTracker::stalled(Time now, Stamped<TrackedTool>& newest) {
 bool VisionTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
   if (camera_->poll(now, frame_)) take(now, frame_);
   bool due = false;
-  while (count_ > 0 && age(now, line_[first_].exposed) >= seconds(latency_)) {  // the newest that is due
+  while (count_ > 0 && age(now, line_[first_].exposed) >= seconds(wait_)) {  // the newest that is due
     told_ = line_[first_];
     first_ = (first_ + 1) % line_.size();
     --count_;

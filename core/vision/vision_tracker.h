@@ -7,6 +7,7 @@
 
 #include "core/devices/pose_tracker.h"
 #include "core/vision/finger/finger_tracker.h"
+#include "core/vision/vision_module.h"
 
 namespace enc {
 
@@ -16,10 +17,11 @@ class VisionTracker : public PoseTracker {
 
   // Throws Error where rate or latency are impossible, or the camera's images are not as large as the rig
   // says.
-  VisionTracker(std::unique_ptr<StereoCamera> camera, const StereoRig& rig, FingerTracker tracker);
+  VisionTracker(std::unique_ptr<StereoCamera> camera, const StereoRig& rig, FingerTracker tracker,
+                Release release = Release::when_due);
 
-  // A place when the frame's exposure is `latency` ago, stamped with the exposure; a frame with a stamp that
-  // is still to come is not believed. A frame that shows no
+  // A place when the frame's exposure is `latency` ago, or at once, stamped with the exposure; a frame with a
+  // stamp that is still to come is not believed. A frame that shows no
   // finger gives no tool (-1), and so does one from which the place is only foreseen: the core foresees by
   // itself, and its judgement of age must see that the finger is lost. When frames stay out for three periods
   // longer than they take, once more the last place, Health::stale.
@@ -39,8 +41,8 @@ class VisionTracker : public PoseTracker {
 
   std::unique_ptr<StereoCamera> camera_;
   FingerTracker tracker_;
-  Duration latency_{}, patience_{};
-  std::array<Finger, 64> line_;  // places that are not due yet, a ring
+  Duration wait_{}, patience_{};  // after an exposure: for its place, and for the next
+  std::array<Finger, 64> line_;   // places that are not due yet, a ring
   std::size_t first_ = 0, count_ = 0;
   Finger told_;
   Stamped<TrackedTool> last_;

@@ -7,10 +7,12 @@
 namespace {
 
 std::unique_ptr<enc::PoseTracker> tracker(std::unique_ptr<enc::StereoCamera> camera,
-                                          const enc::StereoRig& rig, const enc::VisionRig& vision) {
+                                          const enc::StereoRig& rig, const enc::VisionRig& vision,
+                                          enc::Release release) {
   return std::make_unique<enc::VisionTracker>(std::move(camera), rig,
                                               enc::FingerTracker(rig, vision.segmentation, vision.fingertip,
-                                                                 vision.track, vision.match, vision.search));
+                                                                 vision.track, vision.match, vision.search),
+                                              release);
 }
 constexpr enc::VisionModule kVision{.tracker = tracker};
 

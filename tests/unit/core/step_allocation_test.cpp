@@ -8,6 +8,7 @@
 
 #include "core/step.h"
 #include "tests/support/by_hand.h"
+#include "trial/trackers/threaded_tracker.h"
 
 // This test program counts its allocations.
 #pragma GCC diagnostic ignored \
@@ -92,6 +93,23 @@ TEST(Loop, AllocatesNothing) {
   EXPECT_EQ(taken, 0);
   EXPECT_GT(allocations.load(), 0);  // the counter counts
   EXPECT_EQ(modes & (1 << static_cast<int>(Mode::contact)), 1 << static_cast<int>(Mode::contact));
+}
+
+// Nor does asking a tracker in a thread of its own, nor that thread.
+TEST(Loop, ATrackerInAThreadAllocatesNothing) {
+  class Still final : public PoseTracker {
+    bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+      newest = {{}, now, Health::ok};
+      return true;
+    }
+  };
+  trial::ThreadedTracker tracker(std::make_unique<Still>());
+  Stamped<TrackedTool> newest;
+  std::int64_t news = 0, now = 0;
+  const std::int64_t before = allocations;
+  while (news < 100) news += tracker.poll(Time(Duration(++now)), newest) ? 1 : 0;
+  const std::int64_t taken = allocations - before;
+  EXPECT_EQ(taken, 0);
 }
 
 }  // namespace
