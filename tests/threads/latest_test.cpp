@@ -1,6 +1,8 @@
 // One thread writes and one reads, as fast as they can.
 #include "core/latest.h"
 
+#include <algorithm>
+#include <array>
 #include <thread>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,9 @@
 // A tracker in a thread of its own: the loop is never kept, every state gets through, and it ends at once.
 #include "trial/trackers/threaded_tracker.h"
 
+#include <chrono>
+#include <thread>
+
 #include <gmock/gmock.h>
 
 namespace enc::trial {

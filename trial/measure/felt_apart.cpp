@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace enc::trial {
+namespace {
+
+constexpr std::size_t kTouch = 6;  // frames
+
+}  // namespace
 
 FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame) {
   FeltApart apart;
@@ -19,8 +24,9 @@ FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame
     apart.tick = std::max(apart.tick, std::abs(difference));
     sums.push_back(sums.back() + difference);
     if (sums.size() <= frame) continue;
-    const double mean = (sums.back() - sums[sums.size() - 1 - frame]) / static_cast<double>(frame);
-    apart.frame = std::max(apart.frame, std::abs(mean));
+    const double mean = std::abs(sums.back() - sums[sums.size() - 1 - frame]) / static_cast<double>(frame);
+    apart.frame = std::max(apart.frame, mean);
+    if (sums.size() > kTouch * frame) apart.pressed = std::max(apart.pressed, mean);
   }
   return apart;
 }

@@ -1,0 +1,66 @@
+// What an irregular vision changes of what is felt: a wall, pressed by a finger that is seen at 20 Hz, with
+// results that come up to a frame early or late, beside the same with results that come when they are due.
+#include <gtest/gtest.h>
+
+#include "trial/measure/felt_apart.h"
+#include "trial/trackers/jittered_tracker.h"
+#include "trial/trial.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr Duration kFrame{50'000'000};
+constexpr std::size_t kFrameTicks = 50;
+constexpr double kForceStep = 0.2;  // N, between frames
+
+// Without a latency of its own, so that a result can be early.
+FeltWay press(Duration jitter, std::uint64_t seed) {
+  FeltWay way;
+  TrialOptions options;
+  options.seed = seed;
+  options.fit_out = [&](Rig& rig) {
+    rig.tracker = std::make_unique<JitteredTracker>(std::move(rig.tracker),
+                                                    JitteredTracker::Spec{kFrame, jitter, seed});
+  };
+  options.watch = [&](const Glance& glance) { way.see(glance); };
+  Trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "",
+                     {"truth.tracker.latency_ms=0", "user.approach_mm_s=[100]", "user.rest_s=1"}),
+        options)
+      .run();
+  return way;
+}
+
+TEST(Jitter, OfAFrameChangesNothingThatIsFeltByMoreThanTheForceStep) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    const FeltApart apart = felt_apart(press({}, seed), press(kFrame, seed), kFrameTicks);
+    EXPECT_GT(apart.ticks, 6000U) << seed;
+    EXPECT_GT(apart.tick, 0.0) << seed;
+    EXPECT_LE(apart.frame, kForceStep) << seed;
+    EXPECT_LE(apart.pressed, 0.5 * kForceStep) << seed;
+  }
+}
+
+// Five ticks, one of them not in contact: two whole frames of two ticks, that of 4 N and 0 and that of 1 N
+// and -1 N.
+TEST(FeltApart, IsOfTicksInWhichBothAreInContactAndOfWholeFramesOfThem) {
+  const auto way = [](const std::vector<double>& newtons) {
+    const Scene scene;
+    const sim::Truth truth;
+    FeltWay made;
+    for (const double n : newtons) {
+      Outputs out;
+      out.mode = std::isnan(n) ? Mode::follow : Mode::contact;
+      out.force = Vec<'N'>(0, 0, n);
+      made.see({scene, Tick{}, truth, Inputs{}, out});
+    }
+    return made;
+  };
+  const FeltApart apart = felt_apart(way({-5, -5, -5, -5, -5}), way({-5, -9, kUnset, -6, -4}), 2);
+  EXPECT_EQ(apart.ticks, 4U);
+  EXPECT_DOUBLE_EQ(apart.tick, 4.0);
+  EXPECT_DOUBLE_EQ(apart.frame, 2.0);  // of the first two
+  EXPECT_DOUBLE_EQ(apart.pressed, 0.0);
+}
+
+}  // namespace
+}  // namespace enc::trial
