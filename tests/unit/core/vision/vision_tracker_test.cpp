@@ -75,6 +75,19 @@ TEST(VisionTracker, TellsWhenTheLatencyIsOverWithTheStampOfTheExposure) {
   EXPECT_FALSE(set.told(151, 160));
 }
 
+// In wall time the latency is what the work takes.
+TEST(VisionTracker, TellsAtOnceWhereItIsAskedTo) {
+  Set set;
+  std::unique_ptr<Fed> fed = std::make_unique<Fed>();
+  fed->frames = set.camera->frames;
+  fed->frames[at_ms(100)] = set.seen.frame();
+  VisionTracker tracker(std::move(fed), small(), FingerTracker(small(), drawn::segmentation(), {}, {}),
+                        Release::when_done);
+  for (int ms = 0; ms <= 100; ++ms) EXPECT_EQ(tracker.poll(at_ms(ms), set.newest), ms % 50 == 0) << ms;
+  EXPECT_EQ(set.newest.t, at_ms(100));
+  EXPECT_EQ(set.newest.value.tool, VisionTracker::kFinger);
+}
+
 TEST(VisionTracker, AFingerThatIsOnlyForeseenIsNoTool) {
   Set set;
   for (const int ms : {100, 150, 200}) set.camera->frames[at_ms(ms)] = set.seen.frame();
