@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace enc::trial {
-namespace {
-
-constexpr std::size_t kTouch = 6;  // frames
-
-}  // namespace
-
 FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame) {
   FeltApart apart;
   std::vector<double> sums{0.0};  // of the differences since both came into contact
@@ -26,7 +20,6 @@ FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame
     if (sums.size() <= frame) continue;
     const double mean = std::abs(sums.back() - sums[sums.size() - 1 - frame]) / static_cast<double>(frame);
     apart.frame = std::max(apart.frame, mean);
-    if (sums.size() > kTouch * frame) apart.pressed = std::max(apart.pressed, mean);
   }
   return apart;
 }

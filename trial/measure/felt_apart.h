@@ -25,8 +25,7 @@ struct FeltApart {
   // Greatest of one tick, N. The encoders' steps are in it: a contact that is 1 ms later has them in other
   // ticks.
   double tick = 0.0;
-  double frame = 0.0;    // greatest of the means over a frame, in all of which both were in contact, N
-  double pressed = 0.0;  // the same without the touch: from six frames after both came into contact
+  double frame = 0.0;  // greatest of the means over a frame, in all of which both were in contact, N
 };
 // `frame`: ticks.
 [[nodiscard]] FeltApart felt_apart(const FeltWay& one, const FeltWay& other, std::size_t frame);
