@@ -50,7 +50,9 @@ std::string line_of(const std::string& text, const std::string& begins) {
 TEST_F(Camera, TheTwinsFingerIsSeenAndRepeatsToTheBit) {
   const Result once = run({"--for-s", "3"}), again = run({"--for-s", "3"});
   EXPECT_THAT(once.out, AllOf(HasSubstr("tracker (vision)"),
-                              HasSubstr("camera (640 x 480 at 20 Hz, simulated)"), HasSubstr("follow")))
+                              HasSubstr("camera (640 x 480 at 20 Hz, simulated)"), HasSubstr("follow"),
+                              HasSubstr("\nvision      20.00 frames/s within the loop; from frame to frame "
+                                        "p50 50.0, p99 50.0 ms; old when told p50 50.0, p99 50.0 ms\n")))
       << once.err;
   EXPECT_FALSE(line_of(once.out, "state hash").empty()) << once.out;
   EXPECT_EQ(line_of(once.out, "state hash"), line_of(again.out, "state hash"));
