@@ -41,6 +41,7 @@ struct Outputs {
   Point<'W'> wanted;
   double gain = kUnset;
   double prop_speed = 0.0;  // of a driven prop's surface against the prop, m/s
+  Vec<'R'> prop_facing;     // that a prop's front shall face, unit; unset: as it does
 };
 
 }  // namespace enc

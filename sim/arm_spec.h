@@ -16,6 +16,11 @@ enum class ArmFriction : std::uint8_t {
 };
 constexpr auto words(ArmFriction) { return enum_words("dry", "smooth"); }
 
+// What a prop's front faces: the surface that the core believes to be met; or, for comparison, the one that
+// the finger truly comes to.
+enum class PropFacing : std::uint8_t { told, finger };
+constexpr auto words(PropFacing) { return enum_words("told", "finger"); }
+
 struct ArmTruth {
   bool there = false;  // the file has it
   double timestep =
@@ -35,8 +40,9 @@ struct ArmTruth {
   double watchdog = 0.005;         // s without a command, then the motors are off
   double drum_time = 0.020;        // s, of the motor that drives a prop's surface
   double gimbal_time = 0.030;      // s, in which the prop turns to another surface
-  double prop_friction = 0.6;      // of a finger on the prop
-  double contact_time = 0.004;     // s, of the stop between finger and prop: a hard contact
+  PropFacing facing = PropFacing::told;
+  double prop_friction = 0.6;   // of a finger on the prop
+  double contact_time = 0.004;  // s, of the stop between finger and prop: a hard contact
   // Of a drum's belt, which gives under a finger. MuJoCo's friction of what slips at the speed s lifts it off
   // by s times friction times twice the time constant of that friction: from a hard belt a finger hops.
   double belt_time = 0.005;           // s, of its stop: with the next, 0.2 mm/N under a finger of 20 g

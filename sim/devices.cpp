@@ -40,9 +40,9 @@ class SimArm final : public HapticArm {
   void command(const Vec<'R'>& force) noexcept override { world_.arm->command(force); }
   void stop() noexcept override {
     command(Vec<'R'>::zero());
-    drive(0.0);
+    move_prop({});
   }
-  void drive(double speed) noexcept override { world_.arm->drive_surface(speed); }
+  void move_prop(const PropCommand& prop) noexcept override { world_.arm->move_prop(prop); }
 
  private:
   World& world_;

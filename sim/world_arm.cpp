@@ -46,15 +46,20 @@ void World::set_up_arm(const WorldSpec& spec) {
   face_prop(0.0);
 }
 
-// The gimbal of the prop keeps its front parallel to the surface that it stands for.
+// The gimbal of the prop keeps its front parallel to the surface that it stands for: the one that it is told.
+// Before, it faces what is nearest to it.
 void World::face_prop(double h) {
   mjModel* m = physics_.model();
   mjData* d = physics_.data();
   Vec3 running = Vec3::Zero();
   if (!prepared_.objects.empty()) {
-    const Faced to = nearest_surface(prepared_, truth_.tool_tip.finite() ? truth_.tool_tip : truth_.tip);
+    const bool told = twin_.arm.facing == PropFacing::told;
+    const Vec<'R'>& wanted = arm->state().facing_wanted;
+    const Faced to =
+        nearest_surface(prepared_, !told && truth_.tool_tip.finite() ? truth_.tool_tip : truth_.tip);
     const Object& object = prepared_.objects[to.object];
-    arm->face(to.normal.e(), h, next_.index == 0);
+    const Vec<'W'> normal = told && wanted.finite() ? X_WR_ * wanted : to.normal;
+    arm->face(normal.e(), h, next_.index == 0);
     running = arm->state().surface_speed * (object.X_WO.q() * object.interaction.way);
   }
   arm_body_->face(m, d, arm->facing(), running);

@@ -57,7 +57,7 @@ void Gate::write(Rig& rig, const Outputs& out) noexcept {
   stopped_ = false;
   if (rig.manipulator && out.tip.valid() && sent(RoleId::manipulator, out)) rig.manipulator->command(out.tip);
   if (rig.arm && out.arm_force.finite() && sent(RoleId::arm, out)) rig.arm->command(out.arm_force);
-  if (rig.arm && open(RoleId::arm, out)) rig.arm->drive(out.prop_speed);
+  if (rig.arm && open(RoleId::arm, out)) rig.arm->move_prop({out.prop_speed, out.prop_facing});
   if (rig.display) rig.display->show(out.view);
   if (rig.gripper && sent(RoleId::gripper, out)) rig.gripper->command(out.grip);
 }

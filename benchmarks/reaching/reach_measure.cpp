@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rotation.h"
 #include "core/task/walk.h"
 
 namespace enc::bench::reaching {
@@ -44,6 +45,7 @@ void ReachMeasure::see(const trial::Glance& glance) {
   if (!begun_) return;
   now_.contacts = glance.out.contacts - contacts_before_;
   if (prepares) ++now_.prepares;
+  take_picture(glance, now);
   if (std::isnan(now_.met)) {
     if (prepares) {
       now_.prepared = now;
@@ -56,12 +58,27 @@ void ReachMeasure::see(const trial::Glance& glance) {
   }
 }
 
+// Pictures stay in W until it is known where they meet.
+void ReachMeasure::take_picture(const trial::Glance& glance, double now) {
+  const Stamped<TrackedTool>& told = glance.in.tool;
+  if (!std::isnan(now_.met) || told.health != Health::ok || told.value.tool < 0 || told.t == newest_) return;
+  newest_ = told.t;
+  const Point<'T'>& tip = glance.scene.tools[static_cast<std::size_t>(told.value.tool)].tip.centre;
+  const Point<'W'> at = glance.scene.X_WC * (told.value.X_CT * tip);
+  now_.seen.pictures.push_back({at.e(), seconds(told.t.time_since_epoch()), now});
+}
+
 void ReachMeasure::meet(const trial::Glance& glance, double now) {
   const sim::Truth& truth = glance.truth;
   const trial::Wanted at =
       trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
   if (!truth.touching && at.distance > truth.tool_radius) return;
   now_.met = now;
+  const Pose<'W', 'N'> X_WN(rotation_z_to(at.normal.e()), at.point + truth.tool_radius * at.normal);
+  const Pose<'N', 'W'> X_NW = X_WN.inverse();
+  for (SeenReach::Picture& picture : now_.seen.pictures) picture.at = (X_NW * Point<'W'>(picture.at)).e();
+  now_.seen.met = now;
+  now_.seen.where = (X_NW * truth.tool_tip).e().head<2>();
   now_.chosen = glance.out.object;
   now_.speed = truth.tool_velocity.norm();
   now_.miss = along_surface(at, truth.tip);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "benchmarks/reaching/ideal.h"
 #include "trial/measure/finger_measure.h"
 
 namespace enc::bench::reaching {
@@ -25,6 +26,7 @@ struct ReachOutcome {
   std::int32_t prepares = 0;  // how often it began to prepare
   bool touched = false;       // the prop, at all
   bool aborted = false;       // it turns back before
+  SeenReach seen;             // what was told of it until they met
 
   [[nodiscard]] double lead() const { return met - prepared; }
   [[nodiscard]] double travel() const { return arrived - prepared; }  // unset: it did not get there
@@ -38,6 +40,7 @@ class ReachMeasure {
 
  private:
   void begin(const trial::Glance& glance);
+  void take_picture(const trial::Glance& glance, double now);
   void meet(const trial::Glance& glance, double now);
   void watch_contact(const trial::Glance& glance, double now);
 
@@ -47,6 +50,7 @@ class ReachMeasure {
   bool begun_ = false;
   sim::Phase phase_ = sim::Phase::wait;
   trial::FarWatch far_;
+  Time newest_{};                // picture
   std::vector<Point<'W'>> way_;  // of the prop since it was prepared, a tick each
 };
 

@@ -13,9 +13,6 @@
 namespace enc::bench::reaching {
 namespace {
 
-using Adder = std::function<void(const std::string& id, double value, const char* unit, double low,
-                                 double high, const std::string& note)>;
-
 const char* name_of(Seen how) { return how == Seen::vision ? "seen at 20 Hz, 50 ms late" : "seen live"; }
 std::string key_of(Seen how) { return how == Seen::vision ? "vision." : "live."; }
 
@@ -82,6 +79,7 @@ void random_part(const BenchContext& context, BenchResult& result, const Adder& 
               "met: the finger is seen live, so that the machine's travel alone counts"
             : "the same of a finger that vision sees at 20 Hz, 50 ms late");
     random_figures(ran, how, add);
+    if (how == Seen::vision) add_ideal(context, of_scene(ran, 0), add);
     Plot plot{how == Seen::live ? "reaching_lead_live" : "reaching_lead",
               std::string("From \"prepare\" until they meet; the finger is ") + name_of(how),
               "time (ms)",

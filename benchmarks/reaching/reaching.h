@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,5 +51,13 @@ void add_reaching_full(const BenchContext& context, BenchResult& result);
 
 // Cumulative distribution, %, of milliseconds.
 [[nodiscard]] Series distribution(const std::string& name, std::vector<double> seconds);
+
+// Puts a figure into the result.
+using Adder = std::function<void(const std::string& id, double value, const char* unit, double low,
+                                 double high, const std::string& note)>;
+
+// Whether the prop was there, beside what an ideal predictor could do with the same pictures (ideal.h).
+// Reaches at the wall, by the vision of the paper.
+void add_ideal(const BenchContext& context, const std::vector<ReachOutcome>& wall, const Adder& add);
 
 }  // namespace enc::bench::reaching

@@ -7,6 +7,11 @@
 
 namespace enc {
 
+struct PropCommand {
+  double surface_speed = 0.0;  // of its surface against the prop, m/s
+  Vec<'R'> facing;             // that its front shall face, unit; unset: as it does
+};
+
 class HapticArm : public Device {
  public:
   [[nodiscard]] virtual ArmAbility ability() const = 0;    // asked once, before anything moves
@@ -15,8 +20,8 @@ class HapticArm : public Device {
   // makes joint torques of it (J^T F) and clips them to what its motors can.
   virtual void command(const Vec<'R'>& force) noexcept = 0;
   virtual void stop() noexcept = 0;  // pushes no more, and whatever it drives stands; see Manipulator
-  // Speed of a prop's surface against the prop, m/s, where that has a motor; others have nothing to drive.
-  virtual void drive([[maybe_unused]] double surface_speed) noexcept {}
+  // Of a prop that has motors of its own; others have nothing to move.
+  virtual void move_prop([[maybe_unused]] const PropCommand& prop) noexcept {}
 };
 
 }  // namespace enc

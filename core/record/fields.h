@@ -107,6 +107,7 @@ void fields(F& f, Outputs& out) {
   fields(f, "wanted_W", out.wanted);
   f("gain", out.gain);
   f("prop_speed", out.prop_speed);
+  fields(f, "prop_facing_R", out.prop_facing);
 }
 
 }  // namespace enc

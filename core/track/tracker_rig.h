@@ -13,6 +13,20 @@ namespace enc {
 enum class Prediction : std::uint8_t { hold, constant_velocity, constant_acceleration };
 constexpr auto words(Prediction) { return enum_words("hold", "constant_velocity", "constant_acceleration"); }
 
+// Where a bare finger is met while it comes: where the filter carries it on, or where a reach touches
+// (reach.h).
+enum class Foresight : std::uint8_t { carried_on, reach };
+constexpr auto words(Foresight) { return enum_words("carried_on", "reach"); }
+
+// What is believed of a hand that reaches [sources/hand 4].
+struct ReachBelief {
+  double share = 0.93, scatter = 0.05;  // of the way that the first movement makes; standard deviation
+  double aside = 0.02;                  // of the way, by which it ends beside its target; of each side, rms
+  double slowest = 0.2, fastest = 1.0;  // m/s, peak of the first movement
+  double shortest = 0.20;               // s, the second movement, which corrects
+  double touch_slowest = 0.05, touch_fastest = 0.2;  // m/s, wanted where the surface is
+};
+
 struct TrackerRig {
   std::string driver = "sim";
   Prediction prediction = Prediction::constant_velocity;
@@ -27,6 +41,8 @@ struct TrackerRig {
   double usual_age = 0.045;  // s: what latency, polling and jitter explain; older is predicted and flagged
   double lost_age = 0.100;   // s: older is lost (sources/tracking 5)
   double farthest = 3.0;     // m from C: beyond is not a tool
+  Foresight foresight = Foresight::carried_on;
+  ReachBelief reach;
   // Sides along W of the box around its origin in which tools are followed, m: 75e-3 m^3 [VHMR 5]. The paper
   // gives the product alone.
   Vec3 volume{0.5, 0.5, 0.3};

@@ -164,6 +164,10 @@ void describe(Visitor& v, sim::ArmTruth& a) {
   v.value(
       {"watchdog_ms", "without a command, then the motors are off", "sources/choices 16", chosen, kPositive},
       &a.watchdog);
+  choice(v,
+         {"facing", "what the prop faces: told, as the core believes; finger, as is true",
+          "docs/reference/phantom_twin.md", assumed},
+         a.facing);
   v.value({"gimbal_time_ms", "in which the prop turns to another surface", "docs/reference/phantom_twin.md",
            assumed, kPositive},
           &a.gimbal_time);

@@ -110,6 +110,35 @@ void describe(Visitor& v, TrackerRig& t) {
   v.value({"volume_mm", "sides along W of the box around its origin in which tools are followed",
            "[VHMR 5] gives the product, 75e-3 m3", assumed, kPositive},
           &t.volume);
+  choice(v,
+         {"foresight",
+          "where an arm meets a finger that comes: carried_on, where the filter has it; reach, where a "
+          "reaching hand touches",
+          "docs/reference/reaching.md", chosen},
+         t.foresight);
+  table_if(v, "reach", t.foresight == Foresight::reach, [&] { describe(v, t.reach); });
+}
+
+void describe(Visitor& v, ReachBelief& r) {
+  v.value({"share", "of the way, that a first movement makes", "Elliott, Hansen and Grierson 2010", assumed,
+           kPositive},
+          &r.share);
+  v.value({"scatter", "of that share, standard deviation", "Meyer et al. 1988", assumed, kPositive},
+          &r.scatter);
+  v.value({"aside", "of the way, by which it ends beside its target, to each side, rms", "Meyer et al. 1988",
+           assumed, kPositive},
+          &r.aside);
+  v.value({"slowest_mm_s", "peak of a first movement, at least", "docs/reference/reaching.md", assumed,
+           kPositive},
+          &r.slowest);
+  v.value({"fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
+          &r.fastest);
+  v.value({"shortest_ms", "the second movement, at least", "Milner 1992", assumed, kPositive}, &r.shortest);
+  v.value({"touch_slowest_mm_s", "wanted where the surface is, at least", "docs/reference/reaching.md",
+           assumed, kPositive},
+          &r.touch_slowest);
+  v.value({"touch_fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
+          &r.touch_fastest);
 }
 
 void describe(Visitor& v, DisplayRig& d) {

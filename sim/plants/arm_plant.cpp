@@ -52,8 +52,9 @@ void ArmPlant::command(const Vec<'R'>& force) noexcept {
   state_.commanded = true;
 }
 
-void ArmPlant::drive_surface(double speed) noexcept {
-  if (std::isfinite(speed)) state_.surface_wanted = speed;
+void ArmPlant::move_prop(const PropCommand& prop) noexcept {
+  if (std::isfinite(prop.surface_speed)) state_.surface_wanted = prop.surface_speed;
+  if (prop.facing.finite() && prop.facing.norm() > 0.5) state_.facing_wanted = prop.facing;
 }
 
 // Beyond its peak a motor does not push; a warm one gets less, and one at the temperature that the continuous

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/devices/haptic_arm.h"
 #include "core/machine/motors.h"
 #include "core/sample.h"
 #include "sim/arm_spec.h"
@@ -29,6 +30,7 @@ class ArmPlant {
     bool clipped = false;                              // a motor could not do what was asked
     std::array<double, 4> facing{0, 0, 0, 1};          // of the prop's front, q_WN, xyzw
     double surface_wanted = 0.0, surface_speed = 0.0;  // of a driven front, m/s
+    Vec<'R'> facing_wanted;                            // that the front was told to face; unset: nothing yet
   };
 
   // believed: kinematics that the device computes with, the rig file's. dt: of a tick, s. Throws Error where
@@ -49,7 +51,7 @@ class ArmPlant {
   void measure(Time t, const PerJoint& joints) noexcept;
   // Stays until the next one, or until the watchdog takes it away. Not finite: refused (health fault).
   void command(const Vec<'R'>& force) noexcept;
-  void drive_surface(double speed) noexcept;  // of the prop, m/s
+  void move_prop(const PropCommand& prop) noexcept;
   // Torques of the coming period, from the newest reading, and what they do to the windings.
   void begin_cycle() noexcept;
   // Friction of the smooth form at these rates, N m or N; zeros of the dry one, which is the physics'.

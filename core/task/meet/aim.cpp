@@ -72,8 +72,10 @@ bool touches_belt(const State& state, const Object* object) {
 
 // The finger's projection on the surface, which goes along with it and with what moves. How fast, the surface
 // says: on a small ball the projection is slower than the finger, beyond the edge of a button it stands.
-Goal goal_of(const Walk& walk, const State& state, const Object& object) {
+Goal goal_of(const Walk& walk, const State& state, Meeting& memory, const Object& object) {
+  const Point<'W'> touch = foreseen_touch(walk, state, memory);
   if (object.met_in_its_middle()) return {object.X_WO.origin()};
+  if (touch.finite()) return {touch};
   const Vec<'W'> none = Vec<'W'>::zero();
   if (const Vec<'W'> rest = rest_of_flight(walk, object); !rest.e().isZero())
     return {walk.surface_point + rest};
@@ -244,7 +246,7 @@ void aim(Walk& walk, const Impedance& task, State& state, Meeting& memory) noexc
   } else if (state.mode == Mode::away || object == nullptr) {
     move_target(walk, task.rig, state, now, {walk.sent.finite() ? walk.sent : now.target}, nullptr);
   } else {
-    Goal goal = goal_of(walk, state, *object);
+    Goal goal = goal_of(walk, state, memory, *object);
     const Arm& arm = task.arm;
     PerJoint q = walk.in.arm.value.joints;
     if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, task.rig.least_dexterity, q)) {

@@ -10,6 +10,13 @@ namespace enc::stages {
   return state.object < 0 ? nullptr : &walk.scene.objects[static_cast<std::size_t>(state.object)];
 }
 
+// A finger that rests on a prop moves as slowly as it presses or slides. It does when the arm is pushed back;
+// that it has come to the surface is only what is foreseen, before it has slowed down.
+[[nodiscard]] inline bool presses(const State& state, const Contact& contact) {
+  constexpr double kFelt = 0.2;  // N
+  return state.mode == Mode::contact && -dot(state.force, contact.X_WN * Vec<'N'>(0, 0, 1)) > kFelt;
+}
+
 // The ball under a finger that has struck it.
 [[nodiscard]] inline const Moved* hit_now(const Walk& walk, const State& state) {
   const Object* object = nearest_object(walk, state);

@@ -32,13 +32,6 @@ void track_arm(Walk& walk, const Impedance& task, State& state) {
   state.started = true;
 }
 
-// A finger that rests on a prop moves as slowly as it presses or slides. It does when the arm is pushed back;
-// that it has come to the surface is only what is foreseen, before it has slowed down.
-bool presses(const State& state, const Contact& contact) {
-  constexpr double kFelt = 0.2;  // N
-  return state.mode == Mode::contact && -dot(state.force, contact.X_WN * Vec<'N'>(0, 0, 1)) > kFelt;
-}
-
 // Of a belt against its prop: a running surface goes on at its own speed while the prop that stands for it
 // moves along with the finger. On its way there it need not. Other props cannot run.
 double driven(const Object& object, const Impedance& law, const Aim& now, const Vec3& change) {
@@ -78,6 +71,8 @@ void report(const Walk& walk, const Impedance& task, State& state, const Meeting
   const Object* object = nearest_object(walk, state);
   const bool near = !holding(walk) && object != nullptr && (state.mode == Mode::follow || touched);
   out.prop_speed = near ? driven(*object, task, now.aim, touched ? walk.target_change : Vec3::Zero()) : 0.0;
+  const Vec<'W'> facing = touched ? now.contact.X_WN * Vec<'N'>(0, 0, 1) : walk.normal;
+  out.prop_facing = near && facing.finite() ? walk.scene.X_WR.inverse() * facing : Vec<'R'>();
   out.deflection = touched && walk.gap < 0.0 ? -walk.gap : 0.0;
   out.first_touch =
       touched ? now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin) : Point<'W'>();

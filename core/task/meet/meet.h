@@ -2,9 +2,13 @@
 // [VisHap 2.3].
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "core/safety/following.h"
 #include "core/task/contact.h"
 #include "core/task/meet/impedance.h"
+#include "core/track/reach.h"
 
 namespace enc {
 
@@ -25,9 +29,19 @@ struct Aim {
   bool stuck = false;  // and it was for too long: until the finger has gone
 };
 
+// The pictures of a finger that comes, newest first, and where it will touch (core/track/reach.h).
+struct Coming {
+  std::array<Point<'W'>, kSightings> at;
+  std::array<Time, kSightings> exposed{};
+  std::int32_t count = 0, object = -1;
+  Point<'W'> touch;  // the last answer; unset: none
+  Time asked{};      // when that was
+};
+
 struct Meeting {
   Contact contact;
   Aim aim;
+  Coming coming;
   Heat heat;  // of the motors, as it is believed
 };
 
@@ -51,9 +65,19 @@ void fields(F& f, Aim& r) {
   f("triggered", r.triggered);
 }
 template <class F>
+void fields(F& f, Coming& r) {
+  for (Point<'W'>& p : r.at) fields(f, "coming_at_W", p);
+  for (Time& t : r.exposed) f("coming_exposed", t);
+  f("coming_count", r.count);
+  f("coming_object", r.object);
+  fields(f, "coming_touch_W", r.touch);
+  f("coming_asked", r.asked);
+}
+template <class F>
 void fields(F& f, Meeting& m) {
   fields(f, m.contact);
   fields(f, m.aim);
+  fields(f, m.coming);
   fields(f, "winding", m.heat.winding);
   fields(f, "housing", m.heat.housing);
 }
@@ -65,6 +89,9 @@ void touch(Walk& walk, const Impedance& task, State& state, Meeting& now) noexce
 void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
 void guard(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
 void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now, Outputs& out) noexcept;
+
+// Where a finger that comes will touch; unset: as far as is known it does not, or it lies on the prop.
+[[nodiscard]] Point<'W'> foreseen_touch(const Walk& walk, const State& state, Meeting& now) noexcept;
 
 // The stages that act() is made of.
 void aim(Walk& walk, const Impedance& task, State& state,

@@ -1,0 +1,254 @@
+#include "benchmarks/reaching/ideal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/safety/braking.h"
+#include "core/track/minimum_jerk.h"
+
+namespace enc::bench::reaching {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Vec9 = Eigen::Matrix<double, 9, 1>;
+using Mat9 = Eigen::Matrix<double, 9, 9>;
+
+constexpr double kCrosses = 0.7, kOverlap = 0.8;      // as sim/hand/session_plan.cpp has them
+constexpr int kFirst = 24, kSecond = 10, kBegin = 8;  // timings that are tried
+constexpr std::size_t kPictures = 8;
+constexpr double kWithin = 2e-3;   // m
+constexpr double kExactly = 1e-4;  // m
+
+double below(double x) { return 0.5 * std::erfc(-x * M_SQRT1_2); }
+
+// A timing of a reach that touches now, and what is left of its weight beside the pictures'.
+struct Timing {
+  double begins, first, corrects, second;
+  bool falls_short;
+  double crossed = 1.0, weight = 0.0, width = 0.0;
+};
+
+std::vector<Timing> timings(const IdealSpec& spec, double length, double fall) {
+  std::vector<Timing> all;
+  for (int i = 0; i < kFirst; ++i)
+    for (int j = 0; j < kBegin; ++j)
+      for (int k = 0; k < kSecond; ++k)
+        for (const bool falls_short : {true, false}) {
+          Timing t{};
+          t.falls_short = falls_short;
+          const double wide = 0.05 * (spec.fastest - spec.slowest);  // the length is not known exactly
+          const double peak =
+              spec.slowest - wide + (spec.fastest - spec.slowest + 2.0 * wide) * (i + 0.5) / kFirst;
+          t.first = 1.875 * length / peak;
+          const double begin = (kOverlap + (1.0 - kOverlap) * (j + 0.5) / kBegin) * t.first;
+          if (falls_short) {
+            const double each = std::log(3.0) / (kSecond - 1);
+            t.second = spec.hand.shortest * (k == 0 ? 1.0 : std::exp((k - 0.5) * each));
+            t.width = t.second * each;
+            t.corrects = -kCrosses * t.second;
+            t.begins = t.corrects - begin;
+          } else {
+            t.width = 0.4 / kSecond;
+            const double at = 0.6 + (k + 0.5) * t.width;
+            t.begins = -at * t.first;
+            t.second = spec.hand.shortest;
+            t.corrects = t.begins + begin;
+            t.crossed = MinimumJerk(at).x;
+            t.weight = std::log(MinimumJerk(at).v * fall * t.width);
+          }
+          all.push_back(t);
+        }
+  return all;
+}
+
+// How probable a second movement of this time is for a hand that has so far to go down, m.
+double takes(const IdealSpec& spec, const Timing& t, double down) {
+  if (!t.falls_short) return down <= 0.0 ? 1.0 : 0.0;
+  if (down <= 0.0) return 0.0;
+  const double speed = down * MinimumJerk(kCrosses).v / t.second,
+               range = spec.touch_fastest - spec.touch_slowest;
+  if (t.second <= spec.hand.shortest)
+    return std::clamp((spec.touch_fastest - std::max(spec.touch_slowest, speed)) / range, 0.0, 1.0);
+  return speed >= spec.touch_slowest && speed <= spec.touch_fastest ? speed / t.second * t.width / range
+                                                                    : 0.0;
+}
+
+struct Part {
+  double weight = 0.0;  // logarithm, then share
+  Vec2 mean;
+  Eigen::Matrix2d covariance;
+  Vec3 first;  // movement
+};
+
+struct Task {
+  const IdealSpec& spec;
+  std::vector<SeenReach::Picture> pictures;
+  double now;
+};
+
+// Nine unknowns: where the hand began, its first movement, and what of the rest of its way is not foreseen.
+Part solved(const Task& task, const Timing& t, const Mat9& prior) {
+  const double rest = 1.0 / task.spec.hand.primary_share - 1.0;
+  const double beyond = t.falls_short ? 1.0 / MinimumJerk(kCrosses).x : 0.0;
+  Mat9 information = prior;
+  Vec9 right = Vec9::Zero();
+  double squares = 0.0;
+  const auto see = [&](const Vec9& share, double value, double sigma) {
+    const double w = 1.0 / (sigma * sigma);
+    information += w * share * share.transpose();
+    right += w * value * share;
+    squares += w * value * value;
+  };
+  for (const SeenReach::Picture& picture : task.pictures) {
+    const double age = task.now - picture.exposed;
+    const double p = MinimumJerk((-age - t.begins) / t.first).x;
+    const double s = MinimumJerk((-age - t.corrects) / t.second).x;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double f = axis < 2 ? 1.0 : beyond;
+      Vec9 share = Vec9::Zero();
+      share[axis] = 1.0;
+      share[3 + axis] = p + f * s * rest;
+      share[6 + axis] = f * s;
+      see(share, picture.at[axis], task.spec.noise);
+    }
+  }
+  Vec9 whole = Vec9::Zero();
+  whole[2] = whole[8] = 1.0;
+  whole[5] = 1.0 + rest;
+  see(whole, 0.0, kExactly);
+  double more = 0.0;
+  if (!t.falls_short) {
+    Vec9 crosses = Vec9::Zero();
+    crosses[2] = 1.0;
+    crosses[5] = t.crossed;
+    see(crosses, 0.0, kExactly);
+    more = -std::log(kExactly) - 0.5 * std::log(2.0 * M_PI);
+  }
+  const Eigen::LDLT<Mat9> factors(information);
+  const Vec9 mean = factors.solve(right);
+  Part part;
+  part.weight =
+      -0.5 * (squares - right.dot(mean)) - 0.5 * factors.vectorD().array().log().sum() + t.weight + more;
+  Vec9 down = Vec9::Zero();
+  down[5] = -rest / MinimumJerk(kCrosses).x;
+  down[8] = -1.0 / MinimumJerk(kCrosses).x;
+  const double middle = down.dot(mean), spread = std::sqrt(std::max(0.0, down.dot(factors.solve(down))));
+  double share = 0.0;  // five points of a normal distribution
+  constexpr double kAt[5]{-2.857, -1.3556, 0.0, 1.3556, 2.857},
+      kWeight[5]{.01126, .2221, .5333, .2221, .01126};
+  for (int i = 0; i < 5; ++i) share += kWeight[i] * takes(task.spec, t, middle + spread * kAt[i]);
+  part.first = mean.segment<3>(3);
+  const double peak = 1.875 * part.first.norm() / t.first;
+  share *=
+      std::max(1e-12, below((task.spec.fastest - peak) / 0.01) - below((task.spec.slowest - peak) / 0.01));
+  const double way = ((1.0 + rest) * part.first + mean.tail<3>()).norm();
+  share *= std::max(
+      1e-12, below((task.spec.longest_way - way) / 0.003) - below((task.spec.shortest_way - way) / 0.003));
+  part.weight += std::log(std::max(share, 1e-300));
+  const double p = MinimumJerk(-t.begins / t.first).x, s = MinimumJerk(-t.corrects / t.second).x;
+  Eigen::Matrix<double, 9, 2> place = Eigen::Matrix<double, 9, 2>::Zero();
+  for (int axis = 0; axis < 2; ++axis) {
+    place(axis, axis) = 1.0;
+    place(3 + axis, axis) = p + s * rest;
+    place(6 + axis, axis) = s;
+  }
+  part.mean = place.transpose() * mean;
+  part.covariance = place.transpose() * factors.solve(place);
+  return part;
+}
+
+Mat9 prior_of(const IdealSpec& spec, const Vec3& first) {
+  const double length = first.norm(), share = spec.hand.primary_share;
+  const Vec3 d = first / length;
+  // A normal that is cut at two standard deviations has 0.88 of them left.
+  const double far = 0.88 * spec.hand.primary_scatter / (share * share) * length;
+  const double aside = 0.88 * spec.hand.aside_scatter / (share * share) * length;
+  const Mat3 left = aside * aside * Mat3::Identity() + (far * far - aside * aside) * d * d.transpose();
+  Mat9 prior = Mat9::Zero();
+  prior.diagonal().head<6>().setConstant(1.0);
+  prior.bottomRightCorner<3, 3>() = left.inverse();
+  return prior;
+}
+
+std::vector<Part> parts_of(const Task& task) {
+  Vec3 first = 0.17 * (task.pictures.back().at - task.pictures.front().at).normalized();
+  std::vector<Part> parts;
+  for (int pass = 0; pass < 2; ++pass) {  // the second one knows how far the first movement goes
+    const Mat9 prior = prior_of(task.spec, first);
+    const double whole = std::log(prior.bottomRightCorner<3, 3>().determinant());
+    parts.clear();
+    for (const Timing& t : timings(task.spec, first.norm(), std::abs(first.z()))) {
+      parts.push_back(solved(task, t, prior));
+      parts.back().weight += 0.5 * whole;
+    }
+    const auto best = std::max_element(parts.begin(), parts.end(),
+                                       [](const Part& a, const Part& b) { return a.weight < b.weight; });
+    const double most = best->weight;
+    first = best->first;
+    double sum = 0.0;
+    for (Part& part : parts) sum += part.weight = std::exp(part.weight - most);
+    for (Part& part : parts) part.weight /= sum;
+  }
+  return parts;
+}
+
+}  // namespace
+
+Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double now) {
+  Task task{spec, {}, now};
+  for (const SeenReach::Picture& picture : reach.pictures)
+    if (picture.told <= now) task.pictures.push_back(picture);
+  if (task.pictures.size() > kPictures)
+    task.pictures.erase(task.pictures.begin(), task.pictures.end() - kPictures);
+  Ideal ideal;
+  ideal.place = Vec2::Constant(kUnset);
+  if (task.pictures.size() < 3) return ideal;
+  const std::vector<Part> parts = parts_of(task);
+  ideal.place = Vec2::Zero();
+  for (const Part& part : parts) ideal.place += part.weight * part.mean;
+  // Of each part within the circle: its normal distribution, over rings about the place.
+  for (const Part& part : parts) {
+    if (part.weight < 1e-5) continue;
+    const Eigen::Matrix2d root = part.covariance.llt().matrixL();
+    int in = 0;
+    constexpr int kRings = 12, kTurns = 12;
+    for (int i = 0; i < kRings; ++i)
+      for (int j = 0; j < kTurns; ++j) {
+        const double r = std::sqrt(-2.0 * std::log((i + 0.5) / kRings)),
+                     a = 2.0 * M_PI * (j + 0.5 * (i % 2)) / kTurns;
+        const Vec2 at = part.mean + root * (r * Vec2(std::cos(a), std::sin(a)));
+        in += (at - ideal.place).norm() < kWithin ? 1 : 0;
+      }
+    ideal.within += part.weight * in / (kRings * kTurns);
+  }
+  return ideal;
+}
+
+double ideal_miss(const IdealSpec& spec, const SeenReach& reach) {
+  constexpr double kBefore = 0.150, kAsked = 0.010, kTick = 0.001;  // s
+  Vec2 target = ideal_place(spec, reach, reach.met - kBefore).place;
+  Vec2 at = target, velocity = Vec2::Zero();
+  if (!target.allFinite()) return std::numeric_limits<double>::infinity();
+  for (double now = reach.met - kBefore; now < reach.met - 0.5 * kTick; now += kTick) {
+    const double asked = std::round((reach.met - now) / kTick);
+    if (std::fmod(asked, kAsked / kTick) == 0.0) target = ideal_place(spec, reach, now).place;
+    if (std::isinf(spec.acceleration)) {
+      at = target;
+      continue;
+    }
+    const Vec2 way = target - at;
+    const double far = way.norm();
+    const double fast = std::min({spec.speed, braking_speed(far, spec.acceleration, kTick), far / kTick});
+    const Vec2 wanted = far > 0.0 ? Vec2(way * (fast / far)) : Vec2(Vec2::Zero());
+    Vec2 change = wanted - velocity;
+    const double most = spec.acceleration * kTick;
+    if (change.norm() > most) change *= most / change.norm();
+    velocity += change;
+    at += kTick * velocity;
+  }
+  if (std::isinf(spec.acceleration)) at = ideal_place(spec, reach, reach.met).place;
+  return (at - reach.where).norm();
+}
+
+}  // namespace enc::bench::reaching

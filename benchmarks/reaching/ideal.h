@@ -1,0 +1,46 @@
+// What an ideal predictor could do with the pictures of a reach and with the arm: an upper bound for the
+// prop's being there in time. It knows what no machine can, the very numbers of the simulated person, and
+// tries every timing finely.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/frames.h"
+#include "sim/twin_spec.h"
+
+namespace enc::bench::reaching {
+
+// What was seen of a reach for a plane until it was met, in axes whose z is the plane's normal, 0 where the
+// tip touches.
+struct SeenReach {
+  struct Picture {
+    Vec3 at;               // m
+    double exposed, told;  // s
+  };
+  std::vector<Picture> pictures;  // in the order of time
+  double met = kUnset;            // s
+  Eigen::Vector2d where;          // x and y of the tip then
+};
+
+struct IdealSpec {
+  sim::HandTruth hand;
+  double noise = 0.5e-3;                             // m rms, of a picture
+  double slowest = 0.3, fastest = 0.8;               // m/s, peak of the first movement
+  double touch_slowest = 0.05, touch_fastest = 0.2;  // m/s
+  double shortest_way = 0.16, longest_way = 0.20;    // m
+  double speed = 1.0, acceleration = 15.0;           // of the arm; infinite: none
+};
+
+struct Ideal {
+  Eigen::Vector2d place;  // at which a prop is best, if the tip touches at a time; mean
+  double within = 0.0;  // probability of the tip's touching within 2 mm of it, as the predictor itself thinks
+};
+// By the pictures that were told by `now`, of a tip that touches then.
+[[nodiscard]] Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double now);
+
+// How far the arm's prop is from where they meet, m: it goes to the ideal place of each moment as fast as it
+// can.
+[[nodiscard]] double ideal_miss(const IdealSpec& spec, const SeenReach& reach);
+
+}  // namespace enc::bench::reaching

@@ -1,0 +1,28 @@
+// Where a reaching hand will touch, out of a few pictures of it and of how people reach: a first movement
+// that falls short or shoots over, and a second one that corrects it, each of minimum jerk [Woodworth 1899;
+// Flash and Hogan 1985; Meyer et al. 1988]. Many such reaches are held against the pictures, each with its
+// best ways; their mean, weighted by how well they fit, is the place. A hand that comes with an even speed is
+// one of them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/frames.h"
+#include "core/track/tracker_rig.h"
+
+namespace enc {
+
+// The tip of a finger in one picture, in axes whose z is the surface's normal, 0 where the tip touches, m.
+struct Sighting {
+  Vec3 at{kUnset, kUnset, kUnset};
+  double age = kUnset;  // s, since its exposure
+};
+inline constexpr std::size_t kSightings = 5;  // as many pictures are of use
+
+// x and y of the place of touch if the tip touches now. `noise`: of a picture, m rms. NaN where there are
+// fewer than three pictures, or the hand does not come nearer.
+[[nodiscard]] Eigen::Vector2d place_of_touch(const ReachBelief& hand, std::span<const Sighting> newest_first,
+                                             double noise) noexcept;
+
+}  // namespace enc
