@@ -43,7 +43,7 @@ ArmPlay::ArmPlay(const models::Setup& setup, const sim::CameraModule& camera, st
       stream_(seed, "arm play"),
       X_CW_(pose_of<'W', 'C'>(setup.twin.frames.W_C).inverse()),
       X_WR_(sim::arm_base(setup.twin.arm)),
-      skin_(sim::kSkinTones[seed % sim::kSkinTones.size()].colour) {}
+      skin_(sim::skin_colour(setup.twin.camera.skin)) {}
 
 AugmentedSpec ArmPlay::believed(const Belief& belief) const {
   AugmentedSpec spec;
@@ -52,7 +52,7 @@ AugmentedSpec ArmPlay::believed(const Belief& belief) const {
   spec.arm = setup_.rig.arm.machine;
   spec.prop = setup_.scene.prop->size;
   spec.X_WR = scene_.X_WR;
-  spec.X_WC = {Quat(scene_.X_WC.q()), scene_.X_WC.origin() + belief.camera_off};
+  spec.X_WC = scene_.X_WC * Pose<'C', 'C'>(Quat::Identity(), Vec3(belief.camera_off.e()));
   return spec;
 }
 
@@ -65,15 +65,15 @@ void ArmPlay::pose_arm(const Point<'W'>& tip, Frame& frame) {
     const double way = between(stream_, 0.0, 2.0 * M_PI);
     return Quat(Eigen::AngleAxisd(by, Vec3(std::cos(way), std::sin(way), 0.0))) * from;
   };
-  const Quat q_WN = tilted(Quat::Identity(), between(stream_, 0.0, kTilt));
+  facing_ = tilted(Quat::Identity(), between(stream_, 0.0, kTilt));
   frame.moment = {};
   frame.moment.joints = measured(setup_.twin.arm, q);
-  frame.moment.q_WN = tilted(q_WN, kFacingOff * stream_.normal());
+  frame.moment.q_WN = tilted(facing_, kFacingOff * stream_.normal());
   frame.shown.things.clear();
   for (const ArmPart& part : arm_shape(machine, q, X_WR_))
     frame.shown.things.push_back(sim::thing_of(part, X_CW_));
   const Point<'W'> at = X_WR_ * arm.tip(q);
-  frame.shown.things.push_back(sim::thing_of(prop_shape(setup_.scene.prop->size, at, q_WN), X_CW_));
+  frame.shown.things.push_back(sim::thing_of(prop_shape(setup_.scene.prop->size, at, facing_), X_CW_));
 }
 
 void ArmPlay::draw(Frame& frame) {
@@ -106,8 +106,8 @@ void ArmPlay::next(Frame& frame) {
     along = Vec<'C'>(std::cos(tilt) * std::cos(side), std::cos(tilt) * std::sin(side), std::sin(tilt));
   } while ((X_CW_.inverse() * along).xyz[2] > -kDown);
   const double above = frame.meets ? radius + between(stream_, 0.0, 0.025) : between(stream_, 0.03, 0.12);
-  const Point<'W'> under = frame.meets ? tip : elsewhere;
-  frame.shown.pose.tip = X_CW_ * (under + Vec<'W'>(0, 0, above));
+  const Vec<'W'> normal(frame.meets ? Vec3(facing_ * Vec3::UnitZ()) : Vec3(Vec3::UnitZ()));
+  frame.shown.pose.tip = X_CW_ * ((frame.meets ? tip : elsewhere) + above * normal);
   frame.shown.pose.along = along;
   frame.shown.pose.roll = between(stream_, 0.0, 2.0 * M_PI);
   if (frame.shown.hand) frame.moment.finger = frame.shown.pose.tip;

@@ -13,12 +13,12 @@ namespace enc::bench::vishap {
 
 // How far a belief is from the truth.
 struct Belief {
-  Vec<'W'> camera_off = Vec<'W'>::zero();
+  Vec<'C'> camera_off = Vec<'C'>::zero();
 };
 
 class ArmPlay {
  public:
-  // Scenery, hands and poses by seed; the tone of skin is the user's own, one of the six in turn.
+  // Scenery, hands and poses by seed; the skin is that of the scene's user.
   ArmPlay(const models::Setup& setup, const sim::CameraModule& camera, std::uint64_t seed);
 
   struct Frame {
@@ -48,6 +48,7 @@ class ArmPlay {
   sim::Stream stream_;
   Pose<'C', 'W'> X_CW_;
   Pose<'W', 'R'> X_WR_;
+  Quat facing_ = Quat::Identity();  // of the prop's front, q_WN
   sim::Rgb skin_;
   std::uint64_t frames_ = 0;
 };

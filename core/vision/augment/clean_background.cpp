@@ -1,54 +1,35 @@
 #include "core/vision/augment/clean_background.h"
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdlib>
 
 namespace enc::augment {
 namespace {
 
-// A coarser picture of what is known: each pixel the mean of the known ones of four.
-struct Level {
-  int width = 0, height = 0;
-  std::vector<std::array<float, 4>> pixels;  // r, g, b, and 1 where known
+// Of a gap: colours at its ends in a row or a column, weighted by the inverse of the squared distance.
+using Weighed = std::array<float, 4>;  // r, g, b times the weight, and the weight
 
-  Level(int w, int h)
-      : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
-  [[nodiscard]] std::array<float, 4>& at(int x, int y) {
-    return pixels[static_cast<std::size_t>(std::clamp(y, 0, height - 1)) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(std::clamp(x, 0, width - 1))];
-  }
-};
-
-Level coarser(Level& fine) {
-  Level coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
-  for (int y = 0; y < fine.height; ++y)
-    for (int x = 0; x < fine.width; ++x) {
-      const auto& from = fine.at(x, y);
-      auto& to = coarse.at(x / 2, y / 2);
-      for (std::size_t c = 0; c < 4; ++c) to[c] += from[c] * from[3];
+// Along one line of pixels, `step` apart, there or back: each unknown one gets what was known last.
+void sweep(const Image& image, const Mask& known, std::ptrdiff_t first, std::ptrdiff_t step, int count,
+           std::vector<Weighed>& sums) {
+  std::ptrdiff_t last = -1;
+  int since = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::ptrdiff_t at = first + i * step;
+    if (known.on[static_cast<std::size_t>(at)] != 0) {
+      last = at;
+      since = 0;
+      continue;
     }
-  for (auto& p : coarse.pixels) {
-    if (!(p[3] > 0.0F)) continue;
-    for (std::size_t c = 0; c < 3; ++c) p[c] /= p[3];
-    p[3] = 1.0F;
+    ++since;
+    if (last < 0) continue;
+    const float weight = 1.0F / static_cast<float>(since * since);
+    Weighed& sum = sums[static_cast<std::size_t>(at)];
+    for (std::size_t c = 0; c < 3; ++c)
+      sum[c] += weight * static_cast<float>(image.rgb[3 * static_cast<std::size_t>(last) + c]);
+    sum[3] += weight;
   }
-  return coarse;
-}
-
-// What is not known becomes what the coarser picture has there, bilinear.
-void fill_from(Level& coarse, Level& fine) {
-  for (int y = 0; y < fine.height; ++y)
-    for (int x = 0; x < fine.width; ++x) {
-      auto& p = fine.at(x, y);
-      if (p[3] > 0.0F) continue;
-      const int u = (x - 1) / 2 + (x == 0 ? -1 : 0), v = (y - 1) / 2 + (y == 0 ? -1 : 0);
-      const float right = x % 2 == 0 ? 0.75F : 0.25F, down = y % 2 == 0 ? 0.75F : 0.25F;
-      for (std::size_t c = 0; c < 3; ++c)
-        p[c] = (1.0F - down) * ((1.0F - right) * coarse.at(u, v)[c] + right * coarse.at(u + 1, v)[c]) +
-               down * ((1.0F - right) * coarse.at(u, v + 1)[c] + right * coarse.at(u + 1, v + 1)[c]);
-      p[3] = 1.0F;
-    }
 }
 
 }  // namespace
@@ -78,20 +59,22 @@ void CleanBackground::add(const ImageView& frame, const Mask& covered) {
   }
 }
 
-// Push and pull: means of what is known, coarser and coarser, then back into the gaps [Gortler et al. 1996].
+// A gap is filled from its four sides, so that edges along rows and columns go on behind it.
 void CleanBackground::fill() {
-  std::vector<Level> levels{Level(image_.width, image_.height)};
-  for (std::size_t i = 0; i < count_.size(); ++i) {
-    const std::uint8_t* p = image_.rgb.data() + 3 * i;
-    if (known_.on[i] != 0)
-      levels[0].pixels[i] = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]),
-                             1.0F};
+  std::vector<Weighed> sums(count_.size());
+  const std::ptrdiff_t width = image_.width, height = image_.height;
+  for (std::ptrdiff_t y = 0; y < height; ++y) {
+    sweep(image_, known_, y * width, 1, image_.width, sums);
+    sweep(image_, known_, (y + 1) * width - 1, -1, image_.width, sums);
   }
-  while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(coarser(levels.back()));
-  for (std::size_t i = levels.size() - 1; i > 0; --i) fill_from(levels[i], levels[i - 1]);
+  for (std::ptrdiff_t x = 0; x < width; ++x) {
+    sweep(image_, known_, x, width, image_.height, sums);
+    sweep(image_, known_, (height - 1) * width + x, -width, image_.height, sums);
+  }
   for (std::size_t i = 0; i < count_.size(); ++i)
     for (std::size_t c = 0; c < 3 && known_.on[i] == 0; ++c)
-      image_.rgb[3 * i + c] = static_cast<std::uint8_t>(levels[0].pixels[i][c] + 0.5F);
+      image_.rgb[3 * i + c] =
+          sums[i][3] > 0.0F ? static_cast<std::uint8_t>(sums[i][c] / sums[i][3] + 0.5F) : std::uint8_t{0};
 }
 
 const Image& CleanBackground::image() {

@@ -18,7 +18,7 @@ class CleanBackground {
   // agree with each other: what moves does not get in. Once learned it stays.
   void add(const ImageView& frame, const Mask& covered);
   [[nodiscard]] const Mask& known() const { return known_; }
-  // Where it was never uncovered it is what lies around, smoothly.
+  // Where it was never uncovered it goes on from what lies around.
   [[nodiscard]] const Image& image();
 
   static constexpr int kAlike = 12;  // of 255, a channel: eight times a sensor's noise of 1.5
