@@ -88,8 +88,9 @@ TEST(AugmentedView, TheArmIsGoneAndTheHandBeforeItStays) {
   const AugmentedSpec s = spec();
   AugmentedView view(s, {});
   learn(view, s);
-  const Region hand{150, 100, 190, 140};  // over the forearm
+  const Region hand{110, 80, 150, 120};  // over the upper arm
   const Painted painted(s, kMoved, hand);
+  EXPECT_TRUE(Painted(s, kMoved).device.at(130, 88));
   view.see(painted.image.view(), at(kMoved));
   EXPECT_EQ(gone(painted, view.removed()), 1.0);
   for (int y = hand.y0 + 2; y < hand.y1 - 2; ++y)
