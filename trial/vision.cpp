@@ -4,9 +4,9 @@
 
 #include "core/error.h"
 #include "core/vision/vision_module.h"
-#include "sim/camera/arm_things.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/camera/stage.h"
+#include "trial/arm_things.h"
 #include "trial/driver_device.h"
 
 namespace enc::trial {
@@ -47,9 +47,8 @@ sim::Show show(const models::Setup& setup, const sim::World& world) {
     shown.things.clear();
     if (!world.arm) return shown;
     for (const ArmPart& part : arm_shape(machine, truth.joints, world.X_WR()))
-      shown.things.push_back(sim::thing_of(part, X_CW));
-    if (prop)
-      shown.things.push_back(sim::thing_of(prop_shape(prop->size, truth.tip, world.arm->facing()), X_CW));
+      shown.things.push_back(thing_of(part, X_CW));
+    if (prop) shown.things.push_back(thing_of(prop_shape(prop->size, truth.tip, world.arm->facing()), X_CW));
     return shown;
   };
 }

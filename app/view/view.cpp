@@ -8,7 +8,7 @@
 #include "app/built.h"
 #include "app/modules/modules.h"
 #include "core/error.h"
-#include "core/machine/arm_shape.h"
+#include "core/world/arm_shape.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/seen_surface.h"

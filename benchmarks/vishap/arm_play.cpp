@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/machine/arm_shape.h"
 #include "core/rotation.h"
-#include "sim/camera/arm_things.h"
+#include "core/world/arm_shape.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/world.h"
+#include "trial/arm_things.h"
 #include "trial/prepare.h"
 #include "trial/vision.h"
 
@@ -71,9 +71,9 @@ void ArmPlay::pose_arm(const Point<'W'>& tip, Frame& frame) {
   frame.moment.q_WN = tilted(facing_, kFacingOff * stream_.normal());
   frame.shown.things.clear();
   for (const ArmPart& part : arm_shape(machine, q, X_WR_))
-    frame.shown.things.push_back(sim::thing_of(part, X_CW_));
+    frame.shown.things.push_back(trial::thing_of(part, X_CW_));
   const Point<'W'> at = X_WR_ * arm.tip(q);
-  frame.shown.things.push_back(sim::thing_of(prop_shape(setup_.scene.prop->size, at, facing_), X_CW_));
+  frame.shown.things.push_back(trial::thing_of(prop_shape(setup_.scene.prop->size, at, facing_), X_CW_));
 }
 
 void ArmPlay::draw(Frame& frame) {

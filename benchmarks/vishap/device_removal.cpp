@@ -157,12 +157,14 @@ Cell measure(const Asked& asked) {
   const VisionRig& vision = setup.rig.vision;
   Cell cell;
   std::vector<std::unique_ptr<AugmentedView>> views;
+  views.reserve(kBeliefs.size());
   for (std::size_t b = 0; b < kBeliefs.size(); ++b) {
     const AugmentedSpec spec = play.believed(kBeliefs[b].belief);
     views.push_back(std::make_unique<AugmentedView>(spec, scene.objects));
     judge_overlay(play, setup, spec, scene.objects.front(), cell.removal[b]);
   }
   std::vector<FingerTracker> trackers;
+  trackers.reserve(2);
   for (int i = 0; i < 2; ++i)
     trackers.emplace_back(setup.rig.camera, vision.segmentation, vision.fingertip, vision.track,
                           vision.match);

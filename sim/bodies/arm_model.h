@@ -1,6 +1,6 @@
 // An arm and its prop as bodies of MuJoCo: exact lengths, masses and inertias, rotors as armature, friction
 // and limits. A PHANToM is a turret with two hinges: what its parallelogram carries is counted to those
-// (docs/reference/phantom_twin.md). How links and base look, core/machine/arm_shape.h says.
+// (docs/reference/phantom_twin.md). How links and base look, core/world/arm_shape.h says.
 #pragma once
 
 #include <array>

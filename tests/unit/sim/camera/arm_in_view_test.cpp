@@ -6,20 +6,20 @@
 
 #include "core/rotation.h"
 #include "core/vision/augment/part_mask.h"
-#include "sim/camera/arm_things.h"
 #include "sim/camera/stage.h"
+#include "trial/arm_things.h"
 
-namespace enc::sim {
+namespace enc::trial {
 namespace {
 
 const Pose<'W', 'C'> kCamera(rotation_xyz({-2.18, 0.0, 0.52}), Vec3(0.236, -0.426, 0.457));
 
 TEST(ArmInView, IsWhereItsShapeSays) {
-  StageSpec spec;
+  sim::StageSpec spec;
   spec.sensor.noise = 0.0;
-  Stage stage(spec);
+  sim::Stage stage(spec);
   Image left, right;
-  PixelTruth truth;
+  sim::PixelTruth truth;
   const Arm arm{ArmMachine{}};
   const Pose<'W', 'R'> X_WR(Quat::Identity(), Vec3(-arm.tip({}).e()));
   const RectifiedPair pair = Rectifier(spec.camera).pair();
@@ -27,7 +27,7 @@ TEST(ArmInView, IsWhereItsShapeSays) {
     std::vector<ArmPart> parts = arm_shape(arm.machine(), q, X_WR);
     parts.push_back(
         prop_shape({0.03, 0.03, 0.002}, X_WR * arm.tip(q), rotation_z_to(Vec3(0.2, 0.1, 1).normalized())));
-    Shown shown;
+    sim::Shown shown;
     for (const ArmPart& part : parts) shown.things.push_back(thing_of(part, kCamera.inverse()));
     stage.draw(shown, 0, left, right, &truth);
     const auto share_in = [&](const Pose<'C', 'W'>& X_CW, double margin, double& beyond) {
@@ -54,4 +54,4 @@ TEST(ArmInView, IsWhereItsShapeSays) {
 }
 
 }  // namespace
-}  // namespace enc::sim
+}  // namespace enc::trial

@@ -1,4 +1,4 @@
-#include "core/machine/arm_shape.h"
+#include "core/world/arm_shape.h"
 
 #include <algorithm>
 #include <cmath>

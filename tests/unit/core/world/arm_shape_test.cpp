@@ -1,5 +1,5 @@
 // The shape of an arm against its kinematics: it ends where the tip is, and its links join.
-#include "core/machine/arm_shape.h"
+#include "core/world/arm_shape.h"
 
 #include <cmath>
 

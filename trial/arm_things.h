@@ -1,12 +1,12 @@
 // An arm's parts as the twin's camera is shown them: grey and blue metal, nothing of the hue of skin.
 #pragma once
 
-#include "core/machine/arm_shape.h"
+#include "core/world/arm_shape.h"
 #include "sim/camera/shown.h"
 
-namespace enc::sim {
+namespace enc::trial {
 
-[[nodiscard]] inline Rgb colour_of(Material material) {
+[[nodiscard]] inline sim::Rgb colour_of(Material material) {
   switch (material) {
     case Material::metal:
       return {0.25F, 0.26F, 0.28F};
@@ -20,12 +20,12 @@ namespace enc::sim {
   return {0.60F, 0.62F, 0.64F};
 }
 
-[[nodiscard]] inline Thing thing_of(const ArmPart& part, const Pose<'C', 'W'>& X_CW) {
-  const ThingShape shape = part.form == PartForm::capsule    ? ThingShape::capsule
-                           : part.form == PartForm::cylinder ? ThingShape::cylinder
-                                                             : ThingShape::box;
+[[nodiscard]] inline sim::Thing thing_of(const ArmPart& part, const Pose<'C', 'W'>& X_CW) {
+  const sim::ThingShape shape = part.form == PartForm::capsule    ? sim::ThingShape::capsule
+                                : part.form == PartForm::cylinder ? sim::ThingShape::cylinder
+                                                                  : sim::ThingShape::box;
   return {shape, X_CW * part.middle, X_CW.q().toRotationMatrix() * part.axes, part.half,
           colour_of(part.material)};
 }
 
-}  // namespace enc::sim
+}  // namespace enc::trial
