@@ -100,7 +100,14 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   view_command->add_option("--shot", view_options.shot, "PNG file to write")->check(unnamed);
   view_command->add_option("--at-s", view_options.at,
                            "moment, s of experiment; default: the first press at its deepest");
-  view_command->add_flag("--close-up", view_options.close_up, "the contact instead of the whole machine");
+  CLI::Option* close_up =
+      view_command->add_flag("--close-up", view_options.close_up, "the contact instead of the whole machine");
+  view_command
+      ->add_option("--through-camera", view_options.through_camera,
+                   "what the scene's left camera sees, not the world from beside: raw; removed, without the "
+                   "arm; or augmented, with the virtual objects in its place")
+      ->check(CLI::IsMember({"raw", "removed", "augmented"}))
+      ->excludes(close_up);
   force_option(view_command, view_options.force);
   view_command->callback([&] { code = view(view_options); });
 

@@ -34,6 +34,7 @@ struct ViewOptions : SceneOptions {
   std::string shot;
   std::optional<double> at;  // s; none: in the middle of the first hold
   bool close_up = false, force = false;
+  std::string through_camera;  // "raw", "removed", "augmented"; empty: the world from beside
 };
 struct ReplayOptions {
   std::string record;

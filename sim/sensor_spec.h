@@ -7,7 +7,7 @@
 
 #include "core/frames.h"
 #include "core/text/words.h"
-#include "sim/camera/picture_spec.h"
+#include "sim/picture_spec.h"
 
 namespace enc::sim {
 

@@ -77,8 +77,8 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (setup_.scene.camera) {
     if (!options_.drivers)
       throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
-    rig_.tracker =
-        make_vision(setup_, options_.drivers, {world_.get(), options_.seed, log_, pace == 0.0, threaded});
+    rig_.tracker = make_vision(setup_, options_.drivers,
+                               {world_.get(), options_.seed, log_, pace == 0.0, threaded, options_.look});
     result_.vision.threaded = threaded;
   }
   if (slots.real) result_.devices = describe_drivers(rig_, setup_);

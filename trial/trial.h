@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/devices/stereo_camera.h"
 #include "core/record/record.h"
 #include "core/rig.h"
 #include "models/setup/scene_file.h"
@@ -46,7 +47,8 @@ struct TrialOptions {
   std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
   // Hooks, in the order of a tick; an empty one is not called.
   std::function<void(Rig&)> fit_out{};         // once: puts other devices in place of those of the rig
-  std::function<void(Inputs&)> disturb{};      // after reading
+  std::function<void(const Stamped<StereoFrame>&)> look{};  // while reading: each pair of a camera's images
+  std::function<void(Inputs&)> disturb{};                   // after reading
   Law law{};                                   // in place of step()
   std::function<void(const Glance&)> watch{};  // after the tick
   std::function<void(double)> progress{};      // share done, about ten times a second

@@ -6,11 +6,11 @@
 #include "core/vision/vision_module.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/camera/stage.h"
+#include "trial/arm_things.h"
 #include "trial/driver_device.h"
 #include "trial/trackers/threaded_tracker.h"
 
 namespace enc::trial {
-namespace {
 
 sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed) {
   sim::StageSpec stage;
@@ -30,20 +30,49 @@ sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed) {
   return stage;
 }
 
-// The hand of the simulated user, as the true camera has it before it.
-sim::Show show(const sim::TwinSpec& twin, const sim::World& world) {
+namespace {
+
+// The hand of the simulated user and the arm that comes to meet it, as the true camera has them before it.
+sim::Show show(const models::Setup& setup, const sim::World& world) {
+  const sim::TwinSpec& twin = setup.twin;
   const Pose<'C', 'W'> X_CW = pose_of<'W', 'C'>(twin.frames.W_C).inverse();
   sim::Shown shown;
   shown.look.skin = sim::skin_colour(twin.camera.skin);
-  return [&world, X_CW, shown, from = twin.camera.hand_from](Time exposed) mutable {
+  return [&world, X_CW, shown, from = twin.camera.hand_from, machine = twin.arm.machine,
+          prop = setup.scene.prop](Time exposed) mutable {
     const sim::Truth& truth = world.truth();
     shown.hand = truth.tool >= 0 && seconds(exposed.time_since_epoch()) >= from;
     shown.pose.tip = X_CW * truth.tool_tip;
     shown.pose.along = X_CW * world.pointing();
     shown.look.finger_width = 2.0 * truth.tool_radius;
+    shown.things.clear();
+    if (!world.arm) return shown;
+    for (const ArmPart& part : arm_shape(machine, truth.joints, world.X_WR()))
+      shown.things.push_back(thing_of(part, X_CW));
+    if (prop) shown.things.push_back(thing_of(prop_shape(prop->size, truth.tip, world.arm->facing()), X_CW));
     return shown;
   };
 }
+
+// A camera that somebody looks at beside the tracker.
+class Watched final : public StereoCamera {
+ public:
+  Watched(std::unique_ptr<StereoCamera> camera, Look look)
+      : camera_(std::move(camera)), look_(std::move(look)) {}
+  [[nodiscard]] std::string describe() const override { return camera_->describe(); }
+  [[nodiscard]] bool linked() const noexcept override { return camera_->linked(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return camera_->remarks(); }
+  [[nodiscard]] ImageSize size() const override { return camera_->size(); }
+  bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override {
+    if (!camera_->poll(now, newest)) return false;
+    if (newest.health == Health::ok) look_(newest);
+    return true;
+  }
+
+ private:
+  std::unique_ptr<StereoCamera> camera_;
+  Look look_;
+};
 
 std::unique_ptr<StereoCamera> twin_camera(const models::Setup& setup, const DriverSource& modules,
                                           const sim::World& world, std::uint64_t seed) {
@@ -51,7 +80,7 @@ std::unique_ptr<StereoCamera> twin_camera(const models::Setup& setup, const Driv
   sim::TwinCameraSpec spec;
   spec.stage = stage_of(setup.twin.camera, seed);
   if (!std::isnan(setup.twin.camera.stalls_at)) spec.stalls = Time(from_seconds(setup.twin.camera.stalls_at));
-  return module.camera(spec, show(setup.twin, world));
+  return module.camera(spec, show(setup, world));
 }
 
 }  // namespace
@@ -66,6 +95,7 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
     auto camera = simulated ? twin_camera(setup, modules, *offer.world, offer.seed)
                             : driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera",
                                             setup, modules, offer.log, offer.waits);
+    if (offer.look) camera = std::make_unique<Watched>(std::move(camera), offer.look);
     const auto& vision = *static_cast<const VisionModule*>(modules("vision").vision);
     const Release release = offer.threaded ? Release::when_done : Release::when_due;
     auto tracker = vision.tracker(std::move(camera), setup.rig.camera, setup.rig.vision, release);

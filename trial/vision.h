@@ -2,14 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "core/devices/pose_tracker.h"
+#include "core/devices/stereo_camera.h"
 #include "models/setup/scene_file.h"
+#include "sim/camera/stage.h"
 #include "sim/world.h"
 #include "trial/assemble.h"
 
 namespace enc::trial {
+
+// The true camera of the twin, and what it looks at; by seed.
+[[nodiscard]] sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed);
+
+// Is shown each pair of images that comes, before the tracker.
+using Look = std::function<void(const Stamped<StereoFrame>&)>;
 
 struct VisionOffer {
   const sim::World* world = nullptr;  // of the twin's camera, which sees its hand; outlives the tracker
@@ -17,6 +26,7 @@ struct VisionOffer {
   Log& log;
   bool waits = false;     // as in Offer
   bool threaded = false;  // in a thread of its own: not through the twin's camera, whose world is the loop's
+  Look look{};            // as in TrialOptions; may be empty
 };
 
 // Loads the modules that it takes. Throws Error (kind device) where a module is missing or a device is not

@@ -8,6 +8,7 @@
 #include "app/built.h"
 #include "app/modules/modules.h"
 #include "core/error.h"
+#include "core/world/arm_shape.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/seen_surface.h"
@@ -68,29 +69,33 @@ bool run_until(trial::Trial& trial, const Moment& m, bool waits_for_hold) {
   return true;
 }
 
-// Crank and link of a PHANToM, which are no bodies of the simulated arm.
-void add_parallelogram(const Moment& m, sim::ViewRequest& request) {
-  const ArmMachine& arm = m.setup.twin.arm.machine;
-  if (arm.kind != ArmKind::phantom) return;
-  const PhantomGeometry& g = arm.phantom;
-  const PerJoint& q = m.world.truth().joints;
-  const Vec3 ahead(std::cos(q[0]), std::sin(q[0]), 0.0), up = Vec3::UnitZ();
-  const Vec3 upper = std::cos(q[1]) * ahead + std::sin(q[1]) * up;    // along the upper arm
-  const Vec3 forearm = std::sin(q[2]) * ahead - std::cos(q[2]) * up;  // and along the forearm
-  const auto rod = [&](const Vec3& from, const Vec3& to, double radius, const sim::Colour& colour) {
-    const Pose<'W', 'R'>& X_WR = m.world.X_WR();
-    request.rods.push_back({X_WR * Point<'R'>(from), X_WR * Point<'R'>(to), radius, colour});
-  };
-  const Vec3 end = g.l3 * forearm;
-  rod(-1.2 * g.l6 * forearm, -1.8 * g.l6 * forearm, 0.0125, kJacket);  // the motor, a counterweight
-  rod(-g.l6 * forearm, end, 0.005, kLeg);
-  rod(end, end + g.l1 * upper, 0.003, kLeg);
+sim::Colour colour_of(Material material) {
+  switch (material) {
+    case Material::metal:
+      return {0.72F, 0.74F, 0.78F, 1.0F};
+    case Material::dark:
+      return {0.20F, 0.22F, 0.26F, 1.0F};
+    case Material::painted:
+      return {0.30F, 0.42F, 0.62F, 1.0F};
+    case Material::plate:
+      break;
+  }
+  return {0.90F, 0.55F, 0.20F, 1.0F};
+}
+
+// Links and base as rods. Its prop is a body of the simulated world.
+void add_arm(const Moment& m, sim::ViewRequest& request) {
+  for (const ArmPart& part : arm_shape(m.setup.twin.arm.machine, m.world.truth().joints, m.world.X_WR())) {
+    const Vec<'W'> half(Vec3(part.half.z() * part.axes.col(2)));
+    request.rods.push_back({part.middle - half, part.middle + half, part.half.x(), colour_of(part.material),
+                            part.form == PartForm::cylinder});
+  }
 }
 
 // Each leg as a rod in a jacket, from its base joint to its platform joint.
 void add_legs(const Moment& m, sim::ViewRequest& request) {
   if (!m.world.machine) {
-    add_parallelogram(m, request);
+    add_arm(m, request);
     request.floor = (m.world.X_WR() * Point<'R'>(0, 0, -0.200)).xyz[2];
     return;
   }
@@ -251,16 +256,21 @@ sim::Camera camera_for(const Moment& m, bool close_up) {
 }  // namespace
 
 int view(const ViewOptions& options) {
+  if (!options.through_camera.empty()) return through_camera(options);
   return picture(options, options.close_up ? Look::contact : Look::machine);
 }
 
-int picture(const ViewOptions& options, Look look) {
-  const bool close_up = look == Look::contact;
+void check(const ViewOptions& options) {
   if (options.shot.empty())
     throw Error(
         "encounter view draws a picture into a file for now; a window comes later: add --shot picture.png");
   if (options.at && !(*options.at >= 0.0 && *options.at <= 3600.0))
     throw Error("--at-s is a time from 0 to 3600 s");
+}
+
+int picture(const ViewOptions& options, Look look) {
+  const bool close_up = look == Look::contact;
+  check(options);
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
   models::Setup setup = models::load(options.scene, options.rig, options.set);
   if (setup.scene.camera) {

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "core/devices/pose_tracker.h"
 #include "core/devices/stereo_camera.h"
 #include "core/devices/stereo_rig.h"
+#include "core/vision/augment/augmented_view.h"
 #include "core/vision/rig/vision_rig.h"
 
 namespace enc {
@@ -22,6 +24,9 @@ struct VisionModule {
   // impossible.
   std::unique_ptr<PoseTracker> (*tracker)(std::unique_ptr<StereoCamera> camera, const StereoRig& rig,
                                           const VisionRig& vision, Release release) = nullptr;
+  // As AugmentedView's constructor.
+  std::unique_ptr<AugmentedView> (*augmented)(const AugmentedSpec& spec,
+                                              std::span<const Object> objects) = nullptr;
 };
 
 }  // namespace enc

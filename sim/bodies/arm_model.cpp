@@ -12,7 +12,6 @@ namespace enc::sim {
 namespace {
 
 using Rgba = std::array<float, 4>;
-constexpr Rgba kMetal{0.72F, 0.74F, 0.78F, 1}, kDark{0.20F, 0.22F, 0.26F, 1}, kAccent{0.30F, 0.42F, 0.62F, 1};
 constexpr Rgba kProp{0.90F, 0.55F, 0.20F, 1};
 const char* const kJoints[kMostJoints] = {"arm_1", "arm_2", "arm_3"};
 const char* const kElbow = "arm_elbow";  // of a PHANToM, in place of arm_3: q3 - q2
@@ -94,35 +93,9 @@ void check_about_hinge(double mass, double across, double along, double length, 
     throw Error("an inertia about the axis is smaller than mass and centre of mass alone would make it", key);
 }
 
-void draw(const Mount& on, mjtGeom type, const Vec3& from, const Vec3& to, double radius, Rgba rgba) {
-  mjsGeom* geom = mjs_addGeom(on.body, nullptr);
-  hang(geom->element, on);
-  geom->type = type;
-  set3(geom->fromto, from);
-  set3(geom->fromto + 3, to);
-  geom->size[0] = radius;
-  geom->contype = geom->conaffinity = 0;
-  geom->mass = 0;
-  std::copy(rgba.begin(), rgba.end(), geom->rgba);
-}
-
 struct Phantom {
   mjsBody *turret, *upper, *forearm;
 };
-
-// Crank and link are no bodies: whoever makes a picture adds them (app/view/view.cpp).
-void draw_phantom(const Mount& base, const Phantom& p, const PhantomGeometry& g) {
-  const Vec3 o = Vec3::Zero();
-  draw(base, mjGEOM_CYLINDER, {0, 0, -g.l2 - 0.02}, {0, 0, -g.l2 - 0.05}, 0.06, kDark);
-  draw(base, mjGEOM_CYLINDER, {0, 0, -g.l2 - 0.03}, {0, 0, -0.055}, 0.012, kMetal);
-  draw({p.turret}, mjGEOM_CYLINDER, {0, 0, -0.055}, {0, 0, -0.035}, 0.040, kAccent);
-  draw({p.turret}, mjGEOM_CAPSULE, {0, -0.022, -0.035}, {0, -0.022, 0}, 0.006, kMetal);
-  draw({p.turret}, mjGEOM_CAPSULE, {0, 0.022, -0.035}, {0, 0.022, 0}, 0.006, kMetal);
-  draw({p.upper}, mjGEOM_CYLINDER, {g.l5, 0, 0}, {2.4 * g.l5, 0, 0}, 0.0125,
-       kDark);  // motors as counterweights
-  draw({p.upper}, mjGEOM_CAPSULE, {g.l5, 0, 0}, {g.l1, 0, 0}, 0.0055, kMetal);
-  draw({p.forearm}, mjGEOM_CAPSULE, o, {0, 0, -g.l2}, 0.0045, kMetal);
-}
 
 // Upper arm and forearm with what the parallelogram adds to them.
 struct Carried {
@@ -193,7 +166,6 @@ mjsBody* build_phantom(mjSpec* spec, const Mount& base, const ArmParts& parts) {
   mjs_wrapJoint(third, kJoints[1], 1.0);
   mjs_wrapJoint(third, kElbow, 1.0);
   fit_drive(third, parts, 2, c.third);
-  if (parts.draw) draw_phantom(base, p, g);
   return add_body({p.forearm}, {0, 0, -g.l2}, {parts.prop ? parts.prop->mass : 0.0, o, o});
 }
 
@@ -204,19 +176,8 @@ mjsBody* build_chain(const Mount& base, const ArmParts& parts) {
     mjsBody* next = add_body(on, link.origin, {link.mass, link.centre, link.inertia});
     const mjtJoint type = link.kind == JointKind::hinge ? mjJNT_HINGE : mjJNT_SLIDE;
     fit_drive(add_joint(next, kJoints[i], type, link.axis), parts, i, 0.0);
-    if (parts.draw && link.kind == JointKind::slide) {  // its rail
-      const ArmDrive& drive = parts.machine.drives[i];
-      draw(on, mjGEOM_CAPSULE, link.origin + drive.low * link.axis, link.origin + drive.high * link.axis,
-           0.004, kAccent);
-    }
-    if (parts.draw) {
-      draw({next}, mjGEOM_CAPSULE, Vec3::Zero(), Vec3(link.centre + 1e-4 * Vec3::UnitX()), 0.008, kMetal);
-      if (link.origin.norm() > 1e-3) draw(on, mjGEOM_CAPSULE, Vec3::Zero(), link.origin, 0.006, kAccent);
-    }
     on = {next};
   }
-  if (parts.draw && parts.machine.tip.norm() > 1e-3)
-    draw(on, mjGEOM_CAPSULE, Vec3::Zero(), parts.machine.tip, 0.006, kMetal);
   return add_body(on, parts.machine.tip, {parts.prop ? parts.prop->mass : 0.0, Vec3::Zero(), Vec3::Zero()});
 }
 

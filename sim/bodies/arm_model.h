@@ -1,6 +1,6 @@
 // An arm and its prop as bodies of MuJoCo: exact lengths, masses and inertias, rotors as armature, friction
 // and limits. A PHANToM is a turret with two hinges: what its parallelogram carries is counted to those
-// (docs/reference/phantom_twin.md).
+// (docs/reference/phantom_twin.md). How links and base look, core/world/arm_shape.h says.
 #pragma once
 
 #include <array>
@@ -18,7 +18,6 @@ struct ArmParts {
   const ArmTruth& truth;
   const PropSpec* prop = nullptr;  // none: the tip is bare and nothing can touch it
   Pose<'W', 'R'> X_WR;             // where its base really stands
-  bool draw = false;               // also links and base, for a picture
 };
 
 // Bodies, joints `arm_1` to `arm_3` in the order of the machine's (of a PHANToM `arm_elbow`, q3 - q2, is in

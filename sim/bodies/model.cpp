@@ -121,8 +121,7 @@ void add_machine(mjSpec* spec, const ModelParts& parts) {
 
 void add_arm(mjSpec* spec, const ModelParts& parts) {
   const ArmMachine machine = true_machine(parts.twin.arm);
-  build_arm(spec, {machine, parts.twin.arm, parts.scene.prop ? &*parts.scene.prop : nullptr, parts.X_WR,
-                   parts.draw_all});
+  build_arm(spec, {machine, parts.twin.arm, parts.scene.prop ? &*parts.scene.prop : nullptr, parts.X_WR});
   spec->option.disableflags |= mjDSBL_MIDPHASE;  // its boxes do not follow a prop that turns on its body
 }
 

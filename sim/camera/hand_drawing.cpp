@@ -87,11 +87,23 @@ void HandDrawing::show(const Shown& shown, mjvScene& scene) {
 void HandDrawing::add_thing(const Thing& thing, mjvScene& scene) const {
   mjvGeom& geom = appended(skin_, thing.colour, scene);
   geom.dataid = -1;
-  const bool sphere = thing.shape == ThingShape::sphere, capsule = thing.shape == ThingShape::capsule;
-  geom.type = sphere ? mjGEOM_SPHERE : capsule ? mjGEOM_CAPSULE : mjGEOM_BOX;
-  const Vec3 size = sphere    ? Vec3::Constant(thing.half.x())
-                    : capsule ? Vec3(thing.half.x(), thing.half.x(), thing.half.z())
-                              : thing.half;
+  Vec3 size = thing.half;
+  switch (thing.shape) {
+    case ThingShape::sphere:
+      geom.type = mjGEOM_SPHERE;
+      break;
+    case ThingShape::capsule:
+      geom.type = mjGEOM_CAPSULE;
+      break;
+    case ThingShape::cylinder:
+      geom.type = mjGEOM_CYLINDER;
+      break;
+    case ThingShape::box:
+      geom.type = mjGEOM_BOX;
+      break;
+  }
+  if (thing.shape != ThingShape::box) size.y() = size.x();
+  if (thing.shape == ThingShape::sphere) size.z() = size.x();
   for (int i = 0; i < 3; ++i) geom.size[i] = static_cast<float>(size(i));
   place(geom, thing.at.e(), thing.axes);
 }

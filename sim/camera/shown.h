@@ -28,13 +28,13 @@ struct HandPose {
 };
 
 // A part of the haptic device, or something else that moves, as the camera has it before it.
-enum class ThingShape : std::uint8_t { sphere, capsule, box };
+enum class ThingShape : std::uint8_t { sphere, capsule, cylinder, box };
 struct Thing {
   ThingShape shape = ThingShape::sphere;
   Point<'C'> at;                 // its middle
   Mat3 axes = Mat3::Identity();  // its x, y and z as columns, in C
-  Vec3 half{0.01, 0.01, 0.01};   // m: sphere: x is its radius; capsule: x its radius, z half its length
-                                 // without the caps, along z; box: half its sides
+  Vec3 half{0.01, 0.01, 0.01};   // m: sphere: x is its radius; capsule, cylinder: x the radius, z half the
+                                 // length along z, without caps; box: half its sides
   Rgb colour{0.25F, 0.26F, 0.28F};
 };
 

@@ -14,8 +14,8 @@
 #include "core/frames.h"
 #include "core/time.h"
 #include "core/vision/image.h"
-#include "sim/camera/picture_spec.h"
 #include "sim/camera/shown.h"
+#include "sim/picture_spec.h"
 
 namespace enc::sim {
 

@@ -49,9 +49,11 @@ mjvGeom* new_geom(mjvScene& scene, mjtGeom type, const Colour& colour) {
 }
 
 void add_extras(mjvScene& scene, const ViewRequest& request) {
-  for (const ViewRod& rod : request.rods)
-    mjv_connector(new_geom(scene, mjGEOM_CAPSULE, rod.colour), mjGEOM_CAPSULE, rod.radius,
-                  rod.from.xyz.data(), rod.to.xyz.data());
+  for (const ViewRod& rod : request.rods) {
+    const mjtGeom type = rod.flat ? mjGEOM_CYLINDER : mjGEOM_CAPSULE;
+    mjv_connector(new_geom(scene, type, rod.colour), type, rod.radius, rod.from.xyz.data(),
+                  rod.to.xyz.data());
+  }
   for (const ViewArrow& arrow : request.arrows) {
     const Point<'W'> to = arrow.from + arrow.along;
     mjvGeom* geom = new_geom(scene, mjGEOM_ARROW, arrow.colour);
@@ -166,7 +168,7 @@ std::string shot(const ViewRequest& request) {
   return png(drawn(renderer, request));
 }
 
-constexpr ViewModule kView{shot};
+constexpr ViewModule kView{shot, png};
 constexpr ModuleInfo kInfo{.name = "view", .view = &kView};
 
 }  // namespace

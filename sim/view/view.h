@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/frames.h"
+#include "core/vision/image.h"
 
 struct mjModel_;
 struct mjData_;
@@ -20,6 +21,7 @@ struct ViewRod {  // a leg, a strut
   Point<'W'> from, to;
   double radius = 0.002;  // m
   Colour colour{0.7F, 0.7F, 0.7F, 1.0F};
+  bool flat = false;  // its ends; else round
 };
 struct ViewArrow {
   Point<'W'> from;
@@ -56,6 +58,7 @@ struct ViewRequest {
 struct ViewModule {
   // The PNG. Throws Error of the kind device where there is no EGL or Mesa.
   std::string (*shot)(const ViewRequest& request) = nullptr;
+  std::string (*png)(const Image& picture) = nullptr;  // of an image that is there
 };
 
 }  // namespace enc::sim

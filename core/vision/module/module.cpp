@@ -14,7 +14,11 @@ std::unique_ptr<enc::PoseTracker> tracker(std::unique_ptr<enc::StereoCamera> cam
                                                                  vision.track, vision.match, vision.search),
                                               release);
 }
-constexpr enc::VisionModule kVision{.tracker = tracker};
+std::unique_ptr<enc::AugmentedView> augmented(const enc::AugmentedSpec& spec,
+                                              std::span<const enc::Object> objects) {
+  return std::make_unique<enc::AugmentedView>(spec, objects);
+}
+constexpr enc::VisionModule kVision{.tracker = tracker, .augmented = augmented};
 
 }  // namespace
 

@@ -190,5 +190,33 @@ TEST_F(Camera, AWrongKeyOfVisionIsSaidWithItsPlace) {
               HasSubstr("a camera to the right of the left one"));
 }
 
+// The left image, the same without the arm, and with the wall: three pictures of one moment.
+TEST_F(Camera, TheViewThroughItIsRawWithoutTheArmOrAugmented) {
+  std::string before;
+  for (const char* what : {"raw", "removed", "augmented"}) {
+    const std::string shot = path(std::string(what) + ".png");
+    const Result result =
+        run_program({"view", kScene, "--through-camera", what, "--at-s", "1.5", "--shot", shot});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("640 x 480 pixels, the left camera's at 1.5"));
+    const std::string png = text_of(shot);
+    EXPECT_GT(png.size(), 100'000U);
+    EXPECT_NE(png, before);
+    before = png;
+  }
+}
+
+TEST_F(Camera, AViewThroughNoCameraIsRefusedInOneLine) {
+  const std::string wall = ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml";
+  const Result none = run_program({"view", wall, "--through-camera", "raw", "--shot", path("a.png")});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, AllOf(HasSubstr("wall.toml:1:1: the scene has no camera"), HasSubstr("[camera]")));
+  EXPECT_EQ(std::count(none.err.begin(), none.err.end(), '\n'), 1);
+  const Result unknown = run_program({"view", kScene, "--through-camera", "xray", "--shot", path("a.png")});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("augmented"));
+  EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+}
+
 }  // namespace
 }  // namespace enc::tests

@@ -1,0 +1,101 @@
+// What the left camera of a scene sees at a moment: as it comes, without the arm, or with the virtual objects
+// in the arm's place.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/built.h"
+#include "app/modules/modules.h"
+#include "app/view/view.h"
+#include "core/error.h"
+#include "core/task/push/moving.h"
+#include "core/vision/vision_module.h"
+#include "models/files.h"
+#include "sim/view/view.h"
+#include "trial/trial.h"
+
+namespace enc::app {
+namespace {
+
+AugmentedSpec believed(const models::Setup& setup, const Scene& scene) {
+  AugmentedSpec spec;
+  spec.camera = setup.rig.camera;
+  spec.segmentation = setup.rig.vision.segmentation;
+  if (setup.scene.arm) spec.arm = setup.rig.arm.machine;
+  if (setup.scene.prop) spec.prop = setup.scene.prop->size;
+  spec.X_WR = scene.X_WR;
+  spec.X_WC = scene.X_WC;
+  return spec;
+}
+
+// As the core knows it after the tick in which the image came.
+class Believed {
+ public:
+  AugmentedMoment of(trial::Trial& trial) {
+    const Scene& scene = trial.scene();
+    AugmentedMoment moment;
+    moment.joints = trial.inputs().arm.value.joints;
+    if (const Contact& contact = contact_of(trial.state()); contact.X_WN.valid()) q_WN_ = contact.X_WN.q();
+    moment.q_WN = q_WN_;
+    const Stamped<TrackedTool>& tool = trial.inputs().tool;
+    if (tool.health == Health::ok && tool.value.tool >= 0) moment.finger = tool.value.X_CT.origin();
+    for (const Object& object : scene.objects)
+      moment.moved.push_back(shift_of(object, moved_in(trial.state())));
+    return moment;
+  }
+
+ private:
+  Quat q_WN_ = Quat::Identity();  // of the last surface that was near
+};
+
+}  // namespace
+
+int through_camera(const ViewOptions& options) {
+  check(options);
+  const models::Setup setup = load_setup(options);
+  if (!setup.scene.camera)
+    throw Error(
+        fmt::format("{}:1:1: the scene has no camera; expected [camera] beside [tracker]; leave out "
+                    "--through-camera or take models/scenes/camera/wall.toml",
+                    setup.scene_path));
+  const auto& vision = *static_cast<const VisionModule*>(load_module("vision").vision);
+  const auto& pictures = *static_cast<const sim::ViewModule*>(load_module("view").view);
+  models::OutFile file(options.shot, models::existing(options.force));
+  std::optional<Image> left;  // of this tick
+  trial::TrialOptions how;
+  how.seed = options.seed;
+  how.seconds = options.at.value_or(4.0);
+  how.drivers = load_module;
+  how.look = [&](const Stamped<StereoFrame>& frame) {
+    const ImageView& from = frame.value.left;
+    left.emplace(from.width, from.height);
+    std::copy_n(from.rgb, left->rgb.size(), left->rgb.begin());
+  };
+  trial::Trial trial(setup, how);
+  print_notes(setup.notes);
+  const auto view = vision.augmented(believed(setup, trial.scene()), trial.scene().objects);
+  Believed moment;
+  Image raw;
+  double exposed = kUnset;
+  while (trial.tick()) {
+    if (!left) continue;
+    raw = std::move(*left);
+    left.reset();
+    view->see(raw.view(), moment.of(trial));
+    exposed = seconds(trial.now().t.time_since_epoch());
+  }
+  if (std::isnan(exposed))
+    throw Error("the camera gave no image until then; expected a later --at-s", {}, ErrorKind::device);
+  const bool removed = options.through_camera == "removed", augmented = options.through_camera == "augmented";
+  file.write(pictures.png(removed ? view->removed() : augmented ? view->augmented() : raw));
+  file.keep();
+  fmt::print("{}: {} x {} pixels, the left camera's at {:.3f} s\n", options.shot, raw.width, raw.height,
+             exposed);
+  return 0;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,339 @@
+// Is the haptic device gone from the user's view, is the hand still there, and are virtual objects where they
+// belong? And what is an arm that crosses the picture to the tracker?
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/kit/statistics.h"
+#include "benchmarks/vishap/arm_play.h"
+#include "benchmarks/vishap/vishap.h"
+#include "core/vision/augment/facets.h"
+#include "core/vision/finger/finger_tracker.h"
+#include "core/vision/stereo/triangulate.h"
+#include "trial/prepare.h"
+#include "trial/vision.h"
+
+namespace enc::bench::vishap {
+namespace {
+
+using namespace staged;
+
+constexpr std::size_t kLearning = 10;  // frames, of the background
+constexpr double kHidden = 0.1;        // of the cap: more is hidden
+
+struct Named {
+  const char* id;
+  const char* words;
+  Belief belief;
+};
+// m, along each axis: what a registration is off by (docs/guide/registration.md), and a head that was hit.
+constexpr double kRegistration = 0.3e-3, kHit = 5e-3;
+const std::array<Named, 3> kBeliefs{
+    {{"shipped", "as shipped: the rig believes what is true", {}},
+     {"registration",
+      "registration off by 0.3 mm along each axis",
+      {Vec<'C'>(kRegistration, kRegistration, kRegistration)}},
+     {"moved", "camera moved sideways by 5 mm after it was registered", {Vec<'C'>(kHit, 0, 0)}}}};
+
+struct Removal {
+  std::vector<double> device, hand, background;  // shares of a frame
+  std::vector<double> known, filled;             // grey levels, of a frame
+  std::vector<double> overlay;                   // px, of a corner
+  std::vector<double> seconds;
+  std::size_t unknown = 0, taken = 0;  // pixels that were replaced from what lies around, of all
+};
+struct Seen {
+  std::size_t frames = 0, found = 0, elsewhere = 0, nobody = 0, mistaken = 0;
+  std::vector<double> pixels, place;  // px, m
+};
+struct Cell {
+  std::array<Removal, kBeliefs.size()> removal;
+  std::array<Seen, 2> seen;          // with the arm, without it
+  std::array<Seen, 2> meets;         // the prop under the fingertip
+  std::array<Seen, 2> open, hidden;  // by how much of the cap the arm hides
+  std::vector<Image> picture;
+};
+
+void judge(const AugmentedView& view, const sim::PixelTruth& truth, const Image& empty, Removal& removal) {
+  std::size_t device = 0, gone = 0, skin = 0, lost = 0, room = 0, wrong = 0;
+  std::array<double, 2> off{};
+  std::array<std::size_t, 2> counted{};
+  for (std::size_t i = 0; i < truth.skin.on.size(); ++i) {
+    const bool replaced = view.replaced().on[i] != 0;
+    if (truth.things.on[i] != 0) {
+      ++device;
+      if (!replaced) continue;
+      ++gone;
+      const std::size_t filled = view.known().on[i] == 0 ? 1 : 0;
+      ++counted[filled];
+      for (std::size_t c = 0; c < 3; ++c)
+        off[filled] += std::abs(view.removed().rgb[3 * i + c] - empty.rgb[3 * i + c]) / 3.0;
+    } else if (truth.skin.on[i] != 0) {
+      ++skin;
+      lost += replaced ? 1 : 0;
+    } else {
+      ++room;
+      wrong += replaced ? 1 : 0;
+    }
+  }
+  const auto share = [](std::size_t of, std::size_t all) {
+    return 100.0 * static_cast<double>(of) / static_cast<double>(all);
+  };
+  if (device > 0) removal.device.push_back(share(gone, device));
+  if (skin > 0) removal.hand.push_back(share(skin - lost, skin));
+  removal.background.push_back(share(wrong, room));
+  removal.unknown += counted[1];
+  removal.taken += counted[0] + counted[1];
+  if (counted[0] > 0) removal.known.push_back(off[0] / static_cast<double>(counted[0]));
+  if (counted[1] > 0) removal.filled.push_back(off[1] / static_cast<double>(counted[1]));
+}
+
+// Corners of the patch that a plane is drawn as, by belief against where they are.
+void judge_overlay(const ArmPlay& play, const models::Setup& setup, const AugmentedSpec& spec,
+                   const Object& object, Removal& removal) {
+  const Rectifier rectifier(spec.camera);
+  const StereoRig truth = trial::stage_of(setup.twin.camera, 0).camera;
+  for (const Point<'O'>& corner : augment::facets_of(object.surface).corners) {
+    const Point<'W'> at = object.X_WO * corner;
+    const Triplet drawn = seen_at(rectifier.pair(), spec.X_WC.inverse() * at);
+    const Vec3 is = play.in_camera(at).e();
+    const Pixel there =
+        rectifier.rectified(Side::left, project(truth.left, {is.x() / is.z(), is.y() / is.z()}));
+    removal.overlay.push_back(std::hypot(drawn.column - there.column, drawn.row - there.row));
+  }
+}
+
+// Of the skin that shows the cap where nothing is before it: what the arm hides.
+double hidden_share(const sim::PixelTruth& with, const sim::PixelTruth& without) {
+  const double r = without.radius;
+  const auto span = [&](double middle) {
+    return std::pair(static_cast<int>(std::floor(middle - r)), static_cast<int>(std::ceil(middle + r)) + 1);
+  };
+  const auto [x0, x1] = span(without.column);
+  const auto [y0, y1] = span(without.row);
+  const Region cap = Region{x0, y0, x1, y1}.cut(without.skin.whole());
+  std::size_t all = 0, left = 0;
+  for (int y = cap.y0; y < cap.y1; ++y)
+    for (int x = cap.x0; x < cap.x1; ++x) {
+      if (!without.skin.at(x, y) || std::hypot(x - without.column, y - without.row) > r) continue;
+      ++all;
+      left += with.skin.at(x, y) ? 1 : 0;
+    }
+  return all == 0 ? 0.0 : 1.0 - static_cast<double>(left) / static_cast<double>(all);
+}
+
+void note(const FingerTracker& tracker, const sim::Shown& shown, const sim::PixelTruth& truth, Seen& seen) {
+  const LookStats& stats = tracker.stats();
+  const bool found = stats.found.disparity > 0.0;
+  if (!shown.hand) {
+    ++seen.nobody;
+    seen.mistaken += found ? 1 : 0;
+    return;
+  }
+  ++seen.frames;
+  if (!found) return;
+  const double off = std::hypot(stats.found.column - truth.column, stats.found.row - truth.row);
+  if (off > within_cap(truth)) {
+    ++seen.elsewhere;
+    return;
+  }
+  ++seen.found;
+  seen.pixels.push_back(off);
+  seen.place.push_back((triangulate(tracker.pair(), stats.found).e() - shown.pose.tip.e()).norm());
+}
+
+struct Asked {
+  const sim::CameraModule* camera;
+  const models::Setup* setup;
+  std::uint64_t seed;
+  std::size_t frames;
+};
+
+Cell measure(const Asked& asked) {
+  const models::Setup& setup = *asked.setup;
+  ArmPlay play(setup, *asked.camera, asked.seed);
+  const Scene scene = trial::prepare_setup(setup);
+  const VisionRig& vision = setup.rig.vision;
+  Cell cell;
+  std::vector<std::unique_ptr<AugmentedView>> views;
+  views.reserve(kBeliefs.size());
+  for (std::size_t b = 0; b < kBeliefs.size(); ++b) {
+    const AugmentedSpec spec = play.believed(kBeliefs[b].belief);
+    views.push_back(std::make_unique<AugmentedView>(spec, scene.objects));
+    judge_overlay(play, setup, spec, scene.objects.front(), cell.removal[b]);
+  }
+  std::vector<FingerTracker> trackers;
+  trackers.reserve(2);
+  for (int i = 0; i < 2; ++i)
+    trackers.emplace_back(setup.rig.camera, vision.segmentation, vision.fingertip, vision.track,
+                          vision.match);
+  const Image empty = play.empty();
+  ArmPlay::Frame frame;
+  Pair bare;
+  for (std::size_t i = 0; i < kLearning + asked.frames; ++i) {
+    const bool learning = i < kLearning;
+    learning ? play.rest(frame) : play.next(frame);
+    play.without_arm(frame, bare);
+    for (std::size_t b = 0; b < views.size(); ++b) {
+      const double start = thread_seconds();
+      views[b]->see(frame.pair.left.view(), frame.moment);
+      if (learning) continue;
+      cell.removal[b].seconds.push_back(thread_seconds() - start);
+      judge(*views[b], frame.pair.truth, empty, cell.removal[b]);
+    }
+    const Time t(from_seconds(0.05 * static_cast<double>(i)));
+    for (std::size_t a = 0; a < 2; ++a) {
+      const Pair& pair = a == 0 ? frame.pair : bare;
+      trackers[a].forget();  // each frame by itself: nothing helps that was seen before
+      static_cast<void>(trackers[a].see({pair.left.view(), pair.right.view()}, t));
+      if (learning) continue;
+      note(trackers[a], frame.shown, pair.truth, cell.seen[a]);
+      if (!frame.shown.hand) continue;
+      if (frame.meets) note(trackers[a], frame.shown, pair.truth, cell.meets[a]);
+      const bool hidden = hidden_share(frame.pair.truth, bare.truth) > kHidden;
+      note(trackers[a], frame.shown, pair.truth, (hidden ? cell.hidden : cell.open)[a]);
+    }
+    if (frame.meets && i > kLearning + asked.frames / 2)
+      cell.picture = {frame.pair.left, views[0]->removed(), views[0]->augmented()};
+  }
+  return cell;
+}
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+Removal all_of(const std::vector<Cell>& cells, std::size_t belief) {
+  Removal all;
+  for (const Cell& cell : cells) {
+    const Removal& one = cell.removal[belief];
+    for (const auto member : {&Removal::device, &Removal::hand, &Removal::background, &Removal::known,
+                              &Removal::filled, &Removal::overlay, &Removal::seconds})
+      append(all.*member, one.*member);
+    all.unknown += one.unknown;
+    all.taken += one.taken;
+  }
+  return all;
+}
+
+Seen all_of(const std::vector<Cell>& cells, const std::array<Seen, 2> Cell::*which, std::size_t arm) {
+  Seen all;
+  for (const Cell& cell : cells) {
+    const Seen& one = (cell.*which)[arm];
+    for (const auto member : {&Seen::frames, &Seen::found, &Seen::elsewhere, &Seen::nobody, &Seen::mistaken})
+      all.*member += one.*member;
+    append(all.pixels, one.pixels);
+    append(all.place, one.place);
+  }
+  return all;
+}
+
+double least(const std::vector<double>& values) {
+  return values.empty() ? kUnset : *std::min_element(values.begin(), values.end());
+}
+double most(const std::vector<double>& values) {
+  return values.empty() ? kUnset : *std::max_element(values.begin(), values.end());
+}
+
+void tell_removal(Bench& bench, const Removal& shipped) {
+  bench.figure(
+      "removal.device_percent.mean", mean(shipped.device), "%", at_least(99.0),
+      fmt::format("true pixels of arm and prop that are replaced, of {} frames", shipped.device.size()));
+  bench.figure("removal.device_percent.worst", least(shipped.device), "%", at_least(95.0), "of a frame");
+  bench.figure("removal.hand_kept_percent.mean", mean(shipped.hand), "%", at_least(98.0),
+               "true pixels of skin that stay");
+  bench.figure("removal.hand_kept_percent.worst", least(shipped.hand), "%", "of a frame");
+  bench.figure(
+      "removal.background_percent.mean", mean(shipped.background), "%", at_most(5.0),
+      "pixels of room and sleeve that are replaced: the margin round the arm, and a sleeve before it");
+  bench.figure(
+      "removal.residual.mean", mean(shipped.known), "levels", at_most(3.0),
+      "from the true empty room, of 255, where the background is known; the sensor's noise is 1.5 rms");
+  bench.figure("removal.residual_filled.mean", mean(shipped.filled), "levels",
+               "the same where the device never moved away: smoothly from what lies around");
+  bench.figure("removal.filled_percent",
+               100.0 * static_cast<double>(shipped.unknown) / static_cast<double>(shipped.taken), "%",
+               "of the replaced device pixels, such as its base");
+  bench.figure("removal.time.median", median(shipped.seconds) * 1e3, "ms", "CPU time of a frame");
+}
+
+void tell_beliefs(Bench& bench, const std::vector<Cell>& cells) {
+  Table table{.id = "removal",
+              .title = "The device removed, an object overlaid: what a wrong registration does",
+              .columns = {"what is believed", "device removed (%)", "worst frame (%)", "overlay, mean (px)",
+                          "overlay, most (px)"}};
+  for (std::size_t b = 0; b < kBeliefs.size(); ++b) {
+    const Removal all = all_of(cells, b);
+    bench.figure(fmt::format("overlay.error_px.{}", kBeliefs[b].id), mean(all.overlay), "px",
+                 b == 0 ? at_most(0.5) : Bounds{},
+                 fmt::format("corners of the drawn object; {}", kBeliefs[b].words));
+    if (b > 0)
+      bench.figure(fmt::format("removal.device_percent.{}", kBeliefs[b].id), mean(all.device), "%",
+                   kBeliefs[b].words);
+    table.add(kBeliefs[b].words, fmt::format("{:.3f}", mean(all.device)),
+              fmt::format("{:.2f}", least(all.device)), fmt::format("{:.2f}", mean(all.overlay)),
+              fmt::format("{:.2f}", most(all.overlay)));
+  }
+  bench.table(std::move(table));
+}
+
+void tell_tracker(Bench& bench, const std::vector<Cell>& cells) {
+  struct Row {
+    const char* id;
+    const char* words;
+    const std::array<Seen, 2> Cell::*which;
+  };
+  const std::array<Row, 4> rows{{{"all", "all", &Cell::seen},
+                                 {"meets", "prop under the fingertip", &Cell::meets},
+                                 {"open", "the arm hides less than a tenth of the cap", &Cell::open},
+                                 {"hidden", "the arm hides more of it", &Cell::hidden}}};
+  Table table{.id = "arm_in_view",
+              .title = "What an arm in view is to the tracker: each frame searched whole",
+              .columns = {"hands", "arm", "frames", "found (%)", "elsewhere (%)", "error (px)", "error (mm)",
+                          "tips where nobody is"}};
+  const auto percent = [](std::size_t of, std::size_t all) {
+    return 100.0 * static_cast<double>(of) / static_cast<double>(std::max<std::size_t>(1, all));
+  };
+  for (const Row& row : rows)
+    for (std::size_t arm = 0; arm < 2; ++arm) {
+      const Seen seen = all_of(cells, row.which, arm);
+      const char* drawn = arm == 0 ? "with" : "without";
+      table.add(row.words, drawn, seen.frames, fmt::format("{:.1f}", percent(seen.found, seen.frames)),
+                fmt::format("{:.1f}", percent(seen.elsewhere, seen.frames)),
+                fmt::format("{:.2f}", mean(seen.pixels)), fmt::format("{:.2f}", mean(seen.place) * kMm),
+                fmt::format("{} of {}", seen.mistaken, seen.nobody));
+      const std::string id = fmt::format("arm_in_view.{}.{}", drawn, row.id);
+      bench.figure(id + ".found_percent", percent(seen.found, seen.frames), "%",
+                   arm == 0 && row.which == &Cell::open ? at_least(95.0) : Bounds{},
+                   fmt::format("fingertips found within the cap, of {}: {}", seen.frames, row.words));
+      bench.figure(id + ".place.mean", mean(seen.place) * kMm, "mm", "from the true middle of the cap");
+    }
+  const Seen nobody = all_of(cells, &Cell::seen, 0);
+  bench.figure(
+      "arm_in_view.mistaken.count", static_cast<double>(nobody.mistaken), "frames", exactly(0.0),
+      fmt::format("of {} without a hand: a fingertip is seen in the arm or what it uncovers", nobody.nobody));
+  bench.table(std::move(table));
+}
+
+}  // namespace
+
+void add_device_removal(Bench& bench) {
+  const models::Setup setup = bench.setup();
+  const std::size_t rooms = bench.context.quick ? 2 : 6, frames = bench.context.quick ? 20 : 60;
+  std::vector<Asked> asked;
+  for (std::size_t i = 0; i < rooms; ++i)
+    asked.push_back({&camera(bench.context), &setup, test_seed(bench.context) + 800 + i, frames});
+  const std::vector<Cell> cells = bench.each(asked, measure);
+  tell_removal(bench, all_of(cells, 0));
+  tell_beliefs(bench, cells);
+  tell_tracker(bench, cells);
+  bench.picture(
+      {.id = "removal",
+       .title = "The device removed, an object overlaid",
+       .caption = "The left camera's image; without the device; with the virtual wall in its place.",
+       .png = png(cells.front().picture)});
+}
+
+}  // namespace enc::bench::vishap
