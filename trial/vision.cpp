@@ -5,12 +5,9 @@
 #include "core/error.h"
 #include "core/vision/vision_module.h"
 #include "sim/camera/skin_tones.h"
-#include "sim/camera/stage.h"
 #include "trial/driver_device.h"
 
 namespace enc::trial {
-namespace {
-
 sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed) {
   sim::StageSpec stage;
   StereoRig& head = stage.camera;
@@ -28,6 +25,8 @@ sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed) {
   stage.sensor.exposure = truth.exposure;
   return stage;
 }
+
+namespace {
 
 // The hand of the simulated user, as the true camera has it before it.
 sim::Show show(const sim::TwinSpec& twin, const sim::World& world) {

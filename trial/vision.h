@@ -6,6 +6,7 @@
 
 #include "core/devices/pose_tracker.h"
 #include "models/setup/scene_file.h"
+#include "sim/camera/stage.h"
 #include "sim/world.h"
 #include "trial/assemble.h"
 
@@ -17,6 +18,9 @@ struct VisionOffer {
   Log& log;
   bool waits = false;  // as in Offer
 };
+
+// What the twin's cameras are drawn with: the true head.
+[[nodiscard]] sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed);
 
 // Loads the modules that it takes. Throws Error (kind device) where a module is missing or a device is not
 // there, with its place where a number of a file is impossible.

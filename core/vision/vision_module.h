@@ -6,6 +6,7 @@
 #include "core/devices/pose_tracker.h"
 #include "core/devices/stereo_camera.h"
 #include "core/devices/stereo_rig.h"
+#include "core/vision/ball/ball_finder.h"
 #include "core/vision/rig/vision_rig.h"
 
 namespace enc {
@@ -15,6 +16,8 @@ struct VisionModule {
   // impossible.
   std::unique_ptr<PoseTracker> (*tracker)(std::unique_ptr<StereoCamera> camera, const StereoRig& rig,
                                           const VisionRig& vision) = nullptr;
+  // Of the ball at the arm's tip, with the head as it is believed. Throws Error likewise.
+  std::unique_ptr<BallFinder> (*ball)(const StereoRig& rig, const BallSpec& ball) = nullptr;
 };
 
 }  // namespace enc

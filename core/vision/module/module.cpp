@@ -12,7 +12,10 @@ std::unique_ptr<enc::PoseTracker> tracker(std::unique_ptr<enc::StereoCamera> cam
                                               enc::FingerTracker(rig, vision.segmentation, vision.fingertip,
                                                                  vision.track, vision.match, vision.search));
 }
-constexpr enc::VisionModule kVision{.tracker = tracker};
+std::unique_ptr<enc::BallFinder> ball(const enc::StereoRig& rig, const enc::BallSpec& spec) {
+  return std::make_unique<enc::BallFinder>(rig, spec);
+}
+constexpr enc::VisionModule kVision{.tracker = tracker, .ball = ball};
 
 }  // namespace
 
