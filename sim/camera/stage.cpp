@@ -238,11 +238,6 @@ Stage::~Stage() {
   parts_.reset();
 }
 
-void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
-                 Image& left, Image& right, PixelTruth* truth) {
-  draw({hand != nullptr, hand != nullptr ? *hand : HandPose{}, look, light, {}}, frame, left, right, truth);
-}
-
 void Stage::draw(const Shown& shown, std::uint64_t frame, Image& left, Image& right, PixelTruth* truth) {
   Parts& p = *parts_;
   const auto lock = p.current();

@@ -64,7 +64,9 @@ class Stage {
   virtual void again(std::uint64_t frame, Image& left, Image& right);
   // A hand and nothing else; null: the background alone.
   void draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame, Image& left,
-            Image& right, PixelTruth* truth = nullptr);
+            Image& right, PixelTruth* truth = nullptr) {
+    draw({hand != nullptr, hand != nullptr ? *hand : HandPose{}, look, light, {}}, frame, left, right, truth);
+  }
   // The same picture by MuJoCo's own calls alone, mjr_render and mjr_readPixels for each eye, without lens,
   // sensor and images. For benchmarks.
   virtual void draw_only(const HandPose& hand, const HandLook& look);

@@ -1,5 +1,7 @@
 // Where the centre of a coloured ball is, out of one pair of raw images: for the registration of camera and
-// arm. It knows nothing of the frame before, and rather finds nothing than something else.
+// arm. It knows nothing of the frame before, and rather finds nothing than something else: a spot of the
+// ball's colour is round in both images, in the same row, and as large as its distance makes it; and no
+// other.
 #pragma once
 
 #include <array>
@@ -25,9 +27,9 @@ enum class BallLoss : std::uint8_t {
   no_frame
 };
 constexpr auto words(BallLoss) {
-  return enum_words("found", "nothing of its colour", "more than one of its colour",
-                    "cut off by the edge of the image", "too bright to have a colour", "not round",
-                    "not in the same row of both images", "not of its size", "no frame");
+  return enum_words("found", "nothing of its colour", "more than one", "cut off by the edge of the image",
+                    "too bright to have a colour", "not round", "not in the same row of both images",
+                    "not of its size", "no frame");
 }
 
 struct FoundBall {
@@ -52,12 +54,23 @@ class BallFinder {
   virtual FoundBall find(const StereoFrame& frame);
 
  private:
-  BallLoss look(Side side, const ImageView& image, FoundBall& found);
-  void place(FoundBall& found) const;
+  // What is round in an image.
+  struct Round {
+    BallOutline outline;
+    BallEdges edges;
+  };
+  struct Rounds {
+    std::array<Round, kMostBlobs> round;
+    std::size_t count = 0;
+    BallLoss loss = BallLoss::no_ball;  // of the largest spot, where nothing is round
+  };
+  void look(Side side, const ImageView& image, Rounds& rounds);
+  [[nodiscard]] FoundBall placed(const Round& left, const Round& right) const;
 
   BallSpec spec_;
   Rectifier rectifier_;
   BlobFinder blobs_;
+  std::array<Rounds, 2> rounds_;
 };
 
 }  // namespace enc

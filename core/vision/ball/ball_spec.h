@@ -4,10 +4,10 @@
 namespace enc {
 
 struct BallSpec {
-  double radius = 0.012;           // m
-  double hue = 2.26;               // rad: a green, which neither skin nor much of a room has
-  double hue_within = 0.45;        // rad, either way
-  double least_saturation = 0.35;  // of its pixels: chroma over the brightest channel
+  double radius = 0.012;          // m
+  double hue = 6.11;              // rad: a red beside purple, which neither skin nor much of a room has
+  double hue_within = 0.26;       // rad, either way
+  double least_saturation = 0.5;  // of its pixels: chroma over the brightest channel
 };
 
 }  // namespace enc

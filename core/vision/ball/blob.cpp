@@ -77,18 +77,19 @@ Blob BlobFinder::flood(const ImageView& image, int at) {
   return blob;
 }
 
-Blob BlobFinder::largest(const ImageView& image) {
+Blobs BlobFinder::largest(const ImageView& image, int least) {
   colour(image);
-  Blob best;
-  int second = 0;
+  Blobs all;
   for (std::size_t i = 0; i < mask_.on.size(); ++i) {
     if (mask_.on[i] != kOpen) continue;
     const Blob blob = flood(image, static_cast<int>(i));
-    second = std::max(second, std::min(blob.pixels, best.pixels));
-    if (blob.pixels > best.pixels) best = blob;
+    if (blob.pixels < least) continue;
+    std::size_t at = all.count < kMostBlobs ? all.count++ : kMostBlobs;
+    for (; at > 0 && all.blob[at - 1].pixels < blob.pixels; --at)
+      if (at < kMostBlobs) all.blob[at] = all.blob[at - 1];
+    if (at < kMostBlobs) all.blob[at] = blob;
   }
-  best.second = second;
-  return best;
+  return all;
 }
 
 }  // namespace enc

@@ -1,6 +1,8 @@
 // What has the colour of a ball in an image, as connected spots.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "core/frames.h"
@@ -10,20 +12,24 @@
 namespace enc {
 
 struct Blob {
-  int pixels = 0, second = 0;            // of the largest spot, and of the next one
+  int pixels = 0;
   double column = kUnset, row = kUnset;  // px, its middle
   Region box;
   Vec3 colour{0, 0, 0};  // mean, 0 to 255
   double clipped = 0.0;  // share of its pixels of which a channel is at its end
+};
+inline constexpr std::size_t kMostBlobs = 8;
+struct Blobs {
+  std::array<Blob, kMostBlobs> blob;
+  std::size_t count = 0;
 };
 
 // Keeps its memory from image to image.
 class BlobFinder {
  public:
   explicit BlobFinder(const BallSpec& spec);
-  // The largest spot; no pixels where there is none. mask() is of all spots.
-  Blob largest(const ImageView& image);
-  [[nodiscard]] const Mask& mask() const { return mask_; }
+  // The largest spots of at least so many pixels, the largest first.
+  Blobs largest(const ImageView& image, int least);
 
  private:
   void colour(const ImageView& image);

@@ -29,39 +29,52 @@ Vec3 measure_of(const Vec3& colour) {
   return chroma / chroma.norm();
 }
 
+// What a direction passes, at steps from somewhere within the ball to the outside.
+struct Profile {
+  std::array<double, 400> level{};
+  std::size_t count = 0;
+};
+
+// Steps to the edge: where the level falls most, and there half way from the inside to the outside, so that
+// the ball's shade does not matter. NaN where there is none.
+double fall_of(const Profile& profile) {
+  constexpr std::size_t kHalf = 4, kInside = 5, kOutside = 6;  // steps: an edge is 2 px wide
+  const auto& level = profile.level;
+  std::size_t best = 0;
+  double most = 0.0;
+  for (std::size_t k = kOutside; k + kOutside < profile.count; ++k) {
+    const double fall = level[k - kHalf] - level[k + kHalf];
+    if (fall > most) most = fall, best = k;
+  }
+  if (best == 0) return kUnset;
+  const double half = 0.5 * (level[best - kInside] + level[best + kOutside]);
+  for (std::size_t k = best - kInside; k < best + kOutside; ++k)
+    if (level[k] >= half && level[k + 1] < half)
+      return static_cast<double>(k) + (level[k] - half) / (level[k] - level[k + 1]);
+  return kUnset;
+}
+
 }  // namespace
 
 BallEdges ball_edges(const ImageView& image, const Blob& blob) {
   const Vec3 measure = measure_of(blob.colour);
   const double radius = std::sqrt(blob.pixels / std::numbers::pi);
+  const double from = 0.5 * radius, to = 1.4 * radius + 3.0;
   BallEdges edges{};
-  std::array<double, 400> profile{};
+  Profile profile;
+  profile.count = std::min(profile.level.size(), static_cast<std::size_t>((to - from) / kStep));
   for (std::size_t i = 0; i < kBallRays; ++i) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kBallRays;
     const double dx = std::cos(angle), dy = std::sin(angle);
-    const double from = 0.5 * radius, to = 1.4 * radius + 3.0;
-    const auto count = std::min(profile.size(), static_cast<std::size_t>((to - from) / kStep));
-    for (std::size_t k = 0; k < count; ++k) {
-      const double t = from + kStep * static_cast<double>(k);
-      profile[k] = measure.dot(colour_at(image, blob.column + t * dx, blob.row + t * dy));
+    const auto at = [&](double steps) {
+      const double t = from + kStep * steps;
+      return Pixel{blob.column + t * dx, blob.row + t * dy};
+    };
+    for (std::size_t k = 0; k < profile.count; ++k) {
+      const Pixel p = at(static_cast<double>(k));
+      profile.level[k] = measure.dot(colour_at(image, p.column, p.row));
     }
-    // steepest fall over 1 px, then half between both sides of it
-    std::size_t best = 0;
-    double fall = 0.0;
-    for (std::size_t k = 4; k + 4 < count; ++k) {
-      const double now = profile[k - 4] - profile[k + 4];
-      if (now > fall) fall = now, best = k;
-    }
-    if (best < 6 || best + 8 >= count) continue;
-    const double inside = profile[best - 6], outside = profile[best + 8];
-    const double half = 0.5 * (inside + outside);
-    for (std::size_t k = best - 6; k < best + 8; ++k) {
-      if (profile[k] < half || profile[k + 1] >= half) continue;
-      const double t =
-          from + kStep * (static_cast<double>(k) + (profile[k] - half) / (profile[k] - profile[k + 1]));
-      edges[i] = {blob.column + t * dx, blob.row + t * dy};
-      break;
-    }
+    edges[i] = at(fall_of(profile));
   }
   return edges;
 }

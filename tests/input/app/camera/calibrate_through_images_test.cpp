@@ -54,7 +54,7 @@ TEST(CalibrateThroughImages, SaysWhyTheBallWasNotFound) {
   EXPECT_THAT(line(words({"--frames", "1", "--set", "truth.camera.exposure=4"})),
               AllOf(HasSubstr("vishap.toml:"), HasSubstr("was found at 0 places and 8 are wanted"),
                     HasSubstr("too bright to have a colour")));
-  EXPECT_THAT(line(words({"--frames", "1", "--set", "vision.ball_hue_deg=300"})),
+  EXPECT_THAT(line(words({"--frames", "1", "--set", "vision.ball_hue_deg=40"})),
               HasSubstr("nothing of its colour"));
   EXPECT_THAT(line(words({"--frames", "1", "--set", "vision.ball_radius_mm=20"})),
               HasSubstr("not of its size"));

@@ -74,7 +74,7 @@ TEST(TipEyes, TheBallIsWhereTheTipIs) {
   ASSERT_EQ(things.size(), 1U);
   EXPECT_LT((things[0].at.e() - Vec3(0.1, 0, 0.5)).norm(), 1e-12);
   EXPECT_EQ(things[0].half.x(), 0.01);
-  EXPECT_FLOAT_EQ(things[0].colour[1], 0.5F);
+  EXPECT_FLOAT_EQ(things[0].colour[0], 0.5F);
 }
 
 }  // namespace

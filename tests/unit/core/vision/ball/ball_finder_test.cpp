@@ -17,7 +17,7 @@ namespace {
 struct Ball {
   Vec3 at;  // in C, m
   double radius = 0.012;
-  Vec3 colour{13, 128, 31};
+  Vec3 colour{128, 10, 30};
 };
 struct Scene {
   std::vector<Ball> balls;
@@ -153,7 +153,7 @@ TEST(BallFinder, TakesTheCentreAndNotTheMiddleOfTheOutline) {
 
 TEST(BallFinder, NothingOfItsColourIsNoBall) {
   EXPECT_EQ(found({}).loss, BallLoss::no_ball);
-  EXPECT_EQ(found({{{{0.03, 0.0, 0.5}, 0.012, {160, 60, 40}}}}).loss, BallLoss::no_ball);
+  EXPECT_EQ(found({{{{0.03, 0.0, 0.5}, 0.012, {60, 160, 40}}}}).loss, BallLoss::no_ball);
   EXPECT_TRUE(std::isnan(found({}).centre.e().x()));
 }
 
