@@ -192,6 +192,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
                    "of a rig: of the camera's noise; of points: of what is drawn from them; default: 1")
       ->check(bad_seed);
   calibrate_command->add_option("--set", calibrate_options.set, "of a rig: override, as for run");
+  calibrate_command->add_flag(
+      "--through-images", calibrate_options.through_images,
+      "of a rig: a ball at the tip is found in pictures of the twin's camera; without "
+      "it the camera sees points");
   calibrate_command->add_option("--square-mm", calibrate_options.square_mm,
                                 "of a chessboard: side of the board's squares");
   calibrate_command->add_option("--corners", calibrate_options.corners,

@@ -70,6 +70,7 @@ struct CalibrateOptions {
   std::optional<std::size_t> pairs, frames;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;
+  bool through_images = false;  // the tip is found in pictures; else it is seen as a point
   // Of a folder of images, with `out`, `force` and `json`.
   std::optional<double> square_mm;
   std::optional<std::string> corners;  // "9x6"

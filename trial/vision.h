@@ -29,6 +29,9 @@ struct VisionOffer {
   Look look{};            // as in TrialOptions; may be empty
 };
 
+// What the twin's cameras are drawn with: the true head.
+[[nodiscard]] sim::StageSpec stage_of(const sim::CameraTruth& truth, std::uint64_t seed);
+
 // Loads the modules that it takes. Throws Error (kind device) where a module is missing or a device is not
 // there, with its place where a number of a file is impossible.
 [[nodiscard]] std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup,

@@ -151,6 +151,7 @@ int calibrate_images(const CalibrateOptions& options) {
   refuse(options.frames.has_value(), "--frames", "a rig");
   refuse(options.seed.has_value(), "--seed", "a rig or of points");
   refuse(!options.set.empty(), "--set", "a rig");
+  refuse(options.through_images, "--through-images", "a rig");
   refuse_names(options);
   return options.skin.empty() ? calibrate_head(options) : calibrate_skin(options);
 }

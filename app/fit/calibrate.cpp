@@ -219,11 +219,12 @@ void refuse_rig_options(const CalibrateOptions& o) {
   refuse(o.pairs.has_value(), "--pairs", "a rig", o);
   refuse(o.frames.has_value(), "--frames", "a rig", o);
   refuse(!o.set.empty(), "--set", "a rig", o);
+  refuse(o.through_images, "--through-images", "a rig", o);
 }
 
 }  // namespace
 
-int calibrate_command(const CalibrateOptions& options) {
+int calibrate_command(const CalibrateOptions& options, const trial::DriverSource& modules) {
   for (const auto& [given, option] : {std::pair{options.square_mm.has_value(), "--square-mm"},
                                       {options.corners.has_value(), "--corners"},
                                       {!options.picture.empty(), "--picture"},
@@ -234,7 +235,7 @@ int calibrate_command(const CalibrateOptions& options) {
   // Names of rigs have neither dot nor slash, and their files are TOML; all else is a table.
   if (options.log.find_first_of("./") == std::string::npos || options.log.ends_with(".toml")) {
     refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
-    return calibrate_rig(options);
+    return calibrate_rig(options, modules);
   }
   refuse_rig_options(options);
   const std::string csv =

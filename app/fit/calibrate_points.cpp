@@ -16,6 +16,7 @@
 #include "trial/fit/point_study.h"
 #include "trial/guided/driven_arm.h"
 #include "trial/guided/registration_rig.h"
+#include "trial/guided/tip_eyes.h"
 
 namespace enc::app {
 namespace {
@@ -156,6 +157,51 @@ std::string study_text(const PointSet& places, const PointStudy& s) {
          "intervals   95 %, from leaving out one pair at a time\n";
 }
 
+// Of pictures: how many of a place's frames show the ball at least, for one that hides it is no reason to go
+// there again.
+constexpr double kFound = 0.5;
+
+// rms of a frame about the place's mean, along the axes of C, m.
+Vec3 scatter_of(const trial::SeenPlace& place) {
+  const Vec3 mean = place.average().camera.e();
+  Vec3 squares = Vec3::Zero();
+  for (const models::PointPair& frame : place.frames) squares += (frame.camera.e() - mean).cwiseAbs2();
+  return (squares / std::max(1.0, static_cast<double>(place.frames.size()) - 1.0)).cwiseSqrt();
+}
+
+std::string places_text(const trial::GuidedRun& run, std::size_t frames) {
+  std::string out;
+  for (const trial::SeenPlace& place : run.points) {
+    const Vec3 rms = scatter_of(place) * kMm;
+    out += fmt::format(
+        "place {:<6}{} of {} frames found the ball; a frame scatters by {:.3f} {:.3f} {:.3f} mm along C\n",
+        place.number, place.frames.size(), frames, rms.x(), rms.y(), rms.z());
+  }
+  return out;
+}
+Json places_json(const trial::GuidedRun& run, std::size_t frames) {
+  Json list = Json::array();
+  for (const trial::SeenPlace& place : run.points)
+    list.push_back({{"found", place.frames.size()},
+                    {"frames", frames},
+                    {"scatter_mm", json_of(scatter_of(place), kMm)}});
+  return list;
+}
+
+[[noreturn]] void refuse_few(const models::Setup& setup, const trial::GuidedRun& run, std::size_t pairs,
+                             const trial::PictureEyes* eyes) {
+  if (eyes == nullptr || run.seen.size() < pairs)
+    throw Error(fmt::format(
+        "{}: {} places of the arm were seen and {} are wanted; expected the camera to look at the "
+        "arm; see truth.frames.W_C and truth.arm.misplaced_mm, or ask for fewer --pairs",
+        models::place_of(setup, "truth.frames.W_C"), run.points.size(), pairs));
+  throw Error(fmt::format(
+      "{}: the ball at the tip was found at {} places and {} are wanted; in the others it was {}; expected "
+      "a ball whose colour nothing else has, wholly in view; see vision.ball_hue_deg, "
+      "vision.ball_radius_mm and truth.camera.exposure",
+      models::place_of(setup, "rig.vision.ball_hue_deg"), run.points.size(), pairs, word_of(eyes->loss())));
+}
+
 // Of what was found against X_WC, all over the volume in view.
 Vec3 mean_error(const PointStudy& study, const Pose<'W', 'C'>& X_WC, const std::vector<Point<'W'>>& targets) {
   Vec3 mean = Vec3::Zero();
@@ -173,23 +219,22 @@ int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
   return 0;
 }
 
-int calibrate_rig(const CalibrateOptions& options) {
+int calibrate_rig(const CalibrateOptions& options, const trial::DriverSource& modules) {
   const std::size_t pairs = options.pairs.value_or(8), frames = options.frames.value_or(20);
   const std::uint64_t seed = options.seed.value_or(1);
   const models::Setup setup = models::load_rig_setup(options.log, options.set);
   const trial::RegistrationRig rig = trial::registration_rig(setup);
   std::optional<models::OutFile> file;  // refused before the arm moves
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
+  std::optional<trial::PictureEyes> eyes;  // likewise
+  if (options.through_images) eyes.emplace(trial::twin_eyes(setup, modules, seed));
   trial::DrivenArm arm(setup);
   const trial::RegistrationPlaces places = trial::places_of(rig, pairs);
   const std::vector<trial::TipVisit> visits =
       trial::visit_places(arm, places.visited, rig.camera.rate, frames);
-  const trial::GuidedRun run = trial::see_visits(visits, rig.X_WC, rig.camera, seed);
-  if (run.points.size() < pairs)
-    throw Error(fmt::format(
-        "{}: {} places of the arm were seen and {} are wanted; expected the camera to look at the "
-        "arm; see truth.frames.W_C and truth.arm.misplaced_mm, or ask for fewer --pairs",
-        models::place_of(setup, "truth.frames.W_C"), run.points.size(), pairs));
+  const trial::GuidedRun run =
+      eyes ? trial::see_visits(visits, *eyes, kFound) : trial::see_visits(visits, rig.X_WC, rig.camera, seed);
+  if (run.points.size() < pairs) refuse_few(setup, run, pairs, eyes ? &*eyes : nullptr);
   if (file) {
     file->write(trial::points_text(run.points));
     file->keep();
@@ -200,6 +245,7 @@ int calibrate_rig(const CalibrateOptions& options) {
   const double time = run.seconds.back() + static_cast<double>(frames) / rig.camera.rate;
   if (options.json) {
     Json json = study_json(run.points, study);
+    if (eyes) json["places"] = places_json(run, frames);
     json["true_error_mm"] = json_of(error, kMm);
     json["camera_to_arm_error_mm"] = json_of(apart, kMm);
     json["time_s"] = time;
@@ -210,10 +256,10 @@ int calibrate_rig(const CalibrateOptions& options) {
     return fmt::format("{} {} {} mm", number(v.x(), kMm, 4), number(v.y(), kMm, 4), number(v.z(), kMm, 4));
   };
   fmt::print(
-      "{}truth       all over the volume in view, mean |error| of x, y, z: {} in W, {} between camera and "
+      "{}{}truth       all over the volume in view, mean |error| of x, y, z: {} in W, {} between camera and "
       "arm\n"
       "procedure   {:.1f} s of experiment: the arm was driven to each place and rested there\n",
-      study_text(run.points, study), axes(error), axes(apart), time);
+      eyes ? places_text(run, frames) : "", study_text(run.points, study), axes(error), axes(apart), time);
   return 0;
 }
 

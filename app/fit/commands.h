@@ -4,14 +4,15 @@
 #include <string>
 
 #include "app/options.h"
+#include "trial/assemble.h"
 
 namespace enc::app {
 
 int fit_loop(const FitOptions& options);  // a response out of a measured loop
 int fit_ball(const FitOptions& options);  // the ball behind the loops
 // A tracker's log, a set of points or a rig: it looks which of them it is.
-int calibrate_command(const CalibrateOptions& options);
+int calibrate_command(const CalibrateOptions& options, const trial::DriverSource& modules);
 int calibrate_points(const std::string& csv, const CalibrateOptions& options);
-int calibrate_rig(const CalibrateOptions& options);
+int calibrate_rig(const CalibrateOptions& options, const trial::DriverSource& modules);
 
 }  // namespace enc::app

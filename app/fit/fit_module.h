@@ -2,13 +2,15 @@
 #pragma once
 
 #include "app/options.h"
+#include "trial/assemble.h"
 
 namespace enc::app {
 
 // Each is a subcommand: prints what it has to say, gives the exit code, throws Error.
 struct FitModule {
   int (*fit)(const FitOptions& options) = nullptr;
-  int (*calibrate)(const CalibrateOptions& options) = nullptr;
+  // modules: where vision and the twin's camera come from, which only pictures need.
+  int (*calibrate)(const CalibrateOptions& options, const trial::DriverSource& modules) = nullptr;
 };
 
 }  // namespace enc::app

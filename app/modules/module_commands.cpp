@@ -39,6 +39,10 @@ const ModuleInfo* module_if_there(const std::string& name) {
   return module_there(name) ? &load_module(name) : nullptr;
 }
 
+const ModuleInfo& module_for_calibration(const std::string& name) {
+  return own_module(name, "calibrate RIG --through-images");
+}
+
 // What stands where a folder of images, a table or a rig should: in words of what it is, before a reader of
 // one of them says that it is none of its own.
 void refuse_what_it_is_not(const CalibrateOptions& options, const std::vector<std::string>& rigs) {
@@ -72,7 +76,7 @@ int calibrate(const CalibrateOptions& options) {
   std::error_code none;
   const bool folder = !rig && std::filesystem::is_directory(options.log, none);
   if (!rig && !folder) refuse_what_it_is_not(options, rigs);
-  return folder ? calibrations().calibrate(options) : fits().calibrate(options);
+  return folder ? calibrations().calibrate(options) : fits().calibrate(options, module_for_calibration);
 }
 
 int questionnaire(const QuestionnaireOptions& options) { return benchmarks().questionnaire(options); }

@@ -9,6 +9,7 @@
 #include "core/devices/stereo_camera.h"
 #include "core/devices/stereo_rig.h"
 #include "core/vision/augment/augmented_view.h"
+#include "core/vision/ball/ball_finder.h"
 #include "core/vision/rig/vision_rig.h"
 
 namespace enc {
@@ -27,6 +28,8 @@ struct VisionModule {
   // As AugmentedView's constructor.
   std::unique_ptr<AugmentedView> (*augmented)(const AugmentedSpec& spec,
                                               std::span<const Object> objects) = nullptr;
+  // Of the ball at the arm's tip, with the head as it is believed. Throws Error likewise.
+  std::unique_ptr<BallFinder> (*ball)(const StereoRig& rig, const BallSpec& ball) = nullptr;
 };
 
 }  // namespace enc

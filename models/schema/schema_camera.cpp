@@ -186,6 +186,26 @@ void describe(Visitor& v, MatchSpec& m) {
           &m.farthest);
 }
 
+void describe(Visitor& v, BallSpec& b) {
+  constexpr const char* kBall = "docs/guide/registration.md";
+  v.value({"ball_radius_mm",
+           "of the ball at the arm's tip, by which it is registered",
+           kBall,
+           assumed,
+           {1.0, 100.0}},
+          &b.radius);
+  v.value({"ball_hue_deg", "of its colour", kBall, assumed, {-360.0, 360.0}}, &b.hue);
+  v.value(
+      {"ball_hue_within_deg", "a hue that is farther from it is not the ball's", kBall, assumed, {1.0, 90.0}},
+      &b.hue_within);
+  v.value({"ball_saturation",
+           "least of its pixels: chroma over the brightest channel",
+           kBall,
+           assumed,
+           {0.05, 1.0}},
+          &b.least_saturation);
+}
+
 }  // namespace
 
 void describe_size(Visitor& v, StereoRig& c, const HeadKeys& k) {
@@ -237,6 +257,7 @@ void describe(Visitor& v, VisionRig& vision) {
   describe(v, vision.fingertip);
   describe(v, vision.track);
   describe(v, vision.match);
+  describe(v, vision.ball);
 }
 
 }  // namespace enc::models

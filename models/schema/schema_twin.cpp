@@ -199,6 +199,15 @@ void describe(Visitor& v, sim::CameraTruth& c) {
           &c.stalls_at);
   v.value({"distortion", "of both lenses: k1, k2, p1, p2, k3", "sources/tracking 7", assumed, {-10.0, 10.0}},
           std::span<double>(c.distortion));
+  v.value({"ball_radius_mm", "of the ball at the tip while camera and arm are registered",
+           "docs/guide/registration.md", assumed, kPositive},
+          &c.ball_radius);
+  v.value({"ball_rgb",
+           "its colour: linear shares of the light",
+           "docs/guide/registration.md",
+           assumed,
+           {0.0, 1.0}},
+          std::span<double>(c.ball_rgb));
 }
 
 void describe(Visitor& v, sim::DisplayTruth& d) {

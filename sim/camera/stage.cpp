@@ -73,6 +73,7 @@ struct Stage::Parts {
   void light(const Light& light);
   void render(int eye, bool segments);
   void read(int eye, Image& picture, std::uint64_t frame);
+  void expose(int eye, Image& picture, std::uint64_t frame) const;
   void tell_truth(const Shown& shown, PixelTruth& truth);
 
   StageSpec spec;
@@ -85,6 +86,7 @@ struct Stage::Parts {
   SensorNoise noise;
   std::optional<HandDrawing> hands;
   std::vector<std::uint8_t> drawing;
+  std::array<Image, 2> clean;  // of each eye, what was drawn last: without noise
   std::vector<float> depth;
 };
 
@@ -159,9 +161,15 @@ void Stage::Parts::render(int eye, bool segments) {
 
 void Stage::Parts::read(int eye, Image& picture, std::uint64_t frame) {
   const Warp& w = warp[static_cast<std::size_t>(eye)];
-  if (picture.width != width || picture.height != height) picture = Image(width, height);
+  Image& light = clean[static_cast<std::size_t>(eye)];
+  if (light.width != width) light = Image(width, height);
   mjr_readPixels(drawing.data(), nullptr, {0, 0, w.width(), w.height()}, &renderer.context);
-  w.colours(drawing.data(), picture);
+  w.colours(drawing.data(), light);
+  expose(eye, picture, frame);
+}
+
+void Stage::Parts::expose(int eye, Image& picture, std::uint64_t frame) const {
+  picture = clean[static_cast<std::size_t>(eye)];
   noise.add(picture, frame, static_cast<std::uint64_t>(eye));
 }
 
@@ -230,11 +238,6 @@ Stage::~Stage() {
   parts_.reset();
 }
 
-void Stage::draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame,
-                 Image& left, Image& right, PixelTruth* truth) {
-  draw({hand != nullptr, hand != nullptr ? *hand : HandPose{}, look, light, {}}, frame, left, right, truth);
-}
-
 void Stage::draw(const Shown& shown, std::uint64_t frame, Image& left, Image& right, PixelTruth* truth) {
   Parts& p = *parts_;
   const auto lock = p.current();
@@ -245,6 +248,12 @@ void Stage::draw(const Shown& shown, std::uint64_t frame, Image& left, Image& ri
   p.render(1, false);
   p.read(1, right, frame);
   if (truth != nullptr) p.tell_truth(shown, *truth);
+}
+
+void Stage::again(std::uint64_t frame, Image& left, Image& right) {
+  if (parts_->clean[1].width == 0) return;
+  parts_->expose(0, left, frame);
+  parts_->expose(1, right, frame);
 }
 
 void Stage::draw_only(const HandPose& hand, const HandLook& look) {

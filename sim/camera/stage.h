@@ -59,9 +59,14 @@ class Stage {
   // `frame` seeds the noise. Truth where asked for. Throws Error where there are too many things.
   virtual void draw(const Shown& shown, std::uint64_t frame, Image& left, Image& right,
                     PixelTruth* truth = nullptr);
+  // What was drawn last, exposed once more: the same picture with the noise of another frame. Nothing where
+  // nothing was drawn.
+  virtual void again(std::uint64_t frame, Image& left, Image& right);
   // A hand and nothing else; null: the background alone.
   void draw(const HandPose* hand, const HandLook& look, const Light& light, std::uint64_t frame, Image& left,
-            Image& right, PixelTruth* truth = nullptr);
+            Image& right, PixelTruth* truth = nullptr) {
+    draw({hand != nullptr, hand != nullptr ? *hand : HandPose{}, look, light, {}}, frame, left, right, truth);
+  }
   // The same picture by MuJoCo's own calls alone, mjr_render and mjr_readPixels for each eye, without lens,
   // sensor and images. For benchmarks.
   virtual void draw_only(const HandPose& hand, const HandLook& look);

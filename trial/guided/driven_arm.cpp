@@ -123,7 +123,7 @@ void DrivenArm::give_up(const Point<'W'>& at, double after) const {
 TipStand DrivenArm::read(double later) {
   due_ += later;
   while (now_ < due_ - 0.5 * trial_.scene().dt) tick();
-  return {trial_.truth().tip, reading()};
+  return {trial_.truth().tip, reading(), trial_.truth().joints};
 }
 
 }  // namespace enc::trial

@@ -41,7 +41,7 @@ double KinematicArm::go(const Point<'W'>& wanted) {
 TipStand KinematicArm::read(double /*later*/) {
   PerJoint told{};
   for (std::size_t i = 0; i < believed_.joints(); ++i) told[i] = std::round(joints_[i] / step_[i]) * step_[i];
-  return {X_WR_ * true_.tip(joints_), X_WR_ * believed_.tip(told)};
+  return {X_WR_ * true_.tip(joints_), X_WR_ * believed_.tip(told), joints_};
 }
 
 Pose<'W', 'R'> base_of(const Arm& arm) { return {Quat::Identity(), Vec3(-arm.tip(arm.zero()).e())}; }
@@ -104,19 +104,17 @@ std::vector<TipVisit> visit_places(MovedArm& arm, const std::vector<Point<'W'>>&
   return visits;
 }
 
-GuidedRun see_visits(const std::vector<TipVisit>& visits, const Pose<'W', 'C'>& X_WC,
-                     const sim::CameraTruth& camera, std::uint64_t seed) {
-  sim::StereoPoints eyes(camera, seed);
-  const Pose<'C', 'W'> X_CW = X_WC.inverse();
+GuidedRun see_visits(const std::vector<TipVisit>& visits, TipEyes& eyes, double share) {
   GuidedRun run;
   for (const TipVisit& visit : visits) {
     eyes.move();
     SeenPlace place{static_cast<std::int64_t>(run.points.size()) + 1, {}};
     for (const TipStand& tip : visit.frames) {
-      const std::optional<Point<'C'>> seen = eyes.see(X_CW * tip.truth);
+      const std::optional<Point<'C'>> seen = eyes.see(tip);
       if (seen) place.frames.push_back({*seen, tip.reading});
     }
-    if (place.frames.size() < visit.frames.size()) {
+    run.seen.push_back(place.frames.size());
+    if (static_cast<double>(place.frames.size()) < share * static_cast<double>(visit.frames.size())) {
       ++run.unseen;
       continue;
     }
@@ -124,6 +122,28 @@ GuidedRun see_visits(const std::vector<TipVisit>& visits, const Pose<'W', 'C'>& 
     run.seconds.push_back(visit.still);
   }
   return run;
+}
+
+namespace {
+
+class PointEyes final : public TipEyes {
+ public:
+  PointEyes(const Pose<'W', 'C'>& X_WC, const sim::CameraTruth& camera, std::uint64_t seed)
+      : X_CW_(X_WC.inverse()), eyes_(camera, seed) {}
+  void move() override { eyes_.move(); }
+  std::optional<Point<'C'>> see(const TipStand& tip) override { return eyes_.see(X_CW_ * tip.truth); }
+
+ private:
+  Pose<'C', 'W'> X_CW_;
+  sim::StereoPoints eyes_;
+};
+
+}  // namespace
+
+GuidedRun see_visits(const std::vector<TipVisit>& visits, const Pose<'W', 'C'>& X_WC,
+                     const sim::CameraTruth& camera, std::uint64_t seed) {
+  PointEyes eyes(X_WC, camera, seed);
+  return see_visits(visits, eyes, 1.0);
 }
 
 Vec3 target_error(const Pose<'W', 'C'>& found, const Pose<'W', 'C'>& truth, const Point<'W'>& place) {

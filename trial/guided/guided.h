@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/machine/arm.h"
@@ -14,9 +15,11 @@
 
 namespace enc::trial {
 
-// A tip at rest: where it is, and where the arm's encoders and kinematics say that it is.
+// A tip at rest: where it is, and where the arm's encoders and kinematics say that it is. With the true
+// joints, for whoever draws the arm.
 struct TipStand {
   Point<'W'> truth, reading;
+  PerJoint joints{};
 };
 
 // Whatever carries the tip.
@@ -64,11 +67,24 @@ struct TipVisit {
 [[nodiscard]] std::vector<TipVisit> visit_places(MovedArm& arm, const std::vector<Point<'W'>>& places,
                                                  double rate, std::size_t frames);
 
+// Whatever sees the tip.
+class TipEyes {
+ public:
+  virtual ~TipEyes() = default;
+  virtual void move() {}  // the tip is at another place
+  // A frame of it; nothing where it is not seen.
+  virtual std::optional<Point<'C'>> see(const TipStand& tip) = 0;
+};
+
 struct GuidedRun {
   PointSet points;
   std::vector<double> seconds;  // of experiment, from the beginning until the tip stands still at each place
   std::size_t unseen = 0;       // places that were not seen
+  std::vector<std::size_t> seen;  // frames of each visit
 };
+// A place that fewer than `share` of its frames show was not seen.
+[[nodiscard]] GuidedRun see_visits(const std::vector<TipVisit>& visits, TipEyes& eyes, double share);
+// As points, by a head with the errors of matching.
 [[nodiscard]] GuidedRun see_visits(const std::vector<TipVisit>& visits, const Pose<'W', 'C'>& X_WC,
                                    const sim::CameraTruth& camera, std::uint64_t seed);
 

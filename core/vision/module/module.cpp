@@ -18,7 +18,10 @@ std::unique_ptr<enc::AugmentedView> augmented(const enc::AugmentedSpec& spec,
                                               std::span<const enc::Object> objects) {
   return std::make_unique<enc::AugmentedView>(spec, objects);
 }
-constexpr enc::VisionModule kVision{.tracker = tracker, .augmented = augmented};
+std::unique_ptr<enc::BallFinder> ball(const enc::StereoRig& rig, const enc::BallSpec& spec) {
+  return std::make_unique<enc::BallFinder>(rig, spec);
+}
+constexpr enc::VisionModule kVision{.tracker = tracker, .augmented = augmented, .ball = ball};
 
 }  // namespace
 

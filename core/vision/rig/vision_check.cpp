@@ -1,6 +1,7 @@
 #include "core/vision/rig/vision_check.h"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "core/error.h"
@@ -71,6 +72,13 @@ void check(const TrackSpec& spec) {
   within("vision.predicted_for_ms", spec.predicted_for * 1e3, 0.0, 1e4);
 }
 
+void check(const BallSpec& spec) {
+  within("vision.ball_radius_mm", spec.radius * 1e3, 1.0, 100.0);
+  within("vision.ball_hue_within_deg", spec.hue_within * (180.0 / std::numbers::pi), 1.0, 90.0);
+  within("vision.ball_saturation", spec.least_saturation, 0.05, 1.0);
+  if (!std::isfinite(spec.hue)) refuse("vision.ball_hue_deg", "a ball has a hue; expected a number");
+}
+
 void check(const MatchSpec& spec, double product) {
   if (spec.columns != 8 && spec.columns != 12 && spec.columns != 16)
     refuse("vision.block_columns_px",
@@ -100,6 +108,7 @@ void check(const StereoRig& camera, const VisionRig& vision) {
   check_timing(camera);
   check(vision.segmentation);
   check(vision.track);
+  check(vision.ball);
   const double focal =
       0.25 * (camera.left.focal_x + camera.left.focal_y + camera.right.focal_x + camera.right.focal_y);
   const double baseline = camera.X_CD.p().norm();

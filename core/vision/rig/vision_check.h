@@ -14,6 +14,7 @@ void check(const SegmentationSpec& spec);
 // `per_disparity`: px of radius for a px of disparity, R / B; `r_most`, px: of the nearest depth.
 void check(const FingertipSpec& spec, double per_disparity, double r_most);
 void check(const TrackSpec& spec);
+void check(const BallSpec& spec);
 // `product`, px m: focal length times baseline.
 void check(const MatchSpec& spec, double product);
 // Of rate and latency.

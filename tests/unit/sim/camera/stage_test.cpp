@@ -83,6 +83,19 @@ TEST(Stage, APictureDoesNotDependOnThoseBefore) {
   EXPECT_EQ(left.rgb, again.rgb);
 }
 
+TEST(Stage, WhatIsExposedAgainHasTheNoiseOfItsFrame) {
+  Stage stage(small());
+  Image left, right, again, other;
+  stage.again(7, again, other);
+  EXPECT_TRUE(again.rgb.empty());  // nothing was drawn
+  stage.draw(&kHand, {}, {}, 5, left, right);
+  stage.again(7, again, other);
+  EXPECT_NE(left.rgb, again.rgb);
+  stage.draw(&kHand, {}, {}, 7, left, right);
+  EXPECT_EQ(left.rgb, again.rgb);
+  EXPECT_EQ(right.rgb, other.rgb);
+}
+
 // Values of a sensor are proportional to light, and end at 255.
 TEST(Stage, LightExposureAndWhiteBalanceMultiply) {
   StageSpec spec = small();

@@ -1,0 +1,43 @@
+// What has the colour of a ball in an image, as connected spots.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/frames.h"
+#include "core/vision/ball/ball_spec.h"
+#include "core/vision/image.h"
+
+namespace enc {
+
+struct Blob {
+  int pixels = 0;
+  double column = kUnset, row = kUnset;  // px, its middle
+  Region box;
+  Vec3 colour{0, 0, 0};  // mean, 0 to 255
+  double clipped = 0.0;  // share of its pixels of which a channel is at its end
+};
+inline constexpr std::size_t kMostBlobs = 8;
+struct Blobs {
+  std::array<Blob, kMostBlobs> blob;
+  std::size_t count = 0;
+};
+
+// Keeps its memory from image to image.
+class BlobFinder {
+ public:
+  explicit BlobFinder(const BallSpec& spec);
+  // The largest spots of at least so many pixels, the largest first.
+  Blobs largest(const ImageView& image, int least);
+
+ private:
+  void colour(const ImageView& image);
+  Blob flood(const ImageView& image, int at);
+
+  int hue_, within_, saturation_;  // of kHues; of 256
+  Mask mask_;                      // 255: of the colour; 1: of a spot that was counted
+  std::vector<int> waiting_;
+};
+
+}  // namespace enc

@@ -1,0 +1,171 @@
+#include "core/vision/ball/outline.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace enc {
+namespace {
+
+constexpr double kStep = 0.25;                               // px, along a direction
+constexpr double kOn = 0.6;                                  // px: an edge that is on the outline
+constexpr std::size_t kThird = kBallRays / 3, kFewest = 12;  // edges
+
+// Between pixels; zero outside.
+Vec3 colour_at(const ImageView& image, double x, double y) {
+  const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+  if (left < 0 || top < 0 || left + 1 >= image.width || top + 1 >= image.height) return Vec3::Zero();
+  const double right = x - left, down = y - top;
+  const std::uint8_t *a = image.at(left, top), *b = image.at(left, top + 1);
+  Vec3 colour;
+  for (int c = 0; c < 3; ++c)
+    colour(c) = (a[c] * (1.0 - right) + a[c + 3] * right) * (1.0 - down) +
+                (b[c] * (1.0 - right) + b[c + 3] * right) * down;
+  return colour;
+}
+
+// How much of the ball's colour: what grey has none of, and what a mixture has its share of.
+Vec3 measure_of(const Vec3& colour) {
+  const Vec3 chroma = colour - Vec3::Constant(colour.mean());
+  return chroma / chroma.norm();
+}
+
+// What a direction passes, at steps from somewhere within the ball to the outside.
+struct Profile {
+  std::array<double, 400> level{};
+  std::size_t count = 0;
+};
+
+// Steps to the edge: where the level falls most, and there half way from the inside to the outside, so that
+// the ball's shade does not matter. NaN where there is none.
+double fall_of(const Profile& profile) {
+  constexpr std::size_t kHalf = 4, kInside = 5, kOutside = 6;  // steps: an edge is 2 px wide
+  const auto& level = profile.level;
+  std::size_t best = 0;
+  double most = 0.0;
+  for (std::size_t k = kOutside; k + kOutside < profile.count; ++k) {
+    const double fall = level[k - kHalf] - level[k + kHalf];
+    if (fall > most) most = fall, best = k;
+  }
+  if (best == 0) return kUnset;
+  const double half = 0.5 * (level[best - kInside] + level[best + kOutside]);
+  for (std::size_t k = best - kInside; k < best + kOutside; ++k)
+    if (level[k] >= half && level[k + 1] < half)
+      return static_cast<double>(k) + (level[k] - half) / (level[k] - level[k + 1]);
+  return kUnset;
+}
+
+}  // namespace
+
+BallEdges ball_edges(const ImageView& image, const Blob& blob) {
+  const Vec3 measure = measure_of(blob.colour);
+  const double radius = std::sqrt(blob.pixels / std::numbers::pi);
+  const double from = 0.5 * radius, to = 1.4 * radius + 3.0;
+  BallEdges edges{};
+  Profile profile;
+  profile.count = std::min(profile.level.size(), static_cast<std::size_t>((to - from) / kStep));
+  for (std::size_t i = 0; i < kBallRays; ++i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kBallRays;
+    const double dx = std::cos(angle), dy = std::sin(angle);
+    const auto at = [&](double steps) {
+      const double t = from + kStep * steps;
+      return Pixel{blob.column + t * dx, blob.row + t * dy};
+    };
+    for (std::size_t k = 0; k < profile.count; ++k) {
+      const Pixel p = at(static_cast<double>(k));
+      profile.level[k] = measure.dot(colour_at(image, p.column, p.row));
+    }
+    edges[i] = at(fall_of(profile));
+  }
+  return edges;
+}
+
+namespace {
+
+// Unit rays to the edges, and which of them count.
+struct Rays {
+  std::array<Vec3, kBallRays> ray;
+  std::array<bool, kBallRays> there{};
+};
+
+Rays rays_of(const BallEdges& edges, const Rectifier& rectifier, Side side) {
+  const RectifiedPair& pair = rectifier.pair();
+  Rays rays;
+  for (std::size_t i = 0; i < kBallRays; ++i) {
+    if (std::isnan(edges[i].column)) continue;
+    const Pixel p = rectifier.rectified(side, edges[i]);
+    rays.ray[i] =
+        Vec3((p.column - pair.centre_x) / pair.focal, (p.row - pair.centre_y) / pair.focal, 1.0).normalized();
+    rays.there[i] = rays.ray[i].allFinite();
+  }
+  return rays;
+}
+
+// How far a ray is outside of the cone, px: to first order in the angle between.
+struct Distance {
+  double scale = kUnset;
+  Vec3 m;
+  Distance(const Vec3& axis, double focal) : m(axis) {
+    const double n = m.norm();
+    scale = n > 1.0 ? -focal / std::sqrt(n * n - 1.0) : kUnset;  // (m . ray - 1) cos / sin
+  }
+  double operator()(const Vec3& ray) const { return scale * (m.dot(ray) - 1.0); }
+};
+
+std::size_t on_it(const Rays& rays, const Distance& distance) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kBallRays; ++i)
+    count += rays.there[i] && std::abs(distance(rays.ray[i])) <= kOn ? 1U : 0U;
+  return count;
+}
+
+// Of three edges a third of the way round apart: something that covers the ball spoils those that it meets.
+Vec3 agreed(const Rays& rays, double focal) {
+  Vec3 best = Vec3::Constant(kUnset);
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < kThird; ++i) {
+    if (!rays.there[i] || !rays.there[i + kThird] || !rays.there[i + 2 * kThird]) continue;
+    Mat3 three;
+    three << rays.ray[i].transpose(), rays.ray[i + kThird].transpose(), rays.ray[i + 2 * kThird].transpose();
+    const Vec3 m = three.inverse() * Vec3::Ones();
+    const std::size_t count = on_it(rays, Distance(m, focal));
+    if (count > most) best = m, most = count;
+  }
+  return best;
+}
+
+}  // namespace
+
+BallOutline ball_outline(const BallEdges& edges, const Rectifier& rectifier, Side side) {
+  const RectifiedPair& pair = rectifier.pair();
+  const Rays rays = rays_of(edges, rectifier, side);
+  Vec3 m = agreed(rays, pair.focal);
+  BallOutline outline;
+  std::size_t count = 0;
+  double squares = 0.0;
+  for (int round = 0; round < 3 && m.allFinite(); ++round) {
+    const Distance distance(m, pair.focal);
+    Mat3 normal = Mat3::Zero();
+    Vec3 right = Vec3::Zero();
+    count = 0;
+    squares = 0.0;
+    for (std::size_t i = 0; i < kBallRays; ++i) {
+      if (!rays.there[i] || !(std::abs(distance(rays.ray[i])) <= kOn)) continue;
+      normal += rays.ray[i] * rays.ray[i].transpose();
+      right += rays.ray[i];
+      squares += distance(rays.ray[i]) * distance(rays.ray[i]);
+      ++count;
+    }
+    if (count < kFewest) return outline;
+    m = normal.inverse() * right;
+  }
+  const double n = m.norm();
+  if (!(n > 1.0) || !(m.z() > 0.0)) return outline;
+  outline.centre = {pair.centre_x + pair.focal * m.x() / m.z(), pair.centre_y + pair.focal * m.y() / m.z()};
+  outline.sine = std::sqrt(1.0 - 1.0 / (n * n));
+  outline.radius = pair.focal * std::sqrt(n * n - 1.0);
+  outline.share = static_cast<double>(count) / kBallRays;
+  outline.misfit = std::sqrt(squares / static_cast<double>(count));
+  return outline;
+}
+
+}  // namespace enc
