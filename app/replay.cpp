@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "app/seen_again.h"
 #include "core/error.h"
 #include "trial/prepare.h"
 
@@ -24,6 +25,14 @@ int replay(const ReplayOptions& options) {
              record.sealed()           ? ""
              : record.damage().empty() ? " (record not sealed: it was cut off)"
                                        : "; damaged behind that, and not read: " + record.damage());
+  if (!options.frames.empty()) {
+    const SeenAgain again = see_again(setup, record, options.frames);
+    if (again.first_difference >= 0) {
+      fmt::print("vision differs from tick {} on: {}\n", again.first_difference, again.what);
+      return 1;
+    }
+    fmt::print("vision told {} times what it told then, equal to the bit\n", again.told);
+  }
   return record.damage().empty() ? 0 : 1;
 }
 

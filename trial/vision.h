@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "core/devices/pose_tracker.h"
 #include "models/setup/scene_file.h"
@@ -16,6 +17,8 @@ struct VisionOffer {
   std::uint64_t seed = 0;
   Log& log;
   bool waits = false;  // as in Offer
+  // Folders (kept_frames.h): its frames are kept there; the rig's camera plays that one. Empty: none.
+  std::string keep{}, kept{};
 };
 
 // Loads the modules that it takes. Throws Error (kind device) where a module is missing or a device is not
