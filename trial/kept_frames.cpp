@@ -4,6 +4,7 @@
 #include <charconv>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,14 @@ const std::string& without_frames(const std::string& folder) {
                               folder, side));
   }
   return folder;
+}
+
+// Without waiting for the disk, as this is within the loop.
+void write(const std::string& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file << bytes;
+  file.close();
+  if (!file) throw Error(path + ": cannot be written");
 }
 
 Time exposure_of(const fs::path& file) {
@@ -54,8 +63,7 @@ bool KeepingCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
   try {
     const std::int64_t exposed = newest.t.time_since_epoch().count();
     for (const auto& [side, image] : {std::pair{"left", newest.value.left}, {"right", newest.value.right}})
-      models::write_file(fmt::format("{}/{}/{}.png", path_, side, exposed), files_.png(image),
-                         models::Existing::keep);
+      write(fmt::format("{}/{}/{}.png", path_, side, exposed), files_.png(image));
   } catch (const std::exception& e) {
     failure_ = e.what();
   }
@@ -68,18 +76,19 @@ std::vector<std::string> KeepingCamera::remarks() const {
   return lines;
 }
 
-KeptCamera::KeptCamera(std::unique_ptr<StereoCamera> camera, const std::string& folder)
-    : camera_(std::move(camera)) {
+std::vector<Time> exposures_in(const std::string& folder) {
+  std::vector<Time> exposed;
   std::error_code failed;
   for (fs::directory_iterator entry(fs::path(folder) / "left", failed), end; !failed && entry != end;
        entry.increment(failed))
-    exposed_.push_back(exposure_of(entry->path()));
-  if (failed || exposed_.empty())
+    exposed.push_back(exposure_of(entry->path()));
+  if (failed || exposed.empty())
     throw Error(
         fmt::format("{}: has no frames in 'left'; expected frames as `run --frames` keeps them; "
                     "name such a folder",
                     folder));
-  std::sort(exposed_.begin(), exposed_.end());
+  std::sort(exposed.begin(), exposed.end());
+  return exposed;
 }
 
 bool KeptCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/devices/stereo_camera.h"
@@ -34,13 +35,17 @@ class KeepingCamera final : public StereoCamera {
   std::string failure_;
 };
 
+// When the frames of such a folder were exposed, in order. Throws Error where it holds none, or others.
+[[nodiscard]] std::vector<Time> exposures_in(const std::string& folder);
+
 // A camera that plays such a folder frame by frame, at the times of their exposures.
 class KeptCamera final : public StereoCamera {
  public:
   static constexpr double kRate = 20.0;  // Hz, at which `camera` plays: its own time is not asked
 
-  // Throws Error where the folder holds no such frames.
-  KeptCamera(std::unique_ptr<StereoCamera> camera, const std::string& folder);
+  // `camera` plays the folder's pairs in order.
+  KeptCamera(std::unique_ptr<StereoCamera> camera, std::vector<Time> exposed)
+      : camera_(std::move(camera)), exposed_(std::move(exposed)) {}
 
   bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
   [[nodiscard]] ImageSize size() const override { return camera_->size(); }

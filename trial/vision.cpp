@@ -71,13 +71,15 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
     throw Error("the rig's camera is simulated and nothing else is; expected a driver; name one in [camera]",
                 {}, ErrorKind::device);
   try {
+    std::vector<Time> exposed;
+    if (!offer.kept.empty()) exposed = exposures_in(offer.kept);
     auto camera = simulated ? twin_camera(setup, modules, *offer.world, offer.seed)
                             : driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera",
                                             setup, modules, offer.log, offer.waits);
     if (!offer.keep.empty())
       camera = std::make_unique<KeepingCamera>(std::move(camera), offer.keep,
                                                *static_cast<const FrameFiles*>(modules("images").frames));
-    if (!offer.kept.empty()) camera = std::make_unique<KeptCamera>(std::move(camera), offer.kept);
+    if (!offer.kept.empty()) camera = std::make_unique<KeptCamera>(std::move(camera), std::move(exposed));
     const auto& vision = *static_cast<const VisionModule*>(modules("vision").vision);
     return vision.tracker(std::move(camera), setup.rig.camera, setup.rig.vision);
   } catch (const Error& e) {

@@ -1,6 +1,6 @@
 // What a camera and what it looks at are to each other.
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -19,11 +19,11 @@ std::string unseen(const RigSpec& rig, const ObjectSpec& object) {
   const StereoRig& camera = rig.camera;
   const Point<'C'> at = pose_of<'W', 'C'>(rig.frames.W_C).inverse() * Point<'W'>(object.position);
   const double depth = at.xyz[2];
-  if (!(depth > 0.0)) return "behind the camera";
+  if (!(depth > 0.0)) return "behind it";
   const MatchSpec& match = rig.vision.match;
   if (depth < match.nearest || depth > match.farthest)
-    return fmt::format("{} mm before the camera, where {} to {} mm are matched",
-                       mm(std::round(depth * 1e3) * 1e-3), mm(match.nearest), mm(match.farthest));
+    return fmt::format("{} mm before it, where {} to {} mm are matched", mm(std::round(depth * 1e3) * 1e-3),
+                       mm(match.nearest), mm(match.farthest));
   const auto outside = [&](const Lens& lens, const Vec3& p) {
     const double column = lens.centre_x + lens.focal_x * p.x() / p.z();
     const double row = lens.centre_y + lens.focal_y * p.y() / p.z();
@@ -37,18 +37,14 @@ std::string unseen(const RigSpec& rig, const ObjectSpec& object) {
 
 // A registration of another rig shows before anything moves: the camera would not see what is to be met.
 void check_views(const Setup& setup) {
-  std::string why;
-  for (const ObjectSpec& object : setup.scene.objects) {
-    const std::string of_this = unseen(setup.rig, object);
-    if (of_this.empty()) return;
-    if (why.empty()) why = fmt::format("object {} would be {}", quoted(object.name), of_this);
-  }
-  if (why.empty()) return;
-  fail(
-      setup, "rig.frames.W_C",
-      fmt::format("a camera that stands there sees none of the {} object{}: {}; expected the registration of "
-                  "this rig; make it by `encounter calibrate`",
-                  setup.scene.objects.size(), setup.scene.objects.size() == 1 ? "" : "s", why));
+  const std::vector<ObjectSpec>& objects = setup.scene.objects;
+  const auto seen = [&](const ObjectSpec& object) { return unseen(setup.rig, object).empty(); };
+  if (objects.empty() || std::any_of(objects.begin(), objects.end(), seen)) return;
+  fail(setup, "rig.frames.W_C",
+       fmt::format("a camera that stands there would have object {} {}{}; expected the registration of this "
+                   "rig; make it by `encounter calibrate`",
+                   quoted(objects.front().name), unseen(setup.rig, objects.front()),
+                   objects.size() > 1 ? ", and none of the others in view" : ""));
 }
 
 // What the twin's camera is, beside what the rig says of it.
@@ -99,12 +95,16 @@ void check_camera(const Setup& setup) {
 
 void note_views(Setup& setup) {
   if (!setup.scene.camera) return;
-  for (const ObjectSpec& object : setup.scene.objects)
-    if (const std::string why = unseen(setup.rig, object); !why.empty())
-      setup.notes.push_back(
-          fmt::format("{}: warning: object {} is {}: no finger is seen there; move it, or "
-                      "register the camera again",
-                      place_of(setup, "object." + object.name), quoted(object.name), why));
+  const std::vector<ObjectSpec>& objects = setup.scene.objects;
+  const auto hidden = [&](const ObjectSpec& object) { return !unseen(setup.rig, object).empty(); };
+  const auto first = std::find_if(objects.begin(), objects.end(), hidden);
+  if (first == objects.end()) return;
+  const auto others = std::count_if(objects.begin(), objects.end(), hidden) - 1;
+  setup.notes.push_back(fmt::format(
+      "{}: warning: a camera that stands at [frames.W_C] has object {} {}{}, where no finger is seen; "
+      "move it, or register the camera again",
+      place_of(setup, "object." + first->name), quoted(first->name), unseen(setup.rig, *first),
+      others > 0 ? fmt::format(", and {} more out of view", others) : ""));
 }
 
 }  // namespace enc::models
