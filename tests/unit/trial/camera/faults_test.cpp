@@ -106,7 +106,7 @@ TEST_F(CameraFaults, AShortStallIsNotFelt) {
 }
 
 // A link that was lost is believed again when somebody says so, and not before.
-TEST_F(CameraFaults, ALongStallHoldsUntilItIsResumed) {
+TEST_F(CameraFaults, ALostLinkHoldsUntilItIsResumed) {
   begin({"truth.camera.stalls_at_s=3.5", "truth.camera.back_at_s=4.0"});
   until(4.4);
   EXPECT_TRUE(seen.contact);
