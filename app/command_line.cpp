@@ -60,6 +60,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   run_command
       ->add_option("--record", run_options.record, "write inputs and outputs of every tick to this file")
       ->check(unnamed);
+  run_command->add_option("--frames", run_options.frames,
+                          "keep what the scene's camera sees in this new folder, as PNG images");
   run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
   run_command->add_flag("--armed", run_options.armed,
                         "send commands to real devices; without it they are only computed and recorded");
@@ -80,6 +82,9 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* replay_command =
       app.add_subcommand("replay", "run step() again over a record; exit 1 where outputs differ");
   replay_command->add_option("record", replay_options.record, "file written by run --record")->required();
+  replay_command->add_option("--frames", replay_options.frames,
+                             "folder of run --frames: vision looks at it again; exit 1 where it tells "
+                             "something else");
   replay_command->add_flag("--partial", replay_options.partial, "replay what a cut-off record still holds");
   replay_command->callback([&] { code = replay(replay_options); });
 

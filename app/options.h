@@ -23,6 +23,7 @@ struct RunOptions : SceneOptions {
   std::string pace = "free";
   std::optional<double> seconds;  // length; none: until the user or the probe is done
   std::string record;
+  std::string frames;  // folder in which what its camera sees is kept
   bool json = false;
   bool armed = false;
   bool force = false;  // replaces a file that is there; so below
@@ -38,6 +39,7 @@ struct ViewOptions : SceneOptions {
 };
 struct ReplayOptions {
   std::string record;
+  std::string frames;  // folder of `run --frames`: vision looks at it again, too
   bool partial = false;
 };
 struct ExportOptions {

@@ -1,8 +1,11 @@
 #include "core/record/replay.h"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "app/seen_again.h"
 #include "core/error.h"
 #include "trial/prepare.h"
 
@@ -15,6 +18,8 @@ int replay(const ReplayOptions& options) {
   if (record.ticks() == 0)
     throw Error(fmt::format("{}: holds no whole tick{}; there is nothing to run again; record it again",
                             options.record, record.damage().empty() ? "" : " (" + record.damage() + ")"));
+  std::optional<SeenAgain> again;  // before all else: nothing is said of what is refused
+  if (!options.frames.empty()) again = see_again(setup, record, options.frames);
   const ReplayResult result = enc::replay(scene, record);
   if (result.first_difference >= 0) {
     fmt::print("differs from tick {} on: {}\n", result.first_difference, result.what);
@@ -24,6 +29,11 @@ int replay(const ReplayOptions& options) {
              record.sealed()           ? ""
              : record.damage().empty() ? " (record not sealed: it was cut off)"
                                        : "; damaged behind that, and not read: " + record.damage());
+  if (again && again->first_difference >= 0) {
+    fmt::print("vision differs from tick {} on: {}\n", again->first_difference, again->what);
+    return 1;
+  }
+  if (again) fmt::print("vision told {} times what it told then, equal to the bit\n", again->told);
   return record.damage().empty() ? 0 : 1;
 }
 

@@ -26,6 +26,7 @@ struct ModuleInfo {
   const void* view = nullptr;         // sim::ViewModule, of the view module only
   const void* vision = nullptr;       // VisionModule, of the vision module only
   const void* camera = nullptr;       // sim::CameraModule, of the camera module only
+  const void* frames = nullptr;       // FrameFiles, of the images module only
   const void* peers = nullptr;        // bench::PeersModule, of the peers module only
   const void* bench = nullptr;        // trial::BenchModule, of the bench module only
   const void* fit = nullptr;          // app::FitModule, of the fit module only

@@ -77,10 +77,15 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (setup_.scene.camera) {
     if (!options_.drivers)
       throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
-    rig_.tracker = make_vision(setup_, options_.drivers,
-                               {world_.get(), options_.seed, log_, pace == 0.0, threaded, options_.look});
+    rig_.tracker = make_vision(
+        setup_, options_.drivers,
+        {world_.get(), options_.seed, log_, pace == 0.0, threaded, options_.look, options_.frames});
     result_.vision.threaded = threaded;
   }
+  if (!setup_.scene.camera && !options_.frames.empty())
+    throw Error(
+        "--frames: the scene has no [camera], whose frames would be kept; leave it out, or run another "
+        "scene");
   if (slots.real) result_.devices = describe_drivers(rig_, setup_);
   in_.withheld = slots.machine && !options_.armed;
   if (options_.fit_out) options_.fit_out(rig_);

@@ -43,15 +43,16 @@ struct TrialOptions {
   double pace = 0.0;        // experiment seconds for each wall second; 0: as fast as it goes
   bool draw_all = false;    // build what is only looked at, too
   DriverSource drivers{};   // none: every slot is simulated, whatever the rig names
+  std::string frames{};     // folder in which the frames of its camera are kept; empty: nowhere
   bool armed = false;       // commands are sent to real devices; else they are only computed
   std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
   // Hooks, in the order of a tick; an empty one is not called.
-  std::function<void(Rig&)> fit_out{};         // once: puts other devices in place of those of the rig
+  std::function<void(Rig&)> fit_out{};  // once: puts other devices in place of those of the rig
   std::function<void(const Stamped<StereoFrame>&)> look{};  // while reading: each pair of a camera's images
   std::function<void(Inputs&)> disturb{};                   // after reading
-  Law law{};                                   // in place of step()
-  std::function<void(const Glance&)> watch{};  // after the tick
-  std::function<void(double)> progress{};      // share done, about ten times a second
+  Law law{};                                                // in place of step()
+  std::function<void(const Glance&)> watch{};               // after the tick
+  std::function<void(double)> progress{};                   // share done, about ten times a second
 };
 
 class Trial {

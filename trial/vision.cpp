@@ -8,6 +8,7 @@
 #include "sim/camera/stage.h"
 #include "trial/arm_things.h"
 #include "trial/driver_device.h"
+#include "trial/kept_frames.h"
 #include "trial/trackers/threaded_tracker.h"
 
 namespace enc::trial {
@@ -35,13 +36,17 @@ namespace {
 // The hand of the simulated user and the arm that comes to meet it, as the true camera has them before it.
 sim::Show show(const models::Setup& setup, const sim::World& world) {
   const sim::TwinSpec& twin = setup.twin;
-  const Pose<'C', 'W'> X_CW = pose_of<'W', 'C'>(twin.frames.W_C).inverse();
+  const Pose<'W', 'C'> X_WC = pose_of<'W', 'C'>(twin.frames.W_C);
+  const Pose<'W', 'C'> moved(X_WC.q(), X_WC.origin() + Vec<'W'>(twin.camera.moved));
   sim::Shown shown;
   shown.look.skin = sim::skin_colour(twin.camera.skin);
-  return [&world, X_CW, shown, from = twin.camera.hand_from, machine = twin.arm.machine,
+  return [&world, before = X_WC.inverse(), after = moved.inverse(), shown, from = twin.camera.hand_from,
+          moves = twin.camera.moved_at, machine = twin.arm.machine,
           prop = setup.scene.prop](Time exposed) mutable {
     const sim::Truth& truth = world.truth();
-    shown.hand = truth.tool >= 0 && seconds(exposed.time_since_epoch()) >= from;
+    const double now = seconds(exposed.time_since_epoch());
+    const Pose<'C', 'W'>& X_CW = now < moves ? before : after;
+    shown.hand = truth.tool >= 0 && now >= from;
     shown.pose.tip = X_CW * truth.tool_tip;
     shown.pose.along = X_CW * world.pointing();
     shown.look.finger_width = 2.0 * truth.tool_radius;
@@ -79,7 +84,11 @@ std::unique_ptr<StereoCamera> twin_camera(const models::Setup& setup, const Driv
   const auto& module = *static_cast<const sim::CameraModule*>(modules("camera").camera);
   sim::TwinCameraSpec spec;
   spec.stage = stage_of(setup.twin.camera, seed);
-  if (!std::isnan(setup.twin.camera.stalls_at)) spec.stalls = Time(from_seconds(setup.twin.camera.stalls_at));
+  const sim::CameraTruth& truth = setup.twin.camera;
+  const auto at = [](double s) { return std::isnan(s) ? Time::max() : Time(from_seconds(s)); };
+  spec.stalls = at(truth.stalls_at);
+  spec.back = at(truth.back_at);
+  spec.swaps = at(truth.swapped_at);
   return module.camera(spec, show(setup, world));
 }
 
@@ -92,9 +101,15 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
     throw Error("the rig's camera is simulated and nothing else is; expected a driver; name one in [camera]",
                 {}, ErrorKind::device);
   try {
+    std::vector<Time> exposed;
+    if (!offer.kept.empty()) exposed = exposures_in(offer.kept);
     auto camera = simulated ? twin_camera(setup, modules, *offer.world, offer.seed)
                             : driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera",
                                             setup, modules, offer.log, offer.waits);
+    if (!offer.keep.empty())
+      camera = std::make_unique<KeepingCamera>(std::move(camera), offer.keep,
+                                               *static_cast<const FrameFiles*>(modules("images").frames));
+    if (!offer.kept.empty()) camera = std::make_unique<KeptCamera>(std::move(camera), std::move(exposed));
     if (offer.look) camera = std::make_unique<Watched>(std::move(camera), offer.look);
     const auto& vision = *static_cast<const VisionModule*>(modules("vision").vision);
     const Release release = offer.threaded ? Release::when_done : Release::when_due;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "core/devices/pose_tracker.h"
 #include "core/devices/stereo_camera.h"
@@ -27,6 +28,8 @@ struct VisionOffer {
   bool waits = false;     // as in Offer
   bool threaded = false;  // in a thread of its own: not through the twin's camera, whose world is the loop's
   Look look{};            // as in TrialOptions; may be empty
+  // Folders (kept_frames.h): its frames are kept there; the rig's camera plays that one. Empty: none.
+  std::string keep{}, kept{};
 };
 
 // What the twin's cameras are drawn with: the true head.

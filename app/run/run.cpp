@@ -96,17 +96,20 @@ int run(const RunOptions& options) {
   trial::ProbeMeasure pushes;
   trial::FingerMeasure fingers;
   trial::TouchMeasure touches;
+  trial::SeenMeasure seen;
   trial::TrialOptions trial_options;
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
   trial_options.pace = pace_of(options.pace);
   trial_options.drivers = load_module;
   trial_options.armed = options.armed;
+  trial_options.frames = options.frames;
   trial_options.watch = [&](const trial::Glance& glance) {
     presses.see(glance);
     pushes.see(glance);
     fingers.see(glance);
     touches.see(glance);
+    seen.see(glance);
   };
   trial_options.stop = [] { return StopSignals::caught() != 0; };
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -128,6 +131,7 @@ int run(const RunOptions& options) {
                    pushes,
                    fingers,
                    touches,
+                   seen,
                    limits,
                    options,
                    !options.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0,

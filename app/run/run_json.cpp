@@ -29,6 +29,13 @@ Json meetings_json(const trial::FingerMeasure& measure) {
   return all;
 }
 
+Json seen_json(const trial::SeenMeasure& measure) {
+  Json all = Json::array();
+  for (const trial::SeenPress& press : measure.presses())
+    all.push_back({{"from_s", press.began}, {"poses", press.n}, {"above_mm", press.mean * 1e3}});
+  return all;
+}
+
 Json presses_json(const trial::PressMeasure& measure) {
   Json list = Json::array();
   for (const trial::PressFigures& p : measure.presses()) {
@@ -108,10 +115,12 @@ std::string run_json(const RunReport& r) {
   for (const trial::LostLink& link : r.result.links)
     json["lost_links"].push_back({{"role", link.role}, {"time_s", seconds(link.t.time_since_epoch())}});
   if (!r.result.log.empty()) json["log"] = r.result.log;
-  if (r.scene.impedance())
+  if (r.scene.impedance()) {
     json["meetings"] = meetings_json(r.fingers);
-  else
+    json["seen"] = seen_json(r.seen);
+  } else {
     json["presses"] = presses_json(r.presses);
+  }
   if (r.scene.probe()) {
     json["pushes"] = pushes_json(r.pushes);
     json["repeats_within_N"] = number(r.pushes.spread());

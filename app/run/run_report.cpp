@@ -149,6 +149,17 @@ std::string spring_line(const RunReport& r) {
       r.fingers.fit().slope(), r.fingers.fit().r2(), pressed.stiffness, r.fingers.believed().r2());
 }
 
+// A press tells where vision puts a finger that the prop feels.
+std::string seen_line(const RunReport& r) {
+  const std::vector<trial::SeenPress> presses = r.seen.presses();
+  if (presses.empty()) return "";
+  std::string each;
+  for (const trial::SeenPress& press : presses)
+    each += fmt::format("{}{:+.2f}", each.empty() ? "" : " / ", press.mean * 1e3);
+  return fmt::format(
+      "seen        {} mm above the prop that it pushed (by vision and encoders, a press each)\n", each);
+}
+
 // An arm that meets a bare finger [VisHap 3].
 std::string finger_lines(const RunReport& r) {
   if (!r.scene.impedance()) return "";
@@ -182,7 +193,7 @@ std::string finger_lines(const RunReport& r) {
       "  step      {} N, greatest from one cycle to the next\n",
       each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.greatest_step); }));
   const double sideways = r.fingers.tangential_share();
-  return text + spring_line(r) +
+  return text + spring_line(r) + seen_line(r) +
          (std::isfinite(sideways)
               ? fmt::format("sideways    {:.1f} % of the normal force, where that is more than 1 N\n",
                             100.0 * sideways)

@@ -9,6 +9,7 @@
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/probe_measure.h"
+#include "trial/measure/seen_measure.h"
 #include "trial/measure/touch_measure.h"
 #include "trial/trial.h"
 
@@ -22,6 +23,7 @@ struct RunReport {
   const trial::ProbeMeasure& pushes;
   const trial::FingerMeasure& fingers;
   const trial::TouchMeasure& touches;
+  const trial::SeenMeasure& seen;
   const trial::Limits& limits;
   const RunOptions& asked;
   bool whole = true;     // not cut off by --for-s, a signal, a full disk or physics that diverged

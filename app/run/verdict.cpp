@@ -1,6 +1,7 @@
 #include "app/run/verdict.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -133,6 +134,24 @@ void add_motors(const RunReport& r, Lines& lines) {
   add(r.touches.heat(), "the motors were warm, and the arm pushed less");
 }
 
+// Of inputs alone: a real camera that somebody has pushed is found, too.
+void add_moved(const RunReport& r, Lines& lines) {
+  const trial::SeenShift found = r.seen.moved();
+  if (found.presses == 0) return;
+  const Vec3 mm = -1e3 * found.shift;  // of the camera: what it sees is off the other way
+  const auto rounded = [](double x) { return std::round(x * 10.0) * 0.1 + 0.0; };  // no -0
+  constexpr std::array kUnknown{"across their normal the presses do not tell",
+                                "along the line across both of their normals the presses do not tell", ""};
+  const std::string unknown =
+      found.ways < 3 ? fmt::format("; {}", kUnknown.at(static_cast<std::size_t>(found.ways - 1))) : "";
+  lines.push_back(
+      fmt::format("the {} is not where it was registered: {} presses from {:.2f} s on say that it has moved "
+                  "by [{:.1f}, {:.1f}, "
+                  "{:.1f}] mm in W, +- {:.1f} mm{}; register it again by encounter calibrate",
+                  r.setup.scene.camera ? "camera" : "tracker", found.presses, found.since, rounded(mm.x()),
+                  rounded(mm.y()), rounded(mm.z()), 1e3 * found.error, unknown));
+}
+
 void add_ringing(const RunReport& r, Lines& lines) {
   if (r.result.contacts == 0) return;
   for (const trial::ArmStrength& at : r.limits.strengths)
@@ -151,6 +170,7 @@ std::vector<std::string> crossed(const RunReport& report) {
   add_repeated(report, lines);
   add_departures(report, lines);
   add_misses(report, lines);
+  add_moved(report, lines);
   return lines;
 }
 

@@ -9,7 +9,8 @@ namespace enc {
 namespace {
 
 constexpr std::array kReasons{"", "another size than the rig file's", "an image is missing",
-                              "a stamp not after the last one, or to come"};
+                              "a stamp not after the last one, or to come",
+                              "left and right are exchanged; exchange the two cables or files"};
 
 std::string text_of(const ImageSize& size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height) + " px";

@@ -1,6 +1,7 @@
 // A stereo camera out of files: a folder of PNG or JPEG images, or a video through ffmpeg. What was recorded
 // comes back frame by frame at a rate, the same in every run.
 #include "core/module.h"
+#include "core/vision/frame_files.h"
 #include "hw_drivers/images/play/image_camera.h"
 
 namespace enc::images {
@@ -43,7 +44,8 @@ std::unique_ptr<StereoCamera> make_camera(const Offer& offer) {
 
 constexpr DriverModule kDriver{
     .settings = [](Settings& table) { Wire{}.declare(table); }, .camera = make_camera, .plays = true};
-constexpr ModuleInfo kInfo{.name = "images", .driver = &kDriver};
+constexpr FrameFiles kFrames{.png = png_of};
+constexpr ModuleInfo kInfo{.name = "images", .driver = &kDriver, .frames = &kFrames};
 
 }  // namespace
 }  // namespace enc::images

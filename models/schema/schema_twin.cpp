@@ -197,6 +197,14 @@ void describe(Visitor& v, sim::CameraTruth& c) {
   v.value({"exposure", "of the light that is there", "injected", chosen, kPositive}, &c.exposure);
   v.value({"stalls_at_s", "no frame from then on; unset: never", "injected", chosen, kNotNegative, optional},
           &c.stalls_at);
+  v.value({"back_at_s", "frames again, after stalls_at_s; unset: never", "injected", chosen, kNotNegative,
+           optional},
+          &c.back_at);
+  v.value({"swapped_at_s", "left and right exchanged from then on; unset: never", "injected", chosen,
+           kNotNegative, optional},
+          &c.swapped_at);
+  v.value({"moved_mm", "of the camera against [truth.frames.W_C], in W", "injected", chosen}, &c.moved);
+  v.value({"moved_at_s", "from then on", "injected", chosen, kNotNegative}, &c.moved_at);
   v.value({"distortion", "of both lenses: k1, k2, p1, p2, k3", "sources/tracking 7", assumed, {-10.0, 10.0}},
           std::span<double>(c.distortion));
   v.value({"ball_radius_mm", "of the ball at the tip while camera and arm are registered",

@@ -10,13 +10,11 @@
 #include "core/devices/roles.h"
 #include "core/error.h"
 #include "core/task/measure/probe.h"
-#include "core/vision/rig/vision_check.h"
 #include "core/world/contact_limits.h"
 #include "core/world/object.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
-#include "models/setup/stereo_file.h"
 
 namespace enc::models {
 namespace {
@@ -282,38 +280,6 @@ void check_driver(const Setup& setup, bool named, const std::string& table, cons
        fmt::format("the scene names [{}] and rig {} has none; expected a [{}] with a driver; add it to the "
                    "rig, or use '--rig {}'",
                    table, quoted(setup.rig_path), table, setup.scene.arm ? "vishap" : "sim"));
-}
-
-// Vision sees a bare fingertip, which only an arm meets.
-void check_camera(const Setup& setup) {
-  const SceneSpec& s = setup.scene;
-  if (!s.camera) return;
-  if (!s.tracker)
-    fail(setup, "camera",
-         "the scene has a [camera] and nothing that looks through it; expected a [tracker]; add it");
-  if (!s.arm)
-    fail(setup, "camera",
-         "vision sees a bare finger, which has no markers; expected an [arm] that meets it; remove [camera]");
-  if (s.tools.size() > 1)
-    fail(setup, "camera",
-         "vision sees one finger and tells no tools apart; expected one [[tool]]; remove the others");
-  try {
-    check_stereo(setup.rig.camera);
-  } catch (const Error& e) {
-    fail(setup, "rig.camera." + e.key(), e.what());
-  }
-  try {
-    check(setup.rig.camera, setup.rig.vision);
-  } catch (const Error& e) {
-    fail(setup, e.key(), e.what());
-  }
-  const StereoRig& believed = setup.rig.camera;
-  const sim::CameraTruth& truth = setup.twin.camera;
-  if (believed.driver == "sim" && (believed.width != truth.width || believed.height != truth.height))
-    fail(setup, "rig.camera.width_px",
-         fmt::format("the rig's images are {} x {} px and the twin's {} x {}; expected the same; correct "
-                     "'width_px' and 'height_px' here or in [truth.camera]",
-                     believed.width, believed.height, truth.width, truth.height));
 }
 
 void check_rig(const Setup& setup) {

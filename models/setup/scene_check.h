@@ -26,6 +26,7 @@ void check_unit(const Setup& setup, const std::string& key, const Vec3& v);
 
 void check_session(const Setup& setup);  // [user.session]
 void check_reaches(const Setup& setup);  // [user.reaches]
+void check_camera(const Setup& setup);   // camera_check.cpp
 // arm_check.cpp
 void check_arm(const Setup& setup);
 void check_finger(const Setup& setup, const ToolSpec& tool);

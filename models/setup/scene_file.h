@@ -87,6 +87,7 @@ void fill_meshes(Setup& setup, const std::string& models_dir);
 void fill_camera(Setup& setup);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_props(Setup& setup);    // objects that want another prop than is mounted
+void note_views(Setup& setup);    // objects that the camera does not see
 void check(const Setup& setup);   // what one key alone does not show; throws
 void round_to_text(
     Setup& setup);  // to the numbers that resolved() shows, so that a record repeats a run to the bit

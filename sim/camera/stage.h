@@ -82,6 +82,8 @@ using Show = std::function<Shown(Time exposed)>;
 struct TwinCameraSpec {
   StageSpec stage;
   Time stalls = Time::max();  // no exposure from then on
+  Time back = Time::max();    // until then
+  Time swaps = Time::max();   // left and right are exchanged from then on
 };
 
 // The module encounter_camera. Whoever asks draws on the thread that asked.

@@ -1,6 +1,7 @@
 #include "sim/camera/twin_camera.h"
 
 #include <exception>
+#include <utility>
 
 #include "core/error.h"
 
@@ -16,18 +17,19 @@ TwinCamera::TwinCamera(const TwinCameraSpec& spec, Show show)
 bool TwinCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
   bool due = false;
   for (Time next = exposures_.next(); exposures_.due(now); next = exposures_.next())
-    due = due || next < spec_.stalls;
-  if (!due || !linked_) return silent(now, newest);
+    due = due || next < spec_.stalls || next >= spec_.back;
+  if (!due || !failure_.empty()) return silent(now, newest);
   try {
     stage_.draw(show_(now), static_cast<std::uint64_t>(exposures_.n), left_, right_);
   } catch (const std::exception& e) {
-    spec_.stalls = now;  // a camera that cannot draw says nothing more
-    failure_ = e.what();
+    failure_ = e.what();  // it says nothing more
     return silent(now, newest);
   }
   ++drawn_;
   exposed_ = now;
+  linked_ = true;
   newest = {{left_.view(), right_.view()}, now, Health::ok};
+  if (now >= spec_.swaps) std::swap(newest.value.left, newest.value.right);
   return true;
 }
 

@@ -16,8 +16,8 @@ class TwinCamera final : public StereoCamera {
 
   // Draws where an exposure is due: once, as `show` tells it, and stamped `now`, for that is what it shows;
   // those that were missed are never drawn. How late the fingertip is told is the tracker's business. After
-  // kSilent periods without an exposure: once the last pair again, with fault, and from then on linked() is
-  // false.
+  // kSilent periods without an exposure: once the last pair again, with fault, and linked() is false until
+  // there is one again.
   bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] ImageSize size() const override { return spec_.stage.camera.size(); }

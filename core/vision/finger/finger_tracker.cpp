@@ -150,6 +150,7 @@ Finger FingerTracker::see(const StereoFrame& frame, Time exposed) noexcept {
   finger.exposed = exposed;
   finger.state = p.scene.learned() ? FingerState::away : FingerState::learning;
   p.stats.refused = p.usable(frame, exposed);
+  if (p.stats.refused == Refused::no && p.scene.exchanged(frame)) p.stats.refused = Refused::exchanged;
   if (p.stats.refused != Refused::no) return finger;
   p.newest = exposed;
   if (!p.scene.learned()) {

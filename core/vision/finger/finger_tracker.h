@@ -17,8 +17,8 @@
 namespace enc {
 
 // Why a frame told nothing.
-enum class Refused : std::uint8_t { no, size, missing, stamp };
-constexpr auto words(Refused) { return enum_words("no", "size", "missing", "stamp"); }
+enum class Refused : std::uint8_t { no, size, missing, stamp, exchanged };
+constexpr auto words(Refused) { return enum_words("no", "size", "missing", "stamp", "exchanged"); }
 
 // What the last frame took.
 struct LookStats {
@@ -44,8 +44,8 @@ class FingerTracker {
   ~FingerTracker();
   FingerTracker(FingerTracker&&) noexcept;
 
-  // A frame that cannot be used (another size, an image missing, not later than the one before) changes
-  // nothing and gives no place. Allocates nothing once the background is learned.
+  // A frame that cannot be used (another size, an image missing, not later than the one before, left and
+  // right exchanged) changes nothing and gives no place. Allocates nothing once the background is learned.
   Finger see(const StereoFrame& frame, Time exposed) noexcept;
 
   [[nodiscard]] const LookStats& stats() const;

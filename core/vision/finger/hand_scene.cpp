@@ -53,6 +53,7 @@ HandScene::HandScene(const StereoRig& rig, const SegmentationSpec& segmentation,
       segmentation_(segmentation),
       segmenter_(segmentation, rectifier_.width(), rectifier_.height()),
       matcher_(match, pair()),
+      exchanged_(pair(), rectifier_.width(), rectifier_.height()),
       finder_(finder_with(fingertip)),
       grey_left_(rectifier_.width(), rectifier_.height()),
       grey_right_(rectifier_.width(), rectifier_.height()),
@@ -94,6 +95,15 @@ ImageView HandScene::segment_right(const StereoFrame& frame, const Region& wante
       rectified(Side::right, frame.right, read_for(*hue_alone_, wanted).cut(this->frame()));
   hue_alone_->segment(right, wanted, right_skin_);
   return right;
+}
+
+bool HandScene::exchanged(const StereoFrame& frame) {
+  for (int row = 0; row < Exchanged::kRows; ++row) {
+    const Region strip = exchanged_.strip(row);
+    to_grey(rectified(Side::left, frame.left, strip), strip, grey_left_);
+    to_grey(rectified(Side::right, frame.right, strip), strip, grey_right_);
+  }
+  return exchanged_.see(grey_left_, grey_right_);
 }
 
 void HandScene::learn(const StereoFrame& frame) {

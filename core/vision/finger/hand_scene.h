@@ -10,6 +10,7 @@
 #include "core/vision/finger/cap_match.h"
 #include "core/vision/finger/fingertip.h"
 #include "core/vision/segmentation/segmenter.h"
+#include "core/vision/stereo/exchanged.h"
 #include "core/vision/stereo/rectify.h"
 
 namespace enc {
@@ -19,6 +20,8 @@ class HandScene {
   HandScene(const StereoRig& rig, const SegmentationSpec& segmentation, const FingertipSpec& fingertip,
             const MatchSpec& match);
 
+  // Whether left and right are exchanged. To be asked of each frame, before all else.
+  bool exchanged(const StereoFrame& frame);
   // A frame of the background.
   void learn(const StereoFrame& frame);
   [[nodiscard]] bool learned() const { return segmenter_.learned(); }
@@ -66,6 +69,7 @@ class HandScene {
   Segmenter segmenter_;
   std::unique_ptr<Segmenter> hue_alone_;  // from the first frame of the background on
   Matcher matcher_;
+  Exchanged exchanged_;
   FingertipFinder finder_;
   Image left_, right_;
   Grey grey_left_, grey_right_;

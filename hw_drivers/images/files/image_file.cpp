@@ -160,4 +160,19 @@ void read_image(const std::string& path, Image& into) {
   decode_image(bytes, path, into);
 }
 
+std::string png_of(const ImageView& image) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = PNG_FORMAT_RGB;
+  header.flags = PNG_IMAGE_FLAG_FAST;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb, 0, nullptr) == 0)
+    throw Error(fmt::format("no PNG can be made of an image ({})", header.message));
+  bytes.resize(size);
+  return bytes;
+}
+
 }  // namespace enc::images

@@ -22,4 +22,7 @@ void read_image(const std::string& path, Image& into);
 // The same of bytes; `name` is for messages.
 void decode_image(std::string_view bytes, const std::string& name, Image& into);
 
+// The bytes of a PNG, made quickly rather than small. Throws Error.
+[[nodiscard]] std::string png_of(const ImageView& image);
+
 }  // namespace enc::images

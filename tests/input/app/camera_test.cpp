@@ -64,6 +64,117 @@ TEST_F(Camera, OneThatStallsIsHeldAndNothingIsFeltFromOldData) {
                                 HasSubstr("link        tracker lost at 2.6"), HasSubstr("; 0 contacts")));
 }
 
+TEST_F(Camera, LeftAndRightExchangedIsSaidAndMovesNothing) {
+  const Result start = run({"--for-s", "3", "--set", "truth.camera.swapped_at_s=0"});
+  EXPECT_THAT(start.out, AllOf(HasSubstr("61 frames were not used: left and right are exchanged"),
+                               HasSubstr("away 3.00 s; 0 contacts")));
+  const Result later = run({"--for-s", "3", "--set", "truth.camera.swapped_at_s=2.5"});
+  EXPECT_THAT(later.out, AllOf(HasSubstr("11 frames were not used: left and right are exchanged"),
+                               HasSubstr("hold        at 2."), HasSubstr("; 0 contacts")));
+}
+
+TEST_F(Camera, OneThatComesBackWithoutAStallIsNotInTheWorld) {
+  const auto line = [&](const Words& set) {
+    Words words{"check", kScene};
+    for (const std::string& s : set) words.insert(words.end(), {"--set", s});
+    return refused(words);
+  };
+  EXPECT_THAT(line({"truth.camera.back_at_s=3"}), HasSubstr("expected more than 'stalls_at_s'"));
+  EXPECT_THAT(line({"truth.camera.stalls_at_s=3", "truth.camera.back_at_s=3"}),
+              HasSubstr("'back_at_s' is 3; expected more than 'stalls_at_s'"));
+}
+
+// Found before anything moves: such a camera would not see what is to be met.
+TEST_F(Camera, ARegistrationOfAnotherRigIsRefused) {
+  const std::string keypad = ENCOUNTER_SOURCE_DIR "/models/scenes/camera/keypad.toml";
+  const auto line = [&](const std::string& scene, const std::string& set) {
+    return refused({"check", scene, "--set", "rig.frames.W_C." + set});
+  };
+  const std::string expected = "expected the registration of this rig; make it by `encounter calibrate`";
+  EXPECT_THAT(line(kScene, "position_mm=[236, -426, 757]"),
+              AllOf(HasSubstr("would have object 'wall' outside of the left image"), HasSubstr(expected)));
+  EXPECT_THAT(line(kScene, "rotation_deg=[-35, 0, 30]"), HasSubstr("object 'wall' behind it"));
+  EXPECT_THAT(line(kScene, "position_mm=[936, -1638, 1757]"), HasSubstr("where 250 to 1500 mm are matched"));
+  EXPECT_THAT(line(keypad, "rotation_deg=[-35, 0, 30]"), HasSubstr(", and none of the others in view"));
+  EXPECT_THAT(refused({"run", kScene, "--set", "rig.frames.W_C.rotation_deg=[-35, 0, 30]"}),
+              HasSubstr(expected));
+  const std::string place = line_and_column(text_of(path("models/rigs/vishap.toml")), "[frames.W_C]");
+  edit("models/rigs/vishap.toml", "rotation_deg = [-125, 0, 30]          # likewise\n\n[arm]",
+       "rotation_deg = [-35, 0, 30]\n\n[arm]");
+  EXPECT_THAT(refused({"check", kScene, "--rig", path("models/rigs/vishap.toml")}),
+              HasSubstr("vishap.toml:" + place + ": a camera that stands there"));
+}
+
+TEST_F(Camera, AnObjectOutOfViewAmongOthersIsAWarning) {
+  const std::string keypad = ENCOUNTER_SOURCE_DIR "/models/scenes/camera/keypad.toml";
+  const Result all = run_program({"check", keypad});
+  EXPECT_THAT(all.err, Not(HasSubstr("no finger is seen"))) << all.err;
+  const auto warning = [&](const char* height) {
+    const std::string set = std::string("rig.frames.W_C.position_mm=[236, -426, ") + height + "]";
+    const Result r = run_program({"check", keypad, "--set", set});
+    EXPECT_EQ(r.code, 0);
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    return r.err;
+  };
+  EXPECT_THAT(warning("620"),
+              HasSubstr("has object 'key_12' outside of the left image, where no finger is seen"));
+  EXPECT_THAT(warning("640"), HasSubstr("'key_9' outside of the left image, and 3 more out of view, where"));
+}
+
+// The rig is told 5 mm beside where its camera stands; what says so are the prop's contacts.
+TEST_F(Camera, ACameraThatHasMovedIsSaid) {
+  Words words{"run", kScene};
+  for (const char* set : {"user.approach_mm_s=[100, 100]", "user.approach_from_mm=125", "user.depth_mm=6",
+                          "user.press_s=1", "user.release_s=1", "user.rest_s=0.3"})
+    words.insert(words.end(), {"--set", set});
+  const Result there = run_program(words);
+  EXPECT_THAT(there.out, AllOf(HasSubstr("\nseen        "), Not(HasSubstr("not where it was registered"))));
+  words.insert(words.end(), {"--set", "truth.camera.moved_mm=[0, 0, 5]"});
+  const Result moved = run_program(words);
+  EXPECT_EQ(moved.code, 1);
+  EXPECT_THAT(moved.out, AllOf(HasSubstr("LIMIT       the camera is not where it was registered: 2 presses"),
+                               HasSubstr("across their normal the presses do not tell"),
+                               HasSubstr("encounter calibrate")));
+}
+
+// What was recorded replays to the same bits with its images, in both ways.
+TEST_F(Camera, ARunAndItsFramesGiveTheSameBits) {
+  const std::string record = path("a.encrec"), frames = path("kept");
+  const Result once = run({"--for-s", "2.5", "--record", record, "--frames", frames, "--set",
+                           "truth.camera.stalls_at_s=1.9", "--set", "truth.camera.back_at_s=2"});
+  EXPECT_EQ(once.code, 0) << once.err;
+  const Words again{"replay", record, "--frames", frames};
+  const Result replayed = run_program(again);
+  EXPECT_EQ(replayed.code, 0) << replayed.err << replayed.out;
+  EXPECT_THAT(replayed.out, AllOf(HasSubstr("2501 ticks run again, equal to the bit"),
+                                  HasSubstr("vision told 48 times what it told then, equal to the bit")));
+
+  const std::string one = frames + "/right/2200000000.png", other = frames + "/right/2250000000.png";
+  std::filesystem::copy_file(other, one, std::filesystem::copy_options::overwrite_existing);
+  const Result changed = run_program(again);
+  EXPECT_EQ(changed.code, 1);
+  EXPECT_THAT(changed.out, HasSubstr("vision differs from tick 2250 on: its place in C: recorded ["));
+  for (const char* side : {"/left", "/right"}) std::filesystem::remove(frames + side + "/2200000000.png");
+  EXPECT_THAT(run_program(again).out, HasSubstr("vision differs from tick 2250 on: its exposure: recorded"));
+
+  EXPECT_THAT(refused({"run", kScene, "--for-s", "1", "--frames", frames}),
+              HasSubstr("there is a 'left' in it; expected a folder without frames"));
+  EXPECT_THAT(refused({"replay", record, "--frames", path("models")}), HasSubstr("has no frames in 'left'"));
+  std::ofstream(frames + "/left/late.png") << "";
+  EXPECT_THAT(refused(again), HasSubstr("late.png: is named by no time of exposure"));
+  EXPECT_THAT(refused({"run", ball(), "--for-s", "1", "--frames", path("none")}),
+              HasSubstr("the scene has no [camera]"));
+}
+
+// A camera that plays the frames is that camera.
+TEST_F(Camera, PlayedFramesGiveTheStateHashOfTheirRun) {
+  const std::string frames = path("kept");
+  const Result seen = run({"--for-s", "2.5", "--frames", frames});
+  const Result played = run_program({"run", kScene, "--rig", images_rig(frames), "--for-s", "2.5"});
+  EXPECT_FALSE(line_of(seen.out, "state hash").empty()) << seen.err;
+  EXPECT_EQ(line_of(played.out, "state hash"), line_of(seen.out, "state hash")) << played.err;
+}
+
 TEST_F(Camera, NeedsATrackerAnArmAndARigThatHasOne) {
   write("models/scenes/seen.toml", text_of(kScene));
   const auto without = [&](const std::string& table) {

@@ -124,6 +124,36 @@ TEST(VisionTracker, FramesThatCannotBeUsedAreAStall) {
   EXPECT_EQ(set.newest.health, Health::stale);
 }
 
+// What is seen the wrong way round is nowhere: nothing is told of it, and it is said.
+TEST(VisionTracker, LeftAndRightExchangedIsAStallThatIsSaid) {
+  Set set;
+  set.camera->frames[at_ms(100)] = set.seen.frame();
+  for (int ms = 150; ms < 600; ms += 50)
+    set.camera->frames[at_ms(ms)] = {set.seen.right.view(), set.seen.left.view()};
+  ASSERT_TRUE(set.told(0, 200));
+  ASSERT_EQ(set.newest.value.tool, 0);
+  ASSERT_TRUE(set.told(201, 650));
+  EXPECT_EQ(set.newest.health, Health::stale);
+  EXPECT_EQ(set.newest.t, at_ms(100));
+  EXPECT_THAT(set.tracker->remarks(),
+              Contains(HasSubstr("9 frames were not used: left and right are exchanged")));
+  set.camera->frames[at_ms(700)] = set.seen.frame();
+  ASSERT_TRUE(set.told(651, 760));
+  EXPECT_EQ(set.newest.health, Health::ok);
+}
+
+TEST(VisionTracker, OfExchangedFramesNoBackgroundIsLearned) {
+  Set set;
+  set.camera->frames.clear();
+  for (int ms = 0; ms < 500; ms += 50)
+    set.camera->frames[at_ms(ms)] = {set.room.right.view(), set.room.left.view()};
+  (void)set.told(0, 700);
+  EXPECT_EQ(set.newest.value.tool, -1);
+  EXPECT_THAT(set.tracker->remarks(),
+              testing::IsSupersetOf({HasSubstr("the background was not learned, of which 0"),
+                                     HasSubstr("10 frames were not used: left and right")}));
+}
+
 TEST(VisionTracker, SaysWhatItIsAndWhetherItIsLinked) {
   Set set;
   EXPECT_EQ(set.tracker->describe(), "fingertip of drawn pairs");

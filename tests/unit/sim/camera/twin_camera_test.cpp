@@ -2,6 +2,7 @@
 // told.
 #include "sim/camera/twin_camera.h"
 
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -83,6 +84,44 @@ TEST(TwinCamera, ASilentOneSaysItOnce) {
   EXPECT_LT(frame.t, stalling.stalls);
   EXPECT_NEAR(age(fault_at, frame.t), 0.1, 0.002);  // three periods
   EXPECT_EQ(frame.value.left.width, 160);
+}
+
+// Not the link's own doing that it is believed again: who resumes asks whether it is there.
+TEST(TwinCamera, OneThatComesBackIsLinkedAgain) {
+  TwinCameraSpec away = spec();
+  away.stalls = Time(from_seconds(0.3));
+  away.back = Time(from_seconds(0.6));
+  TwinCamera camera(away, moving);
+  Stamped<StereoFrame> frame;
+  std::vector<double> lost;  // ms
+  std::uint64_t drawn = 0;
+  for (int i = 0; i <= 1000; ++i) {
+    camera.poll(Time(i * kTick), frame);
+    if (!camera.linked()) lost.push_back(i);
+    const bool drew = std::exchange(drawn, camera.drawn()) != camera.drawn();
+    EXPECT_FALSE(drew && i > 300 && i < 600) << i;
+  }
+  ASSERT_FALSE(lost.empty());
+  EXPECT_NEAR(lost.front(), 367, 2.0);  // the last one was at 267
+  EXPECT_NEAR(lost.back(), 599, 1.0);
+  EXPECT_EQ(frame.health, Health::ok);
+  EXPECT_EQ(camera.drawn(), 9U + 13U);
+}
+
+TEST(TwinCamera, LeftAndRightAreExchangedFromThenOn) {
+  TwinCameraSpec swapping = spec();
+  swapping.swaps = Time(from_seconds(0.05));
+  TwinCamera camera(spec(), moving), other(swapping, moving);
+  Stamped<StereoFrame> right_way, frame;
+  const auto same = [](const ImageView& a, const ImageView& b) {
+    return std::equal(a.rgb, a.rgb + 3 * a.width * a.height, b.rgb);
+  };
+  for (int i = 0; i <= 100; ++i) {
+    if (!camera.poll(Time(i * kTick), right_way)) continue;
+    ASSERT_TRUE(other.poll(Time(i * kTick), frame));
+    EXPECT_EQ(same(frame.value.left, right_way.value.left), i < 50) << i;
+    EXPECT_EQ(same(frame.value.left, right_way.value.right), i >= 50) << i;
+  }
 }
 
 TEST(TwinCamera, WhoCannotBeLookedAtIsAFault) {

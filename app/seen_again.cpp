@@ -1,0 +1,77 @@
+#include "app/seen_again.h"
+
+#include <bit>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/modules/modules.h"
+#include "core/error.h"
+#include "models/schema/wording.h"
+#include "trial/kept_frames.h"
+#include "trial/vision.h"
+
+namespace enc::app {
+namespace {
+
+struct Quiet : Log {
+  void say(const std::string&) override {}
+};
+
+// The record's rig with a driver that plays the folder.
+void play(models::Setup& setup, const std::string& folder) {
+  setup.rig.camera.driver = "images";
+  const DriverTable table{"images",
+                          {{"path", models::quoted_toml(folder), "", ""},
+                           {"rate_hz", fmt::format("{}", trial::KeptCamera::kRate), "", ""}}};
+  std::erase_if(setup.rig.drivers, [](const DriverTable& t) { return t.name == "images"; });
+  std::erase_if(setup.places, [](const auto& p) { return p.first.starts_with("rig.driver.images"); });
+  for (const DriverValue& value : table.values)
+    setup.places["rig.driver.images." + value.key] = "--frames " + folder;
+  setup.rig.drivers.push_back(table);
+}
+
+template <std::size_t N>
+bool same(const std::array<double, N>& a, const std::array<double, N>& b) {
+  using Bits = std::array<std::uint64_t, N>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+// A link that was lost is the run's affair: then the record says fault, whatever vision told.
+std::string difference(const Stamped<TrackedTool>& recorded, const Stamped<TrackedTool>& seen) {
+  if (recorded.value.tool != seen.value.tool)
+    return fmt::format("the tool: recorded {}, seen {}", recorded.value.tool, seen.value.tool);
+  if (recorded.t != seen.t)
+    return fmt::format("its exposure: recorded {} ns, seen {} ns", recorded.t.time_since_epoch().count(),
+                       seen.t.time_since_epoch().count());
+  const Pose<'C', 'T'>&a = recorded.value.X_CT, &b = seen.value.X_CT;
+  if (!same(a.xyz, b.xyz) || !same(a.xyzw, b.xyzw))
+    return fmt::format("its place in C: recorded [{}, {}, {}] m, seen [{}, {}, {}] m", a.xyz[0], a.xyz[1],
+                       a.xyz[2], b.xyz[0], b.xyz[1], b.xyz[2]);
+  if (recorded.health != seen.health && recorded.health != Health::fault) return "its health";
+  return {};
+}
+
+}  // namespace
+
+SeenAgain see_again(models::Setup setup, RecordReader& record, const std::string& folder) {
+  if (!setup.scene.camera)
+    throw Error("--frames: the recorded scene has no [camera], and vision told nothing; leave it out");
+  play(setup, folder);
+  Quiet quiet;
+  const std::unique_ptr<PoseTracker> vision =
+      trial::make_vision(setup, load_module, {.log = quiet, .waits = true, .kept = folder});
+  SeenAgain result;
+  Stamped<TrackedTool> seen;
+  RecordedTick frame;
+  for (record.rewind(); record.next(frame);) {
+    result.told += vision->poll(frame.tick.t, seen) ? 1 : 0;
+    result.what = difference(frame.in.tool, seen);
+    if (result.what.empty()) continue;
+    result.first_difference = frame.tick.index;
+    break;
+  }
+  return result;
+}
+
+}  // namespace enc::app

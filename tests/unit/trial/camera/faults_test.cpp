@@ -1,0 +1,149 @@
+// Whole runs through the twin's camera with what can go wrong with it: nothing is done from what is old, and
+// what is wrong ends when its cause has.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/module.h"
+#include "core/vision/vision_module.h"
+#include "core/vision/vision_tracker.h"
+#include "sim/camera/twin_camera.h"
+#include "trial/trial.h"
+
+namespace enc::trial {
+namespace {
+
+// As the modules have them, without loading one.
+const ModuleInfo& modules(const std::string& name) {
+  static const VisionModule vision{[](std::unique_ptr<StereoCamera> camera, const StereoRig& rig,
+                                      const VisionRig& v) {
+    return std::unique_ptr<PoseTracker>(std::make_unique<VisionTracker>(
+        std::move(camera), rig, FingerTracker(rig, v.segmentation, v.fingertip, v.track, v.match, v.search)));
+  }};
+  static const sim::CameraModule camera{
+      nullptr,
+      [](const sim::TwinCameraSpec& spec, sim::Show show) {
+        return std::unique_ptr<StereoCamera>(std::make_unique<sim::TwinCamera>(spec, std::move(show)));
+      },
+      nullptr};
+  static const ModuleInfo eyes{.name = "vision", .vision = &vision};
+  static const ModuleInfo twin{.name = "camera", .camera = &camera};
+  return name == "vision" ? eyes : twin;
+}
+
+// One press that lasts from about 2.1 s to 5.3 s, in images of a quarter of the pixels.
+models::Setup press(const std::vector<std::string>& more) {
+  std::vector<std::string> set{"user.approach_mm_s=[100]",
+                               "user.press_s=2",
+                               "user.release_s=1",
+                               "user.rest_s=0.5",
+                               "rig.camera.width_px=320",
+                               "rig.camera.height_px=240",
+                               "rig.camera.left.focal_px=[360.5, 360.5]",
+                               "rig.camera.left.centre_px=[159.5, 119.5]",
+                               "rig.camera.right.focal_px=[360.5, 360.5]",
+                               "rig.camera.right.centre_px=[159.5, 119.5]",
+                               "truth.camera.width_px=320",
+                               "truth.camera.height_px=240",
+                               "truth.camera.focal_px=360.5"};
+  set.insert(set.end(), more.begin(), more.end());
+  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/camera/wall.toml", "", set);
+}
+
+struct Seen {
+  double oldest = 0.0;         // s, of a finger that something is done from
+  double first_hold = kUnset;  // s
+  double force_in_hold = 0.0;  // N, of the law
+  bool contact = false, contact_after = false;
+  std::uint32_t why = 0;
+};
+
+class CameraFaults : public testing::Test {
+ protected:
+  static constexpr double kFrom = 3.5;  // s: in the middle of the press
+  Seen seen;
+  std::unique_ptr<Trial> trial;
+  void begin(const std::vector<std::string>& set) {
+    TrialOptions options;
+    options.drivers = modules;
+    options.watch = [this](const Glance& g) { look(g); };
+    trial = std::make_unique<Trial>(press(set), options);
+  }
+  void look(const Glance& g) {
+    const double now = seconds(g.tick.t.time_since_epoch());
+    if (g.out.mode == Mode::hold) {
+      if (std::isnan(seen.first_hold)) seen.first_hold = now;
+      seen.why |= g.out.why & kHoldReasons;
+      seen.force_in_hold = std::max(seen.force_in_hold, g.out.force.norm());
+      return;
+    }
+    if (g.out.mode == Mode::follow || g.out.mode == Mode::contact)
+      seen.oldest = std::max(seen.oldest, age(g.tick.t, g.in.tool.t));
+    seen.contact = seen.contact || g.out.mode == Mode::contact;
+    seen.contact_after = seen.contact_after || (g.out.mode == Mode::contact && now > kFrom + 1.0);
+  }
+  void until(double s) {
+    while (seconds(trial->now().t.time_since_epoch()) < s && trial->tick()) {
+    }
+  }
+  void end() {
+    while (trial->tick()) {
+    }
+  }
+};
+
+// Two frames that stay out are no loss: the next one goes on.
+TEST_F(CameraFaults, AShortStallIsNotFelt) {
+  begin({"truth.camera.stalls_at_s=3.5", "truth.camera.back_at_s=3.6"});
+  end();
+  EXPECT_TRUE(std::isnan(seen.first_hold)) << seen.first_hold << " " << why_text(seen.why);
+  EXPECT_TRUE(seen.contact_after);
+  EXPECT_TRUE(trial->gate().links().empty());
+  EXPECT_LT(seen.oldest, 0.3);
+  EXPECT_EQ(trial->outputs().mode, Mode::away);
+}
+
+// A link that was lost is believed again when somebody says so, and not before.
+TEST_F(CameraFaults, ALostLinkHoldsUntilItIsResumed) {
+  begin({"truth.camera.stalls_at_s=3.5", "truth.camera.back_at_s=4.0"});
+  until(4.4);
+  EXPECT_TRUE(seen.contact);
+  EXPECT_NEAR(seen.first_hold, 3.45 + 0.15, 0.01);
+  EXPECT_TRUE((seen.why & kTrackerFault) != 0) << why_text(seen.why);
+  EXPECT_EQ(trial->outputs().mode, Mode::hold) << "it is back, and nobody has said so";
+  EXPECT_EQ(seen.force_in_hold, 0.0);
+  trial->resume();
+  until(4.45);
+  EXPECT_EQ(trial->outputs().mode, Mode::contact) << why_text(trial->outputs().why);
+  end();
+  EXPECT_TRUE(seen.contact_after);
+  EXPECT_LT(seen.oldest, 0.3);
+  EXPECT_EQ(trial->outputs().mode, Mode::away);
+  EXPECT_EQ(trial->gate().links().size(), 1U);
+}
+
+// The frames come, and tell nothing: the finger grows old, and it is found again by itself when they are
+// right.
+TEST_F(CameraFaults, ExchangedImagesHoldAFingerThatTouches) {
+  begin({"truth.camera.swapped_at_s=3.5"});
+  end();
+  EXPECT_TRUE(seen.contact);
+  EXPECT_NEAR(seen.first_hold, 3.45 + 0.3, 0.02) << "lost_age_ms after the last frame that was right";
+  EXPECT_TRUE((seen.why & kToolLost) != 0) << why_text(seen.why);
+  EXPECT_EQ(seen.force_in_hold, 0.0);
+  EXPECT_LE(seen.oldest, 0.3 + 1e-9);
+  EXPECT_EQ(trial->outputs().mode, Mode::hold);
+}
+
+TEST_F(CameraFaults, ImagesThatAreExchangedFromTheStartMoveNothing) {
+  begin({"truth.camera.swapped_at_s=0"});
+  end();
+  EXPECT_FALSE(seen.contact);
+  EXPECT_EQ(trial->outputs().contacts, 0);
+  EXPECT_EQ(trial->outputs().mode, Mode::away);
+}
+
+}  // namespace
+}  // namespace enc::trial
