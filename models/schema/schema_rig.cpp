@@ -73,6 +73,28 @@ void describe(Visitor& v, ForceRig& f) {
   v.value({"stale_ms", "an older sample is lost", "sources/choices 5", assumed, kPositive}, &f.stale);
 }
 
+void describe(Visitor& v, ReachBelief& r) {
+  v.value({"share", "of the way, that a first movement makes", "Elliott, Hansen and Grierson 2010", assumed,
+           kPositive},
+          &r.share);
+  v.value({"scatter", "of that share, standard deviation", "Meyer et al. 1988", assumed, kPositive},
+          &r.scatter);
+  v.value({"aside", "of the way, by which it ends beside its target, to each side, rms", "Meyer et al. 1988",
+           assumed, kPositive},
+          &r.aside);
+  v.value({"slowest_mm_s", "peak of a first movement, at least", "docs/reference/reaching.md", assumed,
+           kPositive},
+          &r.slowest);
+  v.value({"fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
+          &r.fastest);
+  v.value({"shortest_ms", "the second movement, at least", "Milner 1992", assumed, kPositive}, &r.shortest);
+  v.value({"touch_slowest_mm_s", "wanted where the surface is, at least", "docs/reference/reaching.md",
+           assumed, kPositive},
+          &r.touch_slowest);
+  v.value({"touch_fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
+          &r.touch_fastest);
+}
+
 void describe(Visitor& v, TrackerRig& t) {
   driver(v, t.driver);
   choice(v, {"prediction", "how the tool's tip goes on from an old pose", "sources/tracking 4", chosen},
@@ -117,28 +139,6 @@ void describe(Visitor& v, TrackerRig& t) {
           "docs/reference/reaching.md", chosen},
          t.foresight);
   table_if(v, "reach", t.foresight == Foresight::reach, [&] { describe(v, t.reach); });
-}
-
-void describe(Visitor& v, ReachBelief& r) {
-  v.value({"share", "of the way, that a first movement makes", "Elliott, Hansen and Grierson 2010", assumed,
-           kPositive},
-          &r.share);
-  v.value({"scatter", "of that share, standard deviation", "Meyer et al. 1988", assumed, kPositive},
-          &r.scatter);
-  v.value({"aside", "of the way, by which it ends beside its target, to each side, rms", "Meyer et al. 1988",
-           assumed, kPositive},
-          &r.aside);
-  v.value({"slowest_mm_s", "peak of a first movement, at least", "docs/reference/reaching.md", assumed,
-           kPositive},
-          &r.slowest);
-  v.value({"fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
-          &r.fastest);
-  v.value({"shortest_ms", "the second movement, at least", "Milner 1992", assumed, kPositive}, &r.shortest);
-  v.value({"touch_slowest_mm_s", "wanted where the surface is, at least", "docs/reference/reaching.md",
-           assumed, kPositive},
-          &r.touch_slowest);
-  v.value({"touch_fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
-          &r.touch_fastest);
 }
 
 void describe(Visitor& v, DisplayRig& d) {

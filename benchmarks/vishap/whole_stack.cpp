@@ -1,0 +1,271 @@
+// The experiment of [VisHap 3] as a whole: camera, fingertip, world, PHANToM. A finger comes with an even
+// speed, meets the prop, presses, slides and leaves, and what is felt is drawn over the distance that vision
+// sees (Fig 5).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+
+#include <fmt/format.h>
+
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/load_scene.h"
+#include "benchmarks/reaching/reach_measure.h"
+#include "benchmarks/vishap/vishap.h"
+#include "trial/measure/finger_measure.h"
+#include "trial/prepare.h"
+
+namespace enc::bench::vishap {
+namespace {
+
+struct Asked {
+  std::string scene;
+  std::vector<std::string> set;
+  double seconds = kUnset;
+  std::int64_t reaches = 0;  // random ones, instead of what the scene's user does
+  std::uint64_t seed = 1;
+};
+
+struct Ran {
+  double simulated = 0.0, cpu = 0.0;  // s
+  trial::TrialResult result;
+  std::vector<trial::Meeting> meetings;
+  std::vector<reaching::ReachOutcome> reaches;
+  double far_speed = 0.0, slope = kUnset, believed = kUnset, r2 = kUnset;
+  double step = 0.0;               // N: of Lambda f along the normal, from tick to tick in contact
+  std::vector<double> seen, felt;  // m, N: of each picture in contact
+  std::vector<double> off;         // m: of a told place from the true one at its exposure
+  std::vector<double> off_normal;  // m: along z of W
+};
+
+// What was true and felt at the exposures that are still to be told.
+struct Moment {
+  Time t{};
+  Point<'W'> tip;
+  double felt = 0.0;
+  bool contact = false;
+};
+
+class Look {
+ public:
+  explicit Look(Ran& ran) : ran_(ran) {}
+  void see(const trial::Glance& glance) {
+    finger_.see(glance);
+    reach_.see(glance);
+    const bool contact = glance.out.mode == Mode::contact;
+    const double felt = -glance.out.force.xyz[2];
+    if (contact && before_ && std::isfinite(felt) && std::isfinite(last_))
+      ran_.step = std::max(ran_.step, std::abs(felt - last_));
+    before_ = contact;
+    last_ = felt;
+    line_.push_back({glance.tick.t, glance.truth.tool_tip, felt, contact});
+    if (line_.size() > 400) line_.pop_front();
+    take(glance);
+  }
+  void finish() {
+    ran_.meetings = finger_.meetings();
+    ran_.reaches = reach_.reaches();
+    ran_.far_speed = finger_.far_speed();
+    ran_.slope = finger_.fit().slope();
+    ran_.r2 = finger_.fit().r2();
+    ran_.believed = finger_.believed().slope();
+  }
+
+ private:
+  void take(const trial::Glance& glance) {
+    const Stamped<TrackedTool>& told = glance.in.tool;
+    if (told.health != Health::ok || told.value.tool < 0 || told.t == newest_) return;
+    newest_ = told.t;
+    const auto then =
+        std::find_if(line_.begin(), line_.end(), [&](const Moment& m) { return m.t == told.t; });
+    if (then == line_.end()) return;
+    const Point<'W'> at = glance.scene.X_WC * told.value.X_CT.origin();
+    ran_.off.push_back((at - then->tip).norm());
+    ran_.off_normal.push_back((at - then->tip).e().z());
+    const std::int32_t object = glance.out.object;
+    if (!then->contact || object < 0) return;
+    const trial::Wanted surface =
+        trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(object)], at);
+    ran_.seen.push_back(surface.distance - glance.truth.tool_radius);
+    ran_.felt.push_back(then->felt);
+  }
+
+  Ran& ran_;
+  trial::FingerMeasure finger_;
+  reaching::ReachMeasure reach_;
+  std::deque<Moment> line_;
+  Time newest_{};
+  bool before_ = false;
+  double last_ = kUnset;
+};
+
+Ran run_one(const BenchContext& context, const Asked& asked) {
+  Ran ran;
+  Look look(ran);
+  trial::TrialOptions options;
+  options.seed = asked.seed;
+  options.seconds = asked.seconds;
+  options.drivers = [&](const std::string& name) -> const ModuleInfo& {
+    const ModuleInfo* module = context.module(name);
+    if (module == nullptr) throw Error("the module " + name + " is not built", {}, ErrorKind::device);
+    return *module;
+  };
+  options.watch = [&](const trial::Glance& glance) { look.see(glance); };
+  models::Setup setup = load_scene(context, asked.scene, asked.set);
+  if (asked.reaches > 0) {
+    UserSpec& user = *setup.scene.user;
+    user.kind = UserKind::reaches;
+    if (!user.reaches) user.reaches.emplace();
+    user.reaches->count = asked.reaches;
+  }
+  trial::Trial trial(std::move(setup), options);
+  const double start = thread_seconds();
+  ran.result = trial.run();
+  ran.cpu = thread_seconds() - start;
+  ran.simulated = ran.result.simulated;
+  look.finish();
+  if (ran.result.diverged_at >= 0)
+    throw Error("a run of " + asked.scene + " diverged: " + ran.result.divergence);
+  return ran;
+}
+
+// Presses and slides once for each speed, mm/s, as often as asked.
+std::vector<std::string> strokes(const std::string& speeds, std::size_t repeats) {
+  return {"user.approach_mm_s=[" + speeds + "]",
+          "user.press_s=0.6",
+          "user.hold_s=0.3",
+          "user.release_s=0.4",
+          "user.rest_s=1.5",
+          "user.depth_mm=5",
+          "user.slide_mm=20",
+          "user.slide_mm_s=60",
+          fmt::format("user.repeats={}", repeats)};
+}
+
+// Half of the width and height, and of the focal length.
+std::vector<std::string> quarter_size() {
+  std::vector<std::string> set;
+  for (const char* of : {"rig", "truth"})
+    for (const char* key : {"camera.width_px=320", "camera.height_px=240"})
+      set.push_back(fmt::format("{}.{}", of, key));
+  for (const char* eye : {"left", "right"}) {
+    set.push_back(fmt::format("rig.camera.{}.focal_px=[360.5,360.5]", eye));
+    set.push_back(fmt::format("rig.camera.{}.centre_px=[159.5,119.5]", eye));
+  }
+  set.emplace_back("truth.camera.focal_px=360.5");
+  return set;
+}
+
+void tell_wall(Bench& bench, const Ran& ran) {
+  for (const double v : {50.0, 100.0, 200.0, 300.0}) {
+    double most = 0.0, n = 0.0;
+    for (const trial::Meeting& m : ran.meetings) {
+      if (std::isnan(m.touched) || std::abs(1e3 * m.approach_speed - v) > 1.0) continue;
+      most = std::max(most, m.miss);
+      ++n;
+    }
+    bench.figure(
+        fmt::format("wall.miss_mm.{:.0f}.max", v), n > 0 ? most * kMm : kUnset, "mm",
+        v <= 200.0 ? at_most(2.0) : Bounds{},
+        fmt::format("from the prop's middle to the finger, along the wall, of {:.0f} touches at {:.0f} mm/s; "
+                    "640 x 480 at 20 Hz",
+                    n, v));
+  }
+  bench.figure("wall.slope", ran.slope, "N/m",
+               "contact force over true depth, 2 to 5 mm, while pressed and slid");
+  bench.figure("wall.believed_slope", ran.believed, "N/m", "the same over the depth that the core believes");
+  bench.figure("wall.force_step.max", ran.step, "N", at_most(0.2),
+               "of Lambda f along the normal, from tick to tick");
+  bench.figure("wall.far_speed.max", ran.far_speed * kMm, "mm/s", at_most(0.1),
+               "of the arm's tip while the finger is far, from a second after it went");
+  bench.figure("wall.place.rms", rms(ran.off) * kMm, "mm",
+               "told fingertip against the true one at its exposure");
+  bench.figure("wall.place_normal.mean", mean(ran.off_normal) * kMm, "mm",
+               "the same along the normal, in the mean");
+  bench.figure("wall.frames.rate", ran.result.vision.rate(), "Hz", "that the haptic loop was told of");
+  bench.figure(
+      "wall.frames.jitter",
+      ran.result.vision.intervals.empty()
+          ? kUnset
+          : (*std::max_element(ran.result.vision.intervals.begin(), ran.result.vision.intervals.end()) -
+             *std::min_element(ran.result.vision.intervals.begin(), ran.result.vision.intervals.end())) *
+                kMm,
+      "ms", "longest less shortest interval of them");
+}
+
+void plot_felt(Bench& bench, const std::string& scene, const Ran& ran, const std::string& caption) {
+  Series felt{"twin", {}, {}};
+  felt.mark = Mark::points;
+  for (std::size_t i = 0; i < ran.seen.size(); ++i) felt.add(ran.seen[i] * kMm, ran.felt[i]);
+  bench.plot({.id = "fig5_" + scene,
+              .title = "Normal force over distance, " + scene + " (VisHap Fig 5)",
+              .x_label = "distance that vision sees (mm)",
+              .y_label = "normal force (N)",
+              .series = {felt},
+              .caption = caption});
+}
+
+void tell_objects(Bench& bench, const std::string& scene, const Ran& ran) {
+  double right = 0.0, all = 0.0, in_time = 0.0;
+  for (const reaching::ReachOutcome& r : ran.reaches) {
+    if (std::isnan(r.met)) continue;
+    ++all;
+    right += r.chosen == r.aim ? 1.0 : 0.0;
+    in_time += r.lead() >= r.travel() ? 1.0 : 0.0;
+  }
+  bench.figure(
+      scene + ".object_percent", 100.0 * right / all, "%", bench.context.quick ? Bounds{} : at_least(99.0),
+      fmt::format("of {:.0f} random reaches that the camera saw: the core has chosen the object that is met",
+                  all));
+  bench.figure(scene + ".lead_percent", 100.0 * in_time / all, "%", "of these: the prop is there in time");
+}
+
+// Three springs: before it gives way, while it does, and on the board below [VisHap Fig 4].
+void tell_button(Bench& bench, const Ran& ran) {
+  const Scene scene = trial::prepare_setup(load_scene(bench.context, "camera/button"));
+  const InteractionSpec& does = scene.objects.front().interaction;
+  double before = 0.0, after = 0.0, board = 0.0;
+  for (std::size_t i = 0; i < ran.seen.size(); ++i) {
+    const double depth = -ran.seen[i];
+    if (depth > 0.3 * does.trigger && depth < does.trigger) before = std::max(before, ran.felt[i]);
+    if (depth > does.trigger + does.gradual && depth < does.bottom) after = std::max(after, ran.felt[i]);
+    if (depth > does.bottom) board = std::max(board, ran.felt[i]);
+  }
+  bench.figure("button.before.max", before, "N",
+               "felt before the key gives way, by the depth that vision sees");
+  bench.figure("button.after.max", after, "N", "and after, above the board");
+  bench.figure("button.board.max", board, "N", "and on the board");
+}
+
+}  // namespace
+
+void add_whole_stack(Bench& bench) {
+  const BenchContext& context = bench.context;
+  const std::size_t repeats = context.quick ? 1 : context.full ? 10 : 3;
+  const std::string speeds = context.quick ? "100, 200" : "50, 100, 200, 300";
+  const std::vector<std::string> wall = strokes(speeds, repeats);
+  std::vector<std::string> small = wall;
+  for (std::string& one : quarter_size()) small.push_back(std::move(one));
+  const std::int64_t reaches = context.quick ? 2 : context.full ? 100 : 15;
+  const std::vector<Asked> asked{
+      {"camera/wall", wall, kUnset, 0, context.seed},
+      {"camera/wall", small, kUnset, 0, context.seed},
+      {"camera/button", {"user.press_s=2", "user.release_s=1"}, kUnset, 0, context.seed},
+      {"camera/keypad", {"truth.hand.aborted=0"}, kUnset, reaches, context.seed},
+      {"camera/wall", wall, 3.0, 0, context.seed},
+      {"camera/wall", wall, 3.0, 0, context.seed}};
+  const std::vector<Ran> ran = bench.each(asked, [&](const Asked& one) { return run_one(context, one); });
+  tell_wall(bench, ran[0]);
+  plot_felt(bench, "wall", ran[0],
+            "Each picture in contact: what was felt at its exposure, over where it sees the finger.");
+  bench.figure("wall.small.real_time", ran[1].simulated / ran[1].cpu, "x",
+               "320 x 240: simulated over CPU seconds of one thread, the drawing of the pictures included");
+  bench.figure("wall.real_time", ran[0].simulated / ran[0].cpu, "x", "640 x 480: the same");
+  tell_button(bench, ran[2]);
+  plot_felt(bench, "button", ran[2], "As for the wall; the key gives way, then its board is met.");
+  tell_objects(bench, "keypad", ran[3]);
+  bench.figure("wall.same_hash.count", ran[4].result.hash == ran[5].result.hash ? 1.0 : 0.0, "", exactly(1.0),
+               "two runs of three seconds, at a time on two threads, give the same state hash");
+}
+
+}  // namespace enc::bench::vishap
