@@ -8,9 +8,9 @@
 
 #include "core/devices/stereo_camera.h"
 #include "core/vision/finger/cap_match.h"
+#include "core/vision/finger/exchanged.h"
 #include "core/vision/finger/fingertip.h"
 #include "core/vision/segmentation/segmenter.h"
-#include "core/vision/stereo/exchanged.h"
 #include "core/vision/stereo/rectify.h"
 
 namespace enc {

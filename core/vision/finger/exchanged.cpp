@@ -1,4 +1,4 @@
-#include "core/vision/stereo/exchanged.h"
+#include "core/vision/finger/exchanged.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Left and right exchanged are noticed in the first frame that shows enough, and never otherwise.
-#include "core/vision/stereo/exchanged.h"
+#include "core/vision/finger/exchanged.h"
 
 #include <algorithm>
 
