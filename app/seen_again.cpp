@@ -8,8 +8,8 @@
 #include "app/modules/modules.h"
 #include "core/error.h"
 #include "models/schema/wording.h"
-#include "trial/kept_frames.h"
-#include "trial/vision.h"
+#include "trial/camera/kept_frames.h"
+#include "trial/camera/vision.h"
 
 namespace enc::app {
 namespace {

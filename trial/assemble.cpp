@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "models/setup/driver_table.h"
 #include "trial/driver_device.h"
-#include "trial/vision.h"
+#include "trial/camera/vision.h"
 
 namespace enc::trial {
 namespace {

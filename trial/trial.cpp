@@ -12,7 +12,7 @@
 #include "sim/clock.h"
 #include "trial/limits.h"
 #include "trial/prepare.h"
-#include "trial/vision.h"
+#include "trial/camera/vision.h"
 
 namespace enc::trial {
 namespace {

@@ -5,7 +5,7 @@
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/staged/staged.h"
 #include "core/world/scene.h"
-#include "trial/vision.h"
+#include "trial/camera/vision.h"
 
 namespace enc::bench::registration_images {
 namespace {

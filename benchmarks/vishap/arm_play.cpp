@@ -7,9 +7,9 @@
 #include "core/world/arm_shape.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/world.h"
-#include "trial/arm_things.h"
+#include "trial/camera/arm_things.h"
 #include "trial/prepare.h"
-#include "trial/vision.h"
+#include "trial/camera/vision.h"
 
 namespace enc::bench::vishap {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/vision/finger/finger_tracker.h"
 #include "core/vision/stereo/triangulate.h"
 #include "trial/prepare.h"
-#include "trial/vision.h"
+#include "trial/camera/vision.h"
 
 namespace enc::bench::vishap {
 namespace {

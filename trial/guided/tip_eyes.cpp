@@ -6,7 +6,7 @@
 #include "core/vision/vision_module.h"
 #include "core/world/scene.h"
 #include "sim/camera/stage.h"
-#include "trial/vision.h"
+#include "trial/camera/vision.h"
 
 namespace enc::trial {
 

@@ -7,7 +7,7 @@
 #include "core/rotation.h"
 #include "core/vision/augment/part_mask.h"
 #include "sim/camera/stage.h"
-#include "trial/arm_things.h"
+#include "trial/camera/arm_things.h"
 
 namespace enc::trial {
 namespace {

@@ -1,4 +1,4 @@
-#include "trial/kept_frames.h"
+#include "trial/camera/kept_frames.h"
 
 #include <algorithm>
 #include <charconv>
