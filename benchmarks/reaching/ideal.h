@@ -15,12 +15,12 @@ namespace enc::bench::reaching {
 // tip touches.
 struct SeenReach {
   struct Picture {
-    Vec3 at;               // m
-    double exposed, told;  // s
+    Vec3 at{kUnset, kUnset, kUnset};         // m
+    double exposed = kUnset, told = kUnset;  // s
   };
-  std::vector<Picture> pictures;  // in the order of time
-  double met = kUnset;            // s
-  Eigen::Vector2d where;          // x and y of the tip then
+  std::vector<Picture> pictures;          // in the order of time
+  double met = kUnset;                    // s
+  Eigen::Vector2d where{kUnset, kUnset};  // x and y of the tip then
 };
 
 struct IdealSpec {
@@ -33,7 +33,7 @@ struct IdealSpec {
 };
 
 struct Ideal {
-  Eigen::Vector2d place;  // at which a prop is best, if the tip touches at a time; mean
+  Eigen::Vector2d place{kUnset, kUnset};  // at which a prop is best, if the tip touches at a time; mean
   double within = 0.0;  // probability of the tip's touching within 2 mm of it, as the predictor itself thinks
 };
 // By the pictures that were told by `now`, of a tip that touches then.

@@ -12,13 +12,14 @@
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/reaching/reach_measure.h"
 #include "benchmarks/vishap/vishap.h"
+#include "core/error.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/prepare.h"
 
 namespace enc::bench::vishap {
 namespace {
 
-struct Asked {
+struct Walked {
   std::string scene;
   std::vector<std::string> set;
   double seconds = kUnset;
@@ -39,16 +40,16 @@ struct Ran {
 };
 
 // What was true and felt at the exposures that are still to be told.
-struct Moment {
+struct Felt {
   Time t{};
   Point<'W'> tip;
   double felt = 0.0;
   bool contact = false;
 };
 
-class Look {
+class Onlooker {
  public:
-  explicit Look(Ran& ran) : ran_(ran) {}
+  explicit Onlooker(Ran& ran) : ran_(ran) {}
   void see(const trial::Glance& glance) {
     finger_.see(glance);
     reach_.see(glance);
@@ -76,8 +77,7 @@ class Look {
     const Stamped<TrackedTool>& told = glance.in.tool;
     if (told.health != Health::ok || told.value.tool < 0 || told.t == newest_) return;
     newest_ = told.t;
-    const auto then =
-        std::find_if(line_.begin(), line_.end(), [&](const Moment& m) { return m.t == told.t; });
+    const auto then = std::find_if(line_.begin(), line_.end(), [&](const Felt& m) { return m.t == told.t; });
     if (then == line_.end()) return;
     const Point<'W'> at = glance.scene.X_WC * told.value.X_CT.origin();
     ran_.off.push_back((at - then->tip).norm());
@@ -93,15 +93,15 @@ class Look {
   Ran& ran_;
   trial::FingerMeasure finger_;
   reaching::ReachMeasure reach_;
-  std::deque<Moment> line_;
+  std::deque<Felt> line_;
   Time newest_{};
   bool before_ = false;
   double last_ = kUnset;
 };
 
-Ran run_one(const BenchContext& context, const Asked& asked) {
+Ran run_one(const BenchContext& context, const Walked& asked) {
   Ran ran;
-  Look look(ran);
+  Onlooker look(ran);
   trial::TrialOptions options;
   options.seed = asked.seed;
   options.seconds = asked.seconds;
@@ -247,14 +247,14 @@ void add_whole_stack(Bench& bench) {
   std::vector<std::string> small = wall;
   for (std::string& one : quarter_size()) small.push_back(std::move(one));
   const std::int64_t reaches = context.quick ? 2 : context.full ? 100 : 15;
-  const std::vector<Asked> asked{
+  const std::vector<Walked> asked{
       {"camera/wall", wall, kUnset, 0, context.seed},
       {"camera/wall", small, kUnset, 0, context.seed},
       {"camera/button", {"user.press_s=2", "user.release_s=1"}, kUnset, 0, context.seed},
       {"camera/keypad", {"truth.hand.aborted=0"}, kUnset, reaches, context.seed},
       {"camera/wall", wall, 3.0, 0, context.seed},
       {"camera/wall", wall, 3.0, 0, context.seed}};
-  const std::vector<Ran> ran = bench.each(asked, [&](const Asked& one) { return run_one(context, one); });
+  const std::vector<Ran> ran = bench.each(asked, [&](const Walked& one) { return run_one(context, one); });
   tell_wall(bench, ran[0]);
   plot_felt(bench, "wall", ran[0],
             "Each picture in contact: what was felt at its exposure, over where it sees the finger.");

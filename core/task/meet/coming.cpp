@@ -63,7 +63,9 @@ Point<'W'> ask(const Walk& walk, const State& state, const Coming& now) {
 Point<'W'> foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexcept {
   Coming& now = memory.coming;
   const Object* object = nearest_object(walk, state);
-  if (walk.scene.tracker.foresight != Foresight::reach || object == nullptr || !walk.tool_known) return {};
+  const TrackerRig& rig = walk.scene.tracker;
+  const bool asked = rig.foresight == Foresight::reach && rig.prediction != Prediction::hold;
+  if (!asked || object == nullptr || !walk.tool_known) return {};
   take_picture(walk, state, now);
   const bool comes = state.mode != Mode::away && walk.tool_fresh && object->moving < 0 && now.count >= 3;
   if (!comes || presses(state, memory.contact)) return now.touch = {};

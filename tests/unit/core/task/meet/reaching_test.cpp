@@ -57,6 +57,36 @@ TEST(Reaching, TheTargetGoesToTheProjectionWithinItsLimits) {
   EXPECT_NEAR(before.z(), 0.0, 1e-9);
 }
 
+// A finger that comes obliquely and evenly, seen at 20 Hz and 50 ms late: where the prop is sent long before
+// it touches.
+Point<'W'> sent_to(const char* foresight, double gap) {
+  Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110",
+                       std::string("rig.tracker.foresight=\"") + foresight + "\""});
+  const Vec3 velocity(0.1, 0.0, -0.2);
+  const auto finger = [&](double t) {
+    return Point<'W'>(Vec3(0.0, 0.0, 0.008) + (t - 0.5) * velocity);
+  };  // at 0.5 s
+  for (int i = 0; finger(0.001 * i).xyz[2] - 0.008 > gap; ++i)
+    i % 50 == 0 ? bench.loop.see(finger(0.001 * (i - 50)), std::chrono::milliseconds(50)) : bench.loop.tick();
+  return bench.loop.out.wanted;
+}
+
+TEST(Reaching, TheTargetWaitsWhereTheFingerWillTouch) {
+  const Point<'W'> before = sent_to("carried_on", 0.010), ahead = sent_to("reach", 0.010);
+  EXPECT_LT(before.xyz[0], -0.003);  // under the finger, which has 5 mm to go sideways
+  EXPECT_NEAR(ahead.xyz[0], 0.0, 0.001);
+  EXPECT_NEAR(ahead.xyz[2], 0.0, 1e-4);
+}
+
+TEST(Reaching, ThePropFacesTheSurfaceThatIsBelievedToBeMet) {
+  Bench bench("reaching");
+  for (int i = 0; i < 5; ++i) bench.loop.tick(Point<'W'>(0.030, 0.060, 0.060));  // aside of the left ball
+  const Vec3 facing = (bench.loop.scene.X_WR * bench.loop.out.prop_facing).e();
+  EXPECT_LT((facing - Vec3(0.030, 0.0, 0.070).normalized()).norm(), 1e-6);
+  for (int i = 0; i < 5; ++i) bench.loop.tick(Point<'W'>(0.0, 0.0, 0.400));
+  EXPECT_FALSE(bench.loop.out.prop_facing.finite());  // away: it stays as it is
+}
+
 // A block with a groove in place of the wall, and a finger that goes through the groove: from the right wall
 // the nearest point leaps to the left one, 12 mm away and more.
 trial::FingerLoop over_a_groove() {
