@@ -197,8 +197,8 @@ Json places_json(const trial::GuidedRun& run, std::size_t frames) {
         models::place_of(setup, "truth.frames.W_C"), run.points.size(), pairs));
   throw Error(fmt::format(
       "{}: the ball at the tip was found at {} places and {} are wanted; in the others it was {}; expected "
-      "a ball whose colour nothing else has, wholly in view; see vision.ball_hue_deg, "
-      "vision.ball_radius_mm and truth.camera.exposure",
+      "a ball whose colour nothing else has, wholly in view; see rig.vision.ball_hue_deg, "
+      "rig.vision.ball_radius_mm and truth.camera.exposure",
       models::place_of(setup, "rig.vision.ball_hue_deg"), run.points.size(), pairs, word_of(eyes->loss())));
 }
 

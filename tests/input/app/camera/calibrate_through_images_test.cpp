@@ -54,17 +54,17 @@ TEST(CalibrateThroughImages, SaysWhyTheBallWasNotFound) {
   EXPECT_THAT(line(words({"--frames", "1", "--set", "truth.camera.exposure=4"})),
               AllOf(HasSubstr("vishap.toml:"), HasSubstr("was found at 0 places and 8 are wanted"),
                     HasSubstr("too bright to have a colour")));
-  EXPECT_THAT(line(words({"--frames", "1", "--set", "vision.ball_hue_deg=40"})),
+  EXPECT_THAT(line(words({"--frames", "1", "--set", "rig.vision.ball_hue_deg=40"})),
               HasSubstr("nothing of its colour"));
-  EXPECT_THAT(line(words({"--frames", "1", "--set", "vision.ball_radius_mm=20"})),
+  EXPECT_THAT(line(words({"--frames", "1", "--set", "rig.vision.ball_radius_mm=20"})),
               HasSubstr("not of its size"));
 }
 
 TEST(CalibrateThroughImages, RefusesWhatItCannotLookThrough) {
-  EXPECT_THAT(line(words({"--set", "camera.driver=images"})),
+  EXPECT_THAT(line(words({"--set", "rig.camera.driver=images"})),
               AllOf(HasSubstr("vishap.toml:"), HasSubstr("is driven by 'images'"),
                     HasSubstr("expected driver \"sim\"")));
-  EXPECT_THAT(line(words({"--set", "vision.ball_radius_mm=0"})), HasSubstr("ball_radius_mm"));
+  EXPECT_THAT(line(words({"--set", "rig.vision.ball_radius_mm=0"})), HasSubstr("ball_radius_mm"));
   test::TemporaryFolder temporary;
   const std::string log = (temporary.path() / "log.csv").string();
   std::ofstream(log) << "time_s,tip_x_mm\n0,0\n";
