@@ -27,10 +27,10 @@ std::vector<std::string> words(const std::vector<std::string>& more) {
   return all;
 }
 
-// What one line on stderr says.
-std::string line(const std::vector<std::string>& args, int code = 2, const Environment& with = kModels) {
-  const Result r = run_program(args, with);
-  EXPECT_EQ(r.code, code) << r.out;
+// What one line on stderr says, with exit code 2.
+std::string line(const std::vector<std::string>& args) {
+  const Result r = run_program(args, kModels);
+  EXPECT_EQ(r.code, 2) << r.out;
   EXPECT_EQ(r.out, "");
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
   return r.err;
@@ -71,15 +71,21 @@ TEST(CalibrateThroughImages, RefusesWhatItCannotLookThrough) {
   EXPECT_THAT(line({"calibrate", log, "--through-images"}), HasSubstr("--through-images is of a rig"));
 }
 
+// The program looks for its own modules beside itself: here it has only that of fits.
 TEST(CalibrateThroughImages, AModuleThatWasNotBuiltIsNamed) {
-  test::TemporaryFolder temporary;
   namespace fs = std::filesystem;
-  fs::create_symlink(fs::path(module_folder()) / "encounter_fit.so", temporary.path() / "encounter_fit.so");
-  Environment with = kModels;
-  with.emplace_back("ENCOUNTER_MODULES", temporary.path().string());
-  EXPECT_THAT(line(words({}), 2, with),
-              AllOf(HasSubstr("encounter_vision.so"),
-                    HasSubstr("'./encounter calibrate RIG --through-images' builds it")));
+  test::TemporaryFolder temporary;
+  const fs::path program = temporary.path() / "encounter", modules = temporary.path() / "modules";
+  fs::copy_file(program_file(), program);
+  fs::create_directory(modules);
+  fs::create_symlink(fs::path(module_folder()) / "encounter_fit.so", modules / "encounter_fit.so");
+  std::vector<std::string> command = words({});
+  command.insert(command.begin(), program.string());
+  const Result r = run(command, kModels);
+  EXPECT_EQ(r.code, 2) << r.out;
+  EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+  EXPECT_THAT(r.err, AllOf(HasSubstr("encounter_vision.so"),
+                           HasSubstr("'./encounter calibrate RIG --through-images' builds it")));
 }
 
 }  // namespace
