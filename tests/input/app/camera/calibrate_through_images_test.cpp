@@ -62,7 +62,7 @@ TEST(CalibrateThroughImages, SaysWhyTheBallWasNotFound) {
 
 TEST(CalibrateThroughImages, RefusesWhatItCannotLookThrough) {
   EXPECT_THAT(line(words({"--set", "rig.camera.driver=images"})),
-              AllOf(HasSubstr("vishap.toml:"), HasSubstr("is driven by 'images'"),
+              AllOf(HasSubstr("--set rig.camera.driver=images: "), HasSubstr("is driven by 'images'"),
                     HasSubstr("expected driver \"sim\"")));
   EXPECT_THAT(line(words({"--set", "rig.vision.ball_radius_mm=0"})), HasSubstr("ball_radius_mm"));
   test::TemporaryFolder temporary;
