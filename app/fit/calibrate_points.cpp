@@ -196,9 +196,9 @@ Json places_json(const trial::GuidedRun& run, std::size_t frames) {
         "arm; see truth.frames.W_C and truth.arm.misplaced_mm, or ask for fewer --pairs",
         models::place_of(setup, "truth.frames.W_C"), run.points.size(), pairs));
   throw Error(fmt::format(
-      "{}: the ball at the tip was found at {} places and {} are wanted; in the others it was {}; expected "
-      "a ball whose colour nothing else has, wholly in view; see vision.ball_hue_deg, "
-      "vision.ball_radius_mm and truth.camera.exposure",
+      "{}: the ball at the tip was found at {} places and {} are wanted; otherwise: {}; expected "
+      "a ball whose colour nothing else has, wholly in view; see rig.vision.ball_hue_deg, "
+      "rig.vision.ball_radius_mm and truth.camera.exposure",
       models::place_of(setup, "rig.vision.ball_hue_deg"), run.points.size(), pairs, word_of(eyes->loss())));
 }
 

@@ -42,10 +42,11 @@ std::optional<Point<'C'>> PictureEyes::see(const TipStand& tip) {
 
 PictureEyes twin_eyes(const models::Setup& setup, const DriverSource& modules, std::uint64_t seed) {
   if (setup.rig.camera.driver != "sim")
-    throw Error(fmt::format(
-        "{}: this rig's camera is driven by '{}', and a simulated arm is before no real one; expected driver "
-        "\"sim\" in [camera]; without --through-images the tip is seen as a point",
-        models::place_of(setup, "rig.camera.driver"), setup.rig.camera.driver));
+    throw Error(
+        fmt::format("{}: this rig's camera is driven by '{}', and no real one sees a simulated arm; expected "
+                    "driver \"sim\"; "
+                    "without --through-images no camera is needed",
+                    models::place_of(setup, "rig.camera.driver"), setup.rig.camera.driver));
   try {
     const auto& vision = *static_cast<const VisionModule*>(modules("vision").vision);
     const auto& camera = *static_cast<const sim::CameraModule*>(modules("camera").camera);

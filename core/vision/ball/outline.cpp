@@ -40,6 +40,7 @@ struct Profile {
 double fall_of(const Profile& profile) {
   constexpr std::size_t kHalf = 4, kInside = 5, kOutside = 6;  // steps: an edge is 2 px wide
   const auto& level = profile.level;
+  constexpr double kAlike = 0.5;  // a background with more of its colour than that has no edge to trust
   std::size_t best = 0;
   double most = 0.0;
   for (std::size_t k = kOutside; k + kOutside < profile.count; ++k) {
@@ -47,7 +48,9 @@ double fall_of(const Profile& profile) {
     if (fall > most) most = fall, best = k;
   }
   if (best == 0) return kUnset;
-  const double half = 0.5 * (level[best - kInside] + level[best + kOutside]);
+  const double inside = level[best - kInside], outside = level[best + kOutside];
+  if (outside > kAlike * inside) return kUnset;
+  const double half = 0.5 * (inside + outside);
   for (std::size_t k = best - kInside; k < best + kOutside; ++k)
     if (level[k] >= half && level[k + 1] < half)
       return static_cast<double>(k) + (level[k] - half) / (level[k] - level[k + 1]);

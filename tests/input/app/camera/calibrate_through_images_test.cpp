@@ -27,10 +27,10 @@ std::vector<std::string> words(const std::vector<std::string>& more) {
   return all;
 }
 
-// What one line on stderr says.
-std::string line(const std::vector<std::string>& args, int code = 2, const Environment& with = kModels) {
-  const Result r = run_program(args, with);
-  EXPECT_EQ(r.code, code) << r.out;
+// What one line on stderr says, with exit code 2.
+std::string line(const std::vector<std::string>& args) {
+  const Result r = run_program(args, kModels);
+  EXPECT_EQ(r.code, 2) << r.out;
   EXPECT_EQ(r.out, "");
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
   return r.err;
@@ -54,32 +54,38 @@ TEST(CalibrateThroughImages, SaysWhyTheBallWasNotFound) {
   EXPECT_THAT(line(words({"--frames", "1", "--set", "truth.camera.exposure=4"})),
               AllOf(HasSubstr("vishap.toml:"), HasSubstr("was found at 0 places and 8 are wanted"),
                     HasSubstr("too bright to have a colour")));
-  EXPECT_THAT(line(words({"--frames", "1", "--set", "vision.ball_hue_deg=40"})),
+  EXPECT_THAT(line(words({"--frames", "1", "--set", "rig.vision.ball_hue_deg=40"})),
               HasSubstr("nothing of its colour"));
-  EXPECT_THAT(line(words({"--frames", "1", "--set", "vision.ball_radius_mm=20"})),
+  EXPECT_THAT(line(words({"--frames", "1", "--set", "rig.vision.ball_radius_mm=20"})),
               HasSubstr("not of its size"));
 }
 
 TEST(CalibrateThroughImages, RefusesWhatItCannotLookThrough) {
-  EXPECT_THAT(line(words({"--set", "camera.driver=images"})),
-              AllOf(HasSubstr("vishap.toml:"), HasSubstr("is driven by 'images'"),
+  EXPECT_THAT(line(words({"--set", "rig.camera.driver=images"})),
+              AllOf(HasSubstr("--set rig.camera.driver=images: "), HasSubstr("is driven by 'images'"),
                     HasSubstr("expected driver \"sim\"")));
-  EXPECT_THAT(line(words({"--set", "vision.ball_radius_mm=0"})), HasSubstr("ball_radius_mm"));
+  EXPECT_THAT(line(words({"--set", "rig.vision.ball_radius_mm=0"})), HasSubstr("ball_radius_mm"));
   test::TemporaryFolder temporary;
   const std::string log = (temporary.path() / "log.csv").string();
   std::ofstream(log) << "time_s,tip_x_mm\n0,0\n";
   EXPECT_THAT(line({"calibrate", log, "--through-images"}), HasSubstr("--through-images is of a rig"));
 }
 
+// The program looks for its own modules beside itself: here it has only that of fits.
 TEST(CalibrateThroughImages, AModuleThatWasNotBuiltIsNamed) {
-  test::TemporaryFolder temporary;
   namespace fs = std::filesystem;
-  fs::create_symlink(fs::path(module_folder()) / "encounter_fit.so", temporary.path() / "encounter_fit.so");
-  Environment with = kModels;
-  with.emplace_back("ENCOUNTER_MODULES", temporary.path().string());
-  EXPECT_THAT(line(words({}), 2, with),
-              AllOf(HasSubstr("encounter_vision.so"),
-                    HasSubstr("'./encounter calibrate RIG --through-images' builds it")));
+  test::TemporaryFolder temporary;
+  const fs::path program = temporary.path() / "encounter", modules = temporary.path() / "modules";
+  fs::copy_file(program_file(), program);
+  fs::create_directory(modules);
+  fs::create_symlink(fs::path(module_folder()) / "encounter_fit.so", modules / "encounter_fit.so");
+  std::vector<std::string> command = words({});
+  command.insert(command.begin(), program.string());
+  const Result r = run(command, kModels);
+  EXPECT_EQ(r.code, 2) << r.out;
+  EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+  EXPECT_THAT(r.err, AllOf(HasSubstr("encounter_vision.so"),
+                           HasSubstr("'./encounter calibrate RIG --through-images' builds it")));
 }
 
 }  // namespace

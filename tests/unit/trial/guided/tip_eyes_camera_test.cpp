@@ -1,7 +1,8 @@
 // The seam between the guided registration and any stereo camera: here cameras and finders that are made up.
-#include "trial/guided/tip_eyes.h"
-
+// The name ends so because it needs vision.
 #include <gtest/gtest.h>
+
+#include "trial/guided/tip_eyes.h"
 
 namespace enc::trial {
 namespace {
