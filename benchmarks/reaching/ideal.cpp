@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "core/safety/braking.h"
 #include "core/track/minimum_jerk.h"
 
 namespace enc::bench::reaching {
@@ -223,32 +221,6 @@ Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double now) {
     ideal.within += part.weight * in / (kRings * kTurns);
   }
   return ideal;
-}
-
-double ideal_miss(const IdealSpec& spec, const SeenReach& reach) {
-  constexpr double kBefore = 0.150, kAsked = 0.010, kTick = 0.001;  // s
-  Vec2 target = ideal_place(spec, reach, reach.met - kBefore).place;
-  Vec2 at = target, velocity = Vec2::Zero();
-  if (!target.allFinite()) return std::numeric_limits<double>::infinity();
-  for (double now = reach.met - kBefore; now < reach.met - 0.5 * kTick; now += kTick) {
-    const double asked = std::round((reach.met - now) / kTick);
-    if (std::fmod(asked, kAsked / kTick) == 0.0) target = ideal_place(spec, reach, now).place;
-    if (std::isinf(spec.acceleration)) {
-      at = target;
-      continue;
-    }
-    const Vec2 way = target - at;
-    const double far = way.norm();
-    const double fast = std::min({spec.speed, braking_speed(far, spec.acceleration, kTick), far / kTick});
-    const Vec2 wanted = far > 0.0 ? Vec2(way * (fast / far)) : Vec2(Vec2::Zero());
-    Vec2 change = wanted - velocity;
-    const double most = spec.acceleration * kTick;
-    if (change.norm() > most) change *= most / change.norm();
-    velocity += change;
-    at += kTick * velocity;
-  }
-  if (std::isinf(spec.acceleration)) at = ideal_place(spec, reach, reach.met).place;
-  return (at - reach.where).norm();
 }
 
 }  // namespace enc::bench::reaching

@@ -1,6 +1,6 @@
-// What an ideal predictor could do with the pictures of a reach and with the arm: an upper bound for the
-// prop's being there in time. It knows what no machine can, the very numbers of the simulated person, and
-// tries every timing finely.
+// What an ideal predictor could do with the pictures of a reach: an upper bound for the prop's being there in
+// time. It knows what no machine can, the very numbers of the simulated person and when the finger touches,
+// tries every timing finely, and its prop is anywhere at once.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,6 @@ struct IdealSpec {
   double slowest = 0.3, fastest = 0.8;               // m/s, peak of the first movement
   double touch_slowest = 0.05, touch_fastest = 0.2;  // m/s
   double shortest_way = 0.16, longest_way = 0.20;    // m
-  double speed = 1.0, acceleration = 15.0;           // of the arm; infinite: none
 };
 
 struct Ideal {
@@ -38,9 +37,5 @@ struct Ideal {
 };
 // By the pictures that were told by `now`, of a tip that touches then.
 [[nodiscard]] Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double now);
-
-// How far the arm's prop is from where they meet, m: it goes to the ideal place of each moment as fast as it
-// can.
-[[nodiscard]] double ideal_miss(const IdealSpec& spec, const SeenReach& reach);
 
 }  // namespace enc::bench::reaching

@@ -206,6 +206,7 @@ class Mean {
     first_ += w * fit.first;
     weight_ += w;
   }
+  [[nodiscard]] double evidence() const { return most_ + std::log(weight_); }  // logarithm
   [[nodiscard]] Vec2 place() const { return place_ / weight_; }
   [[nodiscard]] Vec3 first() const { return first_ / weight_; }  // movement
 
@@ -248,9 +249,8 @@ void try_reaches(const ReachBelief& hand, const Seen& seen, const Tries& tries, 
 
 }  // namespace
 
-Eigen::Vector2d place_of_touch(const ReachBelief& hand, std::span<const Sighting> newest_first,
-                               double noise) noexcept {
-  const Vec2 unknown = Vec2::Constant(kUnset);
+Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first, double noise) noexcept {
+  const Touch unknown;
   const std::size_t count = std::min(newest_first.size(), kSightings);
   if (count < 3 || !(noise > 0.0)) return unknown;
   bool sound = true;
@@ -271,7 +271,7 @@ Eigen::Vector2d place_of_touch(const ReachBelief& hand, std::span<const Sighting
   even.evidence += std::log(kEven);
   mean.add(even);
   try_reaches(hand, seen, kAll, mean);
-  return seen.given(mean.place());
+  return {seen.given(mean.place()), mean.evidence()};
 }
 
 }  // namespace enc

@@ -20,9 +20,14 @@ struct Sighting {
 };
 inline constexpr std::size_t kSightings = 5;  // as many pictures are of use
 
-// x and y of the place of touch if the tip touches now. `noise`: of a picture, m rms. NaN where there are
-// fewer than three pictures, or the hand does not come nearer.
-[[nodiscard]] Eigen::Vector2d place_of_touch(const ReachBelief& hand, std::span<const Sighting> newest_first,
-                                             double noise) noexcept;
+// Where the tip touches if it touches at a time, and how well that time fits the pictures.
+struct Touch {
+  Eigen::Vector2d place{kUnset,
+                        kUnset};  // x and y; unset: fewer than three pictures, or it does not come nearer
+  double evidence = kUnset;       // logarithm of a density of that time, per s; but for what all times share
+};
+// Ages are those at that time. `noise`: of a picture, m rms.
+[[nodiscard]] Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first,
+                               double noise) noexcept;
 
 }  // namespace enc

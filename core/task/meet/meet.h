@@ -34,8 +34,12 @@ struct Coming {
   std::array<Point<'W'>, kSightings> at;
   std::array<Time, kSightings> exposed{};
   std::int32_t count = 0, object = -1;
-  Point<'W'> touch;  // the last answer; unset: none
-  Time asked{};      // when that was
+  // If it touched so long after the newest: x and y of N, and the logarithm of how well that fits (reach.h).
+  static constexpr std::size_t kTimes = 7;
+  std::array<std::array<double, 3>, kTimes> touches{};
+  std::int32_t asked = 0;  // of these times
+  Pose<'W', 'N'> X_WN;     // the surface under it when the newest came
+  Point<'W'> touch;        // where it is expected; unset: nowhere
 };
 
 struct Meeting {
@@ -70,8 +74,10 @@ void fields(F& f, Coming& r) {
   for (Time& t : r.exposed) f("coming_exposed", t);
   f("coming_count", r.count);
   f("coming_object", r.object);
-  fields(f, "coming_touch_W", r.touch);
+  for (auto& touch : r.touches) fields(f, "coming_touches", touch);
   f("coming_asked", r.asked);
+  fields(f, "coming_X_WN", r.X_WN);
+  fields(f, "coming_touch_W", r.touch);
 }
 template <class F>
 void fields(F& f, Meeting& m) {

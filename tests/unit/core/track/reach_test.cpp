@@ -68,7 +68,7 @@ TEST(Reach, TouchesWhereItDoes) {
   std::vector<double> off;
   for (int i = 0; i < 60; ++i) {
     const Reach r = drawn(stream);
-    const auto place = place_of_touch(hand, pictures(r, 0.02, 0.0, stream), 0.3e-3);
+    const auto place = touch_then(hand, pictures(r, 0.02, 0.0, stream), 0.3e-3).place;
     off.push_back((place - r.at(r.touches).head<2>()).norm());
   }
   std::sort(off.begin(), off.end());
@@ -85,7 +85,7 @@ TEST(Reach, IsBetterThanAnEvenMotionWhereHandsReach) {
     const Reach r = drawn(stream);
     const Pictures seen = pictures(r, 0.05 + 0.05 * stream.uniform(), 0.5e-3, stream);
     const Eigen::Vector2d where = r.at(r.touches).head<2>();
-    ours += (place_of_touch(hand, seen, 0.7e-3) - where).norm() < 2e-3 ? 1 : 0;
+    ours += (touch_then(hand, seen, 0.7e-3).place - where).norm() < 2e-3 ? 1 : 0;
     even += (straight_on(seen) - where).norm() < 2e-3 ? 1 : 0;
   }
   EXPECT_GT(ours, 0.50 * kReaches);  // 62 % is what an ideal predictor can do (benchmarks/reaching/ideal.h)
@@ -105,7 +105,7 @@ TEST(Reach, KnowsAHandThatComesEvenly) {
       const double old = age + 0.05 * k;
       seen.push_back({-old * velocity + 0.5e-3 * stream.normal3(), old});
     }
-    off.push_back(place_of_touch(hand, seen, 0.7e-3).norm());
+    off.push_back(touch_then(hand, seen, 0.7e-3).place.norm());
   }
   std::sort(off.begin(), off.end());
   EXPECT_LT(off[100], 1.0e-3);
@@ -117,11 +117,11 @@ TEST(Reach, TurnsWithItsPictures) {
   const ReachBelief hand;
   const Reach r = drawn(stream);
   Pictures seen = pictures(r, 0.07, 0.5e-3, stream);
-  const Eigen::Vector2d before = place_of_touch(hand, seen, 0.7e-3);
+  const Eigen::Vector2d before = touch_then(hand, seen, 0.7e-3).place;
   const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3::UnitZ()).toRotationMatrix();
   const Vec3 shift(0.3, -0.2, 0.0);
   for (Sighting& one : seen) one.at = turn * one.at + shift;
-  const Eigen::Vector2d after = place_of_touch(hand, seen, 0.7e-3);
+  const Eigen::Vector2d after = touch_then(hand, seen, 0.7e-3).place;
   // Where a hand is, is not known beforehand within a metre: that is all that a shift may change.
   EXPECT_LT((after - (turn * Vec3(before.x(), before.y(), 0.0) + shift).head<2>()).norm(), 0.05e-3);
 }
@@ -132,7 +132,7 @@ TEST(Reach, SaysNothingOfWhatItCannotKnow) {
   const Reach r = drawn(stream);
   const Pictures seen = pictures(r, 0.07, 0.5e-3, stream);
   const auto known = [&](const Pictures& some, double noise = 0.7e-3) {
-    return place_of_touch(hand, some, noise).allFinite();
+    return touch_then(hand, some, noise).place.allFinite();
   };
   EXPECT_TRUE(known(seen));
   EXPECT_FALSE(known({}));
@@ -156,7 +156,7 @@ TEST(Reach, SaysNothingOfWhatItCannotKnow) {
   EXPECT_FALSE(known(still));
   Pictures at_once = seen;
   for (Sighting& one : at_once) one.age = 0.05;
-  const auto place = place_of_touch(hand, at_once, 0.7e-3);
+  const auto place = touch_then(hand, at_once, 0.7e-3).place;
   EXPECT_TRUE(!place.allFinite() || place.norm() < 1.0);
 }
 
