@@ -76,11 +76,11 @@ struct CameraTruth {
   double exposure = 1.0;      // of the light that is there
   double stalls_at = kUnset;  // s: no frame from then on
   double back_at = kUnset;    // s: frames again
-  double swapped_at = kUnset;                       // s: left and right exchanged from then on
-  Vec3 moved{0, 0, 0};                              // m in W: stands so far from [truth.frames.W_C]
-  double moved_at = 0.0;                            // s: from then on
-  std::array<double, 5> distortion{0, 0, 0, 0, 0};  // of both lenses: k1, k2, p1, p2, k3
-  double ball_radius = 0.012;                       // m, of the ball at the tip that a registration sees
+  double swapped_at = kUnset;                        // s: left and right exchanged from then on
+  Vec3 moved{0, 0, 0};                               // m in W: stands so far from [truth.frames.W_C]
+  double moved_at = 0.0;                             // s: from then on
+  std::array<double, 5> distortion{0, 0, 0, 0, 0};   // of both lenses: k1, k2, p1, p2, k3
+  double ball_radius = 0.012;                        // m, of the ball at the tip that a registration sees
   std::array<double, 3> ball_rgb{0.5, 0.04, 0.115};  // linear, 0 to 1
 };
 

@@ -90,6 +90,7 @@ class World {
   TwinSpec twin_;
   const Scene& prepared_;
   double dt_;
+  double mass_behind_ = 0.0;  // the sensor, kg
   int steps_per_tick_;
   std::int32_t clamped_ = -1;  // tool in the gripper
   Pose<'W', 'R'> X_WR_;        // true
@@ -110,7 +111,6 @@ class World {
   const Held* in_hand_ = nullptr;  // of these; none: the hand is empty
   int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;
   double programme_time_ = 10.0;  // s
-  double mass_behind_ = 0.0;      // the sensor, kg
   Tick next_;
   Truth truth_;
   std::int64_t diverged_at_ = -1;

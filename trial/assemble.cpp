@@ -9,8 +9,8 @@
 #include "core/devices/roles.h"
 #include "core/error.h"
 #include "models/setup/driver_table.h"
-#include "trial/driver_device.h"
 #include "trial/camera/vision.h"
+#include "trial/driver_device.h"
 
 namespace enc::trial {
 namespace {

@@ -10,9 +10,9 @@
 #include "core/task/carry/travel.h"
 #include "core/task/measure/probe.h"
 #include "sim/clock.h"
+#include "trial/camera/vision.h"
 #include "trial/limits.h"
 #include "trial/prepare.h"
-#include "trial/camera/vision.h"
 
 namespace enc::trial {
 namespace {

@@ -8,8 +8,8 @@
 #include "sim/camera/skin_tones.h"
 #include "sim/world.h"
 #include "trial/camera/arm_things.h"
-#include "trial/prepare.h"
 #include "trial/camera/vision.h"
+#include "trial/prepare.h"
 
 namespace enc::bench::vishap {
 namespace {

@@ -11,8 +11,8 @@
 #include "core/vision/augment/facets.h"
 #include "core/vision/finger/finger_tracker.h"
 #include "core/vision/stereo/triangulate.h"
-#include "trial/prepare.h"
 #include "trial/camera/vision.h"
+#include "trial/prepare.h"
 
 namespace enc::bench::vishap {
 namespace {

@@ -7,8 +7,8 @@
 #include "sim/camera/skin_tones.h"
 #include "sim/camera/stage.h"
 #include "trial/camera/arm_things.h"
-#include "trial/driver_device.h"
 #include "trial/camera/kept_frames.h"
+#include "trial/driver_device.h"
 #include "trial/trackers/threaded_tracker.h"
 
 namespace enc::trial {

@@ -145,7 +145,7 @@ TEST(ArmPlant, TheGimbalTurnsInItsTime) {
 
 TEST(ArmPlant, ADrivenFrontComesUpToSpeed) {
   Bench b;
-  b.plant.drive_surface(0.05);
+  b.plant.move_prop({.surface_speed = 0.05, .facing = {}});
   for (int i = 0; i < 20; ++i) {
     b.plant.command(Vec<'R'>::zero());
     b.plant.begin_cycle();

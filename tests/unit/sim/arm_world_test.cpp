@@ -167,7 +167,7 @@ TEST(ArmWorld, GoesOnFromWhereItWasSaved) {
 TEST(ArmWorld, ADrumRunsUnderTheFinger) {
   Room room({}, true);
   room.prepared.objects[0].interaction.way = Vec3::UnitY();
-  room.world->arm->drive_surface(0.05);
+  room.world->arm->move_prop({.surface_speed = 0.05, .facing = {}});
   double sideways = 0.0;
   int ticks = 0;
   while (!room.world->user_done()) {

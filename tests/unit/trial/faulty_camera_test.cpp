@@ -17,11 +17,12 @@ namespace {
 
 // As the modules have them, without loading one.
 const ModuleInfo& modules(const std::string& name) {
-  static const VisionModule vision{[](std::unique_ptr<StereoCamera> camera, const StereoRig& rig,
-                                      const VisionRig& v) {
-    return std::unique_ptr<PoseTracker>(std::make_unique<VisionTracker>(
-        std::move(camera), rig, FingerTracker(rig, v.segmentation, v.fingertip, v.track, v.match, v.search)));
-  }};
+  static const VisionModule vision{
+      [](std::unique_ptr<StereoCamera> camera, const StereoRig& rig, const VisionRig& v, Release release) {
+        return std::unique_ptr<PoseTracker>(std::make_unique<VisionTracker>(
+            std::move(camera), rig,
+            FingerTracker(rig, v.segmentation, v.fingertip, v.track, v.match, v.search), release));
+      }};
   static const sim::CameraModule camera{
       nullptr,
       [](const sim::TwinCameraSpec& spec, sim::Show show) {

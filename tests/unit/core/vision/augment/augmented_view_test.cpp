@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/world/arm_shape.h"
 #include "core/vision/augment/part_mask.h"
 #include "core/vision/stereo/triangulate.h"
+#include "core/world/arm_shape.h"
 
 namespace enc {
 namespace {
