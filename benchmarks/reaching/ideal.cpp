@@ -18,7 +18,7 @@ constexpr std::size_t kPictures = 8;
 constexpr double kWithin = 2e-3;   // m
 constexpr double kExactly = 1e-4;  // m
 
-double below(double x) { return 0.5 * std::erfc(-x * M_SQRT1_2); }
+double below(double x) { return 0.5 * (1.0 + std::erf(x * M_SQRT1_2)); }
 
 // A timing of a reach that touches now, and what is left of its weight beside the pictures'.
 struct Timing {
