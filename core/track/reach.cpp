@@ -161,8 +161,8 @@ Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width
   Fit fit;
   fit.first = {m[1], across.mean()[1], m[4]};
   const double p = MinimumJerk(-t.begins / t.first).x, s = MinimumJerk(-t.corrects / t.second).x;
-  const Vec3 now(1.0, p + rest * s, s);
-  fit.place = {now.dot(m.head<3>()), now.dot(across.mean())};
+  const Vec3 touching(1.0, p + rest * s, s);
+  fit.place = {touching.dot(m.head<3>()), touching.dot(across.mean())};
   fit.evidence = across.evidence() + plane.evidence() + std::log(std::max(share, 1e-12));
   // That it crosses just now, where nothing else says so: the density of its height, times its speed.
   if (!t.falls_short) {
