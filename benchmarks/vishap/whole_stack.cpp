@@ -164,9 +164,9 @@ void tell_wall(Bench& bench, const Ran& ran) {
       most = std::max(most, m.miss);
       ++n;
     }
+    if (n == 0.0) continue;  // not asked for
     bench.figure(
-        fmt::format("wall.miss_mm.{:.0f}.max", v), n > 0 ? most * kMm : kUnset, "mm",
-        v <= 200.0 ? at_most(2.0) : Bounds{},
+        fmt::format("wall.miss_mm.{:.0f}.max", v), most * kMm, "mm", v <= 200.0 ? at_most(2.0) : Bounds{},
         fmt::format("from the prop's middle to the finger, along the wall, of {:.0f} touches at {:.0f} mm/s; "
                     "640 x 480 at 20 Hz",
                     n, v));
