@@ -18,12 +18,7 @@ ReachRan run_one(const BenchContext& context, const ReachRun& run) {
   options.seed = run.seed;
   options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
   models::Setup setup = load_scene(context, run.scene, run.set);
-  if (run.random > 0) {
-    UserSpec& user = *setup.scene.user;
-    user.kind = UserKind::reaches;
-    if (!user.reaches) user.reaches.emplace();
-    user.reaches->count = run.random;
-  }
+  if (run.random > 0) reach_at_random(setup, run.random);
   trial::Trial trial(std::move(setup), options);
   const double start = thread_seconds();
   const trial::TrialResult done = trial.run();
@@ -52,6 +47,13 @@ std::vector<double> of_each(const std::vector<ReachOutcome>& reaches, Value valu
 }
 
 }  // namespace
+
+void reach_at_random(models::Setup& setup, std::int64_t count) {
+  UserSpec& user = *setup.scene.user;
+  user.kind = UserKind::reaches;
+  if (!user.reaches) user.reaches.emplace();
+  user.reaches->count = count;
+}
 
 Settings seen(Seen how) {
   if (how == Seen::vision) return {};

@@ -8,6 +8,7 @@
 
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/reaching/reach_measure.h"
+#include "models/setup/scene_file.h"
 
 namespace enc::bench::reaching {
 
@@ -31,6 +32,8 @@ struct ReachRan {
 // All of them, on all cores.
 [[nodiscard]] std::vector<ReachRan> run_all(const BenchContext& context, const std::vector<ReachRun>& runs);
 
+// In place of what the scene's user does, so many random reaches.
+void reach_at_random(models::Setup& setup, std::int64_t count);
 // `count` random reaches.
 [[nodiscard]] ReachRun random_reaches(const std::string& scene, std::int64_t count, std::uint64_t seed);
 // At the wall: comes with an even speed until it touches, so and so often.

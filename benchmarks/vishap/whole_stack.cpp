@@ -10,7 +10,7 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/load_scene.h"
-#include "benchmarks/reaching/reach_measure.h"
+#include "benchmarks/reaching/reaching.h"
 #include "benchmarks/vishap/vishap.h"
 #include "core/error.h"
 #include "trial/measure/finger_measure.h"
@@ -112,12 +112,7 @@ Ran run_one(const BenchContext& context, const Walked& asked) {
   };
   options.watch = [&](const trial::Glance& glance) { look.see(glance); };
   models::Setup setup = load_scene(context, asked.scene, asked.set);
-  if (asked.reaches > 0) {
-    UserSpec& user = *setup.scene.user;
-    user.kind = UserKind::reaches;
-    if (!user.reaches) user.reaches.emplace();
-    user.reaches->count = asked.reaches;
-  }
+  if (asked.reaches > 0) reaching::reach_at_random(setup, asked.reaches);
   trial::Trial trial(std::move(setup), options);
   const double start = thread_seconds();
   ran.result = trial.run();
