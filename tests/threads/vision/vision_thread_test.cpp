@@ -104,6 +104,7 @@ struct Loop {
     }
     return false;
   }
+  double seconds_to_last() const { return seconds(times.last - Time{}); }
   bool sees() const { return newest.health == Health::ok && newest.value.tool == VisionTracker::kFinger; }
 };
 
@@ -112,7 +113,9 @@ TEST(VisionThread, TheFingerIsSeenBesideTheLoop) {
   loop.times.reserve(1000);
   ASSERT_TRUE(loop.until([&] { return loop.times.frames >= 60 && loop.sees(); }));
   EXPECT_LT((loop.newest.value.X_CT.p() - pictures().hand.tip).norm(), 4e-3);
-  EXPECT_LE(loop.times.rate(), 51.0);
+  // Never more than were due since the start. (Their rate says less: a late first frame makes the others look
+  // fast.)
+  EXPECT_LE(static_cast<double>(loop.times.frames), 1.0 + 50.0 * loop.seconds_to_last());
   for (const double age : loop.times.ages) EXPECT_GE(age, 0.0);
   EXPECT_THAT(loop.tracker.remarks().front(), testing::HasSubstr("frames"));
 }
@@ -138,7 +141,7 @@ TEST(VisionThread, ASlowCameraKeepsNobody) {
   std::int64_t ticks = 0;
   ASSERT_TRUE(loop.until([&] { return ++ticks > 0 && loop.times.frames >= frames; }));
   EXPECT_GT(ticks, 10 * frames);
-  EXPECT_LT(loop.times.rate(), 17.0);
+  EXPECT_LE(static_cast<double>(loop.times.frames), loop.seconds_to_last() / 0.06);
 }
 
 TEST(VisionThread, StartsAndEndsFiftyTimes) {
