@@ -48,6 +48,8 @@ std::string difference(const Stamped<TrackedTool>& recorded, const Stamped<Track
   if (!same(a.xyz, b.xyz) || !same(a.xyzw, b.xyzw))
     return fmt::format("its place in C: recorded [{}, {}, {}] m, seen [{}, {}, {}] m", a.xyz[0], a.xyz[1],
                        a.xyz[2], b.xyz[0], b.xyz[1], b.xyz[2]);
+  const std::array noise{recorded.value.along, recorded.value.across};
+  if (!same(noise, {seen.value.along, seen.value.across})) return "how well its place is known";
   if (recorded.health != seen.health && recorded.health != Health::fault) return "its health";
   return {};
 }

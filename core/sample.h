@@ -25,6 +25,9 @@ struct Stamped {
 struct TrackedTool {
   std::int32_t tool = -1;
   Pose<'C', 'T'> X_CT;
+  // How well its place is known, m rms: along the view from C to it, and to each side of that. Unset: as well
+  // as the rig believes.
+  double along = kUnset, across = kUnset;
 };
 
 // Force and torque on the haptic-tip side of the sensor, in and about F: what the tool does to the machine.

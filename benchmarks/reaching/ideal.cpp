@@ -193,10 +193,10 @@ std::vector<Part> parts_of(const Task& task) {
 
 }  // namespace
 
-Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double now) {
-  Task task{spec, {}, now};
+Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches) {
+  Task task{spec, {}, touches};
   for (const SeenReach::Picture& picture : reach.pictures)
-    if (picture.told <= now) task.pictures.push_back(picture);
+    if (picture.told <= told) task.pictures.push_back(picture);
   if (task.pictures.size() > kPictures)
     task.pictures.erase(task.pictures.begin(), task.pictures.end() - kPictures);
   Ideal ideal;
@@ -221,6 +221,24 @@ Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double now) {
     ideal.within += part.weight * in / (kRings * kTurns);
   }
   return ideal;
+}
+
+Eigen::Vector2d ideal_carried(const IdealSpec& spec, const SeenReach& reach, double acceleration) {
+  constexpr std::size_t kLast = 4;  // pictures: what came before has been reached long ago
+  std::vector<double> told;
+  for (const SeenReach::Picture& picture : reach.pictures)
+    if (picture.told <= reach.met) told.push_back(picture.told);
+  Eigen::Vector2d at{kUnset, kUnset};
+  for (std::size_t i = told.size() - std::min(kLast, told.size()); i < told.size(); ++i) {
+    const Eigen::Vector2d best = ideal_place(spec, reach, told[i], reach.met).place;
+    const double time = (i + 1 < told.size() ? told[i + 1] : reach.met) - told[i];
+    const Eigen::Vector2d way = best - at;
+    if (!best.allFinite()) continue;
+    at = at.allFinite() ? Eigen::Vector2d(at + way * std::min(1.0, 0.5 * acceleration * time * time /
+                                                                       std::max(way.norm(), 1e-9)))
+                        : best;
+  }
+  return at;
 }
 
 }  // namespace enc::bench::reaching

@@ -1,6 +1,6 @@
 // What an ideal predictor could do with the pictures of a reach: an upper bound for the prop's being there in
 // time. It knows what no machine can, the very numbers of the simulated person and when the finger touches,
-// tries every timing finely, and its prop is anywhere at once.
+// tries every timing finely, and its prop is anywhere at once or is carried by an arm.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,13 @@ struct Ideal {
   Eigen::Vector2d place{kUnset, kUnset};  // at which a prop is best, if the tip touches at a time; mean
   double within = 0.0;  // probability of the tip's touching within 2 mm of it, as the predictor itself thinks
 };
-// By the pictures that were told by `now`, of a tip that touches then.
-[[nodiscard]] Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double now);
+// By the pictures that were told by `told`, of a tip that touches at `touches`, s.
+[[nodiscard]] Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches);
+
+// Where the prop of that predictor is when the finger touches, if an arm carries it: from rest, with each new
+// picture, straight to the place that is best by then, with at most this acceleration, m/s^2. It need not
+// stop.
+[[nodiscard]] Eigen::Vector2d ideal_carried(const IdealSpec& spec, const SeenReach& reach,
+                                            double acceleration);
 
 }  // namespace enc::bench::reaching

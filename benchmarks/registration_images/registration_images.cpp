@@ -20,6 +20,7 @@ constexpr double kUm = 1e6;
 
 std::vector<double> along(const std::vector<Seen>& all, Vec3 Seen::*what, Eigen::Index axis) {
   std::vector<double> values;
+  values.reserve(all.size());
   for (const Seen& one : all) values.push_back((one.*what)(axis)*kMm);
   return values;
 }

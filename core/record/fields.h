@@ -20,6 +20,8 @@ template <class F>
 void fields(F& f, TrackedTool& s) {
   f("tool", s.tool);
   fields(f, "X_CT", s.X_CT);
+  f("noise_along", s.along);
+  f("noise_across", s.across);
 }
 template <class F>
 void fields(F& f, Wrench& s) {

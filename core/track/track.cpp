@@ -31,8 +31,8 @@ void take_in(const Walk& walk, State& state, bool pressing) {
   if (rig.prediction == Prediction::hold) return;
   const TrackedTool& pose = state.tool.value;
   const Point<'T'>& tip = walk.scene.tools[static_cast<std::size_t>(pose.tool)].tip.centre;
-  observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip), state.tip_motion,
-          pressing);
+  observe(rig, pose.tool, exposed(rig, state.tool.t), walk.scene.X_WC * (pose.X_CT * tip),
+          noise_of(rig, pose, walk.scene.X_WC), state.tip_motion, pressing);
 }
 
 // The way from `from` to `to` ends where the tool's tip meets the haptic-tip: a prediction knows nothing of a

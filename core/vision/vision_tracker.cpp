@@ -1,5 +1,6 @@
 #include "core/vision/vision_tracker.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -14,6 +15,14 @@ constexpr std::array kReasons{"", "another size than the rig file's", "an image 
 
 std::string text_of(const ImageSize& size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height) + " px";
+}
+
+// Its covariance along the view, and the mean of the two sides.
+TrackedTool tool_of(const Finger& finger) {
+  const Vec3 view = finger.tip.e().normalized();
+  const double along = view.dot(finger.covariance * view);
+  const double across = 0.5 * (finger.covariance.trace() - along);
+  return {VisionTracker::kFinger, {Quat::Identity(), finger.tip}, std::sqrt(along), std::sqrt(across)};
 }
 
 }  // namespace
@@ -85,7 +94,7 @@ bool VisionTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
   if (!due) return stalled(now, newest);
   said_stale_ = false;
   last_ = {{-1, {}}, told_.exposed, Health::ok};
-  if (told_.state == FingerState::seen) last_.value = {kFinger, {Quat::Identity(), told_.tip}};
+  if (told_.state == FingerState::seen) last_.value = tool_of(told_);
   newest = last_;
   return true;
 }

@@ -38,6 +38,12 @@ struct Motion {
   }
 };
 
+// By a tracker that knows all ways alike.
+void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
+             bool calm = false) {
+  enc::observe(rig, tool, t, tip, {rig.measurement_noise, rig.measurement_noise}, motion, calm);
+}
+
 struct Packet {
   Time exposed, due;
   Point<'W'> tip;
@@ -77,7 +83,7 @@ double error_of(Prediction prediction, const Motion& motion, const std::vector<P
     sum += (tip.e() - motion.at(seconds(now.time_since_epoch()))).squaredNorm();
     ++n;
   }
-  EXPECT_TRUE(state.xx >= 0.0 && state.vv >= 0.0 && state.aa >= 0.0);
+  EXPECT_TRUE(state.across.xx >= 0.0 && state.across.vv >= 0.0 && state.across.aa >= 0.0);
   return std::sqrt(sum / n);
 }
 

@@ -52,11 +52,6 @@ void choose_mode(const Walk& walk, State& state, Meeting& now) {
     now.contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
 }
 
-struct Goal {
-  Point<'W'> point;
-  Vec<'W'> velocity = Vec<'W'>::zero();
-};
-
 // A ball that flies is no longer touched: its prop gets out of the finger's way, to where the ball will wait.
 Vec<'W'> rest_of_flight(const Walk& walk, const Object& object) {
   if (object.interaction.kind != Interaction::hit) return Vec<'W'>::zero();
@@ -73,9 +68,9 @@ bool touches_belt(const State& state, const Object* object) {
 // The finger's projection on the surface, which goes along with it and with what moves. How fast, the surface
 // says: on a small ball the projection is slower than the finger, beyond the edge of a button it stands.
 Goal goal_of(const Walk& walk, const State& state, Meeting& memory, const Object& object) {
-  const Point<'W'> touch = foreseen_touch(walk, state, memory);
+  const Goal touch = foreseen_touch(walk, state, memory);
   if (object.met_in_its_middle()) return {object.X_WO.origin()};
-  if (touch.finite()) return {touch};
+  if (touch.point.finite()) return touch;
   const Vec<'W'> none = Vec<'W'>::zero();
   if (const Vec<'W'> rest = rest_of_flight(walk, object); !rest.e().isZero())
     return {walk.surface_point + rest};

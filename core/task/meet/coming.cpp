@@ -1,5 +1,5 @@
-// Where a finger that comes will touch, asked anew with every picture and every few ticks: the longer it has
-// not touched, the farther it is on its way.
+// Where a finger that comes will touch, asked anew with every picture: the longer it has not touched, the
+// farther it is on its way.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,10 @@ namespace {
 
 // The touch may come so long after the newest picture, s: more closely where it is soon.
 constexpr std::array<double, Coming::kTimes> kAfter{0.055, 0.075, 0.098, 0.126, 0.165, 0.22, 0.30};
-constexpr double kArm = 0.06;    // s: what comes later can still be met later
-constexpr double kApart = 0.03;  // s, between pictures
+constexpr std::int32_t kEachTick = 2;  // of these, because each takes some 0.2 ms
+constexpr double kSoon = 0.02;         // s: what comes later can still be met later
+constexpr double kStep = 0.004;        // s, from one time that is weighed to the next
+constexpr double kApart = 0.03;        // s, between pictures
 constexpr double kUneven = 1.4;  // times the noise of a picture: no hand is of minimum jerk to the last,
 constexpr double kUnevenLeast = 0.3e-3;  // m, and by this at least
 constexpr double kLying = 1e-3;          // m: nearer, it lies on the prop
@@ -36,49 +38,61 @@ bool take_picture(const Walk& walk, const State& state, Coming& now) {
 }
 
 // One of the times, in axes of the surface.
-void ask(const Walk& walk, Coming& now) {
+void ask(const Walk& walk, const State& state, Coming& now) {
   const Pose<'N', 'W'> X_NW = now.X_WN.inverse();
   const auto which = static_cast<std::size_t>(now.asked++);
+  const TrackerRig& rig = walk.scene.tracker;
+  const double noise = std::sqrt(noise_of(rig, state.tool.value, walk.scene.X_WC).mean_square());
   std::array<Sighting, kSightings> seen;
   for (std::size_t i = 0; i < static_cast<std::size_t>(now.count); ++i)
     seen[i] = {(X_NW * now.at[i]).e() - walk.tool_radius * Vec3::UnitZ(),
                age(now.exposed[0], now.exposed[i]) + kAfter[which]};
-  const Touch touch = touch_then(walk.scene.tracker.reach, {seen.data(), static_cast<std::size_t>(now.count)},
-                                 std::max(kUnevenLeast, kUneven * walk.scene.tracker.measurement_noise));
+  const Touch touch = touch_then(rig.reach, {seen.data(), static_cast<std::size_t>(now.count)},
+                                 std::max(kUnevenLeast, kUneven * noise));
   const bool believed = touch.place.allFinite() && (touch.place - seen[0].at.head<2>()).norm() < kFarthest &&
                         seen[0].at.z() > kLying;
   now.touches[which] = {touch.place.x(), touch.place.y(), believed ? touch.evidence : -HUGE_VAL};
 }
 
-// The times that are still to come, weighted by how well they fit, and the sooner the more.
-Point<'W'> expected(const Walk& walk, const State& state, const Coming& now) {
-  const double passed = age(walk.tick.t, now.exposed[0]);
-  std::array<double, Coming::kTimes> weight{};
+// If it touches so long after the newest picture: between the two times next to that, if both say something.
+Vec3 touch_at(const Coming& now, double after) {
+  std::size_t i = 0;
+  while (i + 2 < kAfter.size() && kAfter[i + 1] < after) ++i;
+  const Vec3 a = Vec3::Map(now.touches[i].data()), b = Vec3::Map(now.touches[i + 1].data());
+  const double share = std::clamp((after - kAfter[i]) / (kAfter[i + 1] - kAfter[i]), 0.0, 1.0);
+  if (std::isinf(a[2]) || std::isinf(b[2])) return std::isinf(a[2]) ? b : a;
+  return a + share * (b - a);
+}
+
+// The mean over the times that are still to come, weighted by how well they fit, and the sooner the more. In
+// the surface's axes; unset: none fits.
+Eigen::Vector2d expected(const Coming& now, double passed) {
+  constexpr std::size_t kMost = 80;
+  std::array<Vec3, kMost> at;
   double most = -HUGE_VAL;
-  for (std::size_t i = 0; i < kAfter.size(); ++i) {
-    const double until = i + 1 < kAfter.size() ? 0.5 * (kAfter[i] + kAfter[i + 1]) : 2.0 * kAfter[i];
-    const double from = i > 0 ? 0.5 * (kAfter[i - 1] + kAfter[i]) : 0.0;
-    const double left = std::min(until - from, until - passed);  // s, of what this one stands for
-    weight[i] = left > 0.0 ? now.touches[i][2] + std::log(left) - std::max(0.0, kAfter[i] - passed) / kArm
-                           : -HUGE_VAL;
-    most = std::max(most, weight[i]);
+  std::size_t n = 0;
+  for (double after = std::max(passed, kAfter.front()); n == 0 || (after < kAfter.back() && n < kMost);
+       after += kStep) {
+    at[n] = touch_at(now, after);
+    at[n][2] -= (after - passed) / kSoon;
+    most = std::max(most, at[n++][2]);
   }
-  if (!(most > -1e300)) return {};
-  double x = 0.0, y = 0.0, sum = 0.0;
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    const double w = std::exp(weight[i] - most);
-    if (!(w > 0.0)) continue;
-    x += w * now.touches[i][0];
-    y += w * now.touches[i][1];
-    sum += w;
-  }
+  if (std::isinf(most)) return {kUnset, kUnset};
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < n; ++i)
+    if (const double w = std::exp(at[i][2] - most); w > 0.0) sum += w * Vec3(at[i][0], at[i][1], 1.0);
+  return sum.head<2>() / sum[2];
+}
+
+Point<'W'> on_surface(const Walk& walk, const State& state, const Coming& now, const Eigen::Vector2d& at) {
+  if (!at.allFinite()) return {};
   ObjectHint hint = state.hints.tool[0];
-  return nearest(walk.scene, state.object, now.X_WN * Point<'N'>(x / sum, y / sum, 0.0), hint).point;
+  return nearest(walk.scene, state.object, now.X_WN * Point<'N'>(at.x(), at.y(), 0.0), hint).point;
 }
 
 }  // namespace
 
-Point<'W'> foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexcept {
+Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexcept {
   Coming& now = memory.coming;
   const Object* object = nearest_object(walk, state);
   const TrackerRig& rig = walk.scene.tracker;
@@ -89,19 +103,24 @@ Point<'W'> foreseen_touch(const Walk& walk, const State& state, Meeting& memory)
   if (!comes || presses(state, memory.contact)) {
     now.asked = 0;
     now.object = -1;
-    return now.touch = {};
+    now.touch = {};
+    return {};
   }
   if (news || state.object != now.object) {
     now.object = state.object;
     now.asked = 0;
     now.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
   }
-  if (now.asked <
-      static_cast<std::int32_t>(kAfter.size())) {  // a tick each; until all are known the last answer holds
-    ask(walk, now);
-    return now.touch;
+  if (now.asked < static_cast<std::int32_t>(kAfter.size())) {  // until all are known the last answer holds
+    for (std::int32_t i = 0; i < kEachTick && now.asked < static_cast<std::int32_t>(kAfter.size()); ++i)
+      ask(walk, state, now);
+    return {now.touch};
   }
-  return now.touch = expected(walk, state, now);
+  const double passed = age(walk.tick.t, now.exposed[0]), dt = walk.scene.dt;
+  now.touch = on_surface(walk, state, now, expected(now, passed));
+  const Point<'W'> then = on_surface(walk, state, now, expected(now, passed + dt));
+  if (!now.touch.finite() || !then.finite()) return {now.touch};
+  return {now.touch, (1.0 / dt) * (then - now.touch)};
 }
 
 }  // namespace enc::stages

@@ -96,8 +96,13 @@ void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept
 void guard(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
 void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now, Outputs& out) noexcept;
 
+// Where the target should be, and how it goes on from there.
+struct Goal {
+  Point<'W'> point;
+  Vec<'W'> velocity = Vec<'W'>::zero();
+};
 // Where a finger that comes will touch; unset: as far as is known it does not, or it lies on the prop.
-[[nodiscard]] Point<'W'> foreseen_touch(const Walk& walk, const State& state, Meeting& now) noexcept;
+[[nodiscard]] Goal foreseen_touch(const Walk& walk, const State& state, Meeting& now) noexcept;
 
 // The stages that act() is made of.
 void aim(Walk& walk, const Impedance& task, State& state,

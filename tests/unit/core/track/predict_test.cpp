@@ -26,6 +26,12 @@ const TrackerRig kHold = rig_with(Prediction::hold);
 const TrackerRig kVelocity = rig_with(Prediction::constant_velocity);
 const TrackerRig kAcceleration = rig_with(Prediction::constant_acceleration);
 
+// By a tracker that knows all ways alike.
+void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
+             bool calm = false) {
+  enc::observe(rig, tool, t, tip, {rig.measurement_noise, rig.measurement_noise}, motion, calm);
+}
+
 // A pose every 10 ms until `end`, each there at once.
 template <class Way>
 TipMotion tracked(const TrackerRig& rig, const Way& way, int end) {
@@ -80,7 +86,7 @@ TEST(Predict, IsTheKalmanFilterThatMatricesGive) {
   for (const TrackerRig& rig : {kVelocity, kAcceleration}) {
     TipMotion motion;
     observe(rig, 0, at_ms(0), Point<'W'>(0, 0, 0), motion);
-    Matrices other{Vec3(motion.xx, motion.vv, motion.aa).asDiagonal(), Vec3::Zero()};
+    Matrices other{Vec3(motion.across.xx, motion.across.vv, motion.across.aa).asDiagonal(), Vec3::Zero()};
     int before = 0;
     for (const int ms : {8, 17, 33, 42, 50, 100, 108, 117}) {
       const double z = 2e-3 * std::sin(0.02 * ms);
@@ -90,9 +96,9 @@ TEST(Predict, IsTheKalmanFilterThatMatricesGive) {
       EXPECT_NEAR(motion.position.xyz[0], other.x(0), 1e-15);
       EXPECT_NEAR(motion.velocity.xyz[0], other.x(1), 1e-13);
       EXPECT_NEAR(motion.acceleration.xyz[0], other.x(2), 1e-11);
-      EXPECT_NEAR(motion.xx / other.P(0, 0), 1.0, 1e-9);
-      EXPECT_NEAR(motion.xv / other.P(0, 1), 1.0, 1e-9);
-      EXPECT_NEAR(motion.vv / other.P(1, 1), 1.0, 1e-9);
+      EXPECT_NEAR(motion.across.xx / other.P(0, 0), 1.0, 1e-9);
+      EXPECT_NEAR(motion.across.xv / other.P(0, 1), 1.0, 1e-9);
+      EXPECT_NEAR(motion.across.vv / other.P(1, 1), 1.0, 1e-9);
     }
   }
 }
@@ -129,14 +135,55 @@ TEST(Predict, ASurpriseRaisesTheNoiseByWhatExplainsIt) {
   TipMotion motion;
   for (int ms = 0; ms <= 1000; ms += 50) observe(rig, 0, at_ms(ms), Point<'W'>(0, 0, 0), motion);
   const double h = 0.05, q0 = 0.02 * 0.02, r2 = 0.25e-6, found = 1e-4;
-  const double xx = motion.xx + 2.0 * h * motion.xv + h * h * motion.vv;
-  const double xv = motion.xv + h * motion.vv;
+  const double xx = motion.across.xx + 2.0 * h * motion.across.xv + h * h * motion.across.vv;
+  const double xv = motion.across.xv + h * motion.across.vv;
   const double s = xx + q0 * h * h * h / 3.0 + r2;
   ASSERT_GT(found, 9.0 * s);
   const double q = q0 + (found / 3.0 - s) * 3.0 / (h * h * h);
   const double gain = (xv + q * h * h / 2.0) / (found / 3.0);
   observe(rig, 0, at_ms(1050), Point<'W'>(0.01, 0, 0), motion);
   EXPECT_NEAR(motion.velocity.xyz[0], gain * 0.01, 1e-9);
+}
+
+// Along its view a camera knows less: there the filter is that of the greater noise, to the sides that of the
+// lesser, and how the view lies in W makes no difference.
+TEST(Predict, EachWayIsFilteredByItsOwnNoise) {
+  constexpr double kAlong = 1.5e-3, kAcross = 0.3e-3;
+  const TrackerRig rig = seen_hand(0.3);
+  TrackerRig deep = rig, wide = rig;
+  deep.measurement_noise = kAlong;
+  wide.measurement_noise = kAcross;
+  const Quat turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  TipMotion motion, along, across, oblique;
+  for (int ms = 0; ms <= 1000; ms += 50) {
+    const double x = 0.3e-3 * std::sin(0.3 * ms), z = 0.1e-3 * ms + 1.2e-3 * std::cos(0.4 * ms);
+    const TipNoise noise{kAlong, kAcross, Vec<'W'>(0, 0, 1)};
+    enc::observe(rig, 0, at_ms(ms), Point<'W'>(x, 0, z), noise, motion);
+    enc::observe(rig, 0, at_ms(ms), Point<'W'>(Vec3(turned * Vec3(x, 0, z))),
+                 {kAlong, kAcross, Vec<'W'>(Vec3(turned * Vec3(0, 0, 1)))}, oblique);
+    observe(deep, 0, at_ms(ms), Point<'W'>(0, 0, z), along);
+    observe(wide, 0, at_ms(ms), Point<'W'>(x, 0, 0), across);
+  }
+  EXPECT_NEAR(motion.velocity.xyz[2], along.velocity.xyz[2], 1e-12);
+  EXPECT_NEAR(motion.velocity.xyz[0], across.velocity.xyz[0], 1e-12);
+  EXPECT_NEAR(motion.position.xyz[2], along.position.xyz[2], 1e-12);
+  EXPECT_GT(motion.along.xx, 2.0 * motion.across.xx);
+  EXPECT_LT((oblique.velocity.e() - turned * motion.velocity.e()).norm(), 1e-12);
+  EXPECT_LT((oblique.position.e() - turned * motion.position.e()).norm(), 1e-12);
+}
+
+// 5 mm off is four sigma and more across the view, and usual along it.
+TEST(Predict, WhatSurprisesDependsOnTheWay) {
+  const auto speed_after = [](const Vec3& off) {
+    TipMotion motion;
+    for (int ms = 0; ms <= 1000; ms += 50)
+      enc::observe(seen_hand(0.3), 0, at_ms(ms), Point<'W'>(0, 0, 0), {2e-3, 0.5e-3, Vec<'W'>(0, 0, 1)},
+                   motion);
+    enc::observe(seen_hand(0.3), 0, at_ms(1050), Point<'W'>(off), {2e-3, 0.5e-3, Vec<'W'>(0, 0, 1)}, motion);
+    return motion.velocity.norm();
+  };
+  EXPECT_GT(speed_after(Vec3(5e-3, 0, 0)), 0.04);
+  EXPECT_LT(speed_after(Vec3(0, 0, 5e-3)), 0.01);
 }
 
 TEST(Predict, WhatIsUsualIsNoSurprise) {

@@ -59,6 +59,10 @@ struct Set {
   }
 };
 
+double square_sum(const TrackedTool& tool) {
+  return tool.along * tool.along + 2.0 * tool.across * tool.across;
+}
+
 TEST(VisionTracker, TellsWhenTheLatencyIsOverWithTheStampOfTheExposure) {
   Set set;
   set.camera->frames[at_ms(100)] = set.seen.frame();
@@ -71,6 +75,9 @@ TEST(VisionTracker, TellsWhenTheLatencyIsOverWithTheStampOfTheExposure) {
   EXPECT_EQ(set.newest.value.tool, VisionTracker::kFinger);
   EXPECT_TRUE(set.newest.value.X_CT.valid());
   EXPECT_LT((set.newest.value.X_CT.p() - set.hand.tip).norm(), 2e-3);
+  // Depth comes of a small difference of two pictures, what is beside of one of them.
+  EXPECT_GT(set.newest.value.along, 2.0 * set.newest.value.across);
+  EXPECT_NEAR(square_sum(set.newest.value), set.tracker->finger().covariance.trace(), 1e-12);
   EXPECT_EQ(set.tracker->finger().state, FingerState::seen);
   EXPECT_FALSE(set.told(151, 160));
 }
