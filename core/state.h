@@ -84,7 +84,6 @@ void fields(F& f, TipMotion& m) {
   fields(f, "motion_position_W", m.position);
   fields(f, "motion_velocity_W", m.velocity);
   fields(f, "motion_acceleration_W", m.acceleration);
-  fields(f, "motion_view_W", m.view);
   for (AxisDoubt* const d : {&m.along, &m.across})
     for (double* const x : {&d->xx, &d->xv, &d->xa, &d->vv, &d->va, &d->aa}) f("motion_covariance", *x);
 }

@@ -20,7 +20,7 @@ double square(double x) { return x * x; }
 
 void begin(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, const TipNoise& noise,
            TipMotion& motion) {
-  motion = {tool, t, tip, Vec<'W'>::zero(), Vec<'W'>::zero(), noise.view, {}, {}};
+  motion = {tool, t, tip, Vec<'W'>::zero(), Vec<'W'>::zero(), {}, {}};
   motion.along.xx = square(noise.along);
   motion.across.xx = square(noise.across);
   for (AxisDoubt* const d : {&motion.along, &motion.across}) {
@@ -107,8 +107,7 @@ Gains correct(double noise, AxisDoubt& d) {
 }
 void correct(const Vec3& innovation, const TipNoise& noise, TipMotion& m) {
   const Gains along = correct(noise.along, m.along), across = correct(noise.across, m.across);
-  m.view = noise.view;
-  const Vec3 deep = m.view.e().dot(innovation) * m.view.e();
+  const Vec3 deep = noise.view.e().dot(innovation) * noise.view.e();
   m.position.e() += across.x * innovation + (along.x - across.x) * deep;
   m.velocity.e() += across.v * innovation + (along.v - across.v) * deep;
   m.acceleration.e() += across.a * innovation + (along.a - across.a) * deep;

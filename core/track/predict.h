@@ -18,21 +18,20 @@ struct AxisDoubt {
 };
 
 // What the filter knows of the tip at the newest exposure. A stereo camera knows a place less well along its
-// view than to the sides of it, so there are two covariances; all sides have the same. Where a tracker knows
-// all ways alike, both are equal. A view that turns while the hand moves takes its covariance with it.
+// view from C than to the sides of it, so there are two covariances; all sides have the same. Where a tracker
+// knows all ways alike, both are equal. A view that turns while the hand moves takes its covariance with it.
 struct TipMotion {
   std::int32_t tool = -1;  // -1: nothing is known
   Time t{};
   Point<'W'> position;
   Vec<'W'> velocity, acceleration;
-  Vec<'W'> view = Vec<'W'>::zero();  // unit, of the newest pose; zero: no way is special
   AxisDoubt along, across;
 };
 
 // How well a pose's place is known, m rms.
 struct TipNoise {
   double along = kUnset, across = kUnset;
-  Vec<'W'> view = Vec<'W'>::zero();  // as in TipMotion
+  Vec<'W'> view = Vec<'W'>::zero();  // unit; zero: no way is special
   [[nodiscard]] double mean_square() const { return (along * along + 2.0 * across * across) / 3.0; }
 };
 // As the pose says, or else as the rig believes.

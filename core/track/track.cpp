@@ -6,9 +6,17 @@
 namespace enc::stages {
 namespace {
 
+// It says how well it knows the place, or it says nothing of that.
+bool tells_noise(const TrackedTool& tool, double most) {
+  const auto possible = [most](double noise) { return noise >= 0.0 && noise < most; };
+  const bool silent = std::isnan(tool.along) && std::isnan(tool.across);
+  return silent || (possible(tool.along) && possible(tool.across));
+}
+
 bool plausible(const Walk& walk, const Stamped<TrackedTool>& sample) {
   const auto& tool = sample.value;
-  return tool.X_CT.valid() && tool.X_CT.p().norm() < walk.scene.tracker.farthest && tool.tool >= 0 &&
+  return tells_noise(tool, walk.scene.tracker.farthest) && tool.X_CT.valid() &&
+         tool.X_CT.p().norm() < walk.scene.tracker.farthest && tool.tool >= 0 &&
          tool.tool < static_cast<int>(walk.scene.tools.size()) && sample.t <= walk.tick.t + walk.tick.dt;
 }
 

@@ -12,7 +12,7 @@ namespace {
 // The touch may come so long after the newest picture, s: more closely where it is soon.
 constexpr std::array<double, Coming::kTimes> kAfter{0.055, 0.075, 0.098, 0.126, 0.165, 0.22, 0.30};
 constexpr std::int32_t kEachTick = 2;  // of these, because each takes some 0.2 ms
-constexpr double kSoon = 0.02;         // s: what comes later can still be met later
+constexpr double kSoon = 0.06;         // s: what comes later can still be met later
 constexpr double kStep = 0.004;        // s, from one time that is weighed to the next
 constexpr double kApart = 0.03;        // s, between pictures
 constexpr double kUneven = 1.4;  // times the noise of a picture: no hand is of minimum jerk to the last,
