@@ -25,8 +25,8 @@ struct Stamped {
 struct TrackedTool {
   std::int32_t tool = -1;
   Pose<'C', 'T'> X_CT;
-  // How well its place is known, m rms: along the view from C to it, and to each side of that. Unset: as well
-  // as the rig believes.
+  // How well the place of T's origin is known, m rms: along the view from C to it, and to each side of that.
+  // Unset, both: as well as the rig believes (rig.tracker.measurement_noise_mm).
   double along = kUnset, across = kUnset;
 };
 

@@ -40,7 +40,7 @@ struct Ideal {
 
 // Where the prop of that predictor is when the finger touches, if an arm carries it: from rest, with each new
 // picture, straight to the place that is best by then, with at most this acceleration, m/s^2. It need not
-// stop.
+// stop. For pictures that are so far apart that it comes to rest between them, as at 20 Hz.
 [[nodiscard]] Eigen::Vector2d ideal_carried(const IdealSpec& spec, const SeenReach& reach,
                                             double acceleration);
 

@@ -55,9 +55,10 @@ void add_ideal(const BenchContext& context, const std::vector<ReachOutcome>& wal
           "the same if an arm carries the prop from picture to picture with {:.0f} m/s^2, without any "
           "other delay",
           setup.rig.arm.acceleration));
-  add("vision.of_ideal_percent.wall", 100.0 * ours / carried, "%", kUnset, kUnset,
-      fmt::format("in time, of what that ideal with an arm is: {:.1f} % of the same reaches",
-                  100.0 * ours / counts));
+  add("vision.of_ideal_percent.wall", reached > 0.0 ? 100.0 * ours / reached : kUnset, "%", kUnset, kUnset,
+      fmt::format("in time, of what that ideal is: {:.1f} % of the same reaches", 100.0 * ours / counts));
+  add("vision.of_carried_percent.wall", carried > 0.0 ? 100.0 * ours / carried : kUnset, "%", kUnset, kUnset,
+      "the same, of that ideal with an arm");
 }
 
 }  // namespace enc::bench::reaching

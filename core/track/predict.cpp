@@ -85,9 +85,12 @@ double surprised(const TrackerRig& rig, double h, const Vec3& innovation, const 
   const double deep = square(noise.view.e().dot(innovation)), all = innovation.squaredNorm();
   const double far = across > 0.0 ? (all - deep) / across + (along > 0.0 ? deep / along : 0.0) : HUGE_VAL;
   if (rig.surprise_noise <= rig.acceleration_noise || far <= square(kSigmas)) return 0.0;
-  // q h^3 / 3 more on each axis makes the three variances together what was found.
-  const double needed = std::max(0.0, all - along - 2.0 * across) / (h * h * h);
-  return std::min(rig.surprise_noise, std::sqrt(square(rig.acceleration_noise) + needed));
+  // x = q h^3 / 3 more on each axis makes it usual: deep / (along + x) + (all - deep) / (across + x) = 3.
+  const double half = 0.5 * (along + across - all / 3.0);
+  const double rest = along * across - (deep * across + (all - deep) * along) / 3.0;
+  const double x = std::sqrt(std::max(0.0, half * half - rest)) - half;
+  return std::min(rig.surprise_noise,
+                  std::sqrt(square(rig.acceleration_noise) + 3.0 * std::max(0.0, x) / (h * h * h)));
 }
 
 struct Gains {

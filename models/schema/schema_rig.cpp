@@ -99,7 +99,8 @@ void describe(Visitor& v, TrackerRig& t) {
   driver(v, t.driver);
   choice(v, {"prediction", "how the tool's tip goes on from an old pose", "sources/tracking 4", chosen},
          t.prediction);
-  v.value({"measurement_noise_mm", "rms of a pose along an axis, as the prediction believes",
+  v.value({"measurement_noise_mm",
+           "rms of a pose along an axis, as the prediction believes of a tracker that does not tell it",
            "sources/tracking 2", derived, kNotNegative},
           &t.measurement_noise);
   v.value({"acceleration_noise_m_s2_per_sqrt_hz", "what drives the tip, to constant_velocity",

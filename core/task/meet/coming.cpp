@@ -11,10 +11,9 @@ namespace {
 
 // The touch may come so long after the newest picture, s: more closely where it is soon.
 constexpr std::array<double, Coming::kTimes> kAfter{0.055, 0.075, 0.098, 0.126, 0.165, 0.22, 0.30};
-constexpr std::int32_t kEachTick = 2;  // of these, because each takes some 0.2 ms
-constexpr double kSoon = 0.06;         // s: what comes later can still be met later
-constexpr double kStep = 0.004;        // s, from one time that is weighed to the next
-constexpr double kApart = 0.03;        // s, between pictures
+// s: the weight of what comes later falls e-fold in that time, because it can still be met later. Chosen.
+constexpr double kSoon = 0.06;
+constexpr double kApart = 0.03;  // s, between pictures
 constexpr double kUneven = 1.4;  // times the noise of a picture: no hand is of minimum jerk to the last,
 constexpr double kUnevenLeast = 0.3e-3;  // m, and by this at least
 constexpr double kLying = 1e-3;          // m: nearer, it lies on the prop
@@ -39,7 +38,7 @@ bool take_picture(const Walk& walk, const State& state, Coming& now) {
 
 // One of the times, in axes of the surface.
 void ask(const Walk& walk, const State& state, Coming& now) {
-  const Pose<'N', 'W'> X_NW = now.X_WN.inverse();
+  const Pose<'N', 'W'> X_NW = now.asking.X_WN.inverse();
   const auto which = static_cast<std::size_t>(now.asked++);
   const TrackerRig& rig = walk.scene.tracker;
   const double noise = std::sqrt(noise_of(rig, state.tool.value, walk.scene.X_WC).mean_square());
@@ -51,40 +50,44 @@ void ask(const Walk& walk, const State& state, Coming& now) {
                                  std::max(kUnevenLeast, kUneven * noise));
   const bool believed = touch.place.allFinite() && (touch.place - seen[0].at.head<2>()).norm() < kFarthest &&
                         seen[0].at.z() > kLying;
-  now.touches[which] = {touch.place.x(), touch.place.y(), believed ? touch.evidence : -HUGE_VAL};
+  now.asking.touches[which] = {touch.place.x(), touch.place.y(), believed ? touch.evidence : -HUGE_VAL};
 }
 
-// If it touches so long after the newest picture: between the two times next to that, if both say something.
-Vec3 touch_at(const Coming& now, double after) {
+// If it touches so long after the newest picture: between the two times next to that. The nearer it is to one
+// that says nothing, the less it counts.
+Vec3 touch_at(const Coming::Answer& now, double after) {
   std::size_t i = 0;
   while (i + 2 < kAfter.size() && kAfter[i + 1] < after) ++i;
   const Vec3 a = Vec3::Map(now.touches[i].data()), b = Vec3::Map(now.touches[i + 1].data());
   const double share = std::clamp((after - kAfter[i]) / (kAfter[i + 1] - kAfter[i]), 0.0, 1.0);
-  if (std::isinf(a[2]) || std::isinf(b[2])) return std::isinf(a[2]) ? b : a;
+  if (std::isinf(a[2])) return {b[0], b[1], b[2] + std::log(share)};
+  if (std::isinf(b[2])) return {a[0], a[1], a[2] + std::log(1.0 - share)};
   return a + share * (b - a);
 }
 
 // The mean over the times that are still to come, weighted by how well they fit, and the sooner the more. In
 // the surface's axes; unset: none fits.
-Eigen::Vector2d expected(const Coming& now, double passed) {
-  constexpr std::size_t kMost = 80;
-  std::array<Vec3, kMost> at;
+Eigen::Vector2d expected(const Coming::Answer& now, double passed) {
+  constexpr std::size_t kSteps = 60;
+  const double first = std::clamp(passed, kAfter.front(), kAfter.back());
+  std::array<Vec3, kSteps> at;
   double most = -HUGE_VAL;
-  std::size_t n = 0;
-  for (double after = std::max(passed, kAfter.front()); n == 0 || (after < kAfter.back() && n < kMost);
-       after += kStep) {
-    at[n] = touch_at(now, after);
-    at[n][2] -= (after - passed) / kSoon;
-    most = std::max(most, at[n++][2]);
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / kSteps;
+    const double after = first + share * (kAfter.back() - first);
+    at[i] = touch_at(now, after);
+    at[i][2] -= (after - first) / kSoon;
+    most = std::max(most, at[i][2]);
   }
   if (std::isinf(most)) return {kUnset, kUnset};
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < n; ++i)
-    if (const double w = std::exp(at[i][2] - most); w > 0.0) sum += w * Vec3(at[i][0], at[i][1], 1.0);
+  for (const Vec3& one : at)
+    if (const double w = std::exp(one[2] - most); w > 0.0) sum += w * Vec3(one[0], one[1], 1.0);
   return sum.head<2>() / sum[2];
 }
 
-Point<'W'> on_surface(const Walk& walk, const State& state, const Coming& now, const Eigen::Vector2d& at) {
+Point<'W'> on_surface(const Walk& walk, const State& state, const Coming::Answer& now, double passed) {
+  const Eigen::Vector2d at = expected(now, passed);
   if (!at.allFinite()) return {};
   ObjectHint hint = state.hints.tool[0];
   return nearest(walk.scene, state.object, now.X_WN * Point<'N'>(at.x(), at.y(), 0.0), hint).point;
@@ -97,30 +100,38 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
   const Object* object = nearest_object(walk, state);
   const TrackerRig& rig = walk.scene.tracker;
   const bool asked = rig.foresight == Foresight::reach && rig.prediction != Prediction::hold;
-  if (!asked || object == nullptr || !walk.tool_known) return {};
-  const bool news = take_picture(walk, state, now);
-  const bool comes = state.mode != Mode::away && walk.tool_fresh && object->moving < 0 && now.count >= 3;
-  if (!comes || presses(state, memory.contact)) {
-    now.asked = 0;
+  const auto nowhere = [&now] {
     now.object = -1;
-    now.touch = {};
-    return {};
-  }
-  if (news || state.object != now.object) {
+    now.asked = 0;
+    now.known = {};
+    return Goal{};
+  };
+  if (!asked || object == nullptr || !walk.tool_known) return nowhere();
+  // What is being asked for is finished first, of its own pictures: a fast tracker would never let it be.
+  constexpr auto kAll = static_cast<std::int32_t>(kAfter.size());
+  const bool asks = now.object >= 0 && now.asked < kAll;
+  const bool news = !asks && take_picture(walk, state, now);
+  const bool comes = walk.tool_fresh && object->moving < 0 && now.count >= 3;
+  if (!comes || presses(state, memory.contact)) return nowhere();
+  const bool other = state.object != now.object;
+  if (other) now.known = {};
+  if (news || other) {
     now.object = state.object;
     now.asked = 0;
-    now.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
+    now.asking.newest = now.exposed[0];
+    now.asking.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
   }
-  if (now.asked < static_cast<std::int32_t>(kAfter.size())) {  // until all are known the last answer holds
-    for (std::int32_t i = 0; i < kEachTick && now.asked < static_cast<std::int32_t>(kAfter.size()); ++i)
-      ask(walk, state, now);
-    return {now.touch};
+  // One in a tick, because each takes some 0.2 ms. Until all are known the last answer goes on.
+  if (now.asked < kAll) {
+    ask(walk, state, now);
+    if (now.asked == kAll) now.known = now.asking;
   }
-  const double passed = age(walk.tick.t, now.exposed[0]), dt = walk.scene.dt;
-  now.touch = on_surface(walk, state, now, expected(now, passed));
-  const Point<'W'> then = on_surface(walk, state, now, expected(now, passed + dt));
-  if (!now.touch.finite() || !then.finite()) return {now.touch};
-  return {now.touch, (1.0 / dt) * (then - now.touch)};
+  if (!now.known.X_WN.valid()) return {};
+  const double passed = age(walk.tick.t, now.known.newest), dt = walk.scene.dt;
+  const Point<'W'> at = on_surface(walk, state, now.known, passed);
+  const Point<'W'> then = on_surface(walk, state, now.known, passed + dt);
+  if (!at.finite() || !then.finite()) return {at};
+  return {at, (1.0 / dt) * (then - at)};
 }
 
 }  // namespace enc::stages

@@ -36,10 +36,13 @@ struct Coming {
   std::int32_t count = 0, object = -1;
   // If it touched so long after the newest: x and y of N, and the logarithm of how well that fits (reach.h).
   static constexpr std::size_t kTimes = 7;
-  std::array<std::array<double, 3>, kTimes> touches{};
-  std::int32_t asked = 0;  // of these times
-  Pose<'W', 'N'> X_WN;     // the surface under it when the newest came
-  Point<'W'> touch;        // where it is expected; unset: nowhere
+  struct Answer {
+    std::array<std::array<double, 3>, kTimes> touches{};
+    Pose<'W', 'N'> X_WN;  // the surface under it when the newest came; unset: nothing is known
+    Time newest{};        // its exposure
+  };
+  Answer asking, known;    // the one that is being asked for, and the last whole one
+  std::int32_t asked = 0;  // of the times
 };
 
 struct Meeting {
@@ -74,10 +77,12 @@ void fields(F& f, Coming& r) {
   for (Time& t : r.exposed) f("coming_exposed", t);
   f("coming_count", r.count);
   f("coming_object", r.object);
-  for (auto& touch : r.touches) fields(f, "coming_touches", touch);
+  for (Coming::Answer* const answer : {&r.asking, &r.known}) {
+    for (auto& touch : answer->touches) fields(f, "coming_touches", touch);
+    fields(f, "coming_X_WN", answer->X_WN);
+    f("coming_newest", answer->newest);
+  }
   f("coming_asked", r.asked);
-  fields(f, "coming_X_WN", r.X_WN);
-  fields(f, "coming_touch_W", r.touch);
 }
 template <class F>
 void fields(F& f, Meeting& m) {

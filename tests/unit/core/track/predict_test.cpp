@@ -172,6 +172,23 @@ TEST(Predict, EachWayIsFilteredByItsOwnNoise) {
   EXPECT_LT((oblique.position.e() - turned * motion.position.e()).norm(), 1e-12);
 }
 
+// Of a pose that tells it, along the view from C, in W; of one that does not, as the rig believes, any way.
+TEST(Predict, TheNoiseOfAPoseIsToldOrBelieved) {
+  const Quat turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  const Pose<'W', 'C'> X_WC(turned, Vec3(0.1, -0.2, 0.3));
+  TrackedTool pose{0, Pose<'C', 'T'>(Quat::Identity(), Vec3(0.03, 0.04, 0.5)), 2e-3, 0.5e-3};
+  const TipNoise told = noise_of(kVelocity, pose, X_WC);
+  EXPECT_EQ(told.along, 2e-3);
+  EXPECT_EQ(told.across, 0.5e-3);
+  EXPECT_LT((told.view.e() - turned * Vec3(0.03, 0.04, 0.5).normalized()).norm(), 1e-12);
+  EXPECT_NEAR(told.mean_square(), (4.0 + 2.0 * 0.25) / 3.0 * 1e-6, 1e-18);
+  pose.along = pose.across = kUnset;
+  const TipNoise believed = noise_of(kVelocity, pose, X_WC);
+  EXPECT_EQ(believed.along, kVelocity.measurement_noise);
+  EXPECT_EQ(believed.across, kVelocity.measurement_noise);
+  EXPECT_EQ(believed.view.norm(), 0.0);
+}
+
 // 5 mm off is four sigma and more across the view, and usual along it.
 TEST(Predict, WhatSurprisesDependsOnTheWay) {
   const auto speed_after = [](const Vec3& off) {
@@ -184,6 +201,7 @@ TEST(Predict, WhatSurprisesDependsOnTheWay) {
   };
   EXPECT_GT(speed_after(Vec3(5e-3, 0, 0)), 0.04);
   EXPECT_LT(speed_after(Vec3(0, 0, 5e-3)), 0.01);
+  EXPECT_GT(speed_after(Vec3(2.4e-3, 0, 0)), 0.02);  // less than the noise along, and a surprise across
 }
 
 TEST(Predict, WhatIsUsualIsNoSurprise) {
