@@ -39,9 +39,11 @@ TEST(ReachIdeal, FindsWhereAReachTouchesThatIsToldWhen) {
 TEST(ReachIdeal, AnArmIsSomewhereBetweenThePlacesOfTwoPictures) {
   const SeenReach reach = seen_reach();
   const Eigen::Vector2d best = ideal_place({}, reach, reach.met, reach.met).place;
-  const Eigen::Vector2d anywhere = ideal_carried({}, reach, 1e6), slow = ideal_carried({}, reach, 1.0);
+  const Eigen::Vector2d anywhere = ideal_carried({}, reach, 1e6), still = ideal_carried({}, reach, 1e-9);
+  const double fourth = reach.pictures[reach.pictures.size() - 4].told;
   EXPECT_LT((anywhere - best).norm(), 1e-9);
-  EXPECT_GT((slow - best).norm(), 0.1e-3);
+  EXPECT_LT((still - ideal_place({}, reach, fourth, reach.met).place).norm(), 1e-9);
+  EXPECT_GT((still - best).norm(), 1e-6);
   // A picture of no use in time: what is told at the touch moves nothing.
   SeenReach late = reach;
   late.pictures.back().told = reach.met;
