@@ -10,6 +10,7 @@
 #include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/vision/quarter_size.h"
 
 namespace enc::tests {
 namespace {
@@ -24,16 +25,7 @@ const std::vector<std::string> kPress{"run",
                                       "2",
                                       "--set",
                                       "user.approach_mm_s=[200]",
-                                      "user.approach_from_mm=125",
-                                      "rig.camera.width_px=320",
-                                      "rig.camera.height_px=240",
-                                      "rig.camera.left.focal_px=[360.5, 360.5]",
-                                      "rig.camera.left.centre_px=[159.5, 119.5]",
-                                      "rig.camera.right.focal_px=[360.5, 360.5]",
-                                      "rig.camera.right.centre_px=[159.5, 119.5]",
-                                      "truth.camera.width_px=320",
-                                      "truth.camera.height_px=240",
-                                      "truth.camera.focal_px=360.5"};
+                                      "user.approach_from_mm=125"};
 
 struct Drawn {
   nlohmann::json report;
@@ -46,6 +38,8 @@ Drawn drawn_by(const std::string& threads) {
   const test::TemporaryFolder folder;
   const std::filesystem::path frames = folder.path() / "frames";
   std::vector<std::string> words = kPress;
+  const std::vector<std::string> small = test::quarter_size();
+  words.insert(words.end(), small.begin(), small.end());
   words.insert(words.begin() + 2, {"--frames", frames});
   const Result r = run_program(words, {{"LP_NUM_THREADS", threads},
                                        {"LIBGL_ALWAYS_SOFTWARE", "1"},

@@ -10,6 +10,7 @@
 #include "core/vision/vision_module.h"
 #include "core/vision/vision_tracker.h"
 #include "sim/camera/twin_camera.h"
+#include "tests/support/vision/quarter_size.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -36,19 +37,10 @@ const ModuleInfo& modules(const std::string& name) {
 
 // One press that lasts from about 2.1 s to 5.3 s, in images of a quarter of the pixels.
 models::Setup press(const std::vector<std::string>& more) {
-  std::vector<std::string> set{"user.approach_mm_s=[100]",
-                               "user.press_s=2",
-                               "user.release_s=1",
-                               "user.rest_s=0.5",
-                               "rig.camera.width_px=320",
-                               "rig.camera.height_px=240",
-                               "rig.camera.left.focal_px=[360.5, 360.5]",
-                               "rig.camera.left.centre_px=[159.5, 119.5]",
-                               "rig.camera.right.focal_px=[360.5, 360.5]",
-                               "rig.camera.right.centre_px=[159.5, 119.5]",
-                               "truth.camera.width_px=320",
-                               "truth.camera.height_px=240",
-                               "truth.camera.focal_px=360.5"};
+  std::vector<std::string> set{"user.approach_mm_s=[100]", "user.press_s=2", "user.release_s=1",
+                               "user.rest_s=0.5"};
+  const std::vector<std::string> small = test::quarter_size();
+  set.insert(set.end(), small.begin(), small.end());
   set.insert(set.end(), more.begin(), more.end());
   return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/camera/wall.toml", "", set);
 }
