@@ -3,15 +3,14 @@
 // finger of 10 to 25 mm whose K is known, as [VisHap] finds it for a configuration; then K is made wrong.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "benchmarks/fingertip/factors.h"
+#include "benchmarks/fingertip/outline.h"
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/staged/staged.h"
 #include "core/vision/finger/finger_tracker.h"
-#include "core/vision/finger/tangent.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::fingertip {
@@ -26,7 +25,8 @@ constexpr std::array<double, 7> kDepths{0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};  // 
 
 struct Found {
   double depth = 0.0, width = 0.0;  // m
-  double outline = kUnset;          // px, |radius as drawn - K / z|
+  double across = kUnset;           // px, of the cap as drawn, its half width less K / z
+  double area = kUnset;             // px, likewise of the circle of its outline's area
   std::array<double, kScales.size()> off{kUnset, kUnset,
                                          kUnset};  // px, from the true middle; none: not found
   double disparity = kUnset;                       // px, error
@@ -64,37 +64,14 @@ struct Asked {
   std::uint64_t seed;
 };
 
-// The cap's radius as it was drawn, px of the circle of its outline's area: how far skin goes from its
-// middle, within 60 degrees of where the finger points, as seen straight on; there the outline is that of a
-// sphere. None where something of the hand is behind it.
-double drawn_radius(const FingerTracker& tracker, const Shot& shot, const sim::PixelTruth& truth) {
-  constexpr double kStep = 0.05;  // px
-  const Tangent tangent(tracker.pair(), {truth.column, truth.row});
-  const Vec3 along = shot.pose.along.e();
-  const double ahead = std::atan2(along.dot(tangent.down()), along.dot(tangent.right()));
-  const double share = 0.5 * shot.look.finger_width / shot.pose.tip.e().norm();
-  const double exact = tangent.focal() * share / std::sqrt(1.0 - share * share);
-  std::vector<double> rays;
-  for (int i = -12; i <= 12; ++i) {
-    const double angle = ahead + std::numbers::pi / 36.0 * i;
-    double far = 0.0;
-    for (bool on = true; on && far < 2.0 * exact; far += on ? kStep : 0.0) {
-      const Pixel at = tangent.image({far * std::cos(angle), far * std::sin(angle)});
-      const auto x = static_cast<int>(std::lround(at.column)), y = static_cast<int>(std::lround(at.row));
-      on = truth.skin.whole().contains(x, y) && truth.skin.at(x, y);
-    }
-    rays.push_back(far);
-  }
-  const bool behind = *std::max_element(rays.begin(), rays.end()) > 1.25 * exact + 1.0;
-  return behind ? kUnset : mean(rays) * truth.radius / exact;
-}
-
 Found look(std::vector<FingerTracker>& trackers, const Asked& asked, const Shot& shot, const Pair& pair,
            Time t) {
   Found found{.depth = shot.pose.tip.xyz[2], .width = shot.look.finger_width};
   const double focal = asked.rig.left.focal_x;
-  found.outline =
-      std::abs(drawn_radius(trackers.front(), shot, pair.truth) - focal * 0.5 * found.width / found.depth);
+  const Outline cap = outline(trackers.front().pair(), shot, pair.truth);
+  const double radius = focal * 0.5 * found.width / found.depth;  // px, K / z
+  found.across = cap.across - radius;
+  found.area = cap.area - radius;
   for (std::size_t i = 0; i < trackers.size(); ++i) {
     trackers[i].forget();
     const Finger finger = trackers[i].see({pair.left.view(), pair.right.view()}, t);
@@ -186,6 +163,23 @@ void judge_empty(Bench& bench, const std::vector<Cell>& cells) {
                fmt::format("of {} of the background alone: those in which there is a fingertip", empty));
 }
 
+double greatest(const std::vector<double>& values) {
+  double most = values.empty() ? kUnset : 0.0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+void judge_outline(Bench& bench, const std::vector<Found>& shots) {
+  const std::vector<double> across = known(shots, &Found::across);
+  bench.figure("outline.frames.percent", percent(across.size(), shots.size()), "%", at_least(90.0),
+               "frames in which nothing hides the rim of the cap's far end, or half of it");
+  bench.figure("outline.off.max", greatest(across), "px", at_most(0.5),
+               "in these, half the cap's width as drawn against r = K / z: the outline's smaller half axis");
+  bench.figure("outline.area_off.max", greatest(known(shots, &Found::area)), "px",
+               "likewise, radius of the circle of the outline's area: far from the image's middle a sphere's "
+               "outline is longer than wide");
+}
+
 void judge_gross(Bench& bench, const std::vector<Found>& shots, const std::string& id) {
   constexpr double kGross = 3.0;  // px
   const std::vector<double> errors = known(shots, &Found::disparity);
@@ -264,14 +258,7 @@ void run(Bench& bench) {
     judge_tips(bench, found, fmt::format("tip.{}", width), width == 640 ? 1.0 : 2.0);
     if (width != 640) continue;
     judge_empty(bench, cells);
-    const std::vector<double> outlines = known(found, &Found::outline);
-    const double most = outlines.empty() ? kUnset : *std::max_element(outlines.begin(), outlines.end());
-    bench.figure("outline.frames.percent", percent(outlines.size(), found.size()), "%", at_least(50.0),
-                 "frames in which the cap's outline lies before the background all along");
-    bench.figure("outline.off.p99", percentile(outlines, 0.99), "px", at_most(1.0),
-                 fmt::format("in these, radius of the cap as drawn against r = K / z, which is that of a cap "
-                             "in the image's middle; the most is {:.2f} px",
-                             most));
+    judge_outline(bench, found);
     for (const std::size_t scale : {1U, 2U}) {
       const std::vector<double> off = offs(found, scale);
       const std::string id = fmt::format("k.{:.0f}", 100.0 * kScales[scale]);
