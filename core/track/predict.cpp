@@ -149,6 +149,19 @@ void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>&
   motion = next;
 }
 
+void correct_now(const TrackerRig& rig, Time now, const Vec<'W'>& off, TipMotion& motion) noexcept {
+  if (rig.prediction == Prediction::hold || motion.tool < 0) return;
+  // Depth alone is what pictures know badly, and what they are corrected by.
+  const AxisDoubt& d = motion.along;
+  const double h = carried_on(rig, age(now, motion.t)), k = 0.5 * h * h;
+  const double x = d.xx + h * d.xv + k * d.xa, v = d.xv + h * d.vv + k * d.va, a = d.xa + h * d.va + k * d.aa;
+  const double all = x + h * v + k * a;
+  if (!(all > 0.0) || !off.finite()) return;
+  motion.position = motion.position + (x / all) * off;
+  motion.velocity = motion.velocity + (v / all) * off;
+  motion.acceleration = motion.acceleration + (a / all) * off;
+}
+
 Point<'W'> predict(const TrackerRig& rig, const TipMotion& motion, Time now) noexcept {
   const double h = carried_on(rig, age(now, motion.t));
   return Point<'W'>(

@@ -49,6 +49,11 @@ struct TipNoise {
 void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, const TipNoise& noise,
              TipMotion& motion, bool calm = false) noexcept;
 
+// Something that knows it far better than a picture says how far off the tip is `now` from where it is
+// predicted, along one way. How much of that the place explains, and how much the velocity, their covariance
+// says. It stays as it is: this is no picture, and it is said anew in each tick.
+void correct_now(const TrackerRig& rig, Time now, const Vec<'W'>& off, TipMotion& motion) noexcept;
+
 // Where the tip is `now`.
 [[nodiscard]] Point<'W'> predict(const TrackerRig& rig, const TipMotion& motion, Time now) noexcept;
 

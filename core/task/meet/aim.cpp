@@ -9,22 +9,39 @@
 namespace enc::stages {
 namespace {
 
+// Whether the prop stands for the surface itself, as deep as it is pressed.
+bool tells_depth(const Object& object) {
+  const Interaction kind = object.interaction.kind;
+  return kind == Interaction::slide || kind == Interaction::click || kind == Interaction::spin;
+}
+
+// Whether the prop that waits there is pushed back: that is felt in the tick in which it begins, and seen a
+// picture and more later.
+bool felt_first(const Walk& walk, const State& state, const Meeting& now, const Object& object) {
+  return now.aim.caught_up && tells_depth(object) && walk.tool_fresh && pushed_back(state, walk.normal) &&
+         walk.gap < walk.scene.contact.leave_gap;
+}
+
 // A finger that presses lies on the prop for as long as it is seen within leave_gap of it: each tick the arm
 // knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. The prop says how
-// deep a finger is, the camera whether it is there.
-void lie_on_prop(Walk& walk, const State& state, const Meeting& now) {
+// deep a finger is, the camera whether it is there. Nor is it ever behind the prop: there a prediction went on
+// that knew nothing of the touch.
+void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
-  if (!now.aim.caught_up) return;  // the prop is on its way to another place
-  const Interaction kind = object->interaction.kind;
-  if (kind != Interaction::slide && kind != Interaction::click && kind != Interaction::spin) return;
+  if (!now.aim.caught_up || !tells_depth(*object)) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
   const double slack = walk.scene.contact.leave_gap;
   const double beyond = walk.gap - prop;
-  walk.gap = prop + beyond - std::clamp(beyond, -slack, slack);
+  walk.gap = prop + std::max(0.0, beyond - slack);
+  // What it feels says how the finger goes on, long before a picture shows that it was stopped. Where the
+  // picture itself is behind the prop, the finger is beside it, or vision is wrong.
+  const double shown = dot(walk.tip_newest - walk.X_WH.origin(), walk.normal) - walk.tool_radius;
+  if (beyond < slack && shown > -slack && presses(state, now.contact))
+    correct_now(walk.scene.tracker, walk.tick.t, -beyond * walk.normal, state.tip_motion);
 }
 
-// The gap alone says what is touched: an arm measures no force. "Prepare" is the way from away to follow.
+// The gap says what is touched, or the prop that is pushed back: an arm measures no force. "Prepare" is the way from away to follow.
 void choose_mode(const Walk& walk, State& state, Meeting& now) {
   const FollowSpec& follow = walk.scene.follow;
   const Object* object = nearest_object(walk, state);
@@ -41,7 +58,7 @@ void choose_mode(const Walk& walk, State& state, Meeting& now) {
   }
   if (state.mode == Mode::contact && walk.gap > walk.scene.contact.leave_gap) state.mode = Mode::follow;
   if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
-  if (state.mode == Mode::follow && walk.gap <= 0.0) {
+  if (state.mode == Mode::follow && (walk.gap <= 0.0 || felt_first(walk, state, now, *object))) {
     state.mode = Mode::contact;
     ++state.contacts;
     now.contact = Contact{};

@@ -12,9 +12,12 @@ namespace enc::stages {
 
 // A finger that rests on a prop moves as slowly as it presses or slides. It does when the arm is pushed back;
 // that it has come to the surface is only what is foreseen, before it has slowed down.
-[[nodiscard]] inline bool presses(const State& state, const Contact& contact) {
+[[nodiscard]] inline bool pushed_back(const State& state, const Vec<'W'>& normal) {
   constexpr double kFelt = 0.2;  // N
-  return state.mode == Mode::contact && -dot(state.force, contact.X_WN * Vec<'N'>(0, 0, 1)) > kFelt;
+  return -dot(state.force, normal) > kFelt;
+}
+[[nodiscard]] inline bool presses(const State& state, const Contact& contact) {
+  return state.mode == Mode::contact && pushed_back(state, contact.X_WN * Vec<'N'>(0, 0, 1));
 }
 
 // The ball under a finger that has struck it.

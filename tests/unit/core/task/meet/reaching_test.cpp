@@ -1,5 +1,6 @@
 // An arm's loop, step by step: the core alone under a finger and an arm that are where a test puts them.
 #include <algorithm>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -165,12 +166,24 @@ TEST(Reaching, APressingFingerIsAsDeepAsItsProp) {
     EXPECT_NEAR(bench.loop.out.deflection, 0.005, 1e-9) << seen;
     EXPECT_NEAR(bench.pushed(), 3.0, 1e-3) << seen;
   }
-  bench.at(0.009);  // 4 mm deeper than the prop: 1 mm beyond the slack
-  EXPECT_NEAR(bench.loop.out.deflection, 0.006, 1e-9);
+  bench.at(0.020);  // behind the prop it cannot be
+  EXPECT_NEAR(bench.loop.out.deflection, 0.005, 1e-9);
   bench.at(0.001);
   EXPECT_NEAR(bench.loop.out.deflection, 0.004, 1e-9);
   EXPECT_EQ(bench.at(-0.002).mode, Mode::contact);  // 1 mm deep by then
   EXPECT_EQ(bench.at(-0.010).mode, Mode::follow);
+}
+
+// A prop that is pushed back is a touch, though the finger is seen above it; not where it is seen far off.
+TEST(Reaching, ThePropFeelsATouchBeforeItIsSeen) {
+  for (const auto& [gap, mode] : {std::pair{0.002, Mode::contact}, {0.004, Mode::follow}}) {
+    Bench bench("wall");
+    bench.at(-gap, 100);
+    EXPECT_EQ(bench.loop.out.mode, Mode::follow) << gap;
+    bench.press_tip(0.002);
+    bench.at(-gap, 100);
+    EXPECT_EQ(bench.loop.out.mode, mode) << gap;
+  }
 }
 
 TEST(Reaching, AButtonClicksOnceOnTheWayIn) {
