@@ -17,12 +17,13 @@ std::string text_of(const ImageSize& size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height) + " px";
 }
 
-// Its covariance along the view, and the mean of the two sides.
+// What the frame alone shows: the core has a filter of its own, and what two of them smooth one after the
+// other comes late. Its covariance along the view, and the mean of the two sides.
 TrackedTool tool_of(const Finger& finger) {
-  const Vec3 view = finger.tip.e().normalized();
-  const double along = view.dot(finger.covariance * view);
-  const double across = 0.5 * (finger.covariance.trace() - along);
-  return {VisionTracker::kFinger, {Quat::Identity(), finger.tip}, std::sqrt(along), std::sqrt(across)};
+  const Vec3 view = finger.shown.e().normalized();
+  const double along = view.dot(finger.shown_covariance * view);
+  const double across = 0.5 * (finger.shown_covariance.trace() - along);
+  return {VisionTracker::kFinger, {Quat::Identity(), finger.shown}, std::sqrt(along), std::sqrt(across)};
 }
 
 }  // namespace

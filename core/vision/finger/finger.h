@@ -22,6 +22,9 @@ struct Finger {
   Point<'C'> tip;                                            // centre of the fingertip's cap, m
   Vec<'C'> velocity;                                         // m/s
   Mat3 covariance = Mat3::Constant(kUnset);                  // of the tip, m^2
+  // The same as this frame alone shows it, before the filter. Unset unless it is seen.
+  Point<'C'> shown;
+  Mat3 shown_covariance = Mat3::Constant(kUnset);
   double column = kUnset, row = kUnset, disparity = kUnset;  // px, in the rectified left image
   double score = kUnset;                                     // share of skin in the circle, 0 to 1
 };

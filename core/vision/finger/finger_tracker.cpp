@@ -120,6 +120,11 @@ Finger FingerTracker::Parts::told(Time exposed) const {
   finger.tip = triangulate(scene.pair(), at);
   finger.velocity = Vec<'C'>(Vec3(slope * filter.rate().e()));
   finger.covariance = slope * filter.variance().asDiagonal() * slope.transpose();
+  if (seen) {
+    const Mat3 by = slope_of(scene.pair(), stats.found);
+    finger.shown = triangulate(scene.pair(), stats.found);
+    finger.shown_covariance = by * stats.variance.asDiagonal() * by.transpose();
+  }
   finger.column = at.column;
   finger.row = at.row;
   finger.disparity = at.disparity;

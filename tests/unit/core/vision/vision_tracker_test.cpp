@@ -77,9 +77,26 @@ TEST(VisionTracker, TellsWhenTheLatencyIsOverWithTheStampOfTheExposure) {
   EXPECT_LT((set.newest.value.X_CT.p() - set.hand.tip).norm(), 2e-3);
   // Depth comes of a small difference of two pictures, what is beside of one of them.
   EXPECT_GT(set.newest.value.along, 2.0 * set.newest.value.across);
-  EXPECT_NEAR(square_sum(set.newest.value), set.tracker->finger().covariance.trace(), 1e-12);
+  EXPECT_NEAR(square_sum(set.newest.value), set.tracker->finger().shown_covariance.trace(), 1e-12);
   EXPECT_EQ(set.tracker->finger().state, FingerState::seen);
   EXPECT_FALSE(set.told(151, 160));
+}
+
+// The core filters by itself: a finger that leaps is told where the frame shows it, not where the filter of the
+// search has got to.
+TEST(VisionTracker, TellsWhatTheFrameShowsAndNotWhatTheFilterMakesOfIt) {
+  Set set;
+  for (int ms = 100; ms <= 400; ms += 50) set.camera->frames[at_ms(ms)] = set.seen.frame();
+  set.hand.tip.x() += 0.008;
+  const drawn::Pair aside = drawn::pair_of(small(), &set.hand);
+  set.camera->frames[at_ms(450)] = aside.frame();
+  ASSERT_TRUE(set.told(0, 500));
+  ASSERT_EQ(set.newest.t, at_ms(450));
+  ASSERT_EQ(set.newest.value.tool, VisionTracker::kFinger);
+  const Finger& finger = set.tracker->finger();
+  EXPECT_EQ(set.newest.value.X_CT.p(), finger.shown.e());
+  EXPECT_LT((finger.shown.e() - set.hand.tip).norm(), 2e-3);
+  EXPECT_GT((finger.tip - finger.shown).norm(), 1e-5);
 }
 
 // In wall time the latency is what the work takes.
