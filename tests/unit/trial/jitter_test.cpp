@@ -1,8 +1,11 @@
-// What an irregular vision changes of what is felt: a wall, pressed by a finger that is seen at 20 Hz, with
-// results that come up to a frame early or late, beside the same with results that come when they are due.
+// What vision changes of what is felt: a wall, pressed by a finger that is seen at 20 Hz, with results that
+// come up to a frame early or late, beside the same with results that come when they are due; and with a
+// picture, beside the same without it.
 #include <gtest/gtest.h>
 
+#include "core/step.h"
 #include "trial/measure/felt_apart.h"
+#include "trial/measure/frame_force.h"
 #include "trial/trackers/jittered_tracker.h"
 #include "trial/trial.h"
 
@@ -42,6 +45,42 @@ TEST(Jitter, OfAFrameChangesNothingThatIsFeltByMoreThanTheForceStep) {
 // Eight frames late the finger is lost: what is felt is another thing, and the measure shows it.
 TEST(Jitter, OfEightFramesIsFelt) {
   EXPECT_GT(felt_apart(press({}, 1), press(8 * kFrame, 1), kFrameTicks).frame, 1.0);
+}
+
+struct Pressed {
+  FrameForce frames;
+  double too_deep = 0.0;  // m, of what the core believes beyond what is true
+  TrialResult result;
+};
+Pressed press_fast(bool beside) {
+  Pressed pressed;
+  TrialOptions options;
+  if (beside)
+    options.law = [&](const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) {
+      pressed.frames.step(scene, tick, in, state, out);
+    };
+  options.watch = [&](const Glance& glance) {
+    if (glance.out.mode != Mode::contact || !glance.truth.touching) return;
+    const double deep = glance.truth.tool_radius - glance.truth.tool_tip.xyz[2];
+    pressed.too_deep = std::max(pressed.too_deep, glance.out.deflection - deep);
+  };
+  pressed.result = Trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "",
+                                      {"user.approach_mm_s=[200, 300]", "user.press_s=0.6", "user.hold_s=0.3",
+                                       "user.release_s=0.4", "user.rest_s=1", "user.depth_mm=5"}),
+                         options)
+                       .run();
+  return pressed;
+}
+
+// A finger that comes fast is stopped by the prop 100 ms before a picture shows it. Carried on with what the
+// pictures say it would be 20 mm deep, and lost when they say otherwise.
+TEST(FrameForce, APictureInContactIsNotFelt) {
+  const Pressed pressed = press_fast(true);
+  EXPECT_GT(pressed.frames.changes().size(), 40U);
+  EXPECT_LE(greatest_change(pressed.frames.changes(), true), kForceStep);
+  EXPECT_GT(greatest_change(pressed.frames.changes(), false), 0.0);  // of when the touch begins
+  EXPECT_LT(pressed.too_deep, 1e-3);
+  EXPECT_EQ(pressed.result.hash, press_fast(false).result.hash);  // the second core disturbs nothing
 }
 
 // Five ticks, one of them not in contact: two whole frames of two ticks, that of 4 N and 0 and that of 1 N
