@@ -12,7 +12,7 @@ namespace {
 // the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
 // only turns round, friction would not hold what then pushes it.
 bool resting(const State& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
-  constexpr double kNear = 1e-3;     // m: friction alone holds half of it
+  constexpr double kNear = 3e-3;     // m: 0.01 N m of friction at a motor alone hold 2 mm at the tip
   constexpr double kCounts = 20e-3;  // m/s
   constexpr double kStood = 1e-9;    // m/s
   return state.mode == Mode::away && error.norm() < kNear && velocity.norm() < kCounts &&
