@@ -35,11 +35,11 @@ struct Ran {
   std::vector<trial::Meeting> meetings;
   std::vector<reaching::ReachOutcome> reaches;
   double far_speed = 0.0, slope = kUnset, believed = kUnset, r2 = kUnset;
-  double step = 0.0;               // N: of Lambda f along the normal, from tick to tick in contact
+  double step = 0.0;  // N: of Lambda f along the normal, from tick to tick in contact
   std::vector<trial::FrameForce::Change> frames;  // what each picture changed of it
-  std::vector<double> seen, felt;  // m, N: of each picture in contact
-  std::vector<double> off;         // m: of a told place from the true one at its exposure
-  std::vector<double> off_normal;  // m: along z of W
+  std::vector<double> seen, felt;                 // m, N: of each picture in contact
+  std::vector<double> off;                        // m: of a told place from the true one at its exposure
+  std::vector<double> off_normal;                 // m: along z of W
 };
 
 // What was true and felt at the exposures that are still to be told.
@@ -183,9 +183,10 @@ void tell_wall(Bench& bench, const Ran& ran) {
                "that is not told of it");
   bench.figure("wall.force_step.before.max", trial::greatest_change(ran.frames, false), "N",
                "the same of a picture before the touch, which says when that begins");
-  bench.figure("wall.force_step.tick.max", ran.step, "N",
-               "of Lambda f along the normal from tick to tick in contact, mostly the finger's own doing: at 300 "
-               "mm/s the wall's spring alone gains 0.18 N in each");
+  bench.figure(
+      "wall.force_step.tick.max", ran.step, "N",
+      "of Lambda f along the normal from tick to tick in contact, mostly the finger's own doing: at 300 "
+      "mm/s the wall's spring alone gains 0.18 N in each");
   bench.figure("wall.far_speed.max", ran.far_speed * kMm, "mm/s", at_most(0.1),
                "of the arm's tip while the finger is far, from a second after it went");
   bench.figure("wall.place.rms", rms(ran.off) * kMm, "mm",

@@ -1,6 +1,6 @@
-// What a new picture changes of what is felt along the normal. Beside the core runs a second one from the same
-// state, which is not told of that picture: it goes on with the one before until the next, on the same readings
-// of all else.
+// What a new picture changes of what is felt along the normal. Beside the core runs a second one from the
+// same state, which is not told of that picture: it goes on with the one before until the next, on the same
+// readings of all else.
 #pragma once
 
 #include <vector>

@@ -24,8 +24,8 @@ bool felt_first(const Walk& walk, const State& state, const Meeting& now, const 
 
 // A finger that presses lies on the prop for as long as it is seen within leave_gap of it: each tick the arm
 // knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. The prop says how
-// deep a finger is, the camera whether it is there. Nor is it ever behind the prop: there a prediction went on
-// that knew nothing of the touch.
+// deep a finger is, the camera whether it is there. Nor is it ever behind the prop: there a prediction went
+// on that knew nothing of the touch.
 void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
@@ -41,7 +41,8 @@ void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
     correct_now(walk.scene.tracker, walk.tick.t, -beyond * walk.normal, state.tip_motion);
 }
 
-// The gap says what is touched, or the prop that is pushed back: an arm measures no force. "Prepare" is the way from away to follow.
+// The gap says what is touched, or the prop that is pushed back: an arm measures no force. "Prepare" is the
+// way from away to follow.
 void choose_mode(const Walk& walk, State& state, Meeting& now) {
   const FollowSpec& follow = walk.scene.follow;
   const Object* object = nearest_object(walk, state);

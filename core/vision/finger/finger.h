@@ -19,9 +19,9 @@ enum class FingerState : std::uint8_t {
 struct Finger {
   FingerState state = FingerState::learning;
   Time exposed{};
-  Point<'C'> tip;                                            // centre of the fingertip's cap, m
-  Vec<'C'> velocity;                                         // m/s
-  Mat3 covariance = Mat3::Constant(kUnset);                  // of the tip, m^2
+  Point<'C'> tip;                            // centre of the fingertip's cap, m
+  Vec<'C'> velocity;                         // m/s
+  Mat3 covariance = Mat3::Constant(kUnset);  // of the tip, m^2
   // The same as this frame alone shows it, before the filter. Unset unless it is seen.
   Point<'C'> shown;
   Mat3 shown_covariance = Mat3::Constant(kUnset);

@@ -82,8 +82,8 @@ TEST(VisionTracker, TellsWhenTheLatencyIsOverWithTheStampOfTheExposure) {
   EXPECT_FALSE(set.told(151, 160));
 }
 
-// The core filters by itself: a finger that leaps is told where the frame shows it, not where the filter of the
-// search has got to.
+// The core filters by itself: a finger that leaps is told where the frame shows it, not where the filter of
+// the search has got to.
 TEST(VisionTracker, TellsWhatTheFrameShowsAndNotWhatTheFilterMakesOfIt) {
   Set set;
   for (int ms = 100; ms <= 400; ms += 50) set.camera->frames[at_ms(ms)] = set.seen.frame();
