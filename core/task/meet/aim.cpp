@@ -33,7 +33,8 @@ void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
   const double slack = walk.scene.contact.leave_gap;
   const double beyond = walk.gap - prop;
-  walk.gap = prop + std::max(0.0, beyond - slack);
+  // A prop that is lifted off the surface from beside is none that a finger behind it lies on.
+  walk.gap = beyond < -slack ? std::min(prop, 0.0) : prop + std::max(0.0, beyond - slack);
   // What it feels says how the finger goes on, long before a picture shows that it was stopped. Where the
   // picture itself is behind the prop, the finger is beside it, or vision is wrong.
   const double shown = dot(walk.tip_newest - walk.X_WH.origin(), walk.normal) - walk.tool_radius;

@@ -186,6 +186,19 @@ TEST(Reaching, ThePropFeelsATouchBeforeItIsSeen) {
   }
 }
 
+// A finger beside its prop lifts it off the surface: that is one contact, which does not end in every other
+// tick.
+TEST(Reaching, AFingerBehindAPropThatIsLiftedStaysInContact) {
+  Bench bench("wall");
+  bench.at(-0.001, 100);
+  bench.at(0.001, 10);
+  bench.press_tip(-0.005);
+  bench.at(0.013, 100);
+  EXPECT_EQ(bench.loop.out.mode, Mode::contact);
+  EXPECT_EQ(bench.loop.out.contacts, 1);
+  EXPECT_EQ(bench.loop.out.deflection, 0.0);
+}
+
 TEST(Reaching, AButtonClicksOnceOnTheWayIn) {
   Bench bench("button");
   bench.at(-0.020, 200);
