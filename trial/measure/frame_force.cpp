@@ -26,13 +26,14 @@ void FrameForce::step(const Scene& scene, const Tick& tick, const Inputs& in, St
   enc::step(scene, tick, without, beside_, then);
   if (out.mode != Mode::contact && then.mode != Mode::contact) return;
   const double change = out.force.xyz[2] - then.force.xyz[2];
-  if (std::isfinite(change)) changes_.back().most = std::max(changes_.back().most, std::abs(change));
+  double& most = changes_.back().most;
+  most = std::isnan(most) || std::isnan(change) ? kUnset : std::max(most, std::abs(change));
 }
 
 double greatest_change(const std::vector<FrameForce::Change>& changes, bool touched) {
-  double most = 0.0;
+  double most = kUnset;
   for (const FrameForce::Change& change : changes)
-    if (change.touched == touched) most = std::max(most, change.most);
+    if (change.touched == touched && !(change.most <= most)) most = change.most;
   return most;
 }
 

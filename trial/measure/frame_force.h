@@ -18,7 +18,7 @@ class FrameForce {
   // next, N. A tick counts in which either core is in contact.
   struct Change {
     bool touched = false;  // before it came
-    double most = 0.0;
+    double most = 0.0;     // unset: something was no number
   };
   [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
 
@@ -29,7 +29,7 @@ class FrameForce {
   std::vector<Change> changes_;
 };
 
-// The greatest of those that came in a contact, or of those before one; 0 where there is none.
+// The greatest of those that came in a contact, or of those before one; unset where there is none.
 [[nodiscard]] double greatest_change(const std::vector<FrameForce::Change>& changes, bool touched);
 
 }  // namespace enc::trial

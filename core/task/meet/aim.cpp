@@ -18,8 +18,9 @@ bool tells_depth(const Object& object) {
 // Whether the prop that waits there is pushed back: that is felt in the tick in which it begins, and seen a
 // picture and more later.
 bool felt_first(const Walk& walk, const State& state, const Meeting& now, const Object& object) {
-  return now.aim.caught_up && tells_depth(object) && walk.tool_fresh && pushed_back(state, walk.normal) &&
-         walk.gap < walk.scene.contact.leave_gap;
+  const bool behind = dot(walk.X_WH.origin() - walk.surface_point, walk.normal) < 0.0;
+  return now.aim.caught_up && tells_depth(object) && walk.tool_fresh && behind && !walk.in.withheld &&
+         pushed_back(state, walk.normal) && walk.gap < walk.scene.contact.leave_gap;
 }
 
 // A finger that presses lies on the prop for as long as it is seen within leave_gap of it: each tick the arm
@@ -29,7 +30,9 @@ bool felt_first(const Walk& walk, const State& state, const Meeting& now, const 
 void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
-  if (!now.aim.caught_up || !tells_depth(*object)) return;
+  // The prop is on its way to another place, unless a picture leaps to the side while it is pressed.
+  const bool pressed = presses(state, now.contact) && !walk.in.withheld;
+  if (!tells_depth(*object) || !(now.aim.caught_up || pressed)) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
   const double slack = walk.scene.contact.leave_gap;
   const double beyond = walk.gap - prop;
@@ -38,7 +41,7 @@ void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
   // What it feels says how the finger goes on, long before a picture shows that it was stopped. Where the
   // picture itself is behind the prop, the finger is beside it, or vision is wrong.
   const double shown = dot(walk.tip_newest - walk.X_WH.origin(), walk.normal) - walk.tool_radius;
-  if (beyond < slack && shown > -slack && presses(state, now.contact))
+  if (pressed && beyond < slack && shown > -slack)
     correct_now(walk.scene.tracker, walk.tick.t, -beyond * walk.normal, state.tip_motion);
 }
 

@@ -1,6 +1,8 @@
 // What vision changes of what is felt: a wall, pressed by a finger that is seen at 20 Hz, with results that
 // come up to a frame early or late, beside the same with results that come when they are due; and with a
 // picture, beside the same without it.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/step.h"
@@ -52,9 +54,10 @@ struct Pressed {
   double too_deep = 0.0;  // m, of what the core believes beyond what is true
   TrialResult result;
 };
-Pressed press_fast(bool beside) {
+Pressed press_fast(std::uint64_t seed, bool beside = true) {
   Pressed pressed;
   TrialOptions options;
+  options.seed = seed;
   if (beside)
     options.law = [&](const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) {
       pressed.frames.step(scene, tick, in, state, out);
@@ -74,13 +77,17 @@ Pressed press_fast(bool beside) {
 
 // A finger that comes fast is stopped by the prop 100 ms before a picture shows it. Carried on with what the
 // pictures say it would be 20 mm deep, and lost when they say otherwise.
+// With seed 12 pictures leap to the side, too, while it is pressed.
 TEST(FrameForce, APictureInContactIsNotFelt) {
-  const Pressed pressed = press_fast(true);
-  EXPECT_GT(pressed.frames.changes().size(), 40U);
-  EXPECT_LE(greatest_change(pressed.frames.changes(), true), kForceStep);
-  EXPECT_GT(greatest_change(pressed.frames.changes(), false), 0.0);  // of when the touch begins
-  EXPECT_LT(pressed.too_deep, 1e-3);
-  EXPECT_EQ(pressed.result.hash, press_fast(false).result.hash);  // the second core disturbs nothing
+  for (const std::uint64_t seed : {1U, 2U, 12U}) {
+    const Pressed pressed = press_fast(seed);
+    EXPECT_GT(pressed.frames.changes().size(), 40U);
+    EXPECT_LE(greatest_change(pressed.frames.changes(), true), kForceStep) << seed;
+    EXPECT_GT(greatest_change(pressed.frames.changes(), false), 0.0) << seed;  // of when the touch begins
+    EXPECT_LT(pressed.too_deep, 1e-3) << seed;
+    EXPECT_EQ(pressed.result.hash, press_fast(seed, false).result.hash) << "the second core disturbs it";
+  }
+  EXPECT_TRUE(std::isnan(greatest_change({{true, 0.1}}, false)));
 }
 
 // Five ticks, one of them not in contact: two whole frames of two ticks, that of 4 N and 0 and that of 1 N

@@ -178,6 +178,7 @@ TEST(Reaching, APressingFingerIsAsDeepAsItsProp) {
 TEST(Reaching, ThePropFeelsATouchBeforeItIsSeen) {
   for (const auto& [gap, mode] : {std::pair{0.002, Mode::contact}, {0.004, Mode::follow}}) {
     Bench bench("wall");
+    bench.loop.in.withheld = false;
     bench.at(-gap, 100);
     EXPECT_EQ(bench.loop.out.mode, Mode::follow) << gap;
     bench.press_tip(0.002);
