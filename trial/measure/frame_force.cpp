@@ -32,8 +32,11 @@ void FrameForce::step(const Scene& scene, const Tick& tick, const Inputs& in, St
 
 double greatest_change(const std::vector<FrameForce::Change>& changes, bool touched) {
   double most = kUnset;
-  for (const FrameForce::Change& change : changes)
-    if (change.touched == touched && !(change.most <= most)) most = change.most;
+  for (const FrameForce::Change& change : changes) {
+    if (change.touched != touched) continue;
+    if (std::isnan(change.most)) return kUnset;
+    most = std::fmax(most, change.most);
+  }
   return most;
 }
 

@@ -29,7 +29,8 @@ class FrameForce {
   std::vector<Change> changes_;
 };
 
-// The greatest of those that came in a contact, or of those before one; unset where there is none.
+// The greatest of those that came in a contact, or of those before one; unset where there is none, or where
+// one of them is.
 [[nodiscard]] double greatest_change(const std::vector<FrameForce::Change>& changes, bool touched);
 
 }  // namespace enc::trial

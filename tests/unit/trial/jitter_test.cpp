@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/step.h"
 #include "trial/measure/felt_apart.h"
 #include "trial/measure/frame_force.h"
 #include "trial/trackers/jittered_tracker.h"
@@ -88,6 +87,8 @@ TEST(FrameForce, APictureInContactIsNotFelt) {
     EXPECT_EQ(pressed.result.hash, press_fast(seed, false).result.hash) << "the second core disturbs it";
   }
   EXPECT_TRUE(std::isnan(greatest_change({{true, 0.1}}, false)));
+  EXPECT_TRUE(std::isnan(greatest_change({{true, 0.1}, {true, kUnset}, {true, 0.2}}, true)));
+  EXPECT_EQ(greatest_change({{true, 0.1}, {false, kUnset}, {true, 0.2}}, true), 0.2);
 }
 
 // Five ticks, one of them not in contact: two whole frames of two ticks, that of 4 N and 0 and that of 1 N
