@@ -60,8 +60,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   run_command
       ->add_option("--record", run_options.record, "write inputs and outputs of every tick to this file")
       ->check(unnamed);
-  run_command->add_option("--frames", run_options.frames,
-                          "keep what the scene's camera sees in this new folder, as PNG images");
+  run_command
+      ->add_option("--frames", run_options.frames,
+                   "keep what the scene's camera sees in this new folder, as PNG images")
+      ->check(unnamed);
   run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
   run_command->add_flag("--armed", run_options.armed,
                         "send commands to real devices; without it they are only computed and recorded");
@@ -82,9 +84,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* replay_command =
       app.add_subcommand("replay", "run step() again over a record; exit 1 where outputs differ");
   replay_command->add_option("record", replay_options.record, "file written by run --record")->required();
-  replay_command->add_option("--frames", replay_options.frames,
-                             "folder of run --frames: vision looks at it again; exit 1 where it tells "
-                             "something else");
+  replay_command
+      ->add_option("--frames", replay_options.frames,
+                   "folder of run --frames: vision looks at it again; exit 1 where it tells something else")
+      ->check(unnamed);
   replay_command->add_flag("--partial", replay_options.partial, "replay what a cut-off record still holds");
   replay_command->callback([&] { code = replay(replay_options); });
 
@@ -103,8 +106,9 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* view_command = app.add_subcommand("view", "picture of a scene at a moment");
   scene_options(view_command, view_options);
   view_command->add_option("--shot", view_options.shot, "PNG file to write")->check(unnamed);
-  view_command->add_option("--at-s", view_options.at,
-                           "moment, s of experiment; default: the first press at its deepest");
+  view_command->add_option(
+      "--at-s", view_options.at,
+      "moment, s of experiment; default: the first press at its deepest, or 4 s through the camera");
   CLI::Option* close_up =
       view_command->add_flag("--close-up", view_options.close_up, "the contact instead of the whole machine");
   view_command

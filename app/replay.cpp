@@ -31,6 +31,7 @@ int replay(const ReplayOptions& options) {
                                        : "; damaged behind that, and not read: " + record.damage());
   if (again && again->first_difference >= 0) {
     fmt::print("vision differs from tick {} on: {}\n", again->first_difference, again->what);
+    for (const std::string& line : again->said) fmt::print(stderr, "{}\n", line);
     return 1;
   }
   if (again) fmt::print("vision told {} times what it told then, equal to the bit\n", again->told);

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <memory>
+#include <mutex>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,21 @@
 namespace enc::app {
 namespace {
 
-struct Quiet : Log {
-  void say(const std::string&) override {}
+// What the folder's driver says, in threads of its own.
+class Heard final : public Log {
+ public:
+  void say(const std::string& line) override {
+    const std::lock_guard lock(mutex_);
+    lines_.push_back(line);
+  }
+  [[nodiscard]] std::vector<std::string> lines() {
+    const std::lock_guard lock(mutex_);
+    return lines_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> lines_;
 };
 
 // The record's rig with a driver that plays the folder.
@@ -60,9 +74,14 @@ SeenAgain see_again(models::Setup setup, RecordReader& record, const std::string
   if (!setup.scene.camera)
     throw Error("--frames: the recorded scene has no [camera], and vision told nothing; leave it out");
   play(setup, folder);
-  Quiet quiet;
-  const std::unique_ptr<PoseTracker> vision =
-      trial::make_vision(setup, load_module, {.log = quiet, .waits = true, .kept = folder});
+  Heard heard;
+  std::unique_ptr<PoseTracker> vision = [&] {
+    try {
+      return trial::make_vision(setup, load_module, {.log = heard, .waits = true, .kept = folder});
+    } catch (const Error& e) {  // the folder is what was given, not a device
+      throw Error(fmt::format("--frames: {}", e.what()), e.key());
+    }
+  }();
   SeenAgain result;
   Stamped<TrackedTool> seen;
   RecordedTick frame;
@@ -73,6 +92,8 @@ SeenAgain see_again(models::Setup setup, RecordReader& record, const std::string
     result.first_difference = frame.tick.index;
     break;
   }
+  vision.reset();  // with its threads: now all is said
+  if (result.first_difference >= 0) result.said = heard.lines();
   return result;
 }
 

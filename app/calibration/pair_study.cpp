@@ -1,6 +1,8 @@
 #include "app/calibration/pair_study.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -21,9 +23,26 @@ std::string some_of(const std::vector<std::string>& names) {
   return fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMost ? ", ..." : "");
 }
 
+// To look for a board where there is none takes seconds an image: somebody who waits is told how far it is.
+class Waiting {
+ public:
+  void tell(std::size_t done, std::size_t all, std::size_t found) {
+    constexpr auto kEach = std::chrono::seconds(5);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < kEach) return;
+    told_ = now;
+    fmt::print(stderr, "looked at {} of {} pairs: the board is in {}\n", done, all, found);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+};
+
 // Where the board was not found, the pair is left out and the image is named.
 void find_boards(images::PairReader& reader, const Board& board, PairStudy& study) {
+  Waiting waiting;
   for (std::size_t i = 0; i < reader.list().pairs.size(); ++i) {
+    waiting.tell(i, reader.list().pairs.size(), study.pairs.size());
     const images::PairFiles& files = reader.list().pairs[i];
     StudiedPair pair;
     pair.name = name_of(files.left);

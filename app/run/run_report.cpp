@@ -227,6 +227,7 @@ std::string pushed_lines(const RunReport& r) {
 std::string vision_lines(const trial::TrialResult& result) {
   const trial::FrameTimes& vision = result.vision;
   if (vision.frames == 0) return "";
+  if (vision.intervals.empty()) return "vision      1 frame: too few for a rate\n";
   const auto ms = [](const std::vector<double>& s, double share) {
     return models::percentile(s, share) * 1e3;
   };

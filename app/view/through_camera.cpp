@@ -91,6 +91,9 @@ int through_camera(const ViewOptions& options) {
   if (std::isnan(exposed))
     throw Error("the camera gave no image until then; expected a later --at-s", {}, ErrorKind::device);
   const bool removed = options.through_camera == "removed", augmented = options.through_camera == "augmented";
+  const std::vector<std::uint8_t>& known = view->known().on;
+  if ((removed || augmented) && std::all_of(known.begin(), known.end(), [](auto on) { return on == 0; }))
+    print_notes({"warning: the background is not known yet, so the arm was left in; choose a later --at-s"});
   file.write(pictures.png(removed ? view->removed() : augmented ? view->augmented() : raw));
   file.keep();
   fmt::print("{}: {} x {} pixels, the left camera's at {:.3f} s\n", options.shot, raw.width, raw.height,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/safety/braking.h"
 #include "core/track/minimum_jerk.h"
 
 namespace enc::bench::reaching {
@@ -123,11 +124,11 @@ Part solved(const Task& task, const Timing& t, const Mat9& prior) {
     see(crosses, 0.0, kExactly);
     more = -std::log(kExactly) - 0.5 * std::log(2.0 * M_PI);
   }
-  const Eigen::LDLT<Mat9> factors(information);
+  const Eigen::LLT<Mat9> factors(information);
   const Vec9 mean = factors.solve(right);
   Part part;
   part.weight =
-      -0.5 * (squares - right.dot(mean)) - 0.5 * factors.vectorD().array().log().sum() + t.weight + more;
+      -0.5 * (squares - right.dot(mean)) - std::log(factors.matrixLLT().diagonal().prod()) + t.weight + more;
   Vec9 down = Vec9::Zero();
   down[5] = -rest / MinimumJerk(kCrosses).x;
   down[8] = -1.0 / MinimumJerk(kCrosses).x;
@@ -169,9 +170,15 @@ Mat9 prior_of(const IdealSpec& spec, const Vec3& first) {
   return prior;
 }
 
-std::vector<Part> parts_of(const Task& task) {
+struct Parts {
+  std::vector<Part> all;
+  double evidence = -HUGE_VAL;
+};
+
+Parts parts_of(const Task& task) {
   Vec3 first = 0.17 * (task.pictures.back().at - task.pictures.front().at).normalized();
-  std::vector<Part> parts;
+  Parts found;
+  std::vector<Part>& parts = found.all;
   for (int pass = 0; pass < 2; ++pass) {  // the second one knows how far the first movement goes
     const Mat9 prior = prior_of(task.spec, first);
     const double whole = std::log(prior.bottomRightCorner<3, 3>().determinant());
@@ -187,26 +194,48 @@ std::vector<Part> parts_of(const Task& task) {
     double sum = 0.0;
     for (Part& part : parts) sum += part.weight = std::exp(part.weight - most);
     for (Part& part : parts) part.weight /= sum;
+    found.evidence = most + std::log(sum);
   }
-  return parts;
+  return found;
 }
 
-}  // namespace
-
-Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches) {
+Task task_of(const IdealSpec& spec, const SeenReach& reach, double told, double touches) {
   Task task{spec, {}, touches};
   for (const SeenReach::Picture& picture : reach.pictures)
     if (picture.told <= told) task.pictures.push_back(picture);
   if (task.pictures.size() > kPictures)
     task.pictures.erase(task.pictures.begin(), task.pictures.end() - kPictures);
+  return task;
+}
+
+Vec2 mean_of(const Parts& parts) {
+  Vec2 mean = Vec2::Zero();
+  for (const Part& part : parts.all) mean += part.weight * part.mean;
+  return mean;
+}
+
+// When the pictures that somebody goes after were told: what came before has been reached long ago.
+std::vector<double> last_told(const SeenReach& reach) {
+  constexpr std::size_t kLast = 4;
+  std::vector<double> told;
+  for (const SeenReach::Picture& picture : reach.pictures)
+    if (picture.told <= reach.met) told.push_back(picture.told);
+  if (told.size() > kLast) told.erase(told.begin(), told.end() - kLast);
+  return told;
+}
+
+}  // namespace
+
+Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches) {
+  const Task task = task_of(spec, reach, told, touches);
   Ideal ideal;
   ideal.place = Vec2::Constant(kUnset);
   if (task.pictures.size() < 3) return ideal;
-  const std::vector<Part> parts = parts_of(task);
-  ideal.place = Vec2::Zero();
-  for (const Part& part : parts) ideal.place += part.weight * part.mean;
+  const Parts parts = parts_of(task);
+  ideal.place = mean_of(parts);
+  ideal.evidence = parts.evidence;
   // Of each part within the circle: its normal distribution, over rings about the place.
-  for (const Part& part : parts) {
+  for (const Part& part : parts.all) {
     if (part.weight < 1e-5) continue;
     const Eigen::Matrix2d root = part.covariance.llt().matrixL();
     int in = 0;
@@ -224,12 +253,9 @@ Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, do
 }
 
 Eigen::Vector2d ideal_carried(const IdealSpec& spec, const SeenReach& reach, double acceleration) {
-  constexpr std::size_t kLast = 4;  // pictures: what came before has been reached long ago
-  std::vector<double> told;
-  for (const SeenReach::Picture& picture : reach.pictures)
-    if (picture.told <= reach.met) told.push_back(picture.told);
+  const std::vector<double> told = last_told(reach);
   Eigen::Vector2d at{kUnset, kUnset};
-  for (std::size_t i = told.size() - std::min(kLast, told.size()); i < told.size(); ++i) {
+  for (std::size_t i = 0; i < told.size(); ++i) {
     const Eigen::Vector2d best = ideal_place(spec, reach, told[i], reach.met).place;
     const double time = (i + 1 < told.size() ? told[i + 1] : reach.met) - told[i];
     const Eigen::Vector2d way = best - at;
@@ -237,6 +263,67 @@ Eigen::Vector2d ideal_carried(const IdealSpec& spec, const SeenReach& reach, dou
     at = at.allFinite() ? Eigen::Vector2d(at + way * std::min(1.0, 0.5 * acceleration * time * time /
                                                                        std::max(way.norm(), 1e-9)))
                         : best;
+  }
+  return at;
+}
+
+std::vector<IdealCourse> ideal_courses(const IdealSpec& spec, const SeenReach& reach) {
+  constexpr double kFarthest = 0.25;  // s
+  std::vector<IdealCourse> courses;
+  for (const double told : last_told(reach)) {
+    IdealCourse course{told, {}};
+    for (double after = 0.0; after < kFarthest; after += IdealCourse::kEach) {
+      const Task task = task_of(spec, reach, told, told + after);
+      if (task.pictures.size() < 3) break;
+      const Parts parts = parts_of(task);
+      course.then.push_back({mean_of(parts), 0.0, parts.evidence});
+    }
+    if (!course.then.empty()) courses.push_back(std::move(course));
+  }
+  return courses;
+}
+
+Eigen::Vector2d IdealCourse::mean(double now, double soon) const {
+  constexpr int kFine = 4;  // times between two
+  double most = -HUGE_VAL;
+  std::vector<std::pair<double, Vec2>> come;
+  for (std::size_t i = 0; i + 1 < then.size(); ++i)
+    for (int k = 0; k < kFine; ++k) {
+      const double share = (k + 0.5) / kFine, after = (static_cast<double>(i) + share) * kEach;
+      if (told + after < now) continue;
+      come.emplace_back(
+          then[i].evidence + share * (then[i + 1].evidence - then[i].evidence) - (told + after - now) / soon,
+          then[i].place + share * (then[i + 1].place - then[i].place));
+      most = std::max(most, come.back().first);
+    }
+  Vec2 sum = Vec2::Zero();
+  double weight = 0.0;
+  for (const auto& [evidence, place] : come) {
+    const double w = std::exp(evidence - most);
+    weight += w;
+    sum += w * place;
+  }
+  return weight > 0.0 ? Vec2(sum / weight) : then.back().place;
+}
+
+Eigen::Vector2d ideal_followed(const std::vector<IdealCourse>& courses, double met, double acceleration,
+                               double soon) {
+  constexpr double kTick = 1e-3;  // s
+  Vec2 at{kUnset, kUnset}, velocity = Vec2::Zero();
+  for (std::size_t i = 0; i < courses.size(); ++i) {
+    const double until = i + 1 < courses.size() ? courses[i + 1].told : met;
+    Vec2 goal = courses[i].mean(courses[i].told, soon);
+    if (!at.allFinite()) at = goal;
+    for (double t = courses[i].told; t < until; t += kTick) {
+      const Vec2 next = courses[i].mean(t + kTick, soon), way = goal - at;
+      const double far = way.norm();
+      Vec2 wanted = (next - goal) / kTick;
+      if (far > 0.0) wanted += way / far * std::min(braking_speed(far, acceleration, kTick), far / kTick);
+      const Vec2 change = wanted - velocity;
+      velocity += change * std::min(1.0, acceleration * kTick / std::max(change.norm(), 1e-12));
+      at += kTick * velocity;
+      goal = next;
+    }
   }
   return at;
 }

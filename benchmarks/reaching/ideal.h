@@ -3,6 +3,7 @@
 // tries every timing finely, and its prop is anywhere at once or is carried by an arm.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct IdealSpec {
 struct Ideal {
   Eigen::Vector2d place{kUnset, kUnset};  // at which a prop is best, if the tip touches at a time; mean
   double within = 0.0;  // probability of the tip's touching within 2 mm of it, as the predictor itself thinks
+  double evidence = -HUGE_VAL;  // logarithm of the density of that time; but for what all times share
 };
 // By the pictures that were told by `told`, of a tip that touches at `touches`, s.
 [[nodiscard]] Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches);
@@ -43,5 +45,23 @@ struct Ideal {
 // stop. For pictures that are so far apart that it comes to rest between them, as at 20 Hz.
 [[nodiscard]] Eigen::Vector2d ideal_carried(const IdealSpec& spec, const SeenReach& reach,
                                             double acceleration);
+
+// What that predictor knows by a picture if nobody tells it when the finger touches, as nobody does: where it
+// would touch, were it so long after, and how probable each time is.
+struct IdealCourse {
+  static constexpr double kEach = 10e-3;  // s, from time to time
+  double told = kUnset;                   // s, when the picture was
+  std::vector<Ideal> then;                // from that on; never empty
+  // Mean of what is still to come at a moment, weighted by how probable it is; what comes within `soon`, s,
+  // before the rest, because what comes later can still be met later.
+  [[nodiscard]] Eigen::Vector2d mean(double now, double soon) const;
+};
+// Of the last pictures of a reach.
+[[nodiscard]] std::vector<IdealCourse> ideal_courses(const IdealSpec& spec, const SeenReach& reach);
+
+// Where the prop is at `met`, s, if an arm goes after that mean as soon as this acceleration, m/s^2, allows,
+// and does nothing else late.
+[[nodiscard]] Eigen::Vector2d ideal_followed(const std::vector<IdealCourse>& courses, double met,
+                                             double acceleration, double soon);
 
 }  // namespace enc::bench::reaching

@@ -39,9 +39,12 @@ struct ArmRig {
   // Of each motor, N m: for a moment, and for ever (sources/arm 3, published).
   PerJoint peak_torque{0.129, 0.129, 0.129}, continuous_torque{0.0286, 0.0286, 0.0286};
   Thermal thermal{};
-  double speed = 1.0;             // of the target on its way to where the finger will touch, m/s
-  double acceleration = 15.0;     // and of it, m/s^2
-  double settle = 0.020;          // s, in which the target follows a leap of the finger that is seen
+  double speed = 1.0;          // of the target on its way to where the finger will touch, m/s
+  double acceleration = 15.0;  // and of it, m/s^2
+  double settle = 0.020;       // s, in which the target follows a leap of the finger that is seen
+  // Likewise, while it goes to where a reach is foreseen to touch (tracker.foresight): there no finger lies
+  // on the prop that would feel it.
+  double reach_acceleration = 30.0, reach_settle = 0.005;
   double prop_lag = 0.020;        // s: of a driven prop's surface behind what it is told; assumed
   double stale = 0.005;           // s: an older sample is lost
   double least_dexterity = 0.15;  // nearer to a singular pose the tip is not sent

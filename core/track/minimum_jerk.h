@@ -7,7 +7,7 @@ namespace enc {
 
 struct MinimumJerk {
   double x, v, a;  // position, velocity, acceleration
-  explicit MinimumJerk(double s) {
+  constexpr explicit MinimumJerk(double s) {
     s = std::clamp(s, 0.0, 1.0);
     x = s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
     v = 30.0 * s * s * (1.0 - s) * (1.0 - s);

@@ -11,17 +11,20 @@ namespace enc {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kCrosses = 0.7;  // share of a correction's time at which it crosses the surface
+constexpr MinimumJerk kAtCrossing(kCrosses);
 constexpr double kOverlap =
     0.8;  // a correction begins when at least so much of the first movement's time is over
 constexpr double kLongest = 3.0;  // longest correction over the shortest
 constexpr double kLeastShare =
     0.6;                       // of its way a first movement has made, at least, where it crosses the surface
 constexpr double kWide = 1.0;  // m, m/s: where a hand is and goes, as long as nothing is known of it
-constexpr double kExactly = 1e-4;   // m
-constexpr double kEven = 0.2;       // share of the hands that come with an even speed
+constexpr double kVague = 1.0 / (kWide * kWide);  // 1/m^2, 1/(m/s)^2: the weight of that
+constexpr double kExact = 1e8;                    // 1/m^2: the weight of what is so to 0.1 mm
+// Share of the hands that come with an even speed, or pass by. Chosen: these are told best with a large one,
+// and to reaches, which the pictures tell apart by themselves, it makes no difference from 0.2 to 0.99.
+constexpr double kEven = 0.95;
 constexpr double kLength = 0.17;    // m, of a first movement, to begin with
 constexpr double kShortest = 0.02;  // m, of one that is found
 constexpr double kOldest = 1.0;     // s, of a picture
@@ -31,39 +34,48 @@ struct Tries {
 };
 constexpr Tries kFew{12, 3, 2}, kAll{12, 5, 3};
 
-// Unknown numbers, each seen through sums of them: their mean, and how probable it is that what is seen is
-// seen.
-template <int kSize>
-class Normal {
- public:
-  using Vector = Eigen::Matrix<double, kSize, 1>;
-  void see(const Vector& share, double value, double sigma) {
-    const double w = 1.0 / (sigma * sigma);
-    information_.noalias() += (w * share) * share.transpose();
-    right_ += (w * value) * share;
-    evidence_ -= 0.5 * w * value * value + std::log(sigma);
+// Three unknowns a, b and c, each value seen as a + u b + v c: the left sides of the normal equations, which
+// axes share, and the right ones of an axis. Weights are 1 / variance.
+struct Left {
+  double a = 0.0, ab = 0.0, b = 0.0, ac = 0.0, bc = 0.0, c = 0.0;
+  void see(double u, double v, double weight) {
+    a += weight;
+    ab += weight * u;
+    b += weight * u * u;
+    ac += weight * v;
+    bc += weight * u * v;
+    c += weight * v * v;
   }
-  void expect(int from,
-              const Eigen::Matrix2d& covariance) {  // two of them, about 0, not in a row: from, from + 3
-    const Eigen::Matrix2d inverse = covariance.inverse();
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j) information_(from + 3 * i, from + 3 * j) += inverse(i, j);
-    evidence_ -= 0.5 * std::log(covariance.determinant());
+};
+struct Right {
+  double a = 0.0, b = 0.0, c = 0.0;
+  void see(double u, double v, double weighted) {
+    a += weighted;
+    b += weighted * u;
+    c += weighted * v;
   }
-  void solve() {
-    factors_.compute(information_);
-    mean_ = factors_.solve(right_);
-    evidence_ += 0.5 * right_.dot(mean_) - 0.5 * factors_.vectorD().array().log().sum();
+};
+// Of Gauss: a and b are taken out, what is left speaks of c alone.
+struct Pivots {
+  double a, ab, b, ac, bc, c;
+  explicit Pivots(const Left& m)
+      : a(m.a),
+        ab(m.ab / m.a),
+        b(m.b - ab * m.ab),
+        ac(m.ac / m.a),
+        bc((m.bc - ac * m.ab) / b),
+        c(m.c - ac * m.ac - bc * bc * b) {}
+};
+struct Known {
+  double a, b, c;  // of the right side
+  double agrees;   // twice the logarithm of how probable all is, as far as a and b go
+  Known(const Pivots& p, const Right& r)
+      : a(r.a), b(r.b - p.ab * a), c(r.c - p.ac * a - p.bc * b), agrees(a * a / p.a + b * b / p.b) {}
+  // The unknowns, c being known.
+  [[nodiscard]] Vec3 solved(const Pivots& p, double last) const {
+    const double middle = b / p.b - p.bc * last;
+    return {a / p.a - p.ab * middle - p.ac * last, middle, last};
   }
-  [[nodiscard]] const Vector& mean() const { return mean_; }
-  [[nodiscard]] double evidence() const { return evidence_; }  // logarithm
-  [[nodiscard]] double variance(const Vector& share) const { return share.dot(factors_.solve(share)); }
-
- private:
-  Eigen::Matrix<double, kSize, kSize> information_ = Eigen::Matrix<double, kSize, kSize>::Zero();
-  Vector right_ = Vector::Zero(), mean_ = Vector::Zero();
-  Eigen::LDLT<Eigen::Matrix<double, kSize, kSize>> factors_;
-  double evidence_ = 0.0;
 };
 
 // The pictures, turned about the normal so that the hand's way has no y; and what the belief makes of that
@@ -72,14 +84,17 @@ struct Seen {
   std::array<Vec3, kSightings> at;
   std::array<double, kSightings> age{};
   std::size_t count = 0;
-  double noise = kUnset;
+  double weight = kUnset;                     // of what one of them says, 1 / m^2
   Vec2 x = Vec2::UnitX(), y = Vec2::UnitY();  // turned, in the axes that were given
   double length = kLength;                    // m, of the first movement
-  Eigen::Matrix2d left_xz;  // covariance of what is left when the first movement is over, m^2
-  double left_y = kUnset;   // its standard deviation, m
+  Eigen::Matrix2d left_xz;  // one over the covariance of what is left when the first movement is over, 1/m^2
+  double left_y = kUnset;   // one over its variance, 1/m^2
+  double certain = kUnset;  // logarithm of how narrow both are
 
   Seen(const ReachBelief& hand, std::span<const Sighting> pictures, double noise_of, const Vec3& first)
-      : count(std::min(pictures.size(), kSightings)), noise(noise_of), length(first.norm()) {
+      : count(std::min(pictures.size(), kSightings)),
+        weight(1.0 / (noise_of * noise_of)),
+        length(first.norm()) {
     const double aside = first.head<2>().norm();
     if (aside > 1e-9) x = first.head<2>() / aside;
     y = Vec2(-x.y(), x.x());
@@ -89,10 +104,11 @@ struct Seen {
       age[i] = pictures[i].age;
     }
     const double far = hand.scatter / (hand.share * hand.share) * length;
-    left_y = hand.aside / (hand.share * hand.share) * length;
+    const double beside = hand.aside / (hand.share * hand.share) * length;
     const Vec2 along = Vec2(aside, first.z()) / length;
-    left_xz = left_y * left_y * Eigen::Matrix2d::Identity() +
-              (far * far - left_y * left_y) * along * along.transpose();
+    left_y = 1.0 / (beside * beside);
+    left_xz = left_y * Eigen::Matrix2d::Identity() + (1.0 / (far * far) - left_y) * along * along.transpose();
+    certain = -std::log(beside * beside * far);
   }
   [[nodiscard]] Vec2 given(const Vec2& turned) const { return turned.x() * x + turned.y() * y; }
 };
@@ -113,7 +129,7 @@ struct Fit {
 // Probability that a hand whose second movement has this way down, m, takes this time for it. Each corrects
 // so that it crosses the surface with the speed that it wants; the shortest time stands for all faster ones.
 double takes(const ReachBelief& hand, double down, double second, double width) {
-  const double speed = down * MinimumJerk(kCrosses).v / second;
+  const double speed = down * kAtCrossing.v / second;
   const double range = hand.touch_fastest - hand.touch_slowest;
   if (down <= 0.0) return 0.0;
   if (second <= hand.shortest)
@@ -121,71 +137,107 @@ double takes(const ReachBelief& hand, double down, double second, double width) 
   return speed >= hand.touch_slowest && speed <= hand.touch_fastest ? speed / second * width / range : 0.0;
 }
 
+// What the pictures say of the unknowns along each axis.
+struct Axes {
+  Left xy, z;
+  Right of_x, of_y, of_z;
+  void see(const Seen& seen, std::size_t i, double first, double second, double rest, double beyond) {
+    const double u = first + rest * second, w = seen.weight;
+    xy.see(u, second, w);
+    of_x.see(u, second, w * seen.at[i].x());
+    of_y.see(u, second, w * seen.at[i].y());
+    const double uz = first + rest * beyond * second, vz = beyond * second;
+    z.see(uz, vz, w);
+    of_z.see(uz, vz, w * seen.at[i].z());
+  }
+};
+
 // The unknowns along an axis: where the hand began, the first movement, and what of the rest of the way the
 // belief does not foresee. The second movement makes the rest of the way; across the surface it aims beyond
-// it.
+// it. How much the pictures differ from nothing at all is left out of the evidence: it is the same for all.
 Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width) {
   const double rest = 1.0 / hand.share - 1.0;  // of the first movement
-  const double beyond = t.falls_short ? 1.0 / MinimumJerk(kCrosses).x : 0.0;
-  Normal<3> across;
-  Normal<6> plane;  // x, then z
-  const auto on_x = [](const Vec3& share) { return (Vec6() << share, Vec3::Zero()).finished(); };
-  const auto on_z = [](const Vec3& share) { return (Vec6() << Vec3::Zero(), share).finished(); };
-  for (int i = 0; i < 2; ++i) {
-    across.see(Vec3::Unit(i), 0.0, kWide);
-    plane.see(on_x(Vec3::Unit(i)), 0.0, kWide);
-  }
-  plane.see(on_z(Vec3::UnitY()), 0.0, kWide);
-  across.see(Vec3::UnitZ(), 0.0, seen.left_y);
-  plane.expect(2, seen.left_xz);
-  plane.see(on_z({1.0, 1.0 + rest, 1.0}), 0.0, kExactly);  // the whole way leads to the surface
-  if (!t.falls_short) plane.see(on_z({1.0, t.crossed, 0.0}), 0.0, kExactly);
-  for (std::size_t i = 0; i < seen.count; ++i) {
-    const double p = MinimumJerk((-seen.age[i] - t.begins) / t.first).x;
-    const double s = MinimumJerk((-seen.age[i] - t.corrects) / t.second).x;
-    across.see({1.0, p + rest * s, s}, seen.at[i].y(), seen.noise);
-    plane.see(on_x({1.0, p + rest * s, s}), seen.at[i].x(), seen.noise);
-    plane.see(on_z({1.0, p + beyond * rest * s, beyond * s}), seen.at[i].z(), seen.noise);
-  }
-  across.solve();
-  plane.solve();
-  const Vec6& m = plane.mean();
+  const double beyond = t.falls_short ? 1.0 / kAtCrossing.x : 0.0;
+  Axes axes;
+  for (std::size_t i = 0; i < seen.count; ++i)
+    axes.see(seen, i, MinimumJerk((-seen.age[i] - t.begins) / t.first).x,
+             MinimumJerk((-seen.age[i] - t.corrects) / t.second).x, rest, beyond);
+  axes.xy.a += kVague;
+  axes.xy.b += kVague;
+  axes.z.b += kVague;
+  axes.z.see(1.0 + rest, 1.0, kExact);  // the whole way leads to the surface
+  if (!t.falls_short) axes.z.see(t.crossed, 0.0, kExact);
+  const Pivots xy(axes.xy), z(axes.z);
+  const Known of_x(xy, axes.of_x), of_y(xy, axes.of_y), of_z(z, axes.of_z);
+  // What is left of the way along x and z goes together.
+  const double y_weight = xy.c + seen.left_y;
+  const double x_weight = xy.c + seen.left_xz(0, 0), z_weight = z.c + seen.left_xz(1, 1);
+  const double both = seen.left_xz(0, 1), area = x_weight * z_weight - both * both;
+  const double x_left = (z_weight * of_x.c - both * of_z.c) / area;
+  const double z_left = (x_weight * of_z.c - both * of_x.c) / area;
+  const Vec3 along = of_x.solved(xy, x_left), across = of_y.solved(xy, of_y.c / y_weight),
+             down = of_z.solved(z, z_left);
   // How far down the second movement goes says how long it takes: three points for a normal distribution.
-  const Vec6 down = on_z(Vec3(0.0, -rest, -1.0) / MinimumJerk(kCrosses).x);
-  const double middle = down.dot(m), spread = std::sqrt(3.0 * std::max(0.0, plane.variance(down)));
+  const double middle = -(rest * down[1] + down[2]) / kAtCrossing.x;
+  const double by_left = 1.0 - rest * z.bc,
+               variance = rest * rest / z.b + by_left * by_left * x_weight / area;
+  const double spread = std::sqrt(3.0 * variance) / kAtCrossing.x;
   double share = 0.0;
   for (const auto& [at, weight] : {std::pair{-1.0, 1.0 / 6.0}, {0.0, 2.0 / 3.0}, {1.0, 1.0 / 6.0}}) {
     const double d = middle + at * spread;
     share += weight * (t.falls_short ? takes(hand, d, t.second, width) : d <= 0.0 ? 1.0 : 0.0);
   }
   Fit fit;
-  fit.first = {m[1], across.mean()[1], m[4]};
+  fit.first = {along[1], across[1], down[1]};
   const double p = MinimumJerk(-t.begins / t.first).x, s = MinimumJerk(-t.corrects / t.second).x;
   const Vec3 touching(1.0, p + rest * s, s);
-  fit.place = {touching.dot(m.head<3>()), touching.dot(across.mean())};
-  fit.evidence = across.evidence() + plane.evidence() + std::log(std::max(share, 1e-12));
+  fit.place = {touching.dot(along), touching.dot(across)};
+  const double agrees = of_x.agrees + of_y.agrees + of_z.agrees + of_y.c * of_y.c / y_weight +
+                        of_x.c * x_left + of_z.c * z_left;
+  const double pivots = xy.a * xy.b;
+  double certain = pivots * pivots * y_weight * area * (z.a * z.b);
   // That it crosses just now, where nothing else says so: the density of its height, times its speed.
   if (!t.falls_short) {
-    const double speed = MinimumJerk(-t.begins / t.first).v * std::abs(m[4]);
-    fit.evidence += std::log(std::max(speed * width, 1e-12)) - 0.5 * std::log(2.0 * M_PI);
+    const double speed = MinimumJerk(-t.begins / t.first).v * std::abs(down[1]) * width;
+    share *= std::max(speed, 1e-12);
+    certain *= 2.0 * M_PI / kExact;
   }
+  fit.evidence = 0.5 * (agrees - std::log(certain)) + seen.certain + std::log(std::max(share, 1e-24));
   return fit;
 }
 
-// A hand that comes with an even speed: where it is now, and its velocity.
-Fit fit_even(const Seen& seen) {
-  Normal<2> axes[3];
-  for (int k = 0; k < 3; ++k) {
-    Normal<2>& axis = axes[k];
-    for (int i = 0; i < 2; ++i) axis.see(Vec2::Unit(i), 0.0, kWide);
-    if (k == 2) axis.see(Vec2::UnitX(), 0.0, kExactly);
-    for (std::size_t i = 0; i < seen.count; ++i) axis.see({1.0, -seen.age[i]}, seen.at[i][k], seen.noise);
-    axis.solve();
+// A hand that goes on with an even speed.
+struct Even {
+  Left xy;
+  Right of_x, of_y, of_z;
+  Even(std::span<const Sighting> pictures, double weight) {
+    for (const auto& [at, age] : pictures) {
+      xy.see(-age, 0.0, weight);
+      of_x.see(-age, 0.0, weight * at.x());
+      of_y.see(-age, 0.0, weight * at.y());
+      of_z.see(-age, 0.0, weight * at.z());
+    }
+    xy.a += kVague;
+    xy.b += kVague;
   }
+};
+
+// One that touches now: where it is, and its velocity.
+Fit fit_even(const Seen& seen) {
+  std::array<Sighting, kSightings> pictures;
+  for (std::size_t i = 0; i < seen.count; ++i) pictures[i] = {seen.at[i], seen.age[i]};
+  const std::span<const Sighting> all(pictures.data(), seen.count);
+  const Even even(all, seen.weight);
+  Left height = even.xy;
+  height.a += kExact;
+  const Pivots aside(even.xy), z(height);
+  const Known x(aside, even.of_x), y(aside, even.of_y), down(z, even.of_z);
   Fit fit;
-  fit.place = {axes[0].mean()[0], axes[1].mean()[0]};
-  fit.evidence = axes[0].evidence() + axes[1].evidence() + axes[2].evidence() +
-                 std::log(std::max(std::abs(axes[2].mean()[1]), 1e-6)) - 0.5 * std::log(2.0 * M_PI);
+  fit.place = {x.solved(aside, 0.0)[0], y.solved(aside, 0.0)[0]};
+  const double speed = std::abs(down.solved(z, 0.0)[1]), pivots = aside.a * aside.b;
+  fit.evidence =
+      0.5 * (x.agrees + y.agrees + down.agrees - std::log(pivots * pivots * (z.a * z.b) * (2.0 * M_PI))) +
+      std::log(std::max(speed, 1e-6));
   return fit;
 }
 
@@ -249,23 +301,52 @@ void try_reaches(const ReachBelief& hand, const Seen& seen, const Tries& tries, 
 
 }  // namespace
 
+namespace {
+
+// As many pictures as are of use, where all of them are sound; else none.
+std::span<const Sighting> usable(std::span<const Sighting> newest_first, double noise) {
+  const auto some = newest_first.first(std::min(newest_first.size(), kSightings));
+  const bool sound = std::all_of(some.begin(), some.end(), [](const Sighting& one) {
+    return one.at.allFinite() && std::isfinite(one.age) && one.age < kOldest;
+  });
+  return sound && some.size() >= 3 && noise > 0.0 ? some : std::span<const Sighting>();
+}
+
+}  // namespace
+
+double passes_by(std::span<const Sighting> newest_first, double noise, double until) noexcept {
+  constexpr double kLogistic = 1.702;  // with it a logistic curve is a normal distribution's to 0.01
+  const auto pictures = usable(newest_first, noise);
+  if (pictures.empty()) return -std::numeric_limits<double>::infinity();
+  const Even even(pictures, 1.0 / (noise * noise));
+  const Pivots pivots(even.xy);
+  const Known x(pivots, even.of_x), y(pivots, even.of_y), z(pivots, even.of_z);
+  const Vec3 down = z.solved(pivots, 0.0);
+  const double later = until - pivots.ab, height = down[0] + until * down[1];
+  const double spread = std::sqrt(1.0 / pivots.a + later * later / pivots.b);
+  const double share = 1.0 / (1.0 + std::exp(-kLogistic * height / spread));
+  // kExact: how narrow it is known that a finger is at the surface when it touches, which touch_then() leaves
+  // out.
+  const double evidence =
+      0.5 * (x.agrees + y.agrees + z.agrees - 3.0 * std::log(pivots.a * pivots.b) - std::log(kExact)) +
+      std::log(kEven * std::max(share, 1e-300));
+  return std::isfinite(evidence) ? evidence : -std::numeric_limits<double>::infinity();
+}
+
 Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first, double noise) noexcept {
   const Touch unknown;
-  const std::size_t count = std::min(newest_first.size(), kSightings);
-  if (count < 3 || !(noise > 0.0)) return unknown;
-  bool sound = true;
-  for (const Sighting& one : newest_first.first(count))
-    sound = sound && one.at.allFinite() && std::isfinite(one.age) && one.age < kOldest;
-  const Vec3 way = newest_first[0].at - newest_first[count - 1].at;
-  if (!sound || !(way.z() < 0.0)) return unknown;
-  const Seen coarse(hand, newest_first, noise, kLength * way.normalized());
+  const auto pictures = usable(newest_first, noise);
+  if (pictures.empty()) return unknown;
+  const Vec3 way = pictures.front().at - pictures.back().at;
+  if (!(way.z() < 0.0)) return unknown;
+  const Seen coarse(hand, pictures, noise, kLength * way.normalized());
   Mean few;
   try_reaches(hand, coarse, kFew, few);
   const Vec3 turned = few.first();
   Vec3 first;
   first << coarse.given(turned.head<2>()), turned.z();
   if (!(first.norm() > kShortest && first.norm() < kWide)) first = kLength * way.normalized();
-  const Seen seen(hand, newest_first, noise, first);
+  const Seen seen(hand, pictures, noise, first);
   Mean mean;
   Fit even = fit_even(seen);
   even.evidence += std::log(kEven);

@@ -30,4 +30,9 @@ struct Touch {
 [[nodiscard]] Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first,
                                double noise) noexcept;
 
+// How well the pictures fit a finger that goes on with an even speed and has not come to the surface by then,
+// s from the time at which the ages hold: logarithm of a probability, but for what touch_then() leaves out,
+// too. -infinity: there are too few pictures, or none is sound.
+[[nodiscard]] double passes_by(std::span<const Sighting> newest_first, double noise, double until) noexcept;
+
 }  // namespace enc

@@ -51,6 +51,12 @@ std::vector<std::string> VisionTracker::remarks() const {
     lines.emplace_back(
         "vision: a finger stood in the frames of which the background was learned, and is seen badly there; "
         "start again without it");
+  constexpr int kMany = 20;  // frames: in fewer a hand may not have come yet
+  if (looked_ >= kMany && seen_ == 0)
+    lines.push_back(
+        "vision: none of " + std::to_string(looked_) +
+        " frames showed a finger; see to the light, to skin_hue_deg and to where the camera looks "
+        "(encounter view --through-camera raw)");
   for (std::size_t i = 1; i < refused_.size(); ++i)
     if (refused_[i] > 0)
       lines.push_back("vision: " + std::to_string(refused_[i]) + " frames were not used: " + kReasons[i]);
@@ -67,6 +73,8 @@ void VisionTracker::take(Time now, const Stamped<StereoFrame>& frame) {
     return;
   }
   background_ += finger.state == FingerState::learning ? 1 : 0;
+  looked_ += finger.state == FingerState::learning ? 0 : 1;
+  seen_ += finger.state == FingerState::seen ? 1 : 0;
   if (count_ == line_.size()) {  // loses the oldest, as a socket's buffer would
     first_ = (first_ + 1) % line_.size();
     --count_;

@@ -119,6 +119,12 @@ void describe(Visitor& v, ArmRig& a) {
   v.value({"settle_ms", "in which the target follows a leap of the finger that is seen",
            "docs/reference/plane_button.md", chosen, kPositive},
           &a.settle);
+  constexpr const char* kReaching = "docs/reference/reaching.md";
+  v.value({"reach_acceleration_m_s2", "of the target on its way to where a reach is foreseen to touch",
+           kReaching, chosen, kPositive},
+          &a.reach_acceleration);
+  v.value({"reach_settle_ms", "in which it follows a leap of that place", kReaching, chosen, kPositive},
+          &a.reach_settle);
   v.value({"prop_lag_ms", "of a driven prop's surface behind what it is told", "docs/reference/objects.md",
            assumed, kNotNegative},
           &a.prop_lag);

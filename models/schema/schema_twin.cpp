@@ -171,9 +171,12 @@ void describe(Visitor& v, sim::TrackerTruth& t) {
 }
 
 void describe(Visitor& v, sim::CameraTruth& c) {
-  v.value(
-      {"baseline_mm", "from the left camera to the right one", "sources/tracking 7", published, kPositive},
-      &c.baseline);
+  v.value({"baseline_mm",
+           "from the left camera to the right one",
+           "sources/tracking 7",
+           published,
+           {1.0, 1000.0}},
+          &c.baseline);
   v.value({"focal_px", "of both cameras", "sources/tracking 7", derived, {10.0, 1e5}}, &c.focal);
   v.value({"width_px", "of an image", "sources/tracking 7", assumed, {16.0, 4096.0}}, &c.width);
   v.value({"height_px", "of an image", "sources/tracking 7", assumed, {16.0, 4096.0}}, &c.height);
@@ -194,7 +197,7 @@ void describe(Visitor& v, sim::CameraTruth& c) {
   v.value({"hand_from_s", "until then the hand is out of the picture", "[VisHap 3]", chosen, kNotNegative},
           &c.hand_from);
   v.value({"noise_of_255", "rms of a pixel", "sources/tracking 7", assumed, {0.0, 30.0}}, &c.noise);
-  v.value({"exposure", "of the light that is there", "injected", chosen, kPositive}, &c.exposure);
+  v.value({"exposure", "of the light that is there", "injected", chosen, {0.01, 100.0}}, &c.exposure);
   v.value({"stalls_at_s", "no frame from then on; unset: never", "injected", chosen, kNotNegative, optional},
           &c.stalls_at);
   v.value({"back_at_s", "frames again, after stalls_at_s; unset: never", "injected", chosen, kNotNegative,
@@ -203,7 +206,9 @@ void describe(Visitor& v, sim::CameraTruth& c) {
   v.value({"swapped_at_s", "left and right exchanged from then on; unset: never", "injected", chosen,
            kNotNegative, optional},
           &c.swapped_at);
-  v.value({"moved_mm", "of the camera against [truth.frames.W_C], in W", "injected", chosen}, &c.moved);
+  v.value(
+      {"moved_mm", "of the camera against [truth.frames.W_C], in W", "injected", chosen, {-1000.0, 1000.0}},
+      &c.moved);
   v.value({"moved_at_s", "from then on", "injected", chosen, kNotNegative}, &c.moved_at);
   v.value({"distortion", "of both lenses: k1, k2, p1, p2, k3", "sources/tracking 7", assumed, {-10.0, 10.0}},
           std::span<double>(c.distortion));

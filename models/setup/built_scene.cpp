@@ -71,6 +71,21 @@ class Without final : public Visitor {
 
 }  // namespace
 
+// Whoever sets a number wants it to do something.
+void note_unread(Setup& setup) {
+  for (const std::string& table : unread(setup)) {
+    const std::string below = table + ".";
+    for (auto i = setup.places.lower_bound(below); i != setup.places.end() && i->first.starts_with(below);
+         ++i) {
+      if (!i->second.starts_with("--set")) continue;
+      const bool through_camera = setup.scene.camera && table == "truth.tracker";
+      setup.notes.push_back(
+          fmt::format("{}: warning: nothing in this scene reads [{}]{}; leave it out", i->second, table,
+                      through_camera ? ", as its tracker is vision: see [truth.camera]" : ""));
+    }
+  }
+}
+
 void walk_built(Visitor& visitor, Setup& setup) {
   Without built(visitor, unread(setup));
   describe_all(built, setup.scene, setup.rig, setup.twin);

@@ -89,8 +89,8 @@ void check_camera(const Setup& setup) {
   } catch (const Error& e) {
     fail(setup, e.key(), e.what());
   }
+  if (setup.rig.camera.driver == "sim") check_twin(setup);  // what is seen depends on the size
   check_views(setup);
-  if (setup.rig.camera.driver == "sim") check_twin(setup);
 }
 
 void note_views(Setup& setup) {

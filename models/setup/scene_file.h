@@ -88,6 +88,7 @@ void fill_camera(Setup& setup);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_props(Setup& setup);    // objects that want another prop than is mounted
 void note_views(Setup& setup);    // objects that the camera does not see
+void note_unread(Setup& setup);   // what --set names and nothing in the scene reads
 void check(const Setup& setup);   // what one key alone does not show; throws
 void round_to_text(
     Setup& setup);  // to the numbers that resolved() shows, so that a record repeats a run to the bit

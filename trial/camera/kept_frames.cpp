@@ -52,10 +52,18 @@ KeepingCamera::KeepingCamera(std::unique_ptr<StereoCamera> camera, const std::st
                              const FrameFiles& files)
     : camera_(std::move(camera)),
       path_(without_frames(folder)),
+      made_(!fs::exists(path_)),
       folder_(path_),
       left_(path_ + "/left"),
       right_(path_ + "/right"),
       files_(files) {}
+
+KeepingCamera::~KeepingCamera() {
+  std::error_code kept;  // a folder with something in it stays
+  fs::remove(path_ + "/left", kept);
+  fs::remove(path_ + "/right", kept);
+  if (made_) fs::remove(path_, kept);
+}
 
 bool KeepingCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
   if (!camera_->poll(now, newest)) return false;

@@ -19,6 +19,9 @@ class KeepingCamera final : public StereoCamera {
  public:
   // Throws Error where the folder cannot be made or holds frames already.
   KeepingCamera(std::unique_ptr<StereoCamera> camera, const std::string& folder, const FrameFiles& files);
+  ~KeepingCamera() override;  // without a frame the folders are taken away again, where they are empty
+  KeepingCamera(const KeepingCamera&) = delete;
+  KeepingCamera& operator=(const KeepingCamera&) = delete;
 
   bool poll(Time now, Stamped<StereoFrame>& newest) noexcept override;
   [[nodiscard]] bool linked() const noexcept override { return camera_->linked(); }
@@ -30,6 +33,7 @@ class KeepingCamera final : public StereoCamera {
  private:
   std::unique_ptr<StereoCamera> camera_;
   std::string path_;
+  bool made_;  // by this run
   models::OutFolder folder_, left_, right_;
   const FrameFiles& files_;
   std::string failure_;

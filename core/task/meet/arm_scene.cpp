@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/error.h"
 #include "core/rotation.h"
@@ -30,10 +31,11 @@ void check_gains(const ArmRig& rig, double rate) {
     throw Error("the filter's corner is " + number(rig.filter) + " Hz; expected at most " +
                     number(0.5 * rate) + ", half of the loop's rate: there is nothing above; lower it",
                 "rig.arm.filter");
-  if (rig.settle * rate < 1.0)
-    throw Error("a leap of the finger is followed within " + number(1e3 * rig.settle) +
-                    " ms; expected a period of the loop or more; raise it",
-                "rig.arm.settle");
+  for (const auto& [settle, key] : {std::pair{rig.settle, "settle"}, {rig.reach_settle, "reach_settle"}})
+    if (settle * rate < 1.0)
+      throw Error("a leap of the finger is followed within " + number(1e3 * settle) +
+                      " ms; expected a period of the loop or more; raise it",
+                  std::string("rig.arm.") + key);
 }
 
 // At home; elsewhere the law keeps the ratio.

@@ -2,6 +2,7 @@
 // farther it is on its way.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/rotation.h"
 #include "core/task/meet/finger.h"
@@ -9,11 +10,12 @@
 namespace enc::stages {
 namespace {
 
-// The touch may come so long after the newest picture, s: more closely where it is soon.
-constexpr std::array<double, Coming::kTimes> kAfter{0.055, 0.075, 0.098, 0.126, 0.165, 0.22, 0.30};
+// The touch may come so long after the newest picture is told, s: more closely where it is soon.
+constexpr std::array<double, Coming::kTimes> kAfter{0.0, 0.02, 0.044, 0.074, 0.114, 0.17, 0.25};
 // s: the weight of what comes later falls e-fold in that time, because it can still be met later. Chosen.
-constexpr double kSoon = 0.06;
+constexpr double kSoon = 0.03;
 constexpr double kApart = 0.03;  // s, between pictures
+constexpr double kOften = 5e-3;  // s: no sooner is asked anew, as that takes up to half a millisecond
 constexpr double kUneven = 1.4;  // times the noise of a picture: no hand is of minimum jerk to the last,
 constexpr double kUnevenLeast = 0.3e-3;  // m, and by this at least
 constexpr double kLying = 1e-3;          // m: nearer, it lies on the prop
@@ -23,8 +25,8 @@ constexpr double kFarthest = 0.05;       // m: a place of touch farther from the
 // often than its way needs, those in between are passed over.
 bool take_picture(const Walk& walk, const State& state, Coming& now) {
   const Time exposed_at = exposed(walk.scene.tracker, state.tool.t);
-  if (now.count > 0 && exposed_at == now.exposed[0]) return false;
-  const double gap = now.count > 0 ? age(exposed_at, now.exposed[0]) : 0.0;
+  const double gap = now.count > 0 ? age(exposed_at, now.exposed[0]) : kOften;
+  if (gap >= 0.0 && gap < kOften) return false;
   if (gap < 0.0 || gap > walk.scene.tracker.longest_prediction) now.count = 0;
   if (now.count < 2 || age(now.exposed[0], now.exposed[1]) > kApart) {
     std::shift_right(now.at.begin(), now.at.end(), 1);
@@ -36,26 +38,42 @@ bool take_picture(const Walk& walk, const State& state, Coming& now) {
   return true;
 }
 
-// One of the times, in axes of the surface.
-void ask(const Walk& walk, const State& state, Coming& now) {
-  const Pose<'N', 'W'> X_NW = now.asking.X_WN.inverse();
-  const auto which = static_cast<std::size_t>(now.asked++);
-  const TrackerRig& rig = walk.scene.tracker;
-  const double noise = std::sqrt(noise_of(rig, state.tool.value, walk.scene.X_WC).mean_square());
-  std::array<Sighting, kSightings> seen;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(now.count); ++i)
-    seen[i] = {(X_NW * now.at[i]).e() - walk.tool_radius * Vec3::UnitZ(),
-               age(now.exposed[0], now.exposed[i]) + kAfter[which]};
-  const Touch touch = touch_then(rig.reach, {seen.data(), static_cast<std::size_t>(now.count)},
-                                 std::max(kUnevenLeast, kUneven * noise));
-  const bool believed = touch.place.allFinite() && (touch.place - seen[0].at.head<2>()).norm() < kFarthest &&
-                        seen[0].at.z() > kLying;
-  now.asking.touches[which] = {touch.place.x(), touch.place.y(), believed ? touch.evidence : -HUGE_VAL};
+// A hand that reaches does not come slower than it wants to touch, but for a moment between its movements.
+// How one goes on that hovers no picture shows: it is met under where it is.
+bool reaches(const Walk& walk, const Coming& now) {
+  if (now.count < 3) return false;
+  const auto first = static_cast<std::size_t>(now.count - 1);
+  const double down = dot(now.at[first] - now.at[0], walk.normal) / age(now.exposed[0], now.exposed[first]);
+  return down > walk.scene.tracker.reach.touch_slowest;
 }
 
-// If it touches so long after the newest picture: between the two times next to that. The nearer it is to one
-// that says nothing, the less it counts.
-Vec3 touch_at(const Coming::Answer& now, double after) {
+// In axes of the surface that is under it.
+void ask(const Walk& walk, const State& state, Coming& now) {
+  now.object = state.object;
+  now.told = walk.tick.t;
+  now.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
+  const Pose<'N', 'W'> X_NW = now.X_WN.inverse();
+  const TrackerRig& rig = walk.scene.tracker;
+  const double noise = std::sqrt(noise_of(rig, state.tool.value, walk.scene.X_WC).mean_square());
+  const double known = std::max(kUnevenLeast, kUneven * noise);
+  std::array<Sighting, kSightings> seen;
+  const std::span<Sighting> all(seen.data(), static_cast<std::size_t>(now.count));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    seen[i].at = (X_NW * now.at[i]).e() - walk.tool_radius * Vec3::UnitZ();
+  for (std::size_t k = 0; k < kAfter.size(); ++k) {
+    for (std::size_t i = 0; i < all.size(); ++i) seen[i].age = age(now.told, now.exposed[i]) + kAfter[k];
+    const Touch touch = touch_then(rig.reach, all, known);
+    const bool believed = touch.place.allFinite() &&
+                          (touch.place - seen[0].at.head<2>()).norm() < kFarthest && seen[0].at.z() > kLying;
+    now.touches[k] = {touch.place.x(), touch.place.y(), believed ? touch.evidence : -HUGE_VAL};
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) seen[i].age = age(now.told, now.exposed[i]);
+  now.passes = passes_by(all, known, kAfter.back());
+}
+
+// If it touches so long after the newest picture is told: between the two times next to that. The nearer it
+// is to one that says nothing, the less it counts.
+Vec3 touch_at(const Coming& now, double after) {
   std::size_t i = 0;
   while (i + 2 < kAfter.size() && kAfter[i + 1] < after) ++i;
   const Vec3 a = Vec3::Map(now.touches[i].data()), b = Vec3::Map(now.touches[i + 1].data());
@@ -66,27 +84,31 @@ Vec3 touch_at(const Coming::Answer& now, double after) {
 }
 
 // The mean over the times that are still to come, weighted by how well they fit, and the sooner the more. In
-// the surface's axes; unset: none fits.
-Eigen::Vector2d expected(const Coming::Answer& now, double passed) {
+// the surface's axes; unset: none fits, or that it passes by is more probable.
+Eigen::Vector2d expected(const Coming& now, double passed) {
   constexpr std::size_t kSteps = 60;
   const double first = std::clamp(passed, kAfter.front(), kAfter.back());
+  const double each = (kAfter.back() - first) / kSteps;
   std::array<Vec3, kSteps> at;
-  double most = -HUGE_VAL;
+  double most = now.passes;
   for (std::size_t i = 0; i < kSteps; ++i) {
-    const double share = (static_cast<double>(i) + 0.5) / kSteps;
-    const double after = first + share * (kAfter.back() - first);
-    at[i] = touch_at(now, after);
-    at[i][2] -= (after - first) / kSoon;
+    at[i] = touch_at(now, first + (static_cast<double>(i) + 0.5) * each);
     most = std::max(most, at[i][2]);
   }
   if (std::isinf(most)) return {kUnset, kUnset};
   Vec3 sum = Vec3::Zero();
-  for (const Vec3& one : at)
-    if (const double w = std::exp(one[2] - most); w > 0.0) sum += w * Vec3(one[0], one[1], 1.0);
+  double touches = 0.0;
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    const double w = std::exp(at[i][2] - most);
+    if (!(w > 0.0)) continue;
+    touches += w * each;
+    sum += w * std::exp(-(static_cast<double>(i) + 0.5) * each / kSoon) * Vec3(at[i][0], at[i][1], 1.0);
+  }
+  if (touches < std::exp(now.passes - most) || !(sum[2] > 0.0)) return {kUnset, kUnset};
   return sum.head<2>() / sum[2];
 }
 
-Point<'W'> on_surface(const Walk& walk, const State& state, const Coming::Answer& now, double passed) {
+Point<'W'> on_surface(const Walk& walk, const State& state, const Coming& now, double passed) {
   const Eigen::Vector2d at = expected(now, passed);
   if (!at.allFinite()) return {};
   ObjectHint hint = state.hints.tool[0];
@@ -102,36 +124,18 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
   const bool asked = rig.foresight == Foresight::reach && rig.prediction != Prediction::hold;
   const auto nowhere = [&now] {
     now.object = -1;
-    now.asked = 0;
-    now.known = {};
     return Goal{};
   };
   if (!asked || object == nullptr || !walk.tool_known) return nowhere();
-  // What is being asked for is finished first, of its own pictures: a fast tracker would never let it be.
-  constexpr auto kAll = static_cast<std::int32_t>(kAfter.size());
-  const bool asks = now.object >= 0 && now.asked < kAll;
-  const bool news = !asks && take_picture(walk, state, now);
-  const bool comes = walk.tool_fresh && object->moving < 0 && now.count >= 3;
+  const bool news = take_picture(walk, state, now);
+  const bool comes = walk.tool_fresh && object->moving < 0 && reaches(walk, now);
   if (!comes || presses(state, memory.contact)) return nowhere();
-  const bool other = state.object != now.object;
-  if (other) now.known = {};
-  if (news || other) {
-    now.object = state.object;
-    now.asked = 0;
-    now.asking.newest = now.exposed[0];
-    now.asking.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
-  }
-  // One in a tick, because each takes some 0.2 ms. Until all are known the last answer goes on.
-  if (now.asked < kAll) {
-    ask(walk, state, now);
-    if (now.asked == kAll) now.known = now.asking;
-  }
-  if (!now.known.X_WN.valid()) return {};
-  const double passed = age(walk.tick.t, now.known.newest), dt = walk.scene.dt;
-  const Point<'W'> at = on_surface(walk, state, now.known, passed);
-  const Point<'W'> then = on_surface(walk, state, now.known, passed + dt);
-  if (!at.finite() || !then.finite()) return {at};
-  return {at, (1.0 / dt) * (then - at)};
+  if (news || state.object != now.object) ask(walk, state, now);
+  const double passed = age(walk.tick.t, now.told), dt = walk.scene.dt;
+  const Point<'W'> at = on_surface(walk, state, now, passed);
+  const Point<'W'> then = on_surface(walk, state, now, passed + dt);
+  if (!at.finite() || !then.finite()) return {at, Vec<'W'>::zero(), true};
+  return {at, (1.0 / dt) * (then - at), true};
 }
 
 }  // namespace enc::stages

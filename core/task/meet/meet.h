@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "core/safety/following.h"
@@ -33,16 +34,14 @@ struct Aim {
 struct Coming {
   std::array<Point<'W'>, kSightings> at;
   std::array<Time, kSightings> exposed{};
-  std::int32_t count = 0, object = -1;
-  // If it touched so long after the newest: x and y of N, and the logarithm of how well that fits (reach.h).
+  std::int32_t count = 0;
+  // If it touched so long after `told`: x and y of N, and the logarithm of how well that fits (reach.h).
   static constexpr std::size_t kTimes = 7;
-  struct Answer {
-    std::array<std::array<double, 3>, kTimes> touches{};
-    Pose<'W', 'N'> X_WN;  // the surface under it when the newest came; unset: nothing is known
-    Time newest{};        // its exposure
-  };
-  Answer asking, known;    // the one that is being asked for, and the last whole one
-  std::int32_t asked = 0;  // of the times
+  std::array<std::array<double, 3>, kTimes> touches{};
+  double passes = -HUGE_VAL;  // likewise, that it does not touch within those times
+  Pose<'W', 'N'> X_WN;        // the surface under it when that was asked
+  Time told{};                // when it was asked
+  std::int32_t object = -1;   // of which it was; -1: nothing is known
 };
 
 struct Meeting {
@@ -76,13 +75,11 @@ void fields(F& f, Coming& r) {
   for (Point<'W'>& p : r.at) fields(f, "coming_at_W", p);
   for (Time& t : r.exposed) f("coming_exposed", t);
   f("coming_count", r.count);
+  for (auto& touch : r.touches) fields(f, "coming_touches", touch);
+  f("coming_passes", r.passes);
+  fields(f, "coming_X_WN", r.X_WN);
+  f("coming_told", r.told);
   f("coming_object", r.object);
-  for (Coming::Answer* const answer : {&r.asking, &r.known}) {
-    for (auto& touch : answer->touches) fields(f, "coming_touches", touch);
-    fields(f, "coming_X_WN", answer->X_WN);
-    f("coming_newest", answer->newest);
-  }
-  f("coming_asked", r.asked);
 }
 template <class F>
 void fields(F& f, Meeting& m) {
@@ -105,6 +102,7 @@ void report(const Walk& walk, const Impedance& task, State& state, const Meeting
 struct Goal {
   Point<'W'> point;
   Vec<'W'> velocity = Vec<'W'>::zero();
+  bool foreseen = false;  // where a reach will touch
 };
 // Where a finger that comes will touch; unset: as far as is known it does not, or it lies on the prop.
 [[nodiscard]] Goal foreseen_touch(const Walk& walk, const State& state, Meeting& now) noexcept;

@@ -88,8 +88,10 @@ void AugmentedView::Parts::find_device(const AugmentedMoment& moment) {
 }
 
 void AugmentedView::Parts::remove() {
-  const Image& behind = background.image();
   removed.rgb = left.rgb;
+  replaced.on.assign(replaced.on.size(), 0);
+  if (!background.any()) return;  // nothing is known that could stand in the arm's place
+  const Image& behind = background.image();
   for (std::size_t i = 0; i < device.on.size(); ++i) {
     replaced.on[i] = device.on[i] != 0 && skin.on[i] == 0 ? 255 : 0;
     if (replaced.on[i] != 0) std::copy_n(behind.rgb.data() + 3 * i, 3, removed.rgb.data() + 3 * i);

@@ -55,7 +55,7 @@ void CleanBackground::add(const ImageView& frame, const Mask& covered) {
     for (std::size_t c = 0; c < 3; ++c)
       image_.rgb[3 * i + c] = static_cast<std::uint8_t>((sum[c] + n / 2) / n);
     known_.on[i] = 255;
-    stale_ = true;
+    any_ = stale_ = true;
   }
 }
 

@@ -18,6 +18,7 @@ class CleanBackground {
   // agree with each other: what moves does not get in. Once learned it stays.
   void add(const ImageView& frame, const Mask& covered);
   [[nodiscard]] const Mask& known() const { return known_; }
+  [[nodiscard]] bool any() const { return any_; }  // pixel is known
   // Where it was never uncovered it goes on from what lies around.
   [[nodiscard]] const Image& image();
 
@@ -27,6 +28,7 @@ class CleanBackground {
   void fill();
 
   int frames_;
+  bool any_ = false;
   bool stale_ = true;  // something was learned since it was filled
   Mask known_;
   Image image_;

@@ -22,11 +22,15 @@ using tests::run_program;
 const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
 
 std::string scene(const std::string& name) { return kModels + "/scenes/" + name + ".toml"; }
-std::string said(const std::vector<std::string>& words) {
+Result checked(const std::vector<std::string>& words) {
   std::vector<std::string> command{"check"};
   command.insert(command.end(), words.begin(), words.end());
-  const Result r = run_program(command);
+  Result r = run_program(command);
   EXPECT_EQ(r.code, 0) << r.err;
+  return r;
+}
+std::string said(const std::vector<std::string>& words) {
+  const Result r = checked(words);
   return r.out + r.err;
 }
 
@@ -76,6 +80,19 @@ TEST(Check, SaysWhatIsAskedOfOneOfManyObjects) {
             HasSubstr("the weakest object: up to 7.06 N ('key_5')")));
 }
 
+// Whoever sets a number that nothing reads is told; one that is read says nothing.
+TEST(Check, SaysWhatNothingReads) {
+  const auto warned = [](const std::string& name, const std::string& set) {
+    return checked({scene(name), "--set", set}).err;
+  };
+  EXPECT_THAT(warned("wall", "truth.camera.noise_of_255=3"),
+              HasSubstr("warning: nothing in this scene reads [truth.camera]; leave it out"));
+  EXPECT_THAT(warned("camera/wall", "truth.tracker.latency_ms=80"),
+              HasSubstr("reads [truth.tracker], as its tracker is vision: see [truth.camera]; leave it out"));
+  EXPECT_THAT(warned("wall", "truth.tracker.latency_ms=80"), Not(HasSubstr("warning")));
+  EXPECT_THAT(warned("camera/wall", "truth.camera.noise_of_255=3"), Not(HasSubstr("warning")));
+}
+
 TEST(CheckResolved, PrintsASceneFileThatRunsWithTheSameHash) {
   const TemporaryFolder folder;
   const auto hash_of = [](const std::string& file, const std::vector<std::string>& more) {
@@ -89,7 +106,7 @@ TEST(CheckResolved, PrintsASceneFileThatRunsWithTheSameHash) {
   };
   for (const char* name : {"tennis_ball", "hare", "keypad", "tracking", "rig_A", "stiffness"}) {
     const std::string path = folder.file(std::string(name) + "_alone.toml");
-    const std::string text = said({scene(name), "--resolved", "--set", "rig.tracker.lost_age_ms=350"});
+    const std::string text = checked({scene(name), "--resolved", "--set", "rig.tracker.lost_age_ms=350"}).out;
     std::ofstream(path) << text;
     EXPECT_EQ(hash_of(path, {}), hash_of(scene(name), {"--set", "rig.tracker.lost_age_ms=350"})) << name;
     // But for where it comes from, which is its first line.
@@ -97,7 +114,8 @@ TEST(CheckResolved, PrintsASceneFileThatRunsWithTheSameHash) {
     EXPECT_THAT(text, testing::StartsWith("# Encounter "));
     EXPECT_THAT(text.substr(0, text.find('\n')), HasSubstr("--set 'rig.tracker.lost_age_ms=350'"));
     EXPECT_EQ(scene_of(said({path, "--resolved"})), scene_of(text)) << name;
-    EXPECT_EQ(said({path}), said({scene(name), "--set", "rig.tracker.lost_age_ms=350"})) << name;
+    EXPECT_EQ(checked({path}).out, checked({scene(name), "--set", "rig.tracker.lost_age_ms=350"}).out)
+        << name;
   }
 }
 

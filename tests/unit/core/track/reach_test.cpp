@@ -3,6 +3,7 @@
 // correction that no picture shows.
 #include "core/track/reach.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -151,6 +152,86 @@ TEST(Reach, ForeseesTheRestOfTheWayBeforeItIsSeen) {
   // room for the noise and for times that nobody knows.
   EXPECT_LT(ours[kReaches / 2], 0.25);
   EXPECT_LT(ours[kReaches * 9 / 10], 0.45);
+}
+
+// Worked out by another way of solving the same equations (nine unknowns at once): a hand that slows down and
+// one that is nearly there. Of the evidence only what differs from the first time's.
+TEST(Reach, IsWhatAnotherWayOfSolvingGives) {
+  const std::array<std::array<Vec3, 5>, 2> at{{{{{-0.011, 0.004, 0.021},
+                                                 {-0.020, 0.007, 0.034},
+                                                 {-0.034, 0.013, 0.055},
+                                                 {-0.051, 0.019, 0.083},
+                                                 {-0.068, 0.025, 0.112}}},
+                                               {{{-0.004, -0.002, 0.012},
+                                                 {-0.006, -0.002, 0.019},
+                                                 {-0.009, -0.003, 0.030},
+                                                 {-0.014, -0.004, 0.046},
+                                                 {-0.021, -0.006, 0.067}}}}};
+  constexpr std::array<double, 3> kAfter{0.06, 0.1, 0.2};
+  constexpr double kX[2][3]{{-1.016359, 3.486145, -0.135598}, {-2.283061, -1.184372, 0.292521}};  // mm
+  constexpr double kY[2][3]{{0.132844, -2.087450, -0.030730}, {-2.122299, -1.964772, -0.707145}};
+  constexpr double kMore[2][3]{{0.0, 3.6615885, 22.381275}, {0.0, 4.4954583, 5.2758813}};
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    double first = kUnset;
+    for (std::size_t i = 0; i < kAfter.size(); ++i) {
+      Pictures seen;
+      for (std::size_t n = 0; n < at[k].size(); ++n)
+        seen.push_back({at[k][n], 0.05 * static_cast<double>(n) + kAfter[i]});
+      const Touch touch = touch_then(ReachBelief{}, seen, 0.7e-3);
+      if (i == 0) first = touch.evidence;
+      EXPECT_NEAR(touch.place.x() * 1e3, kX[k][i], 1e-4);
+      EXPECT_NEAR(touch.place.y() * 1e3, kY[k][i], 1e-4);
+      EXPECT_NEAR(touch.evidence - first, kMore[k][i], 1e-4);
+    }
+  }
+}
+
+// Pictures so bad that it may or may not have come by then. The line through them leads 10.53 mm above the
+// surface, known to 44.8 mm, and to 133.6 mm, known to 113.3 mm, a second before (least squares, worked out
+// apart).
+TEST(Reach, HowSurelyItPassesByDependsOnHowWellItIsSeen) {
+  Pictures seen;
+  for (int i = 0; i < 5; ++i) seen.push_back({Vec3(0.0, 0.0, 0.035 + 0.005 * i), 0.05 * i});
+  const double share = std::exp(passes_by(seen, 0.020, 0.25) - passes_by(seen, 0.020, -1.0));
+  EXPECT_NEAR(share, 0.5986 / 0.8816, 1e-3);
+}
+
+// All times at which it could touch within 0.25 s together, against that it does not.
+double touches_rather(const Pictures& seen) {
+  constexpr double kEach = 0.01, kUntil = 0.25;
+  double touches = 0.0;
+  const double passes = passes_by(seen, 0.7e-3, kUntil);
+  for (double after = 0.0; after < kUntil; after += kEach) {
+    Pictures then = seen;
+    for (Sighting& one : then) one.age += after;
+    const Touch touch = touch_then(ReachBelief{}, then, 0.7e-3);
+    if (touch.place.allFinite()) touches += kEach * std::exp(touch.evidence - passes);
+  }
+  return touches;
+}
+
+TEST(Reach, AFingerThatPassesByIsToldFromOneThatComes) {
+  sim::Stream stream(17, "reach");
+  for (int i = 0; i < 40; ++i) {
+    const double speed = 0.1 + 0.1 * stream.uniform();
+    const auto even = [&](const Vec3& velocity, double height, double age) {
+      Pictures seen;
+      for (int k = 0; k < 5; ++k)
+        seen.push_back(
+            {Vec3(0, 0, height) - 0.05 * k * velocity + 0.5e-3 * stream.normal3(), age + 0.05 * k});
+      return seen;
+    };
+    // Beside the surface, and down to it: it is there after 100 to 200 ms.
+    EXPECT_LT(touches_rather(even({speed, 0.0, -0.05 * speed}, 0.030, 0.05)), 1.0) << i;
+    EXPECT_GT(touches_rather(even({0.2 * speed, 0.0, -speed}, 0.020, 0.05)), 1.0) << i;
+  }
+  int reaches = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Reach r = drawn(stream);
+    reaches += touches_rather(pictures(r, 0.05 + 0.05 * stream.uniform(), 0.5e-3, stream)) > 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(reaches, 90);
+  EXPECT_EQ(passes_by({}, 0.7e-3, 0.25), -HUGE_VAL);
 }
 
 TEST(Reach, TurnsWithItsPictures) {

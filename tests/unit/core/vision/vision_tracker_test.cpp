@@ -203,6 +203,14 @@ TEST(VisionTracker, SaysAfterwardsWhatWentWrong) {
   (void)finger.told(0, 200);
   EXPECT_THAT(finger.tracker->remarks(), Contains(HasSubstr("a finger stood in the frames")));
 
+  Set blind;
+  for (int ms = 100; ms < 1050; ms += 50) blind.camera->frames[at_ms(ms)] = blind.room.frame();
+  (void)blind.told(0, 1200);
+  EXPECT_THAT(blind.tracker->remarks(), testing::ElementsAre("drawn so")) << "a hand may still come";
+  blind.camera->frames[at_ms(1250)] = blind.room.frame();
+  (void)blind.told(1201, 1400);
+  EXPECT_THAT(blind.tracker->remarks(), Contains(HasSubstr("none of 20 frames showed a finger")));
+
   Set other;
   const Image dot(1, 1);
   for (const int ms : {100, 150}) other.camera->frames[at_ms(ms)] = {dot.view(), dot.view()};
