@@ -268,12 +268,12 @@ Eigen::Vector2d ideal_carried(const IdealSpec& spec, const SeenReach& reach, dou
 }
 
 std::vector<IdealCourse> ideal_courses(const IdealSpec& spec, const SeenReach& reach) {
-  constexpr double kFarthest = 0.25;  // s
+  constexpr int kTimes = 25;
   std::vector<IdealCourse> courses;
   for (const double told : last_told(reach)) {
     IdealCourse course{told, {}};
-    for (double after = 0.0; after < kFarthest; after += IdealCourse::kEach) {
-      const Task task = task_of(spec, reach, told, told + after);
+    for (int i = 0; i < kTimes; ++i) {
+      const Task task = task_of(spec, reach, told, told + i * IdealCourse::kEach);
       if (task.pictures.size() < 3) break;
       const Parts parts = parts_of(task);
       course.then.push_back({mean_of(parts), 0.0, parts.evidence});
@@ -314,8 +314,9 @@ Eigen::Vector2d ideal_followed(const std::vector<IdealCourse>& courses, double m
     const double until = i + 1 < courses.size() ? courses[i + 1].told : met;
     Vec2 goal = courses[i].mean(courses[i].told, soon);
     if (!at.allFinite()) at = goal;
-    for (double t = courses[i].told; t < until; t += kTick) {
-      const Vec2 next = courses[i].mean(t + kTick, soon), way = goal - at;
+    const int ticks = static_cast<int>(std::ceil((until - courses[i].told) / kTick));
+    for (int k = 1; k <= ticks; ++k) {
+      const Vec2 next = courses[i].mean(courses[i].told + k * kTick, soon), way = goal - at;
       const double far = way.norm();
       Vec2 wanted = (next - goal) / kTick;
       if (far > 0.0) wanted += way / far * std::min(braking_speed(far, acceleration, kTick), far / kTick);

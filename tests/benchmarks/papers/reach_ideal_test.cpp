@@ -51,5 +51,22 @@ TEST(ReachIdeal, AnArmIsSomewhereBetweenThePlacesOfTwoPictures) {
   EXPECT_LT((ideal_carried({}, late, 1e6) - before).norm(), 1e-9);
 }
 
+// Not told when it touches; with any acceleration the prop is where the mean of what is still to come is.
+TEST(ReachIdeal, AnArmFollowsWhatIsStillToCome) {
+  const SeenReach reach = seen_reach();
+  const std::vector<IdealCourse> courses = ideal_courses({}, reach);
+  ASSERT_EQ(courses.size(), 4U);
+  const double soon = 0.01;
+  const Eigen::Vector2d goal = courses.back().mean(reach.met, soon);
+  EXPECT_LT((ideal_followed(courses, reach.met, 1e5, soon) - goal).norm(), 0.2e-3);
+  EXPECT_LT((goal - reach.where).norm(), 5e-3);
+  const Eigen::Vector2d first = courses.front().mean(courses.front().told, soon);
+  EXPECT_LT((ideal_followed(courses, reach.met, 1e-9, soon) - first).norm(), 1e-6);
+  // Where it would touch then is what is told for that time.
+  const double then = courses.back().told + 2 * IdealCourse::kEach;
+  EXPECT_LT((courses.back().then[2].place - ideal_place({}, reach, courses.back().told, then).place).norm(),
+            1e-12);
+}
+
 }  // namespace
 }  // namespace enc::bench::reaching
