@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <memory>
-#include <mutex>
 
 #include <fmt/format.h>
 
@@ -11,26 +10,10 @@
 #include "models/schema/wording.h"
 #include "trial/camera/kept_frames.h"
 #include "trial/camera/vision.h"
+#include "trial/device_log.h"
 
 namespace enc::app {
 namespace {
-
-// What the folder's driver says, in threads of its own.
-class Heard final : public Log {
- public:
-  void say(const std::string& line) override {
-    const std::lock_guard lock(mutex_);
-    lines_.push_back(line);
-  }
-  [[nodiscard]] std::vector<std::string> lines() {
-    const std::lock_guard lock(mutex_);
-    return lines_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::string> lines_;
-};
 
 // The record's rig with a driver that plays the folder.
 void play(models::Setup& setup, const std::string& folder) {
@@ -74,7 +57,7 @@ SeenAgain see_again(models::Setup setup, RecordReader& record, const std::string
   if (!setup.scene.camera)
     throw Error("--frames: the recorded scene has no [camera], and vision told nothing; leave it out");
   play(setup, folder);
-  Heard heard;
+  trial::DeviceLog heard;
   std::unique_ptr<PoseTracker> vision = [&] {
     try {
       return trial::make_vision(setup, load_module, {.log = heard, .waits = true, .kept = folder});

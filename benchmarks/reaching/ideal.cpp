@@ -208,10 +208,13 @@ Task task_of(const IdealSpec& spec, const SeenReach& reach, double told, double 
   return task;
 }
 
-Vec2 mean_of(const Parts& parts) {
-  Vec2 mean = Vec2::Zero();
-  for (const Part& part : parts.all) mean += part.weight * part.mean;
-  return mean;
+// Without `within`, which takes longer.
+Ideal ideal_of(const Parts& parts) {
+  Ideal ideal;
+  ideal.place = Vec2::Zero();
+  for (const Part& part : parts.all) ideal.place += part.weight * part.mean;
+  ideal.evidence = parts.evidence;
+  return ideal;
 }
 
 // When the pictures that somebody goes after were told: what came before has been reached long ago.
@@ -228,12 +231,9 @@ std::vector<double> last_told(const SeenReach& reach) {
 
 Ideal ideal_place(const IdealSpec& spec, const SeenReach& reach, double told, double touches) {
   const Task task = task_of(spec, reach, told, touches);
-  Ideal ideal;
-  ideal.place = Vec2::Constant(kUnset);
-  if (task.pictures.size() < 3) return ideal;
+  if (task.pictures.size() < 3) return {};
   const Parts parts = parts_of(task);
-  ideal.place = mean_of(parts);
-  ideal.evidence = parts.evidence;
+  Ideal ideal = ideal_of(parts);
   // Of each part within the circle: its normal distribution, over rings about the place.
   for (const Part& part : parts.all) {
     if (part.weight < 1e-5) continue;
@@ -275,8 +275,7 @@ std::vector<IdealCourse> ideal_courses(const IdealSpec& spec, const SeenReach& r
     for (int i = 0; i < kTimes; ++i) {
       const Task task = task_of(spec, reach, told, told + i * IdealCourse::kEach);
       if (task.pictures.size() < 3) break;
-      const Parts parts = parts_of(task);
-      course.then.push_back({mean_of(parts), 0.0, parts.evidence});
+      course.then.push_back(ideal_of(parts_of(task)));
     }
     if (!course.then.empty()) courses.push_back(std::move(course));
   }

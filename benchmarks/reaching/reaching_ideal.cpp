@@ -62,8 +62,7 @@ void add_ideal(const BenchContext& context, const std::vector<ReachOutcome>& wal
           acceleration));
   add("ideal.followed_percent.wall", 100.0 * followed / counts, "%", kUnset, kUnset,
       "the same of a predictor that is not told when it touches: the arm goes after the mean of what is "
-      "still "
-      "to come; how soon was chosen on other reaches");
+      "still to come; how soon was chosen on other reaches");
   add("vision.of_ideal_percent.wall", reached > 0.0 ? 100.0 * ours / reached : kUnset, "%", kUnset, kUnset,
       fmt::format("in time, of what that ideal is: {:.1f} % of the same reaches", 100.0 * ours / counts));
   add("vision.of_carried_percent.wall", carried > 0.0 ? 100.0 * ours / carried : kUnset, "%", kUnset, kUnset,

@@ -81,8 +81,7 @@ struct Known {
 // The pictures, turned about the normal so that the hand's way has no y; and what the belief makes of that
 // way.
 struct Seen {
-  std::array<Vec3, kSightings> at;
-  std::array<double, kSightings> age{};
+  std::array<Sighting, kSightings> turned;
   std::size_t count = 0;
   double weight = kUnset;                     // of what one of them says, 1 / m^2
   Vec2 x = Vec2::UnitX(), y = Vec2::UnitY();  // turned, in the axes that were given
@@ -100,8 +99,7 @@ struct Seen {
     y = Vec2(-x.y(), x.x());
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3& p = pictures[i].at;
-      at[i] = {x.dot(p.head<2>()), y.dot(p.head<2>()), p.z()};
-      age[i] = pictures[i].age;
+      turned[i] = {{x.dot(p.head<2>()), y.dot(p.head<2>()), p.z()}, pictures[i].age};
     }
     const double far = hand.scatter / (hand.share * hand.share) * length;
     const double beside = hand.aside / (hand.share * hand.share) * length;
@@ -110,7 +108,8 @@ struct Seen {
     left_xz = left_y * Eigen::Matrix2d::Identity() + (1.0 / (far * far) - left_y) * along * along.transpose();
     certain = -std::log(beside * beside * far);
   }
-  [[nodiscard]] Vec2 given(const Vec2& turned) const { return turned.x() * x + turned.y() * y; }
+  [[nodiscard]] std::span<const Sighting> pictures() const { return {turned.data(), count}; }
+  [[nodiscard]] Vec2 given(const Vec2& place) const { return place.x() * x + place.y() * y; }
 };
 
 // When the movements of a reach that touches now begin, s from now, and how long they take.
@@ -141,14 +140,15 @@ double takes(const ReachBelief& hand, double down, double second, double width) 
 struct Axes {
   Left xy, z;
   Right of_x, of_y, of_z;
-  void see(const Seen& seen, std::size_t i, double first, double second, double rest, double beyond) {
-    const double u = first + rest * second, w = seen.weight;
-    xy.see(u, second, w);
-    of_x.see(u, second, w * seen.at[i].x());
-    of_y.see(u, second, w * seen.at[i].y());
+  // In a picture the first movement has made this share of its way, and the second of its own.
+  void see(const Vec3& at, double weight, double first, double second, double rest, double beyond) {
+    const double u = first + rest * second;
+    xy.see(u, second, weight);
+    of_x.see(u, second, weight * at.x());
+    of_y.see(u, second, weight * at.y());
     const double uz = first + rest * beyond * second, vz = beyond * second;
-    z.see(uz, vz, w);
-    of_z.see(uz, vz, w * seen.at[i].z());
+    z.see(uz, vz, weight);
+    of_z.see(uz, vz, weight * at.z());
   }
 };
 
@@ -159,9 +159,9 @@ Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width
   const double rest = 1.0 / hand.share - 1.0;  // of the first movement
   const double beyond = t.falls_short ? 1.0 / kAtCrossing.x : 0.0;
   Axes axes;
-  for (std::size_t i = 0; i < seen.count; ++i)
-    axes.see(seen, i, MinimumJerk((-seen.age[i] - t.begins) / t.first).x,
-             MinimumJerk((-seen.age[i] - t.corrects) / t.second).x, rest, beyond);
+  for (const auto& [at, age] : seen.pictures())
+    axes.see(at, seen.weight, MinimumJerk((-age - t.begins) / t.first).x,
+             MinimumJerk((-age - t.corrects) / t.second).x, rest, beyond);
   axes.xy.a += kVague;
   axes.xy.b += kVague;
   axes.z.b += kVague;
@@ -206,32 +206,23 @@ Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width
   return fit;
 }
 
-// A hand that goes on with an even speed.
-struct Even {
-  Left xy;
-  Right of_x, of_y, of_z;
-  Even(std::span<const Sighting> pictures, double weight) {
-    for (const auto& [at, age] : pictures) {
-      xy.see(-age, 0.0, weight);
-      of_x.see(-age, 0.0, weight * at.x());
-      of_y.see(-age, 0.0, weight * at.y());
-      of_z.see(-age, 0.0, weight * at.z());
-    }
-    xy.a += kVague;
-    xy.b += kVague;
+// A hand that goes on with an even speed: a is where it is now, b its velocity.
+Axes even(std::span<const Sighting> pictures, double weight) {
+  Axes axes;
+  for (const auto& [at, age] : pictures) axes.see(at, weight, -age, 0.0, 0.0, 0.0);
+  for (Left* one : {&axes.xy, &axes.z}) {
+    one->a += kVague;
+    one->b += kVague;
   }
-};
+  return axes;
+}
 
-// One that touches now: where it is, and its velocity.
+// One that touches now.
 Fit fit_even(const Seen& seen) {
-  std::array<Sighting, kSightings> pictures;
-  for (std::size_t i = 0; i < seen.count; ++i) pictures[i] = {seen.at[i], seen.age[i]};
-  const std::span<const Sighting> all(pictures.data(), seen.count);
-  const Even even(all, seen.weight);
-  Left height = even.xy;
-  height.a += kExact;
-  const Pivots aside(even.xy), z(height);
-  const Known x(aside, even.of_x), y(aside, even.of_y), down(z, even.of_z);
+  Axes axes = even(seen.pictures(), seen.weight);
+  axes.z.a += kExact;
+  const Pivots aside(axes.xy), z(axes.z);
+  const Known x(aside, axes.of_x), y(aside, axes.of_y), down(z, axes.of_z);
   Fit fit;
   fit.place = {x.solved(aside, 0.0)[0], y.solved(aside, 0.0)[0]};
   const double speed = std::abs(down.solved(z, 0.0)[1]), pivots = aside.a * aside.b;
@@ -299,10 +290,6 @@ void try_reaches(const ReachBelief& hand, const Seen& seen, const Tries& tries, 
         }
 }
 
-}  // namespace
-
-namespace {
-
 // As many pictures as are of use, where all of them are sound; else none.
 std::span<const Sighting> usable(std::span<const Sighting> newest_first, double noise) {
   const auto some = newest_first.first(std::min(newest_first.size(), kSightings));
@@ -318,9 +305,9 @@ double passes_by(std::span<const Sighting> newest_first, double noise, double un
   constexpr double kLogistic = 1.702;  // with it a logistic curve is a normal distribution's to 0.01
   const auto pictures = usable(newest_first, noise);
   if (pictures.empty()) return -std::numeric_limits<double>::infinity();
-  const Even even(pictures, 1.0 / (noise * noise));
-  const Pivots pivots(even.xy);
-  const Known x(pivots, even.of_x), y(pivots, even.of_y), z(pivots, even.of_z);
+  const Axes axes = even(pictures, 1.0 / (noise * noise));
+  const Pivots pivots(axes.xy);
+  const Known x(pivots, axes.of_x), y(pivots, axes.of_y), z(pivots, axes.of_z);
   const Vec3 down = z.solved(pivots, 0.0);
   const double later = until - pivots.ab, height = down[0] + until * down[1];
   const double spread = std::sqrt(1.0 / pivots.a + later * later / pivots.b);
@@ -348,9 +335,9 @@ Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first
   if (!(first.norm() > kShortest && first.norm() < kWide)) first = kLength * way.normalized();
   const Seen seen(hand, pictures, noise, first);
   Mean mean;
-  Fit even = fit_even(seen);
-  even.evidence += std::log(kEven);
-  mean.add(even);
+  Fit steady = fit_even(seen);
+  steady.evidence += std::log(kEven);
+  mean.add(steady);
   try_reaches(hand, seen, kAll, mean);
   return {seen.given(mean.place()), mean.evidence()};
 }

@@ -15,11 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_there(const fs::path& path) {
+  std::error_code none;
+  return fs::exists(path, none);
+}
+
 // Frames of two runs in one folder would be one sequence that nobody saw.
 const std::string& without_frames(const std::string& folder) {
   for (const char* side : {"left", "right"}) {
-    std::error_code none;
-    if (fs::exists(fs::path(folder) / side, none))
+    if (is_there(fs::path(folder) / side))
       throw Error(fmt::format("{}: there is a '{}' in it; expected a folder without frames; name a new one",
                               folder, side));
   }
@@ -52,7 +56,7 @@ KeepingCamera::KeepingCamera(std::unique_ptr<StereoCamera> camera, const std::st
                              const FrameFiles& files)
     : camera_(std::move(camera)),
       path_(without_frames(folder)),
-      made_(!fs::exists(path_)),
+      made_(!is_there(path_)),
       folder_(path_),
       left_(path_ + "/left"),
       right_(path_ + "/right"),

@@ -115,21 +115,20 @@ Goal goal_of(const Walk& walk, const State& state, Meeting& memory, const Object
 // How the target may go. In haste only from place to place where a reach may touch: on its way to the object
 // it can still be sent elsewhere.
 struct Haste {
-  double acceleration, settle, speed;
+  double acceleration, settle;
   Haste(const ArmRig& rig, bool hurries)
       : acceleration(hurries ? rig.reach_acceleration : rig.acceleration),
-        settle(hurries ? rig.reach_settle : rig.settle),
-        speed(rig.speed) {}
+        settle(hurries ? rig.reach_settle : rig.settle) {}
 };
 
 // Where the nearest point leaps to another part of the object, the straight way may leave a hollow one, and
 // there the finger is: then the target waits at the last point of its way that is inside, or goes along the
 // surface as long as that is nearer.
-Vec3 not_through_a_hollow(const Walk& walk, const Haste& haste, State& state, const Aim& now,
+Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, State& state, const Aim& now,
                           const Object& object, const Vec3& wanted) {
   constexpr double kOutside = 0.5e-3;  // m: a target on a curved surface is a little outside of it
   Inside inside(walk.scene, state.object, -kOutside, shift_of(object, walk.moved), state.hints.command);
-  const Brake brake{now.target, now.velocity.e(), haste.acceleration, haste.speed, walk.scene.dt};
+  const Brake brake{now.target, now.velocity.e(), acceleration, speed, walk.scene.dt};
   const double here = inside.depth(brake.at);
   state.entered = state.entered || here >= -kOutside;
   return state.entered ? inside.velocity(brake, here, wanted) : wanted;
@@ -147,22 +146,23 @@ void move_target(Walk& walk, const ArmRig& rig, State& state, Aim& now, const Go
   const double far = way.norm();
   const bool runs = touches_belt(state, object);
   if (far > kLeap && !runs) now.caught_up = false;
-  const bool fast =
-      now.velocity.norm() > braking_speed(far, rig.acceleration, dt);  // what haste set in motion
+  // What haste has set in motion is braked in haste.
+  const auto fast = [&] { return now.velocity.norm() > braking_speed(far, rig.acceleration, dt); };
   const bool reach = walk.scene.tracker.foresight == Foresight::reach;
-  const Haste haste(rig, reach && ((goal.foreseen && now.caught_up) || fast));
+  const Haste haste(rig, reach && ((goal.foreseen && now.caught_up) || fast()));
   // The share leaves room for a goal that moves.
   const double stops = std::min(0.9 * braking_speed(far, haste.acceleration, dt), far / dt);
   const double settle = runs ? kBelt : haste.settle;
-  const double speed = now.caught_up ? std::min(far / settle, stops) : std::min(haste.speed, stops);
+  const double speed = now.caught_up ? std::min(far / settle, stops) : std::min(rig.speed, stops);
   Vec3 velocity = goal.velocity.e();
   if (far > 0.0) velocity += way * (speed / far);
-  if (velocity.norm() > haste.speed) velocity *= haste.speed / velocity.norm();
+  if (velocity.norm() > rig.speed) velocity *= rig.speed / velocity.norm();
   const double most = haste.acceleration * dt;
   const Vec3 change = velocity - now.velocity.e();
   if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
   if (!now.caught_up) {
-    if (object != nullptr) velocity = not_through_a_hollow(walk, haste, state, now, *object, velocity);
+    if (object != nullptr)
+      velocity = not_through_a_hollow(walk, haste.acceleration, rig.speed, state, now, *object, velocity);
     walk.target_acceleration = (velocity - now.velocity.e()) / dt;
     now.caught_up = far < kThere && change.norm() <= 2.0 * most;
   }
