@@ -320,7 +320,8 @@ double passes_by(std::span<const Sighting> newest_first, double noise, double un
   return std::isfinite(evidence) ? evidence : -std::numeric_limits<double>::infinity();
 }
 
-Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first, double noise) noexcept {
+Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first, double noise,
+                 const Vec2& carried) noexcept {
   const Touch unknown;
   const auto pictures = usable(newest_first, noise);
   if (pictures.empty()) return unknown;
@@ -337,6 +338,7 @@ Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first
   Mean mean;
   Fit steady = fit_even(seen);
   steady.evidence += std::log(kEven);
+  if (carried.allFinite()) steady.place = {seen.x.dot(carried), seen.y.dot(carried)};
   mean.add(steady);
   try_reaches(hand, seen, kAll, mean);
   return {seen.given(mean.place()), mean.evidence()};

@@ -26,9 +26,10 @@ struct Touch {
                         kUnset};  // x and y; unset: fewer than three pictures, or it does not come nearer
   double evidence = kUnset;       // logarithm of a density of that time, per s; but for what all times share
 };
-// Ages are those at that time. `noise`: of a picture, m rms.
-[[nodiscard]] Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first,
-                               double noise) noexcept;
+// Ages are those at that time. `noise`: of a picture, m rms. `carried`: where a hand that goes on with an even
+// speed is at that time, by all its pictures; unset: these few say it.
+[[nodiscard]] Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first, double noise,
+                               const Eigen::Vector2d& carried = {kUnset, kUnset}) noexcept;
 
 // How well the pictures fit a finger that goes on with an even speed and has not come to the surface by then,
 // s from the time at which the ages hold: logarithm of a probability, but for what touch_then() leaves out,

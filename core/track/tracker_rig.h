@@ -25,6 +25,7 @@ struct ReachBelief {
   double slowest = 0.2, fastest = 1.0;  // m/s, peak of the first movement
   double shortest = 0.20;               // s, the second movement, which corrects
   double touch_slowest = 0.05, touch_fastest = 0.2;  // m/s, wanted where the surface is
+  double vaguest = 1.1e-3;  // m rms: a picture that is known worse tells no correction from noise
 };
 
 struct TrackerRig {

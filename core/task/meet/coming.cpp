@@ -38,10 +38,14 @@ bool take_picture(const Walk& walk, const State& state, Coming& now) {
   return true;
 }
 
+double noise_of_newest(const Walk& walk, const State& state) {  // m rms, of each axis
+  return std::sqrt(noise_of(walk.scene.tracker, state.tool.value, walk.scene.X_WC).mean_square());
+}
+
 // A hand that reaches does not come slower than it wants to touch, but for a moment between its movements.
-// How one goes on that hovers no picture shows: it is met under where it is.
-bool reaches(const Walk& walk, const Coming& now) {
-  if (now.count < 3) return false;
+// How one goes on that hovers no picture shows, nor a picture that is too vague: it is met under where it is.
+bool reaches(const Walk& walk, const State& state, const Coming& now) {
+  if (now.count < 3 || noise_of_newest(walk, state) > walk.scene.tracker.reach.vaguest) return false;
   const auto first = static_cast<std::size_t>(now.count - 1);
   const double down = dot(now.at[first] - now.at[0], walk.normal) / age(now.exposed[0], now.exposed[first]);
   return down > walk.scene.tracker.reach.touch_slowest;
@@ -54,15 +58,17 @@ void ask(const Walk& walk, const State& state, Coming& now) {
   now.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
   const Pose<'N', 'W'> X_NW = now.X_WN.inverse();
   const TrackerRig& rig = walk.scene.tracker;
-  const double noise = std::sqrt(noise_of(rig, state.tool.value, walk.scene.X_WC).mean_square());
-  const double known = std::max(kUnevenLeast, kUneven * noise);
+  const double known = std::max(kUnevenLeast, kUneven * noise_of_newest(walk, state));
+  const TipMotion& motion = state.tip_motion;
   std::array<Sighting, kSightings> seen;
   const std::span<Sighting> all(seen.data(), static_cast<std::size_t>(now.count));
   for (std::size_t i = 0; i < all.size(); ++i)
     seen[i].at = (X_NW * now.at[i]).e() - walk.tool_radius * Vec3::UnitZ();
   for (std::size_t k = 0; k < kAfter.size(); ++k) {
     for (std::size_t i = 0; i < all.size(); ++i) seen[i].age = age(now.told, now.exposed[i]) + kAfter[k];
-    const Touch touch = touch_then(rig.reach, all, known);
+    const double ahead = age(now.told, motion.t) + kAfter[k];
+    const Point<'W'> even = motion.position + ahead * motion.velocity;
+    const Touch touch = touch_then(rig.reach, all, known, (X_NW * even).e().head<2>());
     const bool believed = touch.place.allFinite() &&
                           (touch.place - seen[0].at.head<2>()).norm() < kFarthest && seen[0].at.z() > kLying;
     now.touches[k] = {touch.place.x(), touch.place.y(), believed ? touch.evidence : -HUGE_VAL};
@@ -128,7 +134,7 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
   };
   if (!asked || object == nullptr || !walk.tool_known) return nowhere();
   const bool news = take_picture(walk, state, now);
-  const bool comes = walk.tool_fresh && object->moving < 0 && reaches(walk, now);
+  const bool comes = walk.tool_fresh && object->moving < 0 && reaches(walk, state, now);
   if (!comes || presses(state, memory.contact)) return nowhere();
   if (news || state.object != now.object) ask(walk, state, now);
   const double passed = age(walk.tick.t, now.told), dt = walk.scene.dt;

@@ -19,6 +19,15 @@ bool resting(const State& state, const Aim& now, const Vec3& error, const Vec3& 
          now.velocity.norm() < 1e-3 && now.error_rate.norm() < kStood;
 }
 
+// What pushes an arm that rests, as a distance from its target. Friction that holds a push holds less of it,
+// too, and it may just hold it: the same push turns a joint more where the tip has crept. So it fades, as long
+// as the weight is held beside it; where the tip slips then, friction does not hold what the machine is
+// believed to weigh, and the push stays.
+double fading(const Impedance& law, const Aim& now, double dt) {
+  constexpr double kFades = 0.05;  // s, to 1/e
+  return law.rig.gravity == GravityForm::exact && !now.slipped ? 1.0 / (1.0 + dt / kFades) : 1.0;
+}
+
 // K_v of eq. 2 with the ratio that it has at home: back towards its base the tip is felt to be twice as
 // heavy.
 double damping_at(const Impedance& law, double mass) {
@@ -43,11 +52,14 @@ void impede(Walk& walk, const Impedance& law, State& state, Meeting& memory) noe
   const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
   const Vec3 rate = (now.velocity - walk.tip_velocity).e();
   const bool rests = resting(state, now, error, walk.tip_velocity.e());
+  now.slipped = state.mode == Mode::away && (now.slipped || (now.rested && !rests));
+  now.rested = rests;
+  const double fade = fading(law, now, walk.scene.dt);
   const Mat3 mass = law.arm.mass(walk.in.arm.value.joints, law.prop_mass);
   const double a = law.filter_gain;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    now.error.xyz[i] = low_pass(a, rests ? now.error.xyz[i] : error(axis), now.error.xyz[i]);
+    now.error.xyz[i] = rests ? fade * now.error.xyz[i] : low_pass(a, error(axis), now.error.xyz[i]);
     now.error_rate.xyz[i] = low_pass(a, rests ? 0.0 : rate(axis), now.error_rate.xyz[i]);
   }
   // A real thing is held where it stands, sideways as well.

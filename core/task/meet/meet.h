@@ -28,6 +28,7 @@ struct Aim {
   double blind = 0.0;  // s since the machine last said where it is
   Straying straying;   // from the target, where nothing but the arm itself can be why
   bool stuck = false;  // and it was for too long: until the finger has gone
+  bool rested = false, slipped = false;  // it stood far away; and then moved although nothing had moved it
 };
 
 // The pictures of a finger that comes, newest first, and where it will touch (core/track/reach.h).
@@ -68,6 +69,8 @@ void fields(F& f, Aim& r) {
   f("target_fastest", r.straying.fastest);
   f("arm_off", r.straying.off);
   f("stuck", r.stuck);
+  f("rested", r.rested);
+  f("slipped", r.slipped);
   f("triggered", r.triggered);
 }
 template <class F>
