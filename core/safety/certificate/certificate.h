@@ -1,0 +1,48 @@
+// Whether a device renders a stiffness stably, and by which bound: the certificate of one loop along one way.
+//
+// What "stable" means depends on the disturbance, because friction and encoder steps do: dry friction takes
+// most of a small swing's energy and little of a large one's. So the classes, each weaker than the one
+// before:
+//
+//   passive         it gives out no energy, whatever holds it: the whole theorem of Colgate and Schenkel for
+//                   this law and delay, and no more of a count's force than friction holds, K step <= 2 f_c
+//   stable alone    every eigenvalue of the sampled loop is within the unit circle where nobody touches it:
+//                   any disturbance dies out, until counts and friction are all that is left
+//   held            the same with a hand rigidly on it, and not without
+//   locally stable  linearly unstable with the hand and without, but friction stops what is small: let go
+//                   0.1 mm beside its target it comes to rest (release.h). Of 1 mm `large` tells
+//   unstable        none of these
+//   unknown         a figure is missing, or is none that can be: `missing` names it
+//
+// `small` and `large` say for every class what becomes of 0.1 mm and of 1 mm, without a hand, with friction
+// and counts: "stable at that disturbance" is `still` there, whatever the class. A loop that is stable alone
+// and yet cycles there hunts: its counts push more than its friction holds.
+#pragma once
+
+#include <string>
+
+#include "core/safety/certificate/release.h"
+
+namespace enc::certificate {
+
+enum class Class : std::uint8_t { passive, alone, held, local, unstable, unknown };
+constexpr auto words(Class) {
+  return enum_words("passive", "stable alone", "stable with a hand on it", "locally stable", "unstable",
+                    "unknown");
+}
+
+struct Certificate {
+  Class verdict = Class::unknown;
+  std::string missing;    // of an unknown one: the figure
+  std::vector<Row> rows;  // bounds.h; also of an unknown one, NaN where they are not known
+  Plane plane{};
+  Released small{}, large{};  // let go 0.1 mm and 1 mm beside the target
+};
+
+// `loop.hand`: the hand that is on it, where one is. No figure of it may be missing but its filter.
+[[nodiscard]] Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& asked);
+
+// The row of that name; throws std::out_of_range where there is none.
+[[nodiscard]] const Row& row_of(const Certificate& certificate, const std::string& name);
+
+}  // namespace enc::certificate

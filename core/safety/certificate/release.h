@@ -1,0 +1,34 @@
+// A held device is let go beside its target: does it come to rest? The sampled loop of sampled_loop.h with
+// what is not linear in it: dry friction, and encoders that count. Deterministic; steps much finer than the
+// loop's period.
+//
+// Before it is let go it has stood there, and the law has pushed all the while: every reading, filtered value
+// and force under way is that of the place. The target is at the edge between two counts, the worst place for
+// it: there the law never has nothing to do. An encoder reads the middle of its count.
+#pragma once
+
+#include <cstdint>
+
+#include "core/safety/certificate/bounds.h"
+
+namespace enc::certificate {
+
+enum class Rest : std::uint8_t {
+  still,   // in the last quarter of the time it swings by less than 1 % of the disturbance, or by less than
+           // 0.9 of the quarter before: it is on its way
+  cycle,   // it goes on, bounded
+  away,    // it swings ever wider, or has left 20 times the disturbance
+  unknown  // a figure of the loop, friction or encoder is missing
+};
+constexpr auto words(Rest) { return enum_words("still", "limit cycle", "away", "unknown"); }
+
+struct Released {
+  Rest rest = Rest::unknown;
+  double swing = kUnset;  // m, from peak to peak in the last quarter
+  double after = kUnset;  // s, that it was watched
+};
+// `disturbance`: m, above 0. With the loop's own hand.
+[[nodiscard]] Released release(const SampledLoop& loop, const Steps& steps, double stiffness, double damper,
+                               double disturbance);
+
+}  // namespace enc::certificate

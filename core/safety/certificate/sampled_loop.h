@@ -1,0 +1,85 @@
+// A spring and a damper that a computer renders through a device, along one way: the exact eigenvalues of the
+// sampled loop, and the stiffness from which on it is not stable. At set-up; linear, without friction and
+// encoder steps (release.h has them).
+//
+//   (m + m_h) x'' + (b + b_h) x' + k_h x = F       the device, and a hand that is rigidly on it
+//   F = -(K e_i + B r_i)  from  iT + t_d  until  (i + 1)T + t_d                     held, and t_d late
+//   e_i = x(iT),   r_i = (x(iT) - x((i - n)T)) / (n T),  each through y = (a x + y_before) / (1 + a) where
+//   the law has a filter [VisHap eq. 3]
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc::certificate {
+
+struct Hand {
+  double mass = 0.0;       // kg, that moves with the device
+  double damping = 0.0;    // N s/m, to the ground as the next
+  double stiffness = 0.0;  // N/m
+};
+
+struct SampledLoop {
+  double mass = kUnset;     // kg, m, above none
+  double damping = kUnset;  // N s/m, b, viscous
+  double period = kUnset;   // s, T
+  double delay = 0.0;       // s, t_d, any: from the reading to the force
+  int ticks = 1;            // n: the rate is a difference over so many periods
+  double filter = kUnset;   // a of eq. 3, discrete; unset: no filter
+  Hand hand{};
+  // Whether everything that the loop needs is a number that can be: else there is no answer.
+  [[nodiscard]] bool known() const;
+  [[nodiscard]] SampledLoop alone() const;  // without the hand
+};
+
+// B = fixed + ratio K. A gain lambda on the law of eq. 2 scales both: there only the ratio is not zero.
+struct Damper {
+  double fixed = 0.0;  // N s/m
+  double ratio = 0.0;  // s
+  [[nodiscard]] double at(double stiffness) const { return fixed + ratio * stiffness; }
+};
+
+// t_d in whole periods and a part of one, 0 <= part < 1.
+struct Late {
+  int whole = 0;
+  double part = 0.0;
+};
+[[nodiscard]] Late late(const SampledLoop& loop);
+
+// 1 - e^{-j angle}, precise where the angle is small.
+[[nodiscard]] std::complex<double> one_less(double angle);
+// Of the law at z = e^{j angle}, without its delay: (1 - z^-n) / (nT), and what eq. 3 makes of either.
+[[nodiscard]] std::complex<double> rate_response(const SampledLoop& loop, double angle);
+[[nodiscard]] std::complex<double> filter_response(const SampledLoop& loop, double angle);
+// Angles in (0, pi], close enough for the delay and the ticks of the loop: logarithmic, then even.
+[[nodiscard]] std::vector<double> angles(const SampledLoop& loop);
+
+// All eigenvalues of the step from one reading to the next: of place, speed, the readings and forces that are
+// remembered. The delay costs: a matrix of t_d / T more rows. Empty where something is not known.
+[[nodiscard]] std::vector<std::complex<double>> eigenvalues(const SampledLoop& loop, double stiffness,
+                                                            double damper);
+// The largest of their absolute values; NaN where something is not known.
+[[nodiscard]] double spectral_radius(const SampledLoop& loop, double stiffness, double damper);
+// rad/s: how fast that one turns.
+[[nodiscard]] double ringing(const SampledLoop& loop, double stiffness, double damper);
+// Every disturbance dies out. False where something is not known.
+[[nodiscard]] bool stable(const SampledLoop& loop, double stiffness, double damper);
+
+inline constexpr double kStiffest = 1e8;  // N/m: nothing is looked for beyond it
+
+// The lowest stiffnesses that are stable, N/m: usually from 0 on. {0, 0} where none is; `high` infinite where
+// none up to kStiffest is unstable; NaN where something is not known.
+//
+// The edges are no guess of a search: an eigenvalue on the unit circle at z = e^{j angle} needs
+// K = -(1 / (P(z) G(z)) + B_fixed R(z)) / (1 + ratio R(z)) to be real, so all edges are found along the
+// angle; between two of them nothing changes, and one look at the eigenvalues tells.
+struct Range {
+  double low = kUnset, high = kUnset;
+};
+[[nodiscard]] Range stable_range(const SampledLoop& loop, const Damper& damper);
+// The least stiffness above which the loop is not stable: `high` of the range.
+[[nodiscard]] double critical_stiffness(const SampledLoop& loop, const Damper& damper = {});
+
+}  // namespace enc::certificate
