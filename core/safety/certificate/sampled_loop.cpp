@@ -24,9 +24,13 @@ Mat3 added(const SampledLoop& loop, double share) {
   Mat3 a;
   a << 0.0, 1.0, 0.0, -spring, -damper, 1.0, 0.0, 0.0, 0.0;
   a *= share;
+  double size = (1.0 + spring + damper) * share;
   int halved = 0;
-  for (double size = (1.0 + spring + damper) * share; size > 0.1; size *= 0.5) ++halved;
-  for (int i = 0; i < halved; ++i) a *= 0.5;
+  while (size > 0.1) {
+    size *= 0.5;
+    a *= 0.5;
+    ++halved;
+  }
   Mat3 sum = Mat3::Zero(), term = Mat3::Identity();
   for (int i = 1; i <= 12; ++i) {
     term = (term * a / static_cast<double>(i)).eval();
@@ -179,10 +183,11 @@ Complex filter_response(const SampledLoop& loop, double angle) {
 std::vector<double> angles(const SampledLoop& loop) {
   constexpr double kFirst = 1e-7, kEven = 0.02;
   constexpr int kLogarithmic = 240;
+  const int even = 300 + 60 * std::min(2000, late(loop).whole + loop.ticks);
   std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(kLogarithmic + even) + 1);
   for (int i = 0; i < kLogarithmic; ++i)
     all.push_back(kFirst * std::exp(std::log(kEven / kFirst) * i / kLogarithmic));
-  const int even = 300 + 60 * std::min(2000, late(loop).whole + loop.ticks);
   for (int i = 0; i <= even; ++i) all.push_back(kEven + (pi - kEven) * i / even);
   return all;
 }

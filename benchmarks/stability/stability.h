@@ -1,0 +1,18 @@
+// Parts of the benchmark `stability`: the certificate's predictions beside what MuJoCo does.
+#pragma once
+
+#include "benchmarks/kit/kit.h"
+#include "benchmarks/stability/slide.h"
+#include "core/safety/certificate/certificate.h"
+
+namespace enc::bench::stability {
+
+// What the certificate is told of a device.
+[[nodiscard]] certificate::SampledLoop loop_of(const Device& device);
+[[nodiscard]] certificate::Steps steps_of(const Device& device);
+
+void add_linear_cases(Bench& bench);  // critical stiffness, its error, Gil and Hulin's
+void add_integrators(Bench& bench);   // what each does to the boundary
+void add_regions(Bench& bench);       // with friction and counts: damping x delay, and a map
+
+}  // namespace enc::bench::stability

@@ -1,0 +1,56 @@
+// The slide that judges the certificate: what is known of it without a certificate.
+#include "benchmarks/stability/slide.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace enc::bench::stability {
+namespace {
+
+// Without a wall it is a mass on the hand's spring and damper.
+TEST(Slide, HandAloneDiesOutByItsDamper) {
+  const Device device{0.1, 0.2, 1e-3, 0.0, 0.1, 4.0, 300.0};
+  for (const int steps : {1, 2, 10})
+    EXPECT_NEAR(growth(device, {}, {Scheme::rk4, steps}), -4.2 / (2.0 * 0.2), 0.02) << steps;
+}
+
+// A soft spring is felt late by half a period and the delay: a damper of -K (T/2 + t_d).
+TEST(Slide, SoftWallGrowsByItsLag) {
+  for (const double delay : {0.0, 1e-3, 4e-3}) {
+    const Device device{0.1, 0.2, 1e-3, delay};
+    const double damper = 0.2 - 50.0 * (0.5e-3 + delay);
+    EXPECT_NEAR(growth(device, {50.0, 0.0}, {Scheme::rk4, 1}), -damper / 0.2, 0.02) << delay;
+  }
+}
+
+TEST(Slide, CriticalIsTheSameAtEveryStep) {
+  const Device device{0.1, 0.2, 1e-3, 2e-3};
+  const double one = critical(device, 0.0, {Scheme::rk4, 1}, NAN, 1e6);
+  EXPECT_NEAR(one, 80.0, 0.5);
+  EXPECT_NEAR(critical(device, 0.0, {Scheme::rk4, 10}, one, 1e6), one, 1e-3 * one);
+  EXPECT_NEAR(critical(device, 0.0, {Scheme::rk4, 10}, 3.0 * one, 1e6), one, 1e-3 * one);
+  EXPECT_TRUE(std::isinf(critical(device, 0.0, {Scheme::rk4, 1}, NAN, 40.0)));
+  EXPECT_EQ(critical({0.1, 0.0, 1e-3, 5e-3}, 0.0, {Scheme::rk4, 1}, NAN, 1e4), 0.0);
+}
+
+TEST(Slide, LetGoRestsCyclesOrLeaves) {
+  Device device{0.1, 0.2, 1e-3, 0.0};
+  device.friction = 0.05;
+  const Stepping fine{Scheme::rk4, 10};
+  EXPECT_EQ(let_go(device, {300.0, 0.0}, fine, 1e-3), Outcome::still);
+  EXPECT_EQ(let_go(device, {20000.0, 0.0}, fine, 1e-3), Outcome::away);
+  device.damping = 1.0;
+  device.count = 0.6e-3;  // 0.3 N over an edge, at 1000 N/m
+  EXPECT_EQ(let_go(device, {1000.0, 0.0}, fine, 1e-3), Outcome::cycle);
+}
+
+TEST(Slide, DelayMustBeWholeSteps) {
+  EXPECT_THROW(Slide({0.1, 0.2, 1e-3, 0.5e-3}, {}, {Scheme::rk4, 1}, 1.0), Error);
+  EXPECT_NO_THROW(Slide({0.1, 0.2, 1e-3, 0.5e-3}, {}, {Scheme::rk4, 2}, 1.0));
+}
+
+}  // namespace
+}  // namespace enc::bench::stability
