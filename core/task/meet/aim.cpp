@@ -149,7 +149,8 @@ void move_target(Walk& walk, const ArmRig& rig, State& state, Aim& now, const Go
   // What haste has set in motion is braked in haste.
   const auto fast = [&] { return now.velocity.norm() > braking_speed(far, rig.acceleration, dt); };
   const bool reach = walk.scene.tracker.foresight == Foresight::reach;
-  const Haste haste(rig, reach && ((goal.foreseen && now.caught_up) || fast()));
+  now.hurried = reach && ((goal.foreseen && now.caught_up) || (now.hurried && fast()));
+  const Haste haste(rig, now.hurried);
   // The share leaves room for a goal that moves.
   const double stops = std::min(0.9 * braking_speed(far, haste.acceleration, dt), far / dt);
   const double settle = runs ? kBelt : haste.settle;

@@ -10,6 +10,8 @@
 namespace enc::stages {
 namespace {
 
+using Vec2 = Eigen::Vector2d;
+
 // The touch may come so long after the newest picture is told, s: more closely where it is soon.
 constexpr std::array<double, Coming::kTimes> kAfter{0.0, 0.02, 0.044, 0.074, 0.114, 0.17, 0.25};
 // s: the weight of what comes later falls e-fold in that time, because it can still be met later. Chosen.
@@ -60,6 +62,7 @@ void ask(const Walk& walk, const State& state, Coming& now) {
   const TrackerRig& rig = walk.scene.tracker;
   const double known = std::max(kUnevenLeast, kUneven * noise_of_newest(walk, state));
   const TipMotion& motion = state.tip_motion;
+  const bool steady = rig.prediction == Prediction::constant_velocity;
   std::array<Sighting, kSightings> seen;
   const std::span<Sighting> all(seen.data(), static_cast<std::size_t>(now.count));
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -67,8 +70,8 @@ void ask(const Walk& walk, const State& state, Coming& now) {
   for (std::size_t k = 0; k < kAfter.size(); ++k) {
     for (std::size_t i = 0; i < all.size(); ++i) seen[i].age = age(now.told, now.exposed[i]) + kAfter[k];
     const double ahead = age(now.told, motion.t) + kAfter[k];
-    const Point<'W'> even = motion.position + ahead * motion.velocity;
-    const Touch touch = touch_then(rig.reach, all, known, (X_NW * even).e().head<2>());
+    const Vec2 even = (X_NW * (motion.position + ahead * motion.velocity)).e().head<2>();
+    const Touch touch = touch_then(rig.reach, all, known, steady ? even : Vec2(kUnset, kUnset));
     const bool believed = touch.place.allFinite() &&
                           (touch.place - seen[0].at.head<2>()).norm() < kFarthest && seen[0].at.z() > kLying;
     now.touches[k] = {touch.place.x(), touch.place.y(), believed ? touch.evidence : -HUGE_VAL};
@@ -91,7 +94,7 @@ Vec3 touch_at(const Coming& now, double after) {
 
 // The mean over the times that are still to come, weighted by how well they fit, and the sooner the more. In
 // the surface's axes; unset: none fits, or that it passes by is more probable.
-Eigen::Vector2d expected(const Coming& now, double passed) {
+Vec2 expected(const Coming& now, double passed) {
   constexpr std::size_t kSteps = 60;
   const double first = std::clamp(passed, kAfter.front(), kAfter.back());
   const double each = (kAfter.back() - first) / kSteps;
@@ -115,7 +118,7 @@ Eigen::Vector2d expected(const Coming& now, double passed) {
 }
 
 Point<'W'> on_surface(const Walk& walk, const State& state, const Coming& now, double passed) {
-  const Eigen::Vector2d at = expected(now, passed);
+  const Vec2 at = expected(now, passed);
   if (!at.allFinite()) return {};
   ObjectHint hint = state.hints.tool[0];
   return nearest(walk.scene, state.object, now.X_WN * Point<'N'>(at.x(), at.y(), 0.0), hint).point;
@@ -134,9 +137,12 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
   };
   if (!asked || object == nullptr || !walk.tool_known) return nowhere();
   const bool news = take_picture(walk, state, now);
-  const bool comes = walk.tool_fresh && object->moving < 0 && reaches(walk, state, now);
+  // What is met in its middle, or moves, is met where it is.
+  const bool stands = object->moving < 0 && !object->met_in_its_middle();
+  const bool comes = walk.tool_fresh && stands && reaches(walk, state, now);
   if (!comes || presses(state, memory.contact)) return nowhere();
-  if (news || state.object != now.object) ask(walk, state, now);
+  if (news || (state.object != now.object && age(walk.tick.t, now.told) >= kOften)) ask(walk, state, now);
+  if (state.object != now.object) return nowhere();
   const double passed = age(walk.tick.t, now.told), dt = walk.scene.dt;
   const Point<'W'> at = on_surface(walk, state, now, passed);
   const Point<'W'> then = on_surface(walk, state, now, passed + dt);

@@ -7,8 +7,8 @@
 namespace enc::stages {
 namespace {
 
-// While the finger is far the arm is motionless [VisHap 2]: what pushes it stays as it is, and friction holds
-// it. One count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
+// While the finger is far the arm is motionless [VisHap 2]: the law does no more, and friction holds it. One
+// count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
 // the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
 // only turns round, friction would not hold what then pushes it.
 bool resting(const State& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
@@ -19,10 +19,26 @@ bool resting(const State& state, const Aim& now, const Vec3& error, const Vec3& 
          now.velocity.norm() < 1e-3 && now.error_rate.norm() < kStood;
 }
 
-// What pushes an arm that rests, as a distance from its target. Friction that holds a push holds less of it,
-// too, and it may just hold it: the same push turns a joint more where the tip has crept. So it fades, as long
-// as the weight is held beside it; where the tip slips then, friction does not hold what the machine is
-// believed to weigh, and the push stays.
+// It rests, and stays where it came to rest. Where it does not although nothing moves its target, the law
+// goes on until it stands again with all of its push.
+bool stays(const State& state, const Point<'W'>& tip, bool rests, const Vec3& error, Aim& now) {
+  constexpr double kSlips = 0.15e-3;    // m: five counts
+  constexpr double kArrived = 0.03e-3;  // m: a count
+  if (state.mode != Mode::away) now.slipped = false;
+  const bool left = now.stood.finite() && (!rests || (tip - now.stood).norm() > kSlips);
+  now.slipped = now.slipped || (left && state.mode == Mode::away && now.velocity.norm() < 1e-3);
+  const bool stands = rests && !left && !(now.slipped && (now.error.e() - error).norm() > kArrived);
+  if (!stands)
+    now.stood = {};
+  else if (!now.stood.finite())
+    now.stood = tip;
+  return stands;
+}
+
+// What is left in a tick of what pushes an arm that rests. Friction may just hold that, and the same push
+// turns a joint more where the tip has crept; less of it friction holds surely. So it fades, where the weight
+// is held beside it. Where the tip has slipped then, the weight is another one, and friction does not hold
+// the difference: then the push stays.
 double fading(const Impedance& law, const Aim& now, double dt) {
   constexpr double kFades = 0.05;  // s, to 1/e
   return law.rig.gravity == GravityForm::exact && !now.slipped ? 1.0 / (1.0 + dt / kFades) : 1.0;
@@ -51,9 +67,8 @@ void impede(Walk& walk, const Impedance& law, State& state, Meeting& memory) noe
   const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
   const Vec3 error = (now.target - walk.X_WH.origin()).e() - now.sunk * normal;
   const Vec3 rate = (now.velocity - walk.tip_velocity).e();
-  const bool rests = resting(state, now, error, walk.tip_velocity.e());
-  now.slipped = state.mode == Mode::away && (now.slipped || (now.rested && !rests));
-  now.rested = rests;
+  const bool rests =
+      stays(state, walk.X_WH.origin(), resting(state, now, error, walk.tip_velocity.e()), error, now);
   const double fade = fading(law, now, walk.scene.dt);
   const Mat3 mass = law.arm.mass(walk.in.arm.value.joints, law.prop_mass);
   const double a = law.filter_gain;

@@ -25,12 +25,13 @@ struct Aim {
   double sunk = 0.0;       // m: how far the target is behind the surface, in a button
   bool caught_up = false;  // the target is where the finger's projection is
   bool triggered = false;
-  double blind = 0.0;  // s since the machine last said where it is
-  Straying straying;   // from the target, where nothing but the arm itself can be why
-  bool stuck = false;  // and it was for too long: until the finger has gone
-  bool rested = false, slipped = false;  // it stood far away; and then moved although nothing had moved it
+  double blind = 0.0;    // s since the machine last said where it is
+  Straying straying;     // from the target, where nothing but the arm itself can be why
+  bool stuck = false;    // and it was for too long: until the finger has gone
+  bool hurried = false;  // its velocity is one of haste
+  Point<'W'> stood;      // where the tip rests while the finger is far; unset: it does not
+  bool slipped = false;  // and it did not stay there
 };
-
 // The pictures of a finger that comes, newest first, and where it will touch (core/track/reach.h).
 struct Coming {
   std::array<Point<'W'>, kSightings> at;
@@ -55,7 +56,6 @@ struct Meeting {
 struct Meet : Impedance {
   using Memory = Meeting;
 };
-
 template <class F>
 void fields(F& f, Aim& r) {
   fields(f, "target_W", r.target);
@@ -69,7 +69,8 @@ void fields(F& f, Aim& r) {
   f("target_fastest", r.straying.fastest);
   f("arm_off", r.straying.off);
   f("stuck", r.stuck);
-  f("rested", r.rested);
+  f("hurried", r.hurried);
+  fields(f, "stood_W", r.stood);
   f("slipped", r.slipped);
   f("triggered", r.triggered);
 }

@@ -45,7 +45,7 @@ TEST(Verdict, AHitThatIsNoContactIsNamed) {
 
 TEST(Verdict, ATouchBesideThePropIsNamed) {
   expect_limit("wall", "truth.frames.W_C.position_mm=[256,-426,457]",
-               "nothing was touched in 2 of 7 contacts");
+               "nothing was touched in 3 of 9 contacts");
   EXPECT_THAT(run_scene("wall", "truth.frames.W_C.position_mm=[256,-426,457]").out,
               HasSubstr("3 of 3 touches were beside the prop"));
   EXPECT_THAT(run_scene("reaching", "truth.tracker.bias_mm=[10,10,10]").out,

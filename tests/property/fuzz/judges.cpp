@@ -96,7 +96,8 @@ std::string Limits::judge_arm(const Scene& scene, const State& state, const Outp
   if (known_ && !anew(out) && of_the_arm(at - before_).norm() > rig.speed * scene.dt * (1 + 1e-6))
     what = fmt::format("target leaps by {} mm", 1e3 * (at - before_).norm());
   const double change = of_the_arm(velocity - velocity_).norm();
-  if (known_ && !anew(out) && change > rig.acceleration * scene.dt * (1 + 1e-6))
+  const double most = recall<Meeting>(state).aim.hurried ? rig.reach_acceleration : rig.acceleration;
+  if (known_ && !anew(out) && change > most * scene.dt * (1 + 1e-6))
     what = fmt::format("target at {} m/s^2", change / scene.dt);
   known_ = recall<Meeting>(state).aim.target.finite() && !anew(out);
   before_ = at;

@@ -234,6 +234,36 @@ TEST(Reach, AFingerThatPassesByIsToldFromOneThatComes) {
   EXPECT_EQ(passes_by({}, 0.7e-3, 0.25), -HUGE_VAL);
 }
 
+// Where all pictures together say that an even hand goes counts as much as it is one.
+TEST(Reach, WhereAnEvenHandIsCarriedToCountsForThatAlone) {
+  sim::Stream stream(19, "reach");
+  const ReachBelief hand;
+  const Eigen::Vector2d off(0.0, 2e-3);
+  std::vector<double> even, reaching;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 velocity(0.03, 0.0, -0.15);
+    Pictures steady;
+    for (int k = 0; k < 5; ++k)
+      steady.push_back({-(0.07 + 0.05 * k) * velocity + 0.3e-3 * stream.normal3(), 0.07 + 0.05 * k});
+    const Pictures other = pictures(drawn(stream), 0.05, 0.3e-3, stream);
+    const auto judge = [&](const Pictures& seen, std::vector<double>& moved) {
+      const Touch alone = touch_then(hand, seen, 0.5e-3);
+      const Touch same = touch_then(hand, seen, 0.5e-3, {kUnset, 0.0});
+      EXPECT_EQ(alone.place, same.place);
+      const Touch at = touch_then(hand, seen, 0.5e-3, Eigen::Vector2d::Zero());
+      const Touch aside = touch_then(hand, seen, 0.5e-3, off);
+      EXPECT_EQ(alone.evidence, aside.evidence);
+      moved.push_back((aside.place - at.place).norm() / off.norm());
+    };
+    judge(steady, even);
+    judge(other, reaching);
+  }
+  std::sort(even.begin(), even.end());
+  std::sort(reaching.begin(), reaching.end());
+  EXPECT_GT(even[4], 0.8);
+  EXPECT_LT(reaching[20], 0.01);
+}
+
 TEST(Reach, TurnsWithItsPictures) {
   sim::Stream stream(9, "reach");
   const ReachBelief hand;
