@@ -112,8 +112,7 @@ Goal goal_of(const Walk& walk, const State& state, Meeting& memory, const Object
   return {walk.surface_point, face + (1.0 / dt) * (then - at)};
 }
 
-// How the target may go. In haste only from place to place where a reach may touch: on its way to the object
-// it can still be sent elsewhere.
+// How the target may go: in haste where a reach may touch.
 struct Haste {
   double acceleration, settle;
   Haste(const ArmRig& rig, bool hurries)
@@ -147,9 +146,8 @@ void move_target(Walk& walk, const ArmRig& rig, State& state, Aim& now, const Go
   const bool runs = touches_belt(state, object);
   if (far > kLeap && !runs) now.caught_up = false;
   // What haste has set in motion is braked in haste.
-  const auto fast = [&] { return now.velocity.norm() > braking_speed(far, rig.acceleration, dt); };
-  const bool reach = walk.scene.tracker.foresight == Foresight::reach;
-  now.hurried = reach && ((goal.foreseen && now.caught_up) || (now.hurried && fast()));
+  const bool fast = now.velocity.norm() > braking_speed(far, rig.acceleration, dt);
+  now.hurried = goal.foreseen || (now.hurried && fast);
   const Haste haste(rig, now.hurried);
   // The share leaves room for a goal that moves.
   const double stops = std::min(0.9 * braking_speed(far, haste.acceleration, dt), far / dt);
