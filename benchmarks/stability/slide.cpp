@@ -147,28 +147,34 @@ double critical(const Device& device, double damper, const Stepping& stepping, d
 Outcome let_go(const Device& device, const Wall& wall, const Stepping& stepping, double x0) {
   Slide slide(device, wall, stepping, x0);
   const double seconds = std::max(watched(device, wall, 40.0), 40.0 * device.delay);
-  const auto periods = static_cast<std::size_t>(seconds / device.period), glance = periods / 32;
-  std::array<double, 4> low{}, high{};
-  low.fill(kInfinite);
-  high.fill(-kInfinite);
-  double least = kInfinite, most = -kInfinite;  // since the last glance
-  for (std::size_t i = 0; i < periods; ++i) {
-    slide.period();
-    const double x = slide.x();
-    const std::size_t quarter = 4 * i / periods;
-    low[quarter] = std::min(low[quarter], x);
-    high[quarter] = std::max(high[quarter], x);
-    least = std::min(least, x);
-    most = std::max(most, x);
-    if (std::abs(x) > 20.0 * x0) return Outcome::away;
-    if (i % glance != glance - 1) continue;
-    if (most - least < 1e-4 * x0) return Outcome::still;
-    least = kInfinite;
-    most = -kInfinite;
+  const auto quarter = static_cast<std::size_t>(seconds / device.period) / 4;
+  const double pushes = wall.stiffness + 2.0 * std::abs(wall.damper) / device.period;
+  const bool held = pushes * device.count <= 2.0 * device.friction;
+  double before = kInfinite;
+  for (std::size_t quarters = 1; quarters <= 32; ++quarters) {
+    double low = kInfinite, high = -kInfinite;
+    for (std::size_t part = 0; part < 8; ++part) {
+      double least = kInfinite, most = -kInfinite;
+      for (std::size_t i = part * quarter / 8; i < (part + 1) * quarter / 8; ++i) {
+        slide.period();
+        least = std::min(least, slide.x());
+        most = std::max(most, slide.x());
+        if (std::abs(slide.x()) > 20.0 * x0) return Outcome::away;
+      }
+      if (most - least < 1e-4 * x0) return Outcome::still;
+      low = std::min(low, least);
+      high = std::max(high, most);
+    }
+    const double last = high - low;
+    if (quarters >= 4) {
+      if (last < 0.01 * x0) return Outcome::still;
+      if (last > 1.1 * before) return Outcome::away;
+      if (last > 0.9 * before) return Outcome::cycle;
+      if (held) return Outcome::still;
+    }
+    before = last;
   }
-  const double last = high[3] - low[3], third = high[2] - low[2];
-  if (last < std::max(0.01 * x0, 0.9 * third)) return Outcome::still;
-  return last > 1.1 * third ? Outcome::away : Outcome::cycle;
+  return Outcome::unknown;
 }
 
 }  // namespace enc::bench::stability

@@ -59,10 +59,12 @@ class Slide {
 [[nodiscard]] double critical(const Device& device, double damper, const Stepping& stepping, double near,
                               double most);
 
-enum class Outcome : std::uint8_t { still, cycle, away };
+enum class Outcome : std::uint8_t { still, cycle, away, unknown };
 // What becomes of a device that is let go x0 beside the wall's edge: `still` where in the last quarter of the
 // time it swings by less than 1 % of that, or less than 0.9 of the quarter before; `away` where it has left
-// 20 times that, or swings wider than 1.1 of the quarter before.
+// 20 times that, or swings wider than 1.1 of the quarter before. Where a count pushes more than friction
+// holds, (K + 2 |B|/T) count > 2 friction, a swing that shrinks is watched on, until it is one of these;
+// `unknown` where it is none after eight times the time.
 [[nodiscard]] Outcome let_go(const Device& device, const Wall& wall, const Stepping& stepping, double x0);
 
 }  // namespace enc::bench::stability

@@ -11,6 +11,9 @@ namespace enc::bench::stability {
 [[nodiscard]] certificate::SampledLoop loop_of(const Device& device);
 [[nodiscard]] certificate::Steps steps_of(const Device& device);
 
+// The larger of two; NaN where one is.
+[[nodiscard]] double worse(double a, double b);
+
 void add_linear_cases(Bench& bench);  // critical stiffness, its error, Gil and Hulin's
 void add_integrators(Bench& bench);   // what each does to the boundary
 void add_regions(Bench& bench);       // with friction and counts: damping x delay, and a map

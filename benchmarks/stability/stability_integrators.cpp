@@ -49,8 +49,8 @@ void add_integrators(Bench& bench) {
                 fmt::format("{:.4f}", found[i].expected));
       const bool none = std::isinf(found[i].factor) && std::isinf(found[i].expected);
       const double off = none ? 0.0 : 100.0 * std::abs(found[i].factor / found[i].expected - 1.0);
-      worst = off <= worst ? worst : off;
-      if (all[i].steps == 10) largest = std::max(largest, found[i].factor);
+      worst = worse(worst, off);
+      if (all[i].steps == 10) largest = worse(largest, found[i].factor);
     }
     bench.figure(fmt::format("{}.factor.tenth", name_of(scheme)), largest, "x",
                  "critical stiffness over the exact one, time step T/10, no delay");

@@ -45,7 +45,28 @@ bool plain(const SampledLoop& loop, const Damper& damper) {
   return loop.delay == 0.0 && std::isnan(loop.filter) && damper.fixed == 0.0 && damper.ratio == 0.0;
 }
 
+// With what it rings with to begin with, rad/s. The one that counts is what the loop rings with then.
+bool stops(SampledLoop loop, double friction, double stiffness, double damper, double amplitude,
+           double turning) {
+  constexpr double kSame = 0.02;
+  const double viscous = loop.damping, dry = 4.0 * friction / (std::numbers::pi * amplitude);
+  for (int i = 0; i < 4 && turning > 0.0; ++i) {
+    loop.damping = viscous + dry / turning;
+    const Complex z = slowest(loop, stiffness, damper);
+    const double rings = std::abs(std::arg(z)) / loop.period;
+    if (i == 3 || friction == 0.0 || rings == 0.0 || std::abs(rings - turning) < kSame * turning)
+      return std::norm(z) < 1.0;
+    turning = rings;
+  }
+  return false;
+}
+
 }  // namespace
+
+bool holds_counts(const SampledLoop& loop, const Steps& steps, double stiffness, double damper) {
+  const double pushes = stiffness + 2.0 * std::abs(damper) / (loop.ticks * loop.period);
+  return pushes * steps.encoder <= 2.0 * steps.friction;
+}
 
 double needed_damping(const SampledLoop& loop, double stiffness, double damper) {
   if (!loop.known() || !std::isfinite(stiffness) || !std::isfinite(damper)) return kUnset;
@@ -87,10 +108,12 @@ double delayed_stiffness(const SampledLoop& loop, const Damper& damper) {
   return lag > 0.0 ? damping / lag : kInfinite;
 }
 
-Plane plane_of(const SampledLoop& loop, const Steps& steps, double stiffness) {
+Plane plane_of(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
+  const double stiffness = asked.stiffness;
   if (!loop.alone().known() || !sane(steps.friction) || !sane(steps.encoder) || !(stiffness > 0.0)) return {};
   const double beta = loop.damping / (stiffness * loop.period);
   const double sigma = 0.5 * twice_over(steps.friction, stiffness * steps.encoder);
+  if (!plain(loop, asked.damper)) return {beta, sigma, Region::unknown};
   const bool sampling = beta >= 0.5, counting = sigma >= 0.5;
   return {beta, sigma,
           sampling ? (counting ? Region::passive : Region::limit_cycle)
@@ -99,62 +122,51 @@ Plane plane_of(const SampledLoop& loop, const Steps& steps, double stiffness) {
 
 bool friction_stops(const SampledLoop& loop, double friction, double stiffness, double damper,
                     double amplitude) {
-  double turning = std::sqrt((stiffness + loop.hand.stiffness) / (loop.mass + loop.hand.mass));
-  SampledLoop damped = loop;
-  double radius = kUnset;
-  for (int i = 0; i < 4 && turning > 0.0; ++i) {
-    damped.damping = loop.damping + 4.0 * friction / (std::numbers::pi * turning * amplitude);
-    radius = spectral_radius(damped, stiffness, damper);
-    turning = ringing(damped, stiffness, damper);
-  }
-  return radius < 1.0;
+  return stops(loop, friction, stiffness, damper, amplitude,
+               std::sqrt((stiffness + loop.hand.stiffness) / (loop.mass + loop.hand.mass)));
 }
 
 double friction_stiffness(const SampledLoop& loop, double friction, const Damper& damper, double amplitude) {
-  if (!loop.known() || !sane(friction)) return kUnset;
-  const auto stops = [&](double stiffness) {
-    return friction_stops(loop, friction, stiffness, damper.at(stiffness), amplitude);
-  };
-  constexpr double kStep = 1.25;
-  double low = 1e-3;
-  if (!stops(low)) return 0.0;
-  while (low < kStiffest && stops(low * kStep)) low *= kStep;
-  if (!(low < kStiffest)) return kInfinite;
-  double high = low * kStep;
-  while (high / low > 1.0001) {
-    const double middle = std::sqrt(low * high);
-    (stops(middle) ? low : high) = middle;
-  }
-  return low;
+  if (!loop.known() || !sane(friction) || !std::isfinite(damper.fixed) || !std::isfinite(damper.ratio))
+    return kUnset;
+  const auto ends = edges(loop, damper, 4.0 * friction / (std::numbers::pi * amplitude));
+  if (ends.empty()) return friction_stops(loop, friction, 1.0, damper.at(1.0), amplitude) ? kInfinite : 0.0;
+  // Just below the lowest it rings as there.
+  const Edge& end = ends.front();
+  const double below = 0.99 * end.stiffness, turning = end.angle / loop.period;
+  return stops(loop, friction, below, damper.at(below), amplitude, turning) ? end.stiffness : 0.0;
 }
 
 std::vector<Row> bounds(const SampledLoop& given, const Steps& steps, const Asked& asked) {
   const SampledLoop loop = given.alone();
   const Damper& damper = asked.damper;
+  const double stiffness = asked.stiffness;
   std::vector<Row> rows;
-  const auto add = [&](const char* name, const char* formula, double bound, bool applies,
+  const auto add = [&](const char* name, const char* formula, const Range& range, bool applies,
                        const char* source) {
-    rows.push_back({name, formula, bound, bound / asked.stiffness, applies, source});
+    const double margin = stiffness < range.low ? stiffness / range.low : range.high / stiffness;
+    rows.push_back({name, formula, range.high, margin, applies, source, range.low});
   };
-  const bool spring = plain(loop, damper);
+  const bool spring = plain(loop, damper), held = holds_counts(loop, steps, stiffness, damper.at(stiffness));
   const double quantised = quantised_stiffness(loop, steps);
   add("colgate_schenkel", "b > T/2 1/(1 - cos wT) Re{(1 - e^{-jwT}) H(e^{jwT})}, 0 < w <= pi/T",
-      passive_stiffness(loop, damper), true, "Colgate and Schenkel 1997");
-  add("abbott_okamura", "K <= min(2 b/T, 2 f_c/step)", quantised, spring, "Abbott and Okamura 2005");
-  add("gil_hulin", "K < (b + B)/(T/2 + t_d)", delayed_stiffness(loop, damper),
-      std::isnan(loop.filter) && loop.ticks == 1 && damper.at(asked.stiffness) <= loop.damping,
+      {0.0, passive_stiffness(loop, damper)}, true, "Colgate and Schenkel 1997");
+  add("abbott_okamura", "K <= min(2 b/T, 2 f_c/step)", {0.0, quantised}, spring, "Abbott and Okamura 2005");
+  add("gil_hulin", "K < (b + B)/(T/2 + t_d)", {0.0, delayed_stiffness(loop, damper)},
+      std::isnan(loop.filter) && loop.ticks == 1 && damper.at(stiffness) <= loop.damping &&
+          loop.damping * (2.0 * loop.period + loop.delay) <= kShort * loop.mass,
       "Gil et al. 2004, Hulin et al. 2006");
   add("diolaiti", "b/(K T) >= 1/2 or f_c/(K step) >= 1/2",
-      std::isnan(quantised)
-          ? kUnset
-          : std::max(2.0 * loop.damping / loop.period, twice_over(steps.friction, steps.encoder)),
+      {0.0, std::isnan(quantised)
+                ? kUnset
+                : std::max(2.0 * loop.damping / loop.period, twice_over(steps.friction, steps.encoder))},
       spring, "Diolaiti et al. 2006");
   add("friction_small", "|z| < 1 with 4 f_c/(pi w 0.1 mm) more damping",
-      friction_stiffness(loop, steps.friction, damper, kSmall), true, "describing function");
+      {0.0, friction_stiffness(loop, steps.friction, damper, kSmall)}, held, "describing function");
   add("friction_large", "|z| < 1 with 4 f_c/(pi w 1 mm) more damping",
-      friction_stiffness(loop, steps.friction, damper, kLarge), true, "describing function");
-  add("exact_alone", "|z| < 1 of the sampled loop", critical_stiffness(loop, damper), true, "eigenvalues");
-  add("exact_with_hand", "|z| < 1 of the sampled loop and the hand", critical_stiffness(given, damper), true,
+      {0.0, friction_stiffness(loop, steps.friction, damper, kLarge)}, held, "describing function");
+  add("exact_alone", "|z| < 1 of the sampled loop", stable_range(loop, damper), true, "eigenvalues");
+  add("exact_with_hand", "|z| < 1 of the sampled loop and the hand", stable_range(given, damper), true,
       "eigenvalues");
   return rows;
 }

@@ -13,7 +13,7 @@ std::string missing_of(const SampledLoop& loop, const Steps& steps, const Asked&
     const char* name;
     double value;
     bool above;  // must not be 0
-  } figures[] = {{"mass", loop.mass, loop.hand.mass <= 0.0},
+  } figures[] = {{"mass", loop.mass, true},
                  {"damping", loop.damping, false},
                  {"period", loop.period, true},
                  {"delay", loop.delay, false},
@@ -27,16 +27,28 @@ std::string missing_of(const SampledLoop& loop, const Steps& steps, const Asked&
     if (!std::isfinite(figure.value) || figure.value < 0.0 || (figure.above && figure.value == 0.0))
       return figure.name;
   if (!std::isfinite(asked.damper.at(asked.stiffness))) return "damper";
-  return loop.known() ? "" : "ticks, filter or delay";
+  if (loop.ticks < 1) return "ticks";
+  if (loop.delay / loop.period + loop.ticks > kMostPeriods + 1.0) return "delay: more than 600 periods";
+  return loop.known() ? "" : "filter";
+}
+
+// What is in a row's own range is stable; beyond it one look tells.
+bool rests(const SampledLoop& loop, const Row& row, double stiffness, double damper) {
+  return (stiffness > row.low && stiffness < row.bound) || stable(loop, stiffness, damper);
 }
 
 Class class_of(const SampledLoop& loop, const Steps& steps, const Asked& asked, const Certificate& found) {
   const double stiffness = asked.stiffness, damper = asked.damper.at(stiffness);
-  const bool counted = stiffness * steps.encoder <= 2.0 * steps.friction;
-  if (counted && needed_damping(loop.alone(), stiffness, damper) <= loop.damping) return Class::passive;
-  if (stable(loop.alone(), stiffness, damper)) return Class::alone;
-  if (stable(loop, stiffness, damper)) return Class::held;
-  return found.small.rest == Rest::still ? Class::local : Class::unstable;
+  if (holds_counts(loop, steps, stiffness, damper) &&
+      needed_damping(loop.alone(), stiffness, damper) <= loop.damping)
+    return Class::passive;
+  const bool alone = rests(loop.alone(), row_of(found, "exact_alone"), stiffness, damper);
+  const bool held = rests(loop, row_of(found, "exact_with_hand"), stiffness, damper);
+  if (alone) return held ? Class::alone : Class::unheld;
+  if (held) return Class::held;
+  if (!(steps.friction > 0.0) || found.small.rest == Rest::cycle || found.small.rest == Rest::away)
+    return Class::unstable;
+  return found.small.rest == Rest::still ? Class::local : Class::unknown;
 }
 
 }  // namespace
@@ -44,13 +56,14 @@ Class class_of(const SampledLoop& loop, const Steps& steps, const Asked& asked, 
 Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
   Certificate found;
   found.rows = bounds(loop, steps, asked);
-  found.plane = plane_of(loop, steps, asked.stiffness);
+  found.plane = plane_of(loop, steps, asked);
   found.missing = missing_of(loop, steps, asked);
   if (!found.missing.empty()) return found;
   const double damper = asked.damper.at(asked.stiffness);
   found.small = release(loop.alone(), steps, asked.stiffness, damper, kSmall);
   found.large = release(loop.alone(), steps, asked.stiffness, damper, kLarge);
   found.verdict = class_of(loop, steps, asked, found);
+  if (found.verdict == Class::unknown) found.missing = "what a release does: too slow to be simulated";
   return found;
 }
 

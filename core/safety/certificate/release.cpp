@@ -8,33 +8,52 @@
 namespace enc::certificate {
 namespace {
 
-// The device: exact where it is neither damped nor held; damper and hand in second order of the step.
+// Over h, s, from speed v under a constant pull: v' = pull - a v. What becomes of the place is
+// v reach + pull sag, of the speed v + (pull - a v) reach.
+struct Span {
+  double h, reach, sag;
+  Span(double span, double a) : h(span), reach(span), sag(0.5 * span * span) {
+    constexpr double kSlight = 1e-3;
+    const double x = a * span;
+    if (x <= 0.0) return;
+    reach = -std::expm1(-x) / a;
+    sag = x < kSlight ? span * span * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x / 120.0)))
+                      : (span - reach) / a;
+  }
+};
+
+// The device: exact but for the hand's spring, which is taken in the middle of a step.
 struct Slide {
-  double mass = 1.0, damping = 0.0, spring = 0.0, friction = 0.0;
+  double mass = 1.0, a = 0.0, spring = 0.0, friction = 0.0;  // a: damping over mass, 1/s
   double x = 0.0, v = 0.0;
 
-  [[nodiscard]] double pull(double force, double sign, double at, double speed) const {
-    return (force - friction * sign - damping * speed - spring * at) / mass;
+  // Until it stops under that pull, s; infinite where it does not.
+  [[nodiscard]] double stops_after(double pull) const {
+    const double straight = v / -pull;
+    if (!(straight >= 0.0)) return std::numeric_limits<double>::infinity();
+    return a * straight < 1e-12 ? straight : std::log1p(a * straight) / a;
   }
-  // Over h, s, under a constant force. Where it stops on the way, friction decides anew.
-  void glide(double force, double h) {
-    while (h > 0.0) {
+  // Where it stops on the way, friction decides anew.
+  void glide(double force, const Span& given) {
+    Span over = given;
+    for (;;) {
       const double push = force - spring * x;
       if (v == 0.0 && std::abs(push) <= friction) return;
       const double sign = v != 0.0 ? std::copysign(1.0, v) : std::copysign(1.0, push);
-      const double half = v + 0.5 * h * pull(force, sign, x, v);
-      const double after = v + h * pull(force, sign, x + 0.5 * h * v, half);
-      if (after * sign <= 0.0) {
-        if (v == 0.0) return;
-        const double stops = h * v / (v - after);
-        x += 0.5 * v * stops;
-        v = 0.0;
-        h -= stops;
-        continue;
+      double pull = (push - friction * sign) / mass;
+      if (spring > 0.0) {
+        const Span half(0.5 * over.h, a);
+        pull = (force - spring * (x + v * half.reach + pull * half.sag) - friction * sign) / mass;
       }
-      x += 0.5 * h * (v + after);
-      v = after;
-      return;
+      const double stops = v != 0.0 ? stops_after(pull) : std::numeric_limits<double>::infinity();
+      const bool stopped = stops < over.h;
+      const double after = v + (pull - a * v) * over.reach;
+      if (v == 0.0 && after * sign <= 0.0) return;
+      const Span moved = stopped ? Span(stops, a) : over;
+      x += v * moved.reach + pull * moved.sag;
+      v = stopped ? 0.0 : after;
+      if (!stopped) return;
+      over = Span(over.h - stops, a);
     }
   }
 };
@@ -67,73 +86,124 @@ struct Law {
   }
 };
 
-// From peak to peak, of each quarter of the time.
-struct Swings {
-  double low[4], high[4];
-  Swings() {
-    std::fill_n(low, 4, std::numeric_limits<double>::infinity());
-    std::fill_n(high, 4, -std::numeric_limits<double>::infinity());
+// From peak to peak.
+struct Swing {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  void see(double x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
   }
-  void see(std::size_t quarter, double x) {
-    low[quarter] = std::min(low[quarter], x);
-    high[quarter] = std::max(high[quarter], x);
-  }
-  [[nodiscard]] double of(std::size_t quarter) const { return high[quarter] - low[quarter]; }
+  [[nodiscard]] double of() const { return high - low; }
 };
 
-// Long enough for a hundred swings, and short enough to wait for.
-int ticks_of(const SampledLoop& loop, double stiffness) {
-  constexpr double kSwings = 100.0, kLeast = 0.5, kMost = 40000;
-  const double turning = std::sqrt((stiffness + loop.hand.stiffness) / (loop.mass + loop.hand.mass));
-  const double seconds = std::max({kLeast, kSwings * 6.3 / turning, 40.0 * loop.delay});
-  return static_cast<int>(std::clamp(seconds / loop.period, 400.0, kMost));
-}
+// s: a hundred swings, and what a damper takes to creep to rest.
+struct Watch {
+  static constexpr double kMost = 1e5;  // periods
+  double wanted, least;                 // periods
+  Watch(const SampledLoop& loop, double stiffness, double damper) {
+    constexpr double kSwings = 100.0, kFew = 20.0, kShortest = 0.5, kPeriods = 400.0;
+    const double spring = stiffness + loop.hand.stiffness;
+    const double swing = 6.3 * std::sqrt((loop.mass + loop.hand.mass) / spring);
+    const double creeps = 8.0 * std::abs(loop.damping + loop.hand.damping + damper) / spring;
+    least = std::max({kFew * swing, creeps, 40.0 * loop.delay}) / loop.period;
+    wanted = std::max({kSwings * swing / loop.period, least, kShortest / loop.period, kPeriods});
+  }
+  [[nodiscard]] std::size_t quarter() const {
+    return static_cast<std::size_t>(std::clamp(wanted, 0.0, kMost)) / 4;
+  }
+};
 
-// Parts of a step that are short for the device itself.
-int parts_of(const SampledLoop& loop, double span) {
-  constexpr double kFine = 0.02;
-  const double mass = loop.mass + loop.hand.mass;
-  const double quickest =
-      std::max(std::sqrt(loop.hand.stiffness / mass), (loop.damping + loop.hand.damping) / mass);
-  return static_cast<int>(std::clamp(std::ceil(span * quickest / kFine), 4.0, 4000.0));
-}
+// One period of law and device.
+class Run {
+ public:
+  // Parts of a step that are short for the hand's spring; without it one. 0: too many.
+  static int parts_of(const SampledLoop& loop, double span) {
+    constexpr double kFine = 0.02, kMany = 4000.0;
+    const double mass = loop.mass + loop.hand.mass, damper = loop.damping + loop.hand.damping;
+    const double spring = loop.hand.stiffness;
+    if (spring == 0.0) return 1;
+    // A damper that is stiff for the mass has it follow no quicker than spring over damper.
+    const double swings = std::sqrt(spring / mass);
+    const double quickest = damper > 0.0 ? std::min(swings, spring / damper) : swings;
+    const double parts = std::ceil(span * quickest / kFine);
+    return parts <= kMany ? static_cast<int>(std::max(parts, 4.0)) : 0;
+  }
+  Run(const SampledLoop& loop, const Steps& steps, double stiffness, double damper, double from)
+      : law_{loop, stiffness, damper, steps.encoder},
+        early_(law_.delay.part * loop.period),
+        parts_{early_ > 0.0 ? parts_of(loop, early_) : 0, parts_of(loop, loop.period - early_)} {
+    slide_.mass = loop.mass + loop.hand.mass;
+    slide_.a = (loop.damping + loop.hand.damping) / slide_.mass;
+    slide_.spring = loop.hand.stiffness;
+    slide_.friction = steps.friction;
+    slide_.x = from;
+    first_ = Span(early_ / std::max(1, parts_[0]), slide_.a);
+    rest_ = Span((loop.period - early_) / std::max(1, parts_[1]), slide_.a);
+    law_.begin(from);
+  }
+  [[nodiscard]] bool affordable() const { return parts_[1] > 0 && (early_ == 0.0 || parts_[0] > 0); }
+  double tick() {
+    law_.tick(slide_.x);
+    const auto whole = static_cast<std::size_t>(law_.delay.whole);
+    for (int k = 0; k < parts_[0]; ++k) slide_.glide(law_.forces[whole + 1], first_);
+    for (int k = 0; k < parts_[1]; ++k) slide_.glide(law_.forces[whole], rest_);
+    return slide_.x;
+  }
 
-Rest judge(const Swings& swings, double disturbance) {
-  if (swings.of(3) <= std::max(0.01 * disturbance, 0.9 * swings.of(2))) return Rest::still;
-  return swings.of(3) > 1.1 * swings.of(2) ? Rest::away : Rest::cycle;
+ private:
+  Law law_;
+  double early_;  // s, that the force before lasts into a period
+  int parts_[2];
+  Slide slide_{};
+  Span first_{0.0, 0.0}, rest_{0.0, 0.0};
+};
+
+bool can_be(const SampledLoop& loop, const Steps& steps, double stiffness, double damper,
+            double disturbance) {
+  return loop.known() && std::isfinite(steps.friction) && steps.friction >= 0.0 &&
+         std::isfinite(steps.encoder) && steps.encoder >= 0.0 && std::isfinite(stiffness) &&
+         stiffness >= 0.0 && std::isfinite(damper) && std::isfinite(disturbance) && disturbance > 0.0;
 }
 
 }  // namespace
 
 Released release(const SampledLoop& loop, const Steps& steps, double stiffness, double damper,
                  double disturbance) {
-  if (!loop.known() || !(steps.friction >= 0.0) || !(steps.encoder >= 0.0) ||
-      !std::isfinite(steps.friction) || !std::isfinite(steps.encoder) || !(stiffness >= 0.0) ||
-      !std::isfinite(stiffness) || !std::isfinite(damper) || !(disturbance > 0.0) ||
-      !std::isfinite(disturbance))
-    return {};
-  Slide slide{loop.mass + loop.hand.mass,
-              loop.damping + loop.hand.damping,
-              loop.hand.stiffness,
-              steps.friction,
-              disturbance,
-              0.0};
-  Law law{loop, stiffness, damper, steps.encoder};
-  law.begin(slide.x);
-  const int ticks = ticks_of(loop, stiffness);
-  const double first = law.delay.part * loop.period, rest = loop.period - first;
-  const int first_parts = first > 0.0 ? parts_of(loop, first) : 0, rest_parts = parts_of(loop, rest);
-  const auto whole = static_cast<std::size_t>(law.delay.whole);
-  Swings swings;
-  for (int i = 0; i < ticks; ++i) {
-    law.tick(slide.x);
-    for (int k = 0; k < first_parts; ++k) slide.glide(law.forces[whole + 1], first / first_parts);
-    for (int k = 0; k < rest_parts; ++k) slide.glide(law.forces[whole], rest / rest_parts);
-    swings.see(static_cast<std::size_t>(4 * i / ticks), slide.x);
-    if (!(std::abs(slide.x) < 20.0 * disturbance))
-      return {Rest::away, 2.0 * std::abs(slide.x), (i + 1) * loop.period};
+  if (!can_be(loop, steps, stiffness, damper, disturbance)) return {};
+  if (stiffness + loop.hand.stiffness == 0.0) return {Rest::still, 0.0, 0.0};  // nothing pulls
+  const bool linear = steps.friction == 0.0 && steps.encoder == 0.0;
+  const auto by_eigenvalues = [&] { return stable(loop, stiffness, damper) ? Rest::still : Rest::away; };
+  const Watch watch(loop, stiffness, damper);
+  Run run(loop, steps, stiffness, damper, disturbance);
+  if (!run.affordable() || (linear && watch.least > Watch::kMost))
+    return {linear ? by_eigenvalues() : Rest::unknown};
+  const bool holds = holds_counts(loop, steps, stiffness, damper);
+  const std::size_t quarter = watch.quarter();
+  bool moved = false;
+  double before = kUnset;
+  for (std::size_t quarters = 1;; ++quarters) {
+    Swing swing;
+    const auto after = [&](std::size_t i) {
+      return static_cast<double>((quarters - 1) * quarter + i) * loop.period;
+    };
+    for (std::size_t i = 0; i < quarter; ++i) {
+      swing.see(run.tick());
+      if (!(std::max(-swing.low, swing.high) < 20.0 * disturbance))
+        return {Rest::away, 2.0 * std::max(-swing.low, swing.high), after(i + 1)};
+    }
+    moved = moved || swing.low != disturbance || swing.high != disturbance;
+    const double last = swing.of(), time = after(quarter);
+    if (quarters >= 4) {
+      // What has not moved at all in what there is of time never does: the law sees nothing new.
+      if (moved && watch.least > Watch::kMost) return {Rest::unknown, last, time};
+      if (last <= 0.01 * disturbance) return {Rest::still, last, time};
+      if (last > 1.1 * before) return {Rest::away, last, time};
+      if (last > 0.9 * before) return {linear ? by_eigenvalues() : Rest::cycle, last, time};
+      if (holds) return {Rest::still, last, time};
+      if (static_cast<double>((quarters + 1) * quarter) > Watch::kMost) return {Rest::unknown, last, time};
+    }
+    before = last;
   }
-  return {judge(swings, disturbance), swings.of(3), ticks * loop.period};
 }
 
 }  // namespace enc::certificate

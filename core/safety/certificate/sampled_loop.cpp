@@ -47,7 +47,7 @@ struct Device {
   Eigen::Vector2d fresh, old;
   explicit Device(const SampledLoop& loop) {
     const double part = late(loop).part;
-    const Mat3 whole = added(loop, 1.0), rest = added(loop, 1.0 - part);
+    const Mat3 whole = added(loop, 1.0), rest = part > 0.0 ? added(loop, 1.0 - part) : whole;
     free = whole.topLeftCorner<2, 2>();
     fresh = rest.topRightCorner<2, 1>();
     old = Eigen::Vector2d::Zero();
@@ -108,51 +108,11 @@ Eigen::MatrixXd step_of(const SampledLoop& loop, double stiffness, double damper
   return step;
 }
 
-Complex largest(const SampledLoop& loop, double stiffness, double damper) {
-  Complex most{kUnset, kUnset};
-  for (const Complex& z : eigenvalues(loop, stiffness, damper))
-    if (!(std::norm(z) <= std::norm(most))) most = z;
-  return most;
-}
-
-// The stiffnesses up to the stiffest at which an eigenvalue is on the unit circle, ascending.
-std::vector<double> edges(const SampledLoop& loop, const Damper& damper) {
-  const Device device(loop);
-  const auto needed = [&](double angle) {
-    const Complex rate = rate_response(loop, angle);
-    const Complex held = 1.0 / (compliance(loop, device, angle) * filter_response(loop, angle));
-    return -(held + damper.fixed * rate) / (1.0 + damper.ratio * rate);
-  };
-  std::vector<double> found;
-  const auto add = [&](double stiffness) {
-    if (stiffness > 0.0 && stiffness < kStiffest) found.push_back(stiffness);
-  };
-  const std::vector<double> grid = angles(loop);
-  double from = grid.front(), before = needed(from).imag();
-  for (const double end : grid) {
-    const double to = std::min(end, pi - 1e-7);  // at pi all is real
-    const double after = needed(to).imag();
-    if (before * after < 0.0) {
-      double low = from, high = to;
-      for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (needed(middle).imag() * before > 0.0 ? low : high) = middle;
-      }
-      add(needed(low).real());
-    }
-    from = to;
-    before = after;
-  }
-  add(needed(pi).real());
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 }  // namespace
 
 bool SampledLoop::known() const {
   return at_least(mass, 0.0) && mass + hand.mass > 0.0 && at_least(damping, 0.0) && at_least(period, 0.0) &&
-         period > 0.0 && at_least(delay, 0.0) && delay / period < 1e4 && ticks >= 1 &&
+         period > 0.0 && at_least(delay, 0.0) && ticks >= 1 && delay / period + ticks <= kMostPeriods + 1.0 &&
          (std::isnan(filter) || (filter > 0.0 && std::isfinite(filter))) && at_least(hand.mass, 0.0) &&
          at_least(hand.damping, 0.0) && at_least(hand.stiffness, 0.0);
 }
@@ -180,10 +140,10 @@ Complex filter_response(const SampledLoop& loop, double angle) {
   return std::isnan(loop.filter) ? Complex(1.0) : loop.filter / (loop.filter + one_less(angle));
 }
 
-std::vector<double> angles(const SampledLoop& loop) {
+std::vector<double> angles(const SampledLoop& loop, int for_each_period) {
   constexpr double kFirst = 1e-7, kEven = 0.02;
   constexpr int kLogarithmic = 240;
-  const int even = 300 + 60 * std::min(2000, late(loop).whole + loop.ticks);
+  const int even = 300 + for_each_period * (late(loop).whole + loop.ticks);
   std::vector<double> all;
   all.reserve(static_cast<std::size_t>(kLogarithmic + even) + 1);
   for (int i = 0; i < kLogarithmic; ++i)
@@ -200,33 +160,85 @@ std::vector<Complex> eigenvalues(const SampledLoop& loop, double stiffness, doub
   return {found.data(), found.data() + found.size()};
 }
 
+Complex slowest(const SampledLoop& loop, double stiffness, double damper) {
+  Complex most{kUnset, kUnset};
+  for (const Complex& z : eigenvalues(loop, stiffness, damper))
+    if (!(std::norm(z) <= std::norm(most))) most = z;
+  return most;
+}
+
 double spectral_radius(const SampledLoop& loop, double stiffness, double damper) {
-  return std::sqrt(std::norm(largest(loop, stiffness, damper)));
+  return std::sqrt(std::norm(slowest(loop, stiffness, damper)));
 }
 double ringing(const SampledLoop& loop, double stiffness, double damper) {
-  const Complex z = largest(loop, stiffness, damper);
+  const Complex z = slowest(loop, stiffness, damper);
   return std::abs(std::atan2(z.imag(), z.real())) / loop.period;
 }
 bool stable(const SampledLoop& loop, double stiffness, double damper) {
   return spectral_radius(loop, stiffness, damper) < 1.0;
 }
 
-Range stable_range(const SampledLoop& loop, const Damper& damper) {
-  if (!loop.known() || !std::isfinite(damper.fixed) || !std::isfinite(damper.ratio)) return {};
-  std::vector<double> ends = edges(loop, damper);
-  ends.push_back(kStiffest);
-  double from = 0.0, first = kUnset;
-  for (const double to : ends) {
-    if (to - from > 1e-9 * to) {
-      const double between = from > 0.0 ? std::sqrt(from * to) : 0.5 * to;
-      const bool rests = stable(loop, between, damper.at(between));
-      if (rests && std::isnan(first)) first = from;
-      if (!rests && !std::isnan(first)) return {first, from};
+std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dry) {
+  if (!loop.known() || !std::isfinite(damper.fixed) || !std::isfinite(damper.ratio) || !at_least(dry, 0.0))
+    return {};
+  const Device device(loop);
+  const auto rubbed = [&](double angle) {
+    SampledLoop more = loop;
+    more.damping += dry * loop.period / angle;
+    return compliance(more, Device(more), angle);
+  };
+  const auto needed = [&](double angle) {
+    const Complex rate = rate_response(loop, angle);
+    const Complex place = dry > 0.0 ? rubbed(angle) : compliance(loop, device, angle);
+    return -(1.0 / (place * filter_response(loop, angle)) + damper.fixed * rate) /
+           (1.0 + damper.ratio * rate);
+  };
+  std::vector<Edge> found;
+  const auto add = [&](double angle, int leave) {
+    const double stiffness = needed(angle).real();
+    if (stiffness > 0.0 && stiffness < kStiffest) found.push_back({stiffness, angle, leave});
+  };
+  constexpr int kForEachPeriod = 24;  // a delay turns by 7.5 degrees from one to the next
+  const std::vector<double> grid = angles(loop, kForEachPeriod);
+  double from = grid.front(), before = needed(from).imag();
+  for (const double end : grid) {
+    const double to = std::min(end, pi - 1e-7);  // at pi all is real
+    const double after = needed(to).imag();
+    if (before * after < 0.0) {
+      double low = from, high = to;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (needed(middle).imag() * before > 0.0 ? low : high) = middle;
+      }
+      add(low, before < 0.0 ? 2 : -2);
     }
     from = to;
+    before = after;
   }
-  if (std::isnan(first)) return {0.0, 0.0};
-  return {first, std::numeric_limits<double>::infinity()};
+  add(pi, before < 0.0 ? 1 : -1);
+  std::sort(found.begin(), found.end(),
+            [](const Edge& a, const Edge& b) { return a.stiffness < b.stiffness; });
+  return found;
+}
+
+Range stable_range(const SampledLoop& loop, const Damper& damper) {
+  if (!loop.known() || !std::isfinite(damper.fixed) || !std::isfinite(damper.ratio)) return {};
+  std::vector<Edge> ends = edges(loop, damper);
+  ends.push_back({kStiffest, pi, 0});
+  double from = 0.0;
+  long outside = -1;  // eigenvalues; counted once, then by what the edges let in and out
+  for (const Edge& end : ends) {
+    const double to = end.stiffness;
+    if (outside <= 0 && to - from > 1e-9 * to) {
+      const double between = from > 0.0 ? std::sqrt(from * to) : 0.5 * to;
+      const auto all = eigenvalues(loop, between, damper.at(between));
+      outside = std::count_if(all.begin(), all.end(), [](const Complex& z) { return !(std::norm(z) < 1.0); });
+      if (outside == 0) return {from, to < kStiffest ? to : std::numeric_limits<double>::infinity()};
+    }
+    outside += outside < 0 ? 0 : end.leave;
+    from = to;
+  }
+  return {0.0, 0.0};
 }
 
 double critical_stiffness(const SampledLoop& loop, const Damper& damper) {

@@ -15,6 +15,9 @@
 
 namespace enc::certificate {
 
+// Periods that a loop may look back, by delay and ticks: every one is a row of its matrix.
+inline constexpr double kMostPeriods = 600.0;
+
 struct Hand {
   double mass = 0.0;       // kg, that moves with the device
   double damping = 0.0;    // N s/m, to the ground as the next
@@ -29,7 +32,8 @@ struct SampledLoop {
   int ticks = 1;            // n: the rate is a difference over so many periods
   double filter = kUnset;   // a of eq. 3, discrete; unset: no filter
   Hand hand{};
-  // Whether everything that the loop needs is a number that can be: else there is no answer.
+  // Whether everything that the loop needs is a number that can be: else there is no answer. Delay and ticks
+  // are no more than kMostPeriods.
   [[nodiscard]] bool known() const;
   [[nodiscard]] SampledLoop alone() const;  // without the hand
 };
@@ -53,14 +57,17 @@ struct Late {
 // Of the law at z = e^{j angle}, without its delay: (1 - z^-n) / (nT), and what eq. 3 makes of either.
 [[nodiscard]] std::complex<double> rate_response(const SampledLoop& loop, double angle);
 [[nodiscard]] std::complex<double> filter_response(const SampledLoop& loop, double angle);
-// Angles in (0, pi], close enough for the delay and the ticks of the loop: logarithmic, then even.
-[[nodiscard]] std::vector<double> angles(const SampledLoop& loop);
+// Angles in (0, pi], close enough for the delay and the ticks of the loop: logarithmic, then even, so many
+// more for a period of either.
+[[nodiscard]] std::vector<double> angles(const SampledLoop& loop, int for_each_period = 60);
 
 // All eigenvalues of the step from one reading to the next: of place, speed, the readings and forces that are
 // remembered. The delay costs: a matrix of t_d / T more rows. Empty where something is not known.
 [[nodiscard]] std::vector<std::complex<double>> eigenvalues(const SampledLoop& loop, double stiffness,
                                                             double damper);
-// The largest of their absolute values; NaN where something is not known.
+// The one with the largest absolute value, which dies out last; NaN where something is not known.
+[[nodiscard]] std::complex<double> slowest(const SampledLoop& loop, double stiffness, double damper);
+// That value of it.
 [[nodiscard]] double spectral_radius(const SampledLoop& loop, double stiffness, double damper);
 // rad/s: how fast that one turns.
 [[nodiscard]] double ringing(const SampledLoop& loop, double stiffness, double damper);
@@ -69,12 +76,20 @@ struct Late {
 
 inline constexpr double kStiffest = 1e8;  // N/m: nothing is looked for beyond it
 
+// The stiffnesses up to kStiffest at which an eigenvalue is on the unit circle, and where: ascending. They
+// are no guess of a search: at z = e^{j angle} that needs K = -(1 / (P(z) G(z)) + B_fixed R(z)) / (1 + ratio
+// R(z)) to be real, so all are found along the angle. `dry`, N/m: one more damper of dry / w, w = angle / T;
+// what dry friction f_c is to a swing of amplitude A by its describing function, 4 f_c / (pi A).
+struct Edge {
+  double stiffness = kUnset;  // N/m
+  double angle = kUnset;      // rad
+  int leave = 0;              // so many eigenvalues leave the circle as K rises; below 0: they enter it
+};
+[[nodiscard]] std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dry = 0.0);
+
 // The lowest stiffnesses that are stable, N/m: usually from 0 on. {0, 0} where none is; `high` infinite where
-// none up to kStiffest is unstable; NaN where something is not known.
-//
-// The edges are no guess of a search: an eigenvalue on the unit circle at z = e^{j angle} needs
-// K = -(1 / (P(z) G(z)) + B_fixed R(z)) / (1 + ratio R(z)) to be real, so all edges are found along the
-// angle; between two of them nothing changes, and one look at the eigenvalues tells.
+// none up to kStiffest is unstable; NaN where something is not known. Between two edges nothing changes, and
+// one look at the eigenvalues tells; from what is stable the next edge is the way out.
 struct Range {
   double low = kUnset, high = kUnset;
 };

@@ -47,6 +47,13 @@ TEST(Slide, LetGoRestsCyclesOrLeaves) {
   EXPECT_EQ(let_go(device, {1000.0, 0.0}, fine, 1e-3), Outcome::cycle);
 }
 
+// It shrinks at first, and is no less than what its counts keep going.
+TEST(Slide, WhatGoesDownToALimitCycleIsWatchedOn) {
+  Device device{0.1, 0.16, 1e-3, 0.0};
+  device.count = 1e-4;
+  EXPECT_EQ(let_go(device, {300.0, 0.0}, {Scheme::rk4, 10}, 5e-3), Outcome::cycle);
+}
+
 TEST(Slide, DelayMustBeWholeSteps) {
   EXPECT_THROW(Slide({0.1, 0.2, 1e-3, 0.5e-3}, {}, {Scheme::rk4, 1}, 1.0), Error);
   EXPECT_NO_THROW(Slide({0.1, 0.2, 1e-3, 0.5e-3}, {}, {Scheme::rk4, 2}, 1.0));

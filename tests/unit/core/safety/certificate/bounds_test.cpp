@@ -93,15 +93,66 @@ TEST(Bounds, GilHulinOfTheTableAndItsError) {
 
 TEST(Bounds, PlaneOfDiolaiti) {
   const Steps steps{0.05, 1e-4};  // 1000 N/m by its counts
-  EXPECT_EQ(plane_of(wall(0.2), steps, 300.0).region, Region::passive);
-  EXPECT_EQ(plane_of(wall(0.2), steps, 600.0).region, Region::locally_stable);
-  EXPECT_EQ(plane_of(wall(0.2), steps, 1100.0).region, Region::unstable);
-  EXPECT_EQ(plane_of(wall(2.0), steps, 1100.0).region, Region::limit_cycle);
-  const Plane at = plane_of(wall(0.2), steps, 400.0);
+  EXPECT_EQ(plane_of(wall(0.2), steps, {300.0, {}}).region, Region::passive);
+  EXPECT_EQ(plane_of(wall(0.2), steps, {600.0, {}}).region, Region::locally_stable);
+  EXPECT_EQ(plane_of(wall(0.2), steps, {1100.0, {}}).region, Region::unstable);
+  EXPECT_EQ(plane_of(wall(2.0), steps, {1100.0, {}}).region, Region::limit_cycle);
+  const Plane at = plane_of(wall(0.2), steps, {400.0, {}});
   EXPECT_NEAR(at.beta, 0.5, 1e-12);
   EXPECT_NEAR(at.sigma, 1.25, 1e-12);
-  EXPECT_EQ(plane_of(wall(kUnset), steps, 1.0).region, Region::unknown);
-  EXPECT_EQ(plane_of(wall(0.2), {kUnset, 0.0}, 1.0).region, Region::unknown);
+  EXPECT_EQ(plane_of(wall(kUnset), steps, {1.0, {}}).region, Region::unknown);
+  EXPECT_EQ(plane_of(wall(0.2), {kUnset, 0.0}, {1.0, {}}).region, Region::unknown);
+  // Of a loop that is no plain spring it says nothing.
+  EXPECT_EQ(plane_of(wall(0.2, 2e-3), steps, {300.0, {}}).region, Region::unknown);
+  EXPECT_EQ(plane_of(wall(0.2), steps, {300.0, {0.1, 0.0}}).region, Region::unknown);
+  EXPECT_EQ(plane_of({0.1, 0.2, 1e-3, 0.0, 1, 0.4}, steps, {300.0, {}}).region, Region::unknown);
+}
+
+// Where delays are short for the device it is within 5 %; beyond that it is not, and does not apply.
+TEST(Bounds, GilHulinIsCloseWhereItApplies) {
+  int applied = 0;
+  double beyond = 0.0;
+  for (const double mass : {0.01, 0.075, 1.0})
+    for (const double b : {0.05, 0.2, 1.0, 5.0})
+      for (const double share : {0.0, 0.5, 1.0})
+        for (const double delay : {0.0, 1e-3, 3.3e-3, 10e-3}) {
+          const SampledLoop loop{mass, b, 1e-3, delay};
+          const Damper damper{share * b, 0.0};
+          const Row row = bounds(loop, {0.0, 0.0}, {1.0, damper})[2];
+          const double error = row.bound / critical_stiffness(loop, damper) - 1.0;
+          if (!row.applies) {
+            beyond = std::max(beyond, error);
+            continue;
+          }
+          ++applied;
+          EXPECT_LT(std::abs(error), 0.05) << mass << " " << b << " " << share << " " << delay;
+        }
+  EXPECT_GT(applied, 50);
+  EXPECT_GT(beyond, 0.15);
+}
+
+// The margin of a loop that is stable between two stiffnesses is below 1 beneath both.
+TEST(Bounds, MarginTellsWhereWhatIsStableDoesNotBeginAtNothing) {
+  SampledLoop loop{0.1, 0.1, 1e-3, 33.5e-3};
+  loop.hand = {0.05, 0.1, 2000.0};
+  const Damper damper{0.5, 0.0};
+  const Range range = stable_range(loop, damper);
+  const auto row = [&](double stiffness) { return bounds(loop, kCounts, {stiffness, damper})[7]; };
+  EXPECT_EQ(row(1.0).low, range.low);
+  EXPECT_NEAR(row(0.5 * range.low).margin, 0.5, 1e-9);
+  EXPECT_GT(row(0.5 * (range.low + range.high)).margin, 1.0);
+  EXPECT_NEAR(row(2.0 * range.high).margin, 0.5, 1e-9);
+}
+
+TEST(Bounds, FrictionRowsApplyWhereCountsDoNotPushMore) {
+  const auto applies = [](const Steps& steps, double stiffness) {
+    const auto rows = bounds(kPhantom, steps, {stiffness, {}});
+    EXPECT_EQ(rows[4].applies, rows[5].applies);
+    return rows[4].applies;
+  };
+  EXPECT_TRUE(applies(kCounts, 1000.0));
+  EXPECT_FALSE(applies(kCounts, 4000.0));
+  EXPECT_TRUE(applies({0.048, 0.0}, 4000.0));
 }
 
 TEST(Bounds, FrictionStopsSmallSwingsByItsEquivalentDamping) {

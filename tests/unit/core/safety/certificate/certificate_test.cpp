@@ -39,6 +39,70 @@ TEST(Certificate, CountsAreNotPassiveWhereTheyPushMoreThanFrictionHolds) {
   EXPECT_EQ(over.plane.region, Region::limit_cycle);
 }
 
+// Of the damper, too: a count makes the rate jump by step/T and back.
+TEST(Certificate, CountsOfADamperAreNotPassiveWhereTheyPushMoreThanFrictionHolds) {
+  const SampledLoop loop{0.1, 0.5, 1e-3};
+  EXPECT_EQ(certify(loop, {0.005, 30e-6}, {300.0, {}}).verdict, Class::passive);
+  EXPECT_EQ(certify(loop, {0.005, 30e-6}, {300.0, {0.15, 0.0}}).verdict, Class::alone);
+  EXPECT_EQ(certify(loop, {0.010, 30e-6}, {300.0, {0.15, 0.0}}).verdict, Class::passive);
+}
+
+// A hand may also take away: its spring has the damper come late by more than the device alone does.
+TEST(Certificate, StableAloneAndNotWithThisHandIsAClassOfItsOwn) {
+  SampledLoop loop{0.1, 0.2, 1e-3, 10e-3};
+  loop.hand = {0.02, 1.0, 1000.0};
+  const Damper damper{10.0, 0.0};
+  ASSERT_LT(spectral_radius(loop.alone(), 300.0, damper.fixed), 1.0);
+  ASSERT_GT(spectral_radius(loop, 300.0, damper.fixed), 1.0);
+  EXPECT_EQ(certify(loop, kCounts, {300.0, damper}).verdict, Class::unheld);
+  EXPECT_EQ(certify(loop.alone(), kCounts, {300.0, damper}).verdict, Class::alone);
+  EXPECT_EQ(certify(loop, kCounts, {150.0, damper}).verdict, Class::alone);
+}
+
+// What grows too slowly to be seen is not still: undamped, an undelayed spring at 0.1 rad/s and a late one.
+TEST(Certificate, WhatIsTooSlowToBeWatchedIsNotCalledStill) {
+  const SampledLoop slow{1.0, 0.0, 1e-3}, late{0.1, 0.0, 1e-4, 50e-3};
+  EXPECT_EQ(release(slow, {0.0, 0.0}, 0.01, 0.0, kLarge).rest, Rest::away);
+  EXPECT_EQ(release(late, {0.0, 0.0}, 1.0, 0.0, kLarge).rest, Rest::away);
+  EXPECT_EQ(certify(slow, {0.0, 0.0}, {0.01, {}}).verdict, Class::unstable);
+  EXPECT_EQ(certify(late, {0.0, 0.0}, {1.0, {}}).verdict, Class::unstable);
+  EXPECT_EQ(release(slow, {1e-6, 0.0}, 0.01, 0.0, kLarge).rest, Rest::unknown);
+  const Certificate unknown = certify(slow, {1e-8, 0.0}, {0.01, {}});
+  EXPECT_EQ(unknown.verdict, Class::unknown);
+  EXPECT_FALSE(unknown.missing.empty());
+  EXPECT_EQ(release(slow, {1e-3, 0.0}, 0.01, 0.0, kLarge).rest, Rest::still);  // it never moves
+}
+
+// A mass that its damper stops within no time at all follows it: down to the wall's edge, with friction or
+// not.
+TEST(Certificate, LightMassIsNotFrozen) {
+  const SampledLoop light{1e-9, 0.5, 1e-3}, heavy{1e-4, 0.5, 1e-3};
+  for (const double friction : {0.0, 1e-3}) {
+    const Released found = release(light, {friction, 0.0}, 100.0, 0.0, kLarge);
+    EXPECT_EQ(found.rest, Rest::still) << friction;
+    EXPECT_LT(found.swing, 1e-5) << friction;
+    // Its force moves it by K T/b of the way in a period, as the eigenvalues say: up to twice.
+    EXPECT_EQ(release(light, {friction, 0.0}, 900.0, 0.0, kLarge).rest, Rest::still) << friction;
+    EXPECT_EQ(release(light, {friction, 0.0}, 1100.0, 0.0, kLarge).rest, Rest::away) << friction;
+    EXPECT_EQ(release(heavy, {friction, 0.0}, 1.1 * critical_stiffness(heavy), 0.0, kLarge).rest, Rest::away)
+        << friction;
+  }
+}
+
+TEST(Certificate, WhatCreepsIsStill) {
+  EXPECT_EQ(release({0.1, 16.0, 1e-3}, {0.0, 0.0}, 0.1, 0.0, kLarge).rest, Rest::still);
+  EXPECT_EQ(release({0.1, 16.0, 1e-3}, {0.0, 0.0}, 10.0, 0.0, kLarge).rest, Rest::still);
+  EXPECT_EQ(release({0.1, 16.0, 1e-3}, {1e-5, 0.0}, 10.0, 0.0, kLarge).rest, Rest::still);
+}
+
+// On its way down to what its counts keep going, which is more than 1 % of where it came from.
+TEST(Certificate, WhatGoesDownToALimitCycleIsWatchedOn) {
+  const SampledLoop loop{0.1, 0.16, 1e-3};
+  const Released slow = release(loop, {0.0, 1e-4}, 300.0, 0.0, 50.0 * kSmall);
+  EXPECT_EQ(slow.rest, Rest::cycle);
+  EXPECT_EQ(release(loop, {0.0, 0.0}, 300.0, 0.0, 50.0 * kSmall).rest, Rest::still);
+}
+
 // The PHANToM, pressed: settles from 0.1 mm up to 3500 N/m and not at 5000; from 1 mm up to 1000, not at
 // 2000.
 TEST(Certificate, ThePhantomSettlesWhereItWasFoundTo) {
@@ -100,6 +164,10 @@ TEST(Certificate, MissingFiguresAreNamed) {
   EXPECT_EQ(missing({0.1, 0.1, 0.0}, kCounts, asked), "period");
   EXPECT_EQ(missing({0.1, 0.1, 1e-3, -1.0}, kCounts, asked), "delay");
   EXPECT_EQ(missing({0.0, 0.1, 1e-3}, kCounts, asked), "mass");
+  EXPECT_EQ(missing(held({0.0, 0.1, 1e-3}), kCounts, asked), "mass");  // though the hand has one
+  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.601}, kCounts, asked), "delay: more than 600 periods");
+  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.0, 0}, kCounts, asked), "ticks");
+  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.0, 1, -1.0}, kCounts, asked), "filter");
   EXPECT_EQ(missing(kPhantom, {kUnset, 1e-5}, asked), "friction");
   EXPECT_EQ(missing(kPhantom, {0.1, kUnset}, asked), "encoder step");
   EXPECT_EQ(missing(kPhantom, kCounts, {0.0, {}}), "stiffness");
