@@ -131,18 +131,20 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
   const Object* object = nearest_object(walk, state);
   const TrackerRig& rig = walk.scene.tracker;
   const bool asked = rig.foresight == Foresight::reach && rig.prediction != Prediction::hold;
-  const auto nowhere = [&now] {
+  if (!asked || object == nullptr || !walk.tool_known) {
     now.object = -1;
-    return Goal{};
-  };
-  if (!asked || object == nullptr || !walk.tool_known) return nowhere();
+    return {};
+  }
   const bool news = take_picture(walk, state, now);
+  if (news) now.object = -1;  // what was said before it is worth nothing
   // What is met in its middle, or moves, is met where it is.
   const bool stands = object->moving < 0 && !object->met_in_its_middle();
   const bool comes = walk.tool_fresh && stands && reaches(walk, state, now);
-  if (!comes || presses(state, memory.contact)) return nowhere();
-  if (news || (state.object != now.object && age(walk.tick.t, now.told) >= kOften)) ask(walk, state, now);
-  if (state.object != now.object) return nowhere();
+  if (!comes || presses(state, memory.contact)) return {};
+  if (state.object != now.object) {
+    if (!news && age(walk.tick.t, now.told) < kOften) return {};
+    ask(walk, state, now);
+  }
   const double passed = age(walk.tick.t, now.told), dt = walk.scene.dt;
   const Point<'W'> at = on_surface(walk, state, now, passed);
   const Point<'W'> then = on_surface(walk, state, now, passed + dt);
