@@ -26,8 +26,8 @@ struct Touch {
                         kUnset};  // x and y; unset: fewer than three pictures, or it does not come nearer
   double evidence = kUnset;       // logarithm of a density of that time, per s; but for what all times share
 };
-// Ages are those at that time. `noise`: of a picture, m rms. `carried`: where a hand that goes on with an even
-// speed is at that time, by all its pictures; unset: these few say it.
+// Ages are those at that time. `noise`: of a picture, m rms. `carried`: where a hand that goes on with an
+// even speed is at that time, by all that is known of it; unset: these few say it.
 [[nodiscard]] Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first, double noise,
                                const Eigen::Vector2d& carried = {kUnset, kUnset}) noexcept;
 
