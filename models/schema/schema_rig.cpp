@@ -93,9 +93,10 @@ void describe(Visitor& v, ReachBelief& r) {
           &r.touch_slowest);
   v.value({"touch_fastest_mm_s", "likewise, at most", "docs/reference/reaching.md", assumed, kPositive},
           &r.touch_fastest);
-  v.value({"vaguest_mm", "a picture whose place is known worse, rms of an axis, tells no correction from noise",
-           "docs/reference/reaching.md", assumed, kPositive},
-          &r.vaguest);
+  v.value(
+      {"vaguest_mm", "a picture whose place is known worse, rms of an axis, tells no correction from noise",
+       "docs/reference/reaching.md", assumed, kPositive},
+      &r.vaguest);
 }
 
 void describe(Visitor& v, TrackerRig& t) {
