@@ -146,8 +146,8 @@ void move_target(Walk& walk, const ArmRig& rig, State& state, Aim& now, const Go
   const bool runs = touches_belt(state, object);
   if (far > kLeap && !runs) now.caught_up = false;
   // What haste has set in motion is braked in haste.
-  const bool fast = now.velocity.norm() > braking_speed(far, rig.acceleration, dt);
-  now.hurried = goal.foreseen || (now.hurried && fast);
+  now.hurried =
+      goal.foreseen || (now.hurried && now.velocity.norm() > braking_speed(far, rig.acceleration, dt));
   const Haste haste(rig, now.hurried);
   // The share leaves room for a goal that moves.
   const double stops = std::min(0.9 * braking_speed(far, haste.acceleration, dt), far / dt);

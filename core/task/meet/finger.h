@@ -1,4 +1,5 @@
-// What the stages of an arm ask of the object under the finger. Internal to the core.
+// What the stages of an arm ask of the object under the finger, and where the finger will touch it. Internal
+// to the core.
 #pragma once
 
 #include "core/task/walk.h"
@@ -27,5 +28,14 @@ namespace enc::stages {
   if (!hit || state.mode != Mode::contact) return nullptr;
   return &walk.moved[static_cast<std::size_t>(object->moving)];
 }
+
+// Where the target should be, and how it goes on from there.
+struct Goal {
+  Point<'W'> point;
+  Vec<'W'> velocity = Vec<'W'>::zero();
+  bool foreseen = false;  // where a reach will touch
+};
+// Where a finger that comes will touch; unset: as far as is known it does not, or it lies on the prop.
+[[nodiscard]] Goal foreseen_touch(const Walk& walk, const State& state, Meeting& now) noexcept;
 
 }  // namespace enc::stages

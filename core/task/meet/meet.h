@@ -32,6 +32,7 @@ struct Aim {
   Point<'W'> stood;      // where the tip rests while the finger is far; unset: it does not
   bool slipped = false;  // and it did not stay there
 };
+
 // The pictures of a finger that comes, newest first, and where it will touch (core/track/reach.h).
 struct Coming {
   std::array<Point<'W'>, kSightings> at;
@@ -56,6 +57,7 @@ struct Meeting {
 struct Meet : Impedance {
   using Memory = Meeting;
 };
+
 template <class F>
 void fields(F& f, Aim& r) {
   fields(f, "target_W", r.target);
@@ -102,19 +104,9 @@ void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept
 void guard(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
 void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now, Outputs& out) noexcept;
 
-// Where the target should be, and how it goes on from there.
-struct Goal {
-  Point<'W'> point;
-  Vec<'W'> velocity = Vec<'W'>::zero();
-  bool foreseen = false;  // where a reach will touch
-};
-// Where a finger that comes will touch; unset: as far as is known it does not, or it lies on the prop.
-[[nodiscard]] Goal foreseen_touch(const Walk& walk, const State& state, Meeting& now) noexcept;
-
-// The stages that act() is made of.
-void aim(Walk& walk, const Impedance& task, State& state,
-         Meeting& now) noexcept;  // where the prop should be
-void impede(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;  // depth in, force out
+// The stages that act() is made of: where the prop should be; depth in, force out.
+void aim(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
+void impede(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc
