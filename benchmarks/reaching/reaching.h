@@ -59,6 +59,9 @@ void add_reaching_full(const BenchContext& context, BenchResult& result);
 using Adder = std::function<void(const std::string& id, double value, const char* unit, double low,
                                  double high, const std::string& note)>;
 
+// How still the far tip is, over the friction of the joints.
+void add_rest(const BenchContext& context, BenchResult& result, const Adder& add);
+
 // Whether the prop was there, beside what an ideal predictor could do with the same pictures (ideal.h).
 // Reaches at the wall, by the vision of the paper.
 void add_ideal(const BenchContext& context, const std::vector<ReachOutcome>& wall, const Adder& add);

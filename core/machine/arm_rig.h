@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/machine/arm.h"
@@ -23,6 +24,16 @@ struct Thermal {
   double housing_time = 612.0;  // s, and of the housing against the room (published)
   double winding_share =
       3.1 / (3.1 + 14.0);  // of the rise over the room that is over the housing (published)
+};
+
+// What decides how stiff a wall may be, as it is believed (docs/reference/stability.md): of each joint as in
+// [truth.arm].
+struct ArmLoop {
+  PerJoint friction{0.01, 0.01, 0.01};       // dry, N m or N
+  PerJoint viscous{0.0005, 0.0005, 0.0005};  // N m s/rad or N s/m
+  PerJoint counts{4096.0, 4096.0, 4096.0};   // of an encoder, for each turn of its motor
+  double velocity_window = 0.002;            // s, over which the device differences its encoders
+  double delay = 0.0;                        // s, from a reading to the force, beyond the tick's own
 };
 
 struct ArmRig {
@@ -48,6 +59,7 @@ struct ArmRig {
   double prop_lag = 0.020;        // s: of a driven prop's surface behind what it is told; assumed
   double stale = 0.005;           // s: an older sample is lost
   double least_dexterity = 0.15;  // nearer to a singular pose the tip is not sent
+  std::optional<ArmLoop> loop{};  // unset: whether it is stable is not known, and no real one is armed
 };
 
 // What an arm says that it is and can do.

@@ -92,6 +92,23 @@ void describe(Visitor& v, Thermal& t) {
           &t.winding_share);
 }
 
+void describe(Visitor& v, ArmLoop& l) {
+  const auto each = [&](const Key& key, PerJoint& numbers) { per_joint(v, key, numbers); };
+  each({"friction_Nm", "Coulomb's, at each joint, as is believed; N of a slide", "sources/arm 3", published,
+        kNotNegative},
+       l.friction);
+  each({"viscous_Nms", "at each joint, for each rad/s; N s/m of a slide", "sources/arm 3", published,
+        kNotNegative},
+       l.viscous);
+  each({"counts", "of each encoder, for a turn of its motor", "sources/arm 3", published, {1.0}}, l.counts);
+  v.value({"velocity_window_ms", "over which the device differences its encoders",
+           "docs/reference/phantom_twin.md", assumed, kPositive},
+          &l.velocity_window);
+  v.value({"delay_ms", "from a reading to the force that answers it, beyond the tick that holds it",
+           "docs/reference/stability.md", assumed, kNotNegative},
+          &l.delay);
+}
+
 void describe(Visitor& v, ArmRig& a) {
   v.value({"driver", "sim, a folder of hw_drivers, or none", "rig", chosen, kAny, needed}, &a.driver);
   choice(v,
@@ -135,6 +152,7 @@ void describe(Visitor& v, ArmRig& a) {
            chosen,
            {0.0, 1.0}},
           &a.least_dexterity);
+  part(v, "loop", a.loop, [&](ArmLoop& loop) { describe(v, loop); });
   table(v, "machine", [&] { describe(v, a.machine); });
 }
 
@@ -157,6 +175,12 @@ void describe(Visitor& v, sim::ArmTruth& a) {
          a.friction_form);
   each({"friction_Nm", "Coulomb's, at each joint; N of a slide", "sources/arm 3", published, kNotNegative},
        a.friction);
+  v.value({"friction_time_ms",
+           "in which dry friction sets in: slower motions it only damps",
+           "docs/reference/phantom_twin.md",
+           assumed,
+           {0.1, 100.0}},
+          &a.friction_time);
   each({"viscous_Nms", "at each joint, for each rad/s; N s/m of a slide", "sources/arm 3", published,
         kNotNegative},
        a.viscous);

@@ -67,7 +67,8 @@ void fit_drive(Driven* driven, const ArmParts& parts, std::size_t i, double more
   if (parts.truth.friction_form == ArmFriction::dry) {
     driven->frictionloss = parts.truth.friction[i];
     // What holds must not creep: with MuJoCo's own impedance of 0.9 a tip under half of the friction does,
-    // 0.1 mm in a second. Its time constant stays (docs/reference/phantom_twin.md).
+    // 0.1 mm in a second. MuJoCo takes no time constant below two of its time steps.
+    driven->solref_friction[0] = parts.truth.friction_time;
     driven->solimp_friction[0] = driven->solimp_friction[1] = 0.9999;
   }
   driven->limited = mjLIMITED_TRUE;

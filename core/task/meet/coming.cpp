@@ -28,8 +28,10 @@ constexpr double kFarthest = 0.05;       // m: a place of touch farther from the
 bool take_picture(const Walk& walk, const State& state, Coming& now) {
   const Time exposed_at = exposed(walk.scene.tracker, state.tool.t);
   const double gap = now.count > 0 ? age(exposed_at, now.exposed[0]) : kOften;
-  if (gap >= 0.0 && gap < kOften) return false;
-  if (gap < 0.0 || gap > walk.scene.tracker.longest_prediction) now.count = 0;
+  const bool another = state.tool.value.tool != now.tool;
+  if (!another && gap >= 0.0 && gap < kOften) return false;
+  now.tool = state.tool.value.tool;
+  if (another || gap < 0.0 || gap > walk.scene.tracker.longest_prediction) now.count = 0;
   if (now.count < 2 || age(now.exposed[0], now.exposed[1]) > kApart) {
     std::shift_right(now.at.begin(), now.at.end(), 1);
     std::shift_right(now.exposed.begin(), now.exposed.end(), 1);
@@ -44,10 +46,17 @@ double noise_of_newest(const Walk& walk, const State& state) {  // m rms, of eac
   return std::sqrt(noise_of(walk.scene.tracker, state.tool.value, walk.scene.X_WC).mean_square());
 }
 
+// Where pictures are about as vague as may be, it is not asked now and then.
+bool clear(const Walk& walk, const State& state, const Coming& now) {
+  constexpr double kStays = 1.1;
+  const double vaguest = walk.scene.tracker.reach.vaguest;
+  return noise_of_newest(walk, state) <= (now.clear ? kStays * vaguest : vaguest);
+}
+
 // A hand that reaches does not come slower than it wants to touch, but for a moment between its movements.
 // How one goes on that hovers no picture shows, nor a picture that is too vague: it is met under where it is.
-bool reaches(const Walk& walk, const State& state, const Coming& now) {
-  if (now.count < 3 || noise_of_newest(walk, state) > walk.scene.tracker.reach.vaguest) return false;
+bool reaches(const Walk& walk, const Coming& now) {
+  if (now.count < 3 || !now.clear) return false;
   const auto first = static_cast<std::size_t>(now.count - 1);
   const double down = dot(now.at[first] - now.at[0], walk.normal) / age(now.exposed[0], now.exposed[first]);
   return down > walk.scene.tracker.reach.touch_slowest;
@@ -136,10 +145,13 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
     return {};
   }
   const bool news = take_picture(walk, state, now);
-  if (news) now.object = -1;  // what was said before it is worth nothing
+  if (news) {
+    now.object = -1;  // what was said before it is worth nothing
+    now.clear = clear(walk, state, now);
+  }
   // What is met in its middle, or moves, is met where it is.
   const bool stands = object->moving < 0 && !object->met_in_its_middle();
-  const bool comes = walk.tool_fresh && stands && reaches(walk, state, now);
+  const bool comes = walk.tool_fresh && stands && reaches(walk, now);
   if (!comes || presses(state, memory.contact)) return {};
   if (state.object != now.object) {
     if (!news && age(walk.tick.t, now.told) < kOften) return {};

@@ -38,6 +38,8 @@ struct Coming {
   std::array<Point<'W'>, kSightings> at;
   std::array<Time, kSightings> exposed{};
   std::int32_t count = 0;
+  std::int32_t tool = -1;  // of which finger
+  bool clear = false;      // they tell where it is well enough
   // If it touched so long after `told`: x and y of N, and the logarithm of how well that fits (reach.h).
   static constexpr std::size_t kTimes = 7;
   std::array<std::array<double, 3>, kTimes> touches{};
@@ -81,6 +83,8 @@ void fields(F& f, Coming& r) {
   for (Point<'W'>& p : r.at) fields(f, "coming_at_W", p);
   for (Time& t : r.exposed) f("coming_exposed", t);
   f("coming_count", r.count);
+  f("coming_tool", r.tool);
+  f("coming_clear", r.clear);
   for (auto& touch : r.touches) fields(f, "coming_touches", touch);
   f("coming_passes", r.passes);
   fields(f, "coming_X_WN", r.X_WN);

@@ -81,6 +81,30 @@ TEST(Coming, HowVagueAPictureIsItSaysItself) {
   }
 }
 
+// x of where the prop is sent, of a finger whose pictures say in turn that they are so vague, m.
+double sent_x(double even, double odd) {
+  Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110"});
+  for (int i = 0; i < 450; ++i) {
+    if (i % 50 != 0) {
+      bench.loop.tick();
+      continue;
+    }
+    bench.loop.put(Comes{}.at(0.001 * (i - 50)));
+    bench.loop.in.tool.t -= std::chrono::milliseconds(50);
+    TrackedTool& seen = bench.loop.in.tool.value;
+    seen.along = seen.across = i / 50 % 2 == 0 ? even : odd;
+    bench.loop.go();
+  }
+  return bench.loop.out.wanted.xyz[0];
+}
+
+TEST(Coming, WhatIsAboutAsVagueAsMayBeIsNotAskedNowAndThen) {
+  // The last of them, at 400 ms, is an even one.
+  EXPECT_NEAR(sent_x(1.15e-3, 1.05e-3), 0.0, 1e-3);
+  EXPECT_LT(sent_x(1.25e-3, 1.05e-3), -0.003) << "on its way back";
+  EXPECT_NEAR(sent_x(1.15e-3, 1.15e-3), -0.005, 1e-3);
+}
+
 TEST(Coming, AFingerThatHoversIsMetUnderWhereItIs) {
   const Comes hovers{{0.1, 0.0, -0.04}, 0.020};
   EXPECT_LT(meet(hovers, 0.5).foreseen_way, 1.5e-3);
@@ -101,6 +125,28 @@ TEST(Coming, OnlyToWhereAReachMayTouchTheTargetHurries) {
     EXPECT_EQ(gone.in_haste, 0.0);
     EXPECT_LE(gone.without, rig.acceleration * 1.001);
   }
+}
+
+// What haste set in motion it brakes: where the finger that it went to meet has stopped, the target does not
+// shoot past what it may brake within.
+TEST(Coming, HasteBrakesWhatItSetInMotion) {
+  Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110"});
+  const ArmRig& rig = bench.loop.scene.impedance()->rig;
+  const Comes finger{{0.3, 0.0, -0.3}, 0.0};
+  double braked = 0.0, slow = 0.0;
+  Vec3 before = Vec3::Zero();
+  for (int i = 0; i < 700; ++i) {
+    const double t = std::min(0.001 * (i - 50), 0.40);  // it stops in the air
+    i % 50 == 0 ? bench.loop.see(finger.at(t), std::chrono::milliseconds(50)) : bench.loop.tick();
+    const Aim& now = recall<Meeting>(bench.loop.state).aim;
+    const double change = (now.velocity.norm() - before.norm()) / bench.loop.scene.dt;
+    before = now.velocity.e();
+    double& most = now.hurried ? braked : slow;
+    most = std::min(most, change);
+  }
+  EXPECT_LT(braked, -1.1 * rig.acceleration);
+  EXPECT_GE(braked, -1.001 * rig.reach_acceleration);
+  EXPECT_GE(slow, -1.001 * rig.acceleration);
 }
 
 // The tip 2 mm from its target when the finger has gone: friction holds it.
