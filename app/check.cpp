@@ -9,6 +9,7 @@
 #include "app/built.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
+#include "app/stability_text.h"
 #include "core/machine/steadiness.h"
 #include "core/safety/room.h"
 #include "core/task/meet/arm_scene.h"
@@ -134,19 +135,13 @@ std::string limits(const models::Setup& setup, const Scene& scene) {
     const std::string thin = thin_text(scene, object);
     if (!thin.empty()) said.emplace_back(name, thin);
   }
-  std::string text = lines_of(said);
-  const trial::Limits beyond = trial::limits_of(setup, scene);
-  for (const trial::Unsteady& object : beyond.unsteady)
-    text += "  UNSTEADY: " + trial::unsteady_text(setup, object) + "\n";
-  if (scene.has_force) text += softest_text(setup, scene);
-  return text + weak_text(setup, scene) +
+  return lines_of(said) + (scene.has_force ? softest_text(setup, scene) : "") + weak_text(setup, scene) +
          fmt::format("  commands up to {:g} mm/s and {:g} mm/s^2\n", scene.reach.speed * 1e3,
                      scene.reach.acceleration * 1e3);
 }
 
 std::string strength_text(const trial::ArmStrength& at) {
-  std::string text = fmt::format("force at most {:.2f} N, for hours {:.2f} N; stiffest spring {:.2f} N/mm",
-                                 at.peak, at.lasting, at.stiffest * 1e-3);
+  std::string text = fmt::format("force at most {:.2f} N, for hours {:.2f} N", at.peak, at.lasting);
   if (!std::isnan(at.asked))
     text +=
         fmt::format("; the user asks for {:.2f} N for {:.1f} s, it can be held {}", at.asked, at.asked_for,
@@ -156,15 +151,13 @@ std::string strength_text(const trial::ArmStrength& at) {
 
 // Of many objects: the least of each, and where.
 std::string least_text(const std::vector<trial::ArmStrength>& strengths) {
-  const auto least = [&](double trial::ArmStrength::*of, double unit, const char* label) {
+  const auto least = [&](double trial::ArmStrength::*of) {
     const auto at = std::min_element(strengths.begin(), strengths.end(),
                                      [&](const auto& a, const auto& b) { return a.*of < b.*of; });
-    return fmt::format("{:.2f} {} ('{}')", (*at).*of / unit, label, at->object);
+    return fmt::format("{:.2f} N ('{}')", (*at).*of, at->object);
   };
-  return fmt::format("  the weakest object: up to {}, for hours {}; the least of the stiffest springs: {}\n",
-                     least(&trial::ArmStrength::peak, 1.0, "N"),
-                     least(&trial::ArmStrength::lasting, 1.0, "N"),
-                     least(&trial::ArmStrength::stiffest, 1e3, "N/mm"));
+  return fmt::format("  the weakest object: up to {}, for hours {}\n", least(&trial::ArmStrength::peak),
+                     least(&trial::ArmStrength::lasting));
 }
 
 // A line for each object that somebody presses to a depth, or that is beyond the arm; for all where they are
@@ -194,7 +187,7 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
         fmt::format("{}, {:g} N/mm when it is touched, {:.3g} times the gain in free space",
                     word_of(object.interaction.kind), stiffness * 1e-3, stiffness / law.rig.stiffness));
   }
-  return lines_of(said) + strengths_text(trial::limits_of(setup, scene).strengths) +
+  return lines_of(said) + strengths_text(trial::strengths_of(setup, scene)) +
          fmt::format(
              "  law: {:g} N/m, {:g} N s/m, damping ratio {:.2f} for the {:.1f} g that are felt at the tip\n"
              "  pushes with up to {:g} N, for hours {:g} N\n"
@@ -217,9 +210,10 @@ int check(const CheckOptions& options) {
     fmt::print("{}\n{}", models::printable(made), models::built_scene(setup));
     return 0;
   }
-  fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}", setup.scene.title, parts_text(setup),
+  fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}{}", setup.scene.title, parts_text(setup),
              devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup),
-             frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene));
+             frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
+             stability_text(setup, trial::certificates_of(setup, scene, true)));
   return 0;
 }
 

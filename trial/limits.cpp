@@ -5,13 +5,17 @@
 
 #include <fmt/format.h>
 
-#include "core/machine/steadiness.h"
-
 namespace enc::trial {
 namespace {
 
-PressPoint touched_point(const models::Setup& setup, const Scene& scene, std::size_t i, bool pressed) {
-  if (pressed) return press_point(setup.scene, *setup.scene.user);
+bool is_pressed(const models::Setup& setup, std::size_t i) {
+  const std::optional<UserSpec>& user = setup.scene.user;
+  return user && user->kind == UserKind::press_release &&
+         pressed_object(setup.scene.objects, user->object, "user") == i;
+}
+
+PressPoint touched_point(const models::Setup& setup, const Scene& scene, std::size_t i) {
+  if (is_pressed(setup, i)) return press_point(setup.scene, *setup.scene.user);
   const Object& object = scene.objects[i];
   const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
   return {object.X_WO * near.point, object.X_WO * near.normal};
@@ -33,20 +37,13 @@ ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::siz
   const Impedance& law = *scene.impedance();
   const Object& object = scene.objects[i];
   const std::optional<UserSpec>& user = setup.scene.user;
-  const bool pressed = user && user->kind == UserKind::press_release &&
-                       pressed_object(setup.scene.objects, user->object, "user") == i;
-  const PressPoint at = touched_point(setup, scene, i, pressed);
-  PerJoint q = law.arm.zero();
-  static_cast<void>(law.arm.inverse(scene.X_WR.inverse() * at.point, q));
+  const bool pressed = is_pressed(setup, i);
+  const TouchedPlace at = touched_place(setup, scene, i);
+  const PerJoint& q = at.joints;
   const PerJoint held = law.arm.gravity(q, law.prop_mass, Payload::exact);
-  const Vec<'R'> out = scene.X_WR.inverse() * at.normal;
+  const Vec<'R'>& out = at.way;
   const Motors::Strength strength = law.motors.strength(law.arm, q, held, out);
-  ArmStrength found{
-      setup.scene.objects[i].name, strength.peak, strength.lasting,
-      stiffest(law.rig, law.arm.felt_mass(law.arm.jacobian(q), law.arm.mass(q, law.prop_mass), out),
-               scene.dt)};
-  const double floor = object.interaction.kind == Interaction::click ? object.interaction.floor : 0.0;
-  found.stiffness = std::max(std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness, floor);
+  ArmStrength found{setup.scene.objects[i].name, strength.peak, strength.lasting};
   if (!pressed || object.interaction.kind == Interaction::passive) return found;
   const double deepest =
       user->depths.empty() ? user->depth : *std::max_element(user->depths.begin(), user->depths.end());
@@ -61,55 +58,31 @@ ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::siz
   return found;
 }
 
-// How quickly the scene's own hand pushes; a real one pushes as quickly as it likes.
-double ramp_of(const models::Setup& setup) {
-  const std::optional<UserSpec>& user = setup.scene.user;
-  if (setup.scene.pusher) return std::min(Steadiness::kSlow, setup.scene.pusher->ramp_time);
-  if (user && !user->session && !user->reaches) return std::min(Steadiness::kSlow, user->press_time);
-  return Steadiness::kQuick;
-}
+}  // namespace
 
-std::vector<Unsteady> unsteady_objects(const models::Setup& setup, const Scene& scene) {
-  std::vector<Unsteady> found;
-  if (scene.impedance() || !scene.has_force) return found;
-  const Steadiness loop(setup.rig);
-  const double ramp = ramp_of(setup);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    if (std::isnan(object.limit)) continue;  // real
-    const Steadiness::Worst worst = loop.worst(object.response, object.limit, ramp);
-    if (worst.swing > 0.0) found.push_back({setup.scene.objects[i].name, worst.depth, worst.swing, ramp});
+TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t i) {
+  TouchedPlace found{touched_point(setup, scene, i), {}, {}};
+  if (const Impedance* law = scene.impedance()) {
+    found.joints = law->arm.zero();
+    static_cast<void>(law->arm.inverse(scene.X_WR.inverse() * found.at.point, found.joints));
+    found.way = scene.X_WR.inverse() * found.at.normal;
   }
   return found;
 }
 
-std::vector<ArmStrength> arm_strengths(const models::Setup& setup, const Scene& scene) {
+double stiffest_asked(const Impedance& law, const Object& object) {
+  const double floor = object.interaction.kind == Interaction::click ? object.interaction.floor : 0.0;
+  return std::max(std::isnan(object.stiffness) ? law.rig.stiffness : object.stiffness, floor);
+}
+
+std::vector<ArmStrength> strengths_of(const models::Setup& setup, const Scene& scene) {
   std::vector<ArmStrength> found;
   if (scene.impedance())
     for (std::size_t i = 0; i < scene.objects.size(); ++i) found.push_back(strength_at(setup, scene, i));
   return found;
 }
 
-}  // namespace
-
-Limits limits_of(const models::Setup& setup, const Scene& scene) {
-  return {unsteady_objects(setup, scene), arm_strengths(setup, scene)};
-}
-
-std::string unsteady_text(const models::Setup& setup, const Unsteady& object) {
-  return fmt::format(
-      "object '{}', pushed {:.1f} mm deep in {:g} s by a hand of {:g} N/mm, swings by {:.1f} mm: it is "
-      "softer "
-      "than this machine holds still; make it stiffer, or set rig.admittance.damping=observed",
-      object.object, object.depth * 1e3, object.ramp, setup.rig.contact.hand_stiffness * 1e-3,
-      object.swing * 1e3);
-}
-
 std::string beyond_text(const ArmStrength& at) {
-  if (at.stiffness > at.stiffest)
-    return fmt::format(
-        "object '{}' asks for {:g} N/mm, and the law rings from {:.2f} N/mm on; make it softer", at.object,
-        at.stiffness * 1e-3, at.stiffest * 1e-3);
   if (at.asked > at.peak)
     return fmt::format(
         "object '{}' is pressed with {:.2f} N, and there the motors push with at most {:.2f} N; press "

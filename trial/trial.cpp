@@ -11,6 +11,7 @@
 #include "core/task/measure/probe.h"
 #include "sim/clock.h"
 #include "trial/camera/vision.h"
+#include "trial/certificates.h"
 #include "trial/limits.h"
 #include "trial/prepare.h"
 
@@ -40,11 +41,10 @@ double pace_of(const TrialOptions& options, bool wall) {
 
 // What a simulated machine only says, a real one does not begin (sources/choices 15).
 void refuse_limits(const models::Setup& setup, const Scene& scene) {
-  const Limits limits = limits_of(setup, scene);
-  for (const Unsteady& object : limits.unsteady)
-    throw Error(models::place_of(setup, "object." + object.object + ".behaviour") + ": " +
-                unsteady_text(setup, object) + "; a real machine is not armed for it");
-  for (const ArmStrength& at : limits.strengths)
+  for (const Certified& one : certificates_of(setup, scene))
+    if (const std::string why = refusal_text(setup, one); !why.empty())
+      throw Error(models::place_of(setup, key_of(one)) + ": " + why + "; a real machine is not armed for it");
+  for (const ArmStrength& at : strengths_of(setup, scene))
     if (const std::string beyond = beyond_text(at); !beyond.empty())
       throw Error(models::place_of(setup, "object." + at.object + ".behaviour") + ": " + beyond +
                   "; a real machine is not armed for it");

@@ -16,6 +16,7 @@
 #include "app/run/run_report.h"
 #include "app/run/stop_signals.h"
 #include "app/run/verdict.h"
+#include "app/stability_text.h"
 #include "core/error.h"
 #include "models/files.h"
 #include "trial/measure/press_measure.h"
@@ -68,7 +69,7 @@ struct Recording {
 };
 
 std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup,
-                                      const Scene& scene) {
+                                      const Scene& scene, const std::vector<trial::Certified>& certificates) {
   if (options.record.empty()) return nullptr;
   for (const std::string& path : {options.record, options.record + ".part"}) refuse_output(path);
   RecordTexts texts = models::record_texts(setup);
@@ -76,7 +77,17 @@ std::unique_ptr<Recording> record_for(const RunOptions& options, const models::S
   texts["rig"] = setup.rig_path;
   texts["seed"] = std::to_string(options.seed);
   texts["version"] = ENCOUNTER_VERSION;
+  texts["stability"] = stability_lines(certificates);
   return std::make_unique<Recording>(options, texts, scene);
+}
+
+// Said before anything moves.
+std::vector<std::string> beyond(const models::Setup& setup,
+                                const std::vector<trial::Certified>& certificates) {
+  std::vector<std::string> lines;
+  for (const trial::Certified& one : certificates)
+    if (one.beyond()) lines.push_back("beyond what is stable: " + trial::refusal_text(setup, one));
+  return lines;
 }
 
 int diverged(const trial::TrialResult& result, const models::Setup& setup) {
@@ -116,14 +127,16 @@ int run(const RunOptions& options) {
   if (terminal) trial_options.progress = show_progress;
   trial::Trial trial(
       setup, trial_options);  // everything that can be refused is refused here, before a record is begun
-  const std::unique_ptr<Recording> record = record_for(options, setup, trial.scene());
+  const std::vector<trial::Certified> certificates = trial::certificates_of(setup, trial.scene());
+  const std::unique_ptr<Recording> record = record_for(options, setup, trial.scene(), certificates);
   print_notes(setup.notes);  // of a scene that is not refused
+  print_notes(beyond(setup, certificates));
   trial.record_to(record ? &record->writer : nullptr);
   const double started = cpu_seconds();
   const trial::TrialResult result = trial.run();
   if (terminal) fmt::print(stderr, "\r        \r");
 
-  const trial::Limits limits = trial::limits_of(setup, trial.scene());
+  const std::vector<trial::ArmStrength> strengths = trial::strengths_of(setup, trial.scene());
   RunReport report{setup,
                    trial.scene(),
                    result,
@@ -132,7 +145,8 @@ int run(const RunOptions& options) {
                    fingers,
                    touches,
                    seen,
-                   limits,
+                   strengths,
+                   certificates,
                    options,
                    !options.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0,
                    trial.has_world() ? trial.world().physics().elements() : 0,

@@ -63,6 +63,38 @@ Json pushes_json(const trial::ProbeMeasure& measure) {
   return list;
 }
 
+Json rows_json(const std::vector<certificate::Row>& rows) {
+  Json all = Json::array();
+  for (const certificate::Row& row : rows)
+    all.push_back({{"name", row.name},
+                   {"from_N_per_m", number(row.low)},
+                   {"to_N_per_m", number(row.bound)},
+                   {"margin", number(row.margin)},
+                   {"applies", row.applies}});
+  return all;
+}
+
+Json stability_json(const std::vector<trial::Certified>& certificates) {
+  Json all = Json::array();
+  for (const trial::Certified& one : certificates) {
+    const certificate::Certificate& of = one.certificate;
+    Json json{{"object", one.object},
+              {"class", word_of(of.verdict)},
+              {"beyond", one.beyond()},
+              {"asked_N_per_m", number(one.asked)},
+              {"rows", rows_json(of.rows)}};
+    if (one.unknown()) json["missing"] = of.missing;
+    if (std::isnan(one.ramp)) {
+      json["let_go_0.1_mm"] = word_of(of.small.rest);
+      json["let_go_1_mm"] = word_of(of.large.rest);
+    } else {
+      json["swings_mm"] = one.swing * 1e3;
+    }
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
 Json times_json(const std::vector<std::uint32_t>& ns) {
   const StepTimes times = step_times(ns);
   return {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
@@ -130,6 +162,7 @@ std::string run_json(const RunReport& r) {
   json["step_ns"] = times_json(r.result.step_ns);
   if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns);
   if (r.result.vision.frames > 0) json["vision"] = vision_json(r.result.vision);
+  json["stability"] = stability_json(r.certificates);
   json["simulated_s"] = r.result.simulated;
   json["wall_s"] = r.result.wall;
   json["times_real_time"] = number(r.result.simulated / r.result.wall);

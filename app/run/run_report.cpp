@@ -8,6 +8,7 @@
 
 #include "app/built.h"
 #include "app/process.h"
+#include "app/stability_text.h"
 #include "models/order_statistics.h"
 
 namespace enc::app {
@@ -278,9 +279,10 @@ std::string run_text(const RunReport& r) {
                         r.result.lateness.total, r.result.lateness.times);
   if (r.result.interrupted) text += "stopped     by a signal, before its end\n";
   text += weak_text(r.setup, r.scene);
-  for (const trial::Unsteady& object : r.limits.unsteady)
-    text += "unsteady    " + trial::unsteady_text(r.setup, object) + "\n";
-  for (const trial::ArmStrength& at : r.limits.strengths)
+  text += stability_lines(r.certificates);
+  for (const trial::Certified& one : r.certificates)
+    if (one.beyond()) text += "beyond      " + trial::refusal_text(r.setup, one) + "\n";
+  for (const trial::ArmStrength& at : r.strengths)
     if (const std::string beyond = trial::beyond_text(at); !beyond.empty())
       text += "beyond      " + beyond + "\n";
   text += press_lines(r) + push_lines(r) + pushed_lines(r);

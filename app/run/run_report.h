@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/options.h"
+#include "trial/certificates.h"
 #include "trial/limits.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/press_measure.h"
@@ -24,7 +25,8 @@ struct RunReport {
   const trial::FingerMeasure& fingers;
   const trial::TouchMeasure& touches;
   const trial::SeenMeasure& seen;
-  const trial::Limits& limits;
+  const std::vector<trial::ArmStrength>& strengths;
+  const std::vector<trial::Certified>& certificates;
   const RunOptions& asked;
   bool whole = true;     // not cut off by --for-s, a signal, a full disk or physics that diverged
   int elements = 0;      // of the simulated world

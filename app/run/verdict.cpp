@@ -152,10 +152,12 @@ void add_moved(const RunReport& r, Lines& lines) {
                   rounded(mm.y()), rounded(mm.z()), 1e3 * found.error, unknown));
 }
 
-void add_ringing(const RunReport& r, Lines& lines) {
+// What is beyond its bound was rendered: a contact with the object, of whichever none is known.
+void add_unstable(const RunReport& r, Lines& lines) {
   if (r.result.contacts == 0) return;
-  for (const trial::ArmStrength& at : r.limits.strengths)
-    if (at.stiffness > at.stiffest) lines.push_back(trial::beyond_text(at));
+  for (const trial::Certified& one : r.certificates)
+    if (one.beyond() && (std::isnan(one.ramp) || one.certificate.verdict == certificate::Class::unstable))
+      lines.push_back("rendered beyond what is stable: " + trial::refusal_text(r.setup, one));
 }
 
 }  // namespace
@@ -163,7 +165,7 @@ void add_ringing(const RunReport& r, Lines& lines) {
 std::vector<std::string> crossed(const RunReport& report) {
   Lines lines;
   add_motors(report, lines);
-  add_ringing(report, lines);
+  add_unstable(report, lines);
   add_swings(report, lines);
   add_empty(report, lines);
   add_untouched(report, lines);

@@ -77,13 +77,14 @@ Steadiness::Steadiness(const RigSpec& rig)
     law_.emplace(rig.admittance, loop_, filter_gain_, stages::kAlongShare * acceleration_, dt_);
 }
 
-double Steadiness::swing(const Response& object, double depth, double limit, double ramp) const {
+double Steadiness::swing(const Response& object, double depth, double limit, double ramp,
+                         double share) const {
   // The servo's period in no less than 40 steps; 1 ms in no less than 4.
   const auto steps = static_cast<int>(std::ceil(dt_ * std::max(4e3, 40.0 * loop_.servo_hz)));
   const double h = dt_ / steps;
   const auto late = static_cast<std::size_t>(std::max<std::int64_t>(1, std::llround(loop_.delay / dt_)));
   std::vector<double> sent(late, 0.0);
-  const double way = depth + object.press(depth) / loop_.hand_stiffness + kWaits;
+  const double way = depth + share * object.press(depth) / loop_.hand_stiffness + kWaits;
   const auto ticks = static_cast<std::size_t>((ramp + kHold) / dt_);
   const auto watched = static_cast<std::size_t>((ramp + kHold - kWatched) / dt_);
   Machine machine;
@@ -101,14 +102,16 @@ double Steadiness::swing(const Response& object, double depth, double limit, dou
                         loop_.hand_damping * (way * hand.v / ramp - machine.speed);
     force += filter_gain_ * (std::max(0.0, push) + noise() * contact_ / kOverNoise - force);
     if (!seen && force > contact_)
-      seen = law_ ? law_->begin(object.press(1e-3 * limit) / (1e-3 * limit), force, machine.at) : Swing{};
+      seen = law_ ? law_->begin(share * object.press(1e-3 * limit) / (1e-3 * limit), force, machine.at)
+                  : Swing{};
     const double pressed = std::max(0.0, force - threshold_);
     double target = 0.0;
     if (seen) {
-      carried =
-          law_ ? law_->carry(object, at, carried, pressed, law_->observe(*seen, force, machine.at), limit)
-               : pressed;
-      target = object.deflection(at, carried, limit);
+      // All that pushes on it, and so what the damper beside it takes, is as much more to a softer object.
+      carried = law_ ? share * law_->carry(object, at, carried / share, pressed / share,
+                                           law_->observe(*seen, force, machine.at) / share, limit)
+                     : pressed;
+      target = object.deflection(at, carried / share, limit);
     }
     command.go(target, acceleration_, speed_, dt_);
     due = command.at;
@@ -121,13 +124,33 @@ double Steadiness::swing(const Response& object, double depth, double limit, dou
 
 double Steadiness::still() const { return std::max(kStill, threshold_ * kMargin / loop_.hand_stiffness); }
 
-Steadiness::Worst Steadiness::worst(const Response& object, double limit, double ramp) const {
+Steadiness::Worst Steadiness::worst(const Response& object, double limit, double ramp, double share) const {
   Worst worst;
-  for (const double share : {1.0, 0.75, 0.5, 0.25}) {
-    const double here = swing(object, share * limit, limit, ramp);
-    if (here > kCareful * still() && here > worst.swing) worst = {share * limit, here};
+  for (const double part : {1.0, 0.75, 0.5, 0.25}) {
+    const double here = swing(object, part * limit, limit, ramp, share);
+    if (here > kCareful * still() && here > worst.swing) worst = {part * limit, here};
   }
   return worst;
+}
+
+double Steadiness::least_share(const Response& object, double limit, double ramp) const {
+  constexpr double kNear = 1.05;
+  const auto stands = [&](double share) {
+    for (const double part : {1.0, 0.75, 0.5, 0.25})
+      if (swing(object, part * limit, limit, ramp, share) > kCareful * still()) return false;
+    return true;
+  };
+  double high = 1.0, low = 0.5;
+  while (stands(low)) {
+    if (low <= kLeastShare) return low;
+    high = low;
+    low *= 0.5;
+  }
+  while (high / low > kNear) {
+    const double middle = std::sqrt(low * high);
+    (stands(middle) ? high : low) = middle;
+  }
+  return high;
 }
 
 double Steadiness::softest(double depth, double force, double ramp) const {

@@ -29,13 +29,18 @@ class Steadiness {
   explicit Steadiness(const RigSpec& rig);
 
   // m, peak to peak, of the tip in the last 3 s of a hold of 6 s. `depth`: that the hand wants, m; `limit`:
-  // of the object's deflection, m; `ramp`: s.
-  [[nodiscard]] double swing(const Response& object, double depth, double limit, double ramp) const;
+  // of the object's deflection, m; `ramp`: s. `share`: of the force that it pushes back with.
+  [[nodiscard]] double swing(const Response& object, double depth, double limit, double ramp,
+                             double share = 1.0) const;
   // The depth at which it swings most, of a few up to the limit; 0: it stands still at each.
   struct Worst {
     double depth = 0.0, swing = 0.0;  // m
   };
-  [[nodiscard]] Worst worst(const Response& object, double limit, double ramp) const;
+  [[nodiscard]] Worst worst(const Response& object, double limit, double ramp, double share = 1.0) const;
+  // How much softer the same object may be and stands still: the least share of its force, of all or less.
+  // 1: none less does, or it does not stand still itself; kLeastShare: each that was tried.
+  static constexpr double kLeastShare = 1.0 / 64.0;
+  [[nodiscard]] double least_share(const Response& object, double limit, double ramp) const;
   // N/m: what is softer pushes back with less than a contact is, `depth` m deep.
   [[nodiscard]] double least_felt(double depth) const { return contact_ / depth; }
   // N/m, no less than that: from this stiffness on a spring stands still, pushed until it is up to `depth`

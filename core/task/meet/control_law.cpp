@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/task/meet/arm_loop.h"
 #include "core/task/meet/finger.h"
 
 namespace enc::stages {
@@ -42,12 +43,6 @@ bool stays(const State& state, const Point<'W'>& tip, bool rests, const Vec3& er
 double fading(const Impedance& law, const Aim& now, double dt) {
   constexpr double kFades = 0.05;  // s, to 1/e
   return law.rig.gravity == GravityForm::exact && !now.slipped ? 1.0 / (1.0 + dt / kFades) : 1.0;
-}
-
-// K_v of eq. 2 with the ratio that it has at home: back towards its base the tip is felt to be twice as
-// heavy.
-double damping_at(const Impedance& law, double mass) {
-  return law.rig.damping * std::sqrt(std::clamp(mass / law.home_mass, 1.0, 4.0));
 }
 
 // Of the second derivative of e [eq. 2] only the target's own is known: the force that it takes to go along.

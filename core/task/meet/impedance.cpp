@@ -34,41 +34,6 @@ double corner_frequency(double a, double dt) {
                        : 0.5 / dt;  // passes half or more of everything that a tick can carry
 }
 
-namespace {
-
-// Whether a tip that is let go beside its target comes to rest.
-bool settles(const ArmRig& rig, double gain, double mass, double dt) {
-  constexpr int kTicks = 2000, kBegun = 200;
-  const double a = 2.0 * std::numbers::pi * rig.filter * dt;
-  double x = 1.0, v = 0.0, error = 0.0, rate = 0.0, early = 0.0, late = 0.0;
-  double seen[2] = {1.0, 1.0};  // one and two ticks ago
-  for (int i = 0; i < kTicks; ++i) {
-    error = low_pass(a, -x, error);
-    rate = low_pass(a, -(x - seen[1]) / (2.0 * dt), rate);
-    seen[1] = seen[0];
-    seen[0] = x;
-    const double push = gain * (rig.stiffness * error + rig.damping * rate) / mass;
-    x += dt * v + 0.5 * dt * dt * push;
-    v += dt * push;
-    if (!(std::abs(x) < 1e6)) return false;
-    double& most = i < kTicks / 2 ? early : late;
-    if (i >= kBegun) most = std::max(most, std::abs(x));
-  }
-  return late < early || late < 1e-9;
-}
-
-}  // namespace
-
-double stiffest(const ArmRig& rig, double mass, double dt) {
-  double low = 0.3, high = 1e3;  // gains
-  if (!settles(rig, low, mass, dt)) return 0.0;
-  while (high / low > 1.001) {
-    const double middle = std::sqrt(low * high);
-    (settles(rig, middle, mass, dt) ? low : high) = middle;
-  }
-  return low * rig.stiffness;
-}
-
 Mat3 gain_matrix(const Vec3& normal, double across, double along) {
   return across * Mat3::Identity() + (along - across) * (normal * normal.transpose());
 }

@@ -23,11 +23,6 @@ namespace enc {
 // Lambda = R diag R^T [eq. 7] about a unit normal: `along` on it, `across` at right angles to it.
 [[nodiscard]] Mat3 gain_matrix(const Vec3& normal, double across, double along);
 
-// N/m: the stiffest spring along a way on which the tip weighs `mass` that does not ring where nobody touches
-// it. A gain scales K_v as well as K_p, and its loop goes first: mass, filter of eq. 3, rates from the
-// encoders of two ticks, force that stays for one.
-[[nodiscard]] double stiffest(const ArmRig& rig, double mass, double dt);
-
 // An arm, its prop and its law.
 struct Impedance {
   Arm arm{ArmMachine{}};

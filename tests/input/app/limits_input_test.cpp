@@ -1,5 +1,7 @@
 // What is beyond a limit: said before, said afterwards with exit code 1, and refused where a real machine is
 // armed.
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -8,11 +10,13 @@
 
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Words = std::vector<std::string>;
@@ -35,8 +39,9 @@ const Words kSoft{"behaviour.spring.stiffness_N_per_mm=0.15", "truth.pusher.stif
 TEST(Limits, ALimitCycleIsNamed) {
   const Result run = run_program(with({"run", scene("stiffness")}, kSoft));
   EXPECT_EQ(run.code, 1) << run.out;
-  EXPECT_THAT(run.out,
-              AllOf(HasSubstr("unsteady    object 'wall'"), HasSubstr("LIMIT       object 'wall' swung")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("stability   object 'wall': locally stable, at 0.15 N/mm"),
+                             HasSubstr("beyond      object 'wall', pushed"),
+                             HasSubstr("LIMIT       object 'wall' swung")));
   const Result damped =
       run_program(with(with({"run", scene("stiffness")}, kSoft), {"rig.admittance.damping=observed"}));
   EXPECT_EQ(damped.code, 0) << damped.out;
@@ -45,9 +50,10 @@ TEST(Limits, ALimitCycleIsNamed) {
 TEST(Limits, CheckNamesTheSoftestSpringAndWhatIsSofter) {
   const Result check = run_program(with({"check", scene("stiffness")}, kSoft));
   EXPECT_EQ(check.code, 0);
-  EXPECT_THAT(check.out, AllOf(HasSubstr("UNSTEADY: object 'wall'"),
-                               HasSubstr("softest spring that stands still: 0.36"), HasSubstr(", 0.59")));
-  EXPECT_THAT(run_program({"check", scene("tennis_ball")}).out, Not(HasSubstr("UNSTEADY")));
+  EXPECT_THAT(check.out, AllOf(HasSubstr("BEYOND: object 'wall', pushed"),
+                               HasSubstr("softest spring that stands still: 0.36"), HasSubstr(", 0.59"),
+                               ContainsRegex("admittance +from 0.106 ")));
+  EXPECT_THAT(run_program({"check", scene("tennis_ball")}).out, Not(HasSubstr("BEYOND")));
 }
 
 TEST(Limits, APressBeyondTheMotorsIsSaidBeforeAndAfter) {
@@ -65,10 +71,50 @@ TEST(Limits, APressBeyondTheMotorsIsSaidBeforeAndAfter) {
 }
 
 TEST(Limits, AWallThatNoLawHoldsIsNamed) {
-  const Result run =
-      run_program(with({"run", scene("wall"), "--json"}, {"behaviour.phantom_wall.stiffness_N_per_mm=1000"}));
+  const Words hard{"behaviour.phantom_wall.stiffness_N_per_mm=1000"};
+  const Result run = run_program(with({"run", scene("wall"), "--json"}, hard));
   EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.out, HasSubstr("the law rings from"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("rendered beyond what is stable: object 'wall' asks for 1e+03 N/mm"),
+                             HasSubstr("\"class\": \"unstable\"")));
+  EXPECT_THAT(run.err, HasSubstr("beyond what is stable: object 'wall'")) << "before it moves";
+  const Result check = run_program(with({"check", scene("wall")}, hard));
+  EXPECT_EQ(check.code, 0);
+  EXPECT_THAT(check.out, AllOf(HasSubstr("BEYOND: object 'wall' asks for 1e+03 N/mm and is unstable"),
+                               HasSubstr("make it softer")));
+}
+
+TEST(Limits, CheckTellsTheClassAndEachBound) {
+  const Result check = run_program({"check", scene("wall")});
+  EXPECT_THAT(check.out, AllOf(HasSubstr("object 'wall': stable alone, at 0.6 N/mm"),
+                               ContainsRegex("colgate_schenkel +to [0-9.]+ "),
+                               ContainsRegex("exact_with_hand +to [0-9.]+ "),
+                               Not(HasSubstr("BEYOND: object 'wall' asks"))));
+  const Result run = run_program({"run", scene("wall"), "--for-s", "0.1"});
+  EXPECT_THAT(run.out, HasSubstr("stability   the tip that nobody touches"));
+  EXPECT_EQ(run.code, 0) << run.out;
+}
+
+TEST(Limits, ARigThatDoesNotSayWhatItLosesHasNoCertificate) {
+  const test::TemporaryFolder folder;
+  const std::string rig = folder.file("rig.toml");
+  std::ifstream shipped(std::string(ENCOUNTER_SOURCE_DIR) + "/models/rigs/vishap.toml");
+  std::string text{std::istreambuf_iterator<char>(shipped), {}};
+  const std::size_t from = text.find("[arm.loop]");
+  text.erase(from, text.find("[arm.machine]") - from);
+  std::ofstream(rig) << text;
+  const Result check = run_program({"check", scene("wall"), "--rig", rig});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_THAT(check.out, AllOf(HasSubstr("unknown: no damping"), HasSubstr("write [arm.loop] into the rig")));
+  EXPECT_EQ(run_program({"run", scene("wall"), "--rig", rig}).code, 0) << "a twin runs";
+}
+
+TEST(Limits, WhatALoopCannotBeIsRefused) {
+  for (const char* set : {"rig.arm.loop.delay_ms=-1", "rig.arm.loop.delay_ms=nan", "rig.loop.rate_hz=0",
+                          "rig.arm.loop.viscous_Nms=[0, -1, 0]", "rig.arm.loop.counts=[0, 0, 0]"}) {
+    const Result check = run_program(with({"check", scene("wall")}, {set}));
+    EXPECT_EQ(check.code, 2) << set;
+    EXPECT_THAT(check.err, HasSubstr("expected")) << set;
+  }
 }
 
 TEST(Limits, ContactsInWhichNothingIsFeltAreNamed) {

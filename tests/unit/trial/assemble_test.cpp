@@ -64,6 +64,29 @@ TEST_F(Assemble, AnArmedMachineIsNotGivenWhatItCannotHoldStill) {
   }
 }
 
+TEST_F(Assemble, AnArmIsNotArmedForWhatItDoesNotHoldOrMayNot) {
+  TrialOptions armed = options();
+  armed.armed = true;
+  const auto refused = [&](models::Setup setup) -> std::string {
+    setup.rig.arm.driver = "sample";
+    try {
+      Trial(setup, armed);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "armed";
+  };
+  EXPECT_THAT(refused(scene("wall", {"behaviour.phantom_wall.stiffness_N_per_mm=5"})),
+              testing::AllOf(testing::HasSubstr("object 'wall'"), testing::HasSubstr("make it softer"),
+                             testing::HasSubstr("not armed")));
+  models::Setup silent = scene("wall");
+  silent.rig.arm.loop.reset();
+  EXPECT_THAT(refused(silent),
+              testing::AllOf(testing::HasSubstr("no damping"), testing::HasSubstr("not armed")));
+  EXPECT_THAT(refused(scene("wall")), testing::HasSubstr("cold motors"))
+      << "its certificate is none in the way";
+}
+
 TEST_F(Assemble, WithoutASimulatedSlotThereIsNoWorldAndTimeIsTheWalls) {
   int looks = 0;
   TrialOptions made = options();

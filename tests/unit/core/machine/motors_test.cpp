@@ -124,20 +124,5 @@ TEST(Motors, TheShareKeepsEachMotorWithinWhatItHas) {
   EXPECT_EQ(limit, MotorLimit::heat);
 }
 
-// docs/reference/plane_button.md has the eigenvalues of the same loop: 1213 to 2378 N/m.
-TEST(Motors, TheStiffestSpringIsThatOfTheDocumentedLoop) {
-  ArmRig rig;
-  rig.stiffness = 300.0;
-  rig.damping = 11.5;
-  const auto near = [&](double filter, double mass, double wanted) {
-    rig.filter = filter;
-    EXPECT_NEAR(stiffest(rig, mass, kTick), wanted, 0.05 * wanted) << filter << " Hz, " << mass << " kg";
-  };
-  near(30.0, 0.047, 1056.0);
-  near(60.0, 0.054, 1352.0);
-  near(60.0, 0.067, 1677.0);
-  near(120.0, 0.095, 2575.0);
-}
-
 }  // namespace
 }  // namespace enc
