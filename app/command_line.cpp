@@ -92,9 +92,13 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   replay_command->callback([&] { code = replay(replay_options); });
 
   ExportOptions export_options;
-  CLI::App* export_command =
-      app.add_subcommand("export", "a record as a table: tip, force, deflection of every tick (CSV)");
-  export_command->add_option("record", export_options.record, "file written by run --record")->required();
+  CLI::App* export_command = app.add_subcommand(
+      "export",
+      "a record as a table: tip, force, deflection of every tick (CSV); or a scene as MuJoCo has it");
+  export_command->add_option("record", export_options.record, "file written by run --record, or a scene")
+      ->required();
+  export_command->add_option("xml", export_options.xml,
+                             "of a scene: file to write, MJCF, which MuJoCo's simulate opens");
   export_command->add_option("--csv", export_options.csv, "file to write; -: standard output")
       ->capture_default_str()
       ->check(unnamed);

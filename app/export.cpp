@@ -1,6 +1,7 @@
 // A record as a table, for programs that know nothing of Encounter (docs/guide/rig.md). Row by row: a long
 // record is never in memory as a whole.
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -10,6 +11,7 @@
 #include "app/process.h"
 #include "app/run/stop_signals.h"
 #include "models/files.h"
+#include "trial/assemble.h"
 #include "trial/measure/record_table.h"
 #include "trial/prepare.h"
 
@@ -43,9 +45,21 @@ class Output {
   std::string buffer_;
 };
 
+// The world at its start, with all that is only looked at.
+int export_world(const ExportOptions& options) {
+  const models::Setup setup = models::load(options.record, "");
+  const Scene scene = trial::prepare_setup(setup);
+  const std::unique_ptr<sim::World> world = trial::make_world(setup, scene, 1, true);
+  models::OutFile file(options.xml, models::existing(options.force));
+  file.write(world->physics().xml());
+  file.keep();
+  return 0;
+}
+
 }  // namespace
 
 int export_record(const ExportOptions& options) {
+  if (!options.xml.empty()) return export_world(options);
   models::note_input(options.record);
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);

@@ -43,7 +43,8 @@ struct ReplayOptions {
   bool partial = false;
 };
 struct ExportOptions {
-  std::string record;
+  std::string record;     // or a scene, whose simulated world `xml` shall be
+  std::string xml;        // file; empty: a record is exported
   std::string csv = "-";  // file; "-": standard output
   bool partial = false, force = false;
 };

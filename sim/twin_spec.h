@@ -23,6 +23,17 @@ struct WorldTruth {
       0.005;  // s, of the stop between tool and tip: a hard contact, not a rendered stiffness
 };
 
+// How MuJoCo solves contacts and dry friction.
+enum class Cone : std::uint8_t { elliptic, pyramidal };
+constexpr auto words(Cone) { return enum_words("elliptic", "pyramidal"); }
+struct SolverTruth {
+  Cone cone = Cone::elliptic;
+  double impratio = 20.0;     // of friction's impedance to that of the stop: friction that does not creep
+  double noslip = kUnset;     // steps of the pass that takes out creep; unset: 4, and none with an arm
+  double iterations = 100.0;  // of Newton's method, at most
+  double tolerance = 1e-8;    // where it ends
+};
+
 // Where camera and sensor really are. The rig file has what is believed.
 struct FramesTruth {
   PoseSpec W_C{{0.0, -0.9, 0.6}, {0, 0, 0}};
@@ -93,6 +104,7 @@ struct Stepping {
 
 struct TwinSpec {
   WorldTruth world;
+  SolverTruth solver;
   FramesTruth frames;
   HexapodTruth hexapod;
   StructureTruth structure;

@@ -95,7 +95,7 @@ std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& sc
             at.asked, !damped, "[VHMR Fig 3], docs/reference/model.md");
     if (whole)
       add_large(loop, object, ramp, worst.swing == 0.0, "large_signal",
-                "all of it softer: pushed as this scene does, with all limits, it stands still", at);
+                "all of it softer, down to half: pushed as this scene does, with all limits, it stands still", at);
     found.push_back(std::move(at));
   }
   return found;

@@ -178,6 +178,7 @@ void run(Bench& bench) {
   add_linear_cases(bench);
   add_integrators(bench);
   add_regions(bench);
+  add_scenes(bench);
 }
 
 const Entry kEntry{"stability", "a slide with a wall",

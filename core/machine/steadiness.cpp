@@ -134,18 +134,14 @@ Steadiness::Worst Steadiness::worst(const Response& object, double limit, double
 }
 
 double Steadiness::least_share(const Response& object, double limit, double ramp) const {
-  constexpr double kNear = 1.05;
+  constexpr double kNear = 1.1;
   const auto stands = [&](double share) {
     for (const double part : {1.0, 0.75, 0.5, 0.25})
       if (swing(object, part * limit, limit, ramp, share) > kCareful * still()) return false;
     return true;
   };
-  double high = 1.0, low = 0.5;
-  while (stands(low)) {
-    if (low <= kLeastShare) return low;
-    high = low;
-    low *= 0.5;
-  }
+  if (stands(kLeastShare)) return kLeastShare;
+  double high = 1.0, low = kLeastShare;
   while (high / low > kNear) {
     const double middle = std::sqrt(low * high);
     (stands(middle) ? high : low) = middle;

@@ -37,9 +37,8 @@ class Steadiness {
     double depth = 0.0, swing = 0.0;  // m
   };
   [[nodiscard]] Worst worst(const Response& object, double limit, double ramp, double share = 1.0) const;
-  // How much softer the same object may be and stands still: the least share of its force, of all or less.
-  // 1: none less does, or it does not stand still itself; kLeastShare: each that was tried.
-  static constexpr double kLeastShare = 1.0 / 64.0;
+  // How much softer an object that stands still may be and does: the least share of its force, down to half.
+  static constexpr double kLeastShare = 0.5;
   [[nodiscard]] double least_share(const Response& object, double limit, double ramp) const;
   // N/m: what is softer pushes back with less than a contact is, `depth` m deep.
   [[nodiscard]] double least_felt(double depth) const { return contact_ / depth; }

@@ -27,6 +27,18 @@ void describe(Visitor& v, sim::WorldTruth& w) {
       &w.contact_time);
 }
 
+void describe(Visitor& v, sim::SolverTruth& s) {
+  choice(v, {"cone", "of friction", "sources/twin 3", chosen}, s.cone);
+  v.value({"impratio", "friction's impedance over that of the stop", "sources/twin 3", chosen, kPositive},
+          &s.impratio);
+  v.value({"noslip_iterations", "of the pass against creep; unset: 4, and none where there is an arm",
+           "docs/reference/phantom_twin.md", chosen, Range{0.0, 1000.0}, optional},
+          &s.noslip);
+  v.value({"iterations", "of the solver, at most", "sources/twin 3", chosen, Range{1.0, 10000.0}},
+          &s.iterations);
+  v.value({"tolerance", "where the solver ends", "sources/twin 3", chosen, Range{0.0, 1.0}}, &s.tolerance);
+}
+
 void describe(Visitor& v, sim::HexapodTruth& h) {
   choice(v,
          {"form", "control: the pose is prescribed; structural: legs with stiffness carry it",
@@ -338,6 +350,7 @@ void describe(Visitor& v, sim::BallTruth& b) {
 
 void describe(Visitor& v, sim::TwinSpec& t) {
   table(v, "world", [&] { describe(v, t.world); });
+  table(v, "solver", [&] { describe(v, t.solver); });
   table(v, "frames", [&] {
     describe(v, "W_C", t.frames.W_C);
     describe(v, "H_F", t.frames.H_F);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.h"
 #include "sim/bodies/arm_model.h"
@@ -222,6 +223,20 @@ mjtIntegrator integrator_of(const Stepping& stepping) {
   return kOfMujoco[static_cast<std::size_t>(found - kIntegrators.begin())];
 }
 
+// Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds. Not
+// by the last pass where there is an arm: that changes the dry friction of its joints after the contact
+// forces are found, and a pressed finger is let go for a tick whenever the arm begins to slip.
+void set_solver(const ModelParts& parts, mjOption& option) {
+  const SolverTruth& solver = parts.twin.solver;
+  option.cone = solver.cone == Cone::elliptic ? mjCONE_ELLIPTIC : mjCONE_PYRAMIDAL;
+  option.impratio = solver.impratio;
+  option.noslip_iterations = std::isfinite(solver.noslip) ? static_cast<int>(std::lround(solver.noslip))
+                             : parts.scene.arm            ? 0
+                                                          : 4;
+  option.iterations = static_cast<int>(std::lround(solver.iterations));
+  option.tolerance = solver.tolerance;
+}
+
 }  // namespace
 
 SpecPtr build_model(const ModelParts& parts) {
@@ -231,12 +246,7 @@ SpecPtr build_model(const ModelParts& parts) {
   spec->option.timestep = stepping.timestep;
   set3(spec->option.gravity, {0, 0, -9.80665});
   spec->option.integrator = integrator_of(stepping);
-  // Dry friction that does not creep: otherwise a pressed tip crawls off a round haptic-tip within seconds.
-  spec->option.cone = mjCONE_ELLIPTIC;
-  spec->option.impratio = 20.0;
-  // Not with an arm: that pass changes the dry friction of its joints after the contact forces are found, and
-  // a pressed finger is let go for a tick whenever the arm begins to slip.
-  spec->option.noslip_iterations = parts.scene.arm ? 0 : 4;
+  set_solver(parts, spec->option);
   // All its parts hang together: islands would only be looked for (8 % of the run time).
   if (parts.scene.arm) spec->option.disableflags |= mjDSBL_ISLAND;
   if (parts.scene.arm)

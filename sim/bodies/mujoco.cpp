@@ -1,6 +1,7 @@
 #include "sim/bodies/mujoco.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 
@@ -46,6 +47,17 @@ std::string Physics::warning_text() const {
     if (!text.empty()) text += "; ";
     text += mju_warningText(i, static_cast<std::size_t>(data_->warning[i].lastinfo));
   }
+  return text;
+}
+
+std::string Physics::xml() const {
+  std::array<char, 500> why{};
+  const int size = mj_saveXMLString(spec_.get(), nullptr, 0, why.data(), static_cast<int>(why.size()));
+  std::string text(static_cast<std::size_t>(std::max(size, 0)) + 1, '\0');
+  if (mj_saveXMLString(spec_.get(), text.data(), static_cast<int>(text.size()), why.data(),
+                       static_cast<int>(why.size())) != 0)
+    throw Error(std::string("the simulated world has no MJCF: ") + why.data());
+  text.resize(text.find('\0'));
   return text;
 }
 

@@ -45,6 +45,7 @@ class Physics {
     const mjModel& m = *model_;
     return m.nbody + m.njnt + m.ngeom + m.nsite + m.nsensor + m.nu + m.ntendon + m.neq;
   }
+  [[nodiscard]] std::string xml() const;                      // MJCF of it, which MuJoCo's own programs open
   [[nodiscard]] int id(mjtObj type, const char* name) const;  // throws Error when there is none
 
   [[nodiscard]] std::vector<double> save() const;
