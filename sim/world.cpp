@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/rotation.h"
 #include "sim/bodies/model.h"
@@ -31,8 +33,22 @@ Quat pointed(const Vec3& shaft_T, const Vec3& normal) {
 }
 Quat tool_orientation(const ToolSpec& tool, const Vec3& normal) { return pointed(shaft_of(tool), normal); }
 
+// The hand's grip holds a tool by a force that stays for a step: on a lighter one it diverges at once,
+// whatever the integrator. A first-order step is at its limit where 4 m = 2 b h + k h^2.
+void check_weight(const WorldSpec& spec, const ToolSpec& tool) {
+  const double h = spec.twin.stepping(spec.scene.arm.has_value()).timestep;
+  const double least = h * (2.0 * spec.twin.hand.grip_damping + h * spec.twin.hand.grip_stiffness) / 4.0;
+  if (tool.mass > least) return;
+  throw Error(
+      fmt::format("tool '{}' weighs {:g} kg, which the simulated hand cannot hold at a time step of {:g} "
+                  "us; expected more than {:.2g} kg; make it heavier, or the step shorter",
+                  tool.name, tool.mass, 1e6 * h, least),
+      "tool." + tool.name + ".mass");
+}
+
 std::optional<User> make_user(const WorldSpec& spec, const ToolSpec* tool) {
   if (tool == nullptr) return std::nullopt;
+  for (const ToolSpec& one : spec.scene.tools) check_weight(spec, one);
   return User(spec.scene, spec.prepared, spec.twin.hand, spec.seed);
 }
 

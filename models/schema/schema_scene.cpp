@@ -83,7 +83,8 @@ void describe(Visitor& v, ToolSpec& t) {
              {0.0, 500.0, true},
              needed},
             &t.tip_edge);
-  v.value({"mass_kg", "tool with its markers", "sources/hand 1", assumed, kPositive}, &t.mass);
+  constexpr Range kWeighs{1e-6};  // kg: no tool is lighter than a milligram
+  v.value({"mass_kg", "tool with its markers", "sources/hand 1", assumed, kWeighs}, &t.mass);
 }
 
 void describe(Visitor& v, FollowSpec& f) {
