@@ -37,6 +37,7 @@ class Checker {
       number_.resize(mesh_.triangles.size());
       std::iota(number_.begin(), number_.end(), std::size_t{0});
     }
+    if (mesh_.triangles.empty()) fail("there are no faces; expected a closed surface; export the mesh again");
     drop_degenerate();
     check_areas();
     find_neighbours();

@@ -48,6 +48,11 @@ double volume(const Mesh& mesh) {
   return six / 6.0;
 }
 
+TEST_F(MeshFiles, AMeshWithoutFacesIsNoSolid) {
+  EXPECT_THROW((void)check_mesh({}, "m"), Error);
+  EXPECT_THROW((void)check_mesh({tetrahedron().vertices, {}}, "m"), Error);
+}
+
 TEST_F(MeshFiles, WhatIsWrittenIsReadAgain) {
   const Mesh mesh = tetrahedron();
   for (const char* ending : {".glb", ".obj"}) {
