@@ -247,6 +247,9 @@ SpecPtr build_model(const ModelParts& parts) {
   set3(spec->option.gravity, {0, 0, -9.80665});
   spec->option.integrator = integrator_of(stepping);
   set_solver(parts, spec->option);
+  // Looks a step ahead: 5 m/s are 5 mm a step, and the tool would go through the tip. Slower ones keep their
+  // bits.
+  spec->option.enableflags |= mjENBL_SPECULATIVE;
   // All its parts hang together: islands would only be looked for (8 % of the run time).
   if (parts.scene.arm) spec->option.disableflags |= mjDSBL_ISLAND;
   if (parts.scene.arm)

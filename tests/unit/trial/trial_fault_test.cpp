@@ -102,6 +102,31 @@ TEST(TrialFault, ASaturatedForceSensorHoldsUntilItReadsAgain) {
   seen.onlooker.expect_within_limits();
 }
 
+// 5 mm in a tick of 1 ms, and the radii of tool and tip together are 7 mm.
+TEST(TrialFault, AToolAtFiveMetresASecondIsStoppedByTheTip) {
+  double arrives = 0.0, deepest = 0.0;
+  bool over = false;
+  int through = 0;
+  const Seen seen =
+      look(scene("tennis_ball", {"user.approach_mm_s=[5000]", "user.approach_from_mm=1500",
+                                 "user.approach_tilt_deg=0", "user.press_s=1", "user.release_s=1"}),
+           {}, [&](const trial::Glance& g) {
+             const Vec3 apart = (g.truth.tool_tip - g.truth.tip).e();
+             const double radii = g.truth.tool_radius + g.truth.tip_radius;
+             const bool beside = std::hypot(apart.x(), apart.y()) >= radii;
+             if (!g.truth.touching && apart.z() > 0.0 && arrives < g.truth.tool_velocity.norm())
+               arrives = g.truth.tool_velocity.norm();
+             through += over && !beside && apart.z() < 0.0 ? 1 : 0;
+             over = !beside && apart.z() >= 0.0;
+             if (over) deepest = std::max(deepest, radii - apart.norm());
+           });
+  EXPECT_GT(arrives, 4.9);
+  EXPECT_EQ(through, 0);
+  EXPECT_LT(deepest, 2.5e-3);
+  EXPECT_EQ(seen.result.diverged_at, -1);
+  seen.onlooker.expect_within_limits();
+}
+
 // A range of 3 N is less than the weight of what it carries: nothing ever moves.
 TEST(TrialFault, ASensorThatCannotCarryItsLoadNeverLetsTheMachineMove) {
   const Seen seen = look(scene("tennis_ball", quick({"truth.force.range_N=3"})));
