@@ -1,5 +1,6 @@
 #include "trial/trial.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -107,8 +108,10 @@ Trial::Trial(models::Setup setup, TrialOptions options)
                     "less what it does, or give --for-s",
                     setup_.scene_path, length, kLongest));
   last_tick_ = std::llround(length / scene_.dt);
-  result_.step_ns.reserve(static_cast<std::size_t>(last_tick_) + 1);
-  if (pace > 0.0) result_.period_ns.reserve(static_cast<std::size_t>(last_tick_) + 1);
+  const auto timed =
+      static_cast<std::size_t>(std::min<std::int64_t>(last_tick_ + 1, TrialResult::kMostTimed));
+  result_.step_ns.reserve(timed);
+  if (pace > 0.0) result_.period_ns.reserve(timed);
   if (setup_.scene.camera) result_.vision.reserve(length * setup_.rig.camera.rate);
 }
 

@@ -25,6 +25,8 @@ struct TrialResult {
   Mode last_mode = Mode::away;
   std::uint32_t last_why = 0;
   std::uint64_t hash = 0;
+  // Of hours nobody keeps all: these are of the first ticks, some 17 minutes.
+  static constexpr std::int64_t kMostTimed = 1 << 20;
   std::vector<std::uint32_t> step_ns;    // of each step(), as the wall clock saw it
   std::vector<std::uint32_t> period_ns;  // where a pace is kept: from one step() to the next, likewise
   FrameTimes vision;                     // where the scene has a camera

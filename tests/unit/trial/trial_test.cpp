@@ -87,6 +87,14 @@ TEST(TrialHash, LookingOnChangesNothing) {
   EXPECT_EQ(seen, 2001);
 }
 
+// Times of ten hours would be 144 MB.
+TEST(Trial, HoursTakeNoMoreMemoryThanMinutes) {
+  trial::TrialOptions options;
+  options.seconds = 36000.0;
+  const trial::Trial trial(scene("tennis_ball", quick()), options);
+  EXPECT_LE(trial.result().step_ns.capacity(), static_cast<std::size_t>(trial::TrialResult::kMostTimed));
+}
+
 // The devices whose samples stay in Inputs between packets, tapped for where that is: Trial gives no way to
 // it.
 class TappedTracker : public PoseTracker {
