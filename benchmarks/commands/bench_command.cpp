@@ -49,6 +49,21 @@ std::string command_of(const trial::BenchOptions& options) {
   return text;
 }
 
+// Columns one beside the other; the last one as long as it is.
+void print_table(const Table& table) {
+  std::vector<std::size_t> width;
+  for (const std::string& column : table.columns) width.push_back(column.size());
+  for (const auto& row : table.rows)
+    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
+  const auto line = [&](const std::vector<std::string>& row) {
+    std::string text;
+    for (std::size_t c = 0; c + 1 < row.size(); ++c) text += fmt::format("{:<{}}  ", row[c], width[c]);
+    fmt::print("  {}{}\n", text, row.back());
+  };
+  line(table.columns);
+  for (const auto& row : table.rows) line(row);
+}
+
 // SIGINT, SIGTERM and SIGHUP wait until somebody asks; threads and what they start inherit that.
 class Signals {
  public:
@@ -200,6 +215,8 @@ class Session {
                  std::isfinite(f.paper) ? fmt::format(" (paper {:.4g}, {})", f.paper, role_name(f.role)) : "",
                  bounds(f), f.ok() ? "" : "  OUT OF BOUNDS");
     }
+    for (const Table& table : result.tables)
+      if (table.printed && choice.ids.empty()) print_table(table);
     if (!result.note.empty()) fmt::print("  {}\n", result.note);
     std::fflush(stdout);
   }

@@ -78,6 +78,7 @@ struct Table {
   std::vector<std::string> columns;  // with their unit
   std::vector<std::vector<std::string>> rows{};
   std::string note{};
+  bool printed = false;  // on the terminal, too
   std::string source{};  // of a data file: lines about it, which begin its CSV; the report leaves it out
   template <class... Cells>
   void add(const Cells&... cells) {

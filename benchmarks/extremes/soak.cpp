@@ -1,0 +1,155 @@
+// All faults at random, one a second; and hours without any: memory, time, work.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "benchmarks/extremes/case.h"
+#include "benchmarks/extremes/faults.h"
+
+namespace enc::bench::extremes {
+namespace {
+
+// Presses without an end, in both scenes; seconds of them.
+models::Setup endless(const BenchContext& context, bool arm, double length) {
+  if (arm) return load_scene(context, "keypad", {fmt::format("user.repeats={:.0f}", length / 6.0 + 2.0)});
+  return load_scene(context, "session",
+                    {fmt::format("user.session.duration_s={:g}", length), "user.session.other_tool=\"\""});
+}
+
+// Errors of the second and later seconds after the last fault, against those of the same run without one.
+struct Nominal {
+  double belief = 0.0, tip = 0.0;  // m: of the tool's place; of the machine against its command
+  std::int64_t held = 0;
+  void see(const trial::Glance& g) {
+    if (g.out.view.tip.finite()) belief = std::max(belief, (g.out.view.tip - g.truth.tool_tip).norm());
+    held += g.out.mode == Mode::hold ? 1 : 0;
+    if (g.scene.impedance() != nullptr) return;
+    const Point<'W'> told = (g.scene.X_WR * g.out.tip).origin();
+    tip = std::max(tip, (told - g.truth.tip).norm());
+  }
+};
+
+Found storm(const BenchContext& context, bool arm, double length) {
+  constexpr double kQuiet = 6.0, kRecovers = 1.0;  // s
+  const models::Setup setup = endless(context, arm, length + kQuiet);
+  Found found{fmt::format("{}.toml, a fault a second for {:g} s", arm ? "keypad" : "session", length),
+              "sound on every tick; error as without faults 1 s after the last",
+              {}};
+  Nominal after;
+  const auto watch = [&](Nominal& nominal) {
+    return [&](const trial::Glance& g) {
+      if (time_of(g) > length + kRecovers) nominal.see(g);
+    };
+  };
+  Storm faults(context.seed + (arm ? 1 : 0), 1.0, length);
+  const Storm kept = faults;
+  trial::TrialOptions options;
+  options.seed = context.seed;
+  options.seconds = length + kQuiet;
+  options.fit_out = keep_clean;
+  Nominal whole;
+  const Run undisturbed = judged(setup, options, [&](const trial::Glance& g) {
+    if (time_of(g) > 2.0) whole.see(g);
+  });
+  Time now{};
+  options.disturb = [&](Inputs& in) {
+    faults(now, in);
+    now += Duration(1'000'000);
+  };
+  const Run run = judged(setup, options, watch(after));
+  faults = Storm(kept);
+  now = Time{};
+  Nominal unused;
+  const Run again = judged(setup, options, watch(unused));
+  found.numbers = {
+      {"faults.value", static_cast<double>(faults.faults()), "", at_least(length - 1.0)},
+      {"belief.ratio", after.belief / whole.belief, "x", at_most(1.2),
+       "error of the believed place from 1 s after the last fault on, over the largest without faults"},
+      {"held_after.value", static_cast<double>(after.held), "", exactly(0.0), "ticks of hold from then on"},
+      {"held.percent",
+       100.0 * static_cast<double>(run.judge.held) / static_cast<double>(run.judge.ticks),
+       "%",
+       {},
+       "of all ticks"}};
+  if (!arm)
+    found.numbers.push_back({"tip.ratio", after.tip / whole.tip, "x", at_most(1.2),
+                             "likewise, of the machine against its command"});
+  add_soundness(run, found);
+  found.simulated += undisturbed.result.simulated + again.result.simulated;
+  return found;
+}
+
+// MiB that the program has in memory.
+double resident() {
+  std::ifstream in("/proc/self/statm");
+  double size = 0.0, pages = kUnset;
+  in >> size >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
+
+// Presses for hours, nothing wrong: what grows, and whether the end is as the beginning.
+Found hours(const BenchContext& context, bool arm, double length) {
+  Found found{fmt::format("{}.toml for {:g} s", arm ? "keypad" : "session", length),
+              "memory + less than 1 MiB from a tenth on; time exact to the nanosecond; work as before",
+              {}};
+  const models::Setup setup = endless(context, arm, length);
+  Judge judge;
+  double before = kUnset, most = 0.0, drift = 0.0;
+  std::array<double, 2> work{};  // J, tool to tip, of each half
+  const auto ticks = static_cast<std::int64_t>(1e3 * length);
+  trial::TrialOptions options;
+  options.seed = context.seed;
+  options.seconds = kInfinite;
+  const double start = thread_seconds();
+  trial::Trial* running = nullptr;
+  options.watch = [&](const trial::Glance& g) {
+    judge.see(g);
+    work[g.tick.index < ticks / 2 ? 0 : 1] += dot(g.truth.contact_force, g.truth.tip_velocity) * g.scene.dt;
+    const double t = time_of(g);
+    drift = std::max(drift, std::abs(running->world().physics().data()->time - t));
+    if (g.tick.index == ticks / 10) before = resident();
+    if (g.tick.index > ticks / 10 && g.tick.index % 10000 == 0) most = std::max(most, resident());
+  };
+  options.stop = [&] { return judge.ticks > ticks; };
+  trial::Trial trial(setup, options);
+  running = &trial;
+  Run run;
+  run.result = trial.run();
+  run.judge = judge;
+  const Tick& last = trial.now();
+  found.numbers = {
+      {"memory.max", most - before, "MiB", at_most(1.0), "more than after a tenth of the time"},
+      {"time.error",
+       static_cast<double>((last.t.time_since_epoch() - last.index * Duration(1'000'000)).count()), "ns",
+       exactly(0.0), "of the last tick"},
+      {"engine_time.max", drift * 1e9, "ns", {}, "of MuJoCo's own sum of steps; nobody reads it"},
+      {"work.ratio", work[1] / work[0], "x", between(0.7, 1.4), "on the tip, second half over first"},
+      {"ticks.value", static_cast<double>(judge.ticks), "", at_least(1e3 * length)},
+      {"cpu.value", thread_seconds() - start, "s", {}, "CPU time"}};
+  add_soundness(run, found);
+  return found;
+}
+
+}  // namespace
+
+void add_long(Bench& bench, Cases& cases, std::vector<Found>& found) {
+  const double length = bench.context.full ? 36000.0 : 600.0;
+  for (const bool arm : {true, false}) {
+    cases.push_back({arm ? "arm.hours" : "hexapod.hours", {}});
+    found.push_back(hours(bench.context, arm, length));
+    bench.result.simulated += found.back().simulated;
+  }
+}
+
+void add_soaks(Cases& cases, bool quick, bool full) {
+  const double length = full ? 600.0 : quick ? 10.0 : 60.0;
+  for (const bool arm : {true, false})
+    cases.push_back({arm ? "arm.storm" : "hexapod.storm",
+                     [=](const BenchContext& context) { return storm(context, arm, length); }});
+}
+
+}  // namespace enc::bench::extremes
