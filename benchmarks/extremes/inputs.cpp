@@ -46,18 +46,22 @@ Found spoiled(const BenchContext& context, bool arm, bool quick) {
   const std::int64_t number = 4 * count.seen / (quick ? 4 : 1);
   Recovery recovery;
   bool now = false;
-  std::int64_t tick = 0;
+  std::int64_t tick = 0, done = 0, next = kFrom;
+  Time packet{};
   trial::TrialOptions options;
   options.seed = context.seed;
-  options.seconds = 1e-3 * static_cast<double>(kFrom + kEvery * (number + 2));
+  options.seconds = 1e-3 * static_cast<double>(kFrom + 2 * kEvery * (number + 2));
   options.fit_out = keep_clean;
+  // With a new packet of the tool: a repeated one says nothing, and its junk would not, either.
   options.disturb = [&](Inputs& in) {
-    const std::int64_t since = tick++ - kFrom;
-    now = since >= 0 && since % kEvery == 0 && since / kEvery < number;
+    const bool fresh = in.tool.t > packet;
+    packet = in.tool.t;
+    now = tick++ >= next && fresh && done < number;
     if (!now) return;
-    const auto which = since / kEvery;
-    Spoil one{static_cast<int>(quick ? which : which / 4), static_cast<Junk>(which % 4)};
+    next = tick + kEvery;
+    Spoil one{static_cast<int>(quick ? done : done / 4), static_cast<Junk>(done % 4)};
     fields(one, in);
+    ++done;
   };
   const Run run = judged(setup, options, [&](const trial::Glance& g) { recovery.see(g, now); });
   found.numbers = {
