@@ -117,7 +117,7 @@ TEST_F(SceneFile, number_that_is_not_finite_or_out_of_range) {
   EXPECT_THAT(scene_said("= 33", "= 0"),
               StartsWith("scenes/ball.toml:6:13: 'radius_mm' is 0; expected a positive number in mm"));
   EXPECT_THAT(scene_said("tip_mm", "mass_kg = -0.05\ntip_mm"),
-              StartsWith("scenes/ball.toml:12:11: 'mass_kg' is -0.05; expected a positive"));
+              StartsWith("scenes/ball.toml:12:11: 'mass_kg' is -0.05; expected a number of at least 1e-06"));
   EXPECT_THAT(scene_said("-20]", "-inf]"), HasSubstr("'position_mm[2]' is -inf; expected a finite number"));
   write("scenes/ball.toml", kScene);
   EXPECT_THAT(rig_said("rate_hz = 1000 ", "rate_hz = -1000 "),
