@@ -60,6 +60,7 @@ enum Why : std::uint32_t {
   kOverload = 1U << 24,       // pressed harder than the machine carries: it stands at the deflection limit
   kHot = 1U << 25,            // pushed less than it should: the motors are warm
   kSurfaceJump = 1U << 23,    // the surface point under the tool jumped: it is as near to another part
+  kPassive = 1U << 26,        // pushed less than the law asked: more would have come out than was put in
 };
 inline constexpr std::uint32_t kHoldReasons = 0xFFFFU;
 

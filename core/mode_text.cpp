@@ -38,7 +38,8 @@ std::string why_text(std::uint32_t why) {
        {kToolUnseen, "no tool in view"},
        {kHot, "motors warm: pushed less than it should"},
        {kOverload, "pressed harder than the machine carries"},
-       {kSurfaceJump, "nearest point jumped"}});
+       {kSurfaceJump, "nearest point jumped"},
+       {kPassive, "push held back to stay passive"}});
   std::string text;
   for (const auto& [bit, words] : kTexts) {
     if ((why & bit) == 0) continue;

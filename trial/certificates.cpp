@@ -95,7 +95,8 @@ std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& sc
             at.asked, !damped, "[VHMR Fig 3], docs/reference/model.md");
     if (whole)
       add_large(loop, object, ramp, worst.swing == 0.0, "large_signal",
-                "all of it softer, down to half: pushed as this scene does, with all limits, it stands still", at);
+                "all of it softer, down to half: pushed as this scene does, with all limits, it stands still",
+                at);
     found.push_back(std::move(at));
   }
   return found;
@@ -157,9 +158,10 @@ std::string refusal_text(const models::Setup& setup, const Certified& certified)
   const certificate::Row& held = certificate::row_of(of, "exact_with_hand");
   return fmt::format(
       "{} asks for {:.3g} N/mm and is {}: under the hand that the rig expects the loop is stable from {:.3g} "
-      "to {:.3g} N/mm; make it {}",
+      "to {:.3g} N/mm; make it {}{}",
       name_of(certified), 1e-3 * certified.asked, word_of(of.verdict), 1e-3 * held.low, 1e-3 * held.bound,
-      softer_or_stiffer(of, certified.asked));
+      softer_or_stiffer(of, certified.asked),
+      setup.rig.arm.passivity == PassivityForm::none ? ", or set rig.arm.passivity=controlled" : "");
 }
 
 std::string key_of(const Certified& certified) {

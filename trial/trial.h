@@ -31,7 +31,8 @@ struct Glance {
   const sim::Truth& truth;  // nothing in it is set where no slot is simulated
   const Inputs& in;
   const Outputs& out;
-  bool simulated = true;  // every slot: the truth knows what is touched
+  bool simulated = true;         // every slot: the truth knows what is touched
+  const State* state = nullptr;  // of the core, after the tick, where it is at hand
 };
 
 // Another law in place of step(), such as guide(), which moves an arm without a finger.

@@ -19,6 +19,7 @@
 #include "app/stability_text.h"
 #include "core/error.h"
 #include "models/files.h"
+#include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/probe_measure.h"
 #include "trial/trial.h"
@@ -108,6 +109,7 @@ int run(const RunOptions& options) {
   trial::FingerMeasure fingers;
   trial::TouchMeasure touches;
   trial::SeenMeasure seen;
+  trial::PassivityMeasure passivity;
   trial::TrialOptions trial_options;
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
@@ -121,6 +123,7 @@ int run(const RunOptions& options) {
     fingers.see(glance);
     touches.see(glance);
     seen.see(glance);
+    passivity.see(glance);
   };
   trial_options.stop = [] { return StopSignals::caught() != 0; };
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -145,6 +148,7 @@ int run(const RunOptions& options) {
                    fingers,
                    touches,
                    seen,
+                   passivity,
                    strengths,
                    certificates,
                    options,

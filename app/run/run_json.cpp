@@ -36,6 +36,18 @@ Json seen_json(const trial::SeenMeasure& measure) {
   return all;
 }
 
+Json passivity_json(const trial::PassivityMeasure& measure) {
+  Json all = Json::array();
+  for (const trial::PassivityFigures& c : measure.contacts())
+    all.push_back({{"contact", c.contact},
+                   {"began_s", c.began},
+                   {"given_mJ", c.given * 1e3},
+                   {"taken_mJ", c.dissipated * 1e3},
+                   {"taken_N", c.most},
+                   {"acted_ms", c.acted * 1e3}});
+  return all;
+}
+
 Json presses_json(const trial::PressMeasure& measure) {
   Json list = Json::array();
   for (const trial::PressFigures& p : measure.presses()) {
@@ -150,6 +162,8 @@ std::string run_json(const RunReport& r) {
   if (r.scene.impedance()) {
     json["meetings"] = meetings_json(r.fingers);
     json["seen"] = seen_json(r.seen);
+    if (r.scene.impedance()->rig.passivity != PassivityForm::none)
+      json["passivity"] = passivity_json(r.passivity);
   } else {
     json["presses"] = presses_json(r.presses);
   }

@@ -161,6 +161,18 @@ std::string seen_line(const RunReport& r) {
       "seen        {} mm above the prop that it pushed (by vision and encoders, a press each)\n", each);
 }
 
+// What the controller of energy saw and did, where it is on.
+std::string passivity_line(const RunReport& r) {
+  const Impedance* law = r.scene.impedance();
+  if (law == nullptr || law->rig.passivity == PassivityForm::none) return "";
+  const trial::PassivityFigures all = r.passivity.worst();
+  return fmt::format(
+      "passivity   {:.3f} mJ more out than in at most, of {} controlled contact{} (by encoders); it took "
+      "{:.3f} mJ and at most {:.2f} N, in {:.0f} ms\n",
+      all.given * 1e3, r.passivity.contacts().size(), r.passivity.contacts().size() == 1 ? "" : "s",
+      all.dissipated * 1e3, all.most, all.acted * 1e3);
+}
+
 // An arm that meets a bare finger [VisHap 3].
 std::string finger_lines(const RunReport& r) {
   if (!r.scene.impedance()) return "";
@@ -194,7 +206,7 @@ std::string finger_lines(const RunReport& r) {
       "  step      {} N, greatest from one cycle to the next\n",
       each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.greatest_step); }));
   const double sideways = r.fingers.tangential_share();
-  return text + spring_line(r) + seen_line(r) +
+  return text + spring_line(r) + seen_line(r) + passivity_line(r) +
          (std::isfinite(sideways)
               ? fmt::format("sideways    {:.1f} % of the normal force, where that is more than 1 N\n",
                             100.0 * sideways)

@@ -8,6 +8,7 @@
 #include "trial/certificates.h"
 #include "trial/limits.h"
 #include "trial/measure/finger_measure.h"
+#include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/probe_measure.h"
 #include "trial/measure/seen_measure.h"
@@ -25,6 +26,7 @@ struct RunReport {
   const trial::FingerMeasure& fingers;
   const trial::TouchMeasure& touches;
   const trial::SeenMeasure& seen;
+  const trial::PassivityMeasure& passivity;
   const std::vector<trial::ArmStrength>& strengths;
   const std::vector<trial::Certified>& certificates;
   const RunOptions& asked;

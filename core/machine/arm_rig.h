@@ -18,6 +18,10 @@ enum class GravityForm : std::uint8_t {
 };
 constexpr auto words(GravityForm) { return enum_words("none", "published", "exact"); }
 
+// What is done about energy that the law gives out by being sampled, late or counted (core/safety/passivity).
+enum class PassivityForm : std::uint8_t { none, controlled };
+constexpr auto words(PassivityForm) { return enum_words("none", "controlled"); }
+
 // How a motor gets warm.
 struct Thermal {
   double winding_time = 12.0;   // s, of a winding against its housing (sources/arm 3, published)
@@ -59,6 +63,8 @@ struct ArmRig {
   double prop_lag = 0.020;        // s: of a driven prop's surface behind what it is told; assumed
   double stale = 0.005;           // s: an older sample is lost
   double least_dexterity = 0.15;  // nearer to a singular pose the tip is not sent
+  PassivityForm passivity = PassivityForm::none;
+  double passivity_count = 30e-6;  // m: what a count of an encoder moves the tip by, of that controller
   std::optional<ArmLoop> loop{};  // unset: whether it is stable is not known, and no real one is armed
 };
 

@@ -41,6 +41,7 @@ struct Walk {
   Vec3 target_change = Vec3::Zero();        // and in any case, m/s^2
   Vec<'W'> tip_velocity;                    // of its tip
   Vec<'W'> wanted_force;                    // impede: what the law asks for; unset: nothing
+  double along_mass = 0.0;                  // kg, of the tip along the normal, where energy is controlled
   Vec<'R'> arm_force;                       // guard: what an arm is told
 };
 

@@ -98,6 +98,18 @@ Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
   return object;
 }
 
+// What only holds a real thing gives out no push of a law.
+void check_passivity(const ArmRig& rig, const Scene& scene) {
+  const auto rendered = [](const Object& object) { return object.interaction.kind != Interaction::passive; };
+  if (rig.passivity == PassivityForm::none || std::ranges::any_of(scene.objects, rendered)) return;
+  throw Error(scene.objects.empty()
+                  ? "the passivity controller has nothing to control: the scene has no object; expected "
+                    "none; change it"
+                  : "the passivity controller has nothing to control: every object of the scene is a real "
+                    "one, which nothing renders; expected none; change it",
+              "rig.arm.passivity");
+}
+
 bool gets_to(const Scene& scene, const Point<'W'>& p) {
   const Impedance& law = *scene.impedance();
   PerJoint q{};
@@ -162,6 +174,7 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   scene.tip_radius = 0.0;  // a prop has a front
   if (!scene.has_tracker) throw Error("an arm needs [tracker]: it goes where the finger is", "arm");
   for (const ObjectSpec& object : spec.objects) scene.objects.push_back(arm_object(spec, object));
+  check_passivity(rig.arm, scene);
   if (std::vector<Mover> movers = make_movers(spec.objects, scene.objects); !movers.empty())
     scene.task = Push{*scene.impedance(), std::move(movers)};
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));

@@ -4,6 +4,7 @@
 
 #include "core/task/meet/arm_loop.h"
 #include "core/task/meet/finger.h"
+#include "core/task/meet/tame.h"
 
 namespace enc::stages {
 namespace {
@@ -66,6 +67,8 @@ void impede(Walk& walk, const Impedance& law, State& state, Meeting& memory) noe
       stays(state, walk.X_WH.origin(), resting(state, now, error, walk.tip_velocity.e()), error, now);
   const double fade = fading(law, now, walk.scene.dt);
   const Mat3 mass = law.arm.mass(walk.in.arm.value.joints, law.prop_mass);
+  if (law.rig.passivity == PassivityForm::controlled && walk.normal.finite())
+    walk.along_mass = law.arm.felt_mass(walk.jacobian, mass, walk.scene.X_WR.inverse() * walk.normal);
   const double a = law.filter_gain;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
@@ -96,8 +99,8 @@ Vec<'R'> against_gravity(const Walk& walk, const Impedance& law) {
   return law.arm.force(walk.jacobian, law.arm.gravity(q, law.prop_mass, form));
 }
 
-// What the law asks for, as far as the machine can: here is the place of the passivity controller, between
-// the two. Gravity is held in full; of the rest each motor gives what it has, and the direction stays.
+// What the law asks for, as far as the machine can. Gravity is held in full; of the rest each motor gives
+// what it has, and the direction stays.
 Vec3 guarded(Walk& walk, const Impedance& law, const Heat& heat, const Vec3& force) {
   if (!force.allFinite()) {
     walk.why |= kNotFinite;
@@ -126,9 +129,13 @@ void guard(Walk& walk, const Impedance& law, State& state, Meeting& memory) noex
     walk.arm_force = against_gravity(walk, law);
     walk.felt = Vec<'W'>::zero();
     if (!holding(walk)) {
-      const Vec3 pushed = guarded(walk, law, memory.heat, walk.wanted_force.e());
+      const Tame tame(walk, law, state, memory);  // between the law and what the machine can
+      const Vec3 pushed = guarded(walk, law, memory.heat, tame.wanted);
+      tame.held(walk, memory, pushed);
       walk.felt = Vec<'W'>(Vec3(-pushed));
       walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
+    } else {
+      memory.tamed = Tamed{};
     }
     state.force = walk.felt;
     if (!walk.in.withheld) torque = law.arm.torque(walk.jacobian, walk.arm_force);

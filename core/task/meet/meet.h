@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/safety/following.h"
+#include "core/safety/passivity/passivity.h"
 #include "core/task/contact.h"
 #include "core/task/meet/impedance.h"
 #include "core/track/reach.h"
@@ -49,11 +50,20 @@ struct Coming {
   std::int32_t object = -1;   // of which it was; -1: nothing is known
 };
 
+// What the push along the normal has given out in the present contact; nothing where that is not controlled.
+struct Tamed {
+  Passivity energy;
+  std::int32_t object = -1;
+  Point<'W'> tip, target;  // at the last tick, and the normal
+  Vec<'W'> normal;
+};
+
 struct Meeting {
   Contact contact;
   Aim aim;
   Coming coming;
   Heat heat;  // of the motors, as it is believed
+  Tamed tamed;
 };
 
 struct Meet : Impedance {
@@ -92,12 +102,22 @@ void fields(F& f, Coming& r) {
   f("coming_object", r.object);
 }
 template <class F>
+void fields(F& f, Tamed& t) {
+  if (!t.energy.on) return;
+  fields(f, t.energy);
+  f("passivity_object", t.object);
+  fields(f, "passivity_tip_W", t.tip);
+  fields(f, "passivity_target_W", t.target);
+  fields(f, "passivity_normal_W", t.normal);
+}
+template <class F>
 void fields(F& f, Meeting& m) {
   fields(f, m.contact);
   fields(f, m.aim);
   fields(f, m.coming);
   fields(f, "winding", m.heat.winding);
   fields(f, "housing", m.heat.housing);
+  fields(f, m.tamed);
 }
 
 namespace stages {

@@ -1,0 +1,74 @@
+// Observer and controller of the energy that a law gives out along one way, of one contact [Hannaford and Ryu
+// 2002]. Outwards is positive: pushed outwards while it moves outwards, the law gives out.
+//
+//   left <- min(left - f_{n-1} (x_n - x_{n-1}), stored_n)
+//   f_n  =  f of the law, as near as possible, so that  f (u + g f) <= left,   g = T^2 / (2 m)
+//
+// A force that is held over a period does exactly f_{n-1} (x_n - x_{n-1}): the observer needs no model, and
+// whatever is inside the law (filter, rates, late readings) is seen. What may still be given out is what was
+// put in, and what the law's spring held when it began; and never more than that spring holds now: what its
+// dampers took is gone, and cannot hide what is given out later (reference energy following [Ryu et al.
+// 2005]).
+//
+// The controller looks ahead a period instead of mending what is past: x_{n+1} - x_n is believed to be u + g
+// f, u being what the mass m does by itself after it has moved by x_n - x_{n-1} under f_{n-1}. So nothing is
+// divided by a low velocity: at rest the bound is sqrt(left / g). Where more was given out than there was, it
+// takes that back as a damper, of no more than m/T: what stops the mass within the period.
+#pragma once
+
+#include <string_view>
+
+namespace enc {
+
+struct Passivity {
+  bool on = false;
+  double left = 0.0;                 // J, that may be given out; below 0: more was
+  double stored = 0.0;               // J, that the law's spring holds
+  double moved = 0.0;                // m, outwards, in the last period
+  double slack = 0.0;                // m: a reading is so far outwards of where it turned
+  double way = -1.0;                 // which way it last moved
+  double depth = 0.0, spring = 0.0;  // m, N: at the last tick
+  double pushed = 0.0;               // N, outwards, since the last tick
+  double taken = 0.0;                // N: the law asked for so much more
+  // Of this contact.
+  double given = 0.0;       // J: work of what was pushed; above 0: more out than in
+  double dissipated = 0.0;  // J: what the law would have given out more
+  double most = 0.0;        // N, the largest of `taken`, either way
+};
+
+// A tick.
+struct Yielded {
+  double moved = 0.0;   // m, outwards, since the last tick
+  double depth = 0.0;   // m, of the law's spring
+  double spring = 0.0;  // N, that it pushes outwards with where nothing moves
+};
+// A contact begins. `left`, J: what its spring held before; 0 of a wall that was not felt yet.
+void begin(Passivity& now, const Yielded& tick, double left) noexcept;
+// Its spring is another one from now on, as where the normal jumps: nothing is given for that.
+void renew(Passivity& now, const Yielded& tick) noexcept;
+// The period is over in which `pushed` was held.
+void observe(Passivity& now, const Yielded& tick, double count) noexcept;
+// N: what of the wanted push is given, whatever the limits; `per_newton` is g, readings step by `count`, m.
+[[nodiscard]] double passive(const Passivity& now, double wanted, double per_newton, double count) noexcept;
+// What is held from now on, and what the law asked for.
+void hold(Passivity& now, double pushed, double wanted) noexcept;
+
+// Nothing of one that is off: a scene without it has the hash that it had.
+template <class F>
+void fields(F& f, Passivity& p) {
+  if (!p.on) return;
+  f("passivity_left", p.left);
+  f("passivity_stored", p.stored);
+  f("passivity_moved", p.moved);
+  f("passivity_slack", p.slack);
+  f("passivity_way", p.way);
+  f("passivity_depth", p.depth);
+  f("passivity_spring", p.spring);
+  f("passivity_pushed", p.pushed);
+  f("passivity_taken", p.taken);
+  f("passivity_given", p.given);
+  f("passivity_dissipated", p.dissipated);
+  f("passivity_most", p.most);
+}
+
+}  // namespace enc
