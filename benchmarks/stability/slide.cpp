@@ -78,13 +78,26 @@ double Slide::read() const {
 void Slide::period() {
   const double now = read(), speed = (now - before_) / device_.period;
   before_ = now;
-  under_way_.emplace_back(step_ + late_, -(wall_.stiffness * now + wall_.damper * speed));
+  period(-(wall_.stiffness * now + wall_.damper * speed));
+}
+
+void Slide::period(double force, double hand) {
+  under_way_.emplace_back(step_ + late_, force);
   for (int i = 0; i < steps_; ++i, ++step_) {
     for (; !under_way_.empty() && under_way_.front().first <= step_; under_way_.pop_front())
       force_ = under_way_.front().second;
-    physics_.data()->qfrc_applied[0] = force_;
+    physics_.data()->qfrc_applied[0] = force_ + hand;
+    const double from = x();
     if (!physics_.step()) throw Error("MuJoCo warns: " + physics_.warning_text());
+    work_ += force_ * (x() - from);
   }
+}
+
+void Slide::throw_from(double x, double speed) {
+  physics_.data()->qpos[0] = x;
+  physics_.data()->qvel[0] = speed;
+  under_way_.clear();
+  force_ = 0.0;
 }
 
 double growth(const Device& device, const Wall& wall, const Stepping& stepping) {

@@ -36,11 +36,16 @@ class Slide {
   // Held at x0, m, for as long as the wall looks back, and let go.
   Slide(const Device& device, const Wall& wall, const Stepping& stepping, double x0);
   void period();  // one of the wall's; throws Error where MuJoCo warns
+  // The same with another law's force, N, and one that pushes besides.
+  void period(double force, double hand = 0.0);
   [[nodiscard]] double x() const { return physics_.data()->qpos[0]; }
+  [[nodiscard]] double read() const;  // by the encoder
+  [[nodiscard]] double speed() const { return physics_.data()->qvel[0]; }
+  void throw_from(double x, double speed);
+  [[nodiscard]] double work() const { return work_; }     // J, of the law's force since the beginning
+  [[nodiscard]] double pushes() const { return force_; }  // N: the law's that acts
 
  private:
-  [[nodiscard]] double read() const;
-
   Device device_;
   Wall wall_;
   int steps_;
@@ -48,6 +53,7 @@ class Slide {
   std::int64_t step_ = 0, late_;                           // steps
   double before_;                                          // m, read a period ago
   double force_;                                           // N, that acts
+  double work_ = 0.0;                                      // J
   std::deque<std::pair<std::int64_t, double>> under_way_;  // from which step on, N
 };
 

@@ -179,6 +179,7 @@ void run(Bench& bench) {
   add_integrators(bench);
   add_regions(bench);
   add_scenes(bench);
+  add_passivity(bench);
 }
 
 const Entry kEntry{"stability", "a slide with a wall",

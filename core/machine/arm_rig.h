@@ -64,7 +64,6 @@ struct ArmRig {
   double stale = 0.005;           // s: an older sample is lost
   double least_dexterity = 0.15;  // nearer to a singular pose the tip is not sent
   PassivityForm passivity = PassivityForm::none;
-  double passivity_count = 30e-6;  // m: what a count of an encoder moves the tip by, of that controller
   std::optional<ArmLoop> loop{};  // unset: whether it is stable is not known, and no real one is armed
 };
 

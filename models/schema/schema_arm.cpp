@@ -157,9 +157,6 @@ void describe(Visitor& v, ArmRig& a) {
          {"passivity", "what is done about energy that the law gives out: nothing, or it is controlled",
           kPassivity, chosen},
          a.passivity);
-  v.value({"passivity_count_um", "what a count of an encoder moves the tip by; only controlled asks",
-           kPassivity, derived, kNotNegative},
-          &a.passivity_count);
   part(v, "loop", a.loop, [&](ArmLoop& loop) { describe(v, loop); });
   table(v, "machine", [&] { describe(v, a.machine); });
 }

@@ -1,6 +1,8 @@
 // What the passivity controller of an arm saw and did, of each contact (core/safety/passivity).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "trial/trial.h"
@@ -27,5 +29,35 @@ class PassivityMeasure {
   std::vector<PassivityFigures> contacts_;
   bool on_ = false;
 };
+
+inline void PassivityMeasure::see(const Glance& glance) {
+  const Passivity* now =
+      glance.state != nullptr ? &recall<enc::Meeting>(*glance.state).tamed.energy : nullptr;
+  const bool on = now != nullptr && now->on;
+  if (on && (!on_ || contacts_.back().contact != glance.out.contacts)) {
+    PassivityFigures& begun = contacts_.emplace_back();
+    begun.began = seconds(glance.tick.t.time_since_epoch());
+    begun.contact = glance.out.contacts;
+  }
+  on_ = on;
+  if (!on) return;
+  PassivityFigures& contact = contacts_.back();
+  contact.given = std::max(contact.given, now->given);
+  contact.dissipated = now->dissipated;
+  contact.most = std::max(contact.most, now->most);
+  if ((glance.out.why & kPassive) != 0) contact.acted += glance.scene.dt;
+}
+
+inline PassivityFigures PassivityMeasure::worst() const {
+  PassivityFigures all;
+  for (const PassivityFigures& contact : contacts_) {
+    if (std::isnan(all.began)) all.began = contact.began;
+    all.given = std::max(all.given, contact.given);
+    all.dissipated += contact.dissipated;
+    all.most = std::max(all.most, contact.most);
+    all.acted += contact.acted;
+  }
+  return all;
+}
 
 }  // namespace enc::trial

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/rotation.h"
+#include "core/task/meet/arm_loop.h"
 
 namespace enc {
 namespace {
@@ -110,6 +111,16 @@ void check_passivity(const ArmRig& rig, const Scene& scene) {
               "rig.arm.passivity");
 }
 
+// m, along the axis of R along which it is most.
+double count_of(const Impedance& law, double dt) {
+  double most = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec<'R'> way(Vec3(Vec3::Unit(axis)));
+    most = std::max(most, loop_at(law, {}, dt, law.arm.zero(), way, law.rig.stiffness, false).steps.encoder);
+  }
+  return most;
+}
+
 bool gets_to(const Scene& scene, const Point<'W'>& p) {
   const Impedance& law = *scene.impedance();
   PerJoint q{};
@@ -159,6 +170,14 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   law.home_mass = law.arm.felt_mass(law.arm.jacobian(home), law.arm.mass(home, law.prop_mass));
   check_damping(law);
   law.motors = Motors(law.arm, rig.arm, scene.dt);
+  if (rig.arm.passivity == PassivityForm::controlled) {
+    if (!rig.arm.loop)
+      throw Error(
+          "the passivity controller has to know the encoders' counts; expected a table [arm.loop]; write "
+          "it, as models/rigs/vishap.toml has it, or set passivity to none",
+          "rig.arm.passivity");
+    law.count = count_of(law, scene.dt);
+  }
   scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
   scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
   scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);

@@ -31,6 +31,8 @@ struct Impedance {
   double prop_mass = 0.0;       // kg
   double filter_gain = kUnset;  // a of eq. 3, discrete
   double home_mass = kUnset;    // kg, felt at the tip at home
+  double count =
+      0.0;  // m: what a count of each encoder moves the tip by there, at most; of a passivity controller
   Motors motors{};
 };
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 
 #include "core/safety/following.h"
-#include "core/safety/passivity/passivity.h"
 #include "core/task/contact.h"
 #include "core/task/meet/impedance.h"
+#include "core/task/meet/tamed.h"
 #include "core/track/reach.h"
 
 namespace enc {
@@ -48,14 +48,6 @@ struct Coming {
   Pose<'W', 'N'> X_WN;        // the surface under it when that was asked
   Time told{};                // when it was asked
   std::int32_t object = -1;   // of which it was; -1: nothing is known
-};
-
-// What the push along the normal has given out in the present contact; nothing where that is not controlled.
-struct Tamed {
-  Passivity energy;
-  std::int32_t object = -1;
-  Point<'W'> tip, target;  // at the last tick, and the normal
-  Vec<'W'> normal;
 };
 
 struct Meeting {
@@ -100,15 +92,6 @@ void fields(F& f, Coming& r) {
   fields(f, "coming_X_WN", r.X_WN);
   f("coming_told", r.told);
   f("coming_object", r.object);
-}
-template <class F>
-void fields(F& f, Tamed& t) {
-  if (!t.energy.on) return;
-  fields(f, t.energy);
-  f("passivity_object", t.object);
-  fields(f, "passivity_tip_W", t.tip);
-  fields(f, "passivity_target_W", t.target);
-  fields(f, "passivity_normal_W", t.normal);
 }
 template <class F>
 void fields(F& f, Meeting& m) {

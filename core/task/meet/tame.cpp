@@ -55,14 +55,14 @@ Tame::Tame(Walk& walk, const Impedance& law, const State& state, Meeting& memory
     begin(now.energy, tick, std::max(0.0, 0.5 * spring.push * spring.depth));
   } else {
     if (dot(walk.normal, now.normal) < kTurned) renew(now.energy, tick);
-    observe(now.energy, tick, law.rig.passivity_count);
+    observe(now.energy, tick, law.count);
   }
   now.object = state.object;
   now.tip = walk.X_WH.origin();
   now.target = memory.aim.target;
   now.normal = walk.normal;
   const double dt = walk.scene.dt, asked = wanted.dot(walk.normal.e());
-  const double given = passive(now.energy, asked, dt * dt / (2.0 * walk.along_mass), law.rig.passivity_count);
+  const double given = passive(now.energy, asked, dt * dt / (2.0 * walk.along_mass), law.count);
   if (given == asked) return;
   walk.why |= kPassive;
   wanted += (given - asked) * walk.normal.e();

@@ -1,0 +1,29 @@
+// What the passivity controller of an arm remembers (tame.h).
+#pragma once
+
+#include <cstdint>
+
+#include "core/fields.h"
+#include "core/safety/passivity/passivity.h"
+
+namespace enc {
+
+// What the push along the normal has given out in the present contact; nothing where that is not controlled.
+struct Tamed {
+  Passivity energy;
+  std::int32_t object = -1;
+  Point<'W'> tip, target;  // at the last tick, and the normal
+  Vec<'W'> normal;
+};
+
+template <class F>
+void fields(F& f, Tamed& t) {
+  if (!t.energy.on) return;
+  fields(f, t.energy);
+  f("passivity_object", t.object);
+  fields(f, "passivity_tip_W", t.tip);
+  fields(f, "passivity_target_W", t.target);
+  fields(f, "passivity_normal_W", t.normal);
+}
+
+}  // namespace enc
