@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/extremes/case.h"
-#include "trial/limits.h"
+#include "trial/certificates.h"
 
 namespace enc::bench::extremes {
 namespace {
@@ -45,15 +45,14 @@ Found arm_wall(const BenchContext& context, double stiffness) {
   const Run run = judged(setup, options, [&](const trial::Glance& g) {
     if (g.truth.phase == sim::Phase::hold) swing.see(g);
   });
-  const trial::Limits limits = trial::limits_of(setup, trial::prepare_setup(setup));
-  const trial::ArmStrength& strength = limits.strengths.front();
-  const std::string beyond = trial::beyond_text(strength);
+  const trial::Certified wall = trial::certificates_of(setup, trial::prepare_setup(setup)).back();
+  const std::string beyond = trial::refusal_text(setup, wall);
   found.numbers = {
       {"force.max", run.judge.force, "N", at_most(setup.rig.arm.peak * (1.0 + 1e-9)), "commanded"},
       {"over.max", static_cast<double>(run.judge.over), "", at_most(1.0), "cycles in a row"},
       {"touch.max", run.judge.touch, "N", {}, "true force on the finger"},
       {"swing.max", swing.size() * kMm, "mm", {}, "of the tip, while the finger holds", kStill}};
-  if (stiffness > strength.stiffest)
+  if (stiffness > certificate::row_of(wall.certificate, "exact_with_hand").bound)
     found.numbers.push_back(
         {"named.value", beyond.empty() ? 0.0 : 1.0, "", exactly(1.0), "by check and run"});
   add_soundness(run, found);

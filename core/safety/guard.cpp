@@ -115,6 +115,27 @@ bool legs_reach_along(const Hexapod& machine, const Pose<'R', 'H'>& from, const 
   return true;
 }
 
+// Along the edge of the reach: without what shortens a leg that is shortest or lengthens one that is longest.
+// The way to a place within it may begin with one that leads out of it, as the reach is not convex and the
+// way along a normal comes first; who stops there stays there.
+Vec3 along_edge(const Hexapod& machine, const Pose<'R', 'H'>& at, Vec3 velocity, double braking_time) {
+  constexpr double kNear = 0.1e-3;  // m: more than a tick's way at the edge, where it is slow
+  const Mat3 R = at.q().toRotationMatrix();
+  const double stroke = machine.geometry().stroke;
+  for (int again = 0; again < 3; ++again) {  // what helps one leg may not help the one beside it
+    for (int leg = 0; leg < 6; ++leg) {
+      const Vec3 strut = at.p() + R * machine.platform_joint(leg) - machine.base_joint(leg);
+      const double out = strut.norm() - machine.zero_length(), along = strut.dot(velocity);
+      // Straight on at right angles to it a leg gets longer: by v^2 t / 2 of the way in the time t.
+      const double longer = velocity.squaredNorm() * braking_time;
+      if (out < kNear - stroke && along < 0.0) velocity -= strut * (along / strut.squaredNorm());
+      if (out > stroke - kNear && along > -longer)
+        velocity -= strut * ((along + longer) / strut.squaredNorm());
+    }
+  }
+  return velocity;
+}
+
 }  // namespace
 
 Brake brake_of(const Walk& walk, const Commanded& now) {
@@ -133,14 +154,21 @@ void limit_command(Walk& walk, State& state, Commanded& now, const Walls& walls)
   Vec3 after = q_RH * commanded(walk, state, now, walls, q_WR * before);
   // Where the machine would come to rest if it braked from the next tick on: that must be within reach, and
   // the way there, too.
-  const Vec3 way = braking_way(after, acceleration, dt);
   const Reach& reach = walk.scene.reach;
   const Pose<'R', 'H'> from(q_RH, now.command);
-  const bool safe = reach.contains(Pose<'R', 'H'>(q_RH, now.command + Vec<'R'>(way))) &&
-                    legs_reach_along(reach.machine, from, way);
-  if (!safe && reach.contains(from)) {
+  const auto safe = [&](const Vec3& velocity) {
+    const Vec3 way = braking_way(velocity, acceleration, dt);
+    return reach.contains(Pose<'R', 'H'>(q_RH, now.command + Vec<'R'>(way))) &&
+           legs_reach_along(reach.machine, from, way);
+  };
+  if (!safe(after) && reach.contains(from)) {
     walk.why |= kUnreachable;
-    after = slowed(before, acceleration * dt);
+    // Not where it would have to stay inside of an object, too, nor where it shall stand.
+    const bool free = std::isnan(walls.depth) && !holding(walk);
+    const double braking_time = dt + after.norm() / (2.0 * acceleration);
+    const Vec3 aside = free ? along_edge(reach.machine, from, after, braking_time) : before;
+    const bool can = free && (aside - before).norm() <= acceleration * dt * (1.0 + 1e-9) && safe(aside);
+    after = can ? aside : slowed(before, acceleration * dt);
   }
   now.command_velocity = Vec<'R'>(after);
   now.command = Point<'R'>(Vec3(now.command.e() + dt * after));

@@ -1,0 +1,58 @@
+// The last word before a machine that takes positions: whoever is at the edge of the reach comes back.
+#include "core/safety/guard.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+
+namespace enc {
+namespace {
+
+using test::Loop;
+
+// A ball on a floor. The reach is not convex: from many places at its edge the straight way to the ball leads
+// out of it.
+Loop ball_on_a_floor() {
+  SceneSpec scene = test::ball_scene();
+  scene.objects.front().radius = 0.012;
+  scene.objects.front().position = {0, 0, 0.001};
+  SceneSpec floor = test::plane_scene();
+  floor.objects.front().name = "floor";
+  floor.objects.front().position = {0, 0, -0.008};
+  scene.objects.push_back(floor.objects.front());
+  return Loop(prepare(scene, test::exact_rig()));
+}
+
+TEST(Guard, ATipAtTheEdgeOfTheReachComesBack) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> turn(0.0, 2.0 * M_PI), far(0.06, 0.2), high(0.0, 0.06);
+  for (int seed = 0; seed < 60; ++seed) {
+    Loop loop = ball_on_a_floor();
+    const double a = turn(random), r = far(random);
+    loop.tool_tip = Point<'W'>(0, 0, 0.05);
+    loop.tick(500);
+    const Point<'W'> aside(r * std::cos(a), r * std::sin(a), high(random));
+    for (int i = 1; i <= 500; ++i) {  // slower than what is taken for a leap
+      loop.tool_tip = Point<'W'>(0, 0, 0.05) + (i / 500.0) * (aside - Point<'W'>(0, 0, 0.05));
+      loop.tick();
+    }
+    loop.tick(2500);
+    const double out = (loop.tip() - Point<'W'>(0, 0, 0.008)).norm();
+    for (int i = 1; i <= 500; ++i) {
+      loop.tool_tip = aside + (i / 500.0) * (Point<'W'>(0, 0, 0.05) - aside);
+      loop.tick();
+    }
+    loop.tick(4000);
+    EXPECT_GT(out, 0.02) << seed;
+    EXPECT_LT((loop.tip() - Point<'W'>(0, 0, 0.008)).norm(), 2e-3)
+        << "went to " << aside.xyz[0] << " " << aside.xyz[1] << " " << aside.xyz[2];
+    EXPECT_TRUE(loop.always_reachable);
+    EXPECT_LE(loop.worst_speed, 1.0 + 1e-9);
+    EXPECT_LE(loop.worst_acceleration, 1.0 + 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace enc
