@@ -12,6 +12,7 @@
 #include "sim/arm_spec.h"
 #include "sim/machine_spec.h"
 #include "sim/sensor_spec.h"
+#include "sim/solver_spec.h"
 
 namespace enc::sim {
 
@@ -21,17 +22,6 @@ struct WorldTruth {
   double tip_friction = 0.6;  // tool on haptic-tip
   double contact_time =
       0.005;  // s, of the stop between tool and tip: a hard contact, not a rendered stiffness
-};
-
-// How MuJoCo solves contacts and dry friction.
-enum class Cone : std::uint8_t { elliptic, pyramidal };
-constexpr auto words(Cone) { return enum_words("elliptic", "pyramidal"); }
-struct SolverTruth {
-  Cone cone = Cone::elliptic;
-  double impratio = 20.0;     // of friction's impedance to that of the stop: friction that does not creep
-  double noslip = kUnset;     // steps of the pass that takes out creep; unset: 4, and none with an arm
-  double iterations = 100.0;  // of Newton's method, at most
-  double tolerance = 1e-8;    // where it ends
 };
 
 // Where camera and sensor really are. The rig file has what is believed.
