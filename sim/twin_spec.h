@@ -19,9 +19,8 @@ namespace enc::sim {
 struct WorldTruth {
   double timestep = 0.001;  // s
   std::string integrator = "implicitfast";
-  double tip_friction = 0.6;  // tool on haptic-tip
-  double contact_time =
-      0.005;  // s, of the stop between tool and tip: a hard contact, not a rendered stiffness
+  double tip_friction = 0.6;    // tool on haptic-tip
+  double contact_time = 0.005;  // s, of the stop between tool and tip: hard, not a rendered stiffness
 };
 
 // Where camera and sensor really are. The rig file has what is believed.

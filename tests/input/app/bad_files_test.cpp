@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"NanMass", kBall, "mass_kg = 0.05", "mass_kg = nan", "nan", "expected a finite number"},
         BadFile{"InfiniteMass", kBall, "mass_kg = 0.05", "mass_kg = inf", "inf", "expected a finite number"},
         BadFile{"NegativeMass", kBall, "mass_kg = 0.05", "mass_kg = -0.05", "-0.05",
-                "expected a positive number"},
+                "expected a number of at least 1e-06"},
         BadFile{"NegativeMassBehindTheSensor", kSim, "mass_kg = 0.91", "mass_kg = -0.91", "-0.91",
                 "expected a"},
         BadFile{"NegativeStiffness", "behaviours.toml", "N_per_mm = 2\n", "N_per_mm = -2\n", "-2",
