@@ -31,7 +31,7 @@ struct ArmTruth {
   std::array<double, kMostJoints> counts{4096.0, 4096.0,
                                          4096.0};  // of an encoder, for each turn of its motor
   ArmFriction friction_form = ArmFriction::dry;
-  std::array<double, kMostJoints> friction{0.01, 0.01, 0.01};        // Coulomb, at the joint, N m or N
+  std::array<double, kMostJoints> friction{0.01, 0.01, 0.01};  // Coulomb, at the joint, N m or N
   double friction_time = 0.020;  // s, of the dry form, in which it sets in: a damper to what is slower
   std::array<double, kMostJoints> viscous{0.0005, 0.0005, 0.0005};   // N m s/rad or N s/m
   std::array<double, kMostJoints> peak_torque{0.129, 0.129, 0.129};  // of the motor, N m
