@@ -158,10 +158,9 @@ std::string refusal_text(const models::Setup& setup, const Certified& certified)
   const certificate::Row& held = certificate::row_of(of, "exact_with_hand");
   return fmt::format(
       "{} asks for {:.3g} N/mm and is {}: under the hand that the rig expects the loop is stable from {:.3g} "
-      "to {:.3g} N/mm; make it {}{}",
+      "to {:.3g} N/mm; make it {}",
       name_of(certified), 1e-3 * certified.asked, word_of(of.verdict), 1e-3 * held.low, 1e-3 * held.bound,
-      softer_or_stiffer(of, certified.asked),
-      setup.rig.arm.passivity == PassivityForm::none ? ", or set rig.arm.passivity=controlled" : "");
+      softer_or_stiffer(of, certified.asked));
 }
 
 std::string key_of(const Certified& certified) {

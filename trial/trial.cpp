@@ -42,10 +42,8 @@ double pace_of(const TrialOptions& options, bool wall) {
 
 // What a simulated machine only says, a real one does not begin (sources/choices 15).
 void refuse_limits(const models::Setup& setup, const Scene& scene) {
-  const Impedance* law = scene.impedance();
-  const bool controlled = law != nullptr && law->rig.passivity == PassivityForm::controlled;
   for (const Certified& one : certificates_of(setup, scene))
-    if (const std::string why = refusal_text(setup, one); !why.empty() && !(controlled && one.beyond()))
+    if (const std::string why = refusal_text(setup, one); !why.empty())
       throw Error(models::place_of(setup, key_of(one)) + ": " + why + "; a real machine is not armed for it");
   for (const ArmStrength& at : strengths_of(setup, scene))
     if (const std::string beyond = beyond_text(at); !beyond.empty())

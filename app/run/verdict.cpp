@@ -152,9 +152,9 @@ void add_moved(const RunReport& r, Lines& lines) {
                   rounded(mm.y()), rounded(mm.z()), 1e3 * found.error, unknown));
 }
 
-// What is beyond its bound was rendered, and nothing held back what that gives out.
+// What is beyond its bound was rendered: a contact with the object, of whichever none is known.
 void add_unstable(const RunReport& r, Lines& lines) {
-  if (r.result.contacts == 0 || r.setup.rig.arm.passivity == PassivityForm::controlled) return;
+  if (r.result.contacts == 0) return;
   for (const trial::Certified& one : r.certificates)
     if (one.beyond() && (std::isnan(one.ramp) || one.certificate.verdict == certificate::Class::unstable))
       lines.push_back("rendered beyond what is stable: " + trial::refusal_text(r.setup, one));

@@ -29,14 +29,15 @@ void describe(Visitor& v, sim::WorldTruth& w) {
 
 void describe(Visitor& v, sim::SolverTruth& s) {
   choice(v, {"cone", "of friction", "sources/twin 3", chosen}, s.cone);
-  v.value({"impratio", "friction's impedance over that of the stop", "sources/twin 3", chosen, kPositive},
+  v.value({"impratio", "friction's impedance over that of the stop", "sources/twin 3", chosen,
+           Range{0.0, 1000.0, true}},
           &s.impratio);
   v.value({"noslip_iterations", "of the pass against creep; unset: 4, and none where there is an arm",
            "docs/reference/phantom_twin.md", chosen, Range{0.0, 1000.0}, optional},
           &s.noslip);
   v.value({"iterations", "of the solver, at most", "sources/twin 3", chosen, Range{1.0, 10000.0}},
           &s.iterations);
-  v.value({"tolerance", "where the solver ends", "sources/twin 3", chosen, Range{0.0, 1.0}}, &s.tolerance);
+  v.value({"tolerance", "where the solver ends", "sources/twin 3", chosen, Range{0.0, 1e-4}}, &s.tolerance);
 }
 
 void describe(Visitor& v, sim::HexapodTruth& h) {
