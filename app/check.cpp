@@ -9,6 +9,7 @@
 #include "app/built.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
+#include "app/said.h"
 #include "app/stability_text.h"
 #include "core/machine/steadiness.h"
 #include "core/safety/room.h"
@@ -68,28 +69,17 @@ std::string frames_text(const models::Setup& setup, const Scene& scene) {
 // ---- limits
 // -------------------------------------------------------------------------------------------------------
 
-// What is said of an object, after its name. Objects of which the same is said share a line.
-using Said = std::vector<std::pair<std::string, std::string>>;
-
 std::string objects_named(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 3;
   if (names.size() == 1) return fmt::format("object '{}'", names.front());
-  std::string text = "objects ";
-  const std::size_t shown = names.size() > kMost ? 2 : names.size();
-  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i]);
-  return shown == names.size() ? text : text + fmt::format(" and {} more", names.size() - shown);
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back("'" + name + "'");
+  return "objects " + listed(quoted);
 }
 
 std::string lines_of(const Said& said) {
   std::string text;
-  for (auto at = said.begin(); at != said.end(); ++at) {
-    const auto same = [&](const auto& other) { return other.second == at->second; };
-    if (std::any_of(said.begin(), at, same)) continue;
-    std::vector<std::string> names;
-    for (const auto& other : said)
-      if (same(other)) names.push_back(other.first);
-    text += fmt::format("  {}: {}\n", objects_named(names), at->second);
-  }
+  for (const SaidOf& group : grouped(said))
+    text += fmt::format("  {}: {}\n", objects_named(group.names), group.what);
   return text;
 }
 

@@ -5,33 +5,21 @@
 
 #include <fmt/format.h>
 
+#include "app/said.h"
+
 namespace enc::app {
 namespace {
 
 using trial::Certified;
 
-std::string names_text(const std::vector<const Certified*>& all) {
-  constexpr std::size_t kMost = 3;
+// A line for each class that there is.
+std::string class_lines(const std::vector<Certified>& all, const char* before) {
+  Said said;
+  for (const Certified& one : all) said.emplace_back(trial::name_of(one), trial::class_text(one));
   std::string text;
-  const std::size_t shown = all.size() > kMost ? kMost - 1 : all.size();
-  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : ", ") + trial::name_of(*all[i]);
-  return shown == all.size() ? text : text + fmt::format(" and {} more", all.size() - shown);
-}
-
-// Those of which the same is said, in the order of the first of each.
-std::vector<std::pair<std::string, std::vector<const Certified*>>> grouped(
-    const std::vector<Certified>& all) {
-  std::vector<std::pair<std::string, std::vector<const Certified*>>> groups;
-  for (const Certified& one : all) {
-    const std::string said = trial::class_text(one);
-    const auto same =
-        std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == said; });
-    if (same == groups.end())
-      groups.push_back({said, {&one}});
-    else
-      same->second.push_back(&one);
-  }
-  return groups;
+  for (const SaidOf& group : grouped(said))
+    text += fmt::format("{}{}: {}\n", before, listed(group.names), group.what);
+  return text;
 }
 
 // How near it is to what it may ask for: the least margin of what makes it unstable, or 0 beyond that.
@@ -68,9 +56,7 @@ std::string rows_text(const Certified& one) {
 
 std::string stability_text(const models::Setup& setup, const std::vector<Certified>& certificates) {
   if (certificates.empty()) return {};
-  std::string text = "\nstability\n";
-  for (const auto& [said, all] : grouped(certificates))
-    text += fmt::format("  {}: {}\n", names_text(all), said);
+  std::string text = "\nstability\n" + class_lines(certificates, "  ");
   for (const Certified& one : certificates)
     if (one.beyond() || one.unknown()) text += "  BEYOND: " + trial::refusal_text(setup, one) + "\n";
   const auto nearest =
@@ -80,10 +66,7 @@ std::string stability_text(const models::Setup& setup, const std::vector<Certifi
 }
 
 std::string stability_lines(const std::vector<Certified>& certificates) {
-  std::string text;
-  for (const auto& [said, all] : grouped(certificates))
-    text += fmt::format("stability   {}: {}\n", names_text(all), said);
-  return text;
+  return class_lines(certificates, "stability   ");
 }
 
 }  // namespace enc::app

@@ -68,13 +68,6 @@ void add_row(std::vector<certificate::Row>& rows, const char* name, const char* 
   rows.push_back({name, formula, kNone, low > 0.0 ? asked / low : kNone, applies, source, low});
 }
 
-// The same object, softer, until it swings.
-void add_large(const Steadiness& loop, const Object& object, double ramp, bool stands, const char* name,
-               const char* formula, Certified& at) {
-  const double least = stands ? at.asked * loop.least_share(object.response, object.limit, ramp) : kUnset;
-  add_row(at.certificate.rows, name, formula, least, at.asked, true, "docs/notes/stiffness.md");
-}
-
 std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& scene, bool whole) {
   const Steadiness loop(setup.rig);
   const double ramp = ramp_of(setup), linear = lowest_stable_stiffness(loop_of(setup.rig));
@@ -93,18 +86,14 @@ std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& sc
     at.certificate.verdict = small ? worst.swing > 0.0 ? Class::local : Class::alone : Class::unstable;
     add_row(at.certificate.rows, "admittance", "1 + Z G H e^{-s t_d}/K = 0 has no root to the right", linear,
             at.asked, !damped, "[VHMR Fig 3], docs/reference/model.md");
-    if (whole)
-      add_large(loop, object, ramp, worst.swing == 0.0, "large_signal",
-                "all of it softer, down to half: pushed as this scene does, with all limits, it stands still",
-                at);
+    if (whole)  // the same object, softer, until it swings
+      add_row(at.certificate.rows, "large_signal",
+              "all of it softer, down to half: pushed as this scene does, with all limits, it stands still",
+              worst.swing == 0.0 ? at.asked * loop.least_share(object.response, object.limit, ramp) : kUnset,
+              at.asked, true, "docs/notes/stiffness.md");
     found.push_back(std::move(at));
   }
   return found;
-}
-
-const char* softer_or_stiffer(const certificate::Certificate& of, double asked) {
-  const certificate::Row& row = certificate::row_of(of, "exact_with_hand");
-  return asked < row.low ? "stiffer" : "softer";
 }
 
 }  // namespace
@@ -160,7 +149,7 @@ std::string refusal_text(const models::Setup& setup, const Certified& certified)
       "{} asks for {:.3g} N/mm and is {}: under the hand that the rig expects the loop is stable from {:.3g} "
       "to {:.3g} N/mm; make it {}",
       name_of(certified), 1e-3 * certified.asked, word_of(of.verdict), 1e-3 * held.low, 1e-3 * held.bound,
-      softer_or_stiffer(of, certified.asked));
+      certified.asked < held.low ? "stiffer" : "softer");
 }
 
 std::string key_of(const Certified& certified) {

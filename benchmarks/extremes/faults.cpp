@@ -7,32 +7,28 @@
 namespace enc::bench::extremes {
 namespace {
 
-class CleanTracker final : public PoseTracker {
+// Says at each poll what the device said last, whatever became of it.
+template <class Role, class Sample>
+class Clean : public Role {
  public:
-  explicit CleanTracker(std::unique_ptr<PoseTracker> tracker) : tracker_(std::move(tracker)) {}
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
-    tracker_->poll(now, newest_);
+  explicit Clean(std::unique_ptr<Role> device) : device_(std::move(device)) {}
+  bool poll(Time now, Stamped<Sample>& newest) noexcept override {
+    device_->poll(now, newest_);
     newest = newest_;
     return true;
   }
 
+ protected:
+  std::unique_ptr<Role> device_;
+
  private:
-  std::unique_ptr<PoseTracker> tracker_;
-  Stamped<TrackedTool> newest_;
+  Stamped<Sample> newest_;
 };
-class CleanDisplay final : public Display {
+using CleanTracker = Clean<PoseTracker, TrackedTool>;
+class CleanDisplay final : public Clean<Display, DentSample> {
  public:
-  explicit CleanDisplay(std::unique_ptr<Display> display) : display_(std::move(display)) {}
-  void show(const View& view) noexcept override { display_->show(view); }
-  bool poll(Time now, Stamped<DentSample>& newest) noexcept override {
-    display_->poll(now, newest_);
-    newest = newest_;
-    return true;
-  }
-
- private:
-  std::unique_ptr<Display> display_;
-  Stamped<DentSample> newest_;
+  using Clean::Clean;
+  void show(const View& view) noexcept override { device_->show(view); }
 };
 
 }  // namespace

@@ -40,16 +40,19 @@ bool names(const Said& said, const std::string& parameter) {
   return said.refusal.find(parameter) != std::string::npos && said.refusal.find('\n') == std::string::npos;
 }
 
+// 1 where a scene is refused so with that setting, 0 where it is not.
+double refused_in(const BenchContext& context, const std::string& scene, const std::string& set,
+                  const std::string& parameter) {
+  return names(said(context, scene, {set}), parameter) ? 1.0 : 0.0;
+}
+
 Found masses(const BenchContext& context) {
   Found found{"tools of 1e-9, 1e-20, 0, -1, NaN kg and of 1 mg, 1 g", "refused, and named, or it runs", {}};
   constexpr std::array kMasses{"1e-9", "1e-20", "0", "-1", "nan", "1e-6", "1e-3"};
   double refused = 0.0, sound = 0.0;
   for (const char* mass : kMasses) {
-    refused +=
-        names(said(context, "wall", {fmt::format("tool.finger.mass_kg={}", mass)}), "finger") ? 1.0 : 0.0;
-    refused += names(said(context, "tennis_ball", {fmt::format("tool.stylus.mass_kg={}", mass)}), "stylus")
-                   ? 1.0
-                   : 0.0;
+    refused += refused_in(context, "wall", fmt::format("tool.finger.mass_kg={}", mass), "finger");
+    refused += refused_in(context, "tennis_ball", fmt::format("tool.stylus.mass_kg={}", mass), "stylus");
   }
   for (const char* mass : {"0.0022", "1", "100"}) {
     const Said arm = said(context, "wall", {fmt::format("tool.finger.mass_kg={}", mass)});
@@ -73,13 +76,10 @@ Found steps(const BenchContext& context) {
   for (const char* step : kSteps)
     for (const auto& [scene, table] : {std::pair{"wall", "arm"}, {"tennis_ball", "world"}})
       refused +=
-          names(said(context, scene, {fmt::format("truth.{}.timestep_us={}", table, step)}), "timestep_us")
-              ? 1.0
-              : 0.0;
+          refused_in(context, scene, fmt::format("truth.{}.timestep_us={}", table, step), "timestep_us");
   for (const char* rate : kRates)
     for (const char* scene : {"wall", "tennis_ball"})
-      refused +=
-          names(said(context, scene, {fmt::format("rig.loop.rate_hz={}", rate)}), "rate_hz") ? 1.0 : 0.0;
+      refused += refused_in(context, scene, fmt::format("rig.loop.rate_hz={}", rate), "rate_hz");
   double sound = 0.0;
   for (const auto& [scene, table] : {std::pair{"wall", "arm"}, {"tennis_ball", "world"}}) {
     std::vector<std::string> set{"rig.loop.rate_hz=200", fmt::format("truth.{}.timestep_us=5000", table)};
@@ -101,11 +101,8 @@ Found unreachable(const BenchContext& context) {
   double refused = 0.0;
   constexpr std::array kFar{"[0,0,400]", "[0,0,-300]", "[0,0,1e9]"};
   for (const char* place : kFar) {
-    refused +=
-        names(said(context, "wall", {fmt::format("object.wall.position_mm={}", place)}), "wall") ? 1.0 : 0.0;
-    refused += names(said(context, "tennis_ball", {fmt::format("object.ball.position_mm={}", place)}), "ball")
-                   ? 1.0
-                   : 0.0;
+    refused += refused_in(context, "wall", fmt::format("object.wall.position_mm={}", place), "wall");
+    refused += refused_in(context, "tennis_ball", fmt::format("object.ball.position_mm={}", place), "ball");
   }
   const auto clear = [](models::Setup& setup) { setup.scene.objects.clear(); };
   double empty = 0.0;

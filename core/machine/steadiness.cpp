@@ -1,6 +1,7 @@
 #include "core/machine/steadiness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -16,8 +17,9 @@
 namespace enc {
 namespace {
 
-constexpr double kHold = 6.0, kWatched = 3.0;  // s
-constexpr double kWaits = 2e-3;                // m above the surface, where the push begins
+constexpr double kHold = 6.0, kWatched = 3.0;        // s
+constexpr std::array kDepths{1.0, 0.75, 0.5, 0.25};  // of the deepest, that are tried
+constexpr double kWaits = 2e-3;                      // m above the surface, where the push begins
 // The contact threshold over what wakes a swing that the loop could keep up, rms: 0.1 N over 0.02 N, the
 // noise of the paper's sensor (0.0144 N with its steps) and the tremor of who pushes.
 constexpr double kOverNoise = 5.0;
@@ -126,49 +128,50 @@ double Steadiness::still() const { return std::max(kStill, threshold_ * kMargin 
 
 Steadiness::Worst Steadiness::worst(const Response& object, double limit, double ramp, double share) const {
   Worst worst;
-  for (const double part : {1.0, 0.75, 0.5, 0.25}) {
+  for (const double part : kDepths) {
     const double here = swing(object, part * limit, limit, ramp, share);
     if (here > kCareful * still() && here > worst.swing) worst = {part * limit, here};
   }
   return worst;
 }
 
+bool Steadiness::stands(const Response& object, double deepest, double limit, double ramp,
+                        double share) const {
+  return std::none_of(kDepths.begin(), kDepths.end(), [&](double part) {
+    return swing(object, part * deepest, limit, ramp, share) > kCareful * still();
+  });
+}
+
 double Steadiness::least_share(const Response& object, double limit, double ramp) const {
   constexpr double kNear = 1.1;
-  const auto stands = [&](double share) {
-    for (const double part : {1.0, 0.75, 0.5, 0.25})
-      if (swing(object, part * limit, limit, ramp, share) > kCareful * still()) return false;
-    return true;
-  };
-  if (stands(kLeastShare)) return kLeastShare;
+  const auto so_soft = [&](double share) { return stands(object, limit, limit, ramp, share); };
+  if (so_soft(kLeastShare)) return kLeastShare;
   double high = 1.0, low = kLeastShare;
   while (high / low > kNear) {
     const double middle = std::sqrt(low * high);
-    (stands(middle) ? high : low) = middle;
+    (so_soft(middle) ? high : low) = middle;
   }
   return high;
 }
 
 double Steadiness::softest(double depth, double force, double ramp) const {
-  const auto stands = [&](double k) {
+  const auto so_soft = [&](double k) {
     const double most = std::min(depth, force / k), limit = 1.5 * most;
     const Response spring({{k, 0, 0, 0}, {k, 0, 0, 0}, limit}, 0.0);
-    for (const double share : {1.0, 0.75, 0.5, 0.25})
-      if (swing(spring, share * most, limit, ramp) > kCareful * still()) return false;
-    return true;
+    return stands(spring, most, limit, ramp);
   };
   constexpr double kSteps = 1.3, kNear = 1.02;
   double high = 8.0 * loop_.hand_stiffness;  // of a loop that is of any use this is stable
-  while (!stands(high) && high < 1e6) high *= 2.0;
+  while (!so_soft(high) && high < 1e6) high *= 2.0;
   double low = high / kSteps;
-  while (stands(low)) {
+  while (so_soft(low)) {
     if (low < least_felt(depth)) return least_felt(depth);
     high = low;
     low /= kSteps;
   }
   while (high / low > kNear) {
     const double middle = std::sqrt(low * high);
-    (stands(middle) ? high : low) = middle;
+    (so_soft(middle) ? high : low) = middle;
   }
   return high;
 }

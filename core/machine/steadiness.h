@@ -47,6 +47,10 @@ class Steadiness {
   [[nodiscard]] double softest(double depth, double force, double ramp) const;
 
  private:
+  // At each of a few depths up to `deepest`.
+  [[nodiscard]] bool stands(const Response& object, double deepest, double limit, double ramp,
+                            double share = 1.0) const;
+
   LoopModel loop_;
   double acceleration_, speed_;  // of commands along the normal, and of the machine's tip, m/s^2 and m/s
   double filter_gain_, dt_;      // per tick; s

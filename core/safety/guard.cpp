@@ -102,13 +102,18 @@ Vec3 commanded(Walk& walk, State& state, const Commanded& now, const Walls& wall
                      next_velocity(walk, walls, walk.scene.X_WR.q() * (target - now.command).e(), before));
 }
 
+// From base to platform, in R.
+Vec3 strut_of(const Hexapod& machine, const Point<'R'>& at, const Mat3& R, int leg) {
+  return at.e() + R * machine.platform_joint(leg) - machine.base_joint(leg);
+}
+
 // Legs have a shortest length, so the reach is not convex: a way of 3 mm between two points within it can
 // leave it by 8 um. Each leg is shortest where the way is at right angles to it.
 bool legs_reach_along(const Hexapod& machine, const Pose<'R', 'H'>& from, const Vec3& way) {
   const double shortest = machine.zero_length() - machine.geometry().stroke;
   const Mat3 R = from.q().toRotationMatrix();
   for (int leg = 0; leg < 6; ++leg) {
-    const Vec3 strut = from.p() + R * machine.platform_joint(leg) - machine.base_joint(leg);
+    const Vec3 strut = strut_of(machine, from.origin(), R, leg);
     const double share = -strut.dot(way) / way.squaredNorm();
     if (share > 0.0 && share < 1.0 && (strut + share * way).norm() < shortest) return false;
   }
@@ -124,7 +129,7 @@ Vec3 along_edge(const Hexapod& machine, const Pose<'R', 'H'>& at, Vec3 velocity,
   const double stroke = machine.geometry().stroke;
   for (int again = 0; again < 3; ++again) {  // what helps one leg may not help the one beside it
     for (int leg = 0; leg < 6; ++leg) {
-      const Vec3 strut = at.p() + R * machine.platform_joint(leg) - machine.base_joint(leg);
+      const Vec3 strut = strut_of(machine, at.origin(), R, leg);
       const double out = strut.norm() - machine.zero_length(), along = strut.dot(velocity);
       // Straight on at right angles to it a leg gets longer: by v^2 t / 2 of the way in the time t.
       const double longer = velocity.squaredNorm() * braking_time;
