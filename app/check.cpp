@@ -72,6 +72,7 @@ std::string frames_text(const models::Setup& setup, const Scene& scene) {
 std::string objects_named(const std::vector<std::string>& names) {
   if (names.size() == 1) return fmt::format("object '{}'", names.front());
   std::vector<std::string> quoted;
+  quoted.reserve(names.size());
   for (const std::string& name : names) quoted.push_back("'" + name + "'");
   return "objects " + listed(quoted);
 }
