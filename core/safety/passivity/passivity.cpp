@@ -6,19 +6,19 @@
 namespace enc {
 namespace {
 
-// The largest f with f (u + g f) <= left; where there is none, the one that takes back most.
+// J: less is owed by what no encoder sees, and a wall that stops pushing for it would be felt.
+constexpr double kForgiven = 0.03e-3;
+
+// The largest f with f (u + g f) <= left, which is not below 0.
 double largest(double left, double u, double g) {
-  const double square = u * u + 4.0 * g * left;
-  if (!(square > 0.0)) return -u / (2.0 * g);
-  const double root = std::sqrt(square);
+  const double root = std::sqrt(u * u + 4.0 * g * left);
   return u > 0.0 ? 2.0 * left / (u + root) : (root - u) / (2.0 * g);
 }
 
-// A reading is within half a count of where the tip is: that is given to the law. A damper against what is
-// no motion would be felt, so that one takes back of what is sure to move alone.
+// A reading is within half a count of where the tip is: that is given to the law, as long as little is owed.
+// What gives nothing out may always be.
 double bound(double left, double u, double g, double count) {
-  const double most = largest(left, u - 0.5 * count, g);
-  return most >= 0.0 ? most : largest(left, std::max(0.0, u - 1.5 * count), g);
+  return left > -kForgiven ? largest(std::max(0.0, left), u - 0.5 * count, g) : largest(0.0, u, g);
 }
 
 }  // namespace
@@ -26,11 +26,9 @@ double bound(double left, double u, double g, double count) {
 void begin(Passivity& now, const Yielded& tick, double left) noexcept {
   now = Passivity{};
   now.on = true;
-  now.left = left;
-  now.stored = std::max(0.0, 0.5 * tick.spring * tick.depth);
+  renew(now, tick);
+  now.left = std::min(left, now.stored);
   now.moved = tick.moved;
-  now.depth = tick.depth;
-  now.spring = tick.spring;
 }
 
 void renew(Passivity& now, const Yielded& tick) noexcept {
@@ -47,7 +45,7 @@ void observe(Passivity& now, const Yielded& tick, double count) noexcept {
   if (now.moved != 0.0) now.way = now.moved > 0.0 ? 1.0 : -1.0;
   const double work = now.pushed * now.moved;
   now.given += work;
-  now.dissipated += now.taken * now.moved;
+  now.dissipated += std::max(0.0, now.taken * now.moved);
   // Exact where the stiffness stays. Where the spring is at rest it holds nothing.
   const double held = now.stored + 0.5 * (tick.spring + now.spring) * (tick.depth - now.depth);
   const double anew = 0.5 * tick.spring * tick.depth;
@@ -59,8 +57,9 @@ void observe(Passivity& now, const Yielded& tick, double count) noexcept {
 
 double passive(const Passivity& now, double wanted, double per_newton, double count) noexcept {
   const double u = now.moved + per_newton * now.pushed;
-  const double high = bound(now.left, u, per_newton, count), low = -bound(now.left, -u, per_newton, count);
-  return std::max(std::min(wanted, high), low);
+  const double most =
+      wanted > 0.0 ? bound(now.left, u, per_newton, count) : bound(now.left, -u, per_newton, count);
+  return std::copysign(std::min(std::abs(wanted), most), wanted);
 }
 
 void hold(Passivity& now, double pushed, double wanted) noexcept {

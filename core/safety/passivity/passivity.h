@@ -2,18 +2,17 @@
 // 2002]. Outwards is positive: pushed outwards while it moves outwards, the law gives out.
 //
 //   left <- min(left - f_{n-1} (x_n - x_{n-1}), stored_n)
-//   f_n  =  f of the law, as near as possible, so that  f (u + g f) <= left,   g = T^2 / (2 m)
+//   f_n  =  of the law's push as much, from none to all, as keeps  f (u + g f) <= left,   g = T^2 / (2 m)
 //
 // A force that is held over a period does exactly f_{n-1} (x_n - x_{n-1}): the observer needs no model, and
-// whatever is inside the law (filter, rates, late readings) is seen. What may still be given out is what was
-// put in, and what the law's spring held when it began; and never more than that spring holds now: what its
-// dampers took is gone, and cannot hide what is given out later (reference energy following [Ryu et al.
-// 2005]).
+// whatever is inside the law (filter, rates, late readings) is seen. What may be given out is what was put
+// in; and never more than the law's spring holds now: what its dampers took is gone, and cannot hide what is
+// given out later (reference energy following [Ryu et al. 2005]).
 //
 // The controller looks ahead a period instead of mending what is past: x_{n+1} - x_n is believed to be u + g
 // f, u being what the mass m does by itself after it has moved by x_n - x_{n-1} under f_{n-1}. So nothing is
-// divided by a low velocity: at rest the bound is sqrt(left / g). Where more was given out than there was, it
-// takes that back as a damper, of no more than m/T: what stops the mass within the period.
+// divided by a low velocity: at rest the bound is sqrt(left / g). It only lessens a push, and never turns it
+// round: where more was given out than there was, nothing more is, until as much was put in.
 #pragma once
 
 #include <string_view>
@@ -33,7 +32,7 @@ struct Passivity {
   // Of this contact.
   double given = 0.0;       // J: work of what was pushed; above 0: more out than in
   double dissipated = 0.0;  // J: what the law would have given out more
-  double most = 0.0;        // N, the largest of `taken`, either way
+  double most = 0.0;        // N, the largest of `taken`
 };
 
 // A tick.
@@ -42,13 +41,14 @@ struct Yielded {
   double depth = 0.0;   // m, of the law's spring
   double spring = 0.0;  // N, that it pushes outwards with where nothing moves
 };
-// A contact begins. `left`, J: what its spring held before; 0 of a wall that was not felt yet.
+// A contact begins. `left`, J: what was put in before, of which no more counts than the spring holds; 0 of a
+// wall that was not felt yet; below 0: what is owed.
 void begin(Passivity& now, const Yielded& tick, double left) noexcept;
 // Its spring is another one from now on, as where the normal jumps: nothing is given for that.
 void renew(Passivity& now, const Yielded& tick) noexcept;
-// The period is over in which `pushed` was held.
+// The period is over in which `pushed` was held; readings step by `count`, m.
 void observe(Passivity& now, const Yielded& tick, double count) noexcept;
-// N: what of the wanted push is given, whatever the limits; `per_newton` is g, readings step by `count`, m.
+// N: what of the wanted push is given, whatever the limits; `per_newton` is g, `count` as above.
 [[nodiscard]] double passive(const Passivity& now, double wanted, double per_newton, double count) noexcept;
 // What is held from now on, and what the law asked for.
 void hold(Passivity& now, double pushed, double wanted) noexcept;

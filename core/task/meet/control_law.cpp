@@ -128,14 +128,12 @@ void guard(Walk& walk, const Impedance& law, State& state, Meeting& memory) noex
   if (walk.X_WH.valid()) {
     walk.arm_force = against_gravity(walk, law);
     walk.felt = Vec<'W'>::zero();
+    const Tame tame(walk, law, state, memory);  // between the law and what the machine can
     if (!holding(walk)) {
-      const Tame tame(walk, law, state, memory);  // between the law and what the machine can
       const Vec3 pushed = guarded(walk, law, memory.heat, tame.wanted);
       tame.held(walk, memory, pushed);
       walk.felt = Vec<'W'>(Vec3(-pushed));
       walk.arm_force = walk.arm_force + walk.scene.X_WR.inverse() * Vec<'W'>(pushed);  // [eq. 6]
-    } else {
-      memory.tamed = Tamed{};
     }
     state.force = walk.felt;
     if (!walk.in.withheld) torque = law.arm.torque(walk.jacobian, walk.arm_force);

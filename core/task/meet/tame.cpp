@@ -35,24 +35,42 @@ double moved(const Walk& walk, const State& state, const Meeting& memory) {
   return normal.dot(way - other);
 }
 
+// A contact that is lost while the tip is inside, and found again, goes on with what was left: nothing is
+// given for that a law begins anew. Where the tip has been outside nobody is owed anything.
+void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
+  if (now.energy.on) now.kept = now.energy.left;
+  now.energy = Passivity{};
+  const bool known = !holding(walk) && walk.normal.finite() && memory.aim.target.finite();
+  if (known && dot(memory.aim.target - walk.X_WH.origin(), walk.normal) <= 0.0) now.kept = 0.0;
+}
+
+// What the law does not send it does not give out, either.
+const Object* tamed_object(const Walk& walk, const State& state) {
+  if (state.mode != Mode::contact || walk.in.withheld || holding(walk)) return nullptr;
+  const Object* object = nearest_object(walk, state);
+  const bool renders = object != nullptr && object->interaction.kind != Interaction::passive;
+  const bool known = walk.along_mass > 0.0 && walk.wanted_force.finite() && walk.normal.finite();
+  return renders && known ? object : nullptr;
+}
+
 }  // namespace
 
 Tame::Tame(Walk& walk, const Impedance& law, const State& state, Meeting& memory) noexcept
     : wanted(walk.wanted_force.e()) {
   if (law.rig.passivity == PassivityForm::none) return;
   Tamed& now = memory.tamed;
-  const Object* object = state.mode == Mode::contact ? nearest_object(walk, state) : nullptr;
-  const bool renders = object != nullptr && object->interaction.kind != Interaction::passive;
-  if (!renders || !(walk.along_mass > 0.0) || !wanted.allFinite() || !walk.normal.finite()) {
-    now = Tamed{};
+  const Object* object = tamed_object(walk, state);
+  if (object == nullptr) {
+    lose(walk, memory, now);
     return;
   }
-  if (now.object != state.object) now = Tamed{};
+  if (now.energy.on && now.object != state.object) lose(walk, memory, now);
   const Spring spring = spring_of(walk, law, state, memory, *object);
   const Yielded tick{moved(walk, state, memory), spring.depth, spring.push};
   constexpr double kTurned = 0.9;  // cosine: it is another side of the object
   if (!now.energy.on) {
-    begin(now.energy, tick, std::max(0.0, 0.5 * spring.push * spring.depth));
+    begin(now.energy, tick, now.kept);
+    now.kept = 0.0;
   } else {
     if (dot(walk.normal, now.normal) < kTurned) renew(now.energy, tick);
     observe(now.energy, tick, law.count);
@@ -71,8 +89,8 @@ Tame::Tame(Walk& walk, const Impedance& law, const State& state, Meeting& memory
 
 void Tame::held(const Walk& walk, Meeting& memory, const Vec3& pushed) const noexcept {
   if (!memory.tamed.energy.on) return;
-  const double push = walk.in.withheld ? 0.0 : pushed.dot(walk.normal.e());
-  hold(memory.tamed.energy, push, push + (walk.in.withheld ? 0.0 : taken));
+  const double push = pushed.dot(walk.normal.e());
+  hold(memory.tamed.energy, push, push + taken);
 }
 
 }  // namespace enc::stages

@@ -11,6 +11,7 @@ namespace enc {
 // What the push along the normal has given out in the present contact; nothing where that is not controlled.
 struct Tamed {
   Passivity energy;
+  double kept = 0.0;  // J: was left of a contact that was lost while the tip was inside
   std::int32_t object = -1;
   Point<'W'> tip, target;  // at the last tick, and the normal
   Vec<'W'> normal;
@@ -18,8 +19,9 @@ struct Tamed {
 
 template <class F>
 void fields(F& f, Tamed& t) {
-  if (!t.energy.on) return;
+  if (!t.energy.on && t.kept == 0.0) return;
   fields(f, t.energy);
+  f("passivity_kept", t.kept);
   f("passivity_object", t.object);
   fields(f, "passivity_tip_W", t.tip);
   fields(f, "passivity_target_W", t.target);

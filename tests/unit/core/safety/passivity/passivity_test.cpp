@@ -16,7 +16,7 @@ constexpr double kG = 1e-3;
 
 Passivity with(double left, double moved = 0.0) {
   Passivity now;
-  begin(now, {moved, 0.0, 0.0}, left);
+  begin(now, {moved, 1.0, 1.0}, left);
   return now;
 }
 double given(double left, double moved, double wanted, double count = 0.0) {
@@ -24,7 +24,8 @@ double given(double left, double moved, double wanted, double count = 0.0) {
 }
 
 TEST(Passivity, AHeldPushDoesItsWork) {
-  Passivity now = with(0.0);
+  Passivity now;
+  begin(now, {0.0, 0.0, 0.0}, 0.0);
   hold(now, 2.0, 2.0);
   observe(now, {-1e-3, 1e-3, 8.0}, 0.0);  // pressed in by 1 mm: 2 mJ in; the spring holds 4 mJ
   EXPECT_DOUBLE_EQ(now.given, -2e-3);
@@ -41,7 +42,8 @@ TEST(Passivity, AHeldPushDoesItsWork) {
 
 // A long press puts much into the law's damper. That does not come back, and hides nothing.
 TEST(Passivity, WhatADamperTookIsNotLeft) {
-  Passivity now = with(0.0);
+  Passivity now;
+  begin(now, {0.0, 0.0, 0.0}, 0.0);
   double depth = 0.0;
   for (int i = 0; i < 1000; ++i) {
     hold(now, 4.0, 4.0);
@@ -64,22 +66,37 @@ TEST(Passivity, NoMoreIsGivenThanIsLeftAfterThePeriod) {
   EXPECT_DOUBLE_EQ(given(2e-3, -1e-3, -9.0), -1.0) << "a pull likewise";
 }
 
-TEST(Passivity, WhatWasGivenOutTooMuchIsTakenBackAsByADamper) {
-  EXPECT_DOUBLE_EQ(given(-0.75e-3, 2e-3, 9.0), -0.5) << "0.5 N over 1.5 mm";
-  EXPECT_DOUBLE_EQ(given(-1.0, 2e-3, 9.0), -1.0) << "never more than stops it within the period";
-  EXPECT_DOUBLE_EQ(given(-1.0, 2e-3, -1.0), -1.0) << "a law that does it itself";
-  EXPECT_DOUBLE_EQ(given(-0.75e-3, -2e-3, 0.0), 0.5) << "inwards likewise";
+// A push is lessened, never turned round: the person would be pulled where the law pushes.
+TEST(Passivity, WhatIsOwedIsNotGivenAgain) {
+  EXPECT_DOUBLE_EQ(given(-0.75e-3, 2e-3, 9.0), 0.0);
+  EXPECT_DOUBLE_EQ(given(-1.0, 2e-3, 9.0), 0.0);
+  EXPECT_DOUBLE_EQ(given(-1.0, 2e-3, -1.0), -1.0) << "what takes in is free";
+  EXPECT_DOUBLE_EQ(given(-0.75e-3, -2e-3, 0.0), 0.0) << "nothing that the law does not ask for";
+  EXPECT_DOUBLE_EQ(given(-1.0, -2e-3, 9.0), 2.0) << "inwards it stops, and is paid";
+  std::mt19937_64 draw(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 10000; ++i) {
+    const double asked = 5.0 * normal(draw), now = given(1e-3 * normal(draw), 1e-3 * normal(draw), asked);
+    EXPECT_GE(now * asked, 0.0);
+    EXPECT_LE(std::abs(now), std::abs(asked));
+  }
 }
 
-// An encoder that counts by 1 mm: what is no motion is not damped, and a reading that turns by one count is
-// no way.
+TEST(Passivity, NoMoreIsKeptThanTheSpringHolds) {
+  Passivity now;
+  begin(now, {0.0, 1e-3, 2.0}, 5e-3);
+  EXPECT_DOUBLE_EQ(now.left, 1e-3);
+  begin(now, {0.0, 1e-3, 2.0}, -5e-3);
+  EXPECT_DOUBLE_EQ(now.left, -5e-3) << "what is owed stays";
+}
+
+// An encoder that counts by 1 mm: it is half a count farther in, for all that is known, and a reading that
+// turns by one count is no way.
 TEST(Passivity, ACountIsNoMotion) {
   constexpr double kCount = 1e-3;
-  EXPECT_DOUBLE_EQ(given(-1e-3, kCount, 9.0, kCount), 0.0) << "no pull";
-  EXPECT_DOUBLE_EQ(given(-1.0, 3e-3, 9.0, kCount), -0.75) << "of 3 mm 1.5 are sure";
-  EXPECT_DOUBLE_EQ(given(0.0, 0.0, 9.0, kCount), 0.5)
-      << "it is half a count farther in, for all that is known";
-
+  EXPECT_DOUBLE_EQ(given(0.0, 0.0, 9.0, kCount), 0.5) << "half a count farther in, for all that is known";
+  EXPECT_DOUBLE_EQ(given(-0.02e-3, 0.0, 9.0, kCount), 0.5) << "and where little is owed for that";
+  EXPECT_DOUBLE_EQ(given(-0.04e-3, 0.0, 9.0, kCount), 0.0) << "but no more";
   Passivity now = with(1e-3);
   for (int i = 0; i < 100; ++i) {
     const double push = i % 2 == 0 ? 2.0 : 1.0;  // 1 mJ each time, if it were a way
@@ -94,7 +111,8 @@ TEST(Passivity, ACountIsNoMotion) {
 }
 
 TEST(Passivity, AnotherSpringGivesNothing) {
-  Passivity now = with(1e-3);
+  Passivity now;
+  begin(now, {0.0, 2e-3, 1.0}, 1e-3);
   renew(now, {0.0, 10e-3, 10.0});
   observe(now, {0.0, 10e-3, 10.0}, 0.0);
   EXPECT_DOUBLE_EQ(now.left, 1e-3) << "though it holds 50 mJ";
@@ -123,10 +141,10 @@ TEST(Passivity, AnyLawOnAnyWalkStaysWithinWhatThereWas) {
   for (int walk = 0; walk < 300; ++walk) {
     const double pushes = walk % 3 == 0 ? 0.0 : std::exp(normal(draw) - 10.0);  // m, what is not foreseen
     const double stiffness = std::exp(8.0 + 3.0 * normal(draw)), wild = walk % 2 == 0 ? 0.0 : 8.0;
-    const double held = std::abs(normal(draw)) * 1e-3;
     double depth = 1e-3, u = 1e-4 * normal(draw), out = 0.0, excused = 0.0, most = 0.0;
     Passivity now;
-    begin(now, {u, depth, stiffness * depth}, held);
+    begin(now, {u, depth, stiffness * depth}, std::abs(normal(draw)) * 1e-3);
+    const double held = now.left;
     for (int i = 0; i < 2000; ++i) {
       const double asked = std::clamp(stiffness * depth + wild * normal(draw), -8.5, 8.5);
       const double push = passive(now, asked, kPerNewton, 0.0);
