@@ -28,6 +28,7 @@ void begin(Passivity& now, const Yielded& tick, double left) noexcept {
   now.on = true;
   renew(now, tick);
   now.left = std::min(left, now.stored);
+  now.given = -now.left;
   now.moved = tick.moved;
 }
 

@@ -29,7 +29,7 @@ struct Passivity {
   double depth = 0.0, spring = 0.0;  // m, N: at the last tick
   double pushed = 0.0;               // N, outwards, since the last tick
   double taken = 0.0;                // N: the law asked for so much more
-  // Of this contact.
+  // Of this contact; `given` since the tip was outside.
   double given = 0.0;       // J: work of what was pushed; above 0: more out than in
   double dissipated = 0.0;  // J: what the law would have given out more
   double most = 0.0;        // N, the largest of `taken`
