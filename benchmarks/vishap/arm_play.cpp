@@ -9,6 +9,7 @@
 #include "sim/world.h"
 #include "trial/camera/arm_things.h"
 #include "trial/camera/vision.h"
+#include "trial/measure/finger_measure.h"
 #include "trial/prepare.h"
 
 namespace enc::bench::vishap {
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kMeets = 0.6, kNobody = 0.1;  // shares of frames
 constexpr double kTilt = 0.5;                  // rad: how a prop may face, about the wall's normal
-constexpr double kOutOfPlane = staged::Draw{}.tilt, kDown = 0.4;
+constexpr double kOutOfPlane = staged::Draw{}.tilt, kTowards = 0.4;
 // rad rms: a finger that is believed 2 mm beside where it is turns the normal of a ball of 40 mm by so much.
 constexpr double kFacingOff = 0.05;
 
@@ -43,6 +44,7 @@ ArmPlay::ArmPlay(const models::Setup& setup, const sim::CameraModule& camera, st
       stream_(seed, "arm play"),
       X_CW_(pose_of<'W', 'C'>(setup.twin.frames.W_C).inverse()),
       X_WR_(sim::arm_base(setup.twin.arm)),
+      normal_(trial::wanted_at(scene_.objects.front(), Point<'W'>(0, 0, 0)).normal),
       skin_(sim::skin_colour(setup.twin.camera.skin)) {}
 
 AugmentedSpec ArmPlay::believed(const Belief& belief) const {
@@ -63,9 +65,9 @@ void ArmPlay::pose_arm(const Point<'W'>& tip, Frame& frame) {
   if (!arm.inverse(X_WR_.inverse() * tip, q)) q = arm.zero();
   const auto tilted = [&](const Quat& from, double by) {
     const double way = between(stream_, 0.0, 2.0 * M_PI);
-    return Quat(Eigen::AngleAxisd(by, Vec3(std::cos(way), std::sin(way), 0.0))) * from;
+    return from * Quat(Eigen::AngleAxisd(by, Vec3(std::cos(way), std::sin(way), 0.0)));
   };
-  facing_ = tilted(Quat::Identity(), between(stream_, 0.0, kTilt));
+  facing_ = tilted(rotation_z_to(normal_.e()), between(stream_, 0.0, kTilt));
   frame.moment = {};
   frame.moment.joints = measured(setup_.twin.arm, q);
   frame.moment.q_WN = tilted(facing_, kFacingOff * stream_.normal());
@@ -99,14 +101,14 @@ void ArmPlay::next(Frame& frame) {
   frame.shown.hand = frame.meets || stream_.uniform() > kNobody / (1.0 - kMeets);
   frame.shown.look.skin = skin_;
   const double radius = 0.5 * frame.shown.look.finger_width;
-  // A finger that comes down, as far out of the image's plane as where fingertips are judged.
+  // A finger that comes to the wall, as far out of the image's plane as where fingertips are judged.
   Vec<'C'> along;
   do {
     const double side = between(stream_, 0.0, 2.0 * M_PI), tilt = between(stream_, -kOutOfPlane, kOutOfPlane);
     along = Vec<'C'>(std::cos(tilt) * std::cos(side), std::cos(tilt) * std::sin(side), std::sin(tilt));
-  } while ((X_CW_.inverse() * along).xyz[2] > -kDown);
+  } while (dot(X_CW_.inverse() * along, normal_) > -kTowards);
   const double above = frame.meets ? radius + between(stream_, 0.0, 0.025) : between(stream_, 0.03, 0.12);
-  const Vec<'W'> normal(frame.meets ? Vec3(facing_ * Vec3::UnitZ()) : Vec3(Vec3::UnitZ()));
+  const Vec<'W'> normal = frame.meets ? Vec<'W'>(Vec3(facing_ * Vec3::UnitZ())) : normal_;
   frame.shown.pose.tip = X_CW_ * ((frame.meets ? tip : elsewhere) + above * normal);
   frame.shown.pose.along = along;
   frame.shown.pose.roll = between(stream_, 0.0, 2.0 * M_PI);

@@ -48,6 +48,7 @@ class ArmPlay {
   sim::Stream stream_;
   Pose<'C', 'W'> X_CW_;
   Pose<'W', 'R'> X_WR_;
+  Vec<'W'> normal_;                 // of the wall
   Quat facing_ = Quat::Identity();  // of the prop's front, q_WN
   sim::Rgb skin_;
   std::uint64_t frames_ = 0;

@@ -39,7 +39,7 @@ struct Ran {
   std::vector<trial::FrameForce::Change> frames;  // what each picture changed of it
   std::vector<double> seen, felt;                 // m, N: of each picture in contact
   std::vector<double> off;                        // m: of a told place from the true one at its exposure
-  std::vector<double> off_normal;                 // m: along z of W
+  std::vector<double> off_normal;                 // m: along the surface's normal
 };
 
 // What was true and felt at the exposures that are still to be told.
@@ -84,11 +84,12 @@ class Onlooker {
     if (then == line_.end()) return;
     const Point<'W'> at = glance.scene.X_WC * told.value.X_CT.origin();
     ran_.off.push_back((at - then->tip).norm());
-    ran_.off_normal.push_back((at - then->tip).e().z());
     const std::int32_t object = glance.out.object;
-    if (!then->contact || object < 0) return;
+    if (object < 0) return;
     const trial::Wanted surface =
         trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(object)], at);
+    ran_.off_normal.push_back(dot(at - then->tip, surface.normal));
+    if (!then->contact) return;
     ran_.seen.push_back(surface.distance - glance.truth.tool_radius);
     ran_.felt.push_back(then->felt);
   }
