@@ -1,6 +1,7 @@
 // What one key alone does not show, of a scene with an arm.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -55,6 +56,23 @@ void check_continuous(const Setup& setup, const std::string& table, const char* 
                    at_most));
 }
 
+// MuJoCo takes no time constant shorter than two steps (its refsafe), and says nothing.
+void check_friction_time(const Setup& setup) {
+  const sim::ArmTruth& truth = setup.twin.arm;
+  const double least = 2.0 * truth.timestep;
+  const bool none =
+      std::all_of(truth.friction.begin(), truth.friction.end(), [](double f) { return f == 0.0; });
+  if (truth.friction_form != sim::ArmFriction::dry || none || truth.friction_time >= least * (1.0 - 1e-9))
+    return;
+  const double period = 1.0 / setup.rig.loop.rate;
+  fail(setup, "truth.arm.friction_time_ms",
+       fmt::format(
+           "'friction_time_ms' is {:g}; expected at least two time steps, {:g} ms, because MuJoCo takes "
+           "nothing shorter; raise it, or use 'timestep_us = {:g}' or less in [truth.arm]",
+           truth.friction_time * 1e3, least * 1e3,
+           1e6 * period / std::ceil(2.0 * period / truth.friction_time * (1.0 - 1e-9))));
+}
+
 // What the simulator has is the machine that the rig believes in: other numbers, not other joints.
 void check_truth(const Setup& setup) {
   const sim::ArmTruth& truth = setup.twin.arm;
@@ -71,6 +89,7 @@ void check_truth(const Setup& setup) {
   for (std::size_t i = 0; i < joints; ++i)
     check_continuous(setup, "truth.arm", "continuous_torque_Nm", "peak_torque_Nm", truth.continuous_torque[i],
                      truth.peak_torque[i]);
+  check_friction_time(setup);
 }
 
 // Where the scene names the behaviour.
@@ -145,6 +164,28 @@ void mend_normals(Setup& setup) {
         fmt::format("{}: note: 'normal' has length {:.6g}; taken as [{:.6g}, {:.6g}, {:.6g}]",
                     place_of(setup, key), length, o.normal.x(), o.normal.y(), o.normal.z()));
   }
+}
+
+// Of a stop it is said alone: it is hard either way.
+void note_stops(Setup& setup) {
+  const auto& [scene, rig, twin] = std::tie(setup.scene, setup.rig, setup.twin);
+  const bool has_arm = scene.arm.has_value();
+  if (has_arm ? rig.arm.driver != "sim" : rig.manipulator.driver != "sim") return;
+  const double least = 2.0 * twin.stepping(has_arm).timestep;
+  const auto note = [&](bool there, const char* key, double time) {
+    if (!there || time >= least * (1.0 - 1e-9)) return;
+    const std::string name = std::string(key).substr(std::string(key).rfind('.') + 1);
+    setup.notes.push_back(
+        fmt::format("{}: warning: '{}' is {:g} and MuJoCo takes nothing shorter than two time steps, {:g} "
+                    "ms; raise it, or "
+                    "shorten '{}.timestep_us'",
+                    place_of(setup, key), name, time * 1e3, least * 1e3, twin.stepping(has_arm).table));
+  };
+  const bool drum = scene.prop && scene.prop->kind == PropKind::drum;
+  note(!has_arm && scene.user.has_value(), "truth.world.contact_time_ms", twin.world.contact_time);
+  note(has_arm && !drum, "truth.arm.contact_time_ms", twin.arm.contact_time);
+  note(has_arm && drum, "truth.arm.belt_time_ms", twin.arm.belt_time);
+  note(has_arm && drum, "truth.arm.belt_friction_time_ms", twin.arm.belt_friction_time);
 }
 
 // The prop is what is really felt [VisHap 2.2]. One line for each entry that wants another one.

@@ -322,6 +322,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   fill_camera(setup);
   mend_normals(setup);
   check(setup);
+  note_stops(setup);
   note_props(setup);
   note_views(setup);
   note_unread(setup);

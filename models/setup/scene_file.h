@@ -86,6 +86,7 @@ void fill_meshes(Setup& setup, const std::string& models_dir);
 // beside it, too: which are meant?
 void fill_camera(Setup& setup);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
+void note_stops(Setup& setup);    // time constants that MuJoCo takes for two time steps
 void note_props(Setup& setup);    // objects that want another prop than is mounted
 void note_views(Setup& setup);    // objects that the camera does not see
 void note_unread(Setup& setup);   // what --set names and nothing in the scene reads

@@ -50,6 +50,32 @@ TEST(ArmInput, LimitsOfAJointGoUpAndHaveHomeBetweenThem) {
               HasSubstr("expected a range"));
 }
 
+TEST(ArmInput, FrictionSetsInWithinTwoTimeStepsOrLater) {
+  EXPECT_EQ(said({"truth.arm.friction_time_ms=2"}), "");
+  EXPECT_THAT(
+      said({"truth.arm.friction_time_ms=1.9"}),
+      AllOf(StartsWith("--set truth.arm.friction_time_ms=1.9: "),
+            HasSubstr("expected at least two time steps, 2 ms"), HasSubstr("'timestep_us = 500' or less")));
+  EXPECT_EQ(said({"truth.arm.friction_time_ms=1.9", "truth.arm.timestep_us=500"}), "");
+  EXPECT_THAT(said({"truth.arm.friction_time_ms=0.1"}), HasSubstr("'timestep_us = 50' or less"));
+  EXPECT_EQ(said({"truth.arm.friction_time_ms=0.1", "truth.arm.timestep_us=50"}), "");
+  EXPECT_EQ(said({"truth.arm.friction_time_ms=0.1", "truth.arm.friction_form=smooth"}), "")
+      << "of the dry form";
+}
+
+TEST(ArmInput, AStopThatMuJoCoTakesForALongerOneIsSaid) {
+  const auto notes = [](const std::string& scene, const std::string& set) {
+    return models::load(scene_file(scene), "", {set}).notes;
+  };
+  EXPECT_THAT(notes("wall", "truth.arm.contact_time_ms=1"),
+              ElementsAre(AllOf(StartsWith("--set truth.arm.contact_time_ms=1: warning: "),
+                                HasSubstr("two time steps, 2 ms"))));
+  EXPECT_THAT(notes("drum", "truth.arm.belt_time_ms=1"), ElementsAre(HasSubstr("'belt_time_ms' is 1")));
+  EXPECT_THAT(notes("tennis_ball", "truth.world.contact_time_ms=1"),
+              ElementsAre(HasSubstr("shorten 'truth.world.timestep_us'")));
+  EXPECT_THAT(notes("wall", "truth.arm.contact_time_ms=2"), ElementsAre());
+}
+
 TEST(ArmInput, ChainsHaveOneToThreeLinksAndTheTruthAsMany) {
   EXPECT_THAT(said({"rig.arm.machine.kind=chain"}),
               AllOf(HasSubstr("vishap.toml"), HasSubstr("has 0 links"), HasSubstr("'[[arm.machine.link]]'")));
