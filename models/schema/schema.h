@@ -30,6 +30,7 @@ struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool above_low = false;  // `low` itself is not allowed
+  bool whole = false;      // no fractions
 };
 inline constexpr Range kAny{}, kNotNegative{0.0},
     kPositive{0.0, std::numeric_limits<double>::infinity(), true};

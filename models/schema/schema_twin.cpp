@@ -33,10 +33,11 @@ void describe(Visitor& v, sim::SolverTruth& s) {
            Range{0.0, 1000.0, true}},
           &s.impratio);
   v.value({"noslip_iterations", "of the pass against creep; unset: 4, and none where there is an arm",
-           "docs/reference/phantom_twin.md", chosen, Range{0.0, 1000.0}, optional},
+           "docs/reference/phantom_twin.md", chosen, Range{0.0, 1000.0, false, true}, optional},
           &s.noslip);
-  v.value({"iterations", "of the solver, at most", "sources/twin 3", chosen, Range{1.0, 10000.0}},
-          &s.iterations);
+  v.value(
+      {"iterations", "of the solver, at most", "sources/twin 3", chosen, Range{1.0, 10000.0, false, true}},
+      &s.iterations);
   v.value({"tolerance", "where the solver ends", "sources/twin 3", chosen, Range{0.0, 1e-4}}, &s.tolerance);
 }
 

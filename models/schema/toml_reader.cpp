@@ -122,7 +122,7 @@ class Value {
     fail("is " + text, wanted(part), part);
   }
   [[nodiscard]] double number(const toml::node& node, const std::string& part, int k) const {
-    if (!node.is_number()) wrong_type(node, part);
+    if (!node.is_number() || (key_.range.whole && !node.is_integer())) wrong_type(node, part);
     const double value =
         node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
     const double si = to_si(unit_, value, k);

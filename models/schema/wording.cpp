@@ -117,7 +117,8 @@ std::string with_other_unit(std::string_view word, const std::vector<std::string
 }  // namespace
 
 std::string wanted_number(const Key& key) {
-  return fmt::format("a {}number{}{}", sign(key.range), bounds(key.range), unit_words(key));
+  return fmt::format("a {}{}number{}{}", key.range.whole ? "whole " : "", sign(key.range), bounds(key.range),
+                     unit_words(key));
 }
 
 std::string expected(const Key& key, const Target& target) {

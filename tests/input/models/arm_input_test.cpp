@@ -76,6 +76,14 @@ TEST(ArmInput, AStopThatMuJoCoTakesForALongerOneIsSaid) {
   EXPECT_THAT(notes("wall", "truth.arm.contact_time_ms=2"), ElementsAre());
 }
 
+TEST(ArmInput, TheSolversStepsAreWholeNumbers) {
+  EXPECT_THAT(said({"truth.solver.iterations=10.5"}),
+              AllOf(HasSubstr("is a number with a fraction"), HasSubstr("a whole number from 1 to 10000")));
+  EXPECT_THAT(said({"truth.solver.noslip_iterations=0.5"}), HasSubstr("a whole number from 0 to 1000"));
+  EXPECT_EQ(said({"truth.solver.iterations=10", "truth.solver.noslip_iterations=3"}), "");
+  EXPECT_EQ(said({"truth.solver.noslip_iterations=unset"}), "");
+}
+
 TEST(ArmInput, ChainsHaveOneToThreeLinksAndTheTruthAsMany) {
   EXPECT_THAT(said({"rig.arm.machine.kind=chain"}),
               AllOf(HasSubstr("vishap.toml"), HasSubstr("has 0 links"), HasSubstr("'[[arm.machine.link]]'")));
