@@ -31,7 +31,10 @@ bool take_picture(const Walk& walk, const State& state, Coming& now) {
   const bool another = state.tool.value.tool != now.tool;
   if (!another && gap >= 0.0 && gap < kOften) return false;
   now.tool = state.tool.value.tool;
-  if (another || gap < 0.0 || gap > walk.scene.tracker.longest_prediction) now.count = 0;
+  if (another || gap < 0.0 || gap > walk.scene.tracker.longest_prediction) {
+    now.count = 0;
+    now.clear = false;  // of other pictures
+  }
   if (now.count < 2 || age(now.exposed[0], now.exposed[1]) > kApart) {
     std::shift_right(now.at.begin(), now.at.end(), 1);
     std::shift_right(now.exposed.begin(), now.exposed.end(), 1);

@@ -2,6 +2,7 @@
 // that rests afterwards pushes nothing. The core alone, finger and arm are where a test puts them.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -63,21 +64,26 @@ TEST(Coming, PicturesThatAreTooVagueForeseeNothing) {
   EXPECT_GT(with_noise(1.2, 1.3), -0.004);
 }
 
-// x of where the prop is sent, of a finger whose pictures say in turn that they are so vague, m.
-double sent_x(double even, double odd) {
+// x of where the prop is sent, of a finger whose picture i says that it is so vague, m; below 0: there is
+// none.
+double sent_x(const std::function<double(int)>& vague) {
   Bench bench("wall", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110"});
   for (int i = 0; i < 450; ++i) {
-    if (i % 50 != 0) {
+    const double noise = vague(i / 50);
+    if (i % 50 != 0 || noise < 0.0) {
       bench.loop.tick();
       continue;
     }
     bench.loop.put(Comes{}.at(0.001 * (i - 50)));
     bench.loop.in.tool.t -= std::chrono::milliseconds(50);
     TrackedTool& seen = bench.loop.in.tool.value;
-    seen.along = seen.across = i / 50 % 2 == 0 ? even : odd;
+    seen.along = seen.across = noise;
     bench.loop.go();
   }
   return bench.loop.out.wanted.xyz[0];
+}
+double sent_x(double even, double odd) {
+  return sent_x([&](int i) { return i % 2 == 0 ? even : odd; });
 }
 
 // What a picture says of itself counts, and not what the rig says of pictures.
@@ -91,6 +97,15 @@ TEST(Coming, WhatIsAboutAsVagueAsMayBeIsNotAskedNowAndThen) {
   EXPECT_NEAR(sent_x(1.15e-3, 1.05e-3), 0.0, 1e-3);
   EXPECT_LT(sent_x(1.25e-3, 1.05e-3), -0.003) << "on its way back";
   EXPECT_NEAR(sent_x(1.15e-3, 1.15e-3), -0.005, 1e-3);
+}
+
+TEST(Coming, HowClearOldPicturesWereIsForgottenWithThem) {
+  const auto from = [](int first, double then) {  // of the new ones, after 50 ms times `first`
+    return sent_x([&, then](int i) { return i < 2 ? 1.05e-3 : i < first ? -1.0 : then; });
+  };
+  EXPECT_NEAR(from(4, 1.15e-3), 0.0, 1e-3) << "the same finger, seen on";
+  EXPECT_NEAR(from(6, 1.05e-3), 0.0, 1e-3);
+  EXPECT_NEAR(from(6, 1.15e-3), -0.005, 1e-3) << "unseen for longer than it is believed to go on";
 }
 
 TEST(Coming, AFingerThatHoversIsMetUnderWhereItIs) {
