@@ -127,6 +127,45 @@ bool gets_to(const Scene& scene, const Point<'W'>& p) {
   return law.arm.reaches(scene.X_WR.inverse() * p, law.rig.least_dexterity, q);
 }
 
+// How much of a unit way the tip can go: 1 for a machine with three joints.
+double share_along(const Mat3& jacobian, Vec3 way) {
+  constexpr double kNone = 1e-6;  // m, or m/rad
+  double along = 0.0;
+  std::array<Vec3, kMostJoints> axes;
+  std::size_t n = 0;
+  for (Eigen::Index joint = 0; joint < 3; ++joint) {
+    Vec3 axis = jacobian.col(joint);
+    for (std::size_t i = 0; i < n; ++i) axis -= axes.at(i).dot(axis) * axes.at(i);
+    if (axis.norm() < kNone) continue;
+    axes.at(n) = axis.normalized();
+    along += std::pow(axes.at(n).dot(way), 2);
+    ++n;
+  }
+  return std::sqrt(along);
+}
+
+// What is flat has one normal, and is rendered along it. A machine with few joints may not go that way.
+void check_ways(const SceneSpec& spec, const Scene& scene) {
+  constexpr double kLeast = 0.1;  // of the normal; chosen
+  const Impedance& law = *scene.impedance();
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const ObjectSpec& object = spec.objects[i];
+    const Object& made = scene.objects[i];
+    const bool flat = object.shape == ShapeKind::plane || object.shape == ShapeKind::button;
+    if (!flat || made.interaction.kind == Interaction::passive || made.met_in_its_middle()) continue;
+    const Nearest near = made.surface.nearest(made.X_OW * Point<'W'>(0, 0, 0));
+    PerJoint q{};
+    static_cast<void>(law.arm.inverse(scene.X_WR.inverse() * (made.X_WO * near.point), q));
+    const Vec<'R'> normal = scene.X_WR.inverse() * (made.X_WO * near.normal);
+    if (share_along(law.arm.jacobian(q), normal.e()) >= kLeast) continue;
+    throw Error(
+        "object '" + object.name + "' faces a way that this machine of " + std::to_string(law.arm.joints()) +
+            " joints does not go, so it cannot push along its normal; expected a normal that the machine "
+            "moves along; turn the object, or use a rig that goes there",
+        "object." + object.name + ".normal");
+  }
+}
+
 // The arm gets to a place of the object, and to where the user presses one.
 void check_reach(const SceneSpec& spec, const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -198,6 +237,7 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
     scene.task = Push{*scene.impedance(), std::move(movers)};
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
   check_reach(spec, scene);
+  check_ways(spec, scene);
   return scene;
 }
 

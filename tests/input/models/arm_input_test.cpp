@@ -76,6 +76,16 @@ TEST(ArmInput, AStopThatMuJoCoTakesForALongerOneIsSaid) {
   EXPECT_THAT(notes("wall", "truth.arm.contact_time_ms=2"), ElementsAre());
 }
 
+// It would be met where it is nearest, and give no force.
+TEST(ArmInput, AWallThatTheMachineDoesNotMoveAlongIsRefused) {
+  EXPECT_EQ(said({}, "wall", "stage"), "");
+  EXPECT_THAT(said({"object.wall.normal=[0, 1, 0]"}, "wall", "stage"),
+              AllOf(StartsWith("--set object.wall.normal=[0, 1, 0]: object 'wall' faces a way"),
+                    HasSubstr("2 joints"), HasSubstr("expected a normal")));
+  EXPECT_EQ(said({"object.wall.normal=[0, 0.8, 0.6]"}, "wall", "stage"), "");
+  EXPECT_EQ(said({"object.wall.normal=[0, 1, 0]"}), "") << "the PHANToM goes there";
+}
+
 TEST(ArmInput, TheSolversStepsAreWholeNumbers) {
   EXPECT_THAT(said({"truth.solver.iterations=10.5"}),
               AllOf(HasSubstr("is a number with a fraction"), HasSubstr("a whole number from 1 to 10000")));
