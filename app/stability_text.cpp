@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -22,9 +23,8 @@ std::string class_lines(const std::vector<Certified>& all, const char* before) {
   return text;
 }
 
-// How near it is to what it may ask for: the least margin of what makes it unstable, or 0 beyond that.
+// The least margin of what makes it unstable.
 double margin_of(const Certified& one) {
-  if (one.beyond() || one.unknown()) return 0.0;
   double least = INFINITY;
   for (const certificate::Row& row : one.certificate.rows)
     if (row.name.starts_with("exact") || row.name == "admittance" || row.name == "large_signal")
@@ -32,37 +32,68 @@ double margin_of(const Certified& one) {
   return least;
 }
 
+using Side = certificate::Row::Side;
+
 std::string bound_text(const certificate::Row& row) {
   const auto in = [](double x) {
     return std::isnan(x) ? std::string("not known") : fmt::format("{:.4g}", 1e-3 * x);
   };
+  const char* side = row.side == Side::below ? "< " : row.side == Side::above ? "> " : "";
   return row.low > 0.0 || std::isnan(row.low)
-             ? "from " + in(row.low) + (std::isinf(row.bound) ? "" : " to " + in(row.bound))
+             ? "from " + (side + in(row.low)) + (std::isinf(row.bound) ? "" : " to " + in(row.bound))
          : std::isinf(row.bound) ? "no bound"
                                  : "to " + in(row.bound);
 }
 
+// What begins somewhere below has a larger margin.
+std::string margin_text(const certificate::Row& row) {
+  if (!std::isfinite(row.margin)) return {};
+  return fmt::format("{}{:.3g} x",
+                     row.side == Side::below   ? "> "
+                     : row.side == Side::above ? "< "
+                                               : "",
+                     row.margin);
+}
+
+// Of an arm: a certificate is of one place.
+std::string place_text(const Certified& one) {
+  if (!one.place.finite() || one.free_tip()) return {};
+  const auto rounded = [](double metres) { return std::round(metres * 1e4) * 0.1 + 0.0; };  // mm, no -0
+  return fmt::format(" at [{:.1f}, {:.1f}, {:.1f}] mm, {},", rounded(one.place.xyz[0]),
+                     rounded(one.place.xyz[1]), rounded(one.place.xyz[2]),
+                     one.pressed ? "where it is pressed" : "the worst place tried");
+}
+
 std::string rows_text(const Certified& one) {
-  std::string text = fmt::format("  bounds of {}, N/mm, and how many times what it asks for is within them\n",
-                                 trial::name_of(one));
+  std::string text =
+      fmt::format("  bounds of {}{} N/mm, and how many times what it asks for is within them\n",
+                  trial::name_of(one), place_text(one).empty() ? "," : place_text(one));
   for (const certificate::Row& row : one.certificate.rows)
-    text += fmt::format("    {:<16}  {:<22} {:<9} {}{} ({})\n", row.name, bound_text(row),
-                        std::isfinite(row.margin) ? fmt::format("{:.3g} x", row.margin) : "", row.formula,
-                        row.applies ? "" : ", for another kind of loop: to compare", row.source);
+    text += fmt::format("    {:<16}  {:<22} {:<9} {}{} ({})\n", row.name, bound_text(row), margin_text(row),
+                        row.formula, row.applies ? "" : ", for another kind of loop: to compare", row.source);
   return text;
 }
 
 }  // namespace
 
+const Certified& nearest_its_bound(const std::vector<Certified>& certificates) {
+  const auto order = [](const Certified& one) {
+    return std::tuple(one.beyond()    ? 0
+                      : one.unknown() ? 1
+                                      : 2,
+                      margin_of(one), !one.like.empty(), one.free_tip());
+  };
+  return *std::min_element(certificates.begin(), certificates.end(),
+                           [&](const auto& a, const auto& b) { return order(a) < order(b); });
+}
+
 std::string stability_text(const models::Setup& setup, const std::vector<Certified>& certificates) {
   if (certificates.empty()) return {};
   std::string text = "\nstability\n" + class_lines(certificates, "  ");
   for (const Certified& one : certificates)
-    if (one.beyond() || one.unknown()) text += "  BEYOND: " + trial::refusal_text(setup, one) + "\n";
-  const auto nearest =
-      std::min_element(certificates.begin(), certificates.end(),
-                       [](const auto& a, const auto& b) { return margin_of(a) < margin_of(b); });
-  return text + rows_text(*nearest);
+    if (one.beyond() || one.unknown())
+      text += (one.beyond() ? "  BEYOND: " : "  NOT KNOWN: ") + trial::refusal_text(setup, one) + "\n";
+  return text + rows_text(nearest_its_bound(certificates));
 }
 
 std::string stability_lines(const std::vector<Certified>& certificates) {

@@ -7,41 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/machine/steadiness.h"
-#include "core/task/meet/arm_loop.h"
-#include "trial/limits.h"
 
 namespace enc::trial {
 namespace {
 
 using certificate::Class;
-
-certificate::Hand hand_of(const RigSpec& rig) {
-  return {0.0, rig.contact.hand_damping, rig.contact.hand_stiffness};
-}
-
-// ---- an arm: stiff is what is hard
-// ---------------------------------------------------------------------------------------------
-
-Certified of_arm(const models::Setup& setup, const Scene& scene, const TouchedPlace& at,
-                 const std::string& object, double stiffness, bool hit) {
-  const ArmLoopAt loop =
-      loop_at(*scene.impedance(), hand_of(setup.rig), scene.dt, at.joints, at.way, stiffness, hit);
-  return {object, stiffness, certificate::certify(loop.loop, loop.steps, loop.asked)};
-}
-
-std::vector<Certified> of_arm(const models::Setup& setup, const Scene& scene) {
-  const Impedance& law = *scene.impedance();
-  const TouchedPlace home{{}, law.arm.zero(), scene.X_WR.inverse() * Vec<'W'>(0, 0, 1)};
-  std::vector<Certified> found{of_arm(setup, scene, home, "", law.rig.stiffness, false)};
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    found.push_back(of_arm(setup, scene, touched_place(setup, scene, i), setup.scene.objects[i].name,
-                           stiffest_asked(law, scene.objects[i]),
-                           scene.objects[i].interaction.kind == Interaction::hit));
-  return found;
-}
-
-// ---- a machine that measures force: soft is what is hard
-// ---------------------------------------------------------------------------------------------
 
 // How quickly the scene's own hand pushes; a real one pushes as quickly as it likes.
 double ramp_of(const models::Setup& setup) {
@@ -62,10 +32,23 @@ double softest_of(const Response& response, double limit) {
   return least;
 }
 
+using Side = certificate::Row::Side;
 void add_row(std::vector<certificate::Row>& rows, const char* name, const char* formula, double low,
-             double asked, bool applies, const char* source) {
+             double asked, bool applies, const char* source, Side side = Side::at) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  rows.push_back({name, formula, kNone, low > 0.0 ? asked / low : kNone, applies, source, low});
+  rows.push_back({name, formula, kNone, low > 0.0 ? asked / low : kNone, applies, source, low, side});
+}
+
+// The same object, softer, until it swings. Where the search ends, or it swings itself, one side is known.
+void add_large_signal(Certified& at, const Steadiness& loop, const Object& object, double ramp) {
+  const bool swings = at.swing > 0.0;
+  const double share = swings ? 1.0 : loop.least_share(object.response, object.limit, ramp);
+  add_row(at.certificate.rows, "large_signal",
+          "all of it softer, down to half: pushed as this scene does, with all limits, it stands still",
+          at.asked * share, at.asked, true, "docs/notes/stiffness.md",
+          swings                             ? Side::above
+          : share <= Steadiness::kLeastShare ? Side::below
+                                             : Side::at);
 }
 
 std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& scene, bool whole) {
@@ -86,11 +69,7 @@ std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& sc
     at.certificate.verdict = small ? worst.swing > 0.0 ? Class::local : Class::alone : Class::unstable;
     add_row(at.certificate.rows, "admittance", "1 + Z G H e^{-s t_d}/K = 0 has no root to the right", linear,
             at.asked, !damped, "[VHMR Fig 3], docs/reference/model.md");
-    if (whole)  // the same object, softer, until it swings
-      add_row(at.certificate.rows, "large_signal",
-              "all of it softer, down to half: pushed as this scene does, with all limits, it stands still",
-              worst.swing == 0.0 ? at.asked * loop.least_share(object.response, object.limit, ramp) : kUnset,
-              at.asked, true, "docs/notes/stiffness.md");
+    if (whole) add_large_signal(at, loop, object, ramp);
     found.push_back(std::move(at));
   }
   return found;
@@ -100,11 +79,12 @@ std::vector<Certified> of_admittance(const models::Setup& setup, const Scene& sc
 
 bool Certified::beyond() const {
   const Class verdict = certificate.verdict;
+  if (free_tip()) return verdict == Class::held || verdict == Class::local || verdict == Class::unstable;
   return verdict == Class::unheld || verdict == Class::local || verdict == Class::unstable;
 }
 
 std::vector<Certified> certificates_of(const models::Setup& setup, const Scene& scene, bool whole) {
-  if (scene.impedance()) return of_arm(setup, scene);
+  if (scene.impedance()) return arm_certificates(setup, scene);
   if (!scene.has_force) return {};
   return of_admittance(setup, scene, whole);
 }
@@ -113,10 +93,32 @@ std::string name_of(const Certified& certified) {
   return certified.object.empty() ? "the tip that nobody touches" : "object '" + certified.object + "'";
 }
 
+namespace {
+
+// "delay: more than 600 periods" says what is wrong with it.
+std::string missing_text(const certificate::Certificate& of) {
+  return (of.missing.find(':') == std::string::npos ? "no " : "") + of.missing;
+}
+
+std::string mend_of(const models::Setup& setup, const std::string& missing) {
+  if (!setup.rig.arm.loop) return "write [arm.loop] into the rig, as models/rigs/vishap.toml has it";
+  if (missing.starts_with("hand"))
+    return "write 'hand_stiffness_N_per_mm' and 'hand_damping_Ns_per_m' into its [contact]";
+  if (missing.starts_with("delay")) return "correct 'delay_ms' in its [arm.loop]";
+  if (missing == "damping") return "correct 'viscous_Nms' in its [arm.loop]";
+  if (missing == "friction") return "correct 'friction_Nm' in its [arm.loop]";
+  if (missing == "encoder step") return "correct 'counts' in its [arm.loop]";
+  if (missing == "mass") return "correct the masses in its [arm.machine]";
+  if (missing.starts_with("what a release does")) return "make it stiffer, so that it swings sooner";
+  return "correct its [arm]";
+}
+
+}  // namespace
+
 std::string class_text(const Certified& certified) {
   const certificate::Certificate& of = certified.certificate;
   const std::string words(word_of(of.verdict));
-  if (certified.unknown()) return words + ": no " + of.missing;
+  if (certified.unknown()) return words + ": " + missing_text(of);
   std::string text = fmt::format("{}, at {:.3g} N/mm", words, 1e-3 * certified.asked);
   if (std::isnan(certified.ramp))
     text += fmt::format("; let go 0.1 mm beside its target: {}, 1 mm: {}", word_of(of.small.rest),
@@ -127,10 +129,8 @@ std::string class_text(const Certified& certified) {
 std::string refusal_text(const models::Setup& setup, const Certified& certified) {
   const certificate::Certificate& of = certified.certificate;
   if (certified.unknown())
-    return fmt::format(
-        "whether {} is stable is not known: no {}; write [arm.loop] into the rig, as "
-        "models/rigs/vishap.toml has it",
-        name_of(certified), of.missing);
+    return fmt::format("whether {} is stable is not known: {}; {}", name_of(certified), missing_text(of),
+                       mend_of(setup, of.missing));
   if (!certified.beyond()) return {};
   if (certified.swing > 0.0)
     return fmt::format(
@@ -144,6 +144,15 @@ std::string refusal_text(const models::Setup& setup, const Certified& certified)
         "stiffer, or set rig.admittance.damping=observed",
         name_of(certified), word_of(of.verdict), setup.rig.contact.hand_stiffness * 1e-3,
         1e-3 * certified.asked, 1e-3 * certificate::row_of(of, "admittance").low);
+  if (certified.free_tip()) {
+    const certificate::Row& alone = certificate::row_of(of, "exact_alone");
+    return fmt::format(
+        "{} is held by {:.3g} N/mm and is {}: the loop without a hand is stable from {:.3g} to {:.3g} N/mm; "
+        "make "
+        "it {}",
+        name_of(certified), 1e-3 * certified.asked, word_of(of.verdict), 1e-3 * alone.low, 1e-3 * alone.bound,
+        certified.asked < alone.low ? "stiffer" : "softer");
+  }
   const certificate::Row& held = certificate::row_of(of, "exact_with_hand");
   return fmt::format(
       "{} asks for {:.3g} N/mm and is {}: under the hand that the rig expects the loop is stable from {:.3g} "
@@ -153,7 +162,8 @@ std::string refusal_text(const models::Setup& setup, const Certified& certified)
 }
 
 std::string key_of(const Certified& certified) {
-  return certified.object.empty() ? "rig.arm.stiffness" : "object." + certified.object + ".behaviour";
+  if (certified.unknown() && !certified.certificate.missing.starts_with("what")) return "rig.arm.loop";
+  return certified.free_tip() ? "rig.arm.stiffness" : "object." + certified.object + ".behaviour";
 }
 
 }  // namespace enc::trial

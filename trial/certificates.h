@@ -21,6 +21,14 @@ struct Certified {
   // 0: it stands still.
   double depth = 0.0, ramp = kUnset, swing = 0.0;
 
+  // Of an arm: the place that it is of, the worst of a few (arm_certificates.cpp).
+  Point<'W'> place{};
+  bool pressed = false;  // the user's plan presses it there and nowhere else
+  // The object whose bounds these are: as stiff, of the same class, and nearer to them. Empty: its own.
+  std::string like{};
+
+  // Of an arm. It has no hand on it.
+  [[nodiscard]] bool free_tip() const { return object.empty(); }
   // Not stable under the hand that the rig expects.
   [[nodiscard]] bool beyond() const;
   [[nodiscard]] bool unknown() const { return certificate.verdict == certificate::Class::unknown; }
@@ -29,6 +37,9 @@ struct Certified {
 // `whole`: with the rows that take longer than the class, the bounds of a machine that measures force.
 [[nodiscard]] std::vector<Certified> certificates_of(const models::Setup& setup, const Scene& scene,
                                                      bool whole = false);
+
+// Of an arm; certificates_of() takes them.
+[[nodiscard]] std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene& scene);
 
 // "object 'wall'", or what else it is of.
 [[nodiscard]] std::string name_of(const Certified& certified);

@@ -61,7 +61,7 @@ ArmStrength strength_at(const models::Setup& setup, const Scene& scene, std::siz
 }  // namespace
 
 TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t i) {
-  TouchedPlace found{touched_point(setup, scene, i), {}, {}};
+  TouchedPlace found{touched_point(setup, scene, i), {}, {}, is_pressed(setup, i)};
   if (const Impedance* law = scene.impedance()) {
     found.joints = law->arm.zero();
     static_cast<void>(law->arm.inverse(scene.X_WR.inverse() * found.at.point, found.joints));

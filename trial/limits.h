@@ -16,6 +16,7 @@ struct TouchedPlace {
   PressPoint at;
   PerJoint joints{};
   Vec<'R'> way;
+  bool pressed = false;  // the user's plan says so
 };
 [[nodiscard]] TouchedPlace touched_place(const models::Setup& setup, const Scene& scene, std::size_t object);
 // N/m: the most that an object asks of an arm.

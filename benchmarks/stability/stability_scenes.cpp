@@ -17,6 +17,15 @@ std::string in_mm(double per_metre) {
   return std::isfinite(per_metre) ? fmt::format("{:.4g}", 1e-3 * per_metre) : std::string();
 }
 
+// Where the search ended one side is known.
+std::string large_signal(const trial::Certified& one) {
+  using Side = certificate::Row::Side;
+  for (const certificate::Row& row : one.certificate.rows)
+    if (row.name == "large_signal")
+      return (row.side == Side::below ? "< " : row.side == Side::above ? "> " : "") + in_mm(row.low);
+  return {};
+}
+
 double row(const trial::Certified& one, const char* name, double certificate::Row::*of) {
   for (const certificate::Row& row : one.certificate.rows)
     if (row.name == name) return row.*of;
@@ -46,7 +55,7 @@ void add_scenes(Bench& bench) {
       table.add(name, one.object.empty() ? "(none)" : one.object, word_of(one.certificate.verdict),
                 in_mm(one.asked), in_mm(row(one, "colgate_schenkel", &Row::bound)),
                 in_mm(row(one, "exact_alone", &Row::bound)), in_mm(row(one, "exact_with_hand", &Row::bound)),
-                in_mm(row(one, "admittance", &Row::low)), in_mm(row(one, "large_signal", &Row::low)));
+                in_mm(row(one, "admittance", &Row::low)), large_signal(one));
     }
   }
   table.note =

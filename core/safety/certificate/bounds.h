@@ -31,7 +31,10 @@ struct Row {
   bool applies = true;     // what the formula was derived for is so; else the row is there to compare
   std::string source;
   double low = 0.0;  // N/m: what holds begins here
+  // Or somewhere below or above it, and no more is known; the margin likewise.
+  enum class Side : std::uint8_t { at, below, above } side = Side::at;
 };
+constexpr auto words(Row::Side) { return enum_words("at", "below", "above"); }
 
 // N s/m: the least b with which the device is passive, for whatever hand [Colgate and Schenkel 1997]:
 //   b > T/2 1/(1 - cos wT) Re{(1 - e^{-jwT}) H(e^{jwT})},  0 < w <= pi/T;  H = (K + B (1 - z^-n)/(nT)) G z^-d

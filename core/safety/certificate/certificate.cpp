@@ -67,6 +67,17 @@ Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& as
   return found;
 }
 
+Class linear_class(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
+  if (!missing_of(loop, steps, asked).empty()) return Class::unknown;
+  const double stiffness = asked.stiffness, damper = asked.damper.at(stiffness);
+  if (holds_counts(loop, steps, stiffness, damper) &&
+      needed_damping(loop.alone(), stiffness, damper) <= loop.damping)
+    return Class::passive;
+  const bool held = stable(loop, stiffness, damper);
+  if (stable(loop.alone(), stiffness, damper)) return held ? Class::alone : Class::unheld;
+  return held ? Class::held : Class::unknown;
+}
+
 const Row& row_of(const Certificate& certificate, const std::string& name) {
   const auto found = std::find_if(certificate.rows.begin(), certificate.rows.end(),
                                   [&](const Row& row) { return row.name == name; });

@@ -47,6 +47,10 @@ struct Certificate {
 // `loop.hand`: the hand that is on it, where one is. No figure of the loop may be missing but its filter.
 [[nodiscard]] Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& asked);
 
+// The class alone, where one look tells: a fiftieth of the time. `unknown` where a figure is missing, and
+// where it is not stable, neither alone nor held: there friction decides.
+[[nodiscard]] Class linear_class(const SampledLoop& loop, const Steps& steps, const Asked& asked);
+
 // The row of that name; throws std::out_of_range where there is none.
 [[nodiscard]] const Row& row_of(const Certificate& certificate, const std::string& name);
 
