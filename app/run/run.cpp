@@ -152,6 +152,8 @@ int run(const RunOptions& options) {
                    strengths,
                    certificates,
                    options,
+                   trial.has_world() ? trial.world().physics().steps() : 0,
+                   trial.has_world() ? trial.world().physics().unsolved() : 0,
                    !options.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0,
                    trial.has_world() ? trial.world().physics().elements() : 0,
                    started};

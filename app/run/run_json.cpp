@@ -81,6 +81,7 @@ Json rows_json(const std::vector<certificate::Row>& rows) {
     all.push_back({{"name", row.name},
                    {"from_N_per_m", number(row.low)},
                    {"to_N_per_m", number(row.bound)},
+                   {"from_is", word_of(row.side)},
                    {"margin", number(row.margin)},
                    {"applies", row.applies}});
   return all;
@@ -96,6 +97,9 @@ Json stability_json(const std::vector<trial::Certified>& certificates) {
               {"asked_N_per_m", number(one.asked)},
               {"rows", rows_json(of.rows)}};
     if (one.unknown()) json["missing"] = of.missing;
+    if (one.place.finite())
+      json["place_mm"] = {one.place.xyz[0] * 1e3, one.place.xyz[1] * 1e3, one.place.xyz[2] * 1e3};
+    if (!one.like.empty()) json["bounds_of"] = one.like;
     if (std::isnan(one.ramp)) {
       json["let_go_0.1_mm"] = word_of(of.small.rest);
       json["let_go_1_mm"] = word_of(of.large.rest);
@@ -191,6 +195,8 @@ std::string run_json(const RunReport& r) {
   json["peak_memory_MiB"] = peak_memory_mb();
   json["threads"] = thread_count();
   json["mujoco_elements"] = r.elements;
+  json["mujoco_steps"] = r.steps;
+  json["unsolved_steps"] = r.unsolved;
   json["libraries"] = mapped_libraries();
   json["state_hash"] = fmt::format("{:016x}", r.result.hash);
   return json.dump(2) + "\n";

@@ -30,6 +30,8 @@ struct RunReport {
   const std::vector<trial::ArmStrength>& strengths;
   const std::vector<trial::Certified>& certificates;
   const RunOptions& asked;
+  // Steps of the simulated world, and those that its solver did not solve to its tolerance.
+  std::int64_t steps = 0, unsolved = 0;
   bool whole = true;     // not cut off by --for-s, a signal, a full disk or physics that diverged
   int elements = 0;      // of the simulated world
   double started = 0.0;  // CPU s from the start of the process to the first tick

@@ -152,12 +152,23 @@ void add_moved(const RunReport& r, Lines& lines) {
                   rounded(mm.y()), rounded(mm.z()), 1e3 * found.error, unknown));
 }
 
-// What is beyond its bound was rendered: a contact with the object, of whichever none is known.
+// What is beyond its bound was rendered: a contact with the object, of whichever none is known. A tip that
+// nobody touches needs none.
 void add_unstable(const RunReport& r, Lines& lines) {
-  if (r.result.contacts == 0) return;
   for (const trial::Certified& one : r.certificates)
-    if (one.beyond() && (std::isnan(one.ramp) || one.certificate.verdict == certificate::Class::unstable))
+    if (one.beyond() && (one.free_tip() || r.result.contacts > 0) &&
+        (std::isnan(one.ramp) || one.certificate.verdict == certificate::Class::unstable))
       lines.push_back("rendered beyond what is stable: " + trial::refusal_text(r.setup, one));
+}
+
+// The forces of such a step are none of the contact's.
+void add_unsolved(const RunReport& r, Lines& lines) {
+  if (r.unsolved == 0) return;
+  lines.push_back(
+      fmt::format("the contact solver stopped at its {} iterations, short of its tolerance, in {} of {} "
+                  "steps of the physics: "
+                  "their forces are not those of the contact; raise truth.solver.iterations",
+                  r.setup.twin.solver.iterations, r.unsolved, r.steps));
 }
 
 }  // namespace
@@ -173,6 +184,7 @@ std::vector<std::string> crossed(const RunReport& report) {
   add_departures(report, lines);
   add_misses(report, lines);
   add_moved(report, lines);
+  add_unsolved(report, lines);
   return lines;
 }
 

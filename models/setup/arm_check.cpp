@@ -166,7 +166,7 @@ void mend_normals(Setup& setup) {
   }
 }
 
-// Of a stop it is said alone: it is hard either way.
+// Of a stop it is said alone: it is hard either way. And of the solver, what it makes of friction.
 void note_stops(Setup& setup) {
   const auto& [scene, rig, twin] = std::tie(setup.scene, setup.rig, setup.twin);
   const bool has_arm = scene.arm.has_value();
@@ -186,6 +186,12 @@ void note_stops(Setup& setup) {
   note(has_arm && !drum, "truth.arm.contact_time_ms", twin.arm.contact_time);
   note(has_arm && drum, "truth.arm.belt_time_ms", twin.arm.belt_time);
   note(has_arm && drum, "truth.arm.belt_friction_time_ms", twin.arm.belt_friction_time);
+  if (scene.user && twin.solver.cone == sim::Cone::pyramidal && twin.solver.impratio > 1.0)
+    setup.notes.push_back(
+        fmt::format("{}: warning: a pyramidal cone with 'impratio' over 1, here {:g}, gives wrong forces: "
+                    "what is pressed slips "
+                    "and jumps (docs/sources/twin.md 3); use 'impratio = 1', or the elliptic cone",
+                    place_of(setup, "truth.solver.cone"), twin.solver.impratio));
 }
 
 // The prop is what is really felt [VisHap 2.2]. One line for each entry that wants another one.

@@ -40,6 +40,25 @@ Physics::Physics(SpecPtr spec) : spec_(std::move(spec)) {
   if (!data_) throw Error("not enough memory for the simulated world");
 }
 
+// What came to its last iteration and would have gone on. The statistics of a pass against creep follow those
+// of the solver, with a gradient of 0. Without a tolerance nothing is asked for.
+bool Physics::solved() const noexcept {
+  const mjOption& option = model_->opt;
+  if (!(option.tolerance > 0.0)) return true;
+  const int islands = std::clamp(data_->nisland, 1, static_cast<int>(mjNISLAND));
+  for (int i = 0; i < islands; ++i) {
+    const int most = option.iterations;
+    if (data_->solver_niter[i] < most) continue;
+    if (most > mjNSOLVER) {  // of so many there are no statistics
+      if (data_->solver_niter[i] >= most + option.noslip_iterations) return false;
+      continue;
+    }
+    const mjSolverStat& last = data_->solver[i * mjNSOLVER + most - 1];
+    if (last.improvement >= option.tolerance && last.gradient >= option.tolerance) return false;
+  }
+  return true;
+}
+
 std::string Physics::warning_text() const {
   std::string text;
   for (int i = 0; i < mjNWARNING; ++i) {

@@ -32,8 +32,14 @@ class Physics {
   // a number is not finite.
   bool step() {
     mj_step(model_.get(), data_.get());
+    ++steps_;
+    unsolved_ += solved() ? 0 : 1;
     return !warned();
   }
+  // Steps, and those of them whose contacts were not found to the tolerance within the solver's iterations.
+  // Of a step with several stages (RK4) the last one counts.
+  [[nodiscard]] std::int64_t steps() const noexcept { return steps_; }
+  [[nodiscard]] std::int64_t unsolved() const noexcept { return unsolved_; }
   [[nodiscard]] bool warned() const noexcept {
     int count = 0;
     for (const mjWarningStat& w : data_->warning) count += w.number;
@@ -52,9 +58,12 @@ class Physics {
   void restore(const std::vector<double>& state);
 
  private:
+  [[nodiscard]] bool solved() const noexcept;
+
   SpecPtr spec_;
   ModelPtr model_;
   DataPtr data_;
+  std::int64_t steps_ = 0, unsolved_ = 0;
 };
 
 // Process-wide: mju_error would end the program with code 1, which reads as "the answer is no"

@@ -83,6 +83,29 @@ TEST(Limits, AWallThatNoLawHoldsIsNamed) {
                                HasSubstr("make it softer")));
 }
 
+// What rings by itself needs no contact to be beyond its bound.
+TEST(Limits, AFreeTipThatIsUnstableIsNamedUntouched) {
+  const Words late{"rig.arm.loop.delay_ms=20"};
+  const Result run = run_program(with({"run", scene("wall"), "--for-s", "0.1"}, late));
+  EXPECT_EQ(run.code, 1) << run.out;
+  EXPECT_THAT(
+      run.out,
+      AllOf(HasSubstr("LIMIT       rendered beyond what is stable: the tip that nobody touches is held by"),
+            HasSubstr("the loop without a hand is stable from"),
+            Not(HasSubstr("LIMIT       rendered beyond what is stable: object"))));
+}
+
+TEST(Limits, ASolverThatStopsShortOfItsToleranceIsNamed) {
+  const Words few{"truth.solver.iterations=1"};
+  const Result run = run_program(with({"run", scene("wall"), "--for-s", "8"}, few));
+  EXPECT_EQ(run.code, 1) << run.out;
+  EXPECT_THAT(run.out,
+              ContainsRegex("LIMIT       the contact solver stopped at its 1 iterations, short of its "
+                            "tolerance, in [0-9]+ of 8000 steps"));
+  const Result json = run_program(with({"run", scene("wall"), "--for-s", "8", "--json"}, {}));
+  EXPECT_THAT(json.out, AllOf(HasSubstr("\"unsolved_steps\": 0"), HasSubstr("\"mujoco_steps\": 8000")));
+}
+
 TEST(Limits, CheckTellsTheClassAndEachBound) {
   const Result check = run_program({"check", scene("wall")});
   EXPECT_THAT(check.out, AllOf(HasSubstr("object 'wall': stable alone, at 0.6 N/mm"),

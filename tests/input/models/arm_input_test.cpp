@@ -76,6 +76,20 @@ TEST(ArmInput, AStopThatMuJoCoTakesForALongerOneIsSaid) {
   EXPECT_THAT(notes("wall", "truth.arm.contact_time_ms=2"), ElementsAre());
 }
 
+TEST(ArmInput, APyramidalConeIsWarnedOf) {
+  const auto notes = [](const std::string& scene, const std::vector<std::string>& set) {
+    return models::load(scene_file(scene), "", set).notes;
+  };
+  for (const char* scene : {"wall", "offset_press"}) {
+    EXPECT_THAT(notes(scene, {"truth.solver.cone=pyramidal"}),
+                ElementsAre(AllOf(StartsWith("--set truth.solver.cone=pyramidal: warning: "),
+                                  HasSubstr("here 20"), HasSubstr("use 'impratio = 1'"))));
+    EXPECT_THAT(notes(scene, {"truth.solver.cone=pyramidal", "truth.solver.impratio=1"}), ElementsAre());
+  }
+  EXPECT_THAT(notes("stiffness", {"truth.solver.cone=pyramidal"}), ElementsAre())
+      << "pushed by a law of its own";
+}
+
 // It would be met where it is nearest, and give no force.
 TEST(ArmInput, AWallThatTheMachineDoesNotMoveAlongIsRefused) {
   EXPECT_EQ(said({}, "wall", "stage"), "");
