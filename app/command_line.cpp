@@ -97,12 +97,17 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       "a record as a table: tip, force, deflection of every tick (CSV); or a scene as MuJoCo has it");
   export_command->add_option("record", export_options.record, "file written by run --record, or a scene")
       ->required();
-  export_command->add_option("xml", export_options.xml,
-                             "of a scene: file to write, MJCF, which MuJoCo's simulate opens");
-  export_command->add_option("--csv", export_options.csv, "file to write; -: standard output")
-      ->capture_default_str()
+  export_command
+      ->add_option("xml", export_options.xml,
+                   "of a scene: file to write, MJCF, which MuJoCo's simulate opens")
       ->check(unnamed);
-  export_command->add_flag("--partial", export_options.partial, "export what a cut-off record still holds");
+  export_command
+      ->add_option("--csv", export_options.csv, "of a record: file to write; default: -, standard output")
+      ->check(unnamed);
+  export_command->add_option("--rig", export_options.rig, "of a scene: rig, as for run")->check(unnamed);
+  export_command->add_option("--set", export_options.set, "of a scene: override, as for run");
+  export_command->add_flag("--partial", export_options.partial,
+                           "of a record: export what a cut-off one still holds");
   force_option(export_command, export_options.force);
   export_command->callback([&] { code = export_record(export_options); });
 

@@ -1,15 +1,19 @@
 // A record as a table, for programs that know nothing of Encounter (docs/guide/rig.md). Row by row: a long
 // record is never in memory as a whole.
+#include <array>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "app/built.h"
 #include "app/options.h"
 #include "app/process.h"
 #include "app/run/stop_signals.h"
+#include "core/error.h"
 #include "models/files.h"
 #include "trial/assemble.h"
 #include "trial/measure/record_table.h"
@@ -45,9 +49,45 @@ class Output {
   std::string buffer_;
 };
 
+bool is_record(const std::string& path) {
+  std::array<char, 8> magic{};
+  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
+  return std::string_view(magic.data(), magic.size()) ==
+         "\x89"
+         "ENCREC\n";  // core/record/record.cpp
+}
+
+// What is of a table is not of a world, and the other way round.
+void refuse_others(const ExportOptions& options) {
+  const auto refuse = [](bool there, const std::string& option, const char* of, const char* instead) {
+    if (there) throw Error(option + ": only of " + of + "; expected " + instead + "; leave it out");
+  };
+  if (options.xml.empty()) {
+    constexpr const char* kInstead = "a record alone, which has all that it was made with";
+    refuse(!options.rig.empty(), "--rig", "a scene that is written as MJCF", kInstead);
+    refuse(!options.set.empty(), "--set", "a scene that is written as MJCF", kInstead);
+    if (options.record.ends_with(".toml"))
+      throw Error(
+          options.record +
+          ": is a scene, and nothing says where its world shall go; expected a record, or a scene and "
+          "a file; name one, such as world.xml");
+    return;
+  }
+  constexpr const char* kInstead = "a scene and the file that its world is written to";
+  refuse(!options.csv.empty(), "--csv", "a record that is written as a table", kInstead);
+  refuse(options.partial, "--partial", "a record that is written as a table", kInstead);
+  if (options.xml == "-")
+    throw Error("-: a world is not written to standard output; expected a file; name one, such as world.xml");
+  if (is_record(options.record))
+    throw Error(options.record + ": is a record, and '" + options.xml +
+                "' asks for a world; expected a scene file (models/scenes/*.toml); name one, or write the "
+                "record as a table with --csv");
+}
+
 // The world at its start, with all that is only looked at.
 int export_world(const ExportOptions& options) {
-  const models::Setup setup = models::load(options.record, "");
+  const models::Setup setup = models::load(options.record, options.rig, options.set);
+  print_notes(setup.notes);
   const Scene scene = trial::prepare_setup(setup);
   const std::unique_ptr<sim::World> world = trial::make_world(setup, scene, 1, true);
   models::OutFile file(options.xml, models::existing(options.force));
@@ -59,15 +99,17 @@ int export_world(const ExportOptions& options) {
 }  // namespace
 
 int export_record(const ExportOptions& options) {
+  refuse_others(options);
   if (!options.xml.empty()) return export_world(options);
+  const std::string csv = options.csv.empty() ? "-" : options.csv;
   models::note_input(options.record);
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = trial::prepare_setup(setup);
   // A pipe without a reader ends this as it ends others.
   std::optional<StopSignals> signals;
-  if (options.csv != "-") signals.emplace();
-  Output output(options.csv, models::existing(options.force));
+  if (csv != "-") signals.emplace();
+  Output output(csv, models::existing(options.force));
   trial::RecordTable table(setup, scene);
   output.write(trial::RecordTable::header());
   for (RecordedTick frame; record.next(frame);) {

@@ -43,9 +43,11 @@ struct ReplayOptions {
   bool partial = false;
 };
 struct ExportOptions {
-  std::string record;     // or a scene, whose simulated world `xml` shall be
-  std::string xml;        // file; empty: a record is exported
-  std::string csv = "-";  // file; "-": standard output
+  std::string record;            // or a scene, whose simulated world `xml` shall be
+  std::string xml;               // file; empty: a record is exported
+  std::string csv;               // file; "-" or empty: standard output
+  std::string rig;               // of a scene; empty: its own
+  std::vector<std::string> set;  // likewise, "name=value"
   bool partial = false, force = false;
 };
 struct ParamsOptions : SceneOptions {

@@ -1,0 +1,71 @@
+// `export`: a record as a table, a scene as MuJoCo's own programs open it; and what is neither, in one line.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/built.h"
+#include "tests/support/bytes_of.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Words = std::vector<std::string>;
+
+const std::string kRoot = ENCOUNTER_SOURCE_DIR;
+const std::string kWall = kRoot + "/models/scenes/wall.toml", kRecord = kRoot + "/tests/data/press.encrec";
+
+std::string line(const Words& args) {
+  const Result r = run_program(args);
+  EXPECT_EQ(r.code, 2) << r.out << r.err;
+  EXPECT_EQ(r.out, "");
+  EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+  return r.err;
+}
+
+TEST(Export, AWorldHasTheRigAndTheNumbersThatItIsGiven) {
+  const test::TemporaryFolder folder;
+  const auto world = [&](const char* name, const Words& more) {
+    Words args{"export", kWall, folder.file(name)};
+    args.insert(args.end(), more.begin(), more.end());
+    const Result r = run_program(args);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return test::bytes_of(folder.file(name));
+  };
+  const std::string as_shipped = world("a.xml", {});
+  EXPECT_THAT(as_shipped, AllOf(HasSubstr("<mujoco"), Not(HasSubstr("timestep=\"0.0005\""))));
+  EXPECT_THAT(world("b.xml", {"--set", "truth.arm.timestep_us=500"}), HasSubstr("timestep=\"0.0005\""));
+  EXPECT_NE(world("c.xml", {"--rig", "stage"}), as_shipped);
+  EXPECT_THAT(line({"export", kWall, folder.file("d.xml"), "--set", "truth.arm.timestep_us=501"}),
+              HasSubstr("does not divide the haptic period"));
+  EXPECT_THAT(line({"export", kWall, folder.file("d.xml"), "--rig", "none"}), HasSubstr("none"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("d.xml")));
+}
+
+TEST(Export, WhatIsOfTheOtherIsRefused) {
+  const test::TemporaryFolder folder;
+  const std::string xml = folder.file("w.xml"), csv = folder.file("t.csv");
+  EXPECT_THAT(line({"export", kWall, xml, "--csv", csv}), HasSubstr("--csv: only of a record"));
+  EXPECT_THAT(line({"export", kWall, xml, "--csv", "-"}), HasSubstr("--csv: only of a record"));
+  EXPECT_THAT(line({"export", kWall, xml, "--partial"}), HasSubstr("--partial: only of a record"));
+  EXPECT_THAT(line({"export", kWall, "-"}), HasSubstr("expected a file"));
+  EXPECT_THAT(line({"export", kWall, ""}), HasSubstr("xml"));
+  EXPECT_THAT(line({"export", kRecord, xml}), HasSubstr("press.encrec: is a record"));
+  EXPECT_THAT(line({"export", kWall}), HasSubstr("wall.toml: is a scene"));
+  EXPECT_THAT(line({"export", kWall, "--csv", csv}), HasSubstr("wall.toml: is a scene"));
+  EXPECT_THAT(line({"export", kRecord, "--rig", "sim"}), HasSubstr("--rig: only of a scene"));
+  EXPECT_THAT(line({"export", kRecord, "--set", "a=1"}), HasSubstr("--set: only of a scene"));
+  EXPECT_THAT(line({"export", kWall, kWall, "--force"}), HasSubstr("is read by this command"));
+  EXPECT_TRUE(std::filesystem::is_empty(std::filesystem::path(xml).parent_path()));
+}
+
+}  // namespace
+}  // namespace enc::tests
