@@ -165,12 +165,27 @@ std::string seen_line(const RunReport& r) {
 std::string passivity_line(const RunReport& r) {
   const Impedance* law = r.scene.impedance();
   if (law == nullptr || law->rig.passivity == PassivityForm::none) return "";
+  const auto& contacts = r.passivity.contacts();
+  if (contacts.empty()) return "passivity   controlled; there was no contact to control\n";
   const trial::PassivityFigures all = r.passivity.worst();
-  return fmt::format(
-      "passivity   {:.3f} mJ more out than in at most, of {} controlled contact{} (by encoders); it took "
-      "{:.3f} mJ and at most {:.2f} N, in {:.0f} ms\n",
-      all.given * 1e3, r.passivity.contacts().size(), r.passivity.contacts().size() == 1 ? "" : "s",
-      all.dissipated * 1e3, all.most, all.acted * 1e3);
+  const auto acted =
+      std::count_if(contacts.begin(), contacts.end(), [](const auto& c) { return c.acted > 0.0; });
+  const std::string of = fmt::format("{} contact{}", contacts.size(), contacts.size() == 1 ? "" : "s");
+  std::string text =
+      acted == 0 ? fmt::format("passivity   the controller left the law's force as it is, in all of {}", of)
+                 : fmt::format(
+                       "passivity   the controller held the law's force back in {} of {}: for {:.0f} ms in "
+                       "all, by at "
+                       "most {:.2f} N, which kept {:.3f} mJ from coming out",
+                       acted, of, all.acted * 1e3, all.most, all.dissipated * 1e3);
+  text += fmt::format("; of one contact at most {:.3f} mJ more came out than went in (by encoders)\n",
+                      all.given * 1e3);
+  // It counts what each force did, and nobody did anything with these.
+  if (r.result.withheld > 0)
+    text +=
+        "  dry       no force was sent, and the controller takes each for sent: armed it holds back other "
+        "ones\n";
+  return text;
 }
 
 // An arm that meets a bare finger [VisHap 3].
