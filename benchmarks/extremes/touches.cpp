@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/extremes/case.h"
+#include "trial/measure/press_measure.h"
 
 namespace enc::bench::extremes {
 namespace {
@@ -122,11 +123,51 @@ Found impact(const BenchContext& context, bool arm, double speed) {
   return found;
 }
 
+// Hard objects beside a soft one, with two tools [VHMR 5: training].
+Found training(const BenchContext& context) {
+  const models::Setup setup =
+      load_scene(context, "training", {fmt::format("user.session.duration_s={}", context.quick ? 20 : 60)});
+  Found found{"training.toml, 50 to 200 N/mm beside 0.5",
+              "each press one contact; never outside; no deeper than the limit and two steps of the machine",
+              {}};
+  trial::PressMeasure presses(setup);
+  double limit = kUnset;
+  trial::TrialOptions options;
+  options.seed = context.seed;
+  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+    presses.see(g);
+    limit = g.scene.objects.front().limit;
+  });
+  double torn = 0.0, deepest = 0.0, felt = 0.0;
+  for (const trial::PressFigures& press : presses.presses()) {
+    if (std::isnan(press.miss)) continue;
+    ++felt;
+    torn += press.contacts == 1 ? 0.0 : 1.0;
+    deepest = std::max(deepest, press.peak_deflection);
+  }
+  constexpr double kStep = 3e-6;  // m, of the machine
+  found.numbers = {{"presses.value", felt, "", at_least(3.0), "that touched"},
+                   {"torn.value", torn, "", exactly(0.0), "of them, with none or several contacts"},
+                   {"deeper.max", (deepest - limit) * 1e6, "um", at_most(2e6 * kStep),
+                    "than the limit of the tooth, true"},
+                   {"outside.max", presses.greatest_outside() * 1e6, "um", at_most(0.0),
+                    "of the tip outside of an object"},
+                   {"error.rms",
+                    presses.rmse_press(),
+                    "N",
+                    {},
+                    "pressing: true force against the response at the true depth"},
+                   {"touch.max", run.judge.touch, "N", {}, "true force"}};
+  add_soundness(run, found);
+  return found;
+}
+
 }  // namespace
 
 void add_touches(Cases& cases, bool quick) {
   cases.push_back({"arm.deep", deep_finger});
   cases.push_back({"hexapod.deep", deep_tip});
+  cases.push_back({"hexapod.training", training});
   for (const bool arm : {true, false})
     for (const double speed : quick ? std::vector<double>{1.0} : std::vector<double>{1.0, 5.0})
       cases.push_back({fmt::format("{}.impact.{:g}", arm ? "arm" : "hexapod", speed),
