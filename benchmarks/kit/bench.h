@@ -11,25 +11,14 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/plot_data.h"
 #include "core/frames.h"
 #include "core/module.h"
 
 namespace enc::bench {
 
-inline constexpr double kMm = 1e3;  // per m
-
 // calibrated: the paper's value set a parameter. predicted: it did not. ours: no paper value exists.
 enum class Role : std::uint8_t { calibrated, predicted, ours };
-
-// A number, or the middle of several with the least and the most of them.
-struct Value {
-  double middle = kUnset, least = kUnset, most = kUnset;
-  Value(double only) : middle(only) {}  // NOLINT(google-explicit-constructor): a number is a value
-  Value(double of, double from, double to) : middle(of), least(from), most(to) {}
-};
-[[nodiscard]] inline Value operator*(const Value& v, double by) {
-  return {v.middle * by, v.least * by, v.most * by};
-}
 
 struct Figure {
   std::string id;         // first token the benchmark, last token the statistic (sources/choices 10)
@@ -43,35 +32,6 @@ struct Figure {
   [[nodiscard]] bool ok() const;
 };
 
-// What the report draws. `low` and `high` are error bars or the edges of a band; empty: none. A NaN is a gap;
-// of `crosses` (what failed, such as an unstable run) it is drawn at the upper edge.
-enum class Mark : std::uint8_t { line, points, both, bars, band, crosses };
-struct Series {
-  std::string name;
-  std::vector<double> x{}, y{};
-  std::vector<double> low{}, high{};
-  Mark mark = Mark::line;
-  bool paper = false;                        // the paper's own values: drawn alike in every plot
-  void add(double at, const Value& value) {  // a point, with a bar where the value has one
-    x.push_back(at);
-    y.push_back(value.middle);
-    if (std::isnan(value.least) && low.empty()) return;
-    low.resize(x.size(), kUnset);
-    high.resize(x.size(), kUnset);
-    low.back() = value.least;
-    high.back() = value.most;
-  }
-};
-struct Plot {
-  std::string id;                       // file name without ".svg"; begins with the benchmark's name
-  std::string title, x_label, y_label;  // labels with their unit
-  bool log_x = false, log_y = false;
-  std::vector<Series> series{};
-  std::string caption{};               // what to see in it
-  std::vector<std::string> x_names{};  // under x = 0, 1, 2, ... in place of numbers
-  bool equal = false;                  // one unit of x is as long as one of y (maps)
-  std::vector<std::string> y_names{};  // beside y = 0, 1, 2, ... from the top down, in place of numbers
-};
 struct Table {
   std::string id;  // file name without ".csv"; begins with the benchmark's name
   std::string title;

@@ -1,5 +1,3 @@
-#include "benchmarks/report/plot.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,11 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/report/plot_panels.h"
+
 namespace enc::bench {
 namespace {
 
 // Told apart also by the colour-blind [Okabe and Ito 2008]; the paper is black.
 constexpr std::array kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A5195"};
+constexpr std::array kFields{"#BFE0EE", "#F2DC8C", "#CC6677", "#DDDDDD"};  // of maps, lines go over them
 constexpr std::array kPoints{7, 5, 9, 13, 11, 15, 3};  // gnuplot's numbers of filled shapes
 constexpr double kTop = 0.975;                         // where failures stand, as a share of the axis
 
@@ -97,12 +98,57 @@ std::string data_block(const Series& s, const Plot& plot, std::size_t index, dou
   return text + "EOD\n";
 }
 
+// Where a field of a map ends: half-way to the next one that there is.
+class Grid {
+ public:
+  Grid(const Plot& plot, bool of_y) : log_(of_y ? plot.log_y : plot.log_x) {
+    for (const Series& s : plot.series)
+      if (s.mark == Mark::cells)
+        for (const double value : of_y ? s.y : s.x) places_.push_back(placed(value));
+    std::sort(places_.begin(), places_.end());
+    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+  }
+  [[nodiscard]] std::pair<double, double> around(double value) const {
+    const double at = placed(value);
+    const auto here = std::lower_bound(places_.begin(), places_.end(), at);
+    const double up = std::next(here) != places_.end() ? *std::next(here) - at : kUnset;
+    const double down = here != places_.begin() ? at - *std::prev(here) : kUnset;
+    const double above = std::isnan(up) ? down : up, below = std::isnan(down) ? up : down;
+    const auto edge = [&](double to) { return log_ ? std::exp(to) : to; };
+    return {edge(at - 0.5 * (std::isnan(below) ? 1.0 : below)),
+            edge(at + 0.5 * (std::isnan(above) ? 1.0 : above))};
+  }
+
+ private:
+  [[nodiscard]] double placed(double value) const { return log_ ? std::log(value) : value; }
+  bool log_;
+  std::vector<double> places_;
+};
+
+std::string field_block(const Series& s, const Grid& across, const Grid& up, std::size_t index) {
+  std::string text = fmt::format("$d{} << EOD\n", index);
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    const auto [left, right] = across.around(s.x[i]);
+    const auto [low, high] = up.around(s.y[i]);
+    text +=
+        fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", s.x[i], s.y[i], left, right, low, high);
+  }
+  return text + "EOD\n";
+}
+
 // The parts of gnuplot's one `plot` command.
 class Parts {
  public:
+  // `steady`: what has no data has its colour all the same.
+  explicit Parts(bool steady = false) : steady_(steady) {}
   void add(const Series& s, std::size_t index) {
-    if (s.x.empty()) return;
+    if (s.mark == Mark::cells) {
+      field(s, index);
+      return;
+    }
+    if (s.x.empty() && !steady_) return;
     if (s.mark != Mark::crosses) look_ = s.paper ? paper() : ours();
+    if (s.x.empty()) return;
     const std::string data = fmt::format("$d{} using ", index);
     std::string title = " title " + quoted(s.name);
     const auto part = [&](const std::string& how) {
@@ -135,6 +181,12 @@ class Parts {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
+  void field(const Series& s, std::size_t index) {
+    const char* colour = kFields[fields_++ % kFields.size()];
+    if (s.x.empty()) return;
+    text_ += fmt::format("{}$d{} using 1:2:3:4:5:6 with boxxyerror fc rgb '{}' fs solid 1 noborder title {}",
+                         text_.empty() ? "" : ", \\\n  ", index, colour, quoted(s.name));
+  }
   struct Look {
     std::string colour = "#000000", dash = "solid";
     int point = 6;
@@ -158,7 +210,8 @@ class Parts {
 
   std::string text_;
   Look look_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0, fields_ = 0;
+  bool steady_;
 };
 
 // Round numbers where an axis has few powers of ten: there 1, 2, 5, 10, ...
@@ -192,8 +245,9 @@ std::string axis_range(const char* axis, const Limits& limits, bool log, double 
 std::vector<std::size_t> drawing_order(const Plot& plot) {
   std::vector<std::size_t> order(plot.series.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t i) { return plot.series[i].mark == Mark::band; });
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
+    return plot.series[i].mark == Mark::band || plot.series[i].mark == Mark::cells;
+  });
   return order;
 }
 
@@ -244,36 +298,50 @@ std::string axes(const Plot& plot, const Bars& bars) {
 
 }  // namespace
 
-std::string plot_script(const Plot& plot) {
+std::size_t legend_columns(const Plot& plot, std::size_t width) {
   std::size_t longest = 1;
   for (const Series& s : plot.series) longest = std::max(longest, s.name.size());
-  const bool names = !plot.y_names.empty();  // they take their room from the plot, under which the legend is
-  const std::size_t width = names ? 900 : 640;
-  const std::size_t columns = std::max<std::size_t>(1, (names ? 340 : 590) / (62 + 8 * longest));
-  const std::size_t rows = (plot.series.size() + columns - 1) / columns;
-  std::string text = fmt::format(
-      "set encoding utf8\nset terminal svg size {},{} font 'sans-serif,15' background '#ffffff' "
-      "noenhanced\n",
-      width, height_of(plot) + (crowded(plot) ? 50 : 0) + 22 * rows);
-  text +=
-      "set border 3 lc rgb '#555555'\nset tics nomirror out textcolor rgb '#333333'\n"
-      "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";
-  text += fmt::format("set key bmargin center horizontal Left reverse samplen 2.5 height 0.5 maxcols {}\n",
-                      columns);
-  text += "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
-          quoted(plot.y_label) + "\n";
+  return std::max<std::size_t>(1, width / (62 + 8 * longest));
+}
+
+std::string plot_head(std::size_t width, std::size_t height) {
+  return fmt::format(
+             "set encoding utf8\nset terminal svg size {},{} font 'sans-serif,15' background '#ffffff' "
+             "noenhanced\n",
+             width, height) +
+         "set border 3 lc rgb '#555555'\nset tics nomirror out textcolor rgb '#333333'\n"
+         "set grid lc rgb '#e2e2e2' lt 1 lw 1\nset y2range [0:1]\n";
+}
+
+std::string plot_body(const Plot& plot, const Plot& whole, bool steady) {
   const Limits y = limits_of(plot, true);
   const Bars bars(plot);
-  text += axes(plot, bars);
-  text += fmt::format("set boxwidth {}\n", bars.width);
-  Parts parts;
+  const Grid across(whole, false), up(whole, true);
+  std::string text = axes(whole, Bars(whole)) + fmt::format("set boxwidth {}\n", bars.width);
+  Parts parts(steady);
   int bar = 0;
   for (const std::size_t i : drawing_order(plot)) {
     const Series& s = plot.series[i];
-    text += data_block(s, plot, i, s.mark == Mark::bars ? bars.offset(bar++) : 0.0, y.least_positive);
+    text += s.mark == Mark::cells
+                ? field_block(s, across, up, i)
+                : data_block(s, plot, i, s.mark == Mark::bars ? bars.offset(bar++) : 0.0, y.least_positive);
     parts.add(s, i);
   }
   return text + (parts.text().empty() ? "plot NaN notitle\n" : "plot " + parts.text() + "\n");
+}
+
+std::string plot_quoted(const std::string& text) { return quoted(text); }
+
+std::string plot_script(const Plot& plot) {
+  if (!plot.panels.empty()) return panels_script(plot);
+  const bool names = !plot.y_names.empty();  // they take their room from the plot, under which the legend is
+  const std::size_t columns = legend_columns(plot, names ? 340 : 590);
+  const std::size_t rows = (plot.series.size() + columns - 1) / columns;
+  return plot_head(names ? 900 : 640, height_of(plot) + (crowded(plot) ? 50 : 0) + 22 * rows) +
+         fmt::format("set key bmargin center horizontal Left reverse samplen 2.5 height 0.5 maxcols {}\n",
+                     columns) +
+         "set title " + quoted(plot.title) + "\nset xlabel " + quoted(plot.x_label) + "\nset ylabel " +
+         quoted(plot.y_label) + "\n" + plot_body(plot, plot, false);
 }
 
 std::string svg_for_page(const std::string& svg, const std::string& plot_id) {

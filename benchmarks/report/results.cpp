@@ -107,10 +107,15 @@ std::string plot_csv(const Plot& plot) {
   const auto at = [](const std::vector<double>& values, std::size_t i) {
     return i < values.size() ? word(values[i]) : "";
   };
-  std::string csv = "series,paper,x,y,low,high\n";
+  const bool panels = !plot.panels.empty();
+  std::string csv = std::string(panels ? "panel," : "") + "series,paper,x,y,low,high\n";
   for (const Series& s : plot.series)
-    for (std::size_t i = 0; i < s.x.size(); ++i)
-      csv += csv_line({s.name, s.paper ? "1" : "0", word(s.x[i]), at(s.y, i), at(s.low, i), at(s.high, i)});
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      std::vector<std::string> line{s.name,     s.paper ? "1" : "0", word(s.x[i]),
+                                    at(s.y, i), at(s.low, i),        at(s.high, i)};
+      if (panels) line.insert(line.begin(), plot.panels.at(s.panel));
+      csv += csv_line(line);
+    }
   return csv;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/yardstick.h"
+#include "benchmarks/stability/maps.h"
 #include "core/error.h"
 
 namespace enc::bench::stability {
@@ -178,8 +179,13 @@ void run(Bench& bench) {
   add_linear_cases(bench);
   add_integrators(bench);
   add_regions(bench);
+  add_wall_maps(bench);
+  add_button_map(bench);
+  add_admittance_map(bench);
   add_scenes(bench);
   add_passivity(bench);
+  add_widths(bench);
+  add_error_over_time(bench);
 }
 
 const Entry kEntry{"stability", "a slide with a wall",

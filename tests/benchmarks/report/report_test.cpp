@@ -284,6 +284,28 @@ TEST(Plot, IsDrawn) {
   }
 }
 
+// Small multiples: one legend, the same look of a name in each, fields that end half-way to their neighbours.
+TEST(Plot, PanelsShareAxesLegendAndLooks) {
+  Plot plot{.id = "press.map", .title = "map", .x_label = "x", .y_label = "y", .log_y = true};
+  plot.panels = {"one plot a", "two", "three"};
+  plot.columns = 2;
+  plot.x_names = {"0", "1"};
+  for (std::size_t panel = 0; panel < 3; ++panel) {
+    plot.series.push_back({.name = "rests", .x = {0, 1}, .y = {1, 100}, .mark = Mark::cells, .panel = panel});
+    if (panel != 1) plot.series.push_back({.name = "first", .x = {0, 1}, .y = {1, 9}, .panel = panel});
+    plot.series.push_back({.name = "second", .x = {0, 1}, .y = {2, 8}, .panel = panel});
+  }
+  const std::string script = plot_script(plot);
+  EXPECT_THAT(script, HasSubstr("0 1 -0.5 0.5 0.1 10\n1 100 0.5 1.5 10 1000\n"));
+  std::size_t looks = 0;  // a line in each panel and one in the legend
+  for (std::size_t at = 0; (at = script.find("lc rgb '#D55E00'", at)) != std::string::npos; ++at) ++looks;
+  EXPECT_EQ(looks, 4U);
+  const Drawing drawing = draw(plot);
+  EXPECT_EQ(drawing.why_not, "") << script;
+  for (const char* text : {"one plot a", "three", "second"}) EXPECT_THAT(drawing.svg, HasSubstr(text));
+  EXPECT_THAT(plot_csv(plot), StartsWith("panel,series,paper,x,y,low,high\none plot a,rests,0,0,1,,\n"));
+}
+
 TEST(Plot, InAPageNoTwoDrawingsShareAName) {
   const std::string svg = draw(small_plot()).svg;
   const std::string page = svg_for_page(svg, "press.demo");

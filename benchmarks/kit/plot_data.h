@@ -1,0 +1,60 @@
+// What a benchmark gives to be drawn.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc::bench {
+
+inline constexpr double kMm = 1e3;  // per m
+
+// A number, or the middle of several with the least and the most of them.
+struct Value {
+  double middle = kUnset, least = kUnset, most = kUnset;
+  Value(double only) : middle(only) {}  // NOLINT(google-explicit-constructor): a number is a value
+  Value(double of, double from, double to) : middle(of), least(from), most(to) {}
+};
+[[nodiscard]] inline Value operator*(const Value& v, double by) {
+  return {v.middle * by, v.least * by, v.most * by};
+}
+
+// What the report draws. `low` and `high` are error bars or the edges of a band; empty: none. A NaN is a gap;
+// of `crosses` (what failed, such as an unstable run) it is drawn at the upper edge. `cells` are fields of a
+// map, each as wide as half of the way to its neighbours.
+enum class Mark : std::uint8_t { line, points, both, bars, band, crosses, cells };
+struct Series {
+  std::string name;
+  std::vector<double> x{}, y{};
+  std::vector<double> low{}, high{};
+  Mark mark = Mark::line;
+  bool paper = false;                        // the paper's own values: drawn alike in every plot
+  std::size_t panel = 0;                     // of Plot::panels, in which it stands
+  void add(double at, const Value& value) {  // a point, with a bar where the value has one
+    x.push_back(at);
+    y.push_back(value.middle);
+    if (std::isnan(value.least) && low.empty()) return;
+    low.resize(x.size(), kUnset);
+    high.resize(x.size(), kUnset);
+    low.back() = value.least;
+    high.back() = value.most;
+  }
+};
+struct Plot {
+  std::string id;                       // file name without ".svg"; begins with the benchmark's name
+  std::string title, x_label, y_label;  // labels with their unit
+  bool log_x = false, log_y = false;
+  std::vector<Series> series{};
+  std::string caption{};               // what to see in it
+  std::vector<std::string> x_names{};  // under x = 0, 1, 2, ... in place of numbers
+  bool equal = false;                  // one unit of x is as long as one of y (maps)
+  std::vector<std::string> y_names{};  // beside y = 0, 1, 2, ... from the top down, in place of numbers
+  // Small multiples: a title for each, row by row. All have the same axes, and a name the same look in each.
+  std::vector<std::string> panels{};
+  std::size_t columns = 1;
+};
+}  // namespace enc::bench
