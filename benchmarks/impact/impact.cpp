@@ -1,0 +1,304 @@
+// What the first contact is like: force, bounces and what a hand feels of it, over the solver's settings, the
+// time step, speed and stiffness, against a contact law of its own (docs/reference/impact.md).
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "benchmarks/impact/touch.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/kit.h"
+#include "models/order_statistics.h"
+
+namespace enc::bench::impact {
+namespace {
+
+constexpr const char* kStill = "truth.hand.drift_mm=0";  // drawn anew at each step: no two steps share a hand
+constexpr double kFine = 5e-6;                           // s: half of it changes the force by 0.1 %
+
+// N/m and damping ratio of the tool's mass: what is converged does not hang on it.
+Law law_of(const models::Setup& setup, double stiffness) {
+  constexpr double kRatio = 0.3;
+  const double mass = setup.scene.tools.front().mass;
+  return {stiffness, 1.0, 0.0, 2.0 * kRatio * std::sqrt(stiffness * mass), setup.twin.world.tip_friction};
+}
+
+struct Compared {
+  FirstTouch touch, reference;
+  double cpu = kUnset, simulated = 0.0;
+  std::string failure;
+  [[nodiscard]] double error() const { return 100.0 * std::abs(touch.grip / reference.grip - 1.0); }  // %
+};
+
+Compared compare(const models::Setup& setup, std::uint64_t seed, double stiffness = 1e5) {
+  const Watched watched = watch_touch(setup, seed);
+  Compared found{watched.touch, {}, watched.cpu, watched.simulated, watched.failure};
+  if (!std::isnan(watched.touch.at))
+    found.reference = refer(setup, seed, watched, law_of(setup, stiffness), kFine);
+  return found;
+}
+
+template <class Of>
+std::vector<double> values(const std::vector<Compared>& all, Of of) {
+  std::vector<double> known;
+  for (const Compared& one : all)
+    if (const double value = of(one); !std::isnan(value)) known.push_back(value);
+  return known;
+}
+
+struct Setting {
+  const char* family;
+  std::string name;
+  std::vector<std::string> set;
+};
+
+constexpr const char* kCoarse = "truth.solver.tolerance=1e-8";  // of MuJoCo, unless told
+
+// What the rig does comes first.
+std::vector<Setting> settings() {
+  std::vector<Setting> all{{"as the rig has it", "1 ms", {}}};
+  const auto step = [](double us) { return fmt::format("truth.world.timestep_us={:g}", us); };
+  for (const double us : {500.0, 250.0, 125.0, 62.5})
+    all.push_back({"as the rig has it", fmt::format("{:g} ms", us * 1e-3), {step(us)}});
+  for (const double ratio : {1.0, 20.0})
+    for (const int noslip : {0, 4})
+      for (const double us : {1000.0, 250.0, 62.5})
+        all.push_back({ratio == 1.0  ? noslip == 0 ? "impratio 1, no noslip" : "impratio 1, noslip 4"
+                       : noslip == 0 ? "impratio 20, no noslip"
+                                     : "impratio 20, noslip 4",
+                       fmt::format("{:g} ms", us * 1e-3),
+                       {step(us), fmt::format("truth.solver.impratio={:g}", ratio),
+                        fmt::format("truth.solver.noslip_iterations={}", noslip), kCoarse}});
+  for (const double us : {1000.0, 250.0})
+    all.push_back({"pyramidal cone, no noslip",
+                   fmt::format("{:g} ms", us * 1e-3),
+                   {step(us), "truth.solver.cone=pyramidal", "truth.solver.noslip_iterations=0", kCoarse}});
+  for (const int iterations : {1, 3})
+    all.push_back({"few iterations",
+                   fmt::format("{}", iterations),
+                   {fmt::format("truth.solver.iterations={}", iterations), kCoarse}});
+  for (const char* tolerance : {"1e-4", "1e-8", "1e-10", "1e-12"})
+    all.push_back({"tolerance", tolerance, {fmt::format("truth.solver.tolerance={}", tolerance)}});
+  return all;
+}
+
+// The solver's settings and the time step, for one scene; %.
+void add_sweep(Bench& bench, const std::string& scene) {
+  const std::size_t hands = bench.context.count(16, 3);
+  std::vector<Setting> all = settings();
+  if (bench.context.quick) all.resize(5);
+  std::vector<std::pair<std::size_t, std::uint64_t>> runs;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const std::uint64_t seed : bench.seeds(hands)) runs.emplace_back(i, seed);
+  const auto found = bench.each(runs, [&](const auto& run) {
+    std::vector<std::string> own{kStill};
+    own.insert(own.end(), all[run.first].set.begin(), all[run.first].set.end());
+    return compare(load_scene(bench.context, scene, own), run.second);
+  });
+  Table table{"sweep_" + scene,
+              "First touch of " + scene + ": the solver and the time step",
+              {"setting", "step or value", "error of what is felt (%), median", "95 %", "contact, most (N)",
+               "at ticks (N)", "breaks", "CPU s per s", "failed"}};
+  std::vector<CostCurve> curves;
+  Series chosen{.name = "default", .mark = Mark::points, .paper = true};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::vector<Compared> of(found.begin() + static_cast<std::ptrdiff_t>(i * hands),
+                                   found.begin() + static_cast<std::ptrdiff_t>((i + 1) * hands));
+    const auto mid = [&](auto what) { return median(values(of, what)); };
+    const std::vector<double> errors = values(of, [](const Compared& c) { return c.error(); });
+    const auto failed =
+        std::count_if(of.begin(), of.end(), [](const Compared& c) { return !c.failure.empty(); });
+    const double error = failed > 0 || errors.empty() ? kUnset : percentile(errors, 0.95);
+    const double cost = mid([](const Compared& c) { return c.cpu; });
+    if (curves.empty() || curves.back().name != all[i].family) curves.push_back({all[i].family});
+    curves.back().cost.push_back(cost);
+    curves.back().error.push_back(error);
+    if (i == 0) chosen.add(cost, error);
+    table.add(all[i].family, all[i].name, fmt::format("{:.2g}", median(errors)), fmt::format("{:.2g}", error),
+              fmt::format("{:.3g}", mid([](const Compared& c) { return c.touch.peak; })),
+              fmt::format("{:.3g}", mid([](const Compared& c) { return c.touch.sampled; })),
+              fmt::format("{:g}", mid([](const Compared& c) { return static_cast<double>(c.touch.breaks); })),
+              fmt::format("{:.3g}", cost), failed);
+    if (i > 0) continue;
+    bench.figure(
+        scene + ".felt.error.median", median(errors), "%",
+        fmt::format("most that the grip pushes the hand with in 0.1 s from the touch, at the default, "
+                    "against a contact law of its own with a converged step; {} hands",
+                    hands));
+    bench.figure(scene + ".felt.error.p95", error, "%", "the same, of 95 % of the hands");
+    bench.figure(
+        scene + ".felt.error_N.p95",
+        percentile(values(of, [](const Compared& c) { return std::abs(c.touch.grip - c.reference.grip); }),
+                   0.95),
+        "N", "the same in newtons: the least force that is told is 0.1 N");
+    bench.figure(scene + ".breaks.median",
+                 mid([](const Compared& c) { return static_cast<double>(c.touch.breaks); }), "",
+                 "of the contact in that time, at the default");
+    bench.figure(scene + ".reference.breaks.median",
+                 mid([](const Compared& c) { return static_cast<double>(c.reference.breaks); }), "",
+                 "the same by the law of its own, 10^5 N/m, damping ratio 0.3: what of it is physics");
+  }
+  Plot plot = cost_beside_error(
+      {.id = "sweep_" + scene,
+       .title = "First touch of " + scene + ": error against run time",
+       .x_label = "CPU time for one second of experiment (s)",
+       .y_label = "error of what the hand feels (%)",
+       .caption = "Of the grip's largest force, 95 % of the hands, against a contact law of "
+                  "its own at a converged step. A person tells 7 %, and 0.1 N. Crosses: the "
+                  "engine warned."},
+      curves);
+  plot.series.push_back(std::move(chosen));
+  bench.plot(std::move(plot));
+  bench.table(std::move(table));
+}
+
+// The law of its own over its stiffness and step: what of a touch hangs on either.
+void add_law(Bench& bench) {
+  const models::Setup setup = load_scene(bench.context, "session", {kStill});
+  const std::size_t hands = bench.context.count(8, 2);
+  const auto measured = bench.each(bench.seeds(hands), [&](std::uint64_t seed) {
+    return std::pair{seed, watch_touch(setup, seed)};
+  });
+  Table table{
+      "law",
+      "The law of its own: first touch of session",
+      {"stiffness (N/m)", "friction", "step (us)", "felt (N)", "contact, most (N)", "breaks", "push (mN s)"}};
+  const auto felt = [&](const Law& law, double step, const std::string& stiffness) {
+    const auto all = bench.each(measured, [&](const auto& m) {
+      return std::isnan(m.second.touch.at) ? FirstTouch{} : refer(setup, m.first, m.second, law, step);
+    });
+    std::vector<double> grip, peak, breaks, push;
+    for (const FirstTouch& t : all) {
+      if (std::isnan(t.at)) continue;
+      grip.push_back(t.grip);
+      peak.push_back(t.peak);
+      breaks.push_back(t.breaks);
+      push.push_back(t.push);
+    }
+    table.add(stiffness, law.friction, step * 1e6, fmt::format("{:.4f}", median(grip)),
+              fmt::format("{:.3f}", median(peak)), median(breaks), fmt::format("{:.2f}", 1e3 * median(push)));
+    return median(grip);
+  };
+  const double soft = felt(law_of(setup, 1e4), kFine, "1e4"), middle = felt(law_of(setup, 1e5), kFine, "1e5");
+  const double hard = felt(law_of(setup, 1e6), kFine, "1e6"), fine = felt(law_of(setup, 1e5), 1e-6, "1e5");
+  Law smooth = law_of(setup, 1e5);
+  smooth.friction = 0.0;
+  felt(smooth, kFine, "1e5");
+  felt({1e9, 1.5, 1.0, 0.0, setup.twin.world.tip_friction}, kFine, "1e9 d^1.5 (Hertz)");
+  bench.figure("law.step.error", 100.0 * std::abs(middle / fine - 1.0), "%", at_most(0.5),
+               "what is felt by the law of its own: step of 5 us against 1 us");
+  bench.figure("law.stiffness.spread",
+               100.0 * (std::max({soft, middle, hard}) / std::min({soft, middle, hard}) - 1.0), "%",
+               at_most(7.0),
+               "the same over 10^4 to 10^6 N/m: less than a person tells; the contact's own force "
+               "differs ten times");
+  bench.table(std::move(table));
+}
+
+struct Machine {
+  const char* name;
+  const char* scene;
+  bool arm;
+  std::vector<std::string> prepared, late;  // it waits; it sets out when the tool is near
+};
+const std::vector<Machine>& machines() {
+  static const std::vector<Machine> kMachines{
+      {"hexapod",
+       "tennis_ball",
+       false,
+       {"user.approach_tilt_deg=0"},
+       {"user.approach_tilt_deg=0", "user.polar_deg=20", "follow.resume_mm=20", "follow.pause_mm=25"}},
+      {"arm",
+       "wall",
+       true,
+       {"object.wall.position_mm=[0,0,25]"},
+       {"object.wall.position_mm=[0,0,25]", "follow.resume_mm=15", "follow.pause_mm=20"}}};
+  return kMachines;
+}
+
+// Force and bounces over approach speed x stiffness of the stop, or of the wall; standing and setting out.
+void add_speeds(Bench& bench) {
+  const std::vector<double> speeds =
+      bench.context.quick ? std::vector<double>{50, 1000} : std::vector<double>{50, 100, 200, 400, 700, 1000};
+  Table table{"speeds",
+              "First contact: approach speed, stiffness, and whether the machine stands",
+              {"machine", "speed (mm/s)", "stiffness or stop", "stands", "its speed (mm/s)", "closing (mm/s)",
+               "contact, most (N)", "felt (N)", "breaks", "lost (ms)", "bounces of 5 ms"}};
+  for (const Machine& machine : machines()) {
+    struct Run {
+      double speed;
+      std::string what;
+      bool stands;
+      std::vector<std::string> set;
+    };
+    std::vector<Run> runs;
+    for (const double speed : speeds)
+      for (const double value :
+           machine.arm ? std::vector<double>{0.2, 0.6, 1.2} : std::vector<double>{2, 5, 10})
+        for (const bool stands : {true, false}) {
+          Run run{speed,
+                  machine.arm ? fmt::format("{:g} N/mm", value) : fmt::format("stop of {:g} ms", value),
+                  stands, stands ? machine.prepared : machine.late};
+          run.set.insert(
+              run.set.end(),
+              {kStill, "user.press_s=1", "user.release_s=1", fmt::format("user.approach_mm_s=[{:g}]", speed),
+               fmt::format("user.approach_from_mm={:g}", std::max(150.0, 0.3 * speed)),
+               machine.arm ? fmt::format("behaviour.phantom_wall.stiffness_N_per_mm={:g}", value)
+                           : fmt::format("truth.world.contact_time_ms={:g}", value)});
+          runs.push_back(std::move(run));
+        }
+    const auto found = bench.each(runs, [&](const Run& run) {
+      return watch_touch(load_scene(bench.context, machine.scene, run.set), bench.context.seed);
+    });
+    Plot plot{
+        .id = fmt::format("speeds_{}", machine.name),
+        .title = fmt::format("First contact of the {}: force and bounces over approach speed", machine.name),
+        .x_label = "approach speed (mm/s)",
+        .y_label = "most felt in 0.1 s (N)",
+        .log_x = true,
+        .log_y = true,
+        .caption =
+            "Felt: the grip's largest force. Dashed names: the machine sets out when the tool is already "
+            "near, and still moves at the touch. Bounces: table `speeds`."};
+    double standing = 0.0, moving = 0.0;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const FirstTouch& t = found[i].touch;
+      const std::string name =
+          fmt::format("{}, {}", runs[i].what, runs[i].stands ? "stands" : "sets out late");
+      auto at = std::find_if(plot.series.begin(), plot.series.end(),
+                             [&](const Series& s) { return s.name == name; });
+      if (at == plot.series.end())
+        at = plot.series.insert(plot.series.end(), Series{.name = name, .mark = Mark::both});
+      at->add(runs[i].speed, t.grip);
+      (runs[i].stands ? standing : moving) += t.long_breaks;
+      table.add(machine.name, runs[i].speed, runs[i].what, runs[i].stands ? "yes" : "no",
+                fmt::format("{:.1f}", 1e3 * t.moving), fmt::format("{:.0f}", 1e3 * t.closing),
+                fmt::format("{:.2f}", t.peak), fmt::format("{:.2f}", t.grip), t.breaks,
+                fmt::format("{:.1f}", 1e3 * t.lost), t.long_breaks);
+    }
+    bench.plot(std::move(plot));
+    bench.figure(fmt::format("{}.bounces.standing", machine.name), standing, "",
+                 fmt::format("contact lost for 5 ms or more, in all {} touches by a machine that stands",
+                             runs.size() / 2));
+    bench.figure(fmt::format("{}.bounces.late", machine.name), moving, "",
+                 "the same of one that sets out late");
+    bench.figure(fmt::format("{}.bounces.fewer", machine.name),
+                 moving > 0.0 ? 100.0 * (1.0 - standing / moving) : 0.0, "%",
+                 machine.arm && !bench.context.quick ? at_least(80.0) : Bounds{}, "by how much fewer");
+  }
+  bench.table(std::move(table));
+}
+
+void run(Bench& bench) {
+  add_sweep(bench, "session");
+  add_sweep(bench, "training");
+  add_law(bench);
+  add_speeds(bench);
+}
+
+const Entry kEntry{"impact", "a first contact",
+                   "force and bounces over solver, time step, speed and stiffness, and what is felt of them",
+                   run};
+
+}  // namespace
+}  // namespace enc::bench::impact
