@@ -34,14 +34,17 @@ void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
   const bool pressed = presses(state, now.contact) && !walk.in.withheld;
   if (!tells_depth(*object) || !(now.aim.caught_up || pressed)) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
-  const double slack = walk.scene.contact.leave_gap;
+  const double near = walk.scene.contact.leave_gap;
+  // A finger that is stopped seems to spring back for a picture or two: while the prop is pushed, it has not.
+  constexpr double kPushed = 3.0;
+  const double slack = pressed ? kPushed * near : near;
   const double beyond = walk.gap - prop;
   // A prop that is lifted off the surface from beside is none that a finger behind it lies on.
-  walk.gap = beyond < -slack ? std::min(prop, 0.0) : prop + std::max(0.0, beyond - slack);
+  walk.gap = beyond < -near ? std::min(prop, 0.0) : prop + std::max(0.0, beyond - slack);
   // What it feels says how the finger goes on, long before a picture shows that it was stopped. Where the
   // picture itself is behind the prop, the finger is beside it, or vision is wrong.
   const double shown = dot(walk.tip_newest - walk.X_WH.origin(), walk.normal) - walk.tool_radius;
-  if (pressed && beyond < slack && shown > -slack)
+  if (pressed && beyond < slack && shown > -near)
     correct_now(walk.scene.tracker, walk.tick.t, -beyond * walk.normal, state.tip_motion);
 }
 

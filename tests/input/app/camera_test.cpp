@@ -117,8 +117,8 @@ TEST_F(Camera, AnObjectOutOfViewAmongOthersIsAWarning) {
     return r.err;
   };
   EXPECT_THAT(warning("620"),
-              HasSubstr("has object 'key_12' outside of the left image, where no finger is seen"));
-  EXPECT_THAT(warning("640"), HasSubstr("'key_9' outside of the left image, and 3 more out of view, where"));
+              HasSubstr("has object 'key_10' outside of the left image, where no finger is seen"));
+  EXPECT_THAT(warning("640"), HasSubstr("'key_7' outside of the left image, and 2 more out of view, where"));
 }
 
 // The rig is told 5 mm beside where its camera stands; what says so are the prop's contacts.
@@ -129,7 +129,7 @@ TEST_F(Camera, ACameraThatHasMovedIsSaid) {
     words.insert(words.end(), {"--set", set});
   const Result there = run_program(words);
   EXPECT_THAT(there.out, AllOf(HasSubstr("\nseen        "), Not(HasSubstr("not where it was registered"))));
-  words.insert(words.end(), {"--set", "truth.camera.moved_mm=[0, 0, 5]"});
+  words.insert(words.end(), {"--set", "truth.camera.moved_mm=[5, 0, 0]"});
   const Result moved = run_program(words);
   EXPECT_EQ(moved.code, 1);
   EXPECT_THAT(moved.out, AllOf(HasSubstr("LIMIT       the camera is not where it was registered: 2 presses"),
