@@ -20,6 +20,16 @@ enum class Phase : std::uint8_t {
   change
 };  // change: of tools
 
+// What was done to a machine since the last tick, J: sums over the steps of the physics (bodies/step_work.h).
+struct Work {
+  double contact = 0.0;   // of what touches its tip, as that feels it
+  double sensed = 0.0;    // the same of a hexapod, as its sensor would feel it without any error
+  double motors = 0.0;    // of an arm's motors
+  double friction = 0.0;  // taken by the joints' dry friction and stops
+  double viscous = 0.0;   // and by their viscous one
+  PerJoint rates{};       // of an arm's joints at this tick, rad/s or m/s
+};
+
 struct Truth {
   Time t{};
   Point<'W'> tool_tip;  // centre of the tool's tip
@@ -45,6 +55,7 @@ struct Truth {
   double approach_speed = kUnset;  // of this press, m/s, as planned
   bool aborted = false;            // this reach turns back before the touch
   std::int32_t tool = -1;          // in the hand, index in the scene; -1: none
+  Work work;
 };
 
 }  // namespace enc::sim

@@ -129,7 +129,9 @@ void World::find_tools(const SceneSpec& scene) {
 void World::physics_step(double t) {
   const double h = physics_.model()->opt.timestep;
   if (user_) hold_tools(t, h);
+  const Point<'W'> from = arm ? truth_.tip : true_tip().origin();
   arm ? drive_arm(h) : move_machine(t, h);
+  step_work_.begin(physics_, scale(), arm ? &*arm_body_ : nullptr);
   try {
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
@@ -139,6 +141,27 @@ void World::physics_step(double t) {
   if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
   // A step leaves the bodies where its last stage had them.
   if (arm) mj_kinematics(physics_.model(), physics_.data());
+  count_work(from, h);
+}
+
+// The tool in the hand, which weighs what pushes it back.
+Scale World::scale() const {
+  if (!user_) return {};
+  const std::int32_t held = user_->tool();
+  for (const Held& tool : tools_)
+    if (tool.index == held) return {tool.qvel, physics_.model()->body_mass[tool.body]};
+  return {};
+}
+
+void World::count_work(const Point<'W'>& from, double h) {
+  Work& work = truth_.work;
+  if (arm) {
+    step_work_.count(physics_, *arm_body_, twin_.arm, arm->state().torque, smooth_friction_, h, work);
+    return;
+  }
+  const Vec3 way = (true_tip().origin() - from).e();
+  work.contact += way.dot(by_own_law() ? Vec3(truth_.contact_force.e()) : step_work_.pushed(physics_, h));
+  if (force) work.sensed += way.dot(felt_by_sensor().e());
 }
 
 // The hand carries the tool that it holds; the other one lies still.
@@ -244,6 +267,7 @@ Tick World::advance() {
   const Tick tick = next_;
   if (tick.index > 0) {
     arm ? arm->begin_cycle() : machine->begin_cycle();
+    truth_.work = Work{};
     const double from = seconds((tick.t - tick.dt).time_since_epoch());
     for (int i = 0; i < steps_per_tick_; ++i) physics_step(from + i * physics_.model()->opt.timestep);
   }

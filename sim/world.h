@@ -14,6 +14,7 @@
 #include "sim/bodies/legs.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/bodies/pusher.h"
+#include "sim/bodies/step_work.h"
 #include "sim/hand/user.h"
 #include "sim/plants/arm_plant.h"
 #include "sim/plants/display_plant.h"
@@ -86,6 +87,10 @@ class World {
   void sense(Time t);
   [[nodiscard]] bool by_own_law() const { return ball || pusher; }  // no contact of MuJoCo's
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
+  void count_work(const Point<'W'>& from, double h);  // of a step
+  [[nodiscard]] Scale scale() const;
+  [[nodiscard]] Wrench raw_wrench() const;        // on the sensor, in its axes
+  [[nodiscard]] Vec<'W'> felt_by_sensor() const;  // what of it is no weight
 
   TwinSpec twin_;
   const Scene& prepared_;
@@ -100,6 +105,8 @@ class World {
   std::optional<User> user_;
   Physics physics_;
   std::optional<ArmBody> arm_body_;
+  StepWork step_work_;
+  PerJoint smooth_friction_{};  // of an arm, in this step
   // A tool of the user's: its body, and what of it the tracker and the truth need.
   struct Held {
     std::int32_t index = -1;  // in the scene

@@ -151,17 +151,26 @@ Pose<'W', 'H'> World::true_tip() const {
   return {Quat(q[3], q[4], q[5], q[6]), Vec3(q[0], q[1], q[2])};
 }
 
-void World::measure_force(Time t) {
-  // MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on
-  // the sensor: contact plus weight. In the control form inertia is missing, because the platform is placed
-  // and not accelerated.
+// MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on the
+// sensor: contact plus weight. In the control form inertia is missing, because the platform is placed and not
+// accelerated.
+Wrench World::raw_wrench() const {
   const mjData* d = physics_.data();
+  return {Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
+          Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
+}
+
+Vec<'W'> World::felt_by_sensor() const {
+  const Vec<'W'> raw = true_tip() * (X_HF_ * raw_wrench().force);
+  const Vec<'W'> inertia = legs ? mass_behind_ * truth_.tip_acceleration : Vec<'W'>::zero();
+  return raw + Vec<'W'>(0, 0, mass_behind_ * kStandardGravity) + inertia;
+}
+
+void World::measure_force(Time t) {
   const Pose<'R', 'F'> X_RF = machine->true_pose() * X_HF_;
   const Vec<'F'> inertia =
       legs ? Vec<'F'>::zero() : X_RF.inverse() * (mass_behind_ * machine->state().acceleration);
-  const Wrench raw{Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
-                   Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
-  force->measure(t, dt_, raw, inertia);
+  force->measure(t, dt_, raw_wrench(), inertia);
 }
 
 }  // namespace enc::sim

@@ -19,6 +19,7 @@
 #include "app/stability_text.h"
 #include "core/error.h"
 #include "models/files.h"
+#include "trial/ledger/ledger_measure.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/measure/probe_measure.h"
@@ -110,6 +111,7 @@ int run(const RunOptions& options) {
   trial::TouchMeasure touches;
   trial::SeenMeasure seen;
   trial::PassivityMeasure passivity;
+  trial::LedgerMeasure ledger(setup);
   trial::TrialOptions trial_options;
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
@@ -124,6 +126,7 @@ int run(const RunOptions& options) {
     touches.see(glance);
     seen.see(glance);
     passivity.see(glance);
+    ledger.see(glance);
   };
   trial_options.stop = [] { return StopSignals::caught() != 0; };
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -149,6 +152,7 @@ int run(const RunOptions& options) {
                    touches,
                    seen,
                    passivity,
+                   ledger,
                    strengths,
                    certificates,
                    options,

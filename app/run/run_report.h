@@ -6,6 +6,7 @@
 
 #include "app/options.h"
 #include "trial/certificates.h"
+#include "trial/ledger/ledger_measure.h"
 #include "trial/limits.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/passivity_measure.h"
@@ -27,6 +28,7 @@ struct RunReport {
   const trial::TouchMeasure& touches;
   const trial::SeenMeasure& seen;
   const trial::PassivityMeasure& passivity;
+  const trial::LedgerMeasure& ledger;
   const std::vector<trial::ArmStrength>& strengths;
   const std::vector<trial::Certified>& certificates;
   const RunOptions& asked;

@@ -284,6 +284,11 @@ Point<'W'> ArmBody::tip(const mjData* d) const noexcept {
   return Point<'W'>(Vec3(Eigen::Map<const Vec3>(d->xpos + 3 * tip_)));
 }
 
+Quat ArmBody::turned(const mjData* d) const noexcept {
+  const double* q = d->xquat + 4 * tip_;
+  return {q[0], q[1], q[2], q[3]};
+}
+
 Vec<'W'> ArmBody::tip_velocity(const mjModel* m, const mjData* d) const noexcept {
   double v[6];
   mj_objectVelocity(m, d, mjOBJ_XBODY, tip_, v, 0);
@@ -297,8 +302,7 @@ void ArmBody::drive(mjData* d, const PerJoint& torque) const noexcept {
 
 void ArmBody::face(mjModel* m, const mjData* d, const Quat& q_WN, const Vec3& surface) const noexcept {
   if (front_ < 0) return;
-  const double* q = d->xquat + 4 * tip_;
-  const Quat turn = Quat(q[0], q[1], q[2], q[3]).conjugate() * q_WN;
+  const Quat turn = turned(d).conjugate() * q_WN;
   const double wxyz[4] = {turn.w(), turn.x(), turn.y(), turn.z()};
   std::copy_n(wxyz, 4, m->geom_quat + 4 * front_);
   set3(m->geom_pos + 3 * front_, turn * middle_);

@@ -40,6 +40,7 @@ class ArmBody {
   [[nodiscard]] Mat3 mass(const mjModel* model, const mjData* data) const;
   // Of H; as the last evaluation of the physics left it.
   [[nodiscard]] Point<'W'> tip(const mjData* data) const noexcept;
+  [[nodiscard]] Quat turned(const mjData* data) const noexcept;  // the link that carries the prop
   [[nodiscard]] Vec<'W'> tip_velocity(const mjModel* model, const mjData* data) const noexcept;
   void drive(mjData* data, const PerJoint& torque) const noexcept;
   // The prop's gimbal: its front, which is at H, faces along z of N whatever the arm does. It has neither

@@ -1,0 +1,73 @@
+#include "sim/bodies/step_work.h"
+
+#include <algorithm>
+
+namespace enc::sim {
+
+void StepWork::begin(const Physics& physics, const Scale& tool, const ArmBody* arm) {
+  const mjModel* m = physics.model();
+  const mjData* d = physics.data();
+  tool_ = tool;
+  if (tool.dof >= 0) {
+    velocity_ = Eigen::Map<const Vec3>(d->qvel + tool.dof);
+    applied_ = Eigen::Map<const Vec3>(d->qfrc_applied + tool.dof);
+    applied_ += tool.mass * Eigen::Map<const Vec3>(m->opt.gravity);
+  }
+  if (arm == nullptr) return;
+  joints_ = arm->joints(d);
+  rates_ = arm->rates(d);
+  std::copy_n(d->qpos, std::min<std::size_t>(static_cast<std::size_t>(m->nq), kMostDofs), qpos_.begin());
+  tip_ = arm->tip(d).e();
+  turned_ = arm->turned(d);
+}
+
+Vec3 StepWork::pushed(const Physics& physics, double h) const {
+  if (tool_.dof < 0) return Vec3::Zero();
+  const Vec3 now = Eigen::Map<const Vec3>(physics.data()->qvel + tool_.dof);
+  return applied_ - tool_.mass * (now - velocity_) / h;
+}
+
+// Torques on the coordinates by all that is no contact, as the last stage of the step has them.
+StepWork::PerDof StepWork::held_back(const Physics& physics) {
+  const mjModel* m = physics.model();
+  const mjData* d = physics.data();
+  PerDof torque{};
+  const auto dofs = std::min<std::size_t>(static_cast<std::size_t>(m->nv), kMostDofs);
+  for (int row = 0; row < d->nefc; ++row) {
+    const int type = d->efc_type[row];
+    if (type > mjCNSTR_LIMIT_TENDON) break;  // contacts come last
+    const double* way = d->efc_J + static_cast<std::ptrdiff_t>(row) * m->nv;
+    for (std::size_t i = 0; i < dofs; ++i) torque[i] += d->efc_force[row] * way[i];
+  }
+  return torque;
+}
+
+void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth& truth,
+                     const PerJoint& torque, const PerJoint& smooth, double h, Work& sum) {
+  const mjData* d = physics.data();
+  const PerJoint joints = arm.joints(d), rates = arm.rates(d);
+  for (std::size_t i = 0; i < kMostJoints; ++i) {
+    const double way = joints[i] - joints_[i];
+    sum.motors += torque[i] * way;
+    sum.friction -= smooth[i] * way;
+    // The cubic through both ends has this rate in its middle.
+    const double middle = 1.5 * way / h - 0.25 * (rates_[i] + rates[i]);
+    sum.viscous +=
+        truth.viscous[i] * h / 6.0 * (rates_[i] * rates_[i] + 4.0 * middle * middle + rates[i] * rates[i]);
+  }
+  const PerDof now = held_back(physics);
+  for (std::size_t i = 0; i < kMostDofs && i < static_cast<std::size_t>(physics.model()->nv); ++i)
+    sum.friction -= 0.5 * (friction_[i] + now[i]) * (d->qpos[i] - qpos_[i]);
+  friction_ = now;
+  sum.rates = rates;
+  const Vec3 force = pushed(physics, h);
+  if (d->ncon == 0 && force.norm() < 1e-9) return;
+  // The point that is touched, as a point of the body that the prop is on; where the touch has just ended, H.
+  const Vec3 tip = arm.tip(d).e();
+  const Quat turned = arm.turned(d);
+  const Vec3 at = d->ncon > 0 ? Vec3(turned.conjugate() * (Eigen::Map<const Vec3>(d->contact[0].pos) - tip))
+                              : Vec3(Vec3::Zero());
+  sum.contact += force.dot(tip + turned * at - tip_ - turned_ * at);
+}
+
+}  // namespace enc::sim

@@ -1,0 +1,54 @@
+// What a step of the physics does to a machine, in J: the truth of the energy ledger (trial/ledger). It looks
+// on: nothing in the world depends on it.
+//
+// Of the force that touches the tip, what touches it is the scale. A tool of mass m, which the hand pushes
+// with g over the step of h, has been pushed back by
+//
+//   F = m (v_1 - v_0) / h - g
+//
+// in the mean of the step: exact whatever the integrator, which adds up accelerations. It owes nothing to the
+// machine's own equations of motion. Its work is that on the point of the machine that it touches.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "sim/arm_spec.h"
+#include "sim/bodies/arm_model.h"
+#include "sim/bodies/mujoco.h"
+#include "sim/truth.h"
+
+namespace enc::sim {
+
+// The tool that pushes: the first of its three slides, and its mass, kg.
+struct Scale {
+  int dof = -1;
+  double mass = 0.0;
+};
+
+class StepWork {
+ public:
+  // Before a step, when all its forces are there.
+  void begin(const Physics& physics, const Scale& tool, const ArmBody* arm);
+  // After it: mean force on the machine, N in W.
+  [[nodiscard]] Vec3 pushed(const Physics& physics, double h) const;
+  // What it did to an arm, whose motors pushed with `torque` and whose friction of the smooth form with
+  // `smooth`, N m or N.
+  void count(const Physics& physics, const ArmBody& arm, const ArmTruth& truth, const PerJoint& torque,
+             const PerJoint& smooth, double h, Work& sum);
+
+ private:
+  static constexpr std::size_t kMostDofs = 12;
+  // Of the world's coordinates: how they go in a step; what dry friction and stops do, in the last step.
+  using PerDof = std::array<double, kMostDofs>;
+  [[nodiscard]] static PerDof held_back(const Physics& physics);
+
+  Scale tool_;
+  Vec3 velocity_ = Vec3::Zero(), applied_ = Vec3::Zero();  // of the tool; of the hand on it
+  PerJoint joints_{}, rates_{};
+  PerDof qpos_{}, friction_{};
+  Vec3 tip_ = Vec3::Zero();  // of the body that the prop is on
+  Quat turned_{Quat::Identity()};
+};
+
+}  // namespace enc::sim

@@ -1,0 +1,177 @@
+#include "trial/ledger/arm_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/arm_spec.h"
+
+namespace enc::trial {
+namespace {
+
+Vec3 vec(const PerJoint& x) { return {x[0], x[1], x[2]}; }
+
+double kinetic_energy(const Arm& machine, double prop, const PerJoint& joints, const PerJoint& rates) {
+  const Vec3 v = vec(rates);
+  return 0.5 * v.dot(machine.mass(joints, prop) * v);
+}
+
+}  // namespace
+
+ArmLedger::ArmLedger(const models::Setup& setup)
+    : machine_(sim::true_machine(setup.twin.arm)),
+      prop_mass_(setup.scene.prop ? setup.scene.prop->mass : 0.0),
+      window_(std::clamp<std::int64_t>(std::llround(setup.twin.arm.velocity_window * setup.rig.loop.rate), 1,
+                                       static_cast<std::int64_t>(kRing) - 1)) {}
+
+// What the core would have asked for had it read the true state: its filters on that.
+void ArmLedger::filter(const Glance& glance, const Impedance& law, Known& now) {
+  const Aim& aim = recall<Meeting>(*glance.state).aim;
+  if (!before_.there || !before_.law.live) {
+    error_ = aim.error.e();
+    rate_ = aim.error_rate.e();
+  } else {
+    const std::int64_t back = std::min(window_, reads_ - 1);
+    const PerJoint& past =
+        read_[static_cast<std::size_t>((reads_ - 1 - back) % static_cast<std::int64_t>(kRing))];
+    const Vec3 mean =
+        back > 0 ? Vec3((vec(now.joints) - vec(past)) / (static_cast<double>(back) * glance.scene.dt))
+                 : Vec3(Vec3::Zero());
+    const Vec3 velocity = now.jacobian * mean;
+    const Vec3 error = now.law.target - now.tip.at - now.law.sunk * now.law.normal;
+    const Vec3 rate = now.law.target_velocity - velocity;
+    for (int i = 0; i < 3; ++i) {
+      error_(i) = low_pass(law.filter_gain, error(i), error_(i));
+      rate_(i) = low_pass(law.filter_gain, rate(i), rate_(i));
+    }
+  }
+  now.late = asked_force(now.law, error_, rate_, ball_depth(now.law, now.tip.at));
+  double depth = kUnset;
+  if (now.law.hit) depth = moved_in(*glance.state)[static_cast<std::size_t>(now.law.object->moving)].depth;
+  now.counted = asked_force(now.law, aim.error.e(), aim.error_rate.e(), depth);
+}
+
+ArmLedger::Known ArmLedger::know(const Glance& glance, const Impedance& law) {
+  Known now;
+  now.there = true;
+  now.joints = glance.truth.joints;
+  now.rates = glance.truth.work.rates;
+  const Pose<'W', 'R'>& X_WR = glance.scene.X_WR;
+  const Mat3 turn = X_WR.q().toRotationMatrix();
+  now.jacobian = turn * law.arm.jacobian(now.joints);
+  now.tip = {(X_WR * law.arm.tip(now.joints)).e(), now.jacobian * vec(now.rates)};
+  now.weight = machine_.gravity(now.joints, prop_mass_, Payload::exact);
+  now.law = law_at(glance, law);
+  now.held = now.late = now.counted = Vec3::Zero();
+  if (!now.law.live) return now;
+  const PerJoint& q = glance.in.arm.value.joints;
+  const Mat3 J = law.arm.jacobian(q);
+  if (law.rig.gravity != GravityForm::none) {
+    const Payload form = law.rig.gravity == GravityForm::published ? Payload::published : Payload::exact;
+    now.compensated = law.arm.torque(J, law.arm.force(J, law.arm.gravity(q, law.prop_mass, form)));
+  }
+  const Aim& aim = recall<Meeting>(*glance.state).aim;
+  const Vec3 change = (aim.velocity.e() - aim_.velocity.e()) / glance.scene.dt;
+  if (!aim_.caught_up && !now.law.hit && !change.isZero())
+    now.law.along =
+        turn *
+        law.arm.force_to_accelerate(J, law.arm.mass(q, law.prop_mass), X_WR.inverse() * Vec<'W'>(change)).e();
+  now.held = ideal_force(now.law, now.tip);
+  filter(glance, law, now);
+  now.jacobian = turn * J;  // by which the motors are told
+  return now;
+}
+
+void ArmLedger::count(const Known& now, const sim::Work& work) {
+  const Known& was = before_;
+  const Vec3 turned = vec(now.joints) - vec(was.joints);
+  const Vec3 moved = was.jacobian * turned;
+  sum_.hand += work.contact;
+  sum_.joints += work.friction + work.viscous;
+  const double compensated = vec(was.compensated).dot(turned);
+  sum_.weight += 0.5 * (vec(was.weight) + vec(now.weight)).dot(turned) - compensated;
+  work_held_ += was.held.dot(moved);
+  work_late_ += was.late.dot(moved);
+  work_counted_ += was.counted.dot(moved);
+  work_given_ += work.motors - compensated;
+  // The ideal law along the same way: the cubic through both ends, by Simpson's rule.
+  const double h = dt_;
+  const Vec3 way = now.tip.at - was.tip.at;
+  const TipAt middle{0.5 * (was.tip.at + now.tip.at) + h / 8.0 * (was.tip.velocity - now.tip.velocity),
+                     1.5 * way / h - 0.25 * (was.tip.velocity + now.tip.velocity)};
+  const LawAt law = between(was.law, now.law);
+  LawAt then = now.law;
+  then.along = was.law.along;
+  const auto power = [](const LawAt& l, const TipAt& tip) { return ideal_force(l, tip).dot(tip.velocity); };
+  ideal_ += h / 6.0 * (power(was.law, was.tip) + 4.0 * power(law, middle) + power(then, now.tip));
+  sum_.law += h / 6.0 * (damped(was.law, was.tip) + 4.0 * damped(law, middle) + damped(then, now.tip));
+}
+
+void ArmLedger::open(const Known& from, const Glance& glance, double t) {
+  on_ = true;
+  sum_ = ContactLedger{};
+  sum_.began = t;
+  sum_.object = glance.out.object;
+  first_ = from;
+  ideal_ = work_held_ = work_late_ = work_counted_ = work_given_ = 0.0;
+}
+
+void ArmLedger::close(double t) {
+  on_ = false;
+  if (sum_.contact == 0) return;  // what was touched on the way to it
+  contacts_.push_back(so_far(t));
+}
+
+ContactLedger ArmLedger::so_far(double t) const {
+  ContactLedger sum = sum_;
+  sum.ended = t;
+  const Known& last = before_;
+  sum.kinetic = kinetic_energy(machine_, prop_mass_, last.joints, last.rates) -
+                kinetic_energy(machine_, prop_mass_, first_.joints, first_.rates);
+  sum.spring = stored(last.law, last.tip) - stored(first_.law, first_.tip);
+  sum.carried = ideal_ + sum.spring + sum.law;
+  sum.sampling = work_held_ - ideal_;
+  sum.delay = work_late_ - work_held_;
+  sum.quantisation = work_counted_ - work_late_;
+  sum.limits = work_given_ - work_counted_;
+  return sum;
+}
+
+std::vector<ContactLedger> ArmLedger::contacts() const {
+  std::vector<ContactLedger> all = contacts_;
+  if (on_ && sum_.contact != 0) all.push_back(so_far(last_t_));
+  return all;
+}
+
+void ArmLedger::see(const Glance& glance) {
+  const Impedance* law = glance.scene.impedance();
+  if (law == nullptr || glance.state == nullptr) return;
+  dt_ = glance.scene.dt;
+  read_[static_cast<std::size_t>(reads_++ % static_cast<std::int64_t>(kRing))] = glance.truth.joints;
+  const bool contact = glance.out.mode == Mode::contact;
+  const bool touched = contact || glance.truth.touching;
+  const double t = seconds(glance.tick.t.time_since_epoch());
+  if (!touched && !on_ && glance.state->mode == Mode::away) {
+    before_.there = false;
+    aim_ = recall<Meeting>(*glance.state).aim;
+    return;
+  }
+  Known now = know(glance, *law);
+  aim_ = recall<Meeting>(*glance.state).aim;
+  const bool again = on_ && contact && sum_.contact != 0 && sum_.contact != glance.out.contacts;
+  if (touched && !on_) open(before_.there ? before_ : now, glance, before_.there ? t - dt_ : t);
+  if (on_ && before_.there) count(now, glance.truth.work);
+  before_ = now;
+  if (again) {
+    close(t);
+    open(now, glance, t);
+  }
+  if (on_ && contact) {
+    sum_.contact = glance.out.contacts;
+    sum_.object = glance.out.object;
+    sum_.rendered = !now.law.real;
+  }
+  if (on_ && !touched) close(t);
+  if (on_) last_t_ = t;
+}
+
+}  // namespace enc::trial
