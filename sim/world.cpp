@@ -149,7 +149,7 @@ Scale World::scale() const {
   if (!user_) return {};
   const std::int32_t held = user_->tool();
   for (const Held& tool : tools_)
-    if (tool.index == held) return {tool.qvel, physics_.model()->body_mass[tool.body]};
+    if (tool.index == held) return {tool.qvel, physics_.model()->body_mass[tool.body], tool.radius};
   return {};
 }
 

@@ -42,6 +42,22 @@ StepWork::PerDof StepWork::held_back(const Physics& physics) {
   return torque;
 }
 
+// A touch that is over by the end of the step has left no point behind. Where the step began, the front's
+// nearest to the tool's tip is half way between both; in the axes of the body that the prop is on.
+Vec3 StepWork::touched_first(const Physics& physics, const ArmBody& arm) const {
+  const mjModel* m = physics.model();
+  const Eigen::Map<const Vec3> middle(m->geom_pos + 3 * arm.front()), half(m->geom_size + 3 * arm.front());
+  const double* q = m->geom_quat + 4 * arm.front();
+  const Quat front(q[0], q[1], q[2], q[3]);
+  const auto dof = static_cast<std::size_t>(tool_.dof);  // its coordinates are as many as its speeds
+  const Vec3 tool(qpos_[dof], qpos_[dof + 1], qpos_[dof + 2]);
+  const Vec3 centre = turned_.conjugate() * (tool - tip_);
+  const Vec3 near = middle + front * (front.conjugate() * (centre - middle)).cwiseMax(-half).cwiseMin(half);
+  const double far = (near - centre).norm();
+  if (far < 1e-9) return near;
+  return 0.5 * (near + centre + tool_.radius / far * (near - centre));
+}
+
 void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth& truth,
                      const PerJoint& torque, const PerJoint& smooth, double h, Work& sum) {
   const mjData* d = physics.data();
@@ -62,11 +78,11 @@ void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth&
   sum.rates = rates;
   const Vec3 force = pushed(physics, h);
   if (d->ncon == 0 && force.norm() < 1e-9) return;
-  // The point that is touched, as a point of the body that the prop is on; where the touch has just ended, H.
+  // The point that is touched, as a point of the body that the prop is on.
   const Vec3 tip = arm.tip(d).e();
   const Quat turned = arm.turned(d);
   const Vec3 at = d->ncon > 0 ? Vec3(turned.conjugate() * (Eigen::Map<const Vec3>(d->contact[0].pos) - tip))
-                              : Vec3(Vec3::Zero());
+                              : touched_first(physics, arm);
   sum.contact += force.dot(tip + turned * at - tip_ - turned_ * at);
 }
 

@@ -20,10 +20,10 @@
 
 namespace enc::sim {
 
-// The tool that pushes: the first of its three slides, and its mass, kg.
+// The tool that pushes: the first of its three slides, its mass, kg, and the radius of its tip, m.
 struct Scale {
   int dof = -1;
-  double mass = 0.0;
+  double mass = 0.0, radius = 0.0;
 };
 
 class StepWork {
@@ -42,6 +42,7 @@ class StepWork {
   // Of the world's coordinates: how they go in a step; what dry friction and stops do, in the last step.
   using PerDof = std::array<double, kMostDofs>;
   [[nodiscard]] static PerDof held_back(const Physics& physics);
+  [[nodiscard]] Vec3 touched_first(const Physics& physics, const ArmBody& arm) const;
 
   Scale tool_;
   Vec3 velocity_ = Vec3::Zero(), applied_ = Vec3::Zero();  // of the tool; of the hand on it

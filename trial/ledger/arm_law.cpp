@@ -49,7 +49,9 @@ LawAt law_at(const Glance& glance, const Impedance& law) {
   if (at.object != nullptr && at.object->moving >= 0 && contact) {
     const Moved& moved = moved_in(state)[static_cast<std::size_t>(at.object->moving)];
     at.firmness = moved.firmness;
-    at.ball = (now.contact.X_WN.origin() + moved.shift).e();
+    // Where the tick that saw this depth had its surface: by now the ball has gone on.
+    const Point<'W'> tip = glance.scene.X_WR * glance.in.arm.value.tip;
+    at.ball = tip.e() + moved.depth * at.normal;
   }
   at.stiffness = law.rig.stiffness;
   const PerJoint& q = glance.in.arm.value.joints;

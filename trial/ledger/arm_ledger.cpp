@@ -71,7 +71,8 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const Impedance& law) {
   }
   const Aim& aim = recall<Meeting>(*glance.state).aim;
   const Vec3 change = (aim.velocity.e() - aim_.velocity.e()) / glance.scene.dt;
-  if (!aim_.caught_up && !now.law.hit && !change.isZero())
+  // A target that has leapt is on its way from this tick on (core/task/meet/aim.cpp).
+  if (!(aim_.caught_up && aim.caught_up) && !now.law.hit && !change.isZero())
     now.law.along =
         turn *
         law.arm.force_to_accelerate(J, law.arm.mass(q, law.prop_mass), X_WR.inverse() * Vec<'W'>(change)).e();
