@@ -228,6 +228,26 @@ std::string finger_lines(const RunReport& r) {
               : "sideways    not measured: never more than 1 N along the normal\n");
 }
 
+// The contact with the largest term, and how well all of them close (docs/reference/ledger.md).
+std::string ledger_line(const RunReport& r) {
+  const std::vector<trial::ContactLedger> all = r.ledger.contacts();
+  if (all.empty())
+    return r.result.contacts > 0 && r.scene.probe()
+               ? "ledger      nothing rendered: a real object is pressed\n"
+               : "";
+  const auto most = std::max_element(all.begin(), all.end(),
+                                     [](const auto& a, const auto& b) { return a.largest() < b.largest(); });
+  double worst = 0.0;
+  for (const trial::ContactLedger& one : all) worst = std::max(worst, one.closure());
+  return fmt::format(
+      "ledger      contact {}{}: hand {:.2f} + carried {:.2f} + generated {:.2f} = stored {:.2f} + "
+      "dissipated "
+      "{:.2f} mJ; {} close{} within {:.2f} %\n",
+      most->contact, most->rendered ? "" : " (nothing rendered)", most->hand * 1e3, most->carried * 1e3,
+      most->generated() * 1e3, most->stored() * 1e3, most->dissipated() * 1e3, all.size(),
+      all.size() == 1 ? "s" : "", worst * 100.0);
+}
+
 // Who repeats this gets the same report.
 std::string made_line(const RunReport& r) {
   std::string text = fmt::format("made by     Encounter {}: {}, rig {}, seed {}", ENCOUNTER_VERSION,
@@ -314,6 +334,7 @@ std::string run_text(const RunReport& r) {
       text += "beyond      " + beyond + "\n";
   text += press_lines(r) + push_lines(r) + pushed_lines(r);
   text += finger_lines(r);
+  text += ledger_line(r);
   if (r.result.contacts == 0 && r.setup.scene.user && !r.whole)
     text += fmt::format("note        the user has not touched anything yet; last notice of the core: {}\n",
                         r.result.last_why == 0 ? "none" : why_text(r.result.last_why));

@@ -250,6 +250,11 @@ PerJoint ArmBody::rates(const mjData* d) const noexcept {
   return v;
 }
 
+std::size_t ArmBody::joint_of(int dof) const noexcept {
+  const auto* found = std::find(dof_.begin(), dof_.end() - 1, dof);
+  return static_cast<std::size_t>(found - dof_.begin());
+}
+
 void ArmBody::put(mjData* d, const PerJoint& joints, const PerJoint& rates) const noexcept {
   for (std::size_t i = 0; i < joints_; ++i) {
     const bool fold = folds_ && i == 2;

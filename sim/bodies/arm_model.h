@@ -46,7 +46,8 @@ class ArmBody {
   // The prop's gimbal: its front, which is at H, faces along z of N whatever the arm does. It has neither
   // inertia nor friction. `surface`: velocity of a driven front, W.
   void face(mjModel* model, const mjData* data, const Quat& q_WN, const Vec3& surface) const noexcept;
-  [[nodiscard]] int front() const { return front_; }  // geom; -1: there is none
+  [[nodiscard]] std::size_t joint_of(int dof) const noexcept;  // of MuJoCo's
+  [[nodiscard]] int front() const { return front_; }           // geom; -1: there is none
 
  private:
   std::size_t joints_;

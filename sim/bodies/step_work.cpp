@@ -1,6 +1,7 @@
 #include "sim/bodies/step_work.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace enc::sim {
 
@@ -27,19 +28,24 @@ Vec3 StepWork::pushed(const Physics& physics, double h) const {
   return applied_ - tool_.mass * (now - velocity_) / h;
 }
 
-// Torques on the coordinates by all that is no contact, as the last stage of the step has them.
-StepWork::PerDof StepWork::held_back(const Physics& physics) {
+// What all that is no contact does, as the last stage of the step has it: dry friction, and the stops.
+StepWork::Held StepWork::held_back(const Physics& physics, const ArmBody& arm) {
   const mjModel* m = physics.model();
   const mjData* d = physics.data();
-  PerDof torque{};
+  Held held;
   const auto dofs = std::min<std::size_t>(static_cast<std::size_t>(m->nv), kMostDofs);
   for (int row = 0; row < d->nefc; ++row) {
     const int type = d->efc_type[row];
     if (type > mjCNSTR_LIMIT_TENDON) break;  // contacts come last
+    if (type == mjCNSTR_FRICTION_DOF || type == mjCNSTR_FRICTION_TENDON) {
+      const bool tendon = type == mjCNSTR_FRICTION_TENDON;
+      held.friction[tendon ? 2 : arm.joint_of(d->efc_id[row])] += d->efc_force[row];
+      continue;
+    }
     const double* way = d->efc_J + static_cast<std::ptrdiff_t>(row) * m->nv;
-    for (std::size_t i = 0; i < dofs; ++i) torque[i] += d->efc_force[row] * way[i];
+    for (std::size_t i = 0; i < dofs; ++i) held.stops[i] += d->efc_force[row] * way[i];
   }
-  return torque;
+  return held;
 }
 
 // A touch that is over by the end of the step has left no point behind. Where the step began, the front's
@@ -71,10 +77,18 @@ void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth&
     sum.viscous +=
         truth.viscous[i] * h / 6.0 * (rates_[i] * rates_[i] + 4.0 * middle * middle + rates[i] * rates[i]);
   }
-  const PerDof now = held_back(physics);
+  const Held now = held_back(physics, arm);
   for (std::size_t i = 0; i < kMostDofs && i < static_cast<std::size_t>(physics.model()->nv); ++i)
-    sum.friction -= 0.5 * (friction_[i] + now[i]) * (d->qpos[i] - qpos_[i]);
-  friction_ = now;
+    sum.friction -= 0.5 * (held_.stops[i] + now.stops[i]) * (d->qpos[i] - qpos_[i]);
+  for (std::size_t i = 0; i < kMostJoints; ++i) {
+    // A motor's torque leaps between two steps, and friction that holds leaps with it, against it.
+    const double most = truth.friction[i], was = held_.friction[i];
+    const bool slips = std::abs(was) > 0.999 * most;
+    const double first = slips ? was : std::clamp(was - (torque[i] - torque_[i]), -most, most);
+    sum.friction -= 0.5 * (first + now.friction[i]) * (joints[i] - joints_[i]);
+  }
+  held_ = now;
+  torque_ = torque;
   sum.rates = rates;
   const Vec3 force = pushed(physics, h);
   if (d->ncon == 0 && force.norm() < 1e-9) return;

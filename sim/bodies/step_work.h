@@ -39,15 +39,21 @@ class StepWork {
 
  private:
   static constexpr std::size_t kMostDofs = 12;
-  // Of the world's coordinates: how they go in a step; what dry friction and stops do, in the last step.
-  using PerDof = std::array<double, kMostDofs>;
-  [[nodiscard]] static PerDof held_back(const Physics& physics);
+  using PerDof = std::array<double, kMostDofs>;  // of the world's coordinates
+  // Torques at the end of a step: of dry friction, and of what ends a joint's way.
+  struct Held {
+    PerJoint friction{};
+    PerDof stops{};
+  };
+  [[nodiscard]] static Held held_back(const Physics& physics, const ArmBody& arm);
   [[nodiscard]] Vec3 touched_first(const Physics& physics, const ArmBody& arm) const;
 
   Scale tool_;
   Vec3 velocity_ = Vec3::Zero(), applied_ = Vec3::Zero();  // of the tool; of the hand on it
   PerJoint joints_{}, rates_{};
-  PerDof qpos_{}, friction_{};
+  PerDof qpos_{};
+  Held held_;                // in the last step, and
+  PerJoint torque_{};        // its motors
   Vec3 tip_ = Vec3::Zero();  // of the body that the prop is on
   Quat turned_{Quat::Identity()};
 };

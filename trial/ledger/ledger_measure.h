@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trial/ledger/arm_ledger.h"
+#include "trial/ledger/hexapod_ledger.h"
 
 namespace enc::trial {
 
@@ -15,15 +16,15 @@ class LedgerMeasure {
   }
   void see(const Glance& glance) {
     if (!glance.simulated) return;
-    if (arm_) arm_->see(glance);
+    arm_ ? arm_->see(glance) : hexapod_.see(glance);
   }
   [[nodiscard]] std::vector<ContactLedger> contacts() const {
-    if (arm_) return arm_->contacts();
-    return {};
+    return arm_ ? arm_->contacts() : hexapod_.contacts();
   }
 
  private:
   std::optional<ArmLedger> arm_;
+  HexapodLedger hexapod_;
 };
 
 }  // namespace enc::trial

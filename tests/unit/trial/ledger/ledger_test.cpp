@@ -1,0 +1,125 @@
+// The energy ledger: terms that are known beforehand, and whole runs of the twin.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/setup/scene_file.h"
+#include "trial/ledger/ledger_measure.h"
+
+namespace enc::trial {
+namespace {
+
+models::Setup setup_of(const std::string& scene, const std::vector<std::string>& set = {}) {
+  return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
+}
+
+std::vector<ContactLedger> ledger_of(const models::Setup& setup, std::uint64_t seed, double time_s) {
+  LedgerMeasure measure(setup);
+  TrialOptions options;
+  options.seed = seed;
+  options.seconds = time_s;
+  options.watch = [&](const Glance& glance) { measure.see(glance); };
+  (void)Trial(setup, options).run();
+  return measure.contacts();
+}
+
+LawAt free_tip() {
+  LawAt law;
+  law.live = true;
+  law.stiffness = 300.0;
+  law.damping = 10.0;
+  return law;
+}
+
+// 300 N/m by 2 mm along and 1 mm across: 0.75 mJ; 10 N s/m at 0.1 m/s: 0.1 W.
+TEST(ArmLaw, OfAFreeTipIsASpringAndADamper) {
+  const LawAt law = free_tip();
+  const TipAt tip{{1e-3, 0, -2e-3}, {0, 0, -0.1}};
+  EXPECT_NEAR(stored(law, tip), 0.5 * 300.0 * 5e-6, 1e-15);
+  EXPECT_NEAR(damped(law, tip), 0.1, 1e-15);
+  EXPECT_TRUE(ideal_force(law, tip).isApprox(Vec3(-0.3, 0, 0.6 + 1.0)));
+}
+
+// What is stored in a button is the integral of its force: along the way through its trigger and its bottom.
+TEST(ArmLaw, StoresInAButtonWhatItsForceTakes) {
+  Object button;
+  button.stiffness = 400.0;
+  button.interaction.kind = Interaction::click;
+  button.interaction.after = 200.0;
+  button.interaction.floor = 600.0;
+  LawAt law = free_tip();
+  law.felt = true;
+  law.object = &button;
+  for (double depth = 0.1e-3; depth < 6e-3; depth += 0.3e-3) {  // NOLINT(*-flp30-c)
+    constexpr double kStep = 1e-6;
+    const auto at = [](double z) { return TipAt{{0, 0, -z}, Vec3::Zero()}; };
+    const double slope = (stored(law, at(depth + kStep)) - stored(law, at(depth - kStep))) / (2.0 * kStep);
+    EXPECT_NEAR(slope, ideal_force(law, at(depth)).z(), 1e-4) << depth;
+  }
+}
+
+TEST(Ledger, OpensByWhatIsLeftOut) {
+  ContactLedger one;
+  one.hand = 5e-3;
+  one.carried = 1e-3;
+  one.delay = 0.5e-3;
+  one.spring = 2e-3;
+  one.joints = 4.5e-3;
+  EXPECT_NEAR(one.closure(), 0.0, 1e-12);
+  one.delay = -one.delay;
+  EXPECT_NEAR(one.left_over(), -1e-3, 1e-12);
+  EXPECT_NEAR(one.closure(), 0.2, 1e-12);
+  EXPECT_EQ(ContactLedger{}.closure(), 0.0);
+}
+
+// A button is pressed: the target stands, so nothing is carried; a machine that pushes what it is asked for
+// has no limits; and all of it adds up, whoever presses.
+TEST(Ledger, OfAButtonCloses) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const std::vector<ContactLedger> all = ledger_of(setup_of("keypad"), seed, 6.0);
+    ASSERT_FALSE(all.empty());
+    for (const ContactLedger& one : all) {
+      EXPECT_LT(one.closure(), 0.01) << seed << ' ' << one.left_over();
+      EXPECT_GT(one.hand, 0.5e-3);
+      EXPECT_GT(one.delay, 0.0);
+      EXPECT_NEAR(one.limits, 0.0, 1e-9);
+      EXPECT_NEAR(one.carried, 0.0, 0.01 * one.hand);
+    }
+  }
+}
+
+// Both sides are measured apart: a truth that is told wrong opens it.
+TEST(Ledger, IsRedWhereAPartIsWrong) {
+  const models::Setup setup = setup_of("keypad");
+  models::Setup heavier = setup;
+  heavier.twin.arm.mass_scale = 1.5;
+  LedgerMeasure measure(heavier);
+  double open = 0.0;
+  TrialOptions options;
+  options.seconds = 6.0;
+  options.watch = [&](const Glance& glance) { measure.see(glance); };
+  (void)Trial(setup, options).run();
+  for (ContactLedger one : measure.contacts()) {
+    open = std::max(open, one.closure());
+    one.joints = 0.0;  // friction is a third of the work
+    EXPECT_GT(one.closure(), 0.1);
+    one.joints = 0.0;
+  }
+  EXPECT_GT(open, 0.01);
+}
+
+TEST(Ledger, OfATennisBallCloses) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const std::vector<ContactLedger> all = ledger_of(setup_of("tennis_ball"), seed, 25.0);
+    ASSERT_FALSE(all.empty());
+    for (const ContactLedger& one : all) EXPECT_LT(one.closure(), 0.01) << seed << ' ' << one.left_over();
+  }
+}
+
+TEST(Ledger, SaysNothingWhereNothingIsRendered) { EXPECT_TRUE(ledger_of(setup_of("rig_A"), 1, 5.0).empty()); }
+
+}  // namespace
+}  // namespace enc::trial

@@ -1,0 +1,152 @@
+#include "trial/ledger/hexapod_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/state.h"
+#include "core/task/walk.h"
+
+namespace enc::trial {
+namespace {
+
+// N: of the object, and what is pressed with before it gives way.
+double pushes_back(const Object& object, ResponseState& state, double depth, double threshold) {
+  const double at = std::clamp(depth, 0.0, object.response.limit());
+  const double force = object.response.force(state, at);
+  return at > 0.0 ? force + threshold : 0.0;
+}
+
+// J, that it would give back from here on.
+double recoverable(const Object& object, ResponseState state, double depth, double threshold) {
+  constexpr int kParts = 400;
+  const double deepest = std::clamp(depth, 0.0, object.response.limit());
+  double sum = threshold * deepest, force = object.response.force(state, deepest);
+  for (int i = kParts - 1; i >= 0; --i) {
+    const double next = object.response.force(state, deepest * i / kParts);
+    sum += 0.5 * (force + next) * deepest / kParts;
+    force = next;
+  }
+  return sum;
+}
+
+}  // namespace
+
+HexapodLedger::Known HexapodLedger::know(const Glance& glance) {
+  Known now;
+  now.there = true;
+  now.tip = glance.truth.tip.e();
+  const Rendering& rendering = recall<Rendering>(*glance.state);
+  const State& state = *glance.state;
+  const Contact& contact = rendering.contact;
+  const bool engaged = (state.mode == Mode::contact || state.mode == Mode::restore) && contact.object >= 0;
+  if (!engaged) {
+    at_command_ = at_tip_ = ResponseState{};
+    object_ = nullptr;
+    if (before_.there) now.normal = before_.normal;
+  } else {
+    object_ = &glance.scene.objects[static_cast<std::size_t>(contact.object)];
+    now.normal = contact.X_WN.q() * Vec3::UnitZ();
+  }
+  Forces& f = now.force;
+  f.held = -now.normal.dot(glance.truth.contact_force.e());
+  f.measured = glance.out.felt.finite() ? -now.normal.dot(glance.out.felt.e()) : f.held;
+  f.filtered = state.force.finite() ? -now.normal.dot(state.force.e()) : f.measured;
+  if (!engaged) return now;
+  threshold_ = glance.scene.force.threshold;
+  const auto depth_of = [&](const Vec3& at) {
+    return -now.normal.dot(at - contact.X_WN.p()) - glance.scene.tip_radius - stages::kSkin;
+  };
+  ResponseState at_wanted = rendering.response;
+  f.wanted = pushes_back(*object_, at_wanted, glance.out.deflection, threshold_);
+  f.commanded =
+      pushes_back(*object_, at_command_, depth_of((glance.scene.X_WR * rendering.command).e()), threshold_);
+  depth_ = depth_of(now.tip);
+  f.ideal = pushes_back(*object_, at_tip_, depth_, threshold_);
+  return now;
+}
+
+// What pushes the tip in pushes against the normal: work is force outwards times way inwards.
+void HexapodLedger::count(const Known& now, const sim::Work& work) {
+  const Known& was = before_;
+  const Forces& f = was.force;
+  const double in = -was.normal.dot(now.tip - was.tip);
+  const Vec3 aside = (now.tip - was.tip) + in * was.normal;
+  sum_.hand += work.contact;
+  sensed_ += work.sensed;
+  across_ += aside.dot(now.felt);
+  held_ += f.held * in;
+  measured_ += f.measured * in;
+  filtered_ += f.filtered * in;
+  wanted_ += f.wanted * in;
+  commanded_ += f.commanded * in;
+  ideal_ += 0.5 * (f.ideal + now.force.ideal) * in;
+}
+
+ContactLedger HexapodLedger::so_far(double t) const {
+  ContactLedger sum = sum_;
+  sum.ended = t;
+  sum.spring = object_ != nullptr ? recoverable(*object_, at_tip_, depth_, threshold_) : 0.0;
+  sum.law = ideal_ - sum.spring;
+  sum.carried = -across_;
+  // A force that takes more than the ideal's gives out less.
+  sum.sampling = -(sensed_ - across_ - held_);
+  sum.quantisation = -(held_ - measured_);
+  sum.delay = -(measured_ - filtered_) - (commanded_ - ideal_);
+  sum.limits = -(wanted_ - commanded_);
+  (damped_ ? sum.law : sum.limits) += (damped_ ? 1.0 : -1.0) * (filtered_ - wanted_);
+  return sum;
+}
+
+void HexapodLedger::forget() {
+  sum_ = ContactLedger{};
+  sensed_ = across_ = held_ = measured_ = filtered_ = wanted_ = commanded_ = ideal_ = 0.0;
+}
+
+void HexapodLedger::close(double t) {
+  on_ = false;
+  if (sum_.contact != 0) contacts_.push_back(so_far(t));
+}
+
+std::vector<ContactLedger> HexapodLedger::contacts() const {
+  std::vector<ContactLedger> all = contacts_;
+  if (on_ && sum_.contact != 0) all.push_back(so_far(last_t_));
+  return all;
+}
+
+void HexapodLedger::see(const Glance& glance) {
+  const Render* render = glance.scene.render();
+  if (render == nullptr || glance.state == nullptr) return;
+  dt_ = glance.scene.dt;
+  damped_ = render->damping.has_value();
+  const bool contact = glance.out.mode == Mode::contact || glance.out.mode == Mode::restore;
+  const bool touched = contact || glance.truth.touching;
+  const double t = seconds(glance.tick.t.time_since_epoch());
+  if (!touched && !on_ && glance.state->mode == Mode::away) {
+    before_.there = false;
+    return;
+  }
+  Known now = know(glance);
+  now.felt = glance.truth.contact_force.e();
+  const bool again = on_ && contact && sum_.contact != 0 && sum_.contact != glance.out.contacts;
+  if (touched && !on_) {
+    forget();
+    on_ = true;
+    sum_.began = before_.there ? t - dt_ : t;
+  }
+  if (on_ && before_.there) count(now, glance.truth.work);
+  before_ = now;
+  if (again) {
+    close(t);
+    forget();
+    on_ = true;
+    sum_.began = t;
+  }
+  if (on_ && contact) {
+    sum_.contact = glance.out.contacts;
+    sum_.object = glance.out.object;
+  }
+  if (on_ && !touched) close(t);
+  if (on_) last_t_ = t;
+}
+
+}  // namespace enc::trial
