@@ -77,21 +77,23 @@ void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth&
     sum.viscous +=
         truth.viscous[i] * h / 6.0 * (rates_[i] * rates_[i] + 4.0 * middle * middle + rates[i] * rates[i]);
   }
+  const Vec3 force = pushed(physics, h);
+  const bool touched = d->ncon > 0 || force.norm() > 1e-9;
   const Held now = held_back(physics, arm);
   for (std::size_t i = 0; i < kMostDofs && i < static_cast<std::size_t>(physics.model()->nv); ++i)
     sum.friction -= 0.5 * (held_.stops[i] + now.stops[i]) * (d->qpos[i] - qpos_[i]);
   for (std::size_t i = 0; i < kMostJoints; ++i) {
-    // A motor's torque leaps between two steps, and friction that holds leaps with it, against it.
+    // A motor's torque leaps between two steps, and friction that holds leaps with it, against it; where a
+    // finger lies on the prop, that takes part, and what the friction was says more.
     const double most = truth.friction[i], was = held_.friction[i];
-    const bool slips = std::abs(was) > 0.999 * most;
-    const double first = slips ? was : std::clamp(was - (torque[i] - torque_[i]), -most, most);
+    const bool stays = touched || std::abs(was) > 0.999 * most;
+    const double first = stays ? was : std::clamp(was - (torque[i] - torque_[i]), -most, most);
     sum.friction -= 0.5 * (first + now.friction[i]) * (joints[i] - joints_[i]);
   }
   held_ = now;
   torque_ = torque;
   sum.rates = rates;
-  const Vec3 force = pushed(physics, h);
-  if (d->ncon == 0 && force.norm() < 1e-9) return;
+  if (!touched) return;
   // The point that is touched, as a point of the body that the prop is on.
   const Vec3 tip = arm.tip(d).e();
   const Quat turned = arm.turned(d);
