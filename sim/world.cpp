@@ -156,7 +156,8 @@ Scale World::scale() const {
 void World::count_work(const Point<'W'>& from, double h) {
   Work& work = truth_.work;
   if (arm) {
-    step_work_.count(physics_, *arm_body_, twin_.arm, arm->state().torque, smooth_friction_, h, work);
+    step_work_.count(physics_, *arm_body_, twin_.arm, arm->state().torque, arm->friction(step_work_.rates()),
+                     h, work);
     return;
   }
   const Vec3 way = (true_tip().origin() - from).e();

@@ -89,8 +89,7 @@ class World {
   [[nodiscard]] Vec<'W'> contact_force(bool& touching) const;
   void count_work(const Point<'W'>& from, double h);  // of a step
   [[nodiscard]] Scale scale() const;
-  [[nodiscard]] Wrench raw_wrench() const;        // on the sensor, in its axes
-  [[nodiscard]] Vec<'W'> felt_by_sensor() const;  // what of it is no weight
+  [[nodiscard]] Vec<'W'> felt_by_sensor() const;  // without weight and errors
 
   TwinSpec twin_;
   const Scene& prepared_;
@@ -106,14 +105,7 @@ class World {
   Physics physics_;
   std::optional<ArmBody> arm_body_;
   StepWork step_work_;
-  PerJoint smooth_friction_{};  // of an arm, in this step
-  // A tool of the user's: its body, and what of it the tracker and the truth need.
-  struct Held {
-    std::int32_t index = -1;  // in the scene
-    int body = -1, qpos = 0, qvel = 0;
-    Vec3 tip_T, shaft_T;  // centre of its tip; from there to the markers
-    double radius = kUnset;
-  };
+  using Held = HeldTool;
   std::vector<Held> tools_;        // the one that it begins with, and the one that it changes to
   const Held* in_hand_ = nullptr;  // of these; none: the hand is empty
   int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;

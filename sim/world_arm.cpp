@@ -69,8 +69,8 @@ void World::drive_arm(double h) {
   mjData* d = physics_.data();
   face_prop(h);
   PerJoint torque = arm->state().torque;
-  smooth_friction_ = arm->friction(arm_body_->rates(d));
-  for (std::size_t i = 0; i < torque.size(); ++i) torque[i] += smooth_friction_[i];
+  const PerJoint friction = arm->friction(arm_body_->rates(d));
+  for (std::size_t i = 0; i < torque.size(); ++i) torque[i] += friction[i];
   arm_body_->drive(d, torque);
 }
 

@@ -20,6 +20,14 @@ BallContact probed_ball(const WorldSpec& spec) {
   return {spec.twin.ball, Point<'W'>(object.position), object.radius, spec.prepared.tip_radius};
 }
 
+// MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on the
+// sensor: contact plus weight. In the control form inertia is missing, because the platform is placed and not
+// accelerated.
+Wrench raw_wrench(const mjData* d) {
+  return {Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
+          Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
+}
+
 }  // namespace
 
 Pose<'W', 'R'> hexapod_base(const HexapodTruth& truth) {
@@ -151,17 +159,8 @@ Pose<'W', 'H'> World::true_tip() const {
   return {Quat(q[3], q[4], q[5], q[6]), Vec3(q[0], q[1], q[2])};
 }
 
-// MuJoCo gives what the parent puts on the child, in the site's axes; we want what the tip's side puts on the
-// sensor: contact plus weight. In the control form inertia is missing, because the platform is placed and not
-// accelerated.
-Wrench World::raw_wrench() const {
-  const mjData* d = physics_.data();
-  return {Vec<'F'>(-d->sensordata[0], -d->sensordata[1], -d->sensordata[2]),
-          Vec<'F'>(-d->sensordata[3], -d->sensordata[4], -d->sensordata[5])};
-}
-
 Vec<'W'> World::felt_by_sensor() const {
-  const Vec<'W'> raw = true_tip() * (X_HF_ * raw_wrench().force);
+  const Vec<'W'> raw = true_tip() * (X_HF_ * raw_wrench(physics_.data()).force);
   const Vec<'W'> inertia = legs ? mass_behind_ * truth_.tip_acceleration : Vec<'W'>::zero();
   return raw + Vec<'W'>(0, 0, mass_behind_ * kStandardGravity) + inertia;
 }
@@ -170,7 +169,7 @@ void World::measure_force(Time t) {
   const Pose<'R', 'F'> X_RF = machine->true_pose() * X_HF_;
   const Vec<'F'> inertia =
       legs ? Vec<'F'>::zero() : X_RF.inverse() * (mass_behind_ * machine->state().acceleration);
-  force->measure(t, dt_, raw_wrench(), inertia);
+  force->measure(t, dt_, raw_wrench(physics_.data()), inertia);
 }
 
 }  // namespace enc::sim

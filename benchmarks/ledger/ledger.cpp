@@ -56,7 +56,7 @@ void run(Bench& bench) {
   const std::vector<Sums> all = bench.each(scenes, [&](const std::string& scene) {
     return sums_of(load_scene(bench.context, scene), bench.context.seed, scene);
   });
-  Table table{"ledger.scenes",
+  Table table{"scenes",
               "Energy of all contacts of a scene, mJ",
               {"scene", "contacts", "hand", "carried", "sampling", "delay", "quantisation", "limits",
                "stored", "dissipated", "closes, %", "small ones", "close, %"},

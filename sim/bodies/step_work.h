@@ -20,6 +20,14 @@
 
 namespace enc::sim {
 
+// A tool of the user's: its body, and what of it the tracker and the truth need.
+struct HeldTool {
+  std::int32_t index = -1;  // in the scene
+  int body = -1, qpos = 0, qvel = 0;
+  Vec3 tip_T, shaft_T;  // centre of its tip; from there to the markers
+  double radius = kUnset;
+};
+
 // The tool that pushes: the first of its three slides, its mass, kg, and the radius of its tip, m.
 struct Scale {
   int dof = -1;
@@ -32,6 +40,7 @@ class StepWork {
   void begin(const Physics& physics, const Scale& tool, const ArmBody* arm);
   // After it: mean force on the machine, N in W.
   [[nodiscard]] Vec3 pushed(const Physics& physics, double h) const;
+  [[nodiscard]] const PerJoint& rates() const { return rates_; }  // of an arm, when it began
   // What it did to an arm, whose motors pushed with `torque` and whose friction of the smooth form with
   // `smooth`, N m or N.
   void count(const Physics& physics, const ArmBody& arm, const ArmTruth& truth, const PerJoint& torque,
