@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/task/meet/arm_loop.h"
-
 namespace enc::trial {
 namespace {
 
@@ -54,8 +52,6 @@ LawAt law_at(const Glance& glance, const Impedance& law) {
     at.ball = tip.e() + moved.depth * at.normal;
   }
   at.stiffness = law.rig.stiffness;
-  const PerJoint& q = glance.in.arm.value.joints;
-  at.damping = damping_at(law, law.arm.felt_mass(law.arm.jacobian(q), law.arm.mass(q, law.prop_mass)));
   return at;
 }
 

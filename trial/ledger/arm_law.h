@@ -38,6 +38,7 @@ struct TipAt {
   Vec3 at = Vec3::Zero(), velocity = Vec3::Zero();
 };
 
+// All but its damping.
 [[nodiscard]] LawAt law_at(const Glance& glance, const Impedance& law);
 [[nodiscard]] Vec3 ideal_force(const LawAt& law, const TipAt& tip);
 // W, taken by the damper.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/task/meet/arm_loop.h"
 #include "sim/arm_spec.h"
 
 namespace enc::trial {
@@ -50,6 +51,16 @@ void ArmLedger::filter(const Glance& glance, const Impedance& law, Known& now) {
   now.counted = asked_force(now.law, aim.error.e(), aim.error_rate.e(), depth);
 }
 
+const ArmLedger::Posture& ArmLedger::posture(const PerJoint& q, const Impedance& law) {
+  if (q == posture_.joints) return posture_;
+  const Mat3 J = law.arm.jacobian(q);
+  posture_ = {q, {}, J, damping_at(law, law.arm.felt_mass(J, law.arm.mass(q, law.prop_mass)))};
+  if (law.rig.gravity == GravityForm::none) return posture_;
+  const Payload form = law.rig.gravity == GravityForm::published ? Payload::published : Payload::exact;
+  posture_.compensated = law.arm.torque(J, law.arm.force(J, law.arm.gravity(q, law.prop_mass, form)));
+  return posture_;
+}
+
 ArmLedger::Known ArmLedger::know(const Glance& glance, const Impedance& law) {
   Known now;
   now.there = true;
@@ -64,21 +75,20 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const Impedance& law) {
   now.held = now.late = now.counted = Vec3::Zero();
   if (!now.law.live) return now;
   const PerJoint& q = glance.in.arm.value.joints;
-  const Mat3 J = law.arm.jacobian(q);
-  if (law.rig.gravity != GravityForm::none) {
-    const Payload form = law.rig.gravity == GravityForm::published ? Payload::published : Payload::exact;
-    now.compensated = law.arm.torque(J, law.arm.force(J, law.arm.gravity(q, law.prop_mass, form)));
-  }
+  const Posture& at = posture(q, law);
+  now.law.damping = at.damping;
+  now.compensated = at.compensated;
   const Aim& aim = recall<Meeting>(*glance.state).aim;
   const Vec3 change = (aim.velocity.e() - aim_.velocity.e()) / glance.scene.dt;
   // A target that has leapt is on its way from this tick on (core/task/meet/aim.cpp).
   if (!(aim_.caught_up && aim.caught_up) && !now.law.hit && !change.isZero())
-    now.law.along =
-        turn *
-        law.arm.force_to_accelerate(J, law.arm.mass(q, law.prop_mass), X_WR.inverse() * Vec<'W'>(change)).e();
+    now.law.along = turn * law.arm
+                               .force_to_accelerate(at.jacobian, law.arm.mass(q, law.prop_mass),
+                                                    X_WR.inverse() * Vec<'W'>(change))
+                               .e();
   now.held = ideal_force(now.law, now.tip);
   filter(glance, law, now);
-  now.jacobian = turn * J;  // by which the motors are told
+  now.jacobian = turn * at.jacobian;  // by which the motors are told
   return now;
 }
 

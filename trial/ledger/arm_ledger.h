@@ -28,6 +28,13 @@ class ArmLedger {
     PerJoint weight{}, compensated{};  // N m: what the motors must do, and do
     PerJoint joints{}, rates{};        // true
   };
+  // Of the law where its encoders say that the arm is: they stand for some ticks.
+  struct Posture {
+    PerJoint joints{kUnset, kUnset, kUnset}, compensated{};
+    Mat3 jacobian;
+    double damping = kUnset;
+  };
+  [[nodiscard]] const Posture& posture(const PerJoint& joints, const Impedance& law);
   [[nodiscard]] Known know(const Glance& glance, const Impedance& law);
   void filter(const Glance& glance, const Impedance& law, Known& now);
   void count(const Known& now, const sim::Work& work);
@@ -45,6 +52,7 @@ class ArmLedger {
   Vec3 error_ = Vec3::Zero(), rate_ = Vec3::Zero();  // filtered, of the true state
   Aim aim_;                                          // of the last tick
   Known before_;
+  Posture posture_;
   bool on_ = false;
   ContactLedger sum_;
   double ideal_ = 0.0, work_held_ = 0.0, work_late_ = 0.0, work_counted_ = 0.0, work_given_ = 0.0;  // J
