@@ -152,11 +152,6 @@ Found training(const BenchContext& context) {
                     "than the limit of the tooth, true"},
                    {"outside.max", presses.greatest_outside() * 1e6, "um", at_most(0.0),
                     "of the tip outside of an object"},
-                   {"error.rms",
-                    presses.rmse_press(),
-                    "N",
-                    {},
-                    "pressing: true force against the response at the true depth"},
                    {"touch.max", run.judge.touch, "N", {}, "true force"}};
   add_soundness(run, found);
   return found;

@@ -109,9 +109,10 @@ TEST(Outcome, EveryMemberOfTheTruthIsNamed) {
   const sim::Truth truth;
   const auto& [t, tool_tip, tool_velocity, tip, tip_velocity, tip_acceleration, contact_force, hand_force,
                leg_force, joints, motor_torque, warmth, touching, penetration, tool_radius, tip_radius, press,
-               aim, phase, approach_speed, aborted, tool] = truth;
+               aim, phase, approach_speed, aborted, tool, work] = truth;
   EXPECT_EQ(&t, &truth.t);
   EXPECT_EQ(&tool, &truth.tool);
+  EXPECT_EQ(&work, &truth.work);  // is of the ledger alone, and follows from the rest
   Count count;
   sim::Truth copy = truth;
   fields(count, copy);

@@ -24,7 +24,7 @@ Vec<'W'> normal_at(const Object& object, const Point<'W'>& target) {
 bool pushed(const Glance& glance, const Object& object, const Point<'W'>& prop, const Vec<'W'>& normal) {
   constexpr double kDeep = 1e-3;    // m: friction and a wrong weight hold it off by less
   constexpr double kForce = 0.3;    // N, of the law: twice what dry friction hides
-  constexpr double kBeside = 3e-3;  // m: on its way to another place
+  constexpr double kBeside = 8e-3;  // m: on its way to another place (kLeap in aim.cpp is 10 mm)
   if (object.interaction.kind != Interaction::slide && object.interaction.kind != Interaction::click)
     return false;
   const Vec<'W'> way = prop - glance.out.wanted;
