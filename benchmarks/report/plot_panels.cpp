@@ -51,9 +51,10 @@ std::string panels_script(const Plot& plot) {
   const std::size_t rows = (plot.panels.size() + columns - 1) / columns;
   const Plot legend = legend_of(plot);
   const std::size_t keys = legend_columns(legend, static_cast<std::size_t>(kWide) - 40);
-  const double lines = static_cast<double>((legend.series.size() + keys - 1) / keys);
+  const std::size_t lines = (legend.series.size() + keys - 1) / keys;
   const auto of = [](std::size_t count) { return static_cast<double>(count); };
-  const double above = kAbove + of(rows) * (kTitle + kHigh) + kUnder, height = above + 22.0 * lines + 10.0;
+  const double above = kAbove + of(rows) * (kTitle + kHigh) + kUnder,
+               height = above + 22.0 * of(lines) + 10.0;
   const double wide = (kWide - kLeft - kRight - of(columns - 1) * kGap) / of(columns);
   std::string text = plot_head(static_cast<std::size_t>(kWide), static_cast<std::size_t>(height));
   text += "set multiplot title " + plot_quoted(plot.title) + "\nunset key\n";

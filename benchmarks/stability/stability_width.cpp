@@ -40,7 +40,9 @@ std::vector<Width> width_of_hexapod(const Bench& bench) {
   const models::Setup setup = models::load(bench.context.models + "/scenes/stiffness.toml", {});
   const Steadiness loop(setup.rig);
   double stiffest = 0.0;
-  for (double k = 1e3; k < 2.0 * kHardest; k *= 10.0) {
+  const auto decades = static_cast<int>(std::lround(std::log10(kHardest / 1e3)));
+  for (int i = 0; i <= decades; ++i) {
+    const double k = 1e3 * std::pow(10.0, i);
     const Response spring({{k, 0, 0, 0}, {k, 0, 0, 0}, 23e-3}, 0.0);
     if (loop.swing(spring, std::min(15e-3, 30.0 / k), 23e-3, Steadiness::kSlow) > loop.still()) break;
     stiffest = k;

@@ -1,7 +1,6 @@
 // What one key alone does not show, of a scene with an arm.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -168,7 +167,9 @@ void mend_normals(Setup& setup) {
 
 // Of a stop it is said alone: it is hard either way. And of the solver, what it makes of friction.
 void note_stops(Setup& setup) {
-  const auto& [scene, rig, twin] = std::tie(setup.scene, setup.rig, setup.twin);
+  const SceneSpec& scene = setup.scene;
+  const RigSpec& rig = setup.rig;
+  const sim::TwinSpec& twin = setup.twin;
   const bool has_arm = scene.arm.has_value();
   if (has_arm ? rig.arm.driver != "sim" : rig.manipulator.driver != "sim") return;
   const double least = 2.0 * twin.stepping(has_arm).timestep;

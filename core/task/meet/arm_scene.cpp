@@ -128,7 +128,7 @@ bool gets_to(const Scene& scene, const Point<'W'>& p) {
 }
 
 // How much of a unit way the tip can go: 1 for a machine with three joints.
-double share_along(const Mat3& jacobian, Vec3 way) {
+double share_along(const Mat3& jacobian, const Vec3& way) {
   constexpr double kNone = 1e-6;  // m, or m/rad
   double along = 0.0;
   std::array<Vec3, kMostJoints> axes;
