@@ -12,7 +12,6 @@ namespace enc::trial {
 namespace {
 
 using certificate::Class;
-using testing::HasSubstr;
 
 std::vector<Certified> of(const std::string& name, const std::vector<std::string>& set = {}) {
   const models::Setup setup =
@@ -86,7 +85,8 @@ models::Setup tiled(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     ObjectSpec& one = setup.scene.objects[i];
     one.name = "k" + std::to_string(i);
-    const auto column = static_cast<double>(i % 10), line = static_cast<double>(i / 10);
+    const std::size_t row = i / 10;
+    const auto column = static_cast<double>(i % 10), line = static_cast<double>(row);
     one.position.x() = 4e-3 * (column - 4.5);
     one.position.y() = 2e-3 * (line - 0.05 * static_cast<double>(count));
   }

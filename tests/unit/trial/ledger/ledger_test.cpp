@@ -52,7 +52,8 @@ TEST(ArmLaw, StoresInAButtonWhatItsForceTakes) {
   LawAt law = free_tip();
   law.felt = true;
   law.object = &button;
-  for (double depth = 0.1e-3; depth < 6e-3; depth += 0.3e-3) {  // NOLINT(*-flp30-c)
+  for (int i = 0; i < 20; ++i) {
+    const double depth = 0.1e-3 + 0.3e-3 * i;
     constexpr double kStep = 1e-6;
     const auto at = [](double z) { return TipAt{{0, 0, -z}, Vec3::Zero()}; };
     const double slope = (stored(law, at(depth + kStep)) - stored(law, at(depth - kStep))) / (2.0 * kStep);
