@@ -33,7 +33,8 @@ Sums sums_of(const models::Setup& setup, std::uint64_t seed, const std::string& 
   trial::TrialOptions options;
   options.seed = seed;
   options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
-  sums.simulated = trial::Trial(setup, options).run().simulated;
+  trial::Trial trial(setup, options);
+  sums.simulated = trial.run().simulated;
   for (const trial::ContactLedger& one : measure.contacts()) {
     ++sums.contacts;
     const bool small = one.largest() < kSmallest;

@@ -18,6 +18,7 @@ class LedgerMeasure {
     if (!glance.simulated) return;
     arm_ ? arm_->see(glance) : hexapod_.see(glance);
   }
+  // While the trial lives whose objects they touch.
   [[nodiscard]] std::vector<ContactLedger> contacts() const {
     return arm_ ? arm_->contacts() : hexapod_.contacts();
   }

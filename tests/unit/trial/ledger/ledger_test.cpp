@@ -22,7 +22,8 @@ std::vector<ContactLedger> ledger_of(const models::Setup& setup, std::uint64_t s
   options.seed = seed;
   options.seconds = time_s;
   options.watch = [&](const Glance& glance) { measure.see(glance); };
-  (void)Trial(setup, options).run();
+  Trial trial(setup, options);
+  (void)trial.run();
   return measure.contacts();
 }
 
@@ -100,7 +101,8 @@ TEST(Ledger, IsRedWhereAPartIsWrong) {
   TrialOptions options;
   options.seconds = 3.0;
   options.watch = [&](const Glance& glance) { measure.see(glance); };
-  (void)Trial(hit, options).run();
+  Trial trial(hit, options);
+  (void)trial.run();
   ASSERT_FALSE(measure.contacts().empty());
   for (const ContactLedger& one : measure.contacts()) EXPECT_GT(one.closure(), 0.05);
   const models::Setup setup = setup_of("keypad");
