@@ -1,8 +1,6 @@
 // A record as a table, for programs that know nothing of Encounter (docs/guide/rig.md). Row by row: a long
 // record is never in memory as a whole.
-#include <array>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -48,14 +46,6 @@ class Output {
   std::optional<models::OutFile> file_;
   std::string buffer_;
 };
-
-bool is_record(const std::string& path) {
-  std::array<char, 8> magic{};
-  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
-  return std::string_view(magic.data(), magic.size()) ==
-         "\x89"
-         "ENCREC\n";  // core/record/record.cpp
-}
 
 // What is of a table is not of a world, and the other way round.
 void refuse_others(const ExportOptions& options) {

@@ -38,9 +38,8 @@ std::string bound_text(const certificate::Row& row) {
   const auto in = [](double x) {
     return std::isnan(x) ? std::string("not known") : fmt::format("{:.4g}", 1e-3 * x);
   };
-  const char* side = row.side == Side::below ? "< " : row.side == Side::above ? "> " : "";
-  return row.low > 0.0 || std::isnan(row.low)
-             ? "from " + (side + in(row.low)) + (std::isinf(row.bound) ? "" : " to " + in(row.bound))
+  return row.low > 0.0 || std::isnan(row.low) ? "from " + (certificate::sign_of(row.side) + in(row.low)) +
+                                                    (std::isinf(row.bound) ? "" : " to " + in(row.bound))
          : std::isinf(row.bound) ? "no bound"
                                  : "to " + in(row.bound);
 }
@@ -48,11 +47,8 @@ std::string bound_text(const certificate::Row& row) {
 // What begins somewhere below has a larger margin.
 std::string margin_text(const certificate::Row& row) {
   if (!std::isfinite(row.margin)) return {};
-  return fmt::format("{}{:.3g} x",
-                     row.side == Side::below   ? "> "
-                     : row.side == Side::above ? "< "
-                                               : "",
-                     row.margin);
+  const Side other = row.side == Side::below ? Side::above : row.side == Side::above ? Side::below : Side::at;
+  return fmt::format("{}{:.3g} x", certificate::sign_of(other), row.margin);
 }
 
 // Of an arm: a certificate is of one place.

@@ -33,8 +33,7 @@ Map::Map(std::string id, std::string title, std::vector<std::string> panels, std
   plot_.columns = columns;
   for (const double delay : kDelays) plot_.x_names.push_back(fmt::format("{:g}", delay * 1e3));
   for (std::size_t panel = 0; panel < plot_.panels.size(); ++panel)
-    for (const char* name : {"rests", "limit cycle", "runs away", "not known"})
-      series(name, panel, Mark::cells);
+    for (const char* name : kRestWords) series(name, panel, Mark::cells);
 }
 
 Series& Map::series(const std::string& name, std::size_t panel, Mark mark) {
@@ -44,10 +43,8 @@ Series& Map::series(const std::string& name, std::size_t panel, Mark mark) {
   return plot_.series.emplace_back(Series{.name = name, .mark = mark, .panel = panel});
 }
 
-void Map::cell(std::size_t panel, std::size_t delay, double stiffness, Outcome outcome) {
-  constexpr std::array kNames{"rests", "limit cycle", "runs away", "not known"};
-  series(kNames[static_cast<std::size_t>(outcome)], panel, Mark::cells)
-      .add(static_cast<double>(delay), stiffness);
+void Map::cell(std::size_t panel, std::size_t delay, double stiffness, certificate::Rest rest) {
+  series(words_of(rest), panel, Mark::cells).add(static_cast<double>(delay), stiffness);
 }
 
 void Map::line(const std::string& name, std::size_t panel, std::size_t delay, double stiffness) {
@@ -56,11 +53,10 @@ void Map::line(const std::string& name, std::size_t panel, std::size_t delay, do
 }
 
 void Map::add_to(Bench& bench, std::string caption) {
-  const auto empty = [&](const std::string& name) {
-    return std::all_of(plot_.series.begin(), plot_.series.end(),
-                       [&](const Series& s) { return s.name != name || s.x.empty(); });
-  };
-  if (empty("not known")) std::erase_if(plot_.series, [](const Series& s) { return s.name == "not known"; });
+  const auto unknown = [](const Series& s) { return s.name == words_of(certificate::Rest::unknown); };
+  if (std::all_of(plot_.series.begin(), plot_.series.end(),
+                  [&](const Series& s) { return !unknown(s) || s.x.empty(); }))
+    std::erase_if(plot_.series, unknown);
   plot_.caption = std::move(caption);
   bench.plot(plot_);
 }

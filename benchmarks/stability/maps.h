@@ -22,6 +22,12 @@ inline const std::array<Grip, 3> kGrips{Grip{"nobody", {}}, Grip{"a fingertip", 
                                         Grip{"a firm grip", {0.15, 10.0, 2000.0}}};
 [[nodiscard]] Device held_by(Device device, const Grip& grip);
 
+// Of certificate::Rest, in its order.
+inline constexpr std::array kRestWords{"rests", "limit cycle", "runs away", "not known"};
+[[nodiscard]] inline const char* words_of(certificate::Rest rest) {
+  return kRestWords[static_cast<std::size_t>(rest)];
+}
+
 // Even steps of a logarithm: half decades, decades where it has to be quick, quarters of them in full.
 [[nodiscard]] std::vector<double> stiffnesses(const BenchContext& context);
 
@@ -29,7 +35,7 @@ inline const std::array<Grip, 3> kGrips{Grip{"nobody", {}}, Grip{"a fingertip", 
 class Map {
  public:
   Map(std::string id, std::string title, std::vector<std::string> panels, std::size_t columns);
-  void cell(std::size_t panel, std::size_t delay, double stiffness, Outcome outcome);
+  void cell(std::size_t panel, std::size_t delay, double stiffness, certificate::Rest rest);
   void line(const std::string& name, std::size_t panel, std::size_t delay, double stiffness);
 
   void add_to(Bench& bench, std::string caption);

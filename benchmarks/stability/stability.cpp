@@ -196,6 +196,21 @@ const Entry kEntry{"stability", "a slide with a wall",
 certificate::SampledLoop loop_of(const Device& d) {
   return {d.mass, d.damping, d.period, d.delay, 1, kUnset, {d.hand_mass, d.hand_damping, d.hand_spring}};
 }
+
+certificate::Rest same_as(Outcome outcome) {
+  return outcome == Outcome::still   ? certificate::Rest::still
+         : outcome == Outcome::cycle ? certificate::Rest::cycle
+         : outcome == Outcome::away  ? certificate::Rest::away
+                                     : certificate::Rest::unknown;
+}
+
+void Agreement::see(certificate::Rest told, certificate::Rest seen) {
+  const bool known = told != certificate::Rest::unknown && seen != certificate::Rest::unknown;
+  places += 1.0;
+  rest += known && (told == certificate::Rest::still) == (seen == certificate::Rest::still) ? 1.0 : 0.0;
+  same += known && told == seen ? 1.0 : 0.0;
+}
+
 double worse(double a, double b) { return std::isnan(a) ? a : std::isnan(b) ? b : std::max(a, b); }
 certificate::Steps steps_of(const Device& device) { return {device.friction, device.count}; }
 

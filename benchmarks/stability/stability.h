@@ -11,6 +11,15 @@ namespace enc::bench::stability {
 [[nodiscard]] certificate::SampledLoop loop_of(const Device& device);
 [[nodiscard]] certificate::Steps steps_of(const Device& device);
 
+// What MuJoCo does, in the certificate's words.
+[[nodiscard]] certificate::Rest same_as(Outcome outcome);
+
+// What was foretold of places, beside what became of them. What either does not know is not foretold.
+struct Agreement {
+  double places = 0.0, rest = 0.0, same = 0.0;  // rest: whether it rests; same: limit cycles told apart, too
+  void see(certificate::Rest told, certificate::Rest seen);
+};
+
 // The larger of two; NaN where one is.
 [[nodiscard]] double worse(double a, double b);
 

@@ -13,6 +13,8 @@
 namespace enc::bench::stability {
 namespace {
 
+using certificate::Rest;
+
 struct Pushed {
   const char* name;
   double stiffness, damping;  // N/m, N s/m
@@ -38,11 +40,11 @@ models::Setup pushed_setup(const BenchContext& context, const Pushed& hand, doub
   return setup;
 }
 
-Outcome by_swing(double swing, double still) {
-  return !(swing <= kAway) ? Outcome::away : swing > still ? Outcome::cycle : Outcome::still;
+Rest by_swing(double swing, double still) {
+  return !(swing <= kAway) ? Rest::away : swing > still ? Rest::cycle : Rest::still;
 }
 
-Outcome foretold(const models::Setup& setup, double stiffness) {
+Rest foretold(const models::Setup& setup, double stiffness) {
   const Steadiness loop(setup.rig);
   const Response spring({{stiffness, 0, 0, 0}, {stiffness, 0, 0, 0}, kPushLimit}, 0.0);
   const double most = std::min(kPushDepth, kPushForce / stiffness);
@@ -50,7 +52,7 @@ Outcome foretold(const models::Setup& setup, double stiffness) {
 }
 
 // The twin as the scene pushes it.
-Outcome pushed(const models::Setup& setup, double stiffness, std::uint64_t seed) {
+Rest pushed(const models::Setup& setup, double stiffness, std::uint64_t seed) {
   const Steadiness loop(setup.rig);
   const auto push = stiffness::push_once(stiffness::with_stiffness(setup, stiffness), seed);
   return by_swing(push.peak_to_peak, loop.still());
@@ -67,24 +69,22 @@ void add_spots(Bench& bench, const std::vector<std::string>& titles) {
   std::erase_if(places, [](const Place& at) { return kDelays[at.delay] < kTicks[kOwn]; });
   struct Spot {
     double stiffness;
-    Outcome told, seen;
+    Rest told, seen;
   };
   const auto found = bench.each(places, [&](const Place& at) {
     const models::Setup setup = pushed_setup(context, kHands[at.panel], kTicks[kOwn], kDelays[at.delay]);
     const double stiffness = about(lowest_stable_stiffness(loop_of(setup.rig)), at.share);
     return Spot{stiffness, foretold(setup, stiffness), pushed(setup, stiffness, context.seed)};
   });
-  constexpr std::array kWords{"rests", "limit cycle", "runs away", "not known"};
   Table table{"map_admittance_spots",
               "Spot checks of the admittance's map",
               {"panel", "dead time (ms)", "K (N/m)", "foretold", "twin"}};
   double same = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto [stiffness, told, seen] = found[i];
-    same += (told == Outcome::still) == (seen == Outcome::still) ? 1.0 : 0.0;
+    same += (told == Rest::still) == (seen == Rest::still) ? 1.0 : 0.0;
     table.add(titles[places[i].panel * kTicks.size() + kOwn], kDelays[places[i].delay] * 1e3,
-              fmt::format("{:.3g}", stiffness), kWords[static_cast<std::size_t>(told)],
-              kWords[static_cast<std::size_t>(seen)]);
+              fmt::format("{:.3g}", stiffness), words_of(told), words_of(seen));
   }
   bench.figure("admittance.agree", 100.0 * same / static_cast<double>(places.size()), "%", at_least(95.0),
                fmt::format("of {} random places of the admittance's map: stands still in the twin, as "

@@ -11,6 +11,8 @@
 namespace enc::bench::stability {
 namespace {
 
+using certificate::Rest;
+
 constexpr double kTrigger = 2e-3, kFall = 0.5e-3, kBottom = 4e-3, kBelow = 2e-3;  // m, deep
 constexpr double kKeyAside = 1e-3;                                                // m, beside where it rests
 constexpr double kKeyStep = 1e-3;                                                 // s, RK4
@@ -32,7 +34,7 @@ struct KeyCell {
 };
 
 // A finger key_pushes with what holds it 2 mm below the bottom: that is x = 0.
-Outcome key_outcome(const KeyCell& cell) {
+Rest key_outcome(const KeyCell& cell) {
   const int steps = static_cast<int>(std::lround(cell.device.period / kKeyStep));
   Slide slide(cell.device, {}, {Scheme::rk4, steps}, kKeyAside);
   const double hand = key_pushes(kBottom + kBelow, cell.stiffness);
@@ -47,12 +49,12 @@ Outcome key_outcome(const KeyCell& cell) {
       slide.period(key_pushes(kBottom + kBelow - slide.x(), cell.stiffness) - hand);
       low = std::min(low, slide.x());
       high = std::max(high, slide.x());
-      if (std::abs(slide.x()) > 20.0 * kKeyAside) return Outcome::away;
+      if (std::abs(slide.x()) > 20.0 * kKeyAside) return Rest::away;
     }
     before = last;
     last = high - low;
   }
-  return last < 0.01 * kKeyAside || last < 0.9 * before ? Outcome::still : Outcome::cycle;
+  return last < 0.01 * kKeyAside || last < 0.9 * before ? Rest::still : Rest::cycle;
 }
 
 }  // namespace
@@ -82,7 +84,7 @@ void add_button_map(Bench& bench) {
     const certificate::SampledLoop loop = loop_of(cell.device);
     map.cell(cell.panel, cell.delay, cell.stiffness, found[i]);
     const double exact = certificate::critical_stiffness(loop);
-    same += (cell.stiffness <= exact) == (found[i] == Outcome::still) ? 1.0 : 0.0;
+    same += (cell.stiffness <= exact) == (found[i] == Rest::still) ? 1.0 : 0.0;
     if (cell.stiffness != kSoftest) continue;
     map.line("eigenvalues, its floor", cell.panel, cell.delay, exact);
     map.line("passive (Colgate, Schenkel)", cell.panel, cell.delay,

@@ -10,6 +10,8 @@
 namespace enc::bench::stability {
 namespace {
 
+using certificate::Rest;
+
 struct Panel {
   std::string title;
   Device device;  // its delay is that of the place
@@ -50,17 +52,12 @@ Device late_device(const Panel& panel, std::size_t delay) {
   return device;
 }
 
-Outcome foretold(const Panel& panel, std::size_t delay, double stiffness) {
+Rest foretold(const Panel& panel, std::size_t delay, double stiffness) {
   const Device device = late_device(panel, delay);
   // Where friction holds what law and hand pull with it never moves, however long that is watched.
   const double reads = kLetGo + 0.5 * device.count;
-  if (stiffness * reads + device.hand_spring * kLetGo < device.friction) return Outcome::still;
-  const auto rest =
-      certificate::release(loop_of(device), steps_of(device), stiffness, panel.damper, kLetGo).rest;
-  return rest == certificate::Rest::still   ? Outcome::still
-         : rest == certificate::Rest::cycle ? Outcome::cycle
-         : rest == certificate::Rest::away  ? Outcome::away
-                                            : Outcome::unknown;
+  if (stiffness * reads + device.hand_spring * kLetGo < device.friction) return Rest::still;
+  return certificate::release(loop_of(device), steps_of(device), stiffness, panel.damper, kLetGo).rest;
 }
 
 // The lowest stiffness that is on the circle. A spring alone is stable below it, so no eigenvalue has to be
@@ -95,17 +92,13 @@ void add_lines(Map& map, std::size_t panel, std::size_t delay, const Bounds5& at
   map.line("2 f_c/count (Abbott, Okamura)", panel, delay, at.counts);
 }
 
-struct Agreed {
-  double places = 0.0, rest = 0.0, same = 0.0;
-};
-
 // MuJoCo at random places of the panels.
-Agreed spot_checks(Bench& bench, const std::vector<Panel>& panels, std::size_t count, std::uint64_t stream,
-                   Table& table) {
+void spot_checks(Bench& bench, const std::vector<Panel>& panels, std::size_t count, std::uint64_t stream,
+                 Agreement& agreed, Table& table) {
   const std::vector<Place> places = random_places(bench.context, panels.size(), count, stream);
   struct Spot {
     double stiffness;
-    Outcome told, seen;
+    Rest told, seen;
   };
   const auto found = bench.each(places, [&](const Place& at) {
     const Panel& panel = panels[at.panel];
@@ -114,20 +107,14 @@ Agreed spot_checks(Bench& bench, const std::vector<Panel>& panels, std::size_t c
     const double rubbed = exact(loop_of(device), panel.damper, device.friction / (kQuarter * kLetGo));
     const double stiffness = about(rubbed, at.share);
     return Spot{stiffness, foretold(panel, at.delay, stiffness),
-                let_go(device, {stiffness, panel.damper}, {Scheme::rk4, steps}, kLetGo)};
+                same_as(let_go(device, {stiffness, panel.damper}, {Scheme::rk4, steps}, kLetGo))};
   });
-  constexpr std::array kWords{"rests", "limit cycle", "runs away", "not known"};
-  Agreed agreed;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto [stiffness, told, seen] = found[i];
-    const bool known = told != Outcome::unknown && seen != Outcome::unknown;
-    agreed.places += 1.0;
-    agreed.rest += known && (told == Outcome::still) == (seen == Outcome::still) ? 1.0 : 0.0;
-    agreed.same += known && told == seen ? 1.0 : 0.0;
+    agreed.see(told, seen);
     table.add(panels[places[i].panel].title, kDelays[places[i].delay] * 1e3, fmt::format("{:.3g}", stiffness),
-              kWords[static_cast<std::size_t>(told)], kWords[static_cast<std::size_t>(seen)]);
+              words_of(told), words_of(seen));
   }
-  return agreed;
 }
 
 void add_panels(Bench& bench, Map& map, const std::vector<Panel>& panels, const std::string& caption) {
@@ -143,7 +130,7 @@ void add_panels(Bench& bench, Map& map, const std::vector<Panel>& panels, const 
       for (const double stiffness : rows) all.push_back({panel, delay, stiffness});
   const auto found = bench.each(all, [&](const Cell& c) {
     const Panel& panel = panels[c.panel];
-    if (std::isnan(c.stiffness)) return std::pair{Outcome::unknown, map_bounds(panel, c.delay)};
+    if (std::isnan(c.stiffness)) return std::pair{Rest::unknown, map_bounds(panel, c.delay)};
     return std::pair{foretold(panel, c.delay, c.stiffness), Bounds5{}};
   });
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -185,13 +172,9 @@ void add_wall_maps(Bench& bench) {
       "map_spots", "Spot checks of the maps", {"panel", "delay (ms)", "K (N/m)", "foretold", "MuJoCo"}};
   const bool quick = bench.context.quick, full = bench.context.full;
   const std::size_t count = full ? 300 : quick ? 12 : 50;
-  Agreed all;
-  for (const Agreed& one :
-       {spot_checks(bench, grips, count, 1, table), spot_checks(bench, dampings, count, 2, table)}) {
-    all.places += one.places;
-    all.rest += one.rest;
-    all.same += one.same;
-  }
+  Agreement all;
+  spot_checks(bench, grips, count, 1, all, table);
+  spot_checks(bench, dampings, count, 2, all, table);
   bench.figure("maps.agree", 100.0 * all.rest / all.places, "%", at_least(95.0),
                fmt::format("of {} random places of the walls' maps: rests or does not in MuJoCo, as foretold",
                            all.places));

@@ -28,13 +28,6 @@ struct Judged {
   Outcome outcome = Outcome::away;
 };
 
-certificate::Rest same_as(Outcome outcome) {
-  return outcome == Outcome::still   ? certificate::Rest::still
-         : outcome == Outcome::cycle ? certificate::Rest::cycle
-         : outcome == Outcome::away  ? certificate::Rest::away
-                                     : certificate::Rest::unknown;
-}
-
 Judged judge(const Cell& cell) {
   const Device& d = cell.device;
   return {certificate::release(loop_of(d), steps_of(d), cell.stiffness, 0.0, cell.x0).rest,
@@ -64,27 +57,24 @@ void add_grid(Bench& bench, const Grid& grid) {
       all.back().device.count = grid.count;
     }
   const auto judged = bench.each(all, judge);
-  double rest = 0.0, same = 0.0, still = 0.0;
+  Agreement agreed;
+  double still = 0.0;
   Table table{fmt::format("regions_{}", grid.name),
               fmt::format("Let go {:g} mm beside the edge of a wall of {:g} N/mm, counts of {:g} um",
                           grid.x0 * kMm, grid.stiffness * 1e-3, grid.count * 1e6),
               {"b (N s/m)", "delay (ms)", "foretold", "MuJoCo"}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     const certificate::Rest found = same_as(judged[i].outcome), told = judged[i].predicted;
-    // What either does not know is not foretold.
-    const bool known = told != certificate::Rest::unknown && found != certificate::Rest::unknown;
-    const bool stays = told == certificate::Rest::still, stayed = found == certificate::Rest::still;
-    same += known && told == found ? 1.0 : 0.0;
-    rest += known && stays == stayed ? 1.0 : 0.0;
+    agreed.see(told, found);
     still += found == certificate::Rest::still ? 1.0 : 0.0;
     table.add(fmt::format("{:.3g}", all[i].device.damping), fmt::format("{:g}", all[i].device.delay * 1e3),
               word_of(told), word_of(found));
   }
   const double share = 100.0 / static_cast<double>(all.size());
   const auto id = [&](const char* what) { return fmt::format("regions.{}.{}", grid.name, what); };
-  bench.figure(id("agree"), rest * share, "%", at_least(95.0),
+  bench.figure(id("agree"), agreed.rest * share, "%", at_least(95.0),
                fmt::format("of {} of damping x delay: rests or does not, as foretold", all.size()));
-  bench.figure(id("same"), same * share, "%", at_least(95.0),
+  bench.figure(id("same"), agreed.same * share, "%", at_least(95.0),
                "the same, with limit cycles told from what runs away");
   bench.figure(id("still"), still * share, "%", "of them rest");
   bench.table(std::move(table));

@@ -17,19 +17,11 @@ std::string in_mm(double per_metre) {
   return std::isfinite(per_metre) ? fmt::format("{:.4g}", 1e-3 * per_metre) : std::string();
 }
 
-// Where the search ended one side is known.
-std::string large_signal(const trial::Certified& one) {
-  using Side = certificate::Row::Side;
+// N/mm; nothing where the certificate has no such row.
+std::string told(const trial::Certified& one, const char* name, double certificate::Row::*of) {
   for (const certificate::Row& row : one.certificate.rows)
-    if (row.name == "large_signal")
-      return (row.side == Side::below ? "< " : row.side == Side::above ? "> " : "") + in_mm(row.low);
+    if (row.name == name) return sign_of(row.side) + in_mm(row.*of);
   return {};
-}
-
-double row(const trial::Certified& one, const char* name, double certificate::Row::*of) {
-  for (const certificate::Row& row : one.certificate.rows)
-    if (row.name == name) return row.*of;
-  return kUnset;
 }
 
 }  // namespace
@@ -53,9 +45,9 @@ void add_scenes(Bench& bench) {
       beyond += one.beyond() ? 1.0 : 0.0;
       unknown += one.unknown() ? 1.0 : 0.0;
       table.add(name, one.object.empty() ? "(none)" : one.object, word_of(one.certificate.verdict),
-                in_mm(one.asked), in_mm(row(one, "colgate_schenkel", &Row::bound)),
-                in_mm(row(one, "exact_alone", &Row::bound)), in_mm(row(one, "exact_with_hand", &Row::bound)),
-                in_mm(row(one, "admittance", &Row::low)), large_signal(one));
+                in_mm(one.asked), told(one, "colgate_schenkel", &Row::bound),
+                told(one, "exact_alone", &Row::bound), told(one, "exact_with_hand", &Row::bound),
+                told(one, "admittance", &Row::low), told(one, "large_signal", &Row::low));
     }
   }
   table.note =

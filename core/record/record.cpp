@@ -1,6 +1,8 @@
 #include "core/record/record.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -247,6 +249,12 @@ RecordReader::RecordReader(const std::string& path, Partial partial) : path_(pat
 
 void RecordReader::fail(std::uint64_t byte, const std::string& what) const {
   throw Error(path_ + ": byte " + std::to_string(byte) + ": " + what);
+}
+
+bool is_record(const std::string& path) {
+  std::array<char, kWord> start{};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start.data(), start.size()) && std::bit_cast<std::uint64_t>(start) == kMagic;
 }
 
 bool RecordReader::get(void* bytes, std::size_t size) {

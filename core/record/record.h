@@ -62,6 +62,9 @@ class RecordWriter {
 // yes: reads the whole chunks of a record that is cut off or was never sealed.
 enum class Partial { no, yes };
 
+// Whether a file begins as a record does; false where there is none.
+[[nodiscard]] bool is_record(const std::string& path);
+
 class RecordReader {
  public:
   // Checks the whole file before the first frame is given out. Throws Error in one line with the byte.

@@ -35,6 +35,10 @@ struct Row {
   enum class Side : std::uint8_t { at, below, above } side = Side::at;
 };
 constexpr auto words(Row::Side) { return enum_words("at", "below", "above"); }
+// Before the number that a row names.
+[[nodiscard]] constexpr const char* sign_of(Row::Side side) {
+  return side == Row::Side::below ? "< " : side == Row::Side::above ? "> " : "";
+}
 
 // N s/m: the least b with which the device is passive, for whatever hand [Colgate and Schenkel 1997]:
 //   b > T/2 1/(1 - cos wT) Re{(1 - e^{-jwT}) H(e^{jwT})},  0 < w <= pi/T;  H = (K + B (1 - z^-n)/(nT)) G z^-d

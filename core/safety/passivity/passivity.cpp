@@ -58,8 +58,7 @@ void observe(Passivity& now, const Yielded& tick, double count) noexcept {
 
 double passive(const Passivity& now, double wanted, double per_newton, double count) noexcept {
   const double u = now.moved + per_newton * now.pushed;
-  const double most =
-      wanted > 0.0 ? bound(now.left, u, per_newton, count) : bound(now.left, -u, per_newton, count);
+  const double most = bound(now.left, wanted > 0.0 ? u : -u, per_newton, count);
   return std::copysign(std::min(std::abs(wanted), most), wanted);
 }
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include <Eigen/QR>
+
 #include "core/error.h"
 #include "core/rotation.h"
 #include "core/task/meet/arm_loop.h"
@@ -129,19 +131,10 @@ bool gets_to(const Scene& scene, const Point<'W'>& p) {
 
 // How much of a unit way the tip can go: 1 for a machine with three joints.
 double share_along(const Mat3& jacobian, const Vec3& way) {
-  constexpr double kNone = 1e-6;  // m, or m/rad
-  double along = 0.0;
-  std::array<Vec3, kMostJoints> axes;
-  std::size_t n = 0;
-  for (Eigen::Index joint = 0; joint < 3; ++joint) {
-    Vec3 axis = jacobian.col(joint);
-    for (std::size_t i = 0; i < n; ++i) axis -= axes.at(i).dot(axis) * axes.at(i);
-    if (axis.norm() < kNone) continue;
-    axes.at(n) = axis.normalized();
-    along += std::pow(axes.at(n).dot(way), 2);
-    ++n;
-  }
-  return std::sqrt(along);
+  Eigen::ColPivHouseholderQR<Mat3> ways(jacobian);
+  ways.setThreshold(1e-5);
+  const Vec3 along = ways.householderQ().transpose() * way;
+  return along.head(ways.rank()).norm();
 }
 
 // What is flat has one normal, and is rendered along it. A machine with few joints may not go that way.
