@@ -14,22 +14,24 @@ namespace {
 // the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
 // only turns round, friction would not hold what then pushes it.
 bool resting(const State& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
-  constexpr double kNear = 3e-3;     // m: 0.01 N m of friction at a motor alone hold 2 mm at the tip
-  constexpr double kCounts = 20e-3;  // m/s
+  // m: 0.01 N m of friction at each motor hold up to 4.5 mm at the tip, and twice as much 9.
+  constexpr double kNear = 10e-3;
+  constexpr double kCounts = 40e-3;  // m/s: one count of two joints where the arm is stretched
   constexpr double kStood = 1e-9;    // m/s
   return state.mode == Mode::away && error.norm() < kNear && velocity.norm() < kCounts &&
          now.velocity.norm() < 1e-3 && now.error_rate.norm() < kStood;
 }
 
 // It rests, and stays where it came to rest. Where it does not although nothing moves its target, the law
-// goes on until it stands again with all of its push.
+// goes on until it stands again with all of its push: a count that changes then is no reason to go on.
 bool stays(const State& state, const Point<'W'>& tip, bool rests, const Vec3& error, Aim& now) {
   constexpr double kSlips = 0.15e-3;    // m: five counts
   constexpr double kArrived = 0.03e-3;  // m: a count
   if (state.mode != Mode::away) now.slipped = false;
   const bool left = now.stood.finite() && (!rests || (tip - now.stood).norm() > kSlips);
   now.slipped = now.slipped || (left && state.mode == Mode::away && now.velocity.norm() < 1e-3);
-  const bool stands = rests && !left && !(now.slipped && (now.error.e() - error).norm() > kArrived);
+  const bool arrived = now.stood.finite() || !now.slipped || (now.error.e() - error).norm() <= kArrived;
+  const bool stands = rests && !left && arrived;
   if (!stands)
     now.stood = {};
   else if (!now.stood.finite())
