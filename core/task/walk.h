@@ -49,6 +49,7 @@ struct Walk {
 struct Asked {
   const Contact* engaged = nullptr;  // with this one
   bool touched_first = false;        // whatever is touched comes before what is not
+  Point<'W'> comes_to{};  // where the tool will touch; unset: it goes on for follow.ahead as it goes now
 };
 void nearest_surface(Walk& walk, State& state, const Asked& asked) noexcept;
 // The tool as the tracker sees it, at this tick. `pressing`: a finger that rests on a prop moves slowly.

@@ -110,13 +110,15 @@ Query foreseen(const Query& query, const Vec<'W'>& velocity, double clear) {
   return later;
 }
 
-// The nearest object, that of the time ahead if the scene looks ahead.
-Candidate chosen_object(const Query& query, const State& state, Hints& hints) {
+// The nearest object; if the scene looks ahead that of the time ahead, or of the place where it will touch.
+Candidate chosen_object(const Query& query, const State& state, const Point<'W'>& comes_to, Hints& hints) {
   const Candidate here = nearest_object(query, state.object, hints);
   const Vec<'W'>& velocity = state.tip_motion.velocity;
+  const double clear = here.at.distance - query.radius;
   if (query.scene.follow.ahead == 0.0 || !velocity.finite()) return here;
-  Candidate there =
-      nearest_object(foreseen(query, velocity, here.at.distance - query.radius), state.object, hints);
+  Query later = foreseen(query, velocity, clear);
+  if (comes_to.finite() && clear > 0.0) later.p = comes_to;
+  Candidate there = nearest_object(later, state.object, hints);
   there.at = nearest(query, there.hint.object, there.hint);
   return there;
 }
@@ -161,7 +163,7 @@ void nearest_surface(Walk& walk, State& state, const Asked& asked) noexcept {
     best.at = pressed_surface(query, asked.engaged->object, best.hint);
     state.hints.tool[0] = best.hint;
   } else if (!walk.scene.objects.empty()) {
-    best = chosen_object(query, state, state.hints);
+    best = chosen_object(query, state, asked.comes_to, state.hints);
   }
   if (best.hint.object != state.object) state.entered = false;
   state.object = best.hint.object;

@@ -79,9 +79,12 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const Impedance& law) {
   now.law.damping = at.damping;
   now.compensated = at.compensated;
   const Aim& aim = recall<Meeting>(*glance.state).aim;
-  const Vec3 change = (aim.velocity.e() - aim_.velocity.e()) / glance.scene.dt;
-  // A target that has leapt is on its way from this tick on (core/task/meet/aim.cpp).
-  if (!(aim_.caught_up && aim.caught_up) && !now.law.hit && !change.isZero())
+  Vec3 change = (aim.velocity.e() - aim_.velocity.e()) / glance.scene.dt;
+  // A target that has leapt is on its way from this tick on; one that hastens in a contact goes along
+  // sideways alone (core/task/meet/aim.cpp).
+  const bool on_its_way = !(aim_.caught_up && aim.caught_up);
+  if (!on_its_way && glance.out.mode == Mode::contact) change -= now.law.normal * now.law.normal.dot(change);
+  if ((on_its_way || aim.hurried) && !now.law.hit && !change.isZero())
     now.law.along = turn * law.arm
                                .force_to_accelerate(at.jacobian, law.arm.mass(q, law.prop_mass),
                                                     X_WR.inverse() * Vec<'W'>(change))

@@ -94,7 +94,7 @@ bool touches_belt(const State& state, const Object* object) {
 // says: on a small ball the projection is slower than the finger, beyond the edge of a button it stands.
 Goal goal_of(const Walk& walk, const State& state, Meeting& memory, const Object& object) {
   const Goal touch = foreseen_touch(walk, state, memory);
-  if (object.met_in_its_middle()) return {object.X_WO.origin()};
+  if (object.met_in_its_middle()) return {object.X_WO.origin(), Vec<'W'>::zero(), touch.foreseen};
   if (touch.point.finite()) return touch;
   const Vec<'W'> none = Vec<'W'>::zero();
   if (const Vec<'W'> rest = rest_of_flight(walk, object); !rest.e().isZero())
@@ -162,13 +162,17 @@ void move_target(Walk& walk, const ArmRig& rig, State& state, Aim& now, const Go
   const double most = haste.acceleration * dt;
   const Vec3 change = velocity - now.velocity.e();
   if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
-  if (!now.caught_up) {
+  const bool on_its_way = !now.caught_up;
+  if (on_its_way) {
     if (object != nullptr)
       velocity = not_through_a_hollow(walk, haste.acceleration, rig.speed, state, now, *object, velocity);
-    walk.target_acceleration = (velocity - now.velocity.e()) / dt;
     now.caught_up = far < kThere && change.norm() <= 2.0 * most;
   }
   walk.target_change = (velocity - now.velocity.e()) / dt;
+  if (on_its_way || now.hurried) walk.target_acceleration = walk.target_change;
+  // Under a finger that touches haste goes sideways alone: along the normal it would be felt.
+  if (!on_its_way && state.mode == Mode::contact && walk.normal.finite())
+    walk.target_acceleration -= walk.normal.e() * walk.normal.e().dot(walk.target_acceleration);
   now.velocity = Vec<'W'>(velocity);
   now.target = now.target + dt * now.velocity;
 }

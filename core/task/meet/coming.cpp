@@ -69,7 +69,10 @@ bool reaches(const Walk& walk, const Coming& now) {
 void ask(const Walk& walk, const State& state, Coming& now) {
   now.object = state.object;
   now.told = walk.tick.t;
-  now.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
+  const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+  now.X_WN = object.met_in_its_middle()
+                 ? Pose<'W', 'N'>(object.X_WO.q(), object.X_WO.origin())  // of its face
+                 : Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
   const Pose<'N', 'W'> X_NW = now.X_WN.inverse();
   const TrackerRig& rig = walk.scene.tracker;
   const double known = std::max(kUnevenLeast, kUneven * noise_of_newest(walk, state));
@@ -152,9 +155,8 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
     now.object = -1;  // what was said before it is worth nothing
     now.clear = clear(walk, state, now);
   }
-  // What is met in its middle, or moves, is met where it is.
-  const bool stands = object->moving < 0 && !object->met_in_its_middle();
-  const bool comes = walk.tool_fresh && stands && reaches(walk, now);
+  // What moves is met where it is.
+  const bool comes = walk.tool_fresh && object->moving < 0 && reaches(walk, now);
   if (!comes || presses(state, memory.contact)) return {};
   if (state.object != now.object) {
     if (!news && age(walk.tick.t, now.told) < kOften) return {};
@@ -165,6 +167,16 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
   const Point<'W'> then = on_surface(walk, state, now, passed + dt);
   if (!at.finite() || !then.finite()) return {at, Vec<'W'>::zero(), true};
   return {at, (1.0 / dt) * (then - at), true};
+}
+
+Point<'W'> comes_to(const Walk& walk, const Meeting& memory) noexcept {
+  constexpr double kAbove = 1e-3;  // m: nothing is touched yet
+  const Coming& now = memory.coming;
+  const double passed = age(walk.tick.t, now.told);
+  if (now.object < 0 || passed > kAfter.back()) return {};
+  const Vec2 at = expected(now, passed);
+  if (!at.allFinite()) return {};
+  return now.X_WN * Point<'N'>(at.x(), at.y(), kAbove);
 }
 
 }  // namespace enc::stages

@@ -37,5 +37,7 @@ struct Goal {
 };
 // Where a finger that comes will touch; unset: as far as is known it does not, or it lies on the prop.
 [[nodiscard]] Goal foreseen_touch(const Walk& walk, const State& state, Meeting& now) noexcept;
+// Just above that place, by what was last asked of it; unset: likewise.
+[[nodiscard]] Point<'W'> comes_to(const Walk& walk, const Meeting& now) noexcept;
 
 }  // namespace enc::stages

@@ -50,7 +50,9 @@ void track(Walk& walk, const Impedance& task, State& state, Meeting& now) noexce
 
 // An arm renders what is touched: there any object that is touched comes before all that are not.
 void touch(Walk& walk, const Impedance&, State& state, Meeting& now) noexcept {
-  nearest_surface(walk, state, {state.mode == Mode::contact ? &now.contact : nullptr, true});
+  const bool touched = state.mode == Mode::contact;
+  nearest_surface(walk, state,
+                  {touched ? &now.contact : nullptr, true, touched ? Point<'W'>() : comes_to(walk, now)});
 }
 
 void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {

@@ -130,6 +130,24 @@ TEST(Coming, OnlyToWhereAReachMayTouchTheTargetHurries) {
   }
 }
 
+// x of the key that a prop is sent to, 0.13 s before a finger that comes obliquely touches at x = 0.
+double key_x(const char* foresight) {
+  Bench bench("keypad", {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.usual_age_ms=110",
+                         fmt::format("rig.tracker.foresight=\"{}\"", foresight)});
+  const double y = bench.loop.scene.objects[0].X_WO.origin().xyz[1];
+  const Comes finger{{0.2, 0.0, -0.2}, 0.0};
+  for (int i = 0; i < 370; ++i) {
+    const Point<'W'> at = finger.at(0.001 * (i - 50)) + Vec<'W'>(0.0, y, 0.0);
+    i % 50 == 0 ? bench.loop.see(at, std::chrono::milliseconds(50)) : bench.loop.tick();
+  }
+  return bench.loop.scene.objects[static_cast<std::size_t>(bench.loop.out.object)].X_WO.origin().xyz[0];
+}
+
+TEST(Coming, AKeyIsChosenByWhereTheFingerWillTouch) {
+  EXPECT_NEAR(key_x("reach"), 0.0, 1e-9);
+  EXPECT_NEAR(key_x("carried_on"), -0.020, 1e-9) << "by where it is in 60 ms";
+}
+
 // What haste set in motion it brakes: where the finger that it went to meet has stopped, the target does not
 // shoot past what it may brake within.
 TEST(Coming, HasteBrakesWhatItSetInMotion) {
