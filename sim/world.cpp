@@ -115,7 +115,7 @@ void World::find_tools(const SceneSpec& scene) {
   const mjModel* m = physics_.model();
   const auto find = [&](std::int32_t index, const char* name, const Point<'W'>& at) {
     const ToolSpec& tool = scene.tools[static_cast<std::size_t>(index)];
-    Held held{index, physics_.id(mjOBJ_BODY, name), 0, 0, tool.tip, shaft_of(tool), tool.tip_radius};
+    HeldTool held{index, physics_.id(mjOBJ_BODY, name), 0, 0, tool.tip, shaft_of(tool), tool.tip_radius};
     held.qpos = m->jnt_qposadr[m->body_jntadr[held.body]];
     held.qvel = m->jnt_dofadr[m->body_jntadr[held.body]];
     std::copy_n(at.xyz.begin(), 3, physics_.data()->qpos + held.qpos);
@@ -148,7 +148,7 @@ void World::physics_step(double t) {
 Scale World::scale() const {
   if (!user_) return {};
   const std::int32_t held = user_->tool();
-  for (const Held& tool : tools_)
+  for (const HeldTool& tool : tools_)
     if (tool.index == held) return {tool.qvel, physics_.model()->body_mass[tool.body], tool.radius};
   return {};
 }
@@ -171,7 +171,7 @@ void World::hold_tools(double t, double h) {
   const std::int32_t held = user_->tool();
   Point<'W'> at = user_->state().hand;  // an empty hand feels nothing
   Vec<'W'> moving = user_->state().hand_velocity;
-  for (const Held& tool : tools_) {
+  for (const HeldTool& tool : tools_) {
     if (tool.index != held) continue;
     const double* q = d->qpos + tool.qpos;
     const double* v = d->qvel + tool.qvel;
@@ -179,7 +179,7 @@ void World::hold_tools(double t, double h) {
     moving = Vec<'W'>(v[0], v[1], v[2]);
   }
   truth_.hand_force = user_->act(t, h, at, moving, truth_.touching);
-  for (const Held& tool : tools_) {
+  for (const HeldTool& tool : tools_) {
     double* applied = d->qfrc_applied + tool.qvel;  // its slides are the axes of W
     const bool carried = tool.index == held;
     for (std::size_t i = 0; i < 3; ++i) applied[i] = carried ? truth_.hand_force.xyz[i] : 0.0;
@@ -223,8 +223,8 @@ void World::observe(Time t) {
   truth_.tool = user_->tool();
   truth_.tool_tip = user_->state().hand;
   truth_.tool_velocity = user_->state().hand_velocity;
-  const auto in_hand =
-      std::find_if(tools_.begin(), tools_.end(), [&](const Held& tool) { return tool.index == truth_.tool; });
+  const auto in_hand = std::find_if(tools_.begin(), tools_.end(),
+                                    [&](const HeldTool& tool) { return tool.index == truth_.tool; });
   in_hand_ = in_hand == tools_.end() ? nullptr : &*in_hand;
   if (in_hand_ == nullptr) return;
   const double* q = physics_.data()->qpos + in_hand_->qpos;

@@ -11,6 +11,7 @@
 #include "core/rig.h"
 #include "sim/bodies/arm_model.h"
 #include "sim/bodies/ball_contact.h"
+#include "sim/bodies/held_tool.h"
 #include "sim/bodies/legs.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/bodies/pusher.h"
@@ -105,9 +106,8 @@ class World {
   Physics physics_;
   std::optional<ArmBody> arm_body_;
   StepWork step_work_;
-  using Held = HeldTool;
-  std::vector<Held> tools_;        // the one that it begins with, and the one that it changes to
-  const Held* in_hand_ = nullptr;  // of these; none: the hand is empty
+  std::vector<HeldTool> tools_;        // the one that it begins with, and the one that it changes to
+  const HeldTool* in_hand_ = nullptr;  // of these; none: the hand is empty
   int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;
   double programme_time_ = 10.0;  // s
   Tick next_;

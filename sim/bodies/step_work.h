@@ -20,14 +20,6 @@
 
 namespace enc::sim {
 
-// A tool of the user's: its body, and what of it the tracker and the truth need.
-struct HeldTool {
-  std::int32_t index = -1;  // in the scene
-  int body = -1, qpos = 0, qvel = 0;
-  Vec3 tip_T, shaft_T;  // centre of its tip; from there to the markers
-  double radius = kUnset;
-};
-
 // The tool that pushes: the first of its three slides, its mass, kg, and the radius of its tip, m.
 struct Scale {
   int dof = -1;

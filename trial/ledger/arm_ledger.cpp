@@ -25,9 +25,10 @@ ArmLedger::ArmLedger(const models::Setup& setup)
                                        static_cast<std::int64_t>(kRing) - 1)) {}
 
 // What the core would have asked for had it read the true state: its filters on that.
-void ArmLedger::filter(const Glance& glance, const Impedance& law, Known& now) {
+void ArmLedger::filter(const Glance& glance, const Impedance& law, const std::optional<Known>& was,
+                       Known& now) {
   const Aim& aim = recall<Meeting>(*glance.state).aim;
-  if (!before_.there || !before_.law.live) {
+  if (!was || !was->law.live) {
     error_ = aim.error.e();
     rate_ = aim.error_rate.e();
   } else {
@@ -61,9 +62,18 @@ const ArmLedger::Posture& ArmLedger::posture(const PerJoint& q, const Impedance&
   return posture_;
 }
 
-ArmLedger::Known ArmLedger::know(const Glance& glance, const Impedance& law) {
+bool ArmLedger::tick(const Glance& glance) {
+  if (glance.scene.impedance() == nullptr) return false;
+  dt_ = glance.scene.dt;
+  read_[static_cast<std::size_t>(reads_++ % static_cast<std::int64_t>(kRing))] = glance.truth.joints;
+  return true;
+}
+
+void ArmLedger::rest(const Glance& glance) { aim_ = recall<Meeting>(*glance.state).aim; }
+
+ArmLedger::Known ArmLedger::know(const Glance& glance, const std::optional<Known>& was) {
+  const Impedance& law = *glance.scene.impedance();
   Known now;
-  now.there = true;
   now.joints = glance.truth.joints;
   now.rates = glance.truth.work.rates;
   const Pose<'W', 'R'>& X_WR = glance.scene.X_WR;
@@ -73,7 +83,16 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const Impedance& law) {
   now.weight = machine_.gravity(now.joints, prop_mass_, Payload::exact);
   now.law = law_at(glance, law);
   now.held = now.late = now.counted = Vec3::Zero();
-  if (!now.law.live) return now;
+  if (now.law.live) tell(glance, law, was, now);
+  aim_ = recall<Meeting>(*glance.state).aim;
+  return now;
+}
+
+// What the law tells the motors, from its ideal on.
+void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::optional<Known>& was,
+                     Known& now) {
+  const Pose<'W', 'R'>& X_WR = glance.scene.X_WR;
+  const Mat3 turn = X_WR.q().toRotationMatrix();
   const PerJoint& q = glance.in.arm.value.joints;
   const Posture& at = posture(q, law);
   now.law.damping = at.damping;
@@ -90,13 +109,11 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const Impedance& law) {
                                                     X_WR.inverse() * Vec<'W'>(change))
                                .e();
   now.held = ideal_force(now.law, now.tip);
-  filter(glance, law, now);
+  filter(glance, law, was, now);
   now.jacobian = turn * at.jacobian;  // by which the motors are told
-  return now;
 }
 
-void ArmLedger::count(const Known& now, const sim::Work& work) {
-  const Known& was = before_;
+void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work) {
   const Vec3 turned = vec(now.joints) - vec(was.joints);
   const Vec3 moved = was.jacobian * turned;
   sum_.hand += work.contact;
@@ -120,25 +137,14 @@ void ArmLedger::count(const Known& now, const sim::Work& work) {
   sum_.law += h / 6.0 * (damped(was.law, was.tip) + 4.0 * damped(law, middle) + damped(then, now.tip));
 }
 
-void ArmLedger::open(const Known& from, const Glance& glance, double t) {
-  on_ = true;
+void ArmLedger::open(const Known& from) {
   sum_ = ContactLedger{};
-  sum_.began = t;
-  sum_.object = glance.out.object;
   first_ = from;
   ideal_ = work_held_ = work_late_ = work_counted_ = work_given_ = 0.0;
 }
 
-void ArmLedger::close(double t) {
-  on_ = false;
-  if (sum_.contact == 0) return;  // what was touched on the way to it
-  contacts_.push_back(so_far(t));
-}
-
-ContactLedger ArmLedger::so_far(double t) const {
+ContactLedger ArmLedger::so_far(const Known& last) const {
   ContactLedger sum = sum_;
-  sum.ended = t;
-  const Known& last = before_;
   sum.kinetic = kinetic_energy(machine_, prop_mass_, last.joints, last.rates) -
                 kinetic_energy(machine_, prop_mass_, first_.joints, first_.rates);
   sum.spring = stored(last.law, last.tip) - stored(first_.law, first_.tip);
@@ -148,44 +154,6 @@ ContactLedger ArmLedger::so_far(double t) const {
   sum.quantisation = work_counted_ - work_late_;
   sum.limits = work_given_ - work_counted_;
   return sum;
-}
-
-std::vector<ContactLedger> ArmLedger::contacts() const {
-  std::vector<ContactLedger> all = contacts_;
-  if (on_ && sum_.contact != 0) all.push_back(so_far(last_t_));
-  return all;
-}
-
-void ArmLedger::see(const Glance& glance) {
-  const Impedance* law = glance.scene.impedance();
-  if (law == nullptr || glance.state == nullptr) return;
-  dt_ = glance.scene.dt;
-  read_[static_cast<std::size_t>(reads_++ % static_cast<std::int64_t>(kRing))] = glance.truth.joints;
-  const bool contact = glance.out.mode == Mode::contact;
-  const bool touched = contact || glance.truth.touching;
-  const double t = seconds(glance.tick.t.time_since_epoch());
-  if (!touched && !on_ && glance.state->mode == Mode::away) {
-    before_.there = false;
-    aim_ = recall<Meeting>(*glance.state).aim;
-    return;
-  }
-  Known now = know(glance, *law);
-  aim_ = recall<Meeting>(*glance.state).aim;
-  const bool again = on_ && contact && sum_.contact != 0 && sum_.contact != glance.out.contacts;
-  if (touched && !on_) open(before_.there ? before_ : now, glance, before_.there ? t - dt_ : t);
-  if (on_ && before_.there) count(now, glance.truth.work);
-  before_ = now;
-  if (again) {
-    close(t);
-    open(now, glance, t);
-  }
-  if (on_ && contact) {
-    sum_.contact = glance.out.contacts;
-    sum_.object = glance.out.object;
-    sum_.rendered = !now.law.real;
-  }
-  if (on_ && !touched) close(t);
-  if (on_) last_t_ = t;
 }
 
 }  // namespace enc::trial

@@ -31,9 +31,15 @@ double recoverable(const Object& object, ResponseState state, double depth, doub
 
 }  // namespace
 
-HexapodLedger::Known HexapodLedger::know(const Glance& glance) {
+bool HexapodLedger::tick(const Glance& glance) {
+  const Render* render = glance.scene.render();
+  damped_ = render != nullptr && render->damping.has_value();
+  return render != nullptr;
+}
+
+HexapodLedger::Known HexapodLedger::know(const Glance& glance, const std::optional<Known>& was) {
   Known now;
-  now.there = true;
+  now.felt = glance.truth.contact_force.e();
   now.tip = glance.truth.tip.e();
   const Rendering& rendering = recall<Rendering>(*glance.state);
   const State& state = *glance.state;
@@ -42,7 +48,7 @@ HexapodLedger::Known HexapodLedger::know(const Glance& glance) {
   if (!engaged) {
     at_command_ = at_tip_ = ResponseState{};
     object_ = nullptr;
-    if (before_.there) now.normal = before_.normal;
+    if (was) now.normal = was->normal;
   } else {
     object_ = &glance.scene.objects[static_cast<std::size_t>(contact.object)];
     now.normal = contact.X_WN.q() * Vec3::UnitZ();
@@ -66,8 +72,7 @@ HexapodLedger::Known HexapodLedger::know(const Glance& glance) {
 }
 
 // What pushes the tip in pushes against the normal: work is force outwards times way inwards.
-void HexapodLedger::count(const Known& now, const sim::Work& work) {
-  const Known& was = before_;
+void HexapodLedger::count(const Known& was, const Known& now, const sim::Work& work) {
   const Forces& f = was.force;
   const double in = -was.normal.dot(now.tip - was.tip);
   const Vec3 aside = (now.tip - was.tip) + in * was.normal;
@@ -82,9 +87,8 @@ void HexapodLedger::count(const Known& now, const sim::Work& work) {
   ideal_ += 0.5 * (f.ideal + now.force.ideal) * in;
 }
 
-ContactLedger HexapodLedger::so_far(double t) const {
+ContactLedger HexapodLedger::so_far(const Known& /*last*/) const {
   ContactLedger sum = sum_;
-  sum.ended = t;
   sum.spring = object_ != nullptr ? recoverable(*object_, at_tip_, depth_, threshold_) : 0.0;
   sum.law = ideal_ - sum.spring;
   sum.carried = -across_;
@@ -97,56 +101,9 @@ ContactLedger HexapodLedger::so_far(double t) const {
   return sum;
 }
 
-void HexapodLedger::forget() {
+void HexapodLedger::open(const Known& /*from*/) {
   sum_ = ContactLedger{};
   sensed_ = across_ = held_ = measured_ = filtered_ = wanted_ = commanded_ = ideal_ = 0.0;
-}
-
-void HexapodLedger::close(double t) {
-  on_ = false;
-  if (sum_.contact != 0) contacts_.push_back(so_far(t));
-}
-
-std::vector<ContactLedger> HexapodLedger::contacts() const {
-  std::vector<ContactLedger> all = contacts_;
-  if (on_ && sum_.contact != 0) all.push_back(so_far(last_t_));
-  return all;
-}
-
-void HexapodLedger::see(const Glance& glance) {
-  const Render* render = glance.scene.render();
-  if (render == nullptr || glance.state == nullptr) return;
-  dt_ = glance.scene.dt;
-  damped_ = render->damping.has_value();
-  const bool contact = glance.out.mode == Mode::contact || glance.out.mode == Mode::restore;
-  const bool touched = contact || glance.truth.touching;
-  const double t = seconds(glance.tick.t.time_since_epoch());
-  if (!touched && !on_ && glance.state->mode == Mode::away) {
-    before_.there = false;
-    return;
-  }
-  Known now = know(glance);
-  now.felt = glance.truth.contact_force.e();
-  const bool again = on_ && contact && sum_.contact != 0 && sum_.contact != glance.out.contacts;
-  if (touched && !on_) {
-    forget();
-    on_ = true;
-    sum_.began = before_.there ? t - dt_ : t;
-  }
-  if (on_ && before_.there) count(now, glance.truth.work);
-  before_ = now;
-  if (again) {
-    close(t);
-    forget();
-    on_ = true;
-    sum_.began = t;
-  }
-  if (on_ && contact) {
-    sum_.contact = glance.out.contacts;
-    sum_.object = glance.out.object;
-  }
-  if (on_ && !touched) close(t);
-  if (on_) last_t_ = t;
 }
 
 }  // namespace enc::trial

@@ -14,7 +14,7 @@
 //   ideal         of the object, where the tip is               commanded - ideal: delay
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "trial/ledger/ledger.h"
 #include "trial/trial.h"
@@ -23,37 +23,33 @@ namespace enc::trial {
 
 class HexapodLedger {
  public:
-  void see(const Glance& glance);  // each tick of a run that is simulated
-  // Of one that lasts when the run ends, what it is by then.
-  [[nodiscard]] std::vector<ContactLedger> contacts() const;
-
- private:
   // N, outwards along the normal, at a tick and until the next.
   struct Forces {
     double held = 0.0, measured = 0.0, filtered = 0.0, wanted = 0.0, commanded = 0.0, ideal = 0.0;
   };
   struct Known {
-    bool there = false;
     Vec3 normal = Vec3::UnitZ(), tip = Vec3::Zero(), felt = Vec3::Zero();  // felt: true, N
     Forces force;
   };
-  [[nodiscard]] Known know(const Glance& glance);
-  void count(const Known& now, const sim::Work& work);
-  void close(double t);
-  [[nodiscard]] ContactLedger so_far(double t) const;
-  void forget();
 
-  Known before_;
-  bool on_ = false;
+  // As Book asks.
+  [[nodiscard]] bool tick(const Glance& glance);
+  void rest(const Glance& /*glance*/) {}
+  [[nodiscard]] Known know(const Glance& glance, const std::optional<Known>& was);
+  [[nodiscard]] static bool believed(Mode mode) { return mode == Mode::contact || mode == Mode::restore; }
+  [[nodiscard]] static bool rendered(const Known& /*now*/) { return true; }
+  void open(const Known& from);
+  void count(const Known& was, const Known& now, const sim::Work& work);
+  [[nodiscard]] ContactLedger so_far(const Known& last) const;
+
+ private:
   ContactLedger sum_;
-  double dt_ = kUnset, last_t_ = 0.0;  // s
   bool damped_ = false;
   double sensed_ = 0.0, across_ = 0.0;  // J, by the sensor; and of that, sideways
   double held_ = 0.0, measured_ = 0.0, filtered_ = 0.0, wanted_ = 0.0, commanded_ = 0.0, ideal_ = 0.0;  // J
   ResponseState at_command_, at_tip_;
   const Object* object_ = nullptr;
   double depth_ = 0.0, threshold_ = 0.0;  // m, N
-  std::vector<ContactLedger> contacts_;
 };
 
 }  // namespace enc::trial

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trial/ledger/arm_ledger.h"
+#include "trial/ledger/book.h"
 #include "trial/ledger/hexapod_ledger.h"
 
 namespace enc::trial {
@@ -12,7 +13,7 @@ namespace enc::trial {
 class LedgerMeasure {
  public:
   explicit LedgerMeasure(const models::Setup& setup) {
-    if (setup.scene.arm) arm_.emplace(setup);
+    if (setup.scene.arm) arm_.emplace(ArmLedger(setup));
   }
   void see(const Glance& glance) {
     if (!glance.simulated) return;
@@ -24,8 +25,8 @@ class LedgerMeasure {
   }
 
  private:
-  std::optional<ArmLedger> arm_;
-  HexapodLedger hexapod_;
+  std::optional<Book<ArmLedger>> arm_;
+  Book<HexapodLedger> hexapod_{HexapodLedger{}};
 };
 
 }  // namespace enc::trial

@@ -1,0 +1,17 @@
+// A tool of the user's: its body, and what of it the tracker and the truth need.
+#pragma once
+
+#include <cstdint>
+
+#include "core/frames.h"
+
+namespace enc::sim {
+
+struct HeldTool {
+  std::int32_t index = -1;  // in the scene
+  int body = -1, qpos = 0, qvel = 0;
+  Vec3 tip_T, shaft_T;  // centre of its tip; from there to the markers
+  double radius = kUnset;
+};
+
+}  // namespace enc::sim
