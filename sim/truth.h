@@ -21,6 +21,7 @@ enum class Phase : std::uint8_t {
 };  // change: of tools
 
 // What was done to a machine since the last tick, J: sums over the steps of the physics (bodies/step_work.h).
+// Nothing where nobody asked for it (World::ask_for_work).
 struct Work {
   double contact = 0.0;   // of what touches its tip, as that feels it
   double sensed = 0.0;    // the same of a hexapod, as its sensor would feel it without any error

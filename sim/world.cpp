@@ -129,9 +129,9 @@ void World::find_tools(const SceneSpec& scene) {
 void World::physics_step(double t) {
   const double h = physics_.model()->opt.timestep;
   if (user_) hold_tools(t, h);
-  const Point<'W'> from = arm ? truth_.tip : true_tip().origin();
+  const Point<'W'> from = arm || !step_work_ ? truth_.tip : true_tip().origin();
   arm ? drive_arm(h) : move_machine(t, h);
-  step_work_.begin(physics_, scale(), arm ? &*arm_body_ : nullptr);
+  if (step_work_) step_work_->begin(physics_, scale(), arm ? &*arm_body_ : nullptr);
   try {
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
@@ -141,7 +141,7 @@ void World::physics_step(double t) {
   if (!by_own_law()) truth_.contact_force = contact_force(truth_.touching);
   // A step leaves the bodies where its last stage had them.
   if (arm) mj_kinematics(physics_.model(), physics_.data());
-  count_work(from, h);
+  if (step_work_) count_work(from, h);
 }
 
 // The tool in the hand, which weighs what pushes it back.
@@ -156,12 +156,12 @@ Scale World::scale() const {
 void World::count_work(const Point<'W'>& from, double h) {
   Work& work = truth_.work;
   if (arm) {
-    step_work_.count(physics_, *arm_body_, twin_.arm, arm->state().torque, arm->friction(step_work_.rates()),
-                     h, work);
+    step_work_->count(physics_, *arm_body_, twin_.arm, arm->state().torque,
+                      arm->friction(step_work_->rates()), h, work);
     return;
   }
   const Vec3 way = (true_tip().origin() - from).e();
-  work.contact += way.dot(by_own_law() ? Vec3(truth_.contact_force.e()) : step_work_.pushed(physics_, h));
+  work.contact += way.dot(by_own_law() ? Vec3(truth_.contact_force.e()) : step_work_->pushed(physics_, h));
   if (force) work.sensed += way.dot(felt_by_sensor().e());
 }
 

@@ -50,9 +50,10 @@ class World {
   [[nodiscard]] const Pose<'W', 'R'>& X_WR() const { return X_WR_; }
   [[nodiscard]] const Quat& q_WT() const { return q_WT_; }  // of the held tool, true
   [[nodiscard]] Vec<'W'> pointing() const;  // unit, of the hand's finger or tool; down without a user
-  [[nodiscard]] std::vector<std::byte> save()
-      const;  // all that moves: physics, plants, queues, random streams
+  // All that moves: physics, plants, queues, random streams.
+  [[nodiscard]] std::vector<std::byte> save() const;
   void restore(const std::vector<std::byte>& saved);
+  void ask_for_work() { step_work_.emplace(); }  // from the next step on, in the truth
 
   std::optional<HexapodPlant> machine;  // there if the scene has no arm
   std::optional<ArmPlant> arm;
@@ -105,7 +106,7 @@ class World {
   std::optional<User> user_;
   Physics physics_;
   std::optional<ArmBody> arm_body_;
-  StepWork step_work_;
+  std::optional<StepWork> step_work_;  // there if somebody asked; it looks on
   std::vector<HeldTool> tools_;        // the one that it begins with, and the one that it changes to
   const HeldTool* in_hand_ = nullptr;  // of these; none: the hand is empty
   int tip_geom_ = -1, tip_body_ = -1, platform_qpos_ = 0, platform_qvel_ = 0;

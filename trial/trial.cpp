@@ -69,6 +69,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   simulated_ = !slots.real;
   if (slots.simulated || !slots.real) {
     world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
+    if (options_.work) world_->ask_for_work();
     rig_ = world_->rig();
   } else {
     rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);

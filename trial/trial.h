@@ -45,6 +45,7 @@ struct TrialOptions {
   bool draw_all = false;    // build what is only looked at, too
   DriverSource drivers{};   // none: every slot is simulated, whatever the rig names
   std::string frames{};     // folder in which the frames of its camera are kept; empty: nowhere
+  bool work = false;        // the twin counts its work, as a LedgerMeasure asks; nothing else differs
   bool armed = false;       // commands are sent to real devices; else they are only computed
   std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
   // Hooks, in the order of a tick; an empty one is not called.

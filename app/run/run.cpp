@@ -111,8 +111,8 @@ int run(const RunOptions& options) {
   trial::TouchMeasure touches;
   trial::SeenMeasure seen;
   trial::PassivityMeasure passivity;
-  trial::LedgerMeasure ledger(setup);
   trial::TrialOptions trial_options;
+  trial::LedgerMeasure ledger(setup, trial_options);
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
   trial_options.pace = pace_of(options.pace);

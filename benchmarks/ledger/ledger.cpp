@@ -29,8 +29,8 @@ struct Sums {
 Sums sums_of(const models::Setup& setup, std::uint64_t seed, const std::string& scene) {
   Sums sums;
   sums.scene = scene;
-  trial::LedgerMeasure measure(setup);
   trial::TrialOptions options;
+  trial::LedgerMeasure measure(setup, options);
   options.seed = seed;
   options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
   trial::Trial trial(setup, options);

@@ -12,7 +12,9 @@ namespace enc::trial {
 
 class LedgerMeasure {
  public:
-  explicit LedgerMeasure(const models::Setup& setup) {
+  // Of a run with these options, which it tells that the twin's work is asked for.
+  LedgerMeasure(const models::Setup& setup, TrialOptions& options) {
+    options.work = true;
     if (setup.scene.arm) arm_.emplace(ArmLedger(setup));
   }
   void see(const Glance& glance) {

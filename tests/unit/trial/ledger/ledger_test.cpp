@@ -1,4 +1,6 @@
 // The energy ledger: terms that are known beforehand, and whole runs of the twin.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -17,8 +19,8 @@ models::Setup setup_of(const std::string& scene, const std::vector<std::string>&
 }
 
 std::vector<ContactLedger> ledger_of(const models::Setup& setup, std::uint64_t seed, double time_s) {
-  LedgerMeasure measure(setup);
   TrialOptions options;
+  LedgerMeasure measure(setup, options);
   options.seed = seed;
   options.seconds = time_s;
   options.watch = [&](const Glance& glance) { measure.see(glance); };
@@ -97,8 +99,8 @@ TEST(Ledger, IsRedWhereAPartIsWrong) {
   const models::Setup hit = setup_of("hit_ball");
   models::Setup heavier = hit;
   heavier.twin.arm.mass_scale = 1.5;  // the arm flies on when it has let go of the ball
-  LedgerMeasure measure(heavier);
   TrialOptions options;
+  LedgerMeasure measure(heavier, options);
   options.seconds = 3.0;
   options.watch = [&](const Glance& glance) { measure.see(glance); };
   Trial trial(hit, options);
@@ -117,6 +119,27 @@ TEST(Ledger, OfATennisBallCloses) {
     const std::vector<ContactLedger> all = ledger_of(setup_of("tennis_ball"), seed, 25.0);
     ASSERT_FALSE(all.empty());
     for (const ContactLedger& one : all) EXPECT_LT(one.closure(), 0.01) << seed << ' ' << one.left_over();
+  }
+}
+
+// It looks on: a run is the same to the bit whether its work is counted or not, and counts none unasked.
+TEST(Ledger, LeavesTheRunAlone) {
+  for (const char* scene : {"keypad", "tennis_ball"}) {
+    const models::Setup setup = setup_of(scene);
+    std::array<std::uint64_t, 2> hashes{};
+    for (const bool counted : {false, true}) {
+      TrialOptions options;
+      options.seconds = 6.0;
+      options.work = counted;
+      double most = 0.0;
+      options.watch = [&](const Glance& glance) {
+        most = std::max(most, std::abs(glance.truth.work.contact));
+      };
+      Trial trial(setup, options);
+      hashes[counted ? 1 : 0] = trial.run().hash;
+      EXPECT_EQ(most > 0.0, counted) << scene;
+    }
+    EXPECT_EQ(hashes[0], hashes[1]) << scene;
   }
 }
 
