@@ -5,6 +5,16 @@
 
 namespace enc::sim {
 
+// The solver's answer as the step begins, which the step itself will find: it begins from where it would
+// have.
+void StepWork::look(const Physics& physics) {
+  const mjModel* m = physics.model();
+  mjData* d = physics.data();
+  warm_.assign(d->qacc_warmstart, d->qacc_warmstart + m->nv);
+  mj_forward(m, d);
+  std::copy(warm_.begin(), warm_.end(), d->qacc_warmstart);
+}
+
 void StepWork::begin(const Physics& physics, const Scale& tool, const ArmBody* arm) {
   const mjModel* m = physics.model();
   const mjData* d = physics.data();
@@ -17,6 +27,8 @@ void StepWork::begin(const Physics& physics, const Scale& tool, const ArmBody* a
   if (arm == nullptr) return;
   joints_ = arm->joints(d);
   rates_ = arm->rates(d);
+  look(physics);
+  held_ = held_back(physics, *arm);
   std::copy_n(d->qpos, std::min<std::size_t>(static_cast<std::size_t>(m->nq), kMostDofs), qpos_.begin());
   tip_ = arm->tip(d).e();
   turned_ = arm->turned(d);
@@ -82,16 +94,8 @@ void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth&
   const Held now = held_back(physics, arm);
   for (std::size_t i = 0; i < kMostDofs && i < static_cast<std::size_t>(physics.model()->nv); ++i)
     sum.friction -= 0.5 * (held_.stops[i] + now.stops[i]) * (d->qpos[i] - qpos_[i]);
-  for (std::size_t i = 0; i < kMostJoints; ++i) {
-    // A motor's torque leaps between two steps, and friction that holds leaps with it, against it; where a
-    // finger lies on the prop, that takes part, and what the friction was says more.
-    const double most = truth.friction[i], was = held_.friction[i];
-    const bool stays = touched || std::abs(was) > 0.999 * most;
-    const double first = stays ? was : std::clamp(was - (torque[i] - torque_[i]), -most, most);
-    sum.friction -= 0.5 * (first + now.friction[i]) * (joints[i] - joints_[i]);
-  }
-  held_ = now;
-  torque_ = torque;
+  for (std::size_t i = 0; i < kMostJoints; ++i)
+    sum.friction -= 0.5 * (held_.friction[i] + now.friction[i]) * (joints[i] - joints_[i]);
   sum.rates = rates;
   if (!touched) return;
   // The point that is touched, as a point of the body that the prop is on.

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "sim/arm_spec.h"
 #include "sim/bodies/arm_model.h"
@@ -41,11 +42,12 @@ class StepWork {
  private:
   static constexpr std::size_t kMostDofs = 12;
   using PerDof = std::array<double, kMostDofs>;  // of the world's coordinates
-  // Torques at the end of a step: of dry friction, and of what ends a joint's way.
+  // Torques at an end of a step: of dry friction, and of what ends a joint's way.
   struct Held {
     PerJoint friction{};
     PerDof stops{};
   };
+  void look(const Physics& physics);
   [[nodiscard]] static Held held_back(const Physics& physics, const ArmBody& arm);
   [[nodiscard]] Vec3 touched_first(const Physics& physics, const ArmBody& arm) const;
 
@@ -53,8 +55,8 @@ class StepWork {
   Vec3 velocity_ = Vec3::Zero(), applied_ = Vec3::Zero();  // of the tool; of the hand on it
   PerJoint joints_{}, rates_{};
   PerDof qpos_{};
-  Held held_;                // in the last step, and
-  PerJoint torque_{};        // its motors
+  Held held_;  // as it began
+  std::vector<double> warm_;
   Vec3 tip_ = Vec3::Zero();  // of the body that the prop is on
   Quat turned_{Quat::Identity()};
 };
