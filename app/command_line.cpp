@@ -108,6 +108,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   export_command->add_option("--set", export_options.set, "of a scene: override, as for run");
   export_command->add_flag("--partial", export_options.partial,
                            "of a record: export what a cut-off one still holds");
+  export_command->add_flag("--ledger", export_options.ledger,
+                           "of a record: the energy of each contact instead of its ticks");
   force_option(export_command, export_options.force);
   export_command->callback([&] { code = export_record(export_options); });
 

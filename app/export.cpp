@@ -66,6 +66,7 @@ void refuse_others(const ExportOptions& options) {
   constexpr const char* kInstead = "a scene and the file that its world is written to";
   refuse(!options.csv.empty(), "--csv", "a record that is written as a table", kInstead);
   refuse(options.partial, "--partial", "a record that is written as a table", kInstead);
+  refuse(options.ledger, "--ledger", "a record, whose ledger is the table", kInstead);
   if (options.xml == "-")
     throw Error("-: a world is not written to standard output; expected a file; name one, such as world.xml");
   if (is_record(options.record))
@@ -86,6 +87,18 @@ int export_world(const ExportOptions& options) {
   return 0;
 }
 
+// As the run had it: it is of the truth, and nothing in a record's ticks says it again.
+std::string ledger_of(const RecordReader& record, const std::string& path) {
+  const auto ledger = record.end_texts().find("ledger");
+  if (ledger != record.end_texts().end()) return ledger->second;
+  throw Error(path + ": has no energy ledger" +
+              (record.sealed()
+                   ? ": nothing that was rendered was touched, a real machine ran, or an older version "
+                     "wrote it; record it again"
+                   : ", because its run did not end; record it again") +
+              ", or leave out --ledger");
+}
+
 }  // namespace
 
 int export_record(const ExportOptions& options) {
@@ -96,10 +109,16 @@ int export_record(const ExportOptions& options) {
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
   const Scene scene = trial::prepare_setup(setup);
+  const std::string ledger = options.ledger ? ledger_of(record, options.record) : "";
   // A pipe without a reader ends this as it ends others.
   std::optional<StopSignals> signals;
   if (csv != "-") signals.emplace();
   Output output(csv, models::existing(options.force));
+  if (options.ledger) {
+    output.write(ledger);
+    output.end();
+    return record.damage().empty() ? 0 : 1;
+  }
   trial::RecordTable table(setup, scene);
   output.write(trial::RecordTable::header());
   for (RecordedTick frame; record.next(frame);) {

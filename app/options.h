@@ -49,6 +49,7 @@ struct ExportOptions {
   std::string rig;               // of a scene; empty: its own
   std::vector<std::string> set;  // likewise, "name=value"
   bool partial = false, force = false;
+  bool ledger = false;  // of a record: its energy ledger, and not its ticks
 };
 struct ParamsOptions : SceneOptions {
   bool json = false;

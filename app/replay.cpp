@@ -1,5 +1,6 @@
 #include "core/record/replay.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -29,6 +30,11 @@ int replay(const ReplayOptions& options) {
              record.sealed()           ? ""
              : record.damage().empty() ? " (record not sealed: it was cut off)"
                                        : "; damaged behind that, and not read: " + record.damage());
+  if (const auto ledger = record.end_texts().find("ledger"); ledger != record.end_texts().end()) {
+    const auto contacts = std::count(ledger->second.begin(), ledger->second.end(), '\n') - 1;
+    fmt::print("energy ledger of {} contact{}, as the run had it: export --ledger\n", contacts,
+               contacts == 1 ? "" : "s");
+  }
   if (again && again->first_difference >= 0) {
     fmt::print("vision differs from tick {} on: {}\n", again->first_difference, again->what);
     for (const std::string& line : again->said) fmt::print(stderr, "{}\n", line);

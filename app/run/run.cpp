@@ -165,7 +165,11 @@ int run(const RunOptions& options) {
   const std::string text = options.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);  // while a pipe without a reader is an error only
-  if (record) record->end();
+  if (record) {
+    if (const auto contacts = ledger.contacts(); !contacts.empty())
+      record->writer.end_with({{"ledger", trial::ledger_table(contacts)}});
+    record->end();
+  }
   if (record && record->writer.full())
     throw Error(record->writer.error() + "; replay --partial reads what was written");
   if (result.diverged_at >= 0) return diverged(result, setup);

@@ -50,28 +50,11 @@ Json passivity_json(const trial::PassivityMeasure& measure) {
 
 Json ledger_json(const trial::LedgerMeasure& measure) {
   Json all = Json::array();
-  for (const trial::ContactLedger& c : measure.contacts())
-    all.push_back({{"contact", c.contact},
-                   {"object", c.object},
-                   {"rendered", c.rendered},
-                   {"began_s", c.began},
-                   {"ended_s", c.ended},
-                   {"hand_mJ", c.hand * 1e3},
-                   {"carried_mJ", c.carried * 1e3},
-                   {"stored_mJ", c.stored() * 1e3},
-                   {"dissipated_mJ", c.dissipated() * 1e3},
-                   {"generated_mJ", c.generated() * 1e3},
-                   {"sampling_mJ", c.sampling * 1e3},
-                   {"delay_mJ", c.delay * 1e3},
-                   {"quantisation_mJ", c.quantisation * 1e3},
-                   {"limits_mJ", c.limits * 1e3},
-                   {"kinetic_mJ", c.kinetic * 1e3},
-                   {"spring_mJ", c.spring * 1e3},
-                   {"weight_mJ", c.weight * 1e3},
-                   {"joints_mJ", c.joints * 1e3},
-                   {"law_mJ", c.law * 1e3},
-                   {"left_over_mJ", c.left_over() * 1e3},
-                   {"closure_percent", c.closure() * 100.0}});
+  for (const trial::ContactLedger& c : measure.contacts()) {
+    Json one{{"contact", c.contact}, {"object", c.object}, {"rendered", c.rendered}};
+    for (const trial::LedgerTerm& term : trial::ledger_terms()) one[term.name] = term.of(c);
+    all.push_back(std::move(one));
+  }
   return all;
 }
 

@@ -18,6 +18,7 @@ static_assert(std::endian::native == std::endian::little, "the record is little-
 constexpr std::uint64_t kMagic =
     0x0a434552434e4589ULL;                    // "\x89ENCREC\n": no text file, and a text copy breaks it
 constexpr std::uint32_t kChunk = 0x4b4e4843;  // "CHNK"
+constexpr std::uint32_t kEnd = 0x54584554;    // "TEXT"
 constexpr std::uint32_t kSeal = 0x4c414553;   // "SEAL"
 constexpr std::size_t kChunkBytes = 64 * 1024;
 constexpr std::size_t kHeaderBytes = 64 * 1024 * 1024;  // more is damage, not a scene
@@ -216,9 +217,23 @@ void RecordWriter::write(const Tick& tick, const Inputs& in, const Outputs& out,
   if (used_ + frame_words() + 1 > chunk_.size()) flush_chunk();
 }
 
+void RecordWriter::end_with(const RecordTexts& texts) {
+  end_ = pack(texts);
+  if (end_.size() * kWord > kHeaderBytes)
+    throw Error("the record '" + path_ + "' cannot hold more than 64 MiB at its end; run for a shorter time");
+  end_.insert(end_.begin(), head(kEnd, end_.size() * kWord));
+  end_.push_back(0);
+}
+
 void RecordWriter::close() noexcept {
   if (file_ == nullptr) return;
   flush_chunk();
+  if (!end_.empty()) {
+    for (std::size_t i = 1; i + 1 < end_.size(); ++i) chain_.add(end_[i]);
+    chain_.add(end_.front());
+    end_.back() = chain_.value;
+    put(end_.data(), end_.size() * kWord);
+  }
   std::array<std::uint64_t, 3> seal{head(kSeal, kWord), static_cast<std::uint64_t>(ticks_), 0};
   chain_.add(seal[1]);
   chain_.add(seal[0]);
@@ -268,10 +283,10 @@ void RecordReader::read_header() {
   std::array<std::uint64_t, 4> start{};
   if (!get(&start[0], kWord) || start[0] != kMagic) fail(0, "this is not a record of Encounter");
   if (!get(&start[1], 3 * kWord)) fail(byte_, "the record is cut off in its header");
-  const auto format = static_cast<std::uint32_t>(start[1]);
+  format_ = static_cast<std::uint32_t>(start[1]);
   const std::size_t size = start[1] >> 32;
-  if (format != kRecordFormat)
-    fail(8, "record format " + std::to_string(format) + ", but this program reads format " +
+  if (format_ < 1 || format_ > kRecordFormat)
+    fail(8, "record format " + std::to_string(format_) + ", but this program reads formats 1 to " +
                 std::to_string(kRecordFormat) + "; use the version of Encounter that wrote it");
   if (size > kHeaderBytes || size % kWord != 0) fail(12, "the record's header is damaged: impossible size");
   std::vector<std::uint64_t> packed(size / kWord);
@@ -310,17 +325,25 @@ bool RecordReader::read_chunk() {
   if (!get(&start, kWord)) return stop(at, kCut, true);
   const auto tag = static_cast<std::uint32_t>(start);
   const std::size_t size = start >> 32;
-  const bool possible =
-      tag == kSeal ? size == kWord
-                   : tag == kChunk && size > 0 && size <= kChunkBytes && size % (frame_words() * kWord) == 0;
-  if (!possible) return stop(at, "the record is damaged: neither a chunk nor the seal");
+  const bool frames =
+      tag == kChunk && !told_end_ && size > 0 && size <= kChunkBytes && size % (frame_words() * kWord) == 0;
+  const bool end =
+      tag == kEnd && !told_end_ && format_ > 1 && size > 0 && size <= kHeaderBytes && size % kWord == 0;
+  const bool seal = tag == kSeal && size == kWord;
+  if (!frames && !end && !seal) return stop(at, "the record is damaged: neither a chunk nor the seal");
   chunk_.resize(size / kWord);
   if (!get(chunk_.data(), size) || !get(&checksum, kWord)) return stop(at, kCut, true);
   for (const std::uint64_t word : chunk_) chain_.add(word);
   chain_.add(start);
   if (checksum != chain_.value)
     return stop(at, "checksum failure: the record is damaged between here and byte " + std::to_string(byte_));
-  if (tag == kChunk) return true;
+  if (frames) return true;
+  if (end) {
+    end_texts_.clear();
+    if (!unpack(chunk_, end_texts_)) return stop(at, "the record is damaged: impossible texts at its end");
+    told_end_ = true;
+    return read_chunk();
+  }
   done_ = true;
   // After rewind() ticks_ is known and the same; a seal that says otherwise was written by something else.
   if (static_cast<std::int64_t>(chunk_[0]) != ticks_)
@@ -339,7 +362,7 @@ void RecordReader::rewind() {
   chain_ = header_chain_;
   chunk_.clear();
   used_ = 0;
-  done_ = false;
+  done_ = told_end_ = false;
 }
 
 bool RecordReader::next(RecordedTick& frame) {

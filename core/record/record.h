@@ -13,7 +13,7 @@
 
 namespace enc {
 
-inline constexpr std::uint32_t kRecordFormat = 1;
+inline constexpr std::uint32_t kRecordFormat = 2;        // and 1 is read, which says nothing at its end
 using RecordTexts = std::map<std::string, std::string>;  // "resolved", "seed", "version"...: what the run was
 
 struct RecordedTick {
@@ -38,7 +38,9 @@ class RecordWriter {
   // Into memory, no heap; every hundredth tick or so a whole chunk goes to the file. After a failed write it
   // does nothing.
   void write(const Tick& tick, const Inputs& in, const Outputs& out, std::uint64_t state_hash) noexcept;
-  void close() noexcept;  // the rest and the seal
+  // What is known only when the run has ended: close() puts it before the seal.
+  void end_with(const RecordTexts& texts);
+  void close() noexcept;  // the rest, how it ended, and the seal
 
   [[nodiscard]] bool full() const noexcept { return errno_ != 0; }
   [[nodiscard]] std::string error() const;  // one line; empty while all is well
@@ -53,6 +55,7 @@ class RecordWriter {
   std::string path_;
   std::FILE* file_ = nullptr;
   std::vector<std::uint64_t> chunk_;  // head, leaves, checksum
+  std::vector<std::uint64_t> end_;    // the same of what is said at the end; empty: nothing
   std::size_t used_ = 1;
   StateHash chain_;
   std::int64_t ticks_ = 0;
@@ -71,6 +74,8 @@ class RecordReader {
   explicit RecordReader(const std::string& path, Partial partial = Partial::no);
 
   [[nodiscard]] const RecordTexts& texts() const { return texts_; }
+  // What was said when the run had ended, such as "ledger"; empty where it did not end, or said nothing.
+  [[nodiscard]] const RecordTexts& end_texts() const { return end_texts_; }
   [[nodiscard]] std::uint64_t layout() const { return layout_; }  // layout_hash() of its scene
   [[nodiscard]] std::int64_t ticks() const { return ticks_; }
   [[nodiscard]] bool sealed() const { return sealed_; }
@@ -89,14 +94,15 @@ class RecordReader {
   std::string path_;
   Partial partial_;
   std::ifstream file_;
-  RecordTexts texts_;
+  RecordTexts texts_, end_texts_;
+  std::uint32_t format_ = kRecordFormat;
   std::vector<std::uint64_t> chunk_;  // leaves
   std::size_t used_ = 0;
   std::uint64_t byte_ = 0, first_chunk_ = 0;
   StateHash chain_, header_chain_;
   std::uint64_t layout_ = 0;
   std::int64_t ticks_ = 0;
-  bool sealed_ = false, done_ = false;
+  bool sealed_ = false, done_ = false, told_end_ = false;
   std::string damage_;
 };
 

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace enc::trial {
@@ -33,5 +35,14 @@ struct ContactLedger {
   // Share of the largest term; 0 where all are.
   [[nodiscard]] double closure() const;
 };
+
+// What a ledger says, by names that have their units.
+struct LedgerTerm {
+  const char* name;
+  double (*of)(const ContactLedger&);
+};
+[[nodiscard]] std::span<const LedgerTerm> ledger_terms();
+// CSV: a row for each contact.
+[[nodiscard]] std::string ledger_table(const std::vector<ContactLedger>& contacts);
 
 }  // namespace enc::trial

@@ -29,7 +29,8 @@ class RecordTest : public ::testing::Test {
   [[nodiscard]] std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
   // A press on the ball: follow, contact, restore. 600 ticks are several chunks and a rest.
-  void record_press(const std::string& path, int ticks = 600) {
+  void record_press(const std::string& path, int ticks = 600,
+                    const RecordTexts& ends = {{"ledger", "contact,hand_mJ\n1,2.5\n"}}) {
     test::Loop loop(prepare(test::ball_scene(test::lossy_ball()), RigSpec{}));
     RecordWriter record(path, {{"resolved", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}},
                         layout_hash(loop.scene));
@@ -41,13 +42,14 @@ class RecordTest : public ::testing::Test {
       add_tick(hash, loop.state, loop.out);
       record.write(loop.k, loop.in, loop.out, hash.value);
     }
+    if (!ends.empty()) record.end_with(ends);
     record.close();
     ASSERT_FALSE(record.full()) << record.error();
   }
   static void write_bytes(const std::string& path, std::string_view bytes) {
     std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
-  // Where the header, each chunk and the seal begin.
+  // Where the header, each chunk, what is said at the end, and the seal begin.
   static std::vector<std::size_t> parts_of(const std::string& record) {
     const auto word = [&](std::size_t byte) {
       std::uint64_t value = 0;
@@ -171,7 +173,7 @@ TEST_F(RecordTest, EveryTruncationIsRefusedAndItsWholeChunksAreReadable) {
 TEST_F(RecordTest, EveryFlippedByteIsFound) {
   record_press(file("whole"), 150);
   const std::string all = bytes_of(file("whole"));
-  const std::vector<std::size_t> parts = parts_of(all);  // header, chunks, seal
+  const std::vector<std::size_t> parts = parts_of(all);  // header, chunks, texts, seal
   ASSERT_GE(parts.size(), 4U);
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < all.size(); i += 997) places.push_back(i);
@@ -199,10 +201,69 @@ TEST_F(RecordTest, EveryFlippedByteIsFound) {
     return refusal(file("bad"));
   };
   EXPECT_NE(with(0, 'E').find("not a record"), std::string::npos);
-  EXPECT_NE(with(8, 2).find("record format 2, but this program reads format 1"), std::string::npos);
+  EXPECT_NE(with(8, 3).find("record format 3, but this program reads formats 1 to 2"), std::string::npos);
   EXPECT_NE(with(all.size() / 2, '!').find("checksum failure"), std::string::npos);
   write_bytes(file("more"), all + "x");
   EXPECT_NE(refusal(file("more")).find("after the record's seal"), std::string::npos);
+}
+
+TEST_F(RecordTest, SaysAtItsEndWhatWasKnownThen) {
+  record_press(file("whole"));
+  RecordReader reader(file("whole"));
+  const RecordTexts said{{"ledger", "contact,hand_mJ\n1,2.5\n"}};
+  EXPECT_EQ(reader.end_texts(), said);
+  EXPECT_EQ(reader.ticks(), 600);
+  for (int pass = 0; pass < 2; ++pass, reader.rewind()) {
+    RecordedTick got;
+    int read = 0;
+    while (reader.next(got)) ++read;
+    EXPECT_EQ(read, 600);
+    EXPECT_EQ(reader.end_texts(), said);
+  }
+  // Of a run that did not end nobody said anything.
+  const std::string all = bytes_of(file("whole"));
+  const std::vector<std::size_t> parts = parts_of(all);
+  const std::size_t texts = parts[parts.size() - 2], seal = parts.back();
+  write_bytes(file("cut"), std::string_view(all).substr(0, seal - 1));
+  RecordReader part(file("cut"), Partial::yes);
+  EXPECT_EQ(part.ticks(), 600);
+  EXPECT_TRUE(part.end_texts().empty());
+  // It is said once, and last.
+  const std::string_view whole(all);
+  write_bytes(file("twice"), std::string(whole.substr(0, seal)) + std::string(whole.substr(texts)));
+  EXPECT_NE(refusal(file("twice")).find("neither a chunk nor the seal"), std::string::npos);
+}
+
+// As it was before anything was said at the end: format 1, with sums of its own.
+std::string of_format_1(const std::string& record, const std::vector<std::size_t>& parts) {
+  std::vector<std::uint64_t> words(record.size() / 8);
+  std::memcpy(words.data(), record.data(), record.size());
+  words[1] = words[1] >> 32U << 32U | 1U;
+  StateHash chain;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::size_t from = parts[i] / 8, sum = (i + 1 < parts.size() ? parts[i + 1] / 8 : words.size()) - 1;
+    if (i == 0) chain.add(words[from]);
+    for (std::size_t at = from + 1; at < sum; ++at) chain.add(words[at]);
+    if (i > 0) chain.add(words[from]);
+    words[sum] = chain.value;
+  }
+  return {reinterpret_cast<const char*>(words.data()), record.size()};
+}
+
+TEST_F(RecordTest, ReadsWhatSaysNothingAtItsEnd) {
+  record_press(file("new"), 150, {});
+  const std::string all = bytes_of(file("new"));
+  write_bytes(file("old"), of_format_1(all, parts_of(all)));
+  for (const char* name : {"new", "old"}) {
+    RecordReader reader(file(name));
+    EXPECT_TRUE(reader.sealed()) << name;
+    EXPECT_EQ(reader.ticks(), 150) << name;
+    EXPECT_TRUE(reader.end_texts().empty()) << name;
+  }
+  record_press(file("told"), 150);
+  const std::string told = bytes_of(file("told"));
+  write_bytes(file("impossible"), of_format_1(told, parts_of(told)));
+  EXPECT_NE(refusal(file("impossible")).find("neither a chunk nor the seal"), std::string::npos);
 }
 
 TEST_F(RecordTest, ARecordOfAnotherLayoutSaysWhoWroteItAndWhatToDo) {
