@@ -65,5 +65,7 @@ void add_soaks(Cases& cases, bool quick, bool full);
 void add_long(Bench& bench, Cases& cases, std::vector<Found>& found);
 // Force over the stiffness of the arm's walls.
 void add_wall_plot(Bench& bench, const Cases& cases, const std::vector<Found>& found);
+// Error against run time.
+void add_error_over_time(Bench& bench);
 
 }  // namespace enc::bench::extremes

@@ -76,7 +76,9 @@ void run(Bench& bench) {
   bench.figure("all.cases.value", static_cast<double>(cases.size()), "", "cases");
   table.printed = true;
   bench.table(std::move(table));
-  if (!quick) add_wall_plot(bench, cases, all);
+  if (quick) return;
+  add_wall_plot(bench, cases, all);
+  add_error_over_time(bench);
 }
 
 const Entry kEntry{"extremes", "wall", "what should not happen: extreme cases, each with its criterion", run};
