@@ -201,6 +201,48 @@ void add_precision(const BenchContext& context, BenchResult& result) {
   }
 }
 
+// The same hands among hard objects beside a soft one [VHMR 5: training], in one table with the session.
+void add_training(Bench& bench, const std::vector<SessionRun>& session) {
+  if (!bench.context.set.empty()) return;  // which are of the session's own objects
+  std::vector<std::string> set;
+  if (bench.context.quick) set = {"user.session.duration_s=20"};
+  const models::Setup setup = load_scene(bench.context, "training", set);
+  const std::vector<SessionRun> training =
+      bench.each(bench.seeds(bench.context.count(5, 1)),
+                 [&](std::uint64_t seed) { return run_once(setup, seed, nullptr); });
+  Table table{"training",
+              "Presses of a session, and among hard objects beside a soft one",
+              {"scene", "hands", "presses", "one contact, %", "impact median, N", "95 %, N", "most, N",
+               "touched at, mm/s (median)", "lost for 20 ms or more, of presses"}};
+  table.note =
+      "Impact is force beyond the object's own at the same true deflection; of 200 N/mm a step of the "
+      "machine, "
+      "3 um, is 0.6 N.";
+  for (const auto& [name, runs] : {std::pair("session", &session), std::pair("training", &training)}) {
+    std::vector<SessionPress> presses;
+    for (const SessionRun& run : *runs)
+      for (const SessionPress& press : run.presses)
+        if (!press.aborted) presses.push_back(press);
+    const auto share = [&](const auto& of) {
+      const auto n = std::count_if(presses.begin(), presses.end(), of);
+      return 100.0 * static_cast<double>(n) / static_cast<double>(presses.size());
+    };
+    const std::vector<double> impact = known(presses, &SessionPress::impact);
+    const std::vector<double> speed = known(presses, &SessionPress::touch_speed);
+    if (impact.empty() || speed.empty()) continue;
+    const double single = share([](const SessionPress& press) { return press.contacts == 1; });
+    table.add(
+        name, runs->size(), presses.size(), fmt::format("{:.1f}", single),
+        fmt::format("{:.2f}", median(impact)), fmt::format("{:.2f}", percentile(impact, 0.95)),
+        fmt::format("{:.2f}", percentile(impact, 1.0)), fmt::format("{:.0f}", 1e3 * median(speed)),
+        fmt::format("{:.1f} %", share([](const SessionPress& press) { return press.long_bounces > 0; })));
+    if (runs == &training)
+      bench.figure("training.one_contact_percent", single, "%", exactly(100.0),
+                   fmt::format("{} presses of {} hands", presses.size(), runs->size()));
+  }
+  bench.table(std::move(table));
+}
+
 }  // namespace
 
 void run(Bench& bench) {
@@ -224,6 +266,7 @@ void run(Bench& bench) {
   const sim::TrackerTruth& tracker = setup.twin.tracker;
   figures.add_change(tracker.packets == sim::Packets::polled ? tracker.server_rate : tracker.rate);
   add_session_plots(runs, drawn, result);
+  add_training(bench, runs);
   if (context.full) add_precision(context, result);
 }
 
