@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
@@ -18,6 +19,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 using Words = std::vector<std::string>;
 
 const std::string kRoot = ENCOUNTER_SOURCE_DIR;
@@ -50,12 +52,34 @@ TEST(Export, AWorldHasTheRigAndTheNumbersThatItIsGiven) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("d.xml")));
 }
 
+// As the run had it, to the last digit; of a record that has none, why.
+TEST(Export, TheLedgerOfARecordIsThatOfItsRun) {
+  const test::TemporaryFolder folder;
+  const std::string record = folder.file("keypad.encrec"), keypad = kRoot + "/models/scenes/keypad.toml";
+  const Result ran = run_program({"run", keypad, "--for-s", "6", "--json", "--record", record});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out).at("ledger");
+  ASSERT_EQ(json.size(), 1U);
+  const Result ledger = run_program({"export", record, "--ledger"});
+  ASSERT_EQ(ledger.code, 0) << ledger.err;
+  EXPECT_EQ(std::count(ledger.out.begin(), ledger.out.end(), '\n'), 2);
+  EXPECT_THAT(ledger.out, StartsWith("contact,object,rendered,began_s,ended_s,hand_mJ,"));
+  const std::string row = ledger.out.substr(ledger.out.find('\n') + 1);
+  EXPECT_THAT(row, StartsWith("1,"));
+  EXPECT_EQ(std::stod(row.substr(row.find_last_of(',') + 1)), json.at(0).at("closure_percent").get<double>());
+  const Result again = run_program({"replay", record});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.out, HasSubstr("\nenergy ledger of 1 contact, as the run had it: export --ledger\n"));
+  EXPECT_THAT(line({"export", kRecord, "--ledger"}), HasSubstr("press.encrec: has no energy ledger"));
+}
+
 TEST(Export, WhatIsOfTheOtherIsRefused) {
   const test::TemporaryFolder folder;
   const std::string xml = folder.file("w.xml"), csv = folder.file("t.csv");
   EXPECT_THAT(line({"export", kWall, xml, "--csv", csv}), HasSubstr("--csv: only of a record"));
   EXPECT_THAT(line({"export", kWall, xml, "--csv", "-"}), HasSubstr("--csv: only of a record"));
   EXPECT_THAT(line({"export", kWall, xml, "--partial"}), HasSubstr("--partial: only of a record"));
+  EXPECT_THAT(line({"export", kWall, xml, "--ledger"}), HasSubstr("--ledger: only of a record"));
   EXPECT_THAT(line({"export", kWall, "-"}), HasSubstr("expected a file"));
   EXPECT_THAT(line({"export", kWall, ""}), HasSubstr("xml"));
   EXPECT_THAT(line({"export", kRecord, xml}), HasSubstr("press.encrec: is a record"));
