@@ -23,7 +23,6 @@ Found leaves(const BenchContext& context, bool arm) {
               {}};
   double now = 0.0, back = 0.0, unreachable = 0.0, farthest = 0.0;
   trial::TrialOptions options;
-  options.seed = context.seed;
   options.seconds = kFrom + 2.0 * kTurn + 1.6;
   options.fit_out = keep_clean;
   options.disturb = [&](Inputs& in) {
@@ -33,24 +32,35 @@ Found leaves(const BenchContext& context, bool arm) {
     const double aside = 0.5 * kFar * (1.0 - std::cos(2.0 * std::numbers::pi * since / kTurn));
     in.tool.value.X_CT.xyz[0] += aside;
   };
-  const Run run = judged(setup, options, [&](const trial::Glance& g) {
+  const auto look = [&](const trial::Glance& g) {
     unreachable += (g.out.why & kUnreachable) != 0 ? 1.0 : 0.0;
     const Vec3 off = (g.truth.tool_tip - g.truth.tip).e();
     farthest = std::max(farthest, std::hypot(g.truth.tip.xyz[0], g.truth.tip.xyz[1]));
     if (time_of(g) > kFrom + 2.0 * kTurn + 1.2) back = std::max(back, std::hypot(off.x(), off.y()));
-  });
+  };
+  // Where a tool meets a tip that comes from the side is chance: one hand shows little.
+  constexpr std::uint64_t kHands = 4;
+  double condition = 0.0, dexterity = 1.0;
+  Run worst;
+  for (std::uint64_t hand = 0; hand < kHands; ++hand) {
+    options.seed = context.seed + hand;
+    now = 0.0;
+    Run run = judged(setup, options, look);
+    condition = std::max(condition, run.judge.condition);
+    dexterity = std::min(dexterity, run.judge.dexterity);
+    const bool worse = run.judge.broken() > worst.judge.broken() || run.result.diverged_at >= 0;
+    if (hand == 0 || worse) worst = std::move(run);
+  }
   found.numbers = {{"clamped.value", unreachable, "", {}, "ticks with a target out of reach"},
                    {"back.max", back * kMm, "mm", at_most(arm ? 3.0 : 1.0),
-                    "from under the tool, 1.2 s later: 50 mm take 1.1 s"},
+                    "from under the tool, 1.2 s later, worst of 4 hands: 50 mm take 1.1 s"},
                    {"farthest.max", farthest * kMm, "mm", {}, "of the tip, aside"}};
   if (arm)
-    found.numbers.push_back({"dexterity.min", run.judge.dexterity, "",
-                             at_least(0.9 * setup.rig.arm.least_dexterity),
+    found.numbers.push_back({"dexterity.min", dexterity, "", at_least(0.9 * setup.rig.arm.least_dexterity),
                              "a tenth for what the arm overshoots"});
   else
-    found.numbers.push_back(
-        {"condition.max", run.judge.condition, "", at_most(20.0), "of the commanded poses"});
-  add_soundness(run, found);
+    found.numbers.push_back({"condition.max", condition, "", at_most(20.0), "of the commanded poses"});
+  add_soundness(worst, found);
   return found;
 }
 

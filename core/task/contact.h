@@ -14,6 +14,7 @@ struct Contact {
   std::int32_t tool = -1;  // that began it; -1: none was known
   Pose<'W', 'N'> X_WN;     // at the first touch
   bool anchored = false;   // true once force was felt with the tip under the tool: the anchor no longer moves
+  bool below = false;      // nothing was felt yet, and the tip is still on its way to it, lower than its tool
   Time loaded{};           // last tick on which force was felt; the start of time: never
   Time began{}, left{};    // when it began, and when the tip was sent back
   double clear = 0.0;      // s for which its tool has been seen to be clear of the object
@@ -25,6 +26,7 @@ void fields(F& f, Contact& c) {
   f("contact_tool", c.tool);
   fields(f, "contact_X_WN", c.X_WN);
   f("anchored", c.anchored);
+  if (c.below) f("contact_below", c.below);  // mostly it is not, and a hash is what it was
   f("loaded", c.loaded);
   f("contact_began", c.began);
   f("contact_left", c.left);

@@ -36,6 +36,12 @@ Pose<'W', 'N'> frame_under_tool(const Walk& walk, const State& state) {
   return {rotation_z_to((X_WO * walk.at_tip.normal).e()), X_WO * walk.at_tip.point};
 }
 
+// How far the tip is from where it belongs, along the surface, m.
+double beside_tool(const Walk& walk, const Rendering& now) {
+  return (now.contact.X_WN.inverse() * walk.X_WH.origin()).e().head<2>().norm();
+}
+constexpr double kUnder = 0.5e-3;  // m: nearer, it is under its tool
+
 void begin_contact(Walk& walk, State& state, Rendering& now, bool by_force) {
   state.mode = Mode::contact;
   ++state.contacts;
@@ -45,6 +51,9 @@ void begin_contact(Walk& walk, State& state, Rendering& now, bool by_force) {
   now.contact.tool = walk.tool_known ? state.tool.value.tool : -1;
   now.contact.X_WN = frame_under_tool(walk, state);
   now.contact.began = walk.tick.t;
+  // Too far beside it to meet its tool from below: it would meet it from the side, and push it along.
+  now.contact.below =
+      !by_force && walk.tool_known && beside_tool(walk, now) > walk.scene.tip_radius + walk.tool_radius;
   if (!by_force) return;
   now.contact.loaded = walk.tick.t;
   walk.why |= kByForce;
@@ -53,11 +62,11 @@ void begin_contact(Walk& walk, State& state, Rendering& now, bool by_force) {
 // Until force is felt with the tip under the tool, the anchor goes where the tool goes: a fast or slanted
 // touch meets the tip beside its middle, and a tip that stayed there would be pushed out from under the tool.
 void anchor(Walk& walk, const State& state, Rendering& now) {
-  constexpr double kUnder = 0.5e-3;  // m
   now.contact.X_WN = frame_under_tool(walk, state);
   const double force = pressing_force(walk, now.contact.X_WN * Vec<'N'>(0, 0, 1));
-  const Vec3 beside = (now.contact.X_WN.inverse() * walk.X_WH.origin()).e();
-  now.contact.anchored = force >= walk.scene.force.contact && beside.head<2>().norm() <= kUnder;
+  const bool under = beside_tool(walk, now) <= kUnder, felt = force >= walk.scene.force.contact;
+  now.contact.anchored = felt && under;
+  now.contact.below = now.contact.below && walk.tool_known && !felt && !under;
 }
 
 void in_contact(Walk& walk, const Render& task, State& state, Rendering& now) {

@@ -26,7 +26,8 @@ Walls walls_around(const Walk& walk, State& state, const Rendering& now) {
   const double depth = -(at.distance + walk.scene.tip_radius);
   Walls walls{at.normal.e(), depth - kSkin};
   walls.depth = -at.distance;
-  if (state.mode == Mode::contact) walls.in = object.limit_at(state.contacts) + kSkin - depth;
+  if (state.mode == Mode::contact && !now.contact.below)
+    walls.in = object.limit_at(state.contacts) + kSkin - depth;
   return walls;
 }
 
