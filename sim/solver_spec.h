@@ -16,7 +16,7 @@ struct SolverTruth {
   double impratio = 20.0;     // of friction's impedance to that of the stop: friction that does not creep
   double noslip = kUnset;     // steps of the pass that takes out creep; unset: 4, and none with an arm
   double iterations = 100.0;  // of Newton's method, at most
-  double tolerance = 1e-8;    // where it ends
+  double tolerance = 1e-12;   // where it ends
 };
 
 }  // namespace enc::sim

@@ -121,7 +121,7 @@ void add_sweep(Bench& bench, const std::string& scene) {
               fmt::format("{:.3g}", cost), failed);
     if (i > 0) continue;
     bench.figure(
-        scene + ".felt.error.median", median(errors), "%",
+        scene + ".felt.error.median", median(errors), "%", at_most(10.0),
         fmt::format("most that the grip pushes the hand with in 0.1 s from the touch, at the default, "
                     "against a contact law of its own with a converged step; {} hands",
                     hands));
@@ -130,7 +130,7 @@ void add_sweep(Bench& bench, const std::string& scene) {
         scene + ".felt.error_N.p95",
         percentile(values(of, [](const Compared& c) { return std::abs(c.touch.grip - c.reference.grip); }),
                    0.95),
-        "N", "the same in newtons: the least force that is told is 0.1 N");
+        "N", at_most(0.1), "the same in newtons: the least force that is told is 0.1 N");
     bench.figure(scene + ".breaks.median",
                  mid([](const Compared& c) { return static_cast<double>(c.touch.breaks); }), "",
                  "of the contact in that time, at the default");
