@@ -247,8 +247,20 @@ void add_speeds(Bench& bench) {
                            : fmt::format("truth.world.contact_time_ms={:g}", value)});
           runs.push_back(std::move(run));
         }
+    struct Touched {
+      FirstTouch first;
+      double bounces = 0.0;  // of all hands
+    };
+    const std::size_t hands = bench.context.count(4, 1);
     const auto found = bench.each(runs, [&](const Run& run) {
-      return watch_touch(load_scene(bench.context, machine.scene, run.set), bench.context.seed);
+      const models::Setup setup = load_scene(bench.context, machine.scene, run.set);
+      Touched all;
+      for (const std::uint64_t seed : bench.seeds(hands)) {
+        const FirstTouch touch = watch_touch(setup, seed).touch;
+        if (seed == bench.context.seed) all.first = touch;
+        all.bounces += touch.long_breaks;
+      }
+      return all;
     });
     Plot plot{
         .id = fmt::format("speeds_{}", machine.name),
@@ -262,7 +274,7 @@ void add_speeds(Bench& bench) {
             "near, and still moves at the touch. Bounces: table `speeds`."};
     double standing = 0.0, moving = 0.0;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      const FirstTouch& t = found[i].touch;
+      const FirstTouch& t = found[i].first;
       const std::string name =
           fmt::format("{}, {}", runs[i].what, runs[i].stands ? "stands" : "sets out late");
       auto at = std::find_if(plot.series.begin(), plot.series.end(),
@@ -270,7 +282,7 @@ void add_speeds(Bench& bench) {
       if (at == plot.series.end())
         at = plot.series.insert(plot.series.end(), Series{.name = name, .mark = Mark::both});
       at->add(runs[i].speed, t.grip);
-      (runs[i].stands ? standing : moving) += t.long_breaks;
+      (runs[i].stands ? standing : moving) += found[i].bounces;
       table.add(machine.name, runs[i].speed, runs[i].what, runs[i].stands ? "yes" : "no",
                 fmt::format("{:.1f}", 1e3 * t.moving), fmt::format("{:.0f}", 1e3 * t.closing),
                 fmt::format("{:.2f}", t.peak), fmt::format("{:.2f}", t.grip), t.breaks,
@@ -278,13 +290,14 @@ void add_speeds(Bench& bench) {
     }
     bench.plot(std::move(plot));
     bench.figure(fmt::format("{}.bounces.standing", machine.name), standing, "",
-                 fmt::format("contact lost for 5 ms or more, in all {} touches by a machine that stands",
-                             runs.size() / 2));
+                 fmt::format("contact lost for 5 ms or more and found again in 0.1 s, in all {} touches by a "
+                             "machine that stands",
+                             hands * runs.size() / 2));
     bench.figure(fmt::format("{}.bounces.late", machine.name), moving, "",
                  "the same of one that sets out late");
     bench.figure(fmt::format("{}.bounces.fewer", machine.name),
                  moving > 0.0 ? 100.0 * (1.0 - standing / moving) : 0.0, "%",
-                 machine.arm && !bench.context.quick ? at_least(80.0) : Bounds{}, "by how much fewer");
+                 bench.context.quick ? Bounds{} : at_least(80.0), "by how much fewer");
   }
   bench.table(std::move(table));
 }

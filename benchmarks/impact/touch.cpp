@@ -69,7 +69,7 @@ class Judge {
     constexpr double kLong = 5e-3;  // s
     const double gone = gone_;
     gone_ = touching ? 0.0 : gone_ + h;
-    touch.long_breaks += gone < kLong && gone_ >= kLong ? 1 : 0;
+    touch.long_breaks += touching && gone >= kLong ? 1 : 0;
     touch.lost += touching ? 0.0 : h;
     before_ = touching;
     if (std::abs(std::remainder(t + h, tick_)) < 0.5 * h) touch.sampled = std::fmax(touch.sampled, force);

@@ -29,7 +29,7 @@ struct FirstTouch {
   double grip = kUnset;     // N, what the hand feels: most of the grip's force in the window
   double push = kUnset;     // N s: of the contact, over the window
   int breaks = 0;           // of the contact in the window
-  int long_breaks = 0;      // of 5 ms and more
+  int long_breaks = 0;      // bounces: of 5 ms and more, and found again in the window
   double lost = 0.0;        // s, without contact in the window
   double depth = 0.0;       // m, tool into tip, at most
 };
