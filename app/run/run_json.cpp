@@ -176,11 +176,10 @@ std::string run_json(const RunReport& r) {
   if (r.scene.impedance()) {
     json["meetings"] = meetings_json(r.fingers);
     json["seen"] = seen_json(r.seen);
-    if (r.scene.impedance()->rig.passivity != PassivityForm::none)
-      json["passivity"] = passivity_json(r.passivity);
   } else {
     json["presses"] = presses_json(r.presses);
   }
+  if (trial::controlled(r.scene)) json["passivity"] = passivity_json(r.passivity);
   json["ledger"] = ledger_json(r.ledger);
   if (r.scene.probe()) {
     json["pushes"] = pushes_json(r.pushes);

@@ -163,8 +163,8 @@ std::string seen_line(const RunReport& r) {
 
 // What the controller of energy saw and did, where it is on.
 std::string passivity_line(const RunReport& r) {
-  const Impedance* law = r.scene.impedance();
-  if (law == nullptr || law->rig.passivity == PassivityForm::none) return "";
+  const bool arm = r.scene.impedance() != nullptr;
+  if (!trial::controlled(r.scene)) return "";
   const auto& contacts = r.passivity.contacts();
   if (contacts.empty()) return "passivity   controlled; there was no contact to control\n";
   const trial::PassivityFigures all = r.passivity.worst();
@@ -172,16 +172,19 @@ std::string passivity_line(const RunReport& r) {
       std::count_if(contacts.begin(), contacts.end(), [](const auto& c) { return c.acted > 0.0; });
   const std::string of = fmt::format("{} contact{}", contacts.size(), contacts.size() == 1 ? "" : "s");
   std::string text =
-      acted == 0 ? fmt::format("passivity   the controller left the law's force as it is, in all of {}", of)
-                 : fmt::format(
-                       "passivity   the controller held the law's force back in {} of {}: for {:.0f} ms in "
-                       "all, by at "
-                       "most {:.2f} N, which kept {:.3f} mJ from coming out",
-                       acted, of, all.acted * 1e3, all.most, all.dissipated * 1e3);
-  text += fmt::format("; of one contact at most {:.3f} mJ more came out than went in (by encoders)\n",
-                      all.given * 1e3);
+      acted == 0 ? fmt::format("passivity   the controller left the law's {} as it is, in all of {}",
+                               arm ? "force" : "way", of)
+      : !arm ? fmt::format("passivity   the controller held the tip back in {} of {}: for {:.0f} ms in all",
+                           acted, of, all.acted * 1e3)
+             : fmt::format(
+                   "passivity   the controller held the law's force back in {} of {}: for {:.0f} ms in "
+                   "all, by at "
+                   "most {:.2f} N, which kept {:.3f} mJ from coming out",
+                   acted, of, all.acted * 1e3, all.most, all.dissipated * 1e3);
+  text += fmt::format("; of one contact at most {:.3f} mJ more came out than went in (by {})\n",
+                      all.given * 1e3, arm ? "encoders" : "the machine's own force and pose");
   // It counts what each force did, and nobody did anything with these.
-  if (r.result.withheld > 0)
+  if (arm && r.result.withheld > 0)
     text +=
         "  dry       no force was sent, and the controller takes each for sent: armed it holds back other "
         "ones\n";
@@ -334,6 +337,7 @@ std::string run_text(const RunReport& r) {
       text += "beyond      " + beyond + "\n";
   text += press_lines(r) + push_lines(r) + pushed_lines(r);
   text += finger_lines(r);
+  if (!r.scene.impedance()) text += passivity_line(r);
   text += ledger_line(r);
   if (r.result.contacts == 0 && r.setup.scene.user && !r.whole)
     text += fmt::format("note        the user has not touched anything yet; last notice of the core: {}\n",

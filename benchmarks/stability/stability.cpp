@@ -184,6 +184,7 @@ void run(Bench& bench) {
   add_admittance_map(bench);
   add_scenes(bench);
   add_passivity(bench);
+  add_spare(bench);
   add_widths(bench);
   add_error_over_time(bench);
 }

@@ -26,6 +26,7 @@ struct Agreement {
 void add_linear_cases(Bench& bench);  // critical stiffness, its error, Gil and Hulin's
 void add_integrators(Bench& bench);   // what each does to the boundary
 void add_passivity(Bench& bench);     // what a wall gives out, with the core's controller in its loop
+void add_spare(Bench& bench);         // the same of the hexapod, in the twin
 void add_regions(Bench& bench);       // with friction and counts: damping x delay, and a map
 void add_scenes(Bench& bench);        // the certificates of what ships
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/machine/arm.h"
+#include "core/safety/passivity/passivity_form.h"
 
 namespace enc {
 
@@ -17,10 +18,6 @@ enum class GravityForm : std::uint8_t {
   exact       // and the prop where it is, at the tip
 };
 constexpr auto words(GravityForm) { return enum_words("none", "published", "exact"); }
-
-// What is done about energy that the law gives out by being sampled, late or counted (core/safety/passivity).
-enum class PassivityForm : std::uint8_t { none, controlled };
-constexpr auto words(PassivityForm) { return enum_words("none", "controlled"); }
 
 // How a motor gets warm.
 struct Thermal {

@@ -12,6 +12,7 @@
 
 #include "core/frames.h"
 #include "core/response/response.h"
+#include "core/safety/passivity/passivity_form.h"
 #include "core/text/words.h"
 
 namespace enc {
@@ -27,6 +28,7 @@ constexpr auto words(Damping) { return enum_words("none", "observed"); }
 // In a rig file.
 struct AdmittanceRig {
   Damping damping = Damping::none;
+  PassivityForm passivity = PassivityForm::none;
   double margin = 2.0;          // of the damping over what suffices
   double calm_time = 1.0;       // s, in which damping falls to 1/e when nothing swings
   double slowest = 1.0;         // Hz: slower changes are the user's own

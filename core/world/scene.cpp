@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/safety/room.h"
 #include "core/task/meet/arm_scene.h"
@@ -277,6 +279,18 @@ void choose(std::variant<Task...>& task, const SceneSpec& spec, const Scene& sce
   (ask(std::type_identity<Task>{}), ...);
 }
 
+void check_passivity(const RigSpec& rig, const Scene& scene) {
+  const bool renders =
+      std::holds_alternative<Render>(scene.task) && !scene.objects.empty() && scene.has_force;
+  if (rig.admittance.passivity == PassivityForm::none || renders) return;
+  const char* why = !std::holds_alternative<Render>(scene.task) ? "the scene renders nothing"
+                    : scene.objects.empty()                     ? "the scene has no object"
+                                                                : "the scene has no [force]";
+  throw Error(
+      fmt::format("the passivity controller has nothing to control: {}; expected none; change it", why),
+      "rig.admittance.passivity");
+}
+
 }  // namespace
 
 Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
@@ -303,6 +317,8 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
     std::get<Render>(scene.task)
         .damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
                          stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
+  std::get<Render>(scene.task).passivity = rig.admittance.passivity;
+  std::get<Render>(scene.task).hand_stiffness = rig.contact.hand_stiffness;
   scene.has_manipulator = spec.manipulator.has_value();
   scene.has_force = spec.force.has_value();
   scene.has_tracker = spec.tracker.has_value();
@@ -324,6 +340,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
     scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
   for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
   choose(scene.task, spec, scene);
+  check_passivity(rig, scene);
   check_room(spec, scene);
   check_reach(spec, scene);
   return scene;

@@ -200,6 +200,10 @@ void describe(Visitor& v, AdmittanceRig& a) {
   const std::string_view source = "docs/reference/model.md (damping)";
   choice(v, {"damping", "none, or as much as the energy that is seen to swing asks for", source, chosen},
          a.damping);
+  choice(v,
+         {"passivity", "what is done about energy that the law gives out: nothing, or it is controlled",
+          "docs/reference/stability.md", chosen},
+         a.passivity);
   v.value({"margin", "of the damping over what suffices", "sources/hexapod 5", derived, kPositive},
           &a.margin);
   v.value({"calm_time_s", "in which damping falls to 1/e when nothing swings", source, chosen, kPositive},

@@ -1,4 +1,4 @@
-// What the passivity controller of an arm saw and did, of each contact (core/safety/passivity).
+// What the passivity controller saw and did, of each contact (core/safety/passivity).
 #pragma once
 
 #include <algorithm>
@@ -18,6 +18,13 @@ struct PassivityFigures {
   std::int32_t contact = 0;  // to the core
 };
 
+// Whether the rig wants it.
+[[nodiscard]] inline bool controlled(const Scene& scene) {
+  if (const Impedance* law = scene.impedance()) return law->rig.passivity != PassivityForm::none;
+  const auto* render = std::get_if<Render>(&scene.task);
+  return render != nullptr && render->passivity != PassivityForm::none;
+}
+
 class PassivityMeasure {
  public:
   void see(const Glance& glance);
@@ -31,8 +38,10 @@ class PassivityMeasure {
 };
 
 inline void PassivityMeasure::see(const Glance& glance) {
-  const Passivity* now =
-      glance.state != nullptr ? &recall<enc::Meeting>(*glance.state).tamed.energy : nullptr;
+  const Passivity* now = nullptr;
+  if (glance.state != nullptr)
+    now = glance.scene.impedance() != nullptr ? &recall<enc::Meeting>(*glance.state).tamed.energy
+                                              : &recall<Rendering>(*glance.state).spent.energy;
   const bool on = now != nullptr && now->on;
   if (on && (!on_ || contacts_.back().contact != glance.out.contacts)) {
     PassivityFigures& begun = contacts_.emplace_back();

@@ -62,6 +62,10 @@ double passive(const Passivity& now, double wanted, double per_newton, double co
   return std::copysign(std::min(std::abs(wanted), most), wanted);
 }
 
+double way_left(const Passivity& now, double push, double stiffness) noexcept {
+  return largest(std::max(0.0, now.left + kForgiven), std::max(0.0, push), 0.5 * stiffness);
+}
+
 void hold(Passivity& now, double pushed, double wanted) noexcept {
   now.pushed = pushed;
   now.taken = wanted - pushed;

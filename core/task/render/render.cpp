@@ -46,12 +46,14 @@ void touch(Walk& walk, const Render&, State& state, Rendering& now) noexcept {
 void act(Walk& walk, const Render& task, State& state, Rendering& now) noexcept {
   grip(walk);
   sense(walk, state, now, clear_of_object(walk, state));  // what force is on the tip
+  weigh(walk, task, state, now);
   hold_lost(walk, state, now);
   check_tip(walk, state, now);
   if (holding(walk)) return;
   mode(walk, task, state, now);
   model(walk, task, state, now);
   target(walk, state, now);
+  spare(walk, task, state, now);
 }
 
 void guard(Walk& walk, const Render&, State& state, Rendering& now) noexcept {

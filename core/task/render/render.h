@@ -6,6 +6,8 @@
 
 #include "core/machine/damping.h"
 #include "core/response/response.h"
+#include "core/safety/passivity/passivity.h"
+#include "core/safety/passivity/passivity_form.h"
 #include "core/sample.h"
 #include "core/task/contact.h"
 #include "core/task/displacing.h"
@@ -14,10 +16,18 @@ namespace enc {
 
 struct Outputs;
 
+// What the passivity controller remembers (spare.cpp); nothing where nothing is controlled.
+struct Spent {
+  Passivity energy;      // of the present contact
+  double pressed = 0.0;  // N, along the normal, at the last tick; and where the tip was
+  Point<'W'> tip;
+};
+
 struct Rendering : Commanded {
   Contact contact;
   ResponseState response;  // how the object answers from the first touch on
   Swing swing;
+  Spent spent;
   Vec<'N'> displacement = Vec<'N'>::zero();
   Stamped<DentSample> dent;
   bool outside_dent = false;  // the tip is outside its deformed surface
@@ -26,6 +36,8 @@ struct Rendering : Commanded {
 struct Render : Displacing {
   using Memory = Rendering;
   std::optional<DampingLaw> damping;  // where the rig wants the object damped
+  PassivityForm passivity = PassivityForm::none;
+  double hand_stiffness = 0.0;  // N/m, that the rig expects
 };
 
 template <class F>
@@ -39,6 +51,13 @@ void fields(F& f, Swing& s) {
   f("carried", s.carried);
 }
 template <class F>
+void fields(F& f, Spent& s) {
+  if (!s.energy.on) return;
+  fields(f, s.energy);
+  f("passivity_pressed", s.pressed);
+  fields(f, "passivity_tip_W", s.tip);
+}
+template <class F>
 void fields(F& f, Rendering& r) {
   fields(f, static_cast<Commanded&>(r));
   fields(f, r.contact);
@@ -46,6 +65,7 @@ void fields(F& f, Rendering& r) {
   f("response_alpha", r.response.alpha);
   fields(f, "response_stop", r.response.stop);
   fields(f, r.swing);
+  fields(f, r.spent);
   fields(f, "displacement_N", r.displacement);
   fields(f, r.dent);
   f("outside_dent", r.outside_dent);
@@ -67,6 +87,9 @@ void mode(Walk& walk, const Render& task, State& state,
 void model(Walk& walk, const Render& task, State& state,
            Rendering& now) noexcept;                                   // force in, displacement out
 void target(Walk& walk, State& state, const Rendering& now) noexcept;  // where the tip should be
+// Of a controller of energy: what it has given out by now, and no farther out than what is left carries it.
+void weigh(const Walk& walk, const Render& task, const State& state, Rendering& now) noexcept;
+void spare(Walk& walk, const Render& task, const State& state, Rendering& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

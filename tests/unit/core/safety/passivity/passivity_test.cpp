@@ -164,5 +164,23 @@ TEST(Passivity, AnyLawOnAnyWalkStaysWithinWhatThereWas) {
   }
 }
 
+// Of a machine that is sent to places. 0.03 mJ are always forgiven.
+TEST(Passivity, TheWayOutTakesWhatIsLeft) {
+  constexpr double kForgiven = 0.03e-3, kHand = 700.0;
+  const auto out = [](double left, double push, double stiffness) {
+    return way_left(with(left), push, stiffness);
+  };
+  EXPECT_NEAR(out(2e-3 - kForgiven, 4.0, 0.0), 0.5e-3, 1e-15) << "an even push: 4 N over 0.5 mm";
+  for (const double left : {-1e-3, -kForgiven, 0.0, 1e-4, 5e-2})
+    for (const double push : {-1.0, 0.0, 0.1, 5.0}) {
+      const double s = out(left, push, kHand), p = std::max(0.0, push);
+      const double paid = std::max(0.0, std::min(left, 0.5) + kForgiven);
+      EXPECT_NEAR(p * s + 0.5 * kHand * s * s, paid, 1e-15) << left << " J, " << push << " N";
+      EXPECT_GE(s, 0.0) << "never in";
+    }
+  EXPECT_EQ(out(-1.0, 3.0, kHand), 0.0) << "what is owed is paid first";
+  EXPECT_LT(out(1e-3, 3.0, kHand), out(1e-3, 2.9, kHand));
+}
+
 }  // namespace
 }  // namespace enc

@@ -1,0 +1,108 @@
+// The passivity controller of a machine that measures force, with dead time, lag and limits: whatever pushes
+// on whatever is rendered, however soft, gets no more out than it has put in.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/step.h"
+#include "sim/plants/hexapod_plant.h"
+#include "tests/support/scenes.h"
+
+namespace enc {
+namespace {
+
+struct Hand {
+  double stiffness, damping;  // N/m, N s/m
+};
+
+Scene wall(double stiffness, const Hand& hand, PassivityForm form) {
+  RigSpec rig;
+  rig.contact.softest = 0.0;
+  rig.contact.hand_stiffness = hand.stiffness;
+  rig.admittance.passivity = form;
+  SceneSpec spec = test::plane_scene(test::spring(stiffness, 0.028));
+  spec.objects[0].position = Vec3(0, 0, 0.015);
+  spec.follow.inset = 0.05e-3;  // what the tip comes out by at the touch is given by the machine
+  spec.tracker.reset();
+  spec.tools.clear();
+  return prepare(spec, rig);
+}
+
+// J, by the true way of the tip and the true force, along three pushes of a hand that cannot pull.
+struct Exchanged {
+  double put = 0.0, out = 0.0;  // most that was put in; most that had come out more than was put in
+  int bounces = 0;              // off the hand, while it presses
+};
+Exchanged pushed(double object, const Hand& hand, PassivityForm form, std::uint64_t seed) {
+  test::Loop loop(wall(object, hand, form));
+  sim::HexapodPlant machine(sim::HexapodTruth{}, seed);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(0.0, 0.015);
+  const auto depth = [&] {
+    return 0.015 - (loop.scene.X_WR * machine.true_pose().origin()).xyz[2] - loop.scene.tip_radius;
+  };
+  loop.spoil = [&](Inputs& in) {
+    in.tip.value = {machine.true_pose(), machine.state().velocity, machine.state().acceleration};
+  };
+  loop.scene.force.mass = 0.0;  // the sensor of this loop stands on the tip
+  const double deep = std::min(0.015, 30.0 / object);
+  const double reach = deep * (1.0 + object / hand.stiffness);
+  constexpr double kPeriod = 8.0, kWaits = 2e-3;  // s; m off the surface
+  Exchanged all;
+  double given = 0.0, before = depth(), push = 0.0;
+  for (int i = 0; i < 25000; ++i) {
+    const double t = i < 1000 ? 0.0 : std::fmod(i * 1e-3 - 1.0, kPeriod);
+    const double u = std::clamp(t < 3.5 ? t : kPeriod - 2.5 - t, 0.0, 1.0);
+    const double in = (reach + kWaits) * u * u * u * (10.0 + u * (6.0 * u - 15.0)) - kWaits;
+    const double velocity = machine.state().velocity.xyz[2];
+    const double now = std::max(0.0, hand.stiffness * (in - depth()) + hand.damping * velocity);
+    if (push > 0.0 && now == 0.0 && u == 1.0) ++all.bounces;
+    given -= 0.5 * (push + now) * (depth() - before);
+    before = depth();
+    if (t < 1e-3) given = 0.0;  // a new push
+    all.out = std::max(all.out, given);
+    all.put = std::max(all.put, -given);
+    push = now;
+    loop.force = Vec<'W'>(0, 0, -push - noise(random));
+    loop.tick();
+    machine.command(loop.out.tip);
+    machine.begin_cycle();
+    machine.move(1e-3);
+  }
+  return all;
+}
+
+TEST(SpareProperty, NoHandGetsMoreOutThanItHasPutIn) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (std::uint64_t i = 0; i < 30; ++i) {
+    const double object = 5.0 * std::pow(400.0, unit(random));
+    const Hand hand{100.0 * std::pow(20.0, unit(random)), 1.0 + 7.0 * unit(random)};
+    const Exchanged with = pushed(object, hand, PassivityForm::controlled, i);
+    EXPECT_LE(with.out, 0.1e-3) << "wall " << object << " N/m, hand " << hand.stiffness << " N/m, "
+                                << hand.damping << " N s/m";
+    EXPECT_GT(with.put, 0.1e-3) << "it is pressed";
+  }
+}
+
+// Without it they do, so the test above can fail.
+TEST(SpareProperty, WithoutItASoftWallPaysOut) {
+  const Exchanged without = pushed(30.0, {700.0, 4.0}, PassivityForm::none, 1);
+  EXPECT_GT(without.out, 2e-3);
+  EXPECT_GT(without.bounces, 5);
+}
+
+// What is stable gives as much back as it did, to its end.
+TEST(SpareProperty, AWallThatIsStableIsLeftAsItIs) {
+  for (const double object : {300.0, 1000.0, 5000.0}) {
+    const Exchanged off = pushed(object, {700.0, 4.0}, PassivityForm::none, 3),
+                    on = pushed(object, {700.0, 4.0}, PassivityForm::controlled, 3);
+    EXPECT_NEAR(on.put, off.put, 0.01 * off.put) << object;
+    EXPECT_LE(off.out, 0.1e-3) << object;
+  }
+}
+
+}  // namespace
+}  // namespace enc

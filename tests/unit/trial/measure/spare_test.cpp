@@ -1,0 +1,109 @@
+// The passivity controller of the hexapod, in whole runs of the twin.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/record/replay.h"
+#include "models/setup/scene_file.h"
+#include "tests/support/temporary_folder.h"
+#include "trial/measure/passivity_measure.h"
+#include "trial/measure/press_measure.h"
+#include "trial/trial.h"
+
+namespace enc::trial {
+namespace {
+
+using Set = std::vector<std::string>;
+const Set kControlled{"rig.admittance.passivity=controlled"};
+
+models::Setup setup_of(const std::string& scene, Set set, const Set& more = {}) {
+  set.insert(set.end(), more.begin(), more.end());
+  return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
+}
+
+struct Felt {
+  double press = 0.0, release = 0.0, in = 0.0, out = 0.0;  // N, N, J, J
+  PassivityFigures controller;
+  TrialResult result;
+};
+Felt felt_in(const models::Setup& setup) {
+  PressMeasure presses(setup);
+  PassivityMeasure passivity;
+  TrialOptions options;
+  options.watch = [&](const Glance& glance) {
+    presses.see(glance);
+    passivity.see(glance);
+  };
+  Felt felt;
+  felt.result = Trial(setup, options).run();
+  felt.press = presses.rmse_press();
+  felt.release = presses.rmse_release();
+  felt.in = presses.energy_in();
+  felt.out = presses.energy_out();
+  felt.controller = passivity.worst();
+  return felt;
+}
+
+TEST(TrialSpare, TheTennisBallFeelsAsItDid) {
+  const Felt off = felt_in(setup_of("tennis_ball", {})), on = felt_in(setup_of("tennis_ball", kControlled));
+  EXPECT_EQ(on.result.contacts, off.result.contacts);
+  EXPECT_NEAR(on.press, off.press, 0.02);
+  EXPECT_NEAR(on.release, off.release, 0.02);
+  EXPECT_NEAR(on.in, off.in, 0.01 * off.in);
+  EXPECT_NEAR(on.out, off.out, 0.01 * off.out);
+  EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed";
+  EXPECT_TRUE(std::isnan(off.controller.began)) << "nothing of it is remembered";
+}
+
+// A wall of 0.03 N/mm, of which the certificate says from 0.106 on.
+const Set kSoft{"rig.force.tare=start", "rig.contact.softest_N_per_mm=0",
+                "behaviour.spring.stiffness_N_per_mm=0.03", "pusher.hold_s=3", "pusher.repeats=2"};
+
+TEST(TrialSpare, ASoftWallThatSwingsGivesOutNothing) {
+  const Felt on = felt_in(setup_of("stiffness", kSoft, kControlled));
+  EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed";
+  EXPECT_GT(on.controller.acted, 0.1) << "s";
+}
+
+TEST(TrialSpare, ARecordedRunReplaysToTheSameBits) {
+  const models::Setup setup = setup_of("stiffness", kSoft, kControlled);
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("spare.encrec");
+  TrialOptions options;
+  std::uint32_t why = 0;
+  options.watch = [&](const Glance& glance) { why |= glance.out.why; };
+  Trial trial(setup, options);
+  RecordWriter record(path, models::record_texts(setup), layout_hash(trial.scene()));
+  trial.record_to(&record);
+  const TrialResult result = trial.run();
+  record.close();
+  EXPECT_NE(why & kPassive, 0U) << "it acted";
+  RecordReader reader(path);
+  const ReplayResult again = replay(trial.scene(), reader);
+  EXPECT_EQ(again.first_difference, -1) << again.what;
+  EXPECT_EQ(again.hash, result.hash);
+}
+
+TEST(TrialSpare, WhereNothingIsRenderedItIsRefused) {
+  const auto refused = [&](const models::Setup& setup) {
+    try {
+      static_cast<void>(prepare(setup.scene, setup.rig));
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("not refused");
+  };
+  EXPECT_EQ(refused(setup_of("plane", kControlled)), "not refused");
+  EXPECT_THAT(refused(setup_of("tracking", kControlled)), testing::HasSubstr("the scene renders nothing"));
+  EXPECT_THAT(refused(setup_of("rig_A", kControlled)), testing::HasSubstr("the scene renders nothing"));
+  models::Setup empty = setup_of("plane", kControlled);
+  empty.scene.objects.clear();
+  EXPECT_THAT(refused(empty), testing::HasSubstr("the scene has no object"));
+}
+
+}  // namespace
+}  // namespace enc::trial
