@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "core/error.h"
 #include "core/safety/room.h"
 #include "core/task/meet/arm_scene.h"
@@ -283,12 +281,11 @@ void check_passivity(const RigSpec& rig, const Scene& scene) {
   const bool renders =
       std::holds_alternative<Render>(scene.task) && !scene.objects.empty() && scene.has_force;
   if (rig.admittance.passivity == PassivityForm::none || renders) return;
-  const char* why = !std::holds_alternative<Render>(scene.task) ? "the scene renders nothing"
-                    : scene.objects.empty()                     ? "the scene has no object"
-                                                                : "the scene has no [force]";
-  throw Error(
-      fmt::format("the passivity controller has nothing to control: {}; expected none; change it", why),
-      "rig.admittance.passivity");
+  const std::string why = !std::holds_alternative<Render>(scene.task) ? "the scene renders nothing"
+                          : scene.objects.empty()                     ? "the scene has no object"
+                                                                      : "the scene has no [force]";
+  throw Error("the passivity controller has nothing to control: " + why + "; expected none; change it",
+              "rig.admittance.passivity");
 }
 
 }  // namespace
