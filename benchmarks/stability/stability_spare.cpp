@@ -17,7 +17,7 @@ namespace enc::bench::stability {
 namespace {
 
 // A hand, and the one that the rig expects, N/m and N s/m.
-struct Grip {
+struct SpareHand {
   double stiffness, damping, believed;
 };
 struct Pushes {
@@ -55,7 +55,7 @@ class Watch {
   int ticks_ = 0;
 };
 
-Pushes pushed(const BenchContext& context, double object, const Grip& grip, bool controlled) {
+Pushes pushed(const BenchContext& context, double object, const SpareHand& grip, bool controlled) {
   const models::Setup setup = stiffness::with_stiffness(
       stiffness::push_setup(context.models, {},
                             {fmt::format("truth.pusher.stiffness_N_per_mm={}", grip.stiffness * 1e-3),
@@ -74,9 +74,9 @@ Pushes pushed(const BenchContext& context, double object, const Grip& grip, bool
   return all;
 }
 
-struct Row {
+struct SparePush {
   double object;
-  Grip grip;
+  SpareHand grip;
   Pushes off{}, on{};
 };
 
@@ -116,12 +116,12 @@ void add_ball(Bench& bench) {
 }  // namespace
 
 void add_spare(Bench& bench) {
-  std::vector<Row> rows;
-  for (const Grip& grip : {Grip{130.0, 2.0, 130.0}, Grip{700.0, 4.0, 700.0}, Grip{2000.0, 8.0, 2000.0},
-                           Grip{2000.0, 8.0, 700.0}})
+  std::vector<SparePush> rows;
+  for (const SpareHand& grip : {SpareHand{130.0, 2.0, 130.0}, SpareHand{700.0, 4.0, 700.0},
+                                SpareHand{2000.0, 8.0, 2000.0}, SpareHand{2000.0, 8.0, 700.0}})
     for (const double object : {10.0, 30.0, 100.0, 1000.0}) rows.push_back({object, grip});
-  rows = bench.each(rows, [&](const Row& row) {
-    Row found = row;
+  rows = bench.each(rows, [&](const SparePush& row) {
+    SparePush found = row;
     found.off = pushed(bench.context, row.object, row.grip, false);
     found.on = pushed(bench.context, row.object, row.grip, true);
     return found;
@@ -135,7 +135,7 @@ void add_spare(Bench& bench) {
               "in: the most that it held."};
   double with = 0.0, without = 0.0, mistaken = 0.0, firm = 0.0;
   std::int64_t bounces = 0;
-  for (const Row& r : rows) {
+  for (const SparePush& r : rows) {
     table.add(r.grip.stiffness, r.grip.believed, r.object, fmt::format("{:.3f}", r.off.out * 1e3),
               fmt::format("{:.1f}", r.off.put * 1e3), fmt::format("{:.2f}", r.off.swing * 1e3), r.off.bounces,
               fmt::format("{:.4f}", r.on.out * 1e3), fmt::format("{:.1f}", r.on.put * 1e3),

@@ -158,7 +158,9 @@ Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexc
   // What moves is met where it is.
   const bool comes = walk.tool_fresh && object->moving < 0 && reaches(walk, now);
   if (!comes || presses(state, memory.contact)) return {};
-  if (state.object != now.object) {
+  // Once for each picture: asked of another object's plane it may say another place, and of that one the
+  // first.
+  if (now.object < 0) {
     if (!news && age(walk.tick.t, now.told) < kOften) return {};
     ask(walk, state, now);
   }

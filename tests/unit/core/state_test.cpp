@@ -66,7 +66,7 @@ TEST(State, ABallsSceneRemembersItsPart) {
       "State %zu bytes; of a scene that renders %zu, meets %zu, pushes %zu, probes %zu, travels %zu\n",
       sizeof(State), remembered<Render>(), remembered<Meet>(), remembered<Push>(), remembered<Probe>(),
       remembered<Travel>());
-  EXPECT_LT(remembered<Render>(), 1100U);
+  EXPECT_LT(remembered<Render>(), 1200U);  // 96 of them of its passivity controller
   EXPECT_GT(sizeof(State), remembered<Render>() + 500U) << "what only other tasks need";
 }
 

@@ -46,5 +46,30 @@ TEST(Haste, TheTipIsWhereItsTargetIsWhenTheFingerTouches) {
   EXPECT_LT(apart[apart.size() * 9 / 10], 0.6e-3);
 }
 
+// Two keys, one 20 mm above the other: from the plane of each the finger comes to the other one.
+TEST(Haste, TheChosenKeyDoesNotFlickerBetweenPictures) {
+  for (const std::uint64_t seed : {1U, 5U, 29U}) {
+    models::Setup setup =
+        models::load(fmt::format("{}/models/scenes/keypad.toml", ENCOUNTER_SOURCE_DIR), "",
+                     {"object.key_1.position_mm=[-20,20,20]", "object.key_2.position_mm=[-20,-20,0]",
+                      "user.object=key_2", "user.approach_mm_s=[100]", "user.approach_tilt_deg=40"});
+    setup.scene.objects.resize(2);
+    int changes = 0;
+    std::int32_t chosen = -1;
+    double since = 0.0;
+    trial::TrialOptions options;
+    options.seed = seed;
+    options.watch = [&](const trial::Glance& glance) {
+      if (glance.out.object == chosen) return;
+      const double now = seconds(glance.truth.t.time_since_epoch());
+      changes += now - since < 0.02 ? 1 : 0;  // sooner than the next picture
+      chosen = glance.out.object;
+      since = now;
+    };
+    trial::Trial(std::move(setup), options).run();
+    EXPECT_LE(changes, 2) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace enc
