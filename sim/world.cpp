@@ -132,7 +132,9 @@ void World::physics_step(double t) {
   const Point<'W'> from = arm || !step_work_ ? truth_.tip : true_tip().origin();
   arm ? drive_arm(h) : move_machine(t, h);
   try {
-    if (step_work_) step_work_->begin(physics_, scale(), arm ? &*arm_body_ : nullptr);
+    if (step_work_)
+      step_work_->begin(physics_, scale(), arm ? &*arm_body_ : nullptr,
+                        arm ? arm->state().torque : PerJoint{});
     if (!physics_.step() && diverged_at_ < 0) diverged_at_ = next_.index;
   } catch (const Error& e) {  // MuJoCo gave up on this step
     diverged_at_ = next_.index;

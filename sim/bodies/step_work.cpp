@@ -15,7 +15,7 @@ void StepWork::look(const Physics& physics) {
   std::copy(warm_.begin(), warm_.end(), d->qacc_warmstart);
 }
 
-void StepWork::begin(const Physics& physics, const Scale& tool, const ArmBody* arm) {
+void StepWork::begin(const Physics& physics, const Scale& tool, const ArmBody* arm, const PerJoint& torque) {
   const mjModel* m = physics.model();
   const mjData* d = physics.data();
   tool_ = tool;
@@ -27,11 +27,13 @@ void StepWork::begin(const Physics& physics, const Scale& tool, const ArmBody* a
   if (arm == nullptr) return;
   joints_ = arm->joints(d);
   rates_ = arm->rates(d);
-  look(physics);
-  held_ = held_back(physics, *arm);
   std::copy_n(d->qpos, std::min<std::size_t>(static_cast<std::size_t>(m->nq), kMostDofs), qpos_.begin());
   tip_ = arm->tip(d).e();
   turned_ = arm->turned(d);
+  if (torque == torque_) return;  // nothing leaps: it begins as the last one ended
+  look(physics);
+  held_ = held_back(physics, *arm);
+  torque_ = torque;
 }
 
 Vec3 StepWork::pushed(const Physics& physics, double h) const {
@@ -96,6 +98,7 @@ void StepWork::count(const Physics& physics, const ArmBody& arm, const ArmTruth&
     sum.friction -= 0.5 * (held_.stops[i] + now.stops[i]) * (d->qpos[i] - qpos_[i]);
   for (std::size_t i = 0; i < kMostJoints; ++i)
     sum.friction -= 0.5 * (held_.friction[i] + now.friction[i]) * (joints[i] - joints_[i]);
+  held_ = now;
   sum.rates = rates;
   if (!touched) return;
   // The point that is touched, as a point of the body that the prop is on.

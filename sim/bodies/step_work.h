@@ -29,8 +29,8 @@ struct Scale {
 
 class StepWork {
  public:
-  // Before a step, when all its forces are there.
-  void begin(const Physics& physics, const Scale& tool, const ArmBody* arm);
+  // Before a step, when all its forces are there; `torque`: of an arm's motors, N m or N.
+  void begin(const Physics& physics, const Scale& tool, const ArmBody* arm, const PerJoint& torque);
   // After it: mean force on the machine, N in W.
   [[nodiscard]] Vec3 pushed(const Physics& physics, double h) const;
   [[nodiscard]] const PerJoint& rates() const { return rates_; }  // of an arm, when it began
@@ -56,6 +56,7 @@ class StepWork {
   PerJoint joints_{}, rates_{};
   PerDof qpos_{};
   Held held_;  // as it began
+  PerJoint torque_{kUnset, kUnset, kUnset};
   std::vector<double> warm_;
   Vec3 tip_ = Vec3::Zero();  // of the body that the prop is on
   Quat turned_{Quat::Identity()};
