@@ -45,6 +45,8 @@ HexapodLedger::Known HexapodLedger::know(const Glance& glance, const std::option
   const State& state = *glance.state;
   const Contact& contact = rendering.contact;
   const bool engaged = (state.mode == Mode::contact || state.mode == Mode::restore) && contact.object >= 0;
+  const bool begins = engaged && object_ == nullptr;
+  now.engaged = engaged;
   if (!engaged) {
     at_command_ = at_tip_ = ResponseState{};
     object_ = nullptr;
@@ -68,6 +70,8 @@ HexapodLedger::Known HexapodLedger::know(const Glance& glance, const std::option
       pushes_back(*object_, at_command_, depth_of((glance.scene.X_WR * rendering.command).e()), threshold_);
   depth_ = depth_of(now.tip);
   f.ideal = pushes_back(*object_, at_tip_, depth_, threshold_);
+  // A tip that waits inside has a spring that nobody has pressed.
+  if (begins) loaded_ = recoverable(*object_, at_tip_, depth_, threshold_);
   return now;
 }
 
@@ -89,7 +93,7 @@ void HexapodLedger::count(const Known& was, const Known& now, const sim::Work& w
 
 ContactLedger HexapodLedger::so_far(const Known& /*last*/) const {
   ContactLedger sum = sum_;
-  sum.spring = object_ != nullptr ? recoverable(*object_, at_tip_, depth_, threshold_) : 0.0;
+  sum.spring = (object_ != nullptr ? recoverable(*object_, at_tip_, depth_, threshold_) : 0.0) - loaded_;
   sum.law = ideal_ - sum.spring;
   sum.carried = -across_;
   // A force that takes more than the ideal's gives out less.
@@ -101,7 +105,8 @@ ContactLedger HexapodLedger::so_far(const Known& /*last*/) const {
   return sum;
 }
 
-void HexapodLedger::open(const Known& /*from*/) {
+void HexapodLedger::open(const Known& from) {
+  if (from.engaged && object_ != nullptr) loaded_ = recoverable(*object_, at_tip_, depth_, threshold_);
   sum_ = ContactLedger{};
   sensed_ = across_ = held_ = measured_ = filtered_ = wanted_ = commanded_ = ideal_ = 0.0;
 }

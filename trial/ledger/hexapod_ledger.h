@@ -30,6 +30,7 @@ class HexapodLedger {
   struct Known {
     Vec3 normal = Vec3::UnitZ(), tip = Vec3::Zero(), felt = Vec3::Zero();  // felt: true, N
     Forces force;
+    bool engaged = false;  // the object is rendered
   };
 
   // As Book asks.
@@ -50,6 +51,7 @@ class HexapodLedger {
   ResponseState at_command_, at_tip_;
   const Object* object_ = nullptr;
   double depth_ = 0.0, threshold_ = 0.0;  // m, N
+  double loaded_ = 0.0;                   // J: what the object would have given back at the begin
 };
 
 }  // namespace enc::trial

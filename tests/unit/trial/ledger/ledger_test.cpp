@@ -122,6 +122,17 @@ TEST(Ledger, OfATennisBallCloses) {
   }
 }
 
+// A plane presses and releases alike: it takes nothing, also where the tip waited inside it.
+TEST(Ledger, OfALosslessPlaneTakesNothing) {
+  for (const char* inset : {"0.1", "0.5", "1"}) {
+    const models::Setup setup = models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/plane.toml",
+                                             "", {std::string("follow.inset_mm=") + inset});
+    const std::vector<ContactLedger> all = ledger_of(setup, 1, 25.0);
+    ASSERT_FALSE(all.empty());
+    for (const ContactLedger& one : all) EXPECT_NEAR(one.law, 0.0, 0.02e-3 + 0.02 * one.largest()) << inset;
+  }
+}
+
 // It looks on: a run is the same to the bit whether its work is counted or not, and counts none unasked.
 TEST(Ledger, LeavesTheRunAlone) {
   for (const char* scene : {"keypad", "tennis_ball"}) {
