@@ -42,7 +42,7 @@ Json passivity_json(const trial::PassivityMeasure& measure) {
     all.push_back({{"contact", c.contact},
                    {"began_s", c.began},
                    {"given_mJ", c.given * 1e3},
-                   {"taken_mJ", c.dissipated * 1e3},
+                   {"taken_mJ", c.dissipated * 1e3},  // NaN is null: of a tip that is held back
                    {"taken_N", c.most},
                    {"acted_ms", c.acted * 1e3}});
   return all;

@@ -9,6 +9,7 @@
 
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/statistics.h"
 #include "core/error.h"
 
 namespace enc::bench::extremes {
@@ -92,12 +93,11 @@ struct Outcome {
   std::string failure{};
 };
 
-double rms_about_mean(const std::vector<double>& all) {
-  double sum = 0.0, squares = 0.0;
-  for (const double x : all) sum += x;
-  const auto n = static_cast<double>(std::max<std::size_t>(1, all.size()));
-  for (const double x : all) squares += (x - sum / n) * (x - sum / n);
-  return std::sqrt(squares / n);
+double rms_about_mean(std::vector<double> all) {
+  if (all.empty()) return 0.0;
+  const double middle = mean(all);
+  for (double& x : all) x -= middle;
+  return rms(all);
 }
 
 Outcome run_once(const Study& study, const BenchContext& context, const Stepped& at,

@@ -278,14 +278,12 @@ void choose(std::variant<Task...>& task, const SceneSpec& spec, const Scene& sce
 }
 
 void check_passivity(const RigSpec& rig, const Scene& scene) {
-  const bool renders =
-      std::holds_alternative<Render>(scene.task) && !scene.objects.empty() && scene.has_force;
-  if (rig.admittance.passivity == PassivityForm::none || renders) return;
-  const std::string why = !std::holds_alternative<Render>(scene.task) ? "the scene renders nothing"
-                          : scene.objects.empty()                     ? "the scene has no object"
-                                                                      : "the scene has no [force]";
-  throw Error("the passivity controller has nothing to control: " + why + "; expected none; change it",
-              "rig.admittance.passivity");
+  const char* why = scene.render() == nullptr ? "the scene renders nothing"
+                    : scene.objects.empty()   ? "the scene has no object"
+                    : !scene.has_force        ? "the scene has no [force]"
+                                              : nullptr;
+  if (rig.admittance.passivity != PassivityForm::none && why != nullptr)
+    refuse_passivity(why, "rig.admittance.passivity");
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/step.h"
-#include "sim/plants/hexapod_plant.h"
-#include "tests/support/scenes.h"
+#include "tests/property/pushed_machine.h"
 
 namespace enc {
 namespace {
@@ -39,36 +38,22 @@ Scene wall(double stiffness, Damping damping) {
 // Peak to peak of the tip's depth, m, in each of the last three seconds of 12; a noise of 0.015 N rides on
 // the force.
 std::array<double, 3> pushed(double object, const Pusher& pusher, Damping damping, std::uint64_t seed) {
-  test::Loop loop(wall(object, damping));
-  sim::HexapodTruth truth;
-  sim::HexapodPlant machine(truth, seed);
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> noise(0.0, 0.015);
-  const auto depth = [&] {
-    return 0.015 - (loop.scene.X_WR * machine.true_pose().origin()).xyz[2] - loop.scene.tip_radius;
-  };
-  loop.spoil = [&](Inputs& in) {
-    in.tip.value = {machine.true_pose(), machine.state().velocity, machine.state().acceleration};
-  };
-  loop.scene.force.mass = 0.0;  // the sensor of this loop stands on the tip
+  test::PushedMachine machine(wall(object, damping), seed);
   const double deep = std::min(0.015, 30.0 / object);
   const double reach = deep * (1.0 + object / pusher.stiffness);
   std::array<double, 3> least{1, 1, 1}, most{-1, -1, -1};
   for (int i = 0; i < 12000; ++i) {
     const double s = std::clamp((i * 1e-3 - 1.0) / 2.0, 0.0, 1.0);
     const double in = reach * s * s * s * (10.0 + s * (6.0 * s - 15.0));
-    const double force = i < 1000 ? 0.0
-                                  : std::max(0.0, pusher.stiffness * (in - depth()) -
-                                                      pusher.damping * -machine.state().velocity.xyz[2]);
-    loop.force = Vec<'W'>(0, 0, -force - noise(random));
-    loop.tick();
-    machine.command(loop.out.tip);
-    machine.begin_cycle();
-    machine.move(1e-3);
+    const double force =
+        i < 1000
+            ? 0.0
+            : std::max(0.0, pusher.stiffness * (in - machine.depth()) + pusher.damping * machine.velocity());
+    machine.tick(force);
     if (i < 9000) continue;
     const auto second = static_cast<std::size_t>((i - 9000) / 1000);
-    least[second] = std::min(least[second], depth());
-    most[second] = std::max(most[second], depth());
+    least[second] = std::min(least[second], machine.depth());
+    most[second] = std::max(most[second], machine.depth());
   }
   return {most[0] - least[0], most[1] - least[1], most[2] - least[2]};
 }

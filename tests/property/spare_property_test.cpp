@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/step.h"
-#include "sim/plants/hexapod_plant.h"
-#include "tests/support/scenes.h"
+#include "tests/property/pushed_machine.h"
 
 namespace enc {
 namespace {
@@ -36,40 +35,26 @@ struct Exchanged {
   int bounces = 0;              // off the hand, while it presses
 };
 Exchanged pushed(double object, const Hand& hand, PassivityForm form, std::uint64_t seed) {
-  test::Loop loop(wall(object, hand, form));
-  sim::HexapodPlant machine(sim::HexapodTruth{}, seed);
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> noise(0.0, 0.015);
-  const auto depth = [&] {
-    return 0.015 - (loop.scene.X_WR * machine.true_pose().origin()).xyz[2] - loop.scene.tip_radius;
-  };
-  loop.spoil = [&](Inputs& in) {
-    in.tip.value = {machine.true_pose(), machine.state().velocity, machine.state().acceleration};
-  };
-  loop.scene.force.mass = 0.0;  // the sensor of this loop stands on the tip
+  test::PushedMachine machine(wall(object, hand, form), seed);
   const double deep = std::min(0.015, 30.0 / object);
   const double reach = deep * (1.0 + object / hand.stiffness);
   constexpr double kPeriod = 8.0, kWaits = 2e-3;  // s; m off the surface
   Exchanged all;
-  double given = 0.0, before = depth(), push = 0.0;
+  double given = 0.0, before = machine.depth(), push = 0.0;
   for (int i = 0; i < 25000; ++i) {
     const double t = i < 1000 ? 0.0 : std::fmod(i * 1e-3 - 1.0, kPeriod);
     const double u = std::clamp(t < 3.5 ? t : kPeriod - 2.5 - t, 0.0, 1.0);
     const double in = (reach + kWaits) * u * u * u * (10.0 + u * (6.0 * u - 15.0)) - kWaits;
-    const double velocity = machine.state().velocity.xyz[2];
-    const double now = std::max(0.0, hand.stiffness * (in - depth()) + hand.damping * velocity);
+    const double depth = machine.depth();
+    const double now = std::max(0.0, hand.stiffness * (in - depth) + hand.damping * machine.velocity());
     if (push > 0.0 && now == 0.0 && u == 1.0) ++all.bounces;
-    given -= 0.5 * (push + now) * (depth() - before);
-    before = depth();
+    given -= 0.5 * (push + now) * (depth - before);
+    before = depth;
     if (t < 1e-3) given = 0.0;  // a new push
     all.out = std::max(all.out, given);
     all.put = std::max(all.put, -given);
     push = now;
-    loop.force = Vec<'W'>(0, 0, -push - noise(random));
-    loop.tick();
-    machine.command(loop.out.tip);
-    machine.begin_cycle();
-    machine.move(1e-3);
+    machine.tick(push);
   }
   return all;
 }

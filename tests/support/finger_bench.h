@@ -30,10 +30,11 @@ struct FingerBench {
     return loop.out;
   }
   // The tip `depth` under the surface, where a finger has pressed it.
-  void press_tip(double depth) {
+  void press_tip(double depth) { put_tip({0, 0, -depth}); }
+  void put_tip(const Point<'W'>& at) {
     const Impedance& law = *loop.scene.impedance();
     ArmSample& arm = loop.in.arm.value;
-    ASSERT_TRUE(law.arm.inverse(loop.scene.X_WR.inverse() * Point<'W'>(0, 0, -depth), arm.joints));
+    ASSERT_TRUE(law.arm.inverse(loop.scene.X_WR.inverse() * at, arm.joints));
     arm.tip = law.arm.tip(arm.joints);
   }
   // What is pushed with beyond gravity, N along z of W.

@@ -12,8 +12,8 @@ namespace enc::trial {
 struct PassivityFigures {
   double began = kUnset;     // s
   double given = 0.0;        // J, that had come out more than was put in, at most; observed
-  double dissipated = 0.0;   // J, that the law would have given out more
-  double most = 0.0;         // N, the largest push that it took away
+  double dissipated = 0.0;   // J, that the law would have given out more; NaN where no force is held back
+  double most = 0.0;         // N, the largest push that it took away; NaN likewise
   double acted = 0.0;        // s
   std::int32_t contact = 0;  // to the core
 };
@@ -21,7 +21,7 @@ struct PassivityFigures {
 // Whether the rig wants it.
 [[nodiscard]] inline bool controlled(const Scene& scene) {
   if (const Impedance* law = scene.impedance()) return law->rig.passivity != PassivityForm::none;
-  const auto* render = std::get_if<Render>(&scene.task);
+  const Render* render = scene.render();
   return render != nullptr && render->passivity != PassivityForm::none;
 }
 
@@ -52,8 +52,9 @@ inline void PassivityMeasure::see(const Glance& glance) {
   if (!on) return;
   PassivityFigures& contact = contacts_.back();
   contact.given = std::max(contact.given, now->given);
-  contact.dissipated = now->dissipated;
-  contact.most = std::max(contact.most, now->most);
+  const bool force = glance.scene.impedance() != nullptr;
+  contact.dissipated = force ? now->dissipated : kUnset;
+  contact.most = force ? std::max(contact.most, now->most) : kUnset;
   if ((glance.out.why & kPassive) != 0) contact.acted += glance.scene.dt;
 }
 

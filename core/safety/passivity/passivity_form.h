@@ -2,12 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
+#include "core/error.h"
 #include "core/text/words.h"
 
 namespace enc {
 
 enum class PassivityForm : std::uint8_t { none, controlled };
 constexpr auto words(PassivityForm) { return enum_words("none", "controlled"); }
+
+// Refuses one that has nothing to control, for this reason; `key`: of the rig.
+[[noreturn]] inline void refuse_passivity(const std::string& why, const std::string& key) {
+  throw Error("the passivity controller has nothing to control: " + why + "; expected none; change it", key);
+}
 
 }  // namespace enc

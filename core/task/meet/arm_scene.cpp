@@ -105,12 +105,9 @@ Object arm_object(const SceneSpec& scene, const ObjectSpec& spec) {
 void check_passivity(const ArmRig& rig, const Scene& scene) {
   const auto rendered = [](const Object& object) { return object.interaction.kind != Interaction::passive; };
   if (rig.passivity == PassivityForm::none || std::ranges::any_of(scene.objects, rendered)) return;
-  throw Error(scene.objects.empty()
-                  ? "the passivity controller has nothing to control: the scene has no object; expected "
-                    "none; change it"
-                  : "the passivity controller has nothing to control: every object of the scene is a real "
-                    "one, which nothing renders; expected none; change it",
-              "rig.arm.passivity");
+  refuse_passivity(scene.objects.empty() ? "the scene has no object"
+                                         : "every object of the scene is a real one, which nothing renders",
+                   "rig.arm.passivity");
 }
 
 // m, along the axis of R along which it is most.

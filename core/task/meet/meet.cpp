@@ -50,9 +50,9 @@ void track(Walk& walk, const Impedance& task, State& state, Meeting& now) noexce
 
 // An arm renders what is touched: there any object that is touched comes before all that are not.
 void touch(Walk& walk, const Impedance&, State& state, Meeting& now) noexcept {
-  const bool touched = state.mode == Mode::contact;
+  const bool touched = state.mode == Mode::contact, ahead = !touched && walk.scene.follow.ahead > 0.0;
   nearest_surface(walk, state,
-                  {touched ? &now.contact : nullptr, true, touched ? Point<'W'>() : comes_to(walk, now)});
+                  {touched ? &now.contact : nullptr, true, ahead ? comes_to(walk, now) : Point<'W'>()});
 }
 
 void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {

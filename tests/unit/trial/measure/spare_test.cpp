@@ -7,9 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/record/replay.h"
 #include "models/setup/scene_file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/unit/trial/measure/controlled_replay.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/trial.h"
@@ -70,22 +69,7 @@ TEST(TrialSpare, ASoftWallThatSwingsGivesOutNothing) {
 }
 
 TEST(TrialSpare, ARecordedRunReplaysToTheSameBits) {
-  const models::Setup setup = setup_of("stiffness", kSoft, kControlled);
-  const test::TemporaryFolder folder;
-  const std::string path = folder.file("spare.encrec");
-  TrialOptions options;
-  std::uint32_t why = 0;
-  options.watch = [&](const Glance& glance) { why |= glance.out.why; };
-  Trial trial(setup, options);
-  RecordWriter record(path, models::record_texts(setup), layout_hash(trial.scene()));
-  trial.record_to(&record);
-  const TrialResult result = trial.run();
-  record.close();
-  EXPECT_NE(why & kPassive, 0U) << "it acted";
-  RecordReader reader(path);
-  const ReplayResult again = replay(trial.scene(), reader);
-  EXPECT_EQ(again.first_difference, -1) << again.what;
-  EXPECT_EQ(again.hash, result.hash);
+  expect_acts_and_replays(setup_of("stiffness", kSoft, kControlled));
 }
 
 TEST(TrialSpare, WhereNothingIsRenderedItIsRefused) {

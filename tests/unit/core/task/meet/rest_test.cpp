@@ -10,13 +10,6 @@ namespace {
 
 using Bench = test::FingerBench;
 
-void put_tip(Bench& bench, const Vec3& at) {
-  const Impedance& law = *bench.loop.scene.impedance();
-  ArmSample& arm = bench.loop.in.arm.value;
-  ASSERT_TRUE(law.arm.inverse(bench.loop.scene.X_WR.inverse() * Point<'W'>(at), arm.joints));
-  arm.tip = law.arm.tip(arm.joints);
-}
-
 // One count of each joint's encoder, as it is read with a window of 2 ms: there, and the next ticks still.
 // How far the push strays from what it was, N.
 double strays_by_a_count(Bench& bench) {
@@ -45,7 +38,7 @@ TEST(Rest, ACountMovesNothingWhereFrictionHoldsTheArmFarFromItsTarget) {
   for (const double off : {0.0, 1e-3, 4.5e-3, 9e-3}) {
     Bench bench("wall");
     bench.at(-0.150, 10);
-    put_tip(bench, Vec3(0.9 * off, 0.3 * off, 0.3 * off));
+    bench.put_tip({0.9 * off, 0.3 * off, 0.3 * off});
     bench.at(-0.150, 2000);
     EXPECT_LT(strays_by_a_count(bench), 0.02) << off;
   }
@@ -55,9 +48,9 @@ TEST(Rest, ACountMovesNothingWhereFrictionHoldsTheArmFarFromItsTarget) {
 TEST(Rest, ACountMovesNothingWhereTheArmHasSlipped) {
   Bench bench("wall");
   bench.at(-0.150, 10);
-  put_tip(bench, Vec3(4e-3, 0.0, 2e-3));
+  bench.put_tip({4e-3, 0.0, 2e-3});
   bench.at(-0.150, 60);
-  put_tip(bench, Vec3(3.8e-3, 0.0, 1.9e-3));
+  bench.put_tip({3.8e-3, 0.0, 1.9e-3});
   bench.at(-0.150, 2000);
   ASSERT_TRUE(recall<Meeting>(bench.loop.state).aim.slipped);
   EXPECT_GT(bench.loop.out.felt.norm(), 1.0);
@@ -68,7 +61,7 @@ TEST(Rest, ACountMovesNothingWhereTheArmHasSlipped) {
 TEST(Rest, AnArmThatIsPushedIsBroughtBack) {
   Bench bench("wall");
   bench.at(-0.150, 2000);
-  put_tip(bench, Vec3(0.0, 0.0, 2e-3));
+  bench.put_tip({0.0, 0.0, 2e-3});
   bench.at(-0.150, 30);
   EXPECT_GT(bench.loop.out.felt.norm(), 0.5);  // of 300 N/m over 2 mm
 }
