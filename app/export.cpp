@@ -95,7 +95,8 @@ std::string ledger_of(const RecordReader& record, const std::string& path) {
               (record.sealed()
                    ? ": nothing that was rendered was touched, a real machine ran, or an older version "
                      "wrote it; record it again"
-                   : ", because its run did not end; record it again") +
+                   : ": the end, where it stands, is missing (the run was killed, or the file was cut off); "
+                     "record it again") +
               ", or leave out --ledger");
 }
 
@@ -117,6 +118,9 @@ int export_record(const ExportOptions& options) {
   if (options.ledger) {
     output.write(ledger);
     output.end();
+    if (!record.damage().empty())
+      fmt::print(stderr, "encounter: {}: {}; the ledger is as it was read\n", options.record,
+                 record.damage());
     return record.damage().empty() ? 0 : 1;
   }
   trial::RecordTable table(setup, scene);

@@ -89,6 +89,12 @@ std::string stability_text(const models::Setup& setup, const std::vector<Certifi
   for (const Certified& one : certificates)
     if (one.beyond() || one.unknown())
       text += (one.beyond() ? "  BEYOND: " : "  NOT KNOWN: ") + trial::refusal_text(setup, one) + "\n";
+  const bool arm = setup.scene.arm.has_value();
+  if ((arm ? setup.rig.arm.passivity : setup.rig.admittance.passivity) == PassivityForm::controlled)
+    text += fmt::format(
+        "  rig.{}.passivity=controlled: energy that would come out along the normal is held back, whatever "
+        "these say\n",
+        arm ? "arm" : "admittance");
   return text + rows_text(nearest_its_bound(certificates));
 }
 

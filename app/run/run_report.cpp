@@ -181,8 +181,9 @@ std::string passivity_line(const RunReport& r) {
                    "all, by at "
                    "most {:.2f} N, which kept {:.3f} mJ from coming out",
                    acted, of, all.acted * 1e3, all.most, all.dissipated * 1e3);
-  text += fmt::format("; of one contact at most {:.3f} mJ more came out than went in (by {})\n",
-                      all.given * 1e3, arm ? "encoders" : "the machine's own force and pose");
+  text +=
+      fmt::format("; of one contact at most {:.3f} mJ more came out than went in along the normal (by {})\n",
+                  all.given * 1e3, arm ? "encoders" : "the machine's own force and pose");
   // It counts what each force did, and nobody did anything with these.
   if (arm && r.result.withheld > 0)
     text +=

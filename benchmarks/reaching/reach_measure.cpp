@@ -92,6 +92,7 @@ void ReachMeasure::watch_contact(const trial::Glance& glance, double now) {
   const sim::Truth& truth = glance.truth;
   if (!truth.touching) return;
   now_.touched = true;
+  if (now_.felt < 0 && glance.out.mode == Mode::contact) now_.felt = glance.out.object;
   const trial::Wanted at =
       trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
   if (now - now_.met <= kImpact) now_.impact = std::max(now_.impact, -dot(truth.contact_force, at.normal));

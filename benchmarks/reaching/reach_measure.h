@@ -14,6 +14,7 @@ namespace enc::bench::reaching {
 struct ReachOutcome {
   std::int32_t aim = -1;     // object that the person reaches for
   std::int32_t chosen = -1;  // by the core, when they meet
+  std::int32_t felt = -1;    // that the core renders when it first does while the finger touches the prop
   double prepared = kUnset;  // s of experiment: the last "prepare" before
   double arrived =
       kUnset;             // s: since then the prop has been within 2 mm of where they meet; unset: it is not

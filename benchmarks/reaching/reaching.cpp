@@ -41,14 +41,18 @@ std::vector<ReachOutcome> of_scene(const std::vector<ReachRan>& ran, std::size_t
   return joined(these);
 }
 
-void random_figures(const std::vector<ReachRan>& ran, Seen how, const Adder& add) {
+void random_figures(const std::vector<ReachRan>& ran, Seen how, bool bounded, const Adder& add) {
   const std::string key = key_of(how);
   const std::string text = name_of(how);
   const std::vector<ReachOutcome> all = joined(ran);
   add(key + "reaches", static_cast<double>(all.size()), "", kUnset, kUnset,
       "random reaches, 0.3 to 0.8 m/s at the peak and 50 to 200 mm/s wanted at the touch; " + text);
   add(key + "object_percent", percent(all, [](const ReachOutcome& r) { return r.chosen == r.aim; }), "%",
-      kUnset, kUnset, "of the reaches in which the core has chosen the object that is met");
+      kUnset, kUnset, "of the reaches in which the core has chosen the object that is met, when it is met");
+  add(key + "felt_percent", percent(of_scene(ran, 1), [](const ReachOutcome& r) { return r.felt == r.aim; }),
+      "%", bounded ? 99.0 : kUnset, kUnset,
+      "of the reaches at the keypad in which the key that is rendered, when the finger has met the prop, is "
+      "the one that was meant");
   add(key + "contact_percent",
       percent(all, [](const ReachOutcome& r) { return r.contacts == 1 && r.touched; }), "%", kUnset, kUnset,
       "of the reaches that are one contact to the core");
@@ -79,7 +83,7 @@ void random_part(const BenchContext& context, BenchResult& result, const Adder& 
             ? "of the reaches in which the machine is within 2 mm of where it is met before it is "
               "met: the finger is seen live, so that the machine's travel alone counts"
             : "the same of a finger that vision sees at 20 Hz, 50 ms late");
-    random_figures(ran, how, add);
+    random_figures(ran, how, !context.quick, add);
     if (how == Seen::vision) add_ideal(context, of_scene(ran, 0), add);
     Plot plot{how == Seen::live ? "reaching_lead_live" : "reaching_lead",
               std::string("From \"prepare\" until they meet; the finger is ") + name_of(how),

@@ -168,7 +168,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& name : names) {
     const std::size_t n = edits(word, name);
-    if (n < fewest && n < std::max(word.size(), name.size())) {
+    if (n < fewest && n < std::min(word.size(), name.size())) {
       fewest = n;
       best = name;
     }

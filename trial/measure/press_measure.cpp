@@ -70,7 +70,8 @@ void PressMeasure::compare(const Glance& glance, PressFigures& press, const Obje
 }
 
 // What the machine does is late, by filter and servo: it answers to the least or the most of what these still
-// hold. Between press and release curve the object may be anywhere.
+// hold. Between press and release curve the object may be anywhere; and the core renders it smaller by its
+// skin, which of a stiff one is a force.
 void PressMeasure::judge_law(const Glance& glance, const Object& object, double deflection, double force) {
   const double pushed = glance.truth.touching ? force : 0.0;
   const double share = glance.scene.dt / (glance.scene.dt + response_lag(setup_.rig));
@@ -78,8 +79,9 @@ void PressMeasure::judge_law(const Glance& glance, const Object& object, double 
   most_ = std::max(pushed, most_ + share * (pushed - most_));
   const bool judged =
       glance.out.mode == Mode::contact && glance.truth.touching && deflection < object.limit - kNearLimit;
-  const double depth = std::max(0.0, deflection);
-  const auto [low, high] = std::minmax({object.response.press(depth), object.response.release(depth)});
+  const double depth = std::max(0.0, deflection), rendered = std::max(0.0, deflection - stages::kSkin);
+  const double low = std::min(object.response.press(rendered), object.response.release(rendered));
+  const double high = std::max(object.response.press(depth), object.response.release(depth));
   const double away = judged ? std::max(least_ - high, low - most_) : 0.0;
   if (!(away > kOff)) {
     off_ = Departure{};
