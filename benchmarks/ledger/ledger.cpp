@@ -22,6 +22,9 @@ struct Sums {
   std::string scene;
   std::size_t contacts = 0, small = 0;
   double closure = 0.0, small_closure = 0.0;  // shares: of those above kSmallest, and of the others
+  // J: what sampling, delay, counts and limits gave out beyond what the law's damper took; of an arm, the
+  // worst of the contacts on which something pushed.
+  double net = kUnset;
   trial::ContactLedger all;
   double simulated = 0.0;
 };
@@ -41,6 +44,7 @@ Sums sums_of(const models::Setup& setup, std::uint64_t seed, const std::string& 
     sums.small += small ? 1 : 0;
     double& worst = small ? sums.small_closure : sums.closure;
     worst = std::max(worst, one.closure());
+    if (setup.scene.arm && one.hand != 0.0) sums.net = std::fmax(sums.net, one.generated() - one.law);
     using C = trial::ContactLedger;
     for (double C::*term : {&C::hand, &C::carried, &C::kinetic, &C::spring, &C::weight, &C::joints, &C::law,
                             &C::sampling, &C::delay, &C::quantisation, &C::limits})
@@ -71,6 +75,11 @@ void run(Bench& bench) {
                           fmt::format("{:.3f}", 100.0 * s.small_closure)});
     bench.figure("closure." + s.scene + ".worst", 100.0 * s.closure, "%", at_most(1.0),
                  fmt::format("of the largest term, {} contacts above 0.05 mJ", s.contacts - s.small));
+    if (std::isfinite(s.net))
+      bench.figure(
+          "net." + s.scene + ".worst", 1e3 * s.net, "mJ", at_most(0.1),
+          "what sampling, delay and counts gave out, less what the law's damper took, in any contact on "
+          "which a finger pushed, across the surface and along its normal");
     worst = std::max(worst, s.closure);
     small = std::max(small, s.small_closure);
   }

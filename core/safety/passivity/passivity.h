@@ -51,7 +51,7 @@ void observe(Passivity& now, const Yielded& tick, double count) noexcept;
 // N: what of the wanted push is given, whatever the limits; `per_newton` is g, `count` as above.
 [[nodiscard]] double passive(const Passivity& now, double wanted, double per_newton, double count) noexcept;
 // m: how far outwards of where it is a machine may be sent that keeps to its way. It is pushed with `push`,
-// N, or may meet the hand at once, and on the way that grows by `stiffness`, N/m:
+// N, and on the way that grows by `stiffness`, N/m:
 //
 //   push s + stiffness s^2 / 2 <= left, and what is forgiven
 [[nodiscard]] double way_left(const Passivity& now, double push, double stiffness) noexcept;

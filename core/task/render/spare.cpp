@@ -3,15 +3,21 @@
 //
 // The hand pushes with p, and the tip goes outwards by dx: that is p dx for the hand, by the machine's own
 // readings, a model is not needed. What is left of what it has put in, and never more than the object would
-// hold where the tip is (its press curve), is how far out the tip may be sent: a push that is felt now, and
-// that grows by the hand's stiffness on the way. So all that is still under way (dead time, servo) is paid
-// before it is sent, and the limits find room to stop there.
+// hold where the tip is (its press curve), is how far out the tip may be sent: against a push that is felt
+// now, or that a hand which is met at once begins with, and that grows on the way as the hand comes. So all
+// that is still under way (dead time, servo) is paid before it is sent, and the limits find room to stop
+// there.
 #include <algorithm>
 
 #include "core/task/walk.h"
 
 namespace enc::stages {
 namespace {
+
+// m: farther from the tool, nothing is met. What a tracker is late and off by, and the tip needs to stop in.
+constexpr double kNearHand = 3e-3;
+constexpr double kMet = 0.8;    // N, that a hand begins with which meets the tip. Chosen.
+constexpr double kComes = 2.0;  // times its stiffness: it comes as fast as the tip goes. Chosen.
 
 // Out along the normal, from the last tick on; depth and push of the object where the tip is.
 Yielded yielded(const Walk& walk, const Rendering& now) {
@@ -24,9 +30,17 @@ Yielded yielded(const Walk& walk, const Rendering& now) {
   return {moved, depth, depth > 0.0 ? object.response.press(std::min(depth, object.response.limit())) : 0.0};
 }
 
-// Unknown for a moment, it is what it was.
-double pressed(const Walk& walk, const Rendering& now) {
-  return walk.felt.finite() ? -dot(walk.felt, now.contact.X_WN * Vec<'N'>(0, 0, 1)) : now.spent.pressed;
+// m, outwards, that nothing is met on: the tool is farther than that, by where it is seen.
+double free_way(const Walk& walk, double depth, double push) {
+  if (!walk.tool_known || !walk.tool_fresh || push >= walk.scene.force.contact) return 0.0;
+  return std::max(0.0, walk.gap + depth - kNearHand);
+}
+
+// Unknown for a moment, it is what it was. Where nothing can be met it is the sensor's error.
+double pressed(const Walk& walk, const Rendering& now, double depth) {
+  if (!walk.felt.finite()) return now.spent.pressed;
+  const double push = -dot(walk.felt, now.contact.X_WN * Vec<'N'>(0, 0, 1));
+  return free_way(walk, depth, push) > 0.0 ? 0.0 : push;
 }
 
 // A contact, and the way back from it, until the tip is where it waits.
@@ -46,9 +60,14 @@ void weigh(const Walk& walk, const Render&, const State& state, Rendering& now) 
     return;
   }
   if (!walk.X_WH.valid()) return;
-  const double push = pressed(walk, now);
-  spent.energy.pushed = 0.5 * (spent.pressed + push);  // the trapezoid's: the hand's force goes on meanwhile
-  observe(spent.energy, yielded(walk, now), 0.0);
+  const Yielded tick = yielded(walk, now);
+  const double push = pressed(walk, now, tick.depth);
+  const auto [least, most] = std::minmax(spent.pressed, push);
+  // The hand's force goes on meanwhile: the trapezoid's. When a touch began or ended between two ticks is not
+  // known: it may have been all of what came out, and none of what was put in.
+  const bool whole = least >= walk.scene.force.contact;
+  spent.energy.pushed = whole ? 0.5 * (least + most) : tick.moved > 0.0 ? most : least;
+  observe(spent.energy, tick, 0.0);
   spent.pressed = push;
   spent.tip = walk.X_WH.origin();
 }
@@ -58,13 +77,15 @@ void spare(Walk& walk, const Render& task, const State& state, Rendering& now) n
   Spent& spent = now.spent;
   if (!spent.energy.on) {
     // Nothing was put in yet, and nothing is given for that an object is met deep inside.
-    begin(spent.energy, yielded(walk, now), 0.0);
-    spent.pressed = pressed(walk, now);
+    const Yielded tick = yielded(walk, now);
+    begin(spent.energy, tick, 0.0);
+    spent.pressed = pressed(walk, now, tick.depth);
     spent.tip = walk.X_WH.origin();
   }
   const Vec<'W'> normal = now.contact.X_WN * Vec<'N'>(0, 0, 1);
   const double wanted = dot(walk.target - walk.X_WH.origin(), normal);
-  const double most = way_left(spent.energy, spent.pressed, task.hand_stiffness);
+  const double most = free_way(walk, spent.energy.depth, spent.pressed) +
+                      way_left(spent.energy, std::max(kMet, spent.pressed), kComes * task.hand_stiffness);
   if (!(wanted > most)) return;
   walk.why |= kPassive;
   walk.target = walk.target - (wanted - most) * normal;
