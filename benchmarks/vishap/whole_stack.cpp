@@ -231,9 +231,10 @@ void tell_objects(Bench& bench, const std::string& scene, const Ran& ran) {
       fmt::format("of {:.0f} random reaches that the camera saw: the object that is rendered when the finger "
                   "has met the prop is the one that the person reached for",
                   all));
-  bench.figure(scene + ".object_percent", 100.0 * right / all, "%",
-               "of these: it was chosen already when the finger came to where it is, with the prop or "
-               "without; an ideal that is told when the finger touches names 99 % (docs/reference/reaching.md)");
+  bench.figure(
+      scene + ".object_percent", 100.0 * right / all, "%",
+      "of these: it was chosen already when the finger came to where it is, with the prop or "
+      "without; an ideal that is told when the finger touches names 99 % (docs/reference/reaching.md)");
   bench.figure(scene + ".lead_percent", 100.0 * in_time / all, "%", "of these: the prop is there in time");
 }
 
