@@ -13,9 +13,13 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// What a tile does on the way back.
-double tile_firmness(const Mover& mover, double rate, double deepest) {
-  return rate < 0.0 ? std::max(0.0, 1.0 + mover.bounce * rate / deepest) : 1.0;
+// What a tile does on the way back. Smoothed: by counts the rate is known to some 15 mm/s, which is all of
+// the push at the begin of a touch.
+double tile_firmness(const Mover& mover, const FingerPress& press, double dt, const Moved& now) {
+  constexpr double kSmooth = 5e-3;  // s; a bounce takes ten times that
+  const double wanted =
+      press.sinks < 0.0 ? std::max(0.0, 1.0 + mover.bounce * press.sinks / now.deepest) : 1.0;
+  return now.firmness + (wanted - now.firmness) * dt / (dt + kSmooth);
 }
 
 // What a ball does: `deepest` is how deep the finger was when q was last lowered.
@@ -34,7 +38,6 @@ double ball_firmness(const Mover& mover, const FingerPress& press, Moved& now) {
 // What the law says of the finger in this object, and what it remembers for the next tick. Gives the force,
 // N.
 double pressed(const Mover& mover, const FingerPress& press, double dt, Moved& now) {
-  const double rate = std::isnan(now.depth) ? 0.0 : (press.depth - now.depth) / dt;
   now.depth = press.depth;
   if (!(press.depth > 0.0)) {
     now.deepest = 0.0;
@@ -47,7 +50,7 @@ double pressed(const Mover& mover, const FingerPress& press, double dt, Moved& n
     now.deepest = back ? std::min(now.deepest, press.depth) : std::max(now.deepest, press.depth);
   } else {
     now.deepest = std::max(now.deepest, press.depth);
-    now.firmness = tile_firmness(mover, rate, now.deepest);
+    now.firmness = tile_firmness(mover, press, dt, now);
   }
   return mover.stiffness * now.firmness * press.depth;
 }

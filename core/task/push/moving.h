@@ -67,6 +67,7 @@ struct FingerPress {
   Point<'W'> finger;         // centre of its tip
   double radius = 0.0;       // of that, m
   double speed = 0.0;        // of what presses, against the normal, m/s
+  double sinks = 0.0;        // rate of the depth, m/s: by what is felt, as the depth leaps with a picture
   bool late = false;         // the finger has not been seen since it last parted from a ball
 };
 

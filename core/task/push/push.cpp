@@ -69,16 +69,20 @@ void push(Walk& walk, State& state, Pushing& now) {
     now.contact.anchored = false;
     return;
   }
-  double depth = -walk.gap;
+  double depth = -walk.gap, sinks = 0.0;
   if (state.object >= 0) {
     const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
     if (object.interaction.kind == Interaction::hit)
       depth = hit_depth(walk, state, now, walk.movers[static_cast<std::size_t>(object.moving)],
                         walk.moved[static_cast<std::size_t>(object.moving)]);
+    if (object.interaction.kind == Interaction::shift)
+      sinks =
+          dot(walk.moved[static_cast<std::size_t>(object.moving)].velocity - walk.tip_velocity, walk.normal);
   }
   const double speed = -dot(now.aim.velocity, walk.normal);  // a prop that is struck: go_with
   const bool late = age(walk.tick.t, now.contact.left) < walk.scene.tracker.usual_age;
-  const FingerPress press{state.object, depth, walk.normal, walk.tool_tip, walk.tool_radius, speed, late};
+  const FingerPress press{state.object,     depth, walk.normal, walk.tool_tip,
+                          walk.tool_radius, speed, sinks,       late};
   move(walk.movers, press, walk.scene.dt, walk.moved);
 }
 

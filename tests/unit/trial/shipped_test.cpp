@@ -1,4 +1,4 @@
-// Ball and drum as they are shipped: a tracker of 20 Hz, 50 ms late, judged by the truth.
+// Ball, drum and tiles as they are shipped: a tracker of 20 Hz, 50 ms late, judged by the truth.
 #include <algorithm>
 #include <cmath>
 
@@ -108,6 +108,24 @@ TEST(ShippedDrum, IsSmoothUnderTheFinger) {
     EXPECT_LE(step, 0.4) << "N in a ms, seed " << seed;
     EXPECT_LE(sideways, 1.1 * 0.6 * normal) << "seed " << seed;
     EXPECT_EQ(trial.outputs().contacts, 1);
+  }
+}
+
+// The depth of the finger leaps with each picture, and the push of a tile goes by its rate: a push that is
+// gone for a tick is felt as a knock, 20 times a second.
+TEST(ShippedTiles, PushWithoutGaps) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    trial::Trial trial(shipped("tiles"), seeded(seed));
+    Vec3 before = Vec3::Constant(kUnset);  // N
+    double most = 0.0;
+    while (trial.tick()) {
+      const bool contact = trial.outputs().mode == Mode::contact && trial.outputs().arm_force.finite();
+      const Vec3 now = contact ? Vec3(trial.outputs().arm_force.e()) : Vec3(Vec3::Constant(kUnset));
+      if (now.allFinite() && before.allFinite()) most = std::max(most, (now - before).norm());
+      before = now;
+    }
+    EXPECT_GT(most, 0.0) << seed;
+    EXPECT_LT(most, 0.6) << "N, seed " << seed;
   }
 }
 

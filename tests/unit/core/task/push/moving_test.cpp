@@ -38,7 +38,9 @@ struct World {
     const Vec<'W'> normal = object.X_WO * at.normal;
     const double speed = last.finite() ? dot(last - p, normal) / kTick : 0.0;
     last = p;
-    move(movers, {index, -at.distance, normal, p, 0.0, speed, false}, kTick, moved);
+    const double before = object.moving < 0 ? kUnset : moved[static_cast<std::size_t>(object.moving)].depth;
+    const double sinks = std::isnan(before) ? 0.0 : (-at.distance - before) / kTick;
+    move(movers, {index, -at.distance, normal, p, 0.0, speed, sinks, false}, kTick, moved);
     const Moved& now = moved[static_cast<std::size_t>(object.moving)];
     return std::max(0.0, -at.distance) * object.stiffness * now.firmness;
   }
