@@ -1,11 +1,14 @@
-// Does the energy of every contact add up, in every scene that ships?
+// Does the energy of every contact add up, in every scene that ships? And how much more came out of a contact
+// than went in, with the passivity controller and without?
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
+#include "core/error.h"
 #include "trial/ledger/ledger_measure.h"
 
 namespace enc::bench::ledger {
@@ -17,40 +20,67 @@ constexpr std::array kScenes{"reaching",    "wall",       "session",     "traini
                              "room",        "tiles",      "indentation", "offset_press", "hare",
                              "plane",       "push_limit", "synchrony",   "two_objects"};
 constexpr double kSmallest = 0.05e-3;  // J: what a tenth of a newton does over half a millimetre
+constexpr int kSeeds = 4;
 
 struct Sums {
-  std::string scene;
   std::size_t contacts = 0, small = 0;
   double closure = 0.0, small_closure = 0.0;  // shares: of those above kSmallest, and of the others
-  // J: what sampling, delay, counts and limits gave out beyond what the law's damper took; of an arm, the
-  // worst of the contacts on which something pushed.
-  double net = kUnset;
-  trial::ContactLedger all;
-  double simulated = 0.0;
+  double surplus = 0.0;                       // J, of contacts on which something pushed
+  trial::ContactLedger all;                   // of the first seed
+};
+// Without the passivity controller, and with it; none where it has nothing to control.
+struct Pair {
+  std::string scene;
+  Sums without;
+  std::optional<Sums> controlled;
+  double simulated = 0.0;  // s
 };
 
-Sums sums_of(const models::Setup& setup, std::uint64_t seed, const std::string& scene) {
-  Sums sums;
-  sums.scene = scene;
+void add(const models::Setup& setup, std::uint64_t seed, bool first, Sums& sums, double& simulated) {
   trial::TrialOptions options;
   trial::LedgerMeasure measure(setup, options);
   options.seed = seed;
   options.watch = [&](const trial::Glance& glance) { measure.see(glance); };
   trial::Trial trial(setup, options);
-  sums.simulated = trial.run().simulated;
+  simulated += trial.run().simulated;
   for (const trial::ContactLedger& one : measure.contacts()) {
-    ++sums.contacts;
     const bool small = one.largest() < kSmallest;
-    sums.small += small ? 1 : 0;
     double& worst = small ? sums.small_closure : sums.closure;
     worst = std::max(worst, one.closure());
-    if (setup.scene.arm && one.hand != 0.0) sums.net = std::fmax(sums.net, one.generated() - one.law);
+    if (one.hand != 0.0) sums.surplus = std::max(sums.surplus, one.surplus);
+    if (!first) continue;
+    ++sums.contacts;
+    sums.small += small ? 1 : 0;
     using C = trial::ContactLedger;
     for (double C::*term : {&C::hand, &C::carried, &C::kinetic, &C::spring, &C::weight, &C::joints, &C::law,
                             &C::sampling, &C::delay, &C::quantisation, &C::limits})
       sums.all.*term += one.*term;
   }
-  return sums;
+}
+
+// A scene that has nothing to control is refused, by the key of the controller.
+std::optional<models::Setup> with_controller(const BenchContext& context, const std::string& scene) {
+  const bool arm = load_scene(context, scene).scene.arm.has_value();
+  const std::string key = arm ? "rig.arm.passivity" : "rig.admittance.passivity";
+  try {
+    return load_scene(context, scene, {}, {key + "=controlled"});
+  } catch (const Error& e) {
+    if (e.key().find("passivity") == std::string::npos) throw;
+    return std::nullopt;
+  }
+}
+
+Pair pair_of(const BenchContext& context, const std::string& scene) {
+  Pair pair{scene, {}, {}, 0.0};
+  const models::Setup without = load_scene(context, scene);
+  const std::optional<models::Setup> controlled = with_controller(context, scene);
+  if (controlled) pair.controlled.emplace();
+  for (int i = 0; i < (context.quick ? 1 : kSeeds); ++i) {
+    const std::uint64_t seed = context.seed + static_cast<std::uint64_t>(i);
+    add(without, seed, i == 0, pair.without, pair.simulated);
+    if (controlled) add(*controlled, seed, i == 0, *pair.controlled, pair.simulated);
+  }
+  return pair;
 }
 
 std::string mj(double joules) { return fmt::format("{:.3f}", joules * 1e3); }
@@ -58,28 +88,33 @@ std::string mj(double joules) { return fmt::format("{:.3f}", joules * 1e3); }
 void run(Bench& bench) {
   std::vector<std::string> scenes(kScenes.begin(), kScenes.end());
   if (bench.context.quick) scenes = {"button", "tennis_ball"};
-  const std::vector<Sums> all = bench.each(scenes, [&](const std::string& scene) {
-    return sums_of(load_scene(bench.context, scene), bench.context.seed, scene);
-  });
+  const std::vector<Pair> all =
+      bench.each(scenes, [&](const std::string& scene) { return pair_of(bench.context, scene); });
   Table table{"scenes",
               "Energy of all contacts of a scene, mJ",
               {"scene", "contacts", "hand", "carried", "sampling", "delay", "quantisation", "limits",
-               "stored", "dissipated", "closes, %", "small ones", "close, %"},
+               "stored", "dissipated", "closes, %", "small ones", "close, %", "surplus", "controlled"},
               {}};
-  double worst = 0.0, small = 0.0;
-  for (const Sums& s : all) {
+  double worst = 0.0, small = 0.0, controlled = 0.0;
+  for (const Pair& pair : all) {
+    const Sums& s = pair.without;
     const trial::ContactLedger& c = s.all;
-    table.rows.push_back({s.scene, fmt::format("{}", s.contacts), mj(c.hand), mj(c.carried), mj(c.sampling),
-                          mj(c.delay), mj(c.quantisation), mj(c.limits), mj(c.stored()), mj(c.dissipated()),
-                          fmt::format("{:.3f}", 100.0 * s.closure), fmt::format("{}", s.small),
-                          fmt::format("{:.3f}", 100.0 * s.small_closure)});
-    bench.figure("closure." + s.scene + ".worst", 100.0 * s.closure, "%", at_most(1.0),
-                 fmt::format("of the largest term, {} contacts above 0.05 mJ", s.contacts - s.small));
-    if (std::isfinite(s.net))
-      bench.figure(
-          "net." + s.scene + ".worst", 1e3 * s.net, "mJ", at_most(0.1),
-          "what sampling, delay and counts gave out, less what the law's damper took, in any contact on "
-          "which a finger pushed, across the surface and along its normal");
+    table.rows.push_back({pair.scene, fmt::format("{}", s.contacts), mj(c.hand), mj(c.carried),
+                          mj(c.sampling), mj(c.delay), mj(c.quantisation), mj(c.limits), mj(c.stored()),
+                          mj(c.dissipated()), fmt::format("{:.3f}", 100.0 * s.closure),
+                          fmt::format("{}", s.small), fmt::format("{:.3f}", 100.0 * s.small_closure),
+                          mj(s.surplus), pair.controlled ? mj(pair.controlled->surplus) : "nothing"});
+    bench.figure("closure." + pair.scene + ".worst", 100.0 * s.closure, "%", at_most(1.0),
+                 "of the largest term, of contacts above 0.05 mJ");
+    if (pair.controlled) {
+      controlled = std::max(controlled, pair.controlled->closure);
+      bench.figure("surplus." + pair.scene + ".controlled.worst", 1e3 * pair.controlled->surplus, "mJ",
+                   at_most(0.1),
+                   "that came out of a contact on which something pushed, at any moment, beyond what went in "
+                   "and the law's spring still held");
+    }
+    bench.figure("surplus." + pair.scene + ".none.worst", 1e3 * s.surplus, "mJ", {},
+                 "the same without the passivity controller, which is the default");
     worst = std::max(worst, s.closure);
     small = std::max(small, s.small_closure);
   }
@@ -87,6 +122,8 @@ void run(Bench& bench) {
   bench.figure(
       "closure.small.worst", 100.0 * small, "%", at_most(1.0),
       "contacts whose largest term is below 0.05 mJ: where a tip rests, friction turns within a step");
+  bench.figure("closure.controlled.worst", 100.0 * controlled, "%", {},
+               "with the passivity controller, of contacts above 0.05 mJ");
   bench.table(std::move(table));
 }
 

@@ -84,7 +84,7 @@ double damped(const LawAt& law, const TipAt& tip) {
   return law.damping * (across * (rate.squaredNorm() - out * out) + (law.hit ? 0.0 : gain) * out * out);
 }
 
-double stored(const LawAt& law, const TipAt& tip) {
+double stored(const LawAt& law, const TipAt& tip, int parts) {
   if (!law.live) return 0.0;
   const Vec3 error = law.target - tip.at;
   const double depth = law.normal.dot(error);
@@ -94,9 +94,8 @@ double stored(const LawAt& law, const TipAt& tip) {
     const double pressed = std::max(0.0, ball_depth(law, tip.at));
     return sum + 0.5 * ball_push(law, pressed) * pressed;
   }
-  constexpr int kParts = 400;  // of Simpson's rule; each has its middle
-  const double h = depth / kParts;
-  for (int i = 0; i < kParts; ++i)
+  const double h = depth / parts;
+  for (int i = 0; i < parts; ++i)
     sum += h / 6.0 * (along(law, i * h) + 4.0 * along(law, (i + 0.5) * h) + along(law, (i + 1) * h));
   return sum;
 }

@@ -20,10 +20,11 @@ namespace enc::trial {
 
 // What the law is at a tick.
 struct LawAt {
-  bool live = false;  // it pushes
-  bool felt = false;  // by the curve of an object that is touched; else as a free tip
-  bool real = false;  // sideways as along the normal
-  bool hit = false;   // a ball pushes along the normal, and nothing else
+  bool live = false;        // it pushes
+  bool felt = false;        // by the curve of an object that is touched; else as a free tip
+  bool real = false;        // sideways as along the normal
+  bool hit = false;         // a ball pushes along the normal, and nothing else
+  bool on_its_way = false;  // to a target that leapt
   const Object* object = nullptr;
   Vec3 normal = Vec3::UnitZ(), target = Vec3::Zero(), target_velocity = Vec3::Zero();
   Vec3 ball = Vec3::Zero();  // where the surface of one that is hit is
@@ -43,8 +44,8 @@ struct TipAt {
 [[nodiscard]] Vec3 ideal_force(const LawAt& law, const TipAt& tip);
 // W, taken by the damper.
 [[nodiscard]] double damped(const LawAt& law, const TipAt& tip);
-// J, in its spring.
-[[nodiscard]] double stored(const LawAt& law, const TipAt& tip);
+// J, in its spring; by Simpson's rule in so many parts.
+[[nodiscard]] double stored(const LawAt& law, const TipAt& tip, int parts = 400);
 // By an error and a rate behind their filters; `depth`: of a ball that is hit.
 [[nodiscard]] Vec3 asked_force(const LawAt& law, const Vec3& error, const Vec3& rate, double depth);
 // m, of the tip in a ball that is hit.

@@ -102,6 +102,7 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
   // A target that has leapt is on its way from this tick on; one that hastens in a contact goes along
   // sideways alone (core/task/meet/aim.cpp).
   const bool on_its_way = !(aim_.caught_up && aim.caught_up);
+  now.law.on_its_way = on_its_way;
   if (!on_its_way && glance.out.mode == Mode::contact) change -= now.law.normal * now.law.normal.dot(change);
   if ((on_its_way || aim.hurried) && !now.law.hit && !change.isZero())
     now.law.along = turn * law.arm
@@ -124,6 +125,12 @@ void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work)
   work_late_ += was.late.dot(moved);
   work_counted_ += was.counted.dot(moved);
   work_given_ += work.motors - compensated;
+  // What acts on a target's way is carried, as is what speeds it up. One that leaps is no way.
+  const bool leaps = !(was.law.live && now.law.live) || (now.law.on_its_way && !was.law.on_its_way);
+  const Vec3 led = leaps ? Vec3(Vec3::Zero()) : Vec3(now.law.target - was.law.target);
+  led_held_ += was.held.dot(led);
+  led_late_ += was.late.dot(led);
+  led_counted_ += was.counted.dot(led);
   // The ideal law along the same way: the cubic through both ends, by Simpson's rule.
   const double h = dt_;
   const Vec3 way = now.tip.at - was.tip.at;
@@ -134,13 +141,25 @@ void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work)
   then.along = was.law.along;
   const auto power = [](const LawAt& l, const TipAt& tip) { return ideal_force(l, tip).dot(tip.velocity); };
   ideal_ += h / 6.0 * (power(was.law, was.tip) + 4.0 * power(law, middle) + power(then, now.tip));
+  led_ideal_ +=
+      led.dot(ideal_force(was.law, was.tip) + 4.0 * ideal_force(law, middle) + ideal_force(then, now.tip)) /
+      6.0;
   sum_.law += h / 6.0 * (damped(was.law, was.tip) + 4.0 * damped(law, middle) + damped(then, now.tip));
+  const Vec3 lead = asked_force(was.law, Vec3::Zero(), Vec3::Zero(), kUnset);
+  left_ -= work.motors - compensated - was.counted.dot(led) - lead.dot(moved - led);
+  constexpr int kEachTick = 40;
+  const double spring = stored(now.law, now.tip, kEachTick);
+  if (now.law.felt) left_ = std::min(left_, spring);  // in a gap between two tiles it is kept
+  if (now.law.on_its_way) left_ = spring;             // the leap loaded it
+  sum_.surplus = std::max(sum_.surplus, -left_);
 }
 
 void ArmLedger::open(const Known& from) {
   sum_ = ContactLedger{};
   first_ = from;
   ideal_ = work_held_ = work_late_ = work_counted_ = work_given_ = 0.0;
+  left_ = 0.0;
+  led_ideal_ = led_held_ = led_late_ = led_counted_ = 0.0;
 }
 
 ContactLedger ArmLedger::so_far(const Known& last) const {
@@ -148,10 +167,10 @@ ContactLedger ArmLedger::so_far(const Known& last) const {
   sum.kinetic = kinetic_energy(machine_, prop_mass_, last.joints, last.rates) -
                 kinetic_energy(machine_, prop_mass_, first_.joints, first_.rates);
   sum.spring = stored(last.law, last.tip) - stored(first_.law, first_.tip);
-  sum.carried = ideal_ + sum.spring + sum.law;
-  sum.sampling = work_held_ - ideal_;
-  sum.delay = work_late_ - work_held_;
-  sum.quantisation = work_counted_ - work_late_;
+  sum.carried = ideal_ + sum.spring + sum.law + led_counted_ - led_ideal_;
+  sum.sampling = work_held_ - led_held_ - (ideal_ - led_ideal_);
+  sum.delay = work_late_ - led_late_ - (work_held_ - led_held_);
+  sum.quantisation = work_counted_ - led_counted_ - (work_late_ - led_late_);
   sum.limits = work_given_ - work_counted_;
   return sum;
 }

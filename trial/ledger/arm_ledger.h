@@ -56,6 +56,8 @@ class ArmLedger {
   Posture posture_;
   ContactLedger sum_;
   double ideal_ = 0.0, work_held_ = 0.0, work_late_ = 0.0, work_counted_ = 0.0, work_given_ = 0.0;  // J
+  double led_ideal_ = 0.0, led_held_ = 0.0, led_late_ = 0.0, led_counted_ = 0.0;  // J, on the target's way
+  double left_ = 0.0;  // J, that was put in and that the spring still holds; below 0: more came out
   Known first_;
 };
 

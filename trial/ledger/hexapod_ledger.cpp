@@ -16,14 +16,17 @@ double pushes_back(const Object& object, ResponseState& state, double depth, dou
   return at > 0.0 ? force + threshold : 0.0;
 }
 
-// J, that it would give back from here on.
+// J, that it would give back from here on. Beyond what it is known to, its force stays.
 double recoverable(const Object& object, ResponseState state, double depth, double threshold) {
-  constexpr int kParts = 400;
+  constexpr int kParts = 40;  // of Simpson's rule; each has its middle
   const double deepest = std::clamp(depth, 0.0, object.response.limit());
+  const double part = deepest / kParts;
   double sum = threshold * deepest, force = object.response.force(state, deepest);
+  sum += std::max(0.0, depth - deepest) * (force + threshold);
   for (int i = kParts - 1; i >= 0; --i) {
-    const double next = object.response.force(state, deepest * i / kParts);
-    sum += 0.5 * (force + next) * deepest / kParts;
+    const double middle = object.response.force(state, part * (i + 0.5));
+    const double next = object.response.force(state, part * i);
+    sum += part / 6.0 * (force + 4.0 * middle + next);
     force = next;
   }
   return sum;
@@ -68,7 +71,7 @@ HexapodLedger::Known HexapodLedger::know(const Glance& glance, const std::option
   f.wanted = pushes_back(*object_, at_wanted, glance.out.deflection, threshold_);
   f.commanded =
       pushes_back(*object_, at_command_, depth_of((glance.scene.X_WR * rendering.command).e()), threshold_);
-  depth_ = depth_of(now.tip);
+  now.depth = depth_ = depth_of(now.tip);
   f.ideal = pushes_back(*object_, at_tip_, depth_, threshold_);
   // A tip that waits inside has a spring that nobody has pressed.
   if (begins) loaded_ = recoverable(*object_, at_tip_, depth_, threshold_);
@@ -88,14 +91,22 @@ void HexapodLedger::count(const Known& was, const Known& now, const sim::Work& w
   filtered_ += f.filtered * in;
   wanted_ += f.wanted * in;
   commanded_ += f.commanded * in;
-  ideal_ += 0.5 * (f.ideal + now.force.ideal) * in;
+  // A surface that moves, as where the tip slides on a round one and its anchor goes along, carries.
+  const double ideal = 0.5 * (f.ideal + now.force.ideal);
+  const double pressed = was.engaged && now.engaged ? now.depth - was.depth : in;
+  ideal_ += ideal * in;
+  led_ += ideal * (in - pressed);
+  if (!now.engaged) return;
+  left_ =
+      std::min(left_ + work.sensed - aside.dot(now.felt), recoverable(*object_, at_tip_, depth_, threshold_));
+  sum_.surplus = std::max(sum_.surplus, -left_);
 }
 
 ContactLedger HexapodLedger::so_far(const Known& /*last*/) const {
   ContactLedger sum = sum_;
   sum.spring = (object_ != nullptr ? recoverable(*object_, at_tip_, depth_, threshold_) : 0.0) - loaded_;
-  sum.law = ideal_ - sum.spring;
-  sum.carried = -across_;
+  sum.law = ideal_ - led_ - sum.spring;
+  sum.carried = -across_ - led_;
   // A force that takes more than the ideal's gives out less.
   sum.sampling = -(sensed_ - across_ - held_);
   sum.quantisation = -(held_ - measured_);
@@ -108,7 +119,7 @@ ContactLedger HexapodLedger::so_far(const Known& /*last*/) const {
 void HexapodLedger::open(const Known& from) {
   if (from.engaged && object_ != nullptr) loaded_ = recoverable(*object_, at_tip_, depth_, threshold_);
   sum_ = ContactLedger{};
-  sensed_ = across_ = held_ = measured_ = filtered_ = wanted_ = commanded_ = ideal_ = 0.0;
+  left_ = led_ = sensed_ = across_ = held_ = measured_ = filtered_ = wanted_ = commanded_ = ideal_ = 0.0;
 }
 
 }  // namespace enc::trial

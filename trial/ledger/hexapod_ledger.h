@@ -30,6 +30,7 @@ class HexapodLedger {
   struct Known {
     Vec3 normal = Vec3::UnitZ(), tip = Vec3::Zero(), felt = Vec3::Zero();  // felt: true, N
     Forces force;
+    double depth = 0.0;    // m, of the tip in the object
     bool engaged = false;  // the object is rendered
   };
 
@@ -48,10 +49,12 @@ class HexapodLedger {
   bool damped_ = false;
   double sensed_ = 0.0, across_ = 0.0;  // J, by the sensor; and of that, sideways
   double held_ = 0.0, measured_ = 0.0, filtered_ = 0.0, wanted_ = 0.0, commanded_ = 0.0, ideal_ = 0.0;  // J
+  double led_ = 0.0;  // J, of the ideal, on the way of a surface that moves
   ResponseState at_command_, at_tip_;
   const Object* object_ = nullptr;
   double depth_ = 0.0, threshold_ = 0.0;  // m, N
   double loaded_ = 0.0;                   // J: what the object would have given back at the begin
+  double left_ = 0.0;  // J, that was put in and that the object still holds; below 0: more came out
 };
 
 }  // namespace enc::trial

@@ -27,6 +27,7 @@ constexpr std::array kTerms{
     LedgerTerm{"weight_mJ", [](const C& c) { return c.weight * 1e3; }},
     LedgerTerm{"joints_mJ", [](const C& c) { return c.joints * 1e3; }},
     LedgerTerm{"law_mJ", [](const C& c) { return c.law * 1e3; }},
+    LedgerTerm{"surplus_mJ", [](const C& c) { return c.surplus * 1e3; }},
     LedgerTerm{"left_over_mJ", [](const C& c) { return c.left_over() * 1e3; }},
     LedgerTerm{"closure_percent", [](const C& c) { return c.closure() * 100.0; }},
 };

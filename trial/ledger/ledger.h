@@ -26,6 +26,9 @@ struct ContactLedger {
          weight = 0.0;             // more at the end than at the begin; weight: uncompensated
   double joints = 0.0, law = 0.0;  // taken by the machine's friction; by damper or hysteresis
   double sampling = 0.0, delay = 0.0, quantisation = 0.0, limits = 0.0;  // above 0: given out
+  // What had come out more, at any moment, than had been put in and the law's spring still held; of an arm
+  // against its target, of a hexapod along the normal.
+  double surplus = 0.0;
 
   [[nodiscard]] double stored() const { return kinetic + spring + weight; }
   [[nodiscard]] double dissipated() const { return joints + law; }

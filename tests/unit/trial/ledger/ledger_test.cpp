@@ -133,6 +133,30 @@ TEST(Ledger, OfALosslessPlaneTakesNothing) {
   }
 }
 
+double surplus_of(const std::string& scene, const std::vector<std::string>& set, double time_s) {
+  double most = 0.0;
+  for (const ContactLedger& one : ledger_of(setup_of(scene, set), 1, time_s))
+    if (one.hand != 0.0) most = std::max(most, one.surplus);
+  return most;
+}
+
+// Out beyond what was put in: nothing of a wall within its bound, over which a finger slides, and much of one
+// beyond it, along the normal and across alike; of a soft plane that a hexapod renders, much less with the
+// controller.
+TEST(Ledger, TellsWhatCameOutBeyondWhatWasPutIn) {
+  EXPECT_LT(surplus_of("wall", {}, 12.0), 0.02e-3);
+  EXPECT_GT(surplus_of("wall", {"behaviour.phantom_wall.stiffness_N_per_mm=5"}, 12.0), 10e-3);
+  const std::string form = "rig.admittance.passivity=";
+  EXPECT_LT(surplus_of("session", {form + "controlled"}, 20.0), 0.1e-3);
+  EXPECT_GT(surplus_of("session", {form + "none"}, 20.0), 0.3e-3);
+}
+
+// A hand that pushes a tip past the depth that its object is known to: what is stored there is counted, too.
+TEST(Ledger, OfATooStiffToothTakesNothing) {
+  for (const ContactLedger& one : ledger_of(setup_of("training"), 5, 60.0))
+    EXPECT_GT(one.law, -0.05 * one.largest() - 0.05e-3) << one.contact;
+}
+
 // It looks on: a run is the same to the bit whether its work is counted or not, and counts none unasked.
 TEST(Ledger, LeavesTheRunAlone) {
   for (const char* scene : {"keypad", "tennis_ball"}) {
