@@ -66,7 +66,7 @@ void refuse_others(const ExportOptions& options) {
   constexpr const char* kInstead = "a scene and the file that its world is written to";
   refuse(!options.csv.empty(), "--csv", "a record that is written as a table", kInstead);
   refuse(options.partial, "--partial", "a record that is written as a table", kInstead);
-  refuse(options.ledger, "--ledger", "a record, whose ledger is the table", kInstead);
+  refuse(options.ledger, "--ledger", "a record: a scene has no ledger before it has run", kInstead);
   if (options.xml == "-")
     throw Error("-: a world is not written to standard output; expected a file; name one, such as world.xml");
   if (is_record(options.record))
@@ -92,7 +92,8 @@ std::string ledger_of(const RecordReader& record, const std::string& path) {
   const auto ledger = record.end_texts().find("ledger");
   if (ledger != record.end_texts().end()) return ledger->second;
   throw Error(path + ": has no energy ledger" +
-              (record.sealed()
+              (!record.damage().empty() ? ": " + record.damage() + "; record it again"
+               : record.sealed()
                    ? ": nothing that was rendered was touched, a real machine ran, or an older version "
                      "wrote it; record it again"
                    : ": the end, where it stands, is missing (the run was killed, or the file was cut off); "
@@ -133,6 +134,11 @@ int export_record(const ExportOptions& options) {
   if (!record.damage().empty())
     fmt::print(stderr, "encounter: {}: {}; only the {} ticks before it are in the table\n", options.record,
                record.damage(), record.ticks());
+  else if (!record.sealed())
+    fmt::print(stderr,
+               "encounter: {}: is not sealed: it was cut off, or its run was killed; the {} ticks that it "
+               "holds are in the table\n",
+               options.record, record.ticks());
   return record.damage().empty() ? 0 : 1;
 }
 

@@ -92,8 +92,9 @@ std::string stability_text(const models::Setup& setup, const std::vector<Certifi
   const bool arm = setup.scene.arm.has_value();
   if ((arm ? setup.rig.arm.passivity : setup.rig.admittance.passivity) == PassivityForm::controlled)
     text += fmt::format(
-        "  rig.{}.passivity=controlled: energy that would come out along the normal is held back, whatever "
-        "these say\n",
+        "  rig.{}.passivity=controlled: energy that would come out along the normal is held back; the "
+        "classes "
+        "above are without that, and decide the exit code and --armed all the same\n",
         arm ? "arm" : "admittance");
   return text + rows_text(nearest_its_bound(certificates));
 }

@@ -157,8 +157,12 @@ std::string seen_line(const RunReport& r) {
   std::string each;
   for (const trial::SeenPress& press : presses)
     each += fmt::format("{}{:+.2f}", each.empty() ? "" : " / ", press.mean * 1e3);
+  const bool all = r.seen.shift().ways == 3;
   return fmt::format(
-      "seen        {} mm above the prop that it pushed (by vision and encoders, a press each)\n", each);
+      "seen        {} mm above the prop that it pushed (by vision and encoders, a press each){}\n", each,
+      all ? ""
+          : fmt::format("; a {} that has moved along the surface would not show in it",
+                        r.setup.scene.camera ? "camera" : "tracker"));
 }
 
 // What the controller of energy saw and did, where it is on.
@@ -241,15 +245,19 @@ std::string ledger_line(const RunReport& r) {
                : "";
   const auto most = std::max_element(all.begin(), all.end(),
                                      [](const auto& a, const auto& b) { return a.largest() < b.largest(); });
-  double worst = 0.0;
-  for (const trial::ContactLedger& one : all) worst = std::max(worst, one.closure());
+  double worst = 0.0, surplus = 0.0;
+  for (const trial::ContactLedger& one : all) {
+    worst = std::max(worst, one.closure());
+    if (one.hand != 0.0) surplus = std::max(surplus, one.surplus);
+  }
+  const std::string share = worst < 1e-4 ? "0.01" : fmt::format("{:.2f}", worst * 100.0);
   return fmt::format(
       "ledger      contact {}{}: hand {:.2f} + carried {:.2f} + generated {:.2f} = stored {:.2f} + "
       "dissipated "
-      "{:.2f} mJ; {} close{} within {:.2f} %\n",
+      "{:.2f} mJ; {} close{} within {} %; at most {:.3f} mJ out beyond what was put in\n",
       most->contact, most->rendered ? "" : " (nothing rendered)", most->hand * 1e3, most->carried * 1e3,
       most->generated() * 1e3, most->stored() * 1e3, most->dissipated() * 1e3, all.size(),
-      all.size() == 1 ? "s" : "", worst * 100.0);
+      all.size() == 1 ? "s" : "", share, surplus * 1e3);
 }
 
 // Who repeats this gets the same report.

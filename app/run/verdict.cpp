@@ -115,12 +115,14 @@ void add_departures(const RunReport& r, Lines& lines) {
   if (off.empty()) return;
   const auto& worst =
       *std::max_element(off.begin(), off.end(), [](const auto& a, const auto& b) { return a.away < b.away; });
+  const bool held = r.passivity.worst().acted > 0.0;
   lines.push_back(
       fmt::format("the true force was none of the object's for {:.2f} s, from {:.2f} s on: at most {:.2f} N "
-                  "at {:.3f} mm, "
-                  "{:.2f} N from its response; the sensor does not measure what pushes, or the machine does "
-                  "not follow it",
-                  worst.lasted, worst.from, worst.force, worst.deflection * 1e3, worst.away));
+                  "at {:.3f} mm, {:.2f} N from its response; {}",
+                  worst.lasted, worst.from, worst.force, worst.deflection * 1e3, worst.away,
+                  held ? "the passivity controller held the tip back (line 'passivity'), or the sensor does "
+                         "not measure what pushes"
+                       : "the sensor does not measure what pushes, or the machine does not follow it"));
 }
 
 void add_motors(const RunReport& r, Lines& lines) {
@@ -142,6 +144,8 @@ void add_moved(const RunReport& r, Lines& lines) {
   const auto rounded = [](double x) { return std::round(x * 10.0) * 0.1 + 0.0; };  // no -0
   constexpr std::array kUnknown{"across their normal the presses do not tell",
                                 "along the line across both of their normals the presses do not tell", ""};
+  const double known =
+      r.setup.scene.camera ? std::hypot(found.error, trial::SeenMeasure::kThroughImages) : found.error;  // m
   const std::string unknown =
       found.ways < 3 ? fmt::format("; {}", kUnknown.at(static_cast<std::size_t>(found.ways - 1))) : "";
   lines.push_back(
@@ -149,7 +153,7 @@ void add_moved(const RunReport& r, Lines& lines) {
                   "by [{:.1f}, {:.1f}, "
                   "{:.1f}] mm in W, +- {:.1f} mm{}; register it again by encounter calibrate",
                   r.setup.scene.camera ? "camera" : "tracker", found.presses, found.since, rounded(mm.x()),
-                  rounded(mm.y()), rounded(mm.z()), 1e3 * found.error, unknown));
+                  rounded(mm.y()), rounded(mm.z()), 1e3 * known, unknown));
 }
 
 // What is beyond its bound was rendered: a contact with the object, of whichever none is known. A tip that

@@ -92,9 +92,13 @@ void ReachMeasure::watch_contact(const trial::Glance& glance, double now) {
   const sim::Truth& truth = glance.truth;
   if (!truth.touching) return;
   now_.touched = true;
-  if (now_.felt < 0 && glance.out.mode == Mode::contact) now_.felt = glance.out.object;
   const trial::Wanted at =
       trial::wanted_at(glance.scene.objects[static_cast<std::size_t>(now_.aim)], truth.tool_tip);
+  if (now_.felt < 0 && glance.out.mode == Mode::contact) {
+    now_.felt = glance.out.object;
+    now_.felt_after = now - now_.met;
+    now_.felt_depth = truth.tool_radius - at.distance;
+  }
   if (now - now_.met <= kImpact) now_.impact = std::max(now_.impact, -dot(truth.contact_force, at.normal));
   if (truth.phase == sim::Phase::hold)
     now_.slide_error = std::max(now_.slide_error, along_surface(at, truth.tip));

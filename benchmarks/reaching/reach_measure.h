@@ -12,10 +12,12 @@ namespace enc::bench::reaching {
 // A reach has met the surface when the finger first touches the prop, or passes through the surface without
 // it.
 struct ReachOutcome {
-  std::int32_t aim = -1;     // object that the person reaches for
-  std::int32_t chosen = -1;  // by the core, when they meet
-  std::int32_t felt = -1;    // that the core renders when it first does while the finger touches the prop
-  double prepared = kUnset;  // s of experiment: the last "prepare" before
+  std::int32_t aim = -1;       // object that the person reaches for
+  std::int32_t chosen = -1;    // by the core, when they meet
+  std::int32_t felt = -1;      // that the core renders when it first does while the finger touches the prop
+  double felt_after = kUnset;  // s: since they met
+  double felt_depth = kUnset;  // m: how far the finger was through the surface then
+  double prepared = kUnset;    // s of experiment: the last "prepare" before
   double arrived =
       kUnset;             // s: since then the prop has been within 2 mm of where they meet; unset: it is not
   double met = kUnset;    // s

@@ -96,6 +96,13 @@ std::vector<ReachOutcome> joined(const std::vector<ReachRan>& ran) {
   return all;
 }
 
+std::vector<double> felts(const std::vector<ReachOutcome>& reaches, double ReachOutcome::*what) {
+  std::vector<double> all;
+  for (const ReachOutcome& r : reaches)
+    if (std::isfinite(r.*what)) all.push_back(r.*what);
+  return all;
+}
+
 std::vector<double> misses(const std::vector<ReachOutcome>& reaches) {
   return of_each(reaches, [](const ReachOutcome& r) { return r.miss; });
 }

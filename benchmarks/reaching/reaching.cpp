@@ -53,6 +53,11 @@ void random_figures(const std::vector<ReachRan>& ran, Seen how, bool bounded, co
       "%", bounded ? 99.0 : kUnset, kUnset,
       "of the reaches at the keypad in which the key that is rendered, when the finger has met the prop, is "
       "the one that was meant");
+  const std::vector<ReachOutcome> keys = of_scene(ran, 1);
+  add(key + "felt_after_ms.p95", 1e3 * percentile(felts(keys, &ReachOutcome::felt_after), 0.95), "ms", kUnset,
+      kUnset, "from where the finger passes the place of the key until a key is felt; the same reaches");
+  add(key + "felt_depth_mm.p95", 1e3 * percentile(felts(keys, &ReachOutcome::felt_depth), 0.95), "mm", kUnset,
+      kUnset, "how far the finger has gone beyond that place by then");
   add(key + "contact_percent",
       percent(all, [](const ReachOutcome& r) { return r.contacts == 1 && r.touched; }), "%", kUnset, kUnset,
       "of the reaches that are one contact to the core");

@@ -44,7 +44,9 @@ void reach_at_random(models::Setup& setup, std::int64_t count);
 
 [[nodiscard]] std::vector<ReachOutcome> joined(const std::vector<ReachRan>& ran);
 // Of each: of the reaches that met the surface.
-[[nodiscard]] std::vector<double> misses(const std::vector<ReachOutcome>& reaches);   // m
+[[nodiscard]] std::vector<double> misses(const std::vector<ReachOutcome>& reaches);  // m
+// Of those that were felt.
+[[nodiscard]] std::vector<double> felts(const std::vector<ReachOutcome>& reaches, double ReachOutcome::*what);
 [[nodiscard]] std::vector<double> impacts(const std::vector<ReachOutcome>& reaches);  // N
 // Share of the reaches for which the prop was there in time.
 [[nodiscard]] double in_time(const std::vector<ReachOutcome>& reaches);

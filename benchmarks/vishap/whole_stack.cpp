@@ -235,6 +235,13 @@ void tell_objects(Bench& bench, const std::string& scene, const Ran& ran) {
       scene + ".object_percent", 100.0 * right / all, "%",
       "of these: it was chosen already when the finger came to where it is, with the prop or "
       "without; an ideal that is told when the finger touches names 99 % (docs/reference/reaching.md)");
+  const auto p95 = [&](double reaching::ReachOutcome::*what) {
+    return 1e3 * percentile(reaching::felts(ran.reaches, what), 0.95);
+  };
+  bench.figure(scene + ".felt_after_ms.p95", p95(&reaching::ReachOutcome::felt_after), "ms",
+               "from where the finger passes the place of the key until a key is felt");
+  bench.figure(scene + ".felt_depth_mm.p95", p95(&reaching::ReachOutcome::felt_depth), "mm",
+               "how far the finger has gone beyond that place by then");
   bench.figure(scene + ".lead_percent", 100.0 * in_time / all, "%", "of these: the prop is there in time");
 }
 

@@ -32,8 +32,11 @@ struct SeenShift {
 
 class SeenMeasure {
  public:
-  static constexpr double kLeast = 2e-3;     // m: twice what vision is wrong by itself
-  static constexpr double kSigmas = 4.0;     // of its standard error
+  static constexpr double kLeast = 2e-3;  // m: twice what vision is wrong by itself
+  static constexpr double kSigmas = 4.0;  // of its standard error
+  // m: by which pictures are off alike in all presses of a place, so that no number of them tells
+  // (docs/reference/vision.md).
+  static constexpr double kThroughImages = 1.4e-3;
   static constexpr std::int64_t kPoses = 5;  // of a press that counts
 
   void see(const Glance& glance);

@@ -14,7 +14,8 @@ constexpr auto words(PassivityForm) { return enum_words("none", "controlled"); }
 
 // Refuses one that has nothing to control, for this reason; `key`: of the rig.
 [[noreturn]] inline void refuse_passivity(const std::string& why, const std::string& key) {
-  throw Error("the passivity controller has nothing to control: " + why + "; expected none; change it", key);
+  throw Error("the passivity controller has nothing to control: " + why + "; expected passivity = 'none'",
+              key);
 }
 
 }  // namespace enc
