@@ -80,8 +80,8 @@ void PressMeasure::judge_law(const Glance& glance, const Object& object, double 
   const bool judged =
       glance.out.mode == Mode::contact && glance.truth.touching && deflection < object.limit - kNearLimit;
   const double depth = std::max(0.0, deflection), rendered = std::max(0.0, deflection - stages::kSkin);
-  const double low = std::min(object.response.press(rendered), object.response.release(rendered));
-  const double high = std::max(object.response.press(depth), object.response.release(depth));
+  const auto [low, high] = std::minmax({object.response.press(rendered), object.response.release(rendered),
+                                        object.response.press(depth), object.response.release(depth)});
   const double away = judged ? std::max(least_ - high, low - most_) : 0.0;
   if (!(away > kOff)) {
     off_ = Departure{};

@@ -55,7 +55,7 @@ bool engaged(const Walk& walk, const State& state, const Rendering& now) {
 void weigh(const Walk& walk, const Render&, const State& state, Rendering& now) noexcept {
   Spent& spent = now.spent;
   if (!spent.energy.on) return;
-  if (!engaged(walk, state, now)) {
+  if (!engaged(walk, state, now) || spent.object != now.contact.object) {
     spent = Spent{};
     return;
   }
@@ -68,6 +68,9 @@ void weigh(const Walk& walk, const Render&, const State& state, Rendering& now) 
   const bool whole = least >= walk.scene.force.contact;
   spent.energy.pushed = whole ? 0.5 * (least + most) : tick.moved > 0.0 ? most : least;
   observe(spent.energy, tick, 0.0);
+  // What is owed ends with its contact: a tip that nobody pushes any more does not wait for one who pays.
+  if (state.mode == Mode::follow && push < walk.scene.force.contact)
+    spent.energy.left = std::max(0.0, spent.energy.left);
   spent.pressed = push;
   spent.tip = walk.X_WH.origin();
 }
@@ -79,6 +82,7 @@ void spare(Walk& walk, const Render& task, const State& state, Rendering& now) n
     // Nothing was put in yet, and nothing is given for that an object is met deep inside.
     const Yielded tick = yielded(walk, now);
     begin(spent.energy, tick, 0.0);
+    spent.object = now.contact.object;
     spent.pressed = pressed(walk, now, tick.depth);
     spent.tip = walk.X_WH.origin();
   }

@@ -1,7 +1,9 @@
 // What is said of a reach, by hand: a prop that comes along x to a finger that comes down z.
 #include "benchmarks/reaching/reach_measure.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -22,8 +24,12 @@ Scene wall() {
 
 // A finger of 8 mm radius goes down with 100 mm/s from 20 mm over the wall at x = 0; the prop comes along x
 // with 200 mm/s and stops at x = `stop`, 10 ms after the reach began the core prepares.
-std::vector<ReachOutcome> reach(double stop, bool touching = true) {
-  const Scene scene = wall();
+// The core renders what `rendered` says of the ms: an object, or none.
+std::vector<ReachOutcome> reach(
+    double stop, bool touching = true,
+    const std::function<std::int32_t(int)>& rendered = [](int) { return -1; }) {
+  Scene scene = wall();
+  scene.objects.push_back(scene.objects.front());
   ReachMeasure measure;
   Tick tick;
   sim::Truth truth;
@@ -40,8 +46,8 @@ std::vector<ReachOutcome> reach(double stop, bool touching = true) {
     truth.tip = {std::max(stop, 0.030 - 0.2 * t), 0, 0};
     truth.touching = touching && i >= 200;
     truth.contact_force = Vec<'W'>(0, 0, truth.touching ? -2.0 : 0.0);
-    out.mode = i < 10 ? Mode::away : Mode::follow;
-    out.object = 0;
+    out.mode = rendered(i) >= 0 ? Mode::contact : i < 10 ? Mode::away : Mode::follow;
+    out.object = std::max(0, rendered(i));
     out.contacts = truth.touching ? 1 : 0;
     measure.see({scene, tick, truth, in, out});
   }
@@ -80,6 +86,24 @@ TEST(ReachMeasure, AFingerThatPassesThePropMeetsTheSurfaceAllTheSame) {
   EXPECT_NEAR(reaches[0].miss, 0.020, 1e-12);
   EXPECT_FALSE(reaches[0].touched);
   EXPECT_EQ(reaches[0].contacts, 0);
+}
+
+// The first that is rendered while the finger touches the prop, whatever was rendered before or comes after.
+TEST(ReachMeasure, SaysWhichObjectIsFelt) {
+  const auto first = [](int i) { return i < 202 ? -1 : 0; };
+  const ReachOutcome r = reach(0.0, true, first).at(0);
+  EXPECT_EQ(r.felt, 0);
+  EXPECT_NEAR(r.felt_after, 0.002, 1e-9);
+  EXPECT_NEAR(r.felt_depth, 0.0002, 1e-9);
+  const auto before = [](int i) { return i < 190 ? -1 : i < 200 ? 1 : 0; };
+  EXPECT_EQ(reach(0.0, true, before).at(0).felt, 0);
+  const auto after = [](int i) { return i < 202 ? -1 : i < 205 ? 0 : 1; };
+  EXPECT_EQ(reach(0.0, true, after).at(0).felt, 0);
+  const auto wrong = [](int i) { return i < 202 ? -1 : 1; };
+  EXPECT_EQ(reach(0.0, true, wrong).at(0).felt, 1) << "and not the one that is aimed at";
+  const ReachOutcome none = reach(0.0).at(0);
+  EXPECT_EQ(none.felt, -1);
+  EXPECT_TRUE(bench::reaching::felts({none}, &ReachOutcome::felt_after).empty());
 }
 
 TEST(WantedAt, IsUnderTheFingerOrInTheMiddleOfAButton) {

@@ -124,12 +124,11 @@ TEST(Ledger, OfATennisBallCloses) {
 
 // A plane presses and releases alike: it takes nothing, also where the tip waited inside it.
 TEST(Ledger, OfALosslessPlaneTakesNothing) {
-  for (const char* inset : {"0.1", "0.5", "1"}) {
-    const models::Setup setup = models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/plane.toml",
-                                             "", {std::string("follow.inset_mm=") + inset});
-    const std::vector<ContactLedger> all = ledger_of(setup, 1, 25.0);
+  for (const char* set :
+       {"follow.inset_mm=0.1", "follow.inset_mm=0.5", "follow.inset_mm=1", "rig.force.threshold_N=0.5"}) {
+    const std::vector<ContactLedger> all = ledger_of(setup_of("plane", {set}), 1, 25.0);
     ASSERT_FALSE(all.empty());
-    for (const ContactLedger& one : all) EXPECT_NEAR(one.law, 0.0, 0.02e-3 + 0.02 * one.largest()) << inset;
+    for (const ContactLedger& one : all) EXPECT_NEAR(one.law, 0.0, 0.02e-3 + 0.02 * one.largest()) << set;
   }
 }
 
@@ -155,6 +154,22 @@ TEST(Ledger, TellsWhatCameOutBeyondWhatWasPutIn) {
 TEST(Ledger, OfATooStiffToothTakesNothing) {
   for (const ContactLedger& one : ledger_of(setup_of("training"), 5, 60.0))
     EXPECT_GT(one.law, -0.05 * one.largest() - 0.05e-3) << one.contact;
+}
+
+// Closure does not see how the hexapod's generated energy is shared out: its parts are known here. A filter
+// of 5 Hz is what is late; counts and noise of a closed way cancel; nothing is limited.
+TEST(Ledger, OfATennisBallNamesWhatIsLate) {
+  const auto first = [](const std::vector<std::string>& set) {
+    return ledger_of(setup_of("tennis_ball", set), 1, 20.0).front();
+  };
+  const ContactLedger one = first({}), late = first({"rig.force.filter_hz=2.5"});
+  EXPECT_LT(one.delay, -1e-3);
+  EXPECT_LT(std::abs(one.quantisation), 0.02 * std::abs(one.delay));
+  EXPECT_LT(std::abs(one.sampling), 0.05 * std::abs(one.delay));
+  EXPECT_LT(std::abs(one.limits), 0.1 * std::abs(one.delay));
+  EXPECT_LT(late.delay, 1.3 * one.delay);
+  EXPECT_NEAR(late.limits, one.limits, 0.05e-3);
+  EXPECT_NEAR(late.law, one.law, 0.02 * one.law) << "what the ball takes is the same";
 }
 
 // It looks on: a run is the same to the bit whether its work is counted or not, and counts none unasked.

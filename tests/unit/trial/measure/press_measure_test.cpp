@@ -30,5 +30,14 @@ TEST(PressMeasure, AToothIsSmallerByTheSkinAndStillItself) {
   EXPECT_GT(departures("tennis_ball", 1, {"truth.force.drift_N_per_sqrt_s=0.5"}), 0U);
 }
 
+// A sensor whose zero is wrong and that is believed: seed 6 makes the true force too hard, seed 2 too soft,
+// of a ball as of a tooth.
+TEST(PressMeasure, NamesAForceThatIsTooHardAndOneThatIsTooSoft) {
+  const std::vector<std::string> off{"rig.force.tare=start", "rig.force.tare_time_s=0",
+                                     "truth.force.zero_N=2"};
+  for (const char* scene : {"tennis_ball", "training"})
+    for (const std::uint64_t seed : {2U, 6U}) EXPECT_GT(departures(scene, seed, off), 0U) << scene << seed;
+}
+
 }  // namespace
 }  // namespace enc::trial

@@ -1,4 +1,5 @@
 // The passivity controller of the hexapod, in whole runs of the twin.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "core/error.h"
 #include "models/setup/scene_file.h"
 #include "tests/unit/trial/measure/controlled_replay.h"
+#include "trial/ledger/ledger_measure.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/trial.h"
@@ -27,19 +29,24 @@ models::Setup setup_of(const std::string& scene, Set set, const Set& more = {}) 
 struct Felt {
   double press = 0.0, release = 0.0, in = 0.0, out = 0.0;  // N, N, J, J
   PassivityFigures controller;
+  double surplus = 0.0;  // J, by the truth
   TrialResult result;
 };
 Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
   PressMeasure presses(setup);
   PassivityMeasure passivity;
   TrialOptions options;
+  LedgerMeasure ledger(setup, options);
   options.seed = seed;
   options.watch = [&](const Glance& glance) {
     presses.see(glance);
     passivity.see(glance);
+    ledger.see(glance);
   };
   Felt felt;
-  felt.result = Trial(setup, options).run();
+  Trial trial(setup, options);
+  felt.result = trial.run();
+  for (const ContactLedger& one : ledger.contacts()) felt.surplus = std::max(felt.surplus, one.surplus);
   felt.press = presses.rmse_press();
   felt.release = presses.rmse_release();
   felt.in = presses.energy_in();
@@ -56,6 +63,7 @@ TEST(TrialSpare, TheTennisBallFeelsAsItDid) {
   EXPECT_NEAR(on.in, off.in, 0.01 * off.in);
   EXPECT_NEAR(on.out, off.out, 0.01 * off.out);
   EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed";
+  EXPECT_LE(on.surplus, 0.1e-3) << "J, true";
   EXPECT_TRUE(std::isnan(off.controller.began)) << "nothing of it is remembered";
 }
 
@@ -65,6 +73,7 @@ TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {2U, 13U, 21U}) {
     const Felt on = felt_in(setup_of("session", {}, kControlled), seed);
     EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed, seed " << seed;
+    EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
     EXPECT_GT(on.controller.acted, 0.1) << "s";
   }
 }
@@ -81,7 +90,24 @@ const Set kSoft{"rig.force.tare=start", "rig.contact.softest_N_per_mm=0",
 TEST(TrialSpare, ASoftWallThatSwingsGivesOutNothing) {
   const Felt on = felt_in(setup_of("stiffness", kSoft, kControlled));
   EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed";
+  EXPECT_LE(on.surplus, 0.1e-3) << "J, true";
   EXPECT_GT(on.controller.acted, 0.1) << "s";
+}
+
+// A hand that is gone pays no debts: the tip comes back all the same, and is there for the next touch.
+TEST(TrialSpare, WhatIsOwedEndsWithItsContact) {
+  Set set = kSoft;
+  for (const char* more : {"pusher.rest_s=10", "pusher.depth_mm=5"}) set.emplace_back(more);
+  double held = 0.0, longest = 0.0;  // s, with nobody there
+  TrialOptions options;
+  options.watch = [&](const Glance& glance) {
+    const bool alone = !glance.truth.touching && (glance.out.why & kPassive) != 0;
+    held = alone ? held + glance.scene.dt : 0.0;
+    longest = std::max(longest, held);
+  };
+  (void)Trial(setup_of("stiffness", set, kControlled), options).run();
+  EXPECT_GT(longest, 0.1) << "s";
+  EXPECT_LT(longest, 3.0) << "s";
 }
 
 TEST(TrialSpare, ARecordedRunReplaysToTheSameBits) {
