@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -115,13 +116,17 @@ void add_departures(const RunReport& r, Lines& lines) {
   if (off.empty()) return;
   const auto& worst =
       *std::max_element(off.begin(), off.end(), [](const auto& a, const auto& b) { return a.away < b.away; });
-  const bool held = r.passivity.worst().acted > 0.0;
+  // In the contact in which that was.
+  const auto& contacts = r.passivity.contacts();
+  const auto after = std::find_if(contacts.begin(), contacts.end(),
+                                  [&](const auto& one) { return one.began > worst.from + worst.lasted; });
+  const bool held = after != contacts.begin() && std::prev(after)->acted > 0.0;
   lines.push_back(
       fmt::format("the true force was none of the object's for {:.2f} s, from {:.2f} s on: at most {:.2f} N "
                   "at {:.3f} mm, {:.2f} N from its response; {}",
                   worst.lasted, worst.from, worst.force, worst.deflection * 1e3, worst.away,
                   held ? "the passivity controller held the tip back (line 'passivity'), or the sensor does "
-                         "not measure what pushes"
+                         "not measure what pushes, or the machine does not follow it"
                        : "the sensor does not measure what pushes, or the machine does not follow it"));
 }
 

@@ -34,6 +34,7 @@ struct Pair {
   Sums without;
   std::optional<Sums> controlled;
   double simulated = 0.0;  // s
+  bool arm = false;
 };
 
 void add(const models::Setup& setup, std::uint64_t seed, bool first, Sums& sums, double& simulated) {
@@ -71,8 +72,9 @@ std::optional<models::Setup> with_controller(const BenchContext& context, const 
 }
 
 Pair pair_of(const BenchContext& context, const std::string& scene) {
-  Pair pair{scene, {}, {}, 0.0};
+  Pair pair{scene, {}, {}, 0.0, false};
   const models::Setup without = load_scene(context, scene);
+  pair.arm = without.scene.arm.has_value();
   const std::optional<models::Setup> controlled = with_controller(context, scene);
   if (controlled) pair.controlled.emplace();
   for (int i = 0; i < (context.quick ? 1 : kSeeds); ++i) {
@@ -106,14 +108,17 @@ void run(Bench& bench) {
                           mj(s.surplus), pair.controlled ? mj(pair.controlled->surplus) : "nothing"});
     bench.figure("closure." + pair.scene + ".worst", 100.0 * s.closure, "%", at_most(1.0),
                  "of the largest term, of contacts above 0.05 mJ");
+    // There a finger meets a prop that is still on its way: 0.1 mJ are missed (docs/reference/ledger.md).
+    const bool still = pair.scene != "reaching";
     if (pair.controlled) {
       controlled = std::max(controlled, pair.controlled->closure);
       bench.figure("surplus." + pair.scene + ".controlled.worst", 1e3 * pair.controlled->surplus, "mJ",
-                   at_most(0.1),
+                   still ? at_most(0.1) : Bounds{},
                    "that came out of a contact on which something pushed, at any moment, beyond what went in "
                    "and the law's spring still held");
     }
-    bench.figure("surplus." + pair.scene + ".none.worst", 1e3 * s.surplus, "mJ", {},
+    bench.figure("surplus." + pair.scene + ".none.worst", 1e3 * s.surplus, "mJ",
+                 pair.arm && still ? at_most(0.1) : Bounds{},
                  "the same without the passivity controller, which is the default");
     worst = std::max(worst, s.closure);
     small = std::max(small, s.small_closure);
@@ -122,7 +127,7 @@ void run(Bench& bench) {
   bench.figure(
       "closure.small.worst", 100.0 * small, "%", at_most(1.0),
       "contacts whose largest term is below 0.05 mJ: where a tip rests, friction turns within a step");
-  bench.figure("closure.controlled.worst", 100.0 * controlled, "%", {},
+  bench.figure("closure.controlled.worst", 100.0 * controlled, "%", at_most(1.5),
                "with the passivity controller, of contacts above 0.05 mJ");
   bench.table(std::move(table));
 }

@@ -103,7 +103,8 @@ void spot_checks(Bench& bench, const std::vector<Panel>& panels, std::size_t cou
   const auto found = bench.each(places, [&](const Place& at) {
     const Panel& panel = panels[at.panel];
     const Device device = late_device(panel, at.delay);
-    const int steps = device.period < 0.5e-3 ? 2 : device.period < 5e-3 ? 10 : 50;
+    int steps = device.period < 0.5e-3 ? 2 : device.period < 5e-3 ? 10 : 50;
+    while (std::abs(std::remainder(device.delay, device.period / steps)) > 1e-9) ++steps;  // as Slide wants
     const double rubbed = exact(loop_of(device), panel.damper, device.friction / (kQuarter * kLetGo));
     const double stiffness = about(rubbed, at.share);
     return Spot{stiffness, foretold(panel, at.delay, stiffness),

@@ -55,10 +55,12 @@ void ArmLedger::filter(const Glance& glance, const Impedance& law, const std::op
 const ArmLedger::Posture& ArmLedger::posture(const PerJoint& q, const Impedance& law) {
   if (q == posture_.joints) return posture_;
   const Mat3 J = law.arm.jacobian(q);
-  posture_ = {q, {}, J, damping_at(law, law.arm.felt_mass(J, law.arm.mass(q, law.prop_mass)))};
+  posture_ = {q, {}, J, Vec3::Zero(), damping_at(law, law.arm.felt_mass(J, law.arm.mass(q, law.prop_mass)))};
   if (law.rig.gravity == GravityForm::none) return posture_;
   const Payload form = law.rig.gravity == GravityForm::published ? Payload::published : Payload::exact;
-  posture_.compensated = law.arm.torque(J, law.arm.force(J, law.arm.gravity(q, law.prop_mass, form)));
+  const Vec<'R'> held_up = law.arm.force(J, law.arm.gravity(q, law.prop_mass, form));
+  posture_.against_weight = held_up.e();
+  posture_.compensated = law.arm.torque(J, held_up);
   return posture_;
 }
 
@@ -82,7 +84,7 @@ ArmLedger::Known ArmLedger::know(const Glance& glance, const std::optional<Known
   now.tip = {(X_WR * law.arm.tip(now.joints)).e(), now.jacobian * vec(now.rates)};
   now.weight = machine_.gravity(now.joints, prop_mass_, Payload::exact);
   now.law = law_at(glance, law);
-  now.held = now.late = now.counted = Vec3::Zero();
+  now.held = now.late = now.counted = now.given = Vec3::Zero();
   if (now.law.live) tell(glance, law, was, now);
   aim_ = recall<Meeting>(*glance.state).aim;
   return now;
@@ -111,6 +113,7 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
                                .e();
   now.held = ideal_force(now.law, now.tip);
   filter(glance, law, was, now);
+  now.given = turn * (glance.out.arm_force.e() - at.against_weight);
   now.jacobian = turn * at.jacobian;  // by which the motors are told
 }
 
@@ -146,11 +149,12 @@ void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work)
       6.0;
   sum_.law += h / 6.0 * (damped(was.law, was.tip) + 4.0 * damped(law, middle) + damped(then, now.tip));
   const Vec3 lead = asked_force(was.law, Vec3::Zero(), Vec3::Zero(), kUnset);
-  left_ -= work.motors - compensated - was.counted.dot(led) - lead.dot(moved - led);
+  left_ -= work.motors - compensated - was.given.dot(led) - lead.dot(moved - led);
   constexpr int kEachTick = 40;
   const double spring = stored(now.law, now.tip, kEachTick);
-  if (now.law.felt) left_ = std::min(left_, spring);  // in a gap between two tiles it is kept
-  if (now.law.on_its_way) left_ = spring;             // the leap loaded it
+  if (leaps) left_ += std::max(0.0, spring - spring_);  // loaded by the target
+  if (now.law.felt) left_ = std::min(left_, spring);    // in a gap between two tiles it is kept
+  spring_ = spring;
   sum_.surplus = std::max(sum_.surplus, -left_);
 }
 
@@ -158,7 +162,8 @@ void ArmLedger::open(const Known& from) {
   sum_ = ContactLedger{};
   first_ = from;
   ideal_ = work_held_ = work_late_ = work_counted_ = work_given_ = 0.0;
-  left_ = 0.0;
+  spring_ = stored(from.law, from.tip);
+  left_ = from.law.on_its_way ? spring_ : 0.0;
   led_ideal_ = led_held_ = led_late_ = led_counted_ = 0.0;
 }
 

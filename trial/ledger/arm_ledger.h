@@ -16,7 +16,7 @@ class ArmLedger {
   struct Known {
     LawAt law;
     TipAt tip;                         // true
-    Vec3 held, late, counted;          // N
+    Vec3 held, late, counted, given;   // N
     Mat3 jacobian;                     // m/rad, in W
     PerJoint weight{}, compensated{};  // N m: what the motors must do, and do
     PerJoint joints{}, rates{};        // true
@@ -38,6 +38,7 @@ class ArmLedger {
   struct Posture {
     PerJoint joints{kUnset, kUnset, kUnset}, compensated{};
     Mat3 jacobian;
+    Vec3 against_weight = Vec3::Zero();  // N, in R
     double damping = kUnset;
   };
   [[nodiscard]] const Posture& posture(const PerJoint& joints, const Impedance& law);
@@ -57,7 +58,8 @@ class ArmLedger {
   ContactLedger sum_;
   double ideal_ = 0.0, work_held_ = 0.0, work_late_ = 0.0, work_counted_ = 0.0, work_given_ = 0.0;  // J
   double led_ideal_ = 0.0, led_held_ = 0.0, led_late_ = 0.0, led_counted_ = 0.0;  // J, on the target's way
-  double left_ = 0.0;  // J, that was put in and that the spring still holds; below 0: more came out
+  double spring_ = 0.0;  // J, stored at the last tick
+  double left_ = 0.0;    // J, that was put in and that the spring still holds; below 0: more came out
   Known first_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "core/error.h"
@@ -14,12 +15,13 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // What a tile does on the way back. Smoothed: by counts the rate is known to some 15 mm/s, which is all of
-// the push at the begin of a touch.
+// the push at the begin of a touch. Over so little of its bounce that it gives back what it should.
 double tile_firmness(const Mover& mover, const FingerPress& press, double dt, const Moved& now) {
-  constexpr double kSmooth = 5e-3;  // s; a bounce takes ten times that
+  constexpr double kSmooth = 0.02;  // of pi sqrt(m / k), s
+  const double time = kSmooth * std::numbers::pi * std::sqrt(mover.mass / mover.stiffness);
   const double wanted =
       press.sinks < 0.0 ? std::max(0.0, 1.0 + mover.bounce * press.sinks / now.deepest) : 1.0;
-  return now.firmness + (wanted - now.firmness) * dt / (dt + kSmooth);
+  return now.firmness + (wanted - now.firmness) * dt / (dt + time);
 }
 
 // What a ball does: `deepest` is how deep the finger was when q was last lowered.

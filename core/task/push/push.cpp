@@ -75,7 +75,7 @@ void push(Walk& walk, State& state, Pushing& now) {
     if (object.interaction.kind == Interaction::hit)
       depth = hit_depth(walk, state, now, walk.movers[static_cast<std::size_t>(object.moving)],
                         walk.moved[static_cast<std::size_t>(object.moving)]);
-    if (object.interaction.kind == Interaction::shift)
+    if (object.interaction.kind == Interaction::shift && state.mode == Mode::contact)
       sinks =
           dot(walk.moved[static_cast<std::size_t>(object.moving)].velocity - walk.tip_velocity, walk.normal);
   }

@@ -168,6 +168,27 @@ TEST(Tile, FollowsTheFingerToItsEndAndStopsThere) {
   EXPECT_NEAR(world.moved[0].shift.xyz[0], 0.030, 1e-12) << "it stays";
 }
 
+// Met by a finger that goes on evenly, it parts with e times the speed at which they met.
+TEST(Tile, PartsWithItsRestitution) {
+  for (const double e : {0.4, 0.6, 0.8})
+    for (const double mass : {0.05, 0.1, 0.2})
+      for (const double speed : {0.1, 0.3}) {
+        InteractionSpec does = tile(1.0);
+        does.mass = mass;
+        does.friction = 0.0;
+        does.restitution = e;
+        World world;
+        world.add("tile", kTile, facing_minus_x(0.0), does);
+        world.make();
+        double x = -0.002, most = 0.0;
+        for (int i = 0; i < 1500; ++i) {
+          world.tick(0, {x += speed * kTick, 0, 0});
+          most = std::max(most, world.moved[0].velocity.xyz[0]);
+        }
+        EXPECT_NEAR((most - speed) / speed / e, 1.0, 0.06) << e << ' ' << mass << " kg " << speed << " m/s";
+      }
+}
+
 TEST(Tile, IsHeldByFriction) {
   World world;
   world.add("tile", kTile, facing_minus_x(0.0), tile());
