@@ -45,6 +45,7 @@ constexpr double kUnder = 0.5e-3;  // m: nearer, it is under its tool
 void begin_contact(Walk& walk, State& state, Rendering& now, bool by_force) {
   state.mode = Mode::contact;
   ++state.contacts;
+  if (now.contact.object != state.object) now.spent = Spent{};  // one of another object begins anew
   now.contact = Contact{};
   rest(now);
   now.contact.object = state.object;

@@ -21,7 +21,6 @@ struct Spent {
   Passivity energy;      // of the present contact
   double pressed = 0.0;  // N, along the normal, at the last tick; and where the tip was
   Point<'W'> tip;
-  std::int32_t object = -1;
 };
 
 struct Rendering : Commanded {

@@ -17,6 +17,7 @@ namespace {
 // m: farther from the tool, nothing is met. What a tracker is late and off by, and the tip needs to stop in.
 constexpr double kNearHand = 3e-3;
 constexpr double kMet = 0.8;    // N, that a hand begins with which meets the tip. Chosen.
+constexpr double kOwed = 8.0;   // s, after a contact. Chosen: a hand that waits to be met is met in less.
 constexpr double kComes = 2.0;  // times its stiffness: it comes as fast as the tip goes. Chosen.
 
 // Out along the normal, from the last tick on; depth and push of the object where the tip is.
@@ -55,7 +56,7 @@ bool engaged(const Walk& walk, const State& state, const Rendering& now) {
 void weigh(const Walk& walk, const Render&, const State& state, Rendering& now) noexcept {
   Spent& spent = now.spent;
   if (!spent.energy.on) return;
-  if (!engaged(walk, state, now) || spent.object != now.contact.object) {
+  if (!engaged(walk, state, now)) {
     spent = Spent{};
     return;
   }
@@ -69,7 +70,9 @@ void weigh(const Walk& walk, const Render&, const State& state, Rendering& now) 
   spent.energy.pushed = whole ? 0.5 * (least + most) : tick.moved > 0.0 ? most : least;
   observe(spent.energy, tick, 0.0);
   // What is owed ends with its contact: a tip that nobody pushes any more does not wait for one who pays.
-  if (state.mode == Mode::follow && push < walk.scene.force.contact)
+  // Not at once: of a hand that is still there each bounce would be given anew (0.4 mJ instead of 0.04).
+  if (state.mode == Mode::follow && push < walk.scene.force.contact &&
+      age(walk.tick.t, now.contact.left) >= kOwed)
     spent.energy.left = std::max(0.0, spent.energy.left);
   spent.pressed = push;
   spent.tip = walk.X_WH.origin();
@@ -82,7 +85,6 @@ void spare(Walk& walk, const Render& task, const State& state, Rendering& now) n
     // Nothing was put in yet, and nothing is given for that an object is met deep inside.
     const Yielded tick = yielded(walk, now);
     begin(spent.energy, tick, 0.0);
-    spent.object = now.contact.object;
     spent.pressed = pressed(walk, now, tick.depth);
     spent.tip = walk.X_WH.origin();
   }

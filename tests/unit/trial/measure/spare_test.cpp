@@ -97,7 +97,7 @@ TEST(TrialSpare, ASoftWallThatSwingsGivesOutNothing) {
 // A hand that is gone pays no debts: the tip comes back all the same, and is there for the next touch.
 TEST(TrialSpare, WhatIsOwedEndsWithItsContact) {
   Set set = kSoft;
-  for (const char* more : {"pusher.rest_s=10", "pusher.depth_mm=5"}) set.emplace_back(more);
+  for (const char* more : {"pusher.rest_s=25", "pusher.depth_mm=5"}) set.emplace_back(more);
   double held = 0.0, longest = 0.0;  // s, with nobody there
   TrialOptions options;
   options.watch = [&](const Glance& glance) {
@@ -107,7 +107,7 @@ TEST(TrialSpare, WhatIsOwedEndsWithItsContact) {
   };
   (void)Trial(setup_of("stiffness", set, kControlled), options).run();
   EXPECT_GT(longest, 0.1) << "s";
-  EXPECT_LT(longest, 3.0) << "s";
+  EXPECT_LT(longest, 10.0) << "s";
 }
 
 TEST(TrialSpare, ARecordedRunReplaysToTheSameBits) {
