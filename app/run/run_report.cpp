@@ -251,14 +251,13 @@ std::string ledger_line(const RunReport& r) {
     worst = std::max(worst, one.closure());
     if (one.hand != 0.0) surplus = std::max(surplus, one.surplus);
   }
-  const std::string share = worst < 1e-4 ? "0.01" : fmt::format("{:.2f}", up(worst * 100.0, 1e2));
   return fmt::format(
       "ledger      contact {}{}: hand {:.2f} + carried {:.2f} + generated {:.2f} = stored {:.2f} + "
       "dissipated "
-      "{:.2f} mJ; {} close{} within {} %; at most {:.3f} mJ out beyond what was put in\n",
+      "{:.2f} mJ; {} close{} within {:.2f} %; at most {:.3f} mJ out beyond what was put in\n",
       most->contact, most->rendered ? "" : " (nothing rendered)", most->hand * 1e3, most->carried * 1e3,
       most->generated() * 1e3, most->stored() * 1e3, most->dissipated() * 1e3, all.size(),
-      all.size() == 1 ? "s" : "", share, up(surplus * 1e3, 1e3));
+      all.size() == 1 ? "s" : "", up(worst * 100.0, 1e2), up(surplus * 1e3, 1e3));
 }
 
 // Who repeats this gets the same report.

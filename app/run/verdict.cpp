@@ -123,11 +123,10 @@ void add_departures(const RunReport& r, Lines& lines) {
   const bool held = after != contacts.begin() && std::prev(after)->acted > 0.0;
   lines.push_back(
       fmt::format("the true force was none of the object's for {:.2f} s, from {:.2f} s on: at most {:.2f} N "
-                  "at {:.3f} mm, {:.2f} N from its response; {}",
+                  "at {:.3f} mm, {:.2f} N from its response; {}the sensor does not "
+                  "measure what pushes, or the machine does not follow it",
                   worst.lasted, worst.from, worst.force, worst.deflection * 1e3, worst.away,
-                  held ? "the passivity controller held the tip back (line 'passivity'), or the sensor does "
-                         "not measure what pushes, or the machine does not follow it"
-                       : "the sensor does not measure what pushes, or the machine does not follow it"));
+                  held ? "the passivity controller held the tip back (line 'passivity'), or " : ""));
 }
 
 void add_motors(const RunReport& r, Lines& lines) {

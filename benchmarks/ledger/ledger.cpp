@@ -60,8 +60,8 @@ void add(const models::Setup& setup, std::uint64_t seed, bool first, Sums& sums,
 }
 
 // A scene that has nothing to control is refused, by the key of the controller.
-std::optional<models::Setup> with_controller(const BenchContext& context, const std::string& scene) {
-  const bool arm = load_scene(context, scene).scene.arm.has_value();
+std::optional<models::Setup> with_controller(const BenchContext& context, const std::string& scene,
+                                             bool arm) {
   const std::string key = arm ? "rig.arm.passivity" : "rig.admittance.passivity";
   try {
     return load_scene(context, scene, {}, {key + "=controlled"});
@@ -75,7 +75,7 @@ Pair pair_of(const BenchContext& context, const std::string& scene) {
   Pair pair{scene, {}, {}, 0.0, false};
   const models::Setup without = load_scene(context, scene);
   pair.arm = without.scene.arm.has_value();
-  const std::optional<models::Setup> controlled = with_controller(context, scene);
+  const std::optional<models::Setup> controlled = with_controller(context, scene, pair.arm);
   if (controlled) pair.controlled.emplace();
   for (int i = 0; i < (context.quick ? 1 : kSeeds); ++i) {
     const std::uint64_t seed = context.seed + static_cast<std::uint64_t>(i);
