@@ -246,18 +246,15 @@ std::string ledger_line(const RunReport& r) {
   const auto most = std::max_element(all.begin(), all.end(),
                                      [](const auto& a, const auto& b) { return a.largest() < b.largest(); });
   const auto up = [](double x, double parts) { return std::ceil(x * parts) / parts; };
-  double worst = 0.0, surplus = 0.0;
-  for (const trial::ContactLedger& one : all) {
-    worst = std::max(worst, one.closure());
-    if (one.hand != 0.0) surplus = std::max(surplus, one.surplus);
-  }
+  double worst = 0.0;
+  for (const trial::ContactLedger& one : all) worst = std::max(worst, one.closure());
   return fmt::format(
       "ledger      contact {}{}: hand {:.2f} + carried {:.2f} + generated {:.2f} = stored {:.2f} + "
       "dissipated "
       "{:.2f} mJ; {} close{} within {:.2f} %; at most {:.3f} mJ out beyond what was put in\n",
       most->contact, most->rendered ? "" : " (nothing rendered)", most->hand * 1e3, most->carried * 1e3,
       most->generated() * 1e3, most->stored() * 1e3, most->dissipated() * 1e3, all.size(),
-      all.size() == 1 ? "s" : "", up(worst * 100.0, 1e2), up(surplus * 1e3, 1e3));
+      all.size() == 1 ? "s" : "", up(worst * 100.0, 1e2), up(trial::worst_surplus(all) * 1e3, 1e3));
 }
 
 // Who repeats this gets the same report.

@@ -155,6 +155,7 @@ void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work)
   if (leaps) left_ += std::max(0.0, spring - spring_);  // loaded by the target
   if (now.law.felt) left_ = std::min(left_, spring);    // in a gap between two tiles it is kept
   spring_ = spring;
+  if (sum_.hand == 0.0) left_ = std::max(0.0, left_);  // it went into the machine's own motion
   sum_.surplus = std::max(sum_.surplus, -left_);
 }
 

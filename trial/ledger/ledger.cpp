@@ -46,6 +46,13 @@ double ContactLedger::closure() const {
   return most > 0.0 ? std::abs(left_over()) / most : 0.0;
 }
 
+double worst_surplus(const std::vector<ContactLedger>& contacts) {
+  double most = 0.0;
+  for (const ContactLedger& one : contacts)
+    if (one.hand != 0.0) most = std::max(most, one.surplus);
+  return most;
+}
+
 std::span<const LedgerTerm> ledger_terms() { return kTerms; }
 
 std::string ledger_table(const std::vector<ContactLedger>& contacts) {

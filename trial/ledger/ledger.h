@@ -27,7 +27,7 @@ struct ContactLedger {
   double joints = 0.0, law = 0.0;  // taken by the machine's friction; by damper or hysteresis
   double sampling = 0.0, delay = 0.0, quantisation = 0.0, limits = 0.0;  // above 0: given out
   // What had come out more, at any moment, than had been put in and the law's spring still held; of an arm
-  // against its target, of a hexapod along the normal.
+  // against its target, from the touch on; of a hexapod along the normal.
   double surplus = 0.0;
 
   [[nodiscard]] double stored() const { return kinetic + spring + weight; }
@@ -38,6 +38,10 @@ struct ContactLedger {
   // Share of the largest term; 0 where all are.
   [[nodiscard]] double closure() const;
 };
+
+// J, of the contact on which something pushed and that has the most; of one that nothing pushes nobody feels
+// it.
+[[nodiscard]] double worst_surplus(const std::vector<ContactLedger>& contacts);
 
 // What a ledger says, by names that have their units.
 struct LedgerTerm {

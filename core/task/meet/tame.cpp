@@ -45,8 +45,9 @@ void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
 }
 
 // What the law does not send it does not give out, either.
-const Object* tamed_object(const Walk& walk, const State& state) {
-  if (state.mode != Mode::contact || walk.in.withheld || holding(walk)) return nullptr;
+const Object* tamed_object(const Walk& walk, const State& state, const Meeting& memory) {
+  if (state.mode != Mode::contact || walk.in.withheld || holding(walk) || !memory.aim.caught_up)
+    return nullptr;
   const Object* object = nearest_object(walk, state);
   const bool renders = object != nullptr && object->interaction.kind != Interaction::passive;
   const bool known = walk.along_mass > 0.0 && walk.wanted_force.finite() && walk.normal.finite();
@@ -59,7 +60,7 @@ Tame::Tame(Walk& walk, const Impedance& law, const State& state, Meeting& memory
     : wanted(walk.wanted_force.e()) {
   if (law.rig.passivity == PassivityForm::none) return;
   Tamed& now = memory.tamed;
-  const Object* object = tamed_object(walk, state);
+  const Object* object = tamed_object(walk, state, memory);
   if (object == nullptr) {
     lose(walk, memory, now);
     return;
