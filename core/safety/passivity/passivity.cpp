@@ -6,9 +6,6 @@
 namespace enc {
 namespace {
 
-// J: less is owed by what no encoder sees, and a wall that stops pushing for it would be felt.
-constexpr double kForgiven = 0.03e-3;
-
 // The largest f with f (u + g f) <= left, which is not below 0.
 double largest(double left, double u, double g) {
   const double root = std::sqrt(u * u + 4.0 * g * left);
@@ -62,8 +59,8 @@ double passive(const Passivity& now, double wanted, double per_newton, double co
   return std::copysign(std::min(std::abs(wanted), most), wanted);
 }
 
-double way_left(const Passivity& now, double push, double stiffness) noexcept {
-  return largest(std::max(0.0, now.left + kForgiven), std::max(0.0, push), 0.5 * stiffness);
+double way_left(const Passivity& now, double forgiven, double push, double stiffness) noexcept {
+  return largest(std::max(0.0, now.left + forgiven), std::max(0.0, push), 0.5 * stiffness);
 }
 
 void hold(Passivity& now, double pushed, double wanted) noexcept {

@@ -19,6 +19,9 @@
 
 namespace enc {
 
+// J: less is owed by what no encoder sees, and a wall that stops pushing for it would be felt.
+constexpr double kForgiven = 0.03e-3;
+
 struct Passivity {
   bool on = false;
   double left = 0.0;                 // J, that may be given out; below 0: more was
@@ -53,8 +56,8 @@ void observe(Passivity& now, const Yielded& tick, double count) noexcept;
 // m: how far outwards of where it is a machine may be sent that keeps to its way. It is pushed with `push`,
 // N, and on the way that grows by `stiffness`, N/m:
 //
-//   push s + stiffness s^2 / 2 <= left, and what is forgiven
-[[nodiscard]] double way_left(const Passivity& now, double push, double stiffness) noexcept;
+//   push s + stiffness s^2 / 2 <= left + forgiven
+[[nodiscard]] double way_left(const Passivity& now, double forgiven, double push, double stiffness) noexcept;
 // What is held from now on, and what the law asked for.
 void hold(Passivity& now, double pushed, double wanted) noexcept;
 

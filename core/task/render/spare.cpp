@@ -17,8 +17,9 @@ namespace {
 // m: farther from the tool, nothing is met. What a tracker is late and off by, and the tip needs to stop in.
 constexpr double kNearHand = 3e-3;
 constexpr double kMet = 0.8;    // N, that a hand begins with which meets the tip. Chosen.
-constexpr double kOwed = 8.0;   // s, after a contact. Chosen: a hand that waits to be met is met in less.
 constexpr double kComes = 2.0;  // times its stiffness: it comes as fast as the tip goes. Chosen.
+// m, that it comes on its own while the tip is stopped (dead time, servo): 20 mm/s for 55 ms. Chosen.
+constexpr double kComesOn = 1.1e-3;
 
 // Out along the normal, from the last tick on; depth and push of the object where the tip is.
 Yielded yielded(const Walk& walk, const Rendering& now) {
@@ -37,11 +38,12 @@ double free_way(const Walk& walk, double depth, double push) {
   return std::max(0.0, walk.gap + depth - kNearHand);
 }
 
-// Unknown for a moment, it is what it was. Where nothing can be met it is the sensor's error.
+// N, of a hand that pushes and cannot pull. Unknown for a moment, it is what it was. Where nothing can be met
+// it is the sensor's error.
 double pressed(const Walk& walk, const Rendering& now, double depth) {
   if (!walk.felt.finite()) return now.spent.pressed;
   const double push = -dot(walk.felt, now.contact.X_WN * Vec<'N'>(0, 0, 1));
-  return free_way(walk, depth, push) > 0.0 ? 0.0 : push;
+  return free_way(walk, depth, push) > 0.0 ? 0.0 : std::max(0.0, push);
 }
 
 // A contact, and the way back from it, until the tip is where it waits.
@@ -68,11 +70,12 @@ void weigh(const Walk& walk, const Render&, const State& state, Rendering& now) 
   // known: it may have been all of what came out, and none of what was put in.
   const bool whole = least >= walk.scene.force.contact;
   spent.energy.pushed = whole ? 0.5 * (least + most) : tick.moved > 0.0 ? most : least;
+  // What the sensor is off by is nobody's: inwards a hand pushes with so much less, outwards with so much
+  // more.
+  if (whole) spent.energy.pushed += std::copysign(walk.scene.force.threshold, tick.moved);
   observe(spent.energy, tick, 0.0);
   // What is owed ends with its contact: a tip that nobody pushes any more does not wait for one who pays.
-  // Not at once: of a hand that is still there each bounce would be given anew (0.4 mJ instead of 0.04).
-  if (state.mode == Mode::follow && push < walk.scene.force.contact &&
-      age(walk.tick.t, now.contact.left) >= kOwed)
+  if (state.mode == Mode::follow && push < walk.scene.force.contact)
     spent.energy.left = std::max(0.0, spent.energy.left);
   spent.pressed = push;
   spent.tip = walk.X_WH.origin();
@@ -90,11 +93,22 @@ void spare(Walk& walk, const Render& task, const State& state, Rendering& now) n
   }
   const Vec<'W'> normal = now.contact.X_WN * Vec<'N'>(0, 0, 1);
   const double wanted = dot(walk.target - walk.X_WH.origin(), normal);
+  // Noise owes something, too: nobody is there to pay it.
+  const bool pushed = spent.pressed >= walk.scene.force.contact;
+  const double comes_on = state.mode == Mode::follow ? 0.0 : kComesOn * task.hand_stiffness;
+  const double push = std::max(kMet, spent.pressed) + comes_on;
   const double most = free_way(walk, spent.energy.depth, spent.pressed) +
-                      way_left(spent.energy, std::max(kMet, spent.pressed), kComes * task.hand_stiffness);
+                      way_left(spent.energy, pushed ? 0.0 : kForgiven, push, kComes * task.hand_stiffness);
   if (!(wanted > most)) return;
   walk.why |= kPassive;
-  walk.target = walk.target - (wanted - most) * normal;
+  if (!pushed || spent.energy.left >= 0.0) {
+    walk.target = walk.target - (wanted - most) * normal;
+    return;
+  }
+  // Who owes stands still under the hand, sideways too: deep inside an object that is round the side of one
+  // normal is outwards by the next. What it was sent out by already is taken back, or it would go there.
+  const double ahead = dot(walk.scene.X_WR * now.command - walk.X_WH.origin(), normal);
+  walk.target = walk.X_WH.origin() - std::max(0.0, ahead) * normal;
 }
 
 }  // namespace enc::stages

@@ -46,7 +46,7 @@ Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
   Felt felt;
   Trial trial(setup, options);
   felt.result = trial.run();
-  for (const ContactLedger& one : ledger.contacts()) felt.surplus = std::max(felt.surplus, one.surplus);
+  felt.surplus = worst_surplus(ledger.contacts());
   felt.press = presses.rmse_press();
   felt.release = presses.rmse_release();
   felt.in = presses.energy_in();
@@ -73,6 +73,16 @@ TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {2U, 13U, 21U}) {
     const Felt on = felt_in(setup_of("session", {}, kControlled), seed);
     EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed, seed " << seed;
+    EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
+    EXPECT_GT(on.controller.acted, 0.1) << "s";
+  }
+}
+
+// A hand that comes on while the tip, deep inside of a tooth, is still on its way out: 0.70 and 0.28 mJ where
+// nothing is reckoned for that.
+TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
+  for (const std::uint64_t seed : {15U, 41U}) {
+    const Felt on = felt_in(setup_of("training", {}, kControlled), seed);
     EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
     EXPECT_GT(on.controller.acted, 0.1) << "s";
   }
@@ -107,7 +117,7 @@ TEST(TrialSpare, WhatIsOwedEndsWithItsContact) {
   };
   (void)Trial(setup_of("stiffness", set, kControlled), options).run();
   EXPECT_GT(longest, 0.1) << "s";
-  EXPECT_LT(longest, 10.0) << "s";
+  EXPECT_LT(longest, 6.0) << "s";
 }
 
 TEST(TrialSpare, ARecordedRunReplaysToTheSameBits) {
