@@ -8,6 +8,9 @@
 namespace enc::stages {
 namespace {
 
+// J, in the law's spring: by far more than that of a prop on its way that nobody presses. Chosen.
+constexpr double kPressed = 2e-3;
+
 // m and N: what the law's spring along the normal is, at this tick.
 struct Spring {
   double depth, push;
@@ -41,13 +44,18 @@ void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
   if (now.energy.on) now.kept = now.energy.left;
   now.energy = Passivity{};
   const bool known = !holding(walk) && walk.normal.finite() && memory.aim.target.finite();
-  if (known && dot(memory.aim.target - walk.X_WH.origin(), walk.normal) <= 0.0) now.kept = 0.0;
+  if (known && dot(memory.aim.target - walk.X_WH.origin(), walk.normal) <= 0.0) {
+    now.kept = 0.0;
+    now.pressed = false;
+  }
 }
 
-// What the law does not send it does not give out, either.
+// What the law does not send it does not give out, either. Nor is anything rendered by a prop that is still
+// on its way to where it is met; one that leaps under the finger that presses it has been.
 const Object* tamed_object(const Walk& walk, const State& state, const Meeting& memory) {
-  if (state.mode != Mode::contact || walk.in.withheld || holding(walk) || !memory.aim.caught_up)
-    return nullptr;
+  if (state.mode != Mode::contact || walk.in.withheld || holding(walk)) return nullptr;
+  const bool met = memory.tamed.pressed && memory.tamed.object == state.object;
+  if (!memory.aim.caught_up && !met) return nullptr;
   const Object* object = nearest_object(walk, state);
   const bool renders = object != nullptr && object->interaction.kind != Interaction::passive;
   const bool known = walk.along_mass > 0.0 && walk.wanted_force.finite() && walk.normal.finite();
@@ -76,6 +84,7 @@ Tame::Tame(Walk& walk, const Impedance& law, const State& state, Meeting& memory
     if (dot(walk.normal, now.normal) < kTurned) renew(now.energy, tick);
     observe(now.energy, tick, law.count);
   }
+  now.pressed = (now.pressed && now.object == state.object) || now.energy.stored > kPressed;
   now.object = state.object;
   now.tip = walk.X_WH.origin();
   now.target = memory.aim.target;

@@ -13,6 +13,7 @@ struct Tamed {
   Passivity energy;
   double kept = 0.0;  // J: was left of a contact that was lost while the tip was inside
   std::int32_t object = -1;
+  bool pressed = false;    // its prop was met, and is not let go of
   Point<'W'> tip, target;  // at the last tick, and the normal
   Vec<'W'> normal;
 };
@@ -23,6 +24,7 @@ void fields(F& f, Tamed& t) {
   fields(f, t.energy);
   f("passivity_kept", t.kept);
   f("passivity_object", t.object);
+  f("passivity_pressed", t.pressed);
   fields(f, "passivity_tip_W", t.tip);
   fields(f, "passivity_target_W", t.target);
   fields(f, "passivity_normal_W", t.normal);

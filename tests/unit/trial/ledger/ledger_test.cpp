@@ -155,6 +155,16 @@ TEST(Ledger, OfAPropThatIsMetOnItsWay) {
   EXPECT_LT(surplus_of("reaching", {"rig.arm.passivity=controlled"}, 27.0, 12), 0.1e-3);
 }
 
+// A prop that is pressed, and leaps because the finger slides away under it, is still looked after: without
+// that 172 mJ.
+TEST(Ledger, OfAPropThatLeapsUnderItsFinger) {
+  EXPECT_LT(surplus_of("wall",
+                       {"rig.arm.passivity=controlled", "behaviour.phantom_wall.stiffness_N_per_mm=2.4",
+                        "user.slide_mm=60", "user.slide_mm_s=60", "user.hold_s=2"},
+                       60.0),
+            1e-3);
+}
+
 // A hand that pushes a tip past the depth that its object is known to: what is stored there is counted, too.
 TEST(Ledger, OfATooStiffToothTakesNothing) {
   for (const ContactLedger& one : ledger_of(setup_of("training"), 5, 60.0))

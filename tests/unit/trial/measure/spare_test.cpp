@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -81,11 +82,22 @@ TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
 // A hand that comes on while the tip, deep inside of a tooth, is still on its way out: 0.70 and 0.28 mJ where
 // nothing is reckoned for that.
 TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
-  for (const std::uint64_t seed : {15U, 41U}) {
+  for (const std::uint64_t seed : {15U, 27U, 41U}) {
     const Felt on = felt_in(setup_of("training", {}, kControlled), seed);
     EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
     EXPECT_GT(on.controller.acted, 0.1) << "s";
   }
+}
+
+// Waiting 0.1 mm inside, the tooth is hardly rendered then; at 0.01 mm it is.
+TEST(TrialSpare, ALessonFromTheSurfaceIsFelt) {
+  const Set near{"follow.inset_mm=0.01"};
+  const Felt off = felt_in(setup_of("training", near), 3),
+             on = felt_in(setup_of("training", near, kControlled), 3);
+  EXPECT_LT(on.press, 2.5) << "N, of 10; " << off.press << " without it";
+  EXPECT_LT(on.release, 2.5) << "N; " << off.release << " without it";
+  EXPECT_GT(on.in, 0.8 * off.in) << "J";
+  EXPECT_LE(on.surplus, 0.1e-3) << "J, true";
 }
 
 // A tip that is late is 26 mm off its tool: it comes, and does not stand where it was when the hand had come.
@@ -104,6 +116,41 @@ TEST(TrialSpare, ASoftWallThatSwingsGivesOutNothing) {
   EXPECT_GT(on.controller.acted, 0.1) << "s";
 }
 
+// J, by the truth: what a contact gave out more than was put in, at any moment, until the tip is back.
+double given_out(const models::Setup& setup, std::uint64_t seed) {
+  double given = 0.0, most = 0.0;
+  TrialOptions options;
+  options.seed = seed;
+  options.work = true;
+  options.watch = [&](const Glance& glance) {
+    const bool on = glance.out.mode == Mode::contact || glance.out.mode == Mode::restore;
+    given = on ? given - glance.truth.work.contact : 0.0;
+    most = std::max(most, given);
+  };
+  (void)Trial(setup, options).run();
+  return most;
+}
+
+// The zero of a sensor is never quite known: what it is off by pays for nothing. 0.4 mJ where a reading below
+// zero counts as a pull, or the threshold is not taken off.
+TEST(TrialSpare, ASensorThatIsOffPaysForNothing) {
+  using Hand = std::pair<const char*, const char*>;
+  for (const auto& [hand, damper] : {Hand{"0.7", "4"}, Hand{"2", "8"}}) {
+    const std::string stiffness = std::string("stiffness_N_per_mm=") + hand;
+    const std::string damping = std::string("damping_Ns_per_m=") + damper;
+    models::Setup setup =
+        setup_of("stiffness",
+                 {"rig.force.tare=start", "rig.contact.softest_N_per_mm=0", "truth.pusher." + stiffness,
+                  "rig.contact.hand_" + stiffness, "truth.pusher." + damping, "rig.contact.hand_" + damping,
+                  "pusher.hold_s=6", "pusher.repeats=12"},
+                 kControlled);
+    for (BehaviourSpec& one : setup.scene.behaviours)
+      one.curves.press = one.curves.release = {one.stiffness = 100.0};
+    for (const std::uint64_t seed : {1U, 5U})
+      EXPECT_LE(given_out(setup, seed), 0.1e-3) << "J, true, hand of " << hand << " N/mm, seed " << seed;
+  }
+}
+
 // A hand that is gone pays no debts: the tip comes back all the same, and is there for the next touch.
 TEST(TrialSpare, WhatIsOwedEndsWithItsContact) {
   Set set = kSoft;
@@ -117,7 +164,7 @@ TEST(TrialSpare, WhatIsOwedEndsWithItsContact) {
   };
   (void)Trial(setup_of("stiffness", set, kControlled), options).run();
   EXPECT_GT(longest, 0.1) << "s";
-  EXPECT_LT(longest, 6.0) << "s";
+  EXPECT_LT(longest, 4.5) << "s";
 }
 
 TEST(TrialSpare, ARecordedRunReplaysToTheSameBits) {
