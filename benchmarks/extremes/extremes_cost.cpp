@@ -103,7 +103,7 @@ double rms_about_mean(std::vector<double> all) {
 Outcome run_once(const Study& study, const BenchContext& context, const Stepped& at,
                  const std::vector<std::string>& more = {}) {
   Outcome found;
-  // A drift is drawn anew at each step: no two steps would share a hand.
+  // A hand that does not drift, so that each meets the same place.
   std::vector<std::string> held{"truth.hand.drift_mm=0",
                                 fmt::format("{}.timestep_us={:g}", study.table, at.step * 1e6),
                                 fmt::format("{}.integrator={}", study.table, at.integrator)};

@@ -13,7 +13,7 @@
 namespace enc::bench::impact {
 namespace {
 
-constexpr const char* kStill = "truth.hand.drift_mm=0";  // drawn anew at each step: no two steps share a hand
+constexpr const char* kStill = "truth.hand.drift_mm=0";  // the same touch in each
 constexpr double kFine = 5e-6;                           // s: half of it changes the force by 0.1 %
 
 // N/m and damping ratio of the tool's mass: what is converged does not hang on it.

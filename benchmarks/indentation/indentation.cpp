@@ -264,7 +264,7 @@ void run(Bench& bench) {
           {fmt::format("indentation.{}", law),
            "indentation",
            {fmt::format("behaviour.tennis_ball_A.reversal={}", law), "user.press_s=2", "user.release_s=2",
-            "truth.hand.drift_mm=0"},  // drawn at each physics step: another step, another hand
+            "truth.hand.drift_mm=0"},  // the path of the machine alone is compared
            kUnset,
            30e-6},
           context, result);

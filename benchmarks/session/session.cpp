@@ -186,7 +186,7 @@ void Figures::add_change(double packet_rate) {
   add("tool_change.contacts", static_cast<double>(contacts), "", 0, 0, "begun meanwhile");
 }
 
-// Drift is drawn anew at each physics step and would differ from step to step; all else is the same hand.
+// A hand that does not drift: the path of the machine alone is compared.
 void add_precision(const BenchContext& context, BenchResult& result) {
   constexpr double kAccuracy = 20e-6;  // m rms: a fiftieth of the median miss
   constexpr double kTime = 8.0;        // s: a reach, a press, and the next reach

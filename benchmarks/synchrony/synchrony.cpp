@@ -246,7 +246,7 @@ void run(Bench& bench) {
     for (const std::string_view law : kWords<Reversal>) {
       Set own = kPaper;
       own.push_back(fmt::format("behaviour.tennis_ball.reversal=\"{}\"", law));
-      own.emplace_back("truth.hand.drift_mm=0");  // drawn at each physics step: another step, another hand
+      own.emplace_back("truth.hand.drift_mm=0");  // the path of the machine alone is compared
       BenchResult one;
       add_work_precision({fmt::format("synchrony.{}", law), "synchrony", own, 6.0, 30e-6}, context, one);
       for (Figure& f : one.figures) result.figures.push_back(std::move(f));

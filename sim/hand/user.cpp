@@ -221,15 +221,24 @@ Vec3 User::tremor(double t, double h) {
   return tremor;
 }
 
-// Tremor, and drift: low-passed noise of the wanted rms below 2 Hz.
-Vec3 User::unsteadiness(double t, double h) {
-  const Vec3 trembling = tremor(t, h);
+// Low-passed noise of the wanted rms below 2 Hz. Drawn each millisecond, with lines between: whatever the
+// step of the physics, it is the same hand.
+Vec3 User::drift(double t) {
+  constexpr double kGrid = 1e-3;                                 // s
   constexpr double kDriftCorner = 2.0 * std::numbers::pi * 1.0;  // rad/s
-  const double keep = std::exp(-kDriftCorner * h);
-  state_.drift = Vec<'W'>(
-      Vec3(keep * state_.drift.e() + hand_.drift * std::sqrt(1.0 - keep * keep) * state_.noise.normal3()));
-  return trembling + state_.drift.e();
+  const double keep = std::exp(-kDriftCorner * kGrid);
+  const double at = t / kGrid, next = std::ceil(at - 1e-6);
+  for (; static_cast<double>(state_.drift_drawn) < next; ++state_.drift_drawn) {
+    state_.drift_from = state_.drift;
+    state_.drift = Vec<'W'>(
+        Vec3(keep * state_.drift.e() + hand_.drift * std::sqrt(1.0 - keep * keep) * state_.noise.normal3()));
+  }
+  const double rest = next - at;
+  return (rest < 1e-6 ? state_.drift : state_.drift + rest * (state_.drift_from - state_.drift)).e();
 }
+
+// Of a step h from t on.
+Vec3 User::unsteadiness(double t, double h) { return tremor(t, h) + drift(t + h); }
 
 Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
                    bool touching) {

@@ -31,7 +31,9 @@ class User {
     Stream noise;
     double tremor_phase[3] = {0, 0, 0};
     std::array<double, 12> band_rate{}, band_phase{};  // rad/s, rad: four sines for each axis
-    Vec<'W'> drift = Vec<'W'>::zero();
+    std::int64_t drift_drawn = 0;                      // how often
+    Vec<'W'> drift_from = Vec<'W'>::zero(),
+             drift = Vec<'W'>::zero();  // the last but one that was drawn, and it
     SessionPlan::State session;
   };
 
@@ -71,6 +73,7 @@ class User {
   void slide(double since, HandPlan& plan) const;
   [[nodiscard]] Vec3 tremor(double t, double h);
   void next_phase(double t);
+  [[nodiscard]] Vec3 drift(double t);
   Vec3 unsteadiness(double t, double h);
 
   UserSpec spec_;
