@@ -30,6 +30,8 @@ struct RunOptions : SceneOptions {
 };
 struct CheckOptions : SceneOptions {
   bool resolved = false;  // the scene file that stands alone, instead of the answer
+  bool advise = false;    // and how fine the twin need step, for
+  std::optional<double> error_N;
 };
 struct ViewOptions : SceneOptions {
   std::string shot;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -7,10 +8,13 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
+#include "app/check/advise.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
+#include "app/process.h"
 #include "app/said.h"
 #include "app/stability_text.h"
+#include "core/error.h"
 #include "core/machine/steadiness.h"
 #include "core/safety/room.h"
 #include "core/task/meet/arm_scene.h"
@@ -187,12 +191,31 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
              law.rig.peak, law.rig.continuous, law.rig.speed * 1e3, law.rig.acceleration);
 }
 
+int advise(const CheckOptions& options) {
+  std::fflush(stdout);  // it takes its time
+  trial::PrecisionOptions how;
+  how.seed = options.seed;
+  how.cpu = cpu_seconds;
+  const trial::Precision all = trial::precision_of(
+      [&](const std::vector<std::string>& set) {
+        CheckOptions asked = options;
+        asked.set.insert(asked.set.end(), set.begin(), set.end());
+        return load_setup(asked);
+      },
+      how);
+  fmt::print("{}", advice_text(all, *options.error_N));
+  return cheapest(all.points, *options.error_N) != nullptr ? 0 : 1;
+}
+
 }  // namespace
 
 int check(const CheckOptions& options) {
   const models::Setup setup = load_setup(options);
   const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
+  if (options.advise && !(options.error_N.value_or(0.0) > 0.0 && std::isfinite(*options.error_N)))
+    throw Error("how much may it err? expected a force in N above 0, such as --advise --error-N 0.05",
+                "--error-N");
   if (options.resolved) {
     std::string made =
         fmt::format("# Encounter {}: {}, rig {}", ENCOUNTER_VERSION, options.scene, setup.rig_path);
@@ -205,7 +228,7 @@ int check(const CheckOptions& options) {
              devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup),
              frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
              stability_text(setup, trial::certificates_of(setup, scene, true)));
-  return 0;
+  return options.advise ? advise(options) : 0;
 }
 
 }  // namespace enc::app

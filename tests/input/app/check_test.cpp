@@ -137,5 +137,21 @@ TEST(CheckResolved, RefusesWhatIsWrongInIt) {
                            HasSubstr("'filter_hz' is -6; expected a positive number in Hz")));
 }
 
+TEST(Check, AdviceAsksForAnErrorAndAHand) {
+  const auto refused = [](const std::string& name, const std::vector<std::string>& words) {
+    std::vector<std::string> command{"check", scene(name), "--advise"};
+    command.insert(command.end(), words.begin(), words.end());
+    const Result r = run_program(command);
+    EXPECT_EQ(r.code, 2) << r.err;
+    return r.err;
+  };
+  EXPECT_THAT(refused("plane", {}), HasSubstr("such as --advise --error-N 0.05"));
+  for (const char* error : {"0", "-1", "nan", "inf"})
+    EXPECT_THAT(refused("plane", {"--error-N", error}), HasSubstr("expected a force in N above 0")) << error;
+  EXPECT_THAT(refused("tracking", {"--error-N", "0.05"}), HasSubstr("no hand touches anything"));
+  EXPECT_THAT(refused("plane", {"--error-N", "0.05", "--set", "truth.world.timestep_us=300"}),
+              HasSubstr("does not divide the haptic period"));
+}
+
 }  // namespace
 }  // namespace enc::test

@@ -1,0 +1,164 @@
+#include "trial/precision/precision.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "trial/trial.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr std::array<const char*, 4> kIntegrators{"implicitfast", "euler", "rk4", "discrete"};
+constexpr std::array kParts{1, 2, 4, 8};  // of the haptic period
+constexpr int kConverged = 50, kSecond = 100;
+constexpr double kSame = 1.1;  // times: as dear
+
+struct Run {
+  std::vector<Vec3> force, tip;
+  std::vector<char> touching;
+  double cpu = kUnset, simulated = 0.0;
+  std::string failure;
+  [[nodiscard]] std::int64_t touched() const { return std::count(touching.begin(), touching.end(), 1); }
+};
+
+Run run_once(const models::Setup& setup, const PrecisionOptions& asked, double seconds) {
+  Run run;
+  TrialOptions options;
+  options.seed = asked.seed;
+  options.seconds = seconds;
+  options.watch = [&](const Glance& glance) {
+    run.force.push_back(glance.truth.contact_force.e());
+    run.tip.push_back(glance.truth.tip.e());
+    run.touching.push_back(glance.truth.touching ? 1 : 0);
+  };
+  try {
+    Trial trial(setup, options);
+    const double start = asked.cpu();
+    const TrialResult result = trial.run();
+    run.simulated = result.simulated;
+    run.cpu = (asked.cpu() - start) / result.simulated;
+    if (result.diverged_at >= 0) run.failure = fmt::format("diverged at tick {}", result.diverged_at);
+  } catch (const Error& e) {
+    run.failure = e.what();
+  }
+  return run;
+}
+
+// A programme that waits for a touch may end earlier or later with another step: what both have is compared.
+void judge(const Run& run, const Run& truth, PrecisionPoint& point) {
+  point.failure = run.failure;
+  if (!run.failure.empty()) return;
+  const std::size_t ticks = std::min(run.force.size(), truth.force.size());
+  double force = 0.0, way = 0.0;
+  std::int64_t touched = 0;
+  for (std::size_t i = 0; i < ticks; ++i) {
+    way += (run.tip[i] - truth.tip[i]).squaredNorm();
+    if (run.touching[i] == 0 && truth.touching[i] == 0) continue;
+    force += (run.force[i] - truth.force[i]).squaredNorm();
+    ++touched;
+  }
+  point.error = std::sqrt(force / static_cast<double>(std::max<std::int64_t>(touched, 1)));
+  point.way = std::sqrt(way / static_cast<double>(std::max<std::size_t>(ticks, 1)));
+  if (!std::isfinite(point.error) || !std::isfinite(point.way)) point.failure = "not finite";
+}
+
+models::Setup with(const SetupWith& setup_with, const Precision& all, const PrecisionPoint& point) {
+  return setup_with(all.settings(point));
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+std::vector<std::string> Precision::settings(const PrecisionPoint& point) const {
+  return {fmt::format("{}.timestep_us={:g}", table, point.step * 1e6),
+          fmt::format("{}.integrator={}", table, point.integrator)};
+}
+
+Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& options) {
+  const models::Setup own = setup_with({});
+  if (!own.scene.user && !own.scene.pusher)
+    throw Error(
+        "there is no error of a force: no hand touches anything in this scene; expected one with "
+        "[user] or [pusher]",
+        "user");
+  const sim::Stepping shipped = own.twin.stepping(own.scene.arm.has_value());
+  const double period = 1.0 / own.rig.loop.rate;
+  Precision all;
+  all.table = shipped.table;
+  all.converged = {"rk4", period / kConverged};
+  all.second = {"implicitfast", period / kSecond};
+  double done = 0.0;
+  const double whole = 8.0 + static_cast<double>(options.rounds) * 2.0;
+  const auto tell = [&](double more) {
+    done += more;
+    if (options.progress) options.progress(std::min(1.0, done / whole));
+  };
+  double seconds = options.seconds;
+  const auto converged = [&] { return run_once(with(setup_with, all, all.converged), options, seconds); };
+  Run truth = converged();
+  if (truth.failure.empty() && truth.touched() == 0) {
+    seconds = kUnset;
+    truth = converged();
+  }
+  tell(4.0);
+  if (!truth.failure.empty()) throw Error("the converged run failed: " + truth.failure);
+  all.seconds = truth.simulated;
+  all.touched = truth.touched();
+  all.converged.cpu = truth.cpu;
+  if (all.touched == 0)
+    throw Error("there is no error of a force: nothing touched in this scene's programme");
+  const Run second = run_once(with(setup_with, all, all.second), options, seconds);
+  judge(second, truth, all.second);
+  all.second.cpu = second.cpu;
+  tell(4.0);
+  for (const char* integrator : kIntegrators)
+    for (const int parts : kParts) {
+      PrecisionPoint point{integrator, period / parts};
+      point.shipped = shipped.integrator == integrator && std::abs(shipped.timestep - point.step) < 1e-9;
+      all.points.push_back(std::move(point));
+    }
+  std::vector<std::vector<double>> cpu(all.points.size());
+  for (int round = 0; round < options.rounds; ++round)
+    for (std::size_t i = 0; i < all.points.size(); ++i) {
+      PrecisionPoint& point = all.points[i];
+      if (!point.failure.empty()) continue;
+      const Run run = run_once(with(setup_with, all, point), options, seconds);
+      judge(run, truth, point);
+      cpu[i].push_back(run.cpu);
+      tell(2.0 / static_cast<double>(all.points.size()));
+    }
+  for (std::size_t i = 0; i < all.points.size(); ++i) all.points[i].cpu = median(cpu[i]);
+  return all;
+}
+
+const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, double error) {
+  const PrecisionPoint* best = nullptr;
+  for (const PrecisionPoint& point : points)
+    if (point.meets(error) && (best == nullptr || point.cpu < best->cpu)) best = &point;
+  if (best == nullptr) return nullptr;
+  const double most = kSame * best->cpu;
+  for (const PrecisionPoint& point : points) {
+    if (!point.meets(error) || point.cpu > most) continue;
+    if (point.shipped) return &point;
+    if (point.error < best->error) best = &point;
+  }
+  return best;
+}
+
+const PrecisionPoint* next_cheaper(const std::vector<PrecisionPoint>& points, const PrecisionPoint& than) {
+  const PrecisionPoint* next = nullptr;
+  for (const PrecisionPoint& point : points)
+    if (point.failure.empty() && point.cpu * kSame < than.cpu && (next == nullptr || point.cpu > next->cpu))
+      next = &point;
+  return next;
+}
+
+}  // namespace enc::trial

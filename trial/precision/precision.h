@@ -1,0 +1,61 @@
+// Error against run time of a scene: what each integrator and time step of its twin makes of it, judged by a
+// converged run of the same scene, the same seed and so the same hand.
+//
+// The error is the true force on what is held, N rms over the ticks at which it touches in either run. Two
+// converged runs do not agree to the last digit: a count of a sensor that falls the other way goes round the
+// loop. What those two differ by is the floor; no time step gets below it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/setup/scene_file.h"
+
+namespace enc::trial {
+
+struct PrecisionPoint {
+  std::string integrator;
+  double step = 0.0;      // s
+  double error = kUnset;  // N rms; unset: it failed
+  double way = kUnset;    // m rms, of the true tip over all ticks
+  double cpu = kUnset;    // s for each second of experiment, the median of some runs
+  std::string failure{};  // why it has no error
+  bool shipped = false;   // what the scene does without being told
+  [[nodiscard]] bool meets(double most) const { return failure.empty() && error <= most; }
+};
+
+struct Precision {
+  std::string table;  // of the rig, where timestep_us and integrator stand: "truth.world"
+  std::vector<PrecisionPoint> points;
+  PrecisionPoint converged;  // what all are judged by
+  PrecisionPoint second;     // the other converged run; its error and way are the floor
+  double seconds = 0.0;      // of experiment
+  std::int64_t touched = 0;  // ticks, in the converged run
+  [[nodiscard]] std::vector<std::string> settings(const PrecisionPoint& point) const;  // for --set
+};
+
+struct PrecisionOptions {
+  std::uint64_t seed = 1;
+  double seconds = 12.0;        // at most; where nothing touches by then, all of the scene's programme
+  std::function<double()> cpu;  // s, that this thread or process has taken so far
+  int rounds = 3;               // each point is timed so often, all in turn
+  std::function<void(double)> progress{};
+};
+
+// The scene with these settings, later ones win.
+using SetupWith = std::function<models::Setup(const std::vector<std::string>& set)>;
+
+// Throws Error for a scene in which nothing can touch: without a simulated hand.
+[[nodiscard]] Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& options);
+
+// The cheapest that meets this error, N; null: none. What costs the same within a tenth is as cheap: then
+// what the scene does anyway, else what errs least.
+[[nodiscard]] const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, double error);
+// The dearest of those that are cheaper than this one; null: none.
+[[nodiscard]] const PrecisionPoint* next_cheaper(const std::vector<PrecisionPoint>& points,
+                                                 const PrecisionPoint& than);
+
+}  // namespace enc::trial
