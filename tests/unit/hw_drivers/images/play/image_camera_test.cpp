@@ -198,11 +198,16 @@ TEST_F(ImageCameraTest, IsGoneAtOnceWhereverItIs) {
 // Slower than its rate, and after some frames it waits for good.
 class SlowSource final : public FrameSource {
  public:
+  static constexpr std::chrono::seconds kStall{10};
+
   explicit SlowSource(int stalls_after) : stalls_after_(stalls_after) {}
+  [[nodiscard]] int asked() const { return asked_; }
   bool next(ImagePair& into) override {
+    ++asked_;
     into.left = into.right = Image(2, 2);
-    for (int i = 0; i < 5000 && count_ == stalls_after_ && !stopped_; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    constexpr std::chrono::milliseconds kNap{2};
+    for (auto slept = kNap; slept < kStall && count_ == stalls_after_ && !stopped_; slept += kNap)
+      std::this_thread::sleep_for(kNap);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
     return !stopped_ && ++count_ <= 4;
   }
@@ -212,7 +217,7 @@ class SlowSource final : public FrameSource {
 
  private:
   int stalls_after_;
-  std::atomic<int> count_ = 0;
+  std::atomic<int> count_ = 0, asked_ = 0;
   std::atomic<bool> stopped_ = false;
 };
 
@@ -229,31 +234,32 @@ TEST(Playback, ARunThatKeepsNoWallClockWaits) {
   EXPECT_EQ(said, "slow: ended after 4 frames");  // and nothing of a frame that came late
 }
 
+// The wall's time is counted here, and begins when the frames before the stall are there: however busy the
+// machine is, no other one comes late.
 TEST(Playback, OnTheWallClockNobodyWaitsForAStall) {
   std::string said;
   std::mutex mutex;
+  auto source = std::make_unique<SlowSource>(3);
+  const SlowSource& slow = *source;
   Playback playback(
-      std::make_unique<SlowSource>(3), 100.0,
+      std::move(source), 100.0,
       [&](const std::string& line) {
         const std::lock_guard lock(mutex);
         said += line;
       },
       false);
+  ASSERT_TRUE(eventually([&] { return slow.asked() == 4; }));  // for the one that stalls
   const auto begin = std::chrono::steady_clock::now();
-  const auto passed = [&] { return std::chrono::steady_clock::now() - begin; };
-  std::optional<Duration> first;
-  Playback::State state = Playback::State::playing;
-  while (passed() < std::chrono::milliseconds(900) && state != Playback::State::stalled) {
-    const auto before = passed();
-    if (!first) first = before;
-    playback.take(Time(before));
-    EXPECT_LT(passed() - before, std::chrono::milliseconds(20));
-    state = playback.state();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const auto take = [&](int ms) { return playback.take(Time(Duration(1'000'000 * ms))); };
+  for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(take(10 * frame)) << frame;
+  for (int ms = 21; ms <= 560; ++ms) {
+    EXPECT_FALSE(take(ms)) << ms;
+    EXPECT_EQ(playback.state(), Playback::State::playing) << ms;
   }
-  EXPECT_EQ(state, Playback::State::stalled);  // half a second, and three frames
-  EXPECT_GE(passed(), std::chrono::milliseconds(500));
-  EXPECT_EQ(playback.exposed() - Time(*first), Duration(20'000'000));
+  for (int ms = 561; ms <= 600; ++ms) EXPECT_FALSE(take(ms)) << ms;
+  EXPECT_EQ(playback.state(), Playback::State::stalled);  // half a second, and three frames
+  EXPECT_EQ(playback.exposed(), Time(Duration(20'000'000)));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, SlowSource::kStall / 2);
   const auto said_late = [&] {
     const std::lock_guard lock(mutex);
     return said.find("frame 3 came late") != std::string::npos &&
