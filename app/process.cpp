@@ -11,6 +11,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -34,6 +35,11 @@ void check_output() {
   errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) fail_output();
+}
+
+void show_progress(double share) {
+  fmt::print(stderr, "\r  {:3.0f} %", share * 100.0);
+  std::fflush(stderr);
 }
 
 int thread_count() {

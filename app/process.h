@@ -14,6 +14,7 @@ void fill_streams();
 void check_output();
 [[noreturn]] void fail_output();
 
+void show_progress(double share);  // on a line of standard error, which is a terminal
 [[nodiscard]] int thread_count();
 [[nodiscard]] double peak_memory_mb();
 [[nodiscard]] double cpu_seconds();  // of this process since it was started, loading included

@@ -19,10 +19,7 @@
 #include "app/stability_text.h"
 #include "core/error.h"
 #include "models/files.h"
-#include "trial/ledger/ledger_measure.h"
-#include "trial/measure/passivity_measure.h"
-#include "trial/measure/press_measure.h"
-#include "trial/measure/probe_measure.h"
+#include "trial/run_measures.h"
 #include "trial/trial.h"
 
 namespace enc::app {
@@ -36,12 +33,6 @@ double pace_of(const std::string& text) {
   if (bad != std::errc() || end != text.data() + text.size() || !(factor > 0.0) || !std::isfinite(factor))
     throw Error("--pace '" + text + "': expected free, wall, or a positive number such as 0.1 or 10");
   return factor;
-}
-
-void show_progress(double share) {
-  const int percent = static_cast<int>(std::lround(share * 100.0));
-  fmt::print(stderr, "\r  {:3d} %", percent);
-  std::fflush(stderr);
 }
 
 // The report would be written into it. What throws away both is no harm.
@@ -105,29 +96,14 @@ int run(const RunOptions& options) {
   const models::Setup setup = load_setup(options);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
-  trial::PressMeasure presses(setup);
-  trial::ProbeMeasure pushes;
-  trial::FingerMeasure fingers;
-  trial::TouchMeasure touches;
-  trial::SeenMeasure seen;
-  trial::PassivityMeasure passivity;
   trial::TrialOptions trial_options;
-  trial::LedgerMeasure ledger(setup, trial_options);
+  trial::RunMeasures measured(setup, trial_options);
   trial_options.seed = options.seed;
   trial_options.seconds = options.seconds.value_or(kUnset);
   trial_options.pace = pace_of(options.pace);
   trial_options.drivers = load_module;
   trial_options.armed = options.armed;
   trial_options.frames = options.frames;
-  trial_options.watch = [&](const trial::Glance& glance) {
-    presses.see(glance);
-    pushes.see(glance);
-    fingers.see(glance);
-    touches.see(glance);
-    seen.see(glance);
-    passivity.see(glance);
-    ledger.see(glance);
-  };
   trial_options.stop = [] { return StopSignals::caught() != 0; };
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) trial_options.progress = show_progress;
@@ -146,13 +122,7 @@ int run(const RunOptions& options) {
   RunReport report{setup,
                    trial.scene(),
                    result,
-                   presses,
-                   pushes,
-                   fingers,
-                   touches,
-                   seen,
-                   passivity,
-                   ledger,
+                   measured,
                    strengths,
                    certificates,
                    options,
@@ -166,7 +136,7 @@ int run(const RunOptions& options) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);  // while a pipe without a reader is an error only
   if (record) {
-    if (const auto contacts = ledger.contacts(); !contacts.empty())
+    if (const auto contacts = measured.ledger.contacts(); !contacts.empty())
       record->writer.end_with({{"ledger", trial::ledger_table(contacts)}});
     record->end();
   }

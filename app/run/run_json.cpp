@@ -174,19 +174,19 @@ std::string run_json(const RunReport& r) {
     json["lost_links"].push_back({{"role", link.role}, {"time_s", seconds(link.t.time_since_epoch())}});
   if (!r.result.log.empty()) json["log"] = r.result.log;
   if (r.scene.impedance()) {
-    json["meetings"] = meetings_json(r.fingers);
-    json["seen"] = seen_json(r.seen);
+    json["meetings"] = meetings_json(r.measured.fingers);
+    json["seen"] = seen_json(r.measured.seen);
   } else {
-    json["presses"] = presses_json(r.presses);
+    json["presses"] = presses_json(r.measured.presses);
   }
-  if (trial::controlled(r.scene)) json["passivity"] = passivity_json(r.passivity);
-  json["ledger"] = ledger_json(r.ledger);
+  if (trial::controlled(r.scene)) json["passivity"] = passivity_json(r.measured.passivity);
+  json["ledger"] = ledger_json(r.measured.ledger);
   if (r.scene.probe()) {
-    json["pushes"] = pushes_json(r.pushes);
-    json["repeats_within_N"] = number(r.pushes.spread());
-    json["force_error_N"] = number(r.pushes.force_error());
+    json["pushes"] = pushes_json(r.measured.pushes);
+    json["repeats_within_N"] = number(r.measured.pushes.spread());
+    json["force_error_N"] = number(r.measured.pushes.force_error());
   }
-  if (!r.scene.impedance()) press_figures(json, r.presses);
+  if (!r.scene.impedance()) press_figures(json, r.measured.presses);
   json["step_ns"] = times_json(r.result.step_ns);
   if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns);
   if (r.result.vision.frames > 0) json["vision"] = vision_json(r.result.vision);

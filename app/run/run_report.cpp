@@ -54,7 +54,7 @@ std::string range_text(const std::vector<trial::PressFigures>& presses) {
 
 std::string press_lines(const RunReport& r) {
   if (r.scene.impedance()) return "";
-  const auto& presses = r.presses.presses();
+  const auto& presses = r.measured.presses.presses();
   const auto met = [](const trial::PressFigures& p) { return !std::isnan(p.miss); };
   if (std::none_of(presses.begin(), presses.end(), met)) return "";
   std::string text;
@@ -67,7 +67,7 @@ std::string press_lines(const RunReport& r) {
   };
   text += fmt::format(
       "error       press {} RMSE, release {} RMSE (true force against the response at true deflection)\n",
-      newtons(r.presses.rmse_press()), newtons(r.presses.rmse_release()));
+      newtons(r.measured.presses.rmse_press()), newtons(r.measured.presses.rmse_release()));
   text +=
       fmt::format("approach    {} mm/s\n",
                   each(presses, [](const auto& p) { return fmt::format("{:.0f}", p.approach_speed * 1e3); }));
@@ -81,15 +81,15 @@ std::string press_lines(const RunReport& r) {
           : "  EXCEEDED");
   text += fmt::format("  contacts  {}\n",
                       each(presses, [](const auto& p) { return fmt::format("{}", p.contacts); }));
-  text += fmt::format("energy      {:.2f} mJ in, {:.2f} mJ out\n", r.presses.energy_in() * 1e3,
-                      r.presses.energy_out() * 1e3);
-  const double outside = r.presses.greatest_outside();
+  text += fmt::format("energy      {:.2f} mJ in, {:.2f} mJ out\n", r.measured.presses.energy_in() * 1e3,
+                      r.measured.presses.energy_out() * 1e3);
+  const double outside = r.measured.presses.greatest_outside();
   text += std::isnan(outside) ? std::string("tip         was never inside of an object")
                               : fmt::format("tip         {} {:.1f} um",
                                             outside <= 0.0 ? "inside of the undeformed object by at least"
                                                            : "OUTSIDE of the undeformed object by up to",
                                             std::abs(outside) * 1e6);
-  text += fmt::format("; pull on the tool at most {:.3f} N\n", r.presses.greatest_tension());
+  text += fmt::format("; pull on the tool at most {:.3f} N\n", r.measured.presses.greatest_tension());
   return text;
 }
 
@@ -103,7 +103,7 @@ std::string each_push(const std::vector<trial::PushFigures>& pushes, const F& fi
 
 std::string push_lines(const RunReport& r) {
   if (!r.scene.probe()) return "";
-  const auto& pushes = r.pushes.pushes();
+  const auto& pushes = r.measured.pushes.pushes();
   std::string text =
       fmt::format("pushes      {} of {}; {:g} mm deep at {:g} mm/s\n", pushes.size(),
                   r.scene.probe()->repeats, r.scene.probe()->depth * 1e3, r.scene.probe()->speed * 1e3);
@@ -119,9 +119,9 @@ std::string push_lines(const RunReport& r) {
       fmt::format("  loss      {} % of the work\n",
                   each_push(pushes, [](const auto& p) { return fmt::format("{:.1f}", p.loss() * 100.0); }));
   if (pushes.size() > 1)
-    text += fmt::format("repeats     within {:.3f} N at equal deflection\n", r.pushes.spread());
+    text += fmt::format("repeats     within {:.3f} N at equal deflection\n", r.measured.pushes.spread());
   text += fmt::format("error       at most {:.3f} N (measured force against the true one)\n",
-                      r.pushes.force_error());
+                      r.measured.pushes.force_error());
   return text;
 }
 
@@ -142,22 +142,23 @@ std::string spring_line(const RunReport& r) {
   if (!user || user->kind != UserKind::press_release) return "";
   const Object& pressed = r.scene.objects[pressed_object(r.setup.scene.objects, user->object, "user")];
   if (pressed.interaction.kind != Interaction::slide) return "";
-  if (!std::isfinite(r.fingers.fit().r2()))
+  if (!std::isfinite(r.measured.fingers.fit().r2()))
     return "spring      not measured: the finger was never 2 to 10 mm deep\n";
   return fmt::format(
       "spring      {:.1f} N/m, R2 {:.5f} (true contact force over true depth, 2 to 10 mm); wanted {:.1f} "
       "N/m; R2 {:.5f} over the depth that the core believed\n",
-      r.fingers.fit().slope(), r.fingers.fit().r2(), pressed.stiffness, r.fingers.believed().r2());
+      r.measured.fingers.fit().slope(), r.measured.fingers.fit().r2(), pressed.stiffness,
+      r.measured.fingers.believed().r2());
 }
 
 // A press tells where vision puts a finger that the prop feels.
 std::string seen_line(const RunReport& r) {
-  const std::vector<trial::SeenPress> presses = r.seen.presses();
+  const std::vector<trial::SeenPress> presses = r.measured.seen.presses();
   if (presses.empty()) return "";
   std::string each;
   for (const trial::SeenPress& press : presses)
     each += fmt::format("{}{:+.2f}", each.empty() ? "" : " / ", press.mean * 1e3);
-  const bool all = r.seen.shift().ways == 3;
+  const bool all = r.measured.seen.shift().ways == 3;
   return fmt::format(
       "seen        {} mm above the prop that it pushed (by vision and encoders, a press each){}\n", each,
       all ? ""
@@ -169,9 +170,9 @@ std::string seen_line(const RunReport& r) {
 std::string passivity_line(const RunReport& r) {
   const bool arm = r.scene.impedance() != nullptr;
   if (!trial::controlled(r.scene)) return "";
-  const auto& contacts = r.passivity.contacts();
+  const auto& contacts = r.measured.passivity.contacts();
   if (contacts.empty()) return "passivity   controlled; there was no contact to control\n";
-  const trial::PassivityFigures all = r.passivity.worst();
+  const trial::PassivityFigures all = r.measured.passivity.worst();
   const auto acted =
       std::count_if(contacts.begin(), contacts.end(), [](const auto& c) { return c.acted > 0.0; });
   const std::string of = fmt::format("{} contact{}", contacts.size(), contacts.size() == 1 ? "" : "s");
@@ -199,8 +200,9 @@ std::string passivity_line(const RunReport& r) {
 // An arm that meets a bare finger [VisHap 3].
 std::string finger_lines(const RunReport& r) {
   if (!r.scene.impedance()) return "";
-  const auto& meetings = r.fingers.meetings();
-  std::string text = fmt::format("far         tip speed at most {:.3f} mm/s\n", r.fingers.far_speed() * 1e3);
+  const auto& meetings = r.measured.fingers.meetings();
+  std::string text =
+      fmt::format("far         tip speed at most {:.3f} mm/s\n", r.measured.fingers.far_speed() * 1e3);
   const auto touched =
       std::count_if(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); });
   text += fmt::format("prepare     {} time{}, {} followed by a touch\n", meetings.size(),
@@ -228,7 +230,7 @@ std::string finger_lines(const RunReport& r) {
   text += fmt::format(
       "  step      {} N, greatest from one cycle to the next\n",
       each_meeting(meetings, [](const Meeting& m) { return fmt::format("{:.2f}", m.greatest_step); }));
-  const double sideways = r.fingers.tangential_share();
+  const double sideways = r.measured.fingers.tangential_share();
   return text + spring_line(r) + seen_line(r) + passivity_line(r) +
          (std::isfinite(sideways)
               ? fmt::format("sideways    {:.1f} % of the normal force, where that is more than 1 N\n",
@@ -238,7 +240,7 @@ std::string finger_lines(const RunReport& r) {
 
 // The contact with the largest term, and how well all of them close (docs/reference/ledger.md).
 std::string ledger_line(const RunReport& r) {
-  const std::vector<trial::ContactLedger> all = r.ledger.contacts();
+  const std::vector<trial::ContactLedger> all = r.measured.ledger.contacts();
   if (all.empty())
     return r.result.contacts > 0 && r.scene.probe()
                ? "ledger      nothing rendered: a real object is pressed\n"
@@ -273,7 +275,7 @@ std::string counted(std::int64_t count, const char* what) {
 // What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
 std::string pushed_lines(const RunReport& r) {
   if (!r.setup.scene.pusher) return "";
-  const auto& pushes = r.presses.presses();
+  const auto& pushes = r.measured.presses.presses();
   return fmt::format("pushed      {} of {} times from outside; at most {:.2f} N and {:.3f} mm deep (true)\n",
                      pushes.size(), r.setup.scene.pusher->repeats,
                      peak(pushes, &trial::PressFigures::peak_force),

@@ -6,14 +6,8 @@
 
 #include "app/options.h"
 #include "trial/certificates.h"
-#include "trial/ledger/ledger_measure.h"
 #include "trial/limits.h"
-#include "trial/measure/finger_measure.h"
-#include "trial/measure/passivity_measure.h"
-#include "trial/measure/press_measure.h"
-#include "trial/measure/probe_measure.h"
-#include "trial/measure/seen_measure.h"
-#include "trial/measure/touch_measure.h"
+#include "trial/run_measures.h"
 #include "trial/trial.h"
 
 namespace enc::app {
@@ -22,13 +16,7 @@ struct RunReport {
   const models::Setup& setup;
   const Scene& scene;
   const trial::TrialResult& result;
-  const trial::PressMeasure& presses;
-  const trial::ProbeMeasure& pushes;
-  const trial::FingerMeasure& fingers;
-  const trial::TouchMeasure& touches;
-  const trial::SeenMeasure& seen;
-  const trial::PassivityMeasure& passivity;
-  const trial::LedgerMeasure& ledger;
+  const trial::RunMeasures& measured;
   const std::vector<trial::ArmStrength>& strengths;
   const std::vector<trial::Certified>& certificates;
   const RunOptions& asked;

@@ -18,7 +18,7 @@ std::string name_of(const RunReport& r, std::int32_t object) {
 }
 
 void add_swings(const RunReport& r, Lines& lines) {
-  const auto& swings = r.touches.swings();
+  const auto& swings = r.measured.touches.swings();
   if (swings.empty()) return;
   const auto widest = std::max_element(swings.begin(), swings.end(),
                                        [](const auto& a, const auto& b) { return a.way < b.way; });
@@ -33,7 +33,7 @@ void add_swings(const RunReport& r, Lines& lines) {
 
 // The paper's user feels what the core calls a contact. By the truth where there is one.
 void add_empty(const RunReport& r, Lines& lines) {
-  const auto& empty = r.touches.empty();
+  const auto& empty = r.measured.touches.empty();
   if (empty.empty()) return;
   lines.push_back(
       fmt::format("nothing was {} in {} of {} contacts, first at {:.2f} s: the tool is not where the tracker "
@@ -48,7 +48,7 @@ std::string last_notice(const RunReport& r) {
 // A part of the presses of the plan, and when the first of them began.
 template <class F>
 void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) {
-  const auto& tried = r.touches.plan().tried();
+  const auto& tried = r.measured.touches.plan().tried();
   const auto n = std::count_if(tried.begin(), tried.end(), is);
   if (n == 0) return;
   const auto first = std::find_if(tried.begin(), tried.end(), is);
@@ -58,7 +58,7 @@ void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) 
 
 // At 20 Hz an arm loses a finger and finds it again within one press (docs/reference/reaching.md).
 void add_repeated(const RunReport& r, Lines& lines) {
-  const auto n = static_cast<std::int64_t>(r.touches.plan().tried().size());
+  const auto n = static_cast<std::int64_t>(r.measured.touches.plan().tried().size());
   if (r.scene.impedance() || n == 0 || r.result.contacts <= n) return;
   lines.push_back(
       fmt::format("{} contacts of {} press{}: force was felt where nothing pushed, or the tip lost what "
@@ -69,7 +69,7 @@ void add_repeated(const RunReport& r, Lines& lines) {
 // By the truth where there is one.
 void add_untouched(const RunReport& r, Lines& lines) {
   using trial::Tried;
-  const auto& tried = r.touches.plan().tried();
+  const auto& tried = r.measured.touches.plan().tried();
   const auto missed = [](const Tried& t) { return t.missed(); };
   const bool never = tried.empty() ? r.result.contacts == 0 && r.setup.scene.user && r.whole
                                    : std::all_of(tried.begin(), tried.end(), missed);
@@ -86,7 +86,7 @@ void add_untouched(const RunReport& r, Lines& lines) {
 void add_beside(const RunReport& r, Lines& lines) {
   const Vec3 size = r.setup.scene.prop.value_or(PropSpec{}).size;
   const double half = 0.5 * std::min(size.x(), size.y());
-  const auto& meetings = r.fingers.meetings();
+  const auto& meetings = r.measured.fingers.meetings();
   const auto beside = [&](const trial::Meeting& m) { return m.miss > half; };
   const auto n = std::count_if(meetings.begin(), meetings.end(), beside);
   if (n == 0) return;
@@ -101,7 +101,7 @@ void add_beside(const RunReport& r, Lines& lines) {
 
 void add_misses(const RunReport& r, Lines& lines) {
   if (r.scene.impedance()) return add_beside(r, lines);
-  const auto& presses = r.presses.presses();
+  const auto& presses = r.measured.presses.presses();
   const auto missed = [](const trial::PressFigures& p) { return p.miss > p.miss_bound; };
   const auto n = std::count_if(presses.begin(), presses.end(), missed);
   if (n == 0) return;
@@ -112,12 +112,12 @@ void add_misses(const RunReport& r, Lines& lines) {
 }
 
 void add_departures(const RunReport& r, Lines& lines) {
-  const auto& off = r.presses.departures();
+  const auto& off = r.measured.presses.departures();
   if (off.empty()) return;
   const auto& worst =
       *std::max_element(off.begin(), off.end(), [](const auto& a, const auto& b) { return a.away < b.away; });
   // In the contact in which that was.
-  const auto& contacts = r.passivity.contacts();
+  const auto& contacts = r.measured.passivity.contacts();
   const auto after = std::find_if(contacts.begin(), contacts.end(),
                                   [&](const auto& one) { return one.began > worst.from + worst.lasted; });
   const bool held = after != contacts.begin() && std::prev(after)->acted > 0.0;
@@ -136,13 +136,13 @@ void add_motors(const RunReport& r, Lines& lines) {
           fmt::format("{}: from {:.2f} s on, for {:.2f} s in all; check names what this pose can hold", what,
                       limit.first, limit.total));
   };
-  add(r.touches.peak(), "a motor was asked for more than its peak, and the arm pushed less");
-  add(r.touches.heat(), "the motors were warm, and the arm pushed less");
+  add(r.measured.touches.peak(), "a motor was asked for more than its peak, and the arm pushed less");
+  add(r.measured.touches.heat(), "the motors were warm, and the arm pushed less");
 }
 
 // Of inputs alone: a real camera that somebody has pushed is found, too.
 void add_moved(const RunReport& r, Lines& lines) {
-  const trial::SeenShift found = r.seen.moved();
+  const trial::SeenShift found = r.measured.seen.moved();
   if (found.presses == 0) return;
   const Vec3 mm = -1e3 * found.shift;  // of the camera: what it sees is off the other way
   const auto rounded = [](double x) { return std::round(x * 10.0) * 0.1 + 0.0; };  // no -0

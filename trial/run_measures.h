@@ -1,0 +1,42 @@
+// What `run` counts of each run, all at once.
+#pragma once
+
+#include "trial/ledger/ledger_measure.h"
+#include "trial/measure/finger_measure.h"
+#include "trial/measure/passivity_measure.h"
+#include "trial/measure/press_measure.h"
+#include "trial/measure/probe_measure.h"
+#include "trial/measure/seen_measure.h"
+#include "trial/measure/touch_measure.h"
+#include "trial/trial.h"
+
+namespace enc::trial {
+
+// Outlives the trial with these options, whose `watch` it is.
+struct RunMeasures {
+  RunMeasures(const models::Setup& setup, TrialOptions& options) : presses(setup), ledger(setup, options) {
+    options.watch = [this](const Glance& glance) { see(glance); };
+  }
+  RunMeasures(const RunMeasures&) = delete;
+  RunMeasures& operator=(const RunMeasures&) = delete;
+
+  void see(const Glance& glance) {
+    presses.see(glance);
+    pushes.see(glance);
+    fingers.see(glance);
+    touches.see(glance);
+    seen.see(glance);
+    passivity.see(glance);
+    ledger.see(glance);
+  }
+
+  PressMeasure presses;
+  ProbeMeasure pushes;
+  FingerMeasure fingers;
+  TouchMeasure touches;
+  SeenMeasure seen;
+  PassivityMeasure passivity;
+  LedgerMeasure ledger;
+};
+
+}  // namespace enc::trial
