@@ -76,12 +76,14 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       "read a scene and its rig, find their mistakes, and say what will be built, what is left out and why, "
       "where each frame is, how hard and how soft an object may be; nothing moves");
   scene_options(check_command, check_options);
-  check_command->add_flag("--resolved", check_options.resolved,
-                          "print the scene with only what it builds, as a scene file that runs");
+  CLI::Option* resolved =
+      check_command->add_flag("--resolved", check_options.resolved,
+                              "print the scene with only what it builds, as a scene file that runs");
   CLI::Option* advise = check_command->add_flag(
       "--advise", check_options.advise,
-      "also run it at several time steps and integrators of its twin (half a minute) and name the cheapest "
-      "that errs by no more than --error-N");
+      "also run it at several time steps and integrators of its twin (about a minute) and name the "
+      "cheapest that errs by no more than --error-N");
+  advise->excludes(resolved);
   check_command
       ->add_option("--error-N", check_options.error_N,
                    "of --advise: error of the true force, N rms while something touches")

@@ -87,7 +87,7 @@ struct Stepping {
   [[nodiscard]] int steps_per_tick(double rate) const {
     const double steps = 1.0 / (rate * timestep);
     const double whole = std::round(steps);
-    return whole >= 1.0 && std::abs(steps - whole) <= 1e-6 ? static_cast<int>(whole) : 0;
+    return whole >= 1.0 && std::abs(steps - whole) <= 1e-6 * whole ? static_cast<int>(whole) : 0;
   }
 };
 

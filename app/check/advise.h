@@ -7,7 +7,8 @@
 
 namespace enc::app {
 
-// Throws Error for an error, N, that no time step gets below.
 [[nodiscard]] std::string advice_text(const trial::Precision& all, double error);
+// Throws Error for an error, N, that nothing holds and that two converged runs do not hold either.
+void refuse_below_floor(const trial::Precision& all, double error);
 
 }  // namespace enc::app

@@ -6,9 +6,11 @@
 
 #include <encounter_version.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "app/built.h"
 #include "app/check/advise.h"
+#include "app/check/costs.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
 #include "app/process.h"
@@ -196,6 +198,8 @@ int advise(const CheckOptions& options) {
   trial::PrecisionOptions how;
   how.seed = options.seed;
   how.cpu = cpu_seconds;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) how.progress = show_progress;
   const trial::Precision all = trial::precision_of(
       [&](const std::vector<std::string>& set) {
         CheckOptions asked = options;
@@ -203,7 +207,10 @@ int advise(const CheckOptions& options) {
         return load_setup(asked);
       },
       how);
+  if (terminal) fmt::print(stderr, "\r        \r");
   fmt::print("{}", advice_text(all, *options.error_N));
+  std::fflush(stdout);
+  refuse_below_floor(all, *options.error_N);
   return cheapest(all.points, *options.error_N) != nullptr ? 0 : 1;
 }
 
@@ -211,6 +218,7 @@ int advise(const CheckOptions& options) {
 
 int check(const CheckOptions& options) {
   const models::Setup setup = load_setup(options);
+  const double ready = cpu_seconds();
   const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
   if (options.advise && !(options.error_N.value_or(0.0) > 0.0 && std::isfinite(*options.error_N)))
@@ -228,6 +236,7 @@ int check(const CheckOptions& options) {
              devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup),
              frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
              stability_text(setup, trial::certificates_of(setup, scene, true)));
+  fmt::print("{}", costs_text(setup, options.seed, ready));
   return options.advise ? advise(options) : 0;
 }
 

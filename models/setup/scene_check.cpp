@@ -310,8 +310,8 @@ void check_stepping(const Setup& setup) {
   if (stepping.steps_per_tick(rate) == 0)
     fail(setup, stepping.table + ".timestep_us",
          fmt::format(
-             "'timestep_us' does not divide the haptic period, {:g} us; expected a whole share of it, such "
-             "as 'timestep_us = {:g}'",
+             "'timestep_us' does not divide the haptic period, {} us; expected a whole share of it, such "
+             "as 'timestep_us = {}'",
              period, period));
 }
 

@@ -12,15 +12,13 @@
 namespace enc::trial {
 namespace {
 
-constexpr std::array<const char*, 4> kIntegrators{"implicitfast", "euler", "rk4", "discrete"};
-constexpr std::array kParts{1, 2, 4, 8};  // of the haptic period
-constexpr int kConverged = 50, kSecond = 100;
+constexpr int kSecond = 100;   // parts of a period
 constexpr double kSame = 1.1;  // times: as dear
 
 struct Run {
   std::vector<Vec3> force, tip;
   std::vector<char> touching;
-  double cpu = kUnset, simulated = 0.0;
+  double cpu = kUnset, yards = kUnset, simulated = 0.0;
   std::string failure;
   [[nodiscard]] std::int64_t touched() const { return std::count(touching.begin(), touching.end(), 1); }
 };
@@ -37,10 +35,14 @@ Run run_once(const models::Setup& setup, const PrecisionOptions& asked, double s
   };
   try {
     Trial trial(setup, options);
+    const double before = asked.yardstick ? asked.yardstick() : kUnset;
     const double start = asked.cpu();
     const TrialResult result = trial.run();
+    const double cpu = asked.cpu() - start;
+    const double after = asked.yardstick ? asked.yardstick() : kUnset;
     run.simulated = result.simulated;
-    run.cpu = (asked.cpu() - start) / result.simulated;
+    run.cpu = cpu / result.simulated;
+    run.yards = cpu / static_cast<double>(result.ticks) / (0.5 * (before + after));
     if (result.diverged_at >= 0) run.failure = fmt::format("diverged at tick {}", result.diverged_at);
   } catch (const Error& e) {
     run.failure = e.what();
@@ -53,6 +55,11 @@ void judge(const Run& run, const Run& truth, PrecisionPoint& point) {
   point.failure = run.failure;
   if (!run.failure.empty()) return;
   const std::size_t ticks = std::min(run.force.size(), truth.force.size());
+  constexpr std::size_t kApart = 1000;  // ticks: more is another course
+  if (std::max(run.force.size(), truth.force.size()) - ticks > kApart) {
+    point.failure = fmt::format("ends after {} ticks, not after {}", run.force.size(), truth.force.size());
+    return;
+  }
   double force = 0.0, way = 0.0;
   std::int64_t touched = 0;
   for (std::size_t i = 0; i < ticks; ++i) {
@@ -61,13 +68,34 @@ void judge(const Run& run, const Run& truth, PrecisionPoint& point) {
     force += (run.force[i] - truth.force[i]).squaredNorm();
     ++touched;
   }
-  point.error = std::sqrt(force / static_cast<double>(std::max<std::int64_t>(touched, 1)));
+  if (touched == 0) {
+    point.failure = "touches nothing by then";
+    return;
+  }
+  point.error = std::sqrt(force / static_cast<double>(touched));
   point.way = std::sqrt(way / static_cast<double>(std::max<std::size_t>(ticks, 1)));
   if (!std::isfinite(point.error) || !std::isfinite(point.way)) point.failure = "not finite";
 }
 
 models::Setup with(const SetupWith& setup_with, const Precision& all, const PrecisionPoint& point) {
   return setup_with(all.settings(point));
+}
+
+std::vector<PrecisionPoint> points_of(const PrecisionOptions& options, const sim::Stepping& shipped,
+                                      double period) {
+  std::vector<PrecisionPoint> points;
+  bool there = false;
+  for (const std::string& integrator : options.grid.integrators)
+    for (const int parts : options.grid.parts) {
+      PrecisionPoint point{integrator, period / parts};
+      point.shipped = shipped.integrator == integrator && std::abs(shipped.timestep - point.step) < 1e-9;
+      there = there || point.shipped;
+      points.push_back(std::move(point));
+    }
+  if (there || !options.shipped_too) return points;
+  points.push_back({shipped.integrator, shipped.timestep});
+  points.back().shipped = true;
+  return points;
 }
 
 double median(std::vector<double> values) {
@@ -78,22 +106,23 @@ double median(std::vector<double> values) {
 }  // namespace
 
 std::vector<std::string> Precision::settings(const PrecisionPoint& point) const {
-  return {fmt::format("{}.timestep_us={:g}", table, point.step * 1e6),
+  return {fmt::format("{}.timestep_us={}", table, point.step * 1e6),
           fmt::format("{}.integrator={}", table, point.integrator)};
 }
 
 Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& options) {
   const models::Setup own = setup_with({});
-  if (!own.scene.user && !own.scene.pusher)
+  if (!own.scene.user && !own.scene.pusher && !own.scene.probe)
     throw Error(
         "there is no error of a force: no hand touches anything in this scene; expected one with "
-        "[user] or [pusher]",
+        "[user], [pusher] or [probe]",
         "user");
   const sim::Stepping shipped = own.twin.stepping(own.scene.arm.has_value());
   const double period = 1.0 / own.rig.loop.rate;
   Precision all;
   all.table = shipped.table;
-  all.converged = {"rk4", period / kConverged};
+  all.tick = period;
+  all.converged = {"rk4", period / options.converged};
   all.second = {"implicitfast", period / kSecond};
   double done = 0.0;
   const double whole = 8.0 + static_cast<double>(options.rounds) * 2.0;
@@ -117,15 +146,11 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
     throw Error("there is no error of a force: nothing touched in this scene's programme");
   const Run second = run_once(with(setup_with, all, all.second), options, seconds);
   judge(second, truth, all.second);
+  if (!all.second.failure.empty()) throw Error("the second converged run failed: " + all.second.failure);
   all.second.cpu = second.cpu;
   tell(4.0);
-  for (const char* integrator : kIntegrators)
-    for (const int parts : kParts) {
-      PrecisionPoint point{integrator, period / parts};
-      point.shipped = shipped.integrator == integrator && std::abs(shipped.timestep - point.step) < 1e-9;
-      all.points.push_back(std::move(point));
-    }
-  std::vector<std::vector<double>> cpu(all.points.size());
+  all.points = points_of(options, shipped, period);
+  std::vector<std::vector<double>> cpu(all.points.size()), yards(all.points.size());
   for (int round = 0; round < options.rounds; ++round)
     for (std::size_t i = 0; i < all.points.size(); ++i) {
       PrecisionPoint& point = all.points[i];
@@ -133,9 +158,17 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
       const Run run = run_once(with(setup_with, all, point), options, seconds);
       judge(run, truth, point);
       cpu[i].push_back(run.cpu);
+      yards[i].push_back(run.yards);
       tell(2.0 / static_cast<double>(all.points.size()));
     }
-  for (std::size_t i = 0; i < all.points.size(); ++i) all.points[i].cpu = median(cpu[i]);
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    if (cpu[i].empty()) continue;
+    all.points[i].cpu = median(cpu[i]);
+    if (!options.yardstick) continue;
+    all.points[i].yards = median(yards[i]);
+    const auto [least, most] = std::minmax_element(yards[i].begin(), yards[i].end());
+    all.points[i].spread = *most / *least;
+  }
   return all;
 }
 

@@ -3,7 +3,7 @@
 //
 // The error is the true force on what is held, N rms over the ticks at which it touches in either run. Two
 // converged runs do not agree to the last digit: a count of a sensor that falls the other way goes round the
-// loop. What those two differ by is the floor; no time step gets below it.
+// loop. What those two differ by is about the floor: what errs by less does so by luck.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,14 @@ namespace enc::trial {
 
 struct PrecisionPoint {
   std::string integrator;
-  double step = 0.0;      // s
-  double error = kUnset;  // N rms; unset: it failed
-  double way = kUnset;    // m rms, of the true tip over all ticks
-  double cpu = kUnset;    // s for each second of experiment, the median of some runs
-  std::string failure{};  // why it has no error
-  bool shipped = false;   // what the scene does without being told
+  double step = 0.0;       // s
+  double error = kUnset;   // N rms; unset: it failed
+  double way = kUnset;     // m rms, of the true tip over all ticks
+  double cpu = kUnset;     // s for each second of experiment, the median of some runs
+  std::string failure{};   // why it has no error
+  double yards = kUnset;   // what a tick cost in yardsticks, the median of some runs
+  double spread = kUnset;  // greatest over least of these runs
+  bool shipped = false;    // what the scene does without being told
   [[nodiscard]] bool meets(double most) const { return failure.empty() && error <= most; }
 };
 
@@ -33,8 +35,14 @@ struct Precision {
   PrecisionPoint converged;  // what all are judged by
   PrecisionPoint second;     // the other converged run; its error and way are the floor
   double seconds = 0.0;      // of experiment
+  double tick = 1e-3;        // s
   std::int64_t touched = 0;  // ticks, in the converged run
   [[nodiscard]] std::vector<std::string> settings(const PrecisionPoint& point) const;  // for --set
+};
+
+struct Grid {
+  std::vector<std::string> integrators{"implicitfast", "euler", "rk4", "discrete"};
+  std::vector<int> parts{1, 2, 4, 8};  // of the haptic period: a step is one of them
 };
 
 struct PrecisionOptions {
@@ -42,6 +50,11 @@ struct PrecisionOptions {
   double seconds = 12.0;        // at most; where nothing touches by then, all of the scene's programme
   std::function<double()> cpu;  // s, that this thread or process has taken so far
   int rounds = 3;               // each point is timed so often, all in turn
+  Grid grid{};
+  bool shipped_too = true;  // what ships is a point, though the grid has it not
+  int converged = 50;       // parts of a period, of the run that judges (RK4)
+  // A fixed piece of work, timed now, s: costs are told in it, too. Empty: they are not.
+  std::function<double()> yardstick{};
   std::function<void(double)> progress{};
 };
 

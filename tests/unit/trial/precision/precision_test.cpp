@@ -116,5 +116,28 @@ TEST(Precision, ThePlaneHoldsAtWhatShips) {
   EXPECT_LT(shipped->cpu * 8.0, all.converged.cpu) << "in one run";
 }
 
+// A period that has no end in decimals, and what ships is no part of it that the grid has.
+TEST(Precision, AnyHapticRateIsTakenAndWhatShipsIsAPoint) {
+  PrecisionOptions options;
+  options.seconds = 4.0;
+  options.cpu = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  options.rounds = 1;
+  options.grid = {{"implicitfast"}, {1}};
+  options.converged = 10;
+  const Precision all = precision_of(
+      [](const std::vector<std::string>& set) {
+        std::vector<std::string> own{"rig.loop.rate_hz=1500", "truth.world.timestep_us=222.22222222222223"};
+        own.insert(own.end(), set.begin(), set.end());
+        return setup_of("plane", own);
+      },
+      options);
+  ASSERT_EQ(all.points.size(), 2U);
+  EXPECT_FALSE(all.points[0].shipped);
+  EXPECT_TRUE(all.points[1].shipped);
+  EXPECT_NEAR(all.points[1].step * 4500.0, 1.0, 1e-9);
+  for (const PrecisionPoint& point : all.points) EXPECT_EQ(point.failure, "");
+  EXPECT_DOUBLE_EQ(all.tick * 1500.0, 1.0);
+}
+
 }  // namespace
 }  // namespace enc::trial
