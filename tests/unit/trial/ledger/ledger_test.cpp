@@ -156,7 +156,7 @@ TEST(Ledger, OfAPropThatIsMetOnItsWay) {
 }
 
 // A prop that is pressed, and leaps because the finger slides away under it, is still looked after: without
-// that 172 mJ.
+// that this hand gets 172 mJ. Others get as much sideways, where nothing is controlled (reference/stability).
 TEST(Ledger, OfAPropThatLeapsUnderItsFinger) {
   EXPECT_LT(surplus_of("wall",
                        {"rig.arm.passivity=controlled", "behaviour.phantom_wall.stiffness_N_per_mm=2.4",
