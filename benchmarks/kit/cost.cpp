@@ -32,6 +32,29 @@ double Race::ratio(std::size_t way, const Race& race, std::size_t over) const {
   return median(ratios);
 }
 
+double Race::more(std::size_t way, std::size_t over) const {
+  std::vector<double> apart = seconds_.at(way);
+  for (std::size_t i = 0; i < apart.size(); ++i) apart[i] -= seconds_.at(over).at(i);
+  std::sort(apart.begin(), apart.end());
+  const auto cut = static_cast<std::ptrdiff_t>(apart.size() / 20);
+  const auto from = apart.begin() + cut, to = apart.end() - cut;
+  return std::accumulate(from, to, 0.0) / static_cast<double>(to - from);
+}
+
+double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors, double floor) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!(errors.at(i) > 3.0 * floor)) continue;
+    const double a = std::log(steps[i]), b = std::log(errors[i]);
+    n += 1.0;
+    x += a;
+    y += b;
+    xx += a * a;
+    xy += a * b;
+  }
+  return n < 3.0 ? kUnset : (n * xy - x * y) / (n * xx - x * x);
+}
+
 Plot cost_beside_error(Plot plot, const std::vector<CostCurve>& curves) {
   plot.log_x = plot.log_y = true;
   for (const CostCurve& curve : curves) {

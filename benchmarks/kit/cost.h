@@ -18,6 +18,9 @@ class Race {
   // Median of what each round took, over what it took the other; also one of another race of as many rounds.
   [[nodiscard]] double ratio(std::size_t way, std::size_t over) const { return ratio(way, *this, over); }
   [[nodiscard]] double ratio(std::size_t way, const Race& race, std::size_t over) const;
+  // How much longer all its rounds took than those of the other, without the tenth of the rounds in which the
+  // two were farthest apart either way: s for each round.
+  [[nodiscard]] double more(std::size_t way, std::size_t over) const;
 
  private:
   std::vector<std::vector<double>> seconds_;  // [way][round]
@@ -32,6 +35,11 @@ template <class Work>
     next = (next + chunk) % count;
   };
 }
+
+// The power of the step with which an error falls: least squares through the logarithms, over what stands
+// clear of the floor by three times. Unset where that is fewer than three points.
+[[nodiscard]] double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors,
+                                  double floor);
 
 // One way with its settings from coarse to fine. An error that is NaN is a failure: a cross at the upper
 // edge.

@@ -1,0 +1,137 @@
+// What is left out, and what it would have cost: each scene as it ships, beside the same with everything in
+// it and with one part at a time. What the hand feels must be the same to the bit.
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "benchmarks/ablation/form.h"
+#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/kit.h"
+
+namespace enc::bench::ablation {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kChunk = 240;  // ticks: four of the display's periods, seven of a camera's at 30 Hz
+constexpr double kTick = 1e-3;
+
+std::vector<std::string> scenes(const BenchContext& context) {
+  if (context.quick) return {"plane", "wall"};
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(context.models + "/scenes"))
+    if (entry.path().extension() == ".toml") names.insert(entry.path().stem());
+  return {names.begin(), names.end()};
+}
+
+struct Costs {
+  std::string scene;
+  std::vector<Part> parts{};
+  std::vector<double> each{};                         // s for each tick, of a part
+  double minimal = 0.0, everything = 0.0, raw = 0.0;  // s for each tick
+  double ratio = kUnset;                              // everything over minimal
+  int elements = 0, all_elements = 0;                 // of the physics
+  std::size_t equal = 0, forms = 0;                   // felt as by the minimal form
+  std::int64_t pictures = 0;                          // seen by the camera beside it
+  [[nodiscard]] double difference() const { return everything - minimal; }
+  [[nodiscard]] double sum() const {
+    double all = 0.0;
+    for (const double cost : each) all += cost;
+    return all;
+  }
+};
+
+// Raw mj_step of the same model, from where the physics stands half way.
+double raw_over(const BenchContext& context, const std::string& scene, double seconds) {
+  Form form(context, scene, {}, seconds);
+  sim::Physics& physics = form.world().physics();
+  const int whole = static_cast<int>(seconds / kTick);
+  form.run(whole / 2);
+  const auto state = physics.save();
+  const double step = physics.model()->opt.timestep;
+  const auto steps = static_cast<int>(std::lround(kChunk * kTick / step));
+  Form other(context, scene, {}, seconds);
+  other.run(whole / 2 - 20 * kChunk);
+  const Race race(36, {[&] { other.run(kChunk); },
+                       [&] {
+                         physics.restore(state);
+                         for (int i = 0; i < steps; ++i) mj_step(physics.model(), physics.data());
+                       }});
+  return race.ratio(0, 1);
+}
+
+Costs costs_of(const BenchContext& context, const std::string& scene) {
+  Costs costs{scene};
+  costs.parts = left_out(context, scene);
+  const int chunks = context.quick ? 12 : 40;
+  const double seconds = (chunks + 1) * kChunk * kTick;
+  std::vector<std::unique_ptr<Form>> forms;
+  const auto add = [&](const std::vector<Part>& with) {
+    forms.push_back(std::make_unique<Form>(context, scene, with, seconds + 1.0));
+  };
+  add({});
+  add(costs.parts);
+  for (const Part part : costs.parts) add({part});
+  std::vector<std::function<void()>> ways;
+  ways.reserve(forms.size());
+  for (const auto& form : forms) ways.emplace_back([&form] { form->run(kChunk); });
+  const Race race(static_cast<std::size_t>(chunks), ways);
+  for (std::size_t i = 0; i < costs.parts.size(); ++i) costs.each.push_back(race.more(i + 2, 0) / kChunk);
+  costs.minimal = race.seconds(0) / kChunk;
+  costs.everything = costs.minimal + race.more(1, 0) / kChunk;
+  costs.ratio = race.ratio(1, 0);
+  costs.elements = forms[0]->elements();
+  costs.all_elements = forms[1]->elements();
+  costs.forms = forms.size();
+  for (const auto& form : forms) costs.equal += form->felt() == forms[0]->felt() ? 1 : 0;
+  costs.pictures = forms[1]->pictures();
+  return costs;
+}
+
+void run(Bench& bench) {
+  Table table{"scenes",
+              "What each part that a scene leaves out would cost, us for each tick",
+              {"scene", "as it ships", "everything", "times", "display", "camera", "pictures", "features",
+               "counts", "record", "sum of parts (%)", "MuJoCo elements"},
+              {}};
+  table.printed = true;
+  const std::vector<std::string> all = scenes(bench.context);
+  for (const std::string& scene : all) {
+    const Costs costs = costs_of(bench.context, scene);
+    const double explained = costs.sum() / costs.difference();
+    std::vector<std::string> row{scene, fmt::format("{:.2f}", costs.minimal * 1e6),
+                                 fmt::format("{:.2f}", costs.everything * 1e6),
+                                 fmt::format("{:.2f}", costs.ratio)};
+    for (const Part part : kParts) {
+      const auto at = std::find(costs.parts.begin(), costs.parts.end(), part);
+      row.push_back(
+          at == costs.parts.end()
+              ? "-"
+              : fmt::format("{:.2f}", costs.each[static_cast<std::size_t>(at - costs.parts.begin())] * 1e6));
+    }
+    row.push_back(fmt::format("{:.0f}", explained * 100.0));
+    row.push_back(fmt::format("{} of {}", costs.elements, costs.all_elements));
+    table.rows.push_back(std::move(row));
+    bench.figure(scene + ".equal", static_cast<double>(costs.equal), "",
+                 exactly(static_cast<double>(costs.forms)),
+                 "forms in which all that is felt and commanded has the same bits");
+    bench.figure(scene + ".everything_over_minimal.cpu", costs.ratio, "x", at_least(1.0));
+    bench.figure(scene + ".parts_over_difference", explained, "x", between(0.85, 1.15),
+                 "what the parts cost one at a time over what they cost together");
+    bench.progress(static_cast<double>(table.rows.size()) / static_cast<double>(all.size()));
+  }
+  bench.figure("plane.tick_over_mj_step", raw_over(bench.context, "plane", 16.0), "x", at_most(2.3),
+               "the whole tick over MuJoCo's step of the same model alone");
+  table.note =
+      "As it ships: devices, physics and core alone, without what `run` counts. The camera is the rig's own, "
+      "with vision, beside the tracker that the scene has.";
+  bench.table(std::move(table));
+}
+
+const Entry kEntry{"ablation", "all", "what each scene leaves out: same results, and what it would have cost",
+                   run};
+
+}  // namespace
+}  // namespace enc::bench::ablation

@@ -1,0 +1,97 @@
+#include "benchmarks/ablation/form.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "benchmarks/kit/load_scene.h"
+#include "core/error.h"
+
+namespace enc::bench::ablation {
+namespace {
+
+bool among(const std::vector<Part>& parts, Part part) {
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+class NoLog final : public Log {
+  void say(const std::string&) override {}
+};
+NoLog no_log;
+
+// Islands are no part of it: an arm's contacts are solved in another order with them, which gives other bits.
+constexpr int kFeatures = mjDSBL_CONTACT | mjDSBL_CONSTRAINT;
+
+}  // namespace
+
+const char* name_of(Part part) {
+  constexpr std::array<const char*, 6> kNames{"display",  "camera", "pictures",
+                                              "features", "counts", "record"};
+  return kNames.at(static_cast<std::size_t>(part));
+}
+
+std::vector<Part> left_out(const BenchContext& context, const std::string& scene) {
+  Form form(context, scene, {}, 1.0);
+  const SceneSpec& named = form.setup().scene;
+  const bool renders = named.manipulator && named.user;  // something that could be seen
+  std::vector<Part> parts;
+  for (const Part part : kParts)
+    if ((part != Part::display || (!named.display && renders)) &&
+        (part != Part::camera || (!named.camera && named.arm && named.user)) &&  // whose rig has one
+        (part != Part::features || (form.world().physics().model()->opt.disableflags & kFeatures) != 0))
+      parts.push_back(part);
+  return parts;
+}
+
+Form::Form(const BenchContext& context, const std::string& scene, const std::vector<Part>& with,
+           double seconds)
+    : setup_(load_scene(context, scene)) {
+  trial::TrialOptions options;
+  options.seed = context.seed;
+  options.seconds = seconds;
+  options.drivers = [&context](const std::string& module) -> const ModuleInfo& {
+    const ModuleInfo* found = context.module(module);
+    if (found == nullptr) throw Error("the module " + module + " is not built", {}, ErrorKind::device);
+    return *found;
+  };
+  if (among(with, Part::display)) setup_.scene.display = DisplaySpec{};
+  options.draw_all = among(with, Part::pictures);
+  if (among(with, Part::counts)) counts_ = std::make_unique<trial::RunMeasures>(setup_, options);
+  options.watch = [this](const trial::Glance& glance) { see(glance); };
+  trial_ = std::make_unique<trial::Trial>(setup_, options);
+  if (among(with, Part::features)) world().physics().model()->opt.disableflags &= ~kFeatures;
+  if (among(with, Part::camera))
+    vision_ = trial::make_vision(setup_, options.drivers, {&world(), context.seed, no_log});
+  if (!among(with, Part::record)) return;
+  file_ = memfd_create("record", 0);
+  if (file_ < 0) throw Error("no file in memory could be made");
+  record_ = std::make_unique<RecordWriter>(fmt::format("/proc/self/fd/{}", file_),
+                                           models::record_texts(setup_), layout_hash(trial_->scene()));
+  trial_->record_to(record_.get());
+}
+
+Form::~Form() {
+  if (record_) record_->close();
+  if (file_ >= 0) close(file_);
+}
+
+void Form::run(int ticks) {
+  for (int i = 0; i < ticks && trial_->tick(); ++i) {
+  }
+}
+
+void Form::see(const trial::Glance& glance) {
+  const sim::Truth& truth = glance.truth;
+  for (const Vec3 v : {truth.tip.e(), truth.tool_tip.e(), truth.contact_force.e(), glance.out.tip.p(),
+                       glance.out.force.e(), glance.out.arm_force.e()})
+    for (const double x : v) felt_.add(leaf_bits(x));
+  felt_.add(leaf_bits(glance.out.mode));
+  if (counts_) counts_->see(glance);
+  if (vision_ && vision_->poll(glance.tick.t, unused_)) ++pictures_;
+}
+
+}  // namespace enc::bench::ablation
