@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
 #include "trial/measure/press_measure.h"
 
@@ -73,6 +74,7 @@ void run(Bench& bench) {
        .log_y = true,
        .series = {misses, bounds},
        .caption = "A miss must stay under the bound, which follows from the numbers of rig and twin alone."});
+  add_force_precision(bench);
 }
 
 const Entry kEntry{"encounter", "tennis_ball",

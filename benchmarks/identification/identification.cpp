@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/identification/identification_trial.h"
+#include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
 
 namespace enc::bench::identification {
@@ -239,6 +240,7 @@ void run(Bench& bench) {
       "The fit knows the ball's law and the thickness of felt and wall; it does not know the eight numbers, "
       "where "
       "the ball stands, the force sensor's noise or its zero.";
+  add_force_precision(bench);
 }
 
 const Entry kEntry{

@@ -258,6 +258,7 @@ void run(Bench& bench) {
   tell(0.9);
   add_directions(study, result);
   add_minor_loops(study, result);
+  add_converged(study, result);
   if (context.full)
     for (const char* law : {"prandtl_ishlinskii", "energy_stop"})
       add_work_precision(

@@ -65,6 +65,8 @@ void add_table2_plot(const IndentStudy& study, const std::vector<Cell>& standard
                      const std::vector<Cell>& accurate, BenchResult& result);
 // Presses in directions that nobody measured, against the rig's own push there.
 void add_directions(const IndentStudy& study, BenchResult& result);
+// RMSE of the true force at the step that ships over that at a converged one.
+void add_converged(const IndentStudy& study, BenchResult& result);
 // Turning at 2 and at 4 mm, against the rig's ball.
 void add_minor_loops(const IndentStudy& study, BenchResult& result);
 

@@ -8,8 +8,7 @@
 namespace enc::bench::plane_button {
 namespace {
 
-// A quick press by a hand that does not tremble: a hand's noise is drawn once for each step of the physics,
-// so no two step sizes would have the same.
+// A quick press by a hand that does not tremble, so that each depth has one force.
 PressTrace pressed(const BenchContext& context, const std::string& integrator, double step_us) {
   return press_trace(
       context, "wall",

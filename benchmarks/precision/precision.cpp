@@ -10,17 +10,12 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/cost.h"
+#include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/precision/parts.h"
 
 namespace enc::bench::precision {
 namespace {
-
-// What the force may be off by, N rms. Chosen: three counts of the hexapod's sensor, and what the arm's
-// friction hides anyway. Where two converged runs do not agree so well themselves, half as much more than
-// they differ by.
-constexpr double kAccuracy = 0.06;
-double accuracy(const trial::Precision& all) { return std::max(kAccuracy, 1.5 * all.second.error); }
 
 struct Machine {
   const char* name;
@@ -33,39 +28,26 @@ const std::array<Machine, 2>& machines() {
   return kMachines;
 }
 
-struct Study {
-  std::string scene;
-  trial::Precision all{};
-  double simulated = 0.0;  // s
-};
-
-Study study_of(const BenchContext& context, const std::string& scene) {
+ForceStudy study_of(const BenchContext& context, const std::string& scene) {
   trial::PrecisionOptions options;
-  options.seed = context.seed;
-  options.cpu = thread_seconds;
   options.rounds = context.full ? 3 : 1;
-  Study study{scene};
-  study.all = trial::precision_of(
-      [&](const std::vector<std::string>& set) { return load_scene(context, scene, {}, set); }, options);
-  study.simulated =
-      study.all.seconds * static_cast<double>(options.rounds) * static_cast<double>(study.all.points.size());
-  return study;
+  return force_study(context, scene, {}, options);
 }
 
 // Of all scenes of a machine, which share one rig: the worst error of each setting, over what its scene shall
 // hold, and its cost over that of what ships, the median of the scenes.
-std::vector<trial::PrecisionPoint> together(const std::vector<Study>& studies) {
+std::vector<trial::PrecisionPoint> together(const std::vector<ForceStudy>& studies) {
   std::vector<trial::PrecisionPoint> all = studies.front().all.points;
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<double> cost;
     all[i].error = 0.0;
-    for (const Study& study : studies) {
+    for (const ForceStudy& study : studies) {
       const std::vector<trial::PrecisionPoint>& points = study.all.points;
       const auto shipped =
           std::find_if(points.begin(), points.end(), [](const auto& point) { return point.shipped; });
       const trial::PrecisionPoint& point = points[i];
       if (!point.failure.empty()) all[i].failure = study.scene + ": " + point.failure;
-      all[i].error = std::max(all[i].error, point.error / accuracy(study.all));
+      all[i].error = std::max(all[i].error, point.error / accuracy_of(study.all));
       if (shipped != points.end()) cost.push_back(point.cpu / shipped->cpu);
     }
     all[i].cpu = cost.empty() ? kUnset : median(cost);
@@ -74,27 +56,7 @@ std::vector<trial::PrecisionPoint> together(const std::vector<Study>& studies) {
 }
 
 void add_plot(Bench& bench, const Machine& machine, const std::vector<trial::PrecisionPoint>& all) {
-  std::vector<CostCurve> curves;
-  for (const trial::PrecisionPoint& point : all) {
-    if (curves.empty() || curves.back().name != point.integrator) curves.push_back({point.integrator});
-    curves.back().cost.push_back(point.cpu);
-    curves.back().error.push_back(point.failure.empty() ? point.error : kUnset);
-    if (point.shipped) curves.push_back({"as it ships", {point.cpu}, {point.error}});
-  }
-  // What ships stands on a curve, which goes on behind it.
-  const auto ships = std::find_if(curves.begin(), curves.end(),
-                                  [](const CostCurve& curve) { return curve.name == "as it ships"; });
-  if (ships != curves.end() && ships != curves.begin() && ships + 1 != curves.end() &&
-      (ships + 1)->name == (ships - 1)->name) {
-    const CostCurve rest = *(ships + 1);
-    CostCurve& curve = *(ships - 1);
-    curve.cost.insert(curve.cost.end(), rest.cost.begin(), rest.cost.end());
-    curve.error.insert(curve.error.end(), rest.error.begin(), rest.error.end());
-    const CostCurve marked = *ships;
-    curves.erase(ships, ships + 2);
-    curves.push_back(marked);
-  }
-  bench.plot(cost_beside_error(
+  bench.plot(force_plot(
       {.id = machine.name,
        .title =
            fmt::format("Error against run time: {} scenes of the {}", machine.scenes.size(), machine.name),
@@ -104,12 +66,12 @@ void add_plot(Bench& bench, const Machine& machine, const std::vector<trial::Pre
                               "steps of a whole haptic period (left) to an eighth (right). A scene shall "
                               "hold {:g} N, or half more than two converged runs differ by. What failed "
                               "stands at the upper edge.",
-                              kAccuracy)},
-      curves));
+                              kForceAccuracy)},
+      all, &trial::PrecisionPoint::cpu));
 }
 
-void add_machine(Bench& bench, const Machine& machine, const std::vector<Study>& studies, Table& table) {
-  for (const Study& study : studies) {
+void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceStudy>& studies, Table& table) {
+  for (const ForceStudy& study : studies) {
     const auto& points = study.all.points;
     for (const trial::PrecisionPoint& point : points)
       table.add(study.scene, point.integrator, fmt::format("{:g}", point.step * 1e6),
@@ -119,7 +81,7 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<Study>&
     const auto shipped =
         std::find_if(points.begin(), points.end(), [](const auto& point) { return point.shipped; });
     if (shipped == points.end()) continue;  // --set has put another step in its place
-    bench.figure(study.scene + ".error.rms", shipped->error, "N", at_most(accuracy(study.all)),
+    bench.figure(study.scene + ".error.rms", shipped->error, "N", at_most(accuracy_of(study.all)),
                  fmt::format("force at what ships, {} at {:g} us; two converged runs differ by {:.4f} N",
                              shipped->integrator, shipped->step * 1e6, study.all.second.error));
     bench.figure(study.scene + ".path.rms", shipped->way * 1e6, "um",
@@ -129,7 +91,7 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<Study>&
   const trial::PrecisionPoint* best = cheapest(all, 1.0);
   const auto shipped = std::find_if(all.begin(), all.end(), [](const auto& point) { return point.shipped; });
   add_plot(bench, machine, all);
-  if (shipped == all.end()) return;
+  if (shipped == all.end() || bench.context.quick) return;  // of one scene it says nothing
   bench.figure(fmt::format("{}.default_over_cheapest.cpu", machine.name),
                best != nullptr ? 1.0 / best->cpu : kUnset, "x", at_most(1.25),
                best != nullptr
@@ -148,16 +110,18 @@ void run(Bench& bench) {
   for (const Machine& machine : machines())
     for (const std::string& scene : machine.scenes)
       if (!bench.context.quick || scene == machine.scenes.back()) scenes.push_back(scene);
-  const std::vector<Study> studies =
+  const std::vector<ForceStudy> studies =
       bench.each(scenes, [&](const std::string& scene) { return study_of(bench.context, scene); });
   for (const Machine& machine : machines()) {
-    std::vector<Study> own;
-    for (const Study& study : studies)
+    std::vector<ForceStudy> own;
+    for (const ForceStudy& study : studies)
       if (std::find(machine.scenes.begin(), machine.scenes.end(), study.scene) != machine.scenes.end())
         own.push_back(study);
     add_machine(bench, machine, own, table);
   }
   bench.table(std::move(table));
+  add_orders(bench);
+  if (bench.context.full) add_advice(bench, studies);
 }
 
 const Entry kEntry{"precision", "the twin", "error against run time, both machines: integrator and time step",

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
 
 namespace enc::bench::reaching {
@@ -259,6 +260,7 @@ void run(Bench& bench) {
   slide_part(context, result, add);
   add_rest(context, result, add);
   if (context.full) add_reaching_full(context, result);
+  add_force_precision(bench);
   progress(1.0);
 }
 

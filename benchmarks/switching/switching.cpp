@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/yardstick.h"
 #include "benchmarks/switching/crowd.h"
@@ -222,6 +223,7 @@ void run(Bench& bench) {
   slide_over_keys(context, result, add);
   progress(0.8);
   move_things(context, result, add);
+  add_force_precision(bench);
 }
 
 const Entry kEntry{

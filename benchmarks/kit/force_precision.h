@@ -1,0 +1,38 @@
+// Error against run time of what a hand feels: the true force on what is held, over integrators and time
+// steps, judged by a converged run (trial/precision). For the benchmarks that a hand touches something in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmarks/kit/kit.h"
+#include "trial/precision/precision.h"
+
+namespace enc::bench {
+
+// What the force may be off by, N rms. Chosen: three counts of the hexapod's sensor, and what the arm's
+// friction hides anyway. Where two converged runs do not agree so well themselves, half as much more than
+// they differ by.
+inline constexpr double kForceAccuracy = 0.06;
+[[nodiscard]] double accuracy_of(const trial::Precision& all);
+
+struct ForceStudy {
+  std::string scene;
+  trial::Precision all{};
+  double simulated = 0.0;  // s
+};
+// On this thread alone: it measures time.
+[[nodiscard]] ForceStudy force_study(const BenchContext& context, const std::string& scene,
+                                     const std::vector<std::string>& set,
+                                     const trial::PrecisionOptions& options);
+
+// A curve for each integrator, and what ships with a mark of its own.
+[[nodiscard]] Plot force_plot(Plot plot, const std::vector<trial::PrecisionPoint>& points,
+                              double trial::PrecisionPoint::*cost);
+
+// The diagram, the table and the figures of a benchmark's own scene: what ships must hold the accuracy and be
+// at most 1.25 times as dear as the cheapest that does. By default a small form, of two steps; with --full
+// four steps and integrators, with --quick nothing.
+void add_force_precision(Bench& bench, const std::vector<std::string>& set = {});
+
+}  // namespace enc::bench
