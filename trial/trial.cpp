@@ -14,6 +14,7 @@
 #include "trial/camera/vision.h"
 #include "trial/certificates.h"
 #include "trial/limits.h"
+#include "trial/lists/room.h"
 #include "trial/prepare.h"
 
 namespace enc::trial {
@@ -111,8 +112,8 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   last_tick_ = std::llround(length / scene_.dt);
   const auto timed =
       static_cast<std::size_t>(std::min<std::int64_t>(last_tick_ + 1, TrialResult::kMostTimed));
-  result_.step_ns.reserve(timed);
-  if (pace > 0.0) result_.period_ns.reserve(timed);
+  result_.step_ns = with_room<std::uint32_t>(timed);
+  if (pace > 0.0) result_.period_ns = with_room<std::uint32_t>(timed);
   if (setup_.scene.camera) result_.vision.reserve(length * setup_.rig.camera.rate);
 }
 

@@ -51,7 +51,7 @@ void ReachMeasure::see(const trial::Glance& glance) {
       now_.prepared = now;
       way_.clear();
     }
-    way_.push_back(glance.truth.tip);
+    way_.add(glance.truth.tip);
     meet(glance, now);
   } else {
     watch_contact(glance, now);
@@ -82,9 +82,9 @@ void ReachMeasure::meet(const trial::Glance& glance, double now) {
   now_.chosen = glance.out.object;
   now_.speed = truth.tool_velocity.norm();
   now_.miss = along_surface(at, truth.tip);
-  const std::size_t there = trial::there_since(way_, at.point, kThere);
-  if (there < way_.size() && !std::isnan(now_.prepared))
-    now_.arrived = now - glance.scene.dt * static_cast<double>(way_.size() - 1 - there);
+  const std::size_t there = way_.there(at.point, kThere);
+  if (there > 0 && !std::isnan(now_.prepared))
+    now_.arrived = now - glance.scene.dt * static_cast<double>(there - 1);
   watch_contact(glance, now);
 }
 

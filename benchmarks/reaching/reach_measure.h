@@ -53,8 +53,8 @@ class ReachMeasure {
   bool begun_ = false;
   sim::Phase phase_ = sim::Phase::wait;
   trial::FarWatch far_;
-  Time newest_{};                // picture
-  std::vector<Point<'W'>> way_;  // of the prop since it was prepared, a tick each
+  Time newest_{};   // picture
+  trial::Way way_;  // of the prop since it was prepared
 };
 
 }  // namespace enc::bench::reaching

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "trial/ledger/ledger.h"
+#include "trial/lists/room.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -61,7 +62,7 @@ class Book {
   bool on_ = false;
   ContactLedger mark_;   // which contact it is
   double last_t_ = 0.0;  // s
-  std::vector<ContactLedger> closed_;
+  std::vector<ContactLedger> closed_ = with_room<ContactLedger>();
 };
 
 template <class Ledger>

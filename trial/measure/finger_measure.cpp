@@ -53,6 +53,7 @@ bool FarWatch::see(const Glance& glance) {
 
 void FingerMeasure::see(const Glance& glance) {
   if (!glance.scene.impedance()) return;
+  way_.make_room();  // of the first tick
   const double now = seconds(glance.truth.t.time_since_epoch());
   if (far_.see(glance)) {
     meetings_.push_back({});
@@ -70,12 +71,6 @@ Wanted wanted_at(const Object& object, const Point<'W'>& tip) {
   return {point, at.normal, at.distance};
 }
 
-std::size_t there_since(const std::vector<Point<'W'>>& way, const Point<'W'>& place, double within) {
-  const auto far = std::find_if(way.rbegin(), way.rend(),
-                                [&](const Point<'W'>& p) { return !((p - place).norm() <= within); });
-  return static_cast<std::size_t>(way.rend() - far);
-}
-
 void FingerMeasure::watch_meeting(const Glance& glance, double now) {
   constexpr double kThere = 2e-3;  // m
   Meeting& meeting = meetings_.back();
@@ -83,7 +78,7 @@ void FingerMeasure::watch_meeting(const Glance& glance, double now) {
   if (std::isnan(meeting.touched)) {
     meeting.object = glance.out.object;
     meeting.approach_speed = glance.truth.approach_speed;
-    way_.push_back(glance.truth.tip);
+    way_.add(glance.truth.tip);
   }
   if (!glance.truth.touching || !at.normal.finite()) return;
   if (std::isnan(meeting.touched)) {
@@ -93,9 +88,8 @@ void FingerMeasure::watch_meeting(const Glance& glance, double now) {
     meeting.miss = (apart - n.dot(apart) * n).norm();
     const Object& object = glance.scene.objects[static_cast<std::size_t>(meeting.object)];
     const Point<'W'> met = wanted_at(object, glance.truth.tool_tip).point;
-    const std::size_t there = there_since(way_, met, kThere);
-    if (there < way_.size())
-      meeting.arrived = now - glance.scene.dt * static_cast<double>(way_.size() - 1 - there);
+    if (const std::size_t there = way_.there(met, kThere); there > 0)
+      meeting.arrived = now - glance.scene.dt * static_cast<double>(there - 1);
   }
   meeting.peak_depth = std::fmax(meeting.peak_depth, at.depth);
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "trial/lists/room.h"
+#include "trial/lists/way.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -22,7 +24,7 @@ struct LineFit {
 struct Meeting {
   std::int32_t object = -1;
   double prepared = kUnset;        // s of experiment: away became follow
-  double arrived = kUnset;         // s: since then the prop has been within 2 mm of where they meet
+  double arrived = kUnset;         // s: since then the prop has been within 2 mm of where they meet (Way)
   double touched = kUnset;         // s: first true contact with the prop
   double approach_speed = kUnset;  // m/s, planned
   double miss = kUnset;     // m: prop's middle to the finger's lowest point, along the surface, at the touch
@@ -58,8 +60,8 @@ class FingerMeasure {
   void watch_meeting(const Glance& glance, double now);
   void watch_force(const Glance& glance);
 
-  std::vector<Meeting> meetings_;
-  std::vector<Point<'W'>> way_;  // of the prop since the last "prepare", a tick each
+  std::vector<Meeting> meetings_ = with_room<Meeting>();
+  Way way_;  // of the prop since the last "prepare"
   LineFit fit_, believed_;
   FarWatch far_;
   double last_force_ = kUnset;
@@ -73,10 +75,6 @@ struct Wanted {
   double distance = kUnset;  // of the tip's centre from the surface, m
 };
 [[nodiscard]] Wanted wanted_at(const Object& object, const Point<'W'>& tip);
-
-// From which point on a way is within `within` of a place to its end; way.size() where even its end is not.
-[[nodiscard]] std::size_t there_since(const std::vector<Point<'W'>>& way, const Point<'W'>& place,
-                                      double within);
 
 // Depth of a finger's nearest point under the surface of the object that the core has chosen, m; and its
 // outward normal. Of the truth.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "trial/lists/room.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -33,7 +34,7 @@ class PassivityMeasure {
   [[nodiscard]] PassivityFigures worst() const;  // the largest of each; `dissipated` and `acted` of all
 
  private:
-  std::vector<PassivityFigures> contacts_;
+  std::vector<PassivityFigures> contacts_ = with_room<PassivityFigures>();
   bool on_ = false;
 };
 

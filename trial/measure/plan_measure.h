@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "trial/lists/room.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -27,7 +28,7 @@ class PlanMeasure {
  private:
   void begin(const Glance& glance);
 
-  std::vector<Tried> tried_;
+  std::vector<Tried> tried_ = with_room<Tried>();
   std::int32_t press_ = -1;    // of the plan
   std::int32_t contacts_ = 0;  // before this tick
   bool tries_ = false;         // to touch

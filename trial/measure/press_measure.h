@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trial/lists/room.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -77,10 +78,10 @@ class PressMeasure {
   void judge_law(const Glance& glance, const Object& object, double deflection, double force);
 
   const models::Setup& setup_;
-  std::vector<Departure> departures_;
+  std::vector<Departure> departures_ = with_room<Departure>();
   Departure off_;
   double least_ = 0.0, most_ = 0.0;  // N: true force, of now and as the filter still holds it
-  std::vector<PressFigures> presses_;
+  std::vector<PressFigures> presses_ = with_room<PressFigures>();
   SquareMean press_error_, release_error_;
   double energy_in_ = 0.0, energy_out_ = 0.0, greatest_outside_ = kUnset, greatest_tension_ = 0.0;
   std::int32_t contacts_before_ = 0;

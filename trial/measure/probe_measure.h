@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "trial/lists/room.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -36,8 +37,8 @@ class ProbeMeasure {
   static constexpr double kLevel = 0.1e-3;  // m: deflections at which pushes are compared
   void compare(double deflection, double force);
 
-  std::vector<PushFigures> pushes_;
-  std::array<std::vector<Range>, 2> levels_;     // going in, coming back
+  std::vector<PushFigures> pushes_ = with_room<PushFigures>();
+  std::array<std::vector<Range>, 2> levels_{with_room<Range>(), with_room<Range>()};  // going in, coming back
   double deflection_ = kUnset, force_ = kUnset;  // one tick ago, within the same push
   double force_error_ = 0.0;
 };

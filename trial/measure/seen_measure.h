@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "trial/lists/room.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -64,7 +65,7 @@ class SeenMeasure {
   double pause_ = 1.0;                  // s since the last push
   std::int32_t object_ = -1;
   Time newest_ = Time::min();
-  std::vector<SeenPress> presses_;
+  std::vector<SeenPress> presses_ = with_room<SeenPress>();
 };
 
 }  // namespace enc::trial

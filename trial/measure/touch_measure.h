@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/machine/steadiness.h"
+#include "trial/lists/room.h"
 #include "trial/measure/plan_measure.h"
 #include "trial/trial.h"
 
@@ -50,8 +51,8 @@ class TouchMeasure {
   void see_swing(const Glance& glance);
   void forget_swing();
 
-  std::vector<SwingFigures> swings_;
-  std::vector<double> empty_;
+  std::vector<SwingFigures> swings_ = with_room<SwingFigures>();
+  std::vector<double> empty_ = with_room<double>();
   Acted peak_, heat_;
   PlanMeasure plan_;
   // A contact, by the core.

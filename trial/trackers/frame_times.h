@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/sample.h"
+#include "trial/lists/room.h"
 
 namespace enc::trial {
 
@@ -19,8 +20,8 @@ struct FrameTimes {
   // Beforehand: nothing is allocated within the loop, and what is beyond the first million is only counted.
   void reserve(double expected) {
     const auto most = static_cast<std::size_t>(std::min(2.0 * expected + 16.0, 1e6));
-    intervals.reserve(most);
-    ages.reserve(most);
+    intervals = with_room<double>(most);
+    ages = with_room<double>(most);
   }
   // After each reading of the tracker. What is told again, as stale, is no frame.
   void see(Time now, const Stamped<TrackedTool>& newest) noexcept {

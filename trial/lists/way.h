@@ -1,0 +1,40 @@
+// Where the prop has been in the last ticks.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace enc::trial {
+
+class Way {
+ public:
+  static constexpr std::size_t kMost = 1 << 14;  // ticks: 16 s at 1 kHz; what was before is forgotten
+
+  // Once, before a tick adds to it.
+  void make_room() {
+    if (ring_.empty()) ring_.resize(kMost);
+  }
+  void clear() noexcept { size_ = 0; }
+  void add(const Point<'W'>& at) {
+    make_room();
+    ring_[next_] = at;
+    next_ = (next_ + 1) % kMost;
+    size_ = std::min(size_ + 1, kMost);
+  }
+  // How many of the last ticks it has been within `within` of a place without a break, m; 0 where the last is
+  // not.
+  [[nodiscard]] std::size_t there(const Point<'W'>& place, double within) const {
+    std::size_t n = 0;
+    while (n < size_ && (ring_[(next_ + kMost - 1 - n) % kMost] - place).norm() <= within) ++n;
+    return n;
+  }
+
+ private:
+  std::vector<Point<'W'>> ring_;
+  std::size_t next_ = 0, size_ = 0;
+};
+
+}  // namespace enc::trial
