@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/modules/module_file.h"
 #include "core/error.h"
 #include "encounter_version.h"
 #include "trial/assemble.h"
@@ -99,6 +100,8 @@ const ModuleInfo& load_module(const std::string& name) {
   if (!fs::exists(file, none))
     refuse(file, fmt::format("there is no module '{}'", name),
            "build it (cmake --build --preset release) or set ENCOUNTER_MODULES to the folder that holds it");
+  if (const std::string why = cut_off(file); !why.empty())
+    refuse(file, fmt::format("cannot be loaded: {}", why), "copy or build it again");
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (library == nullptr)
     refuse(file, fmt::format("cannot be loaded: {}", loader_words(file)),

@@ -9,9 +9,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "app/modules/module_file.h"
 #include "core/error.h"
 #include "encounter_version.h"
 #include "tests/support/built.h"
+#include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 
 namespace enc::test {
@@ -77,6 +79,34 @@ TEST_F(ModulesTest, AFileThatIsNoLibrary) {
   std::ofstream(file("text")) << "this is no library";
   EXPECT_THAT(refusal("text"),
               AllOf(HasSubstr(file("text") + ": cannot be loaded"), HasSubstr("build it again")));
+}
+
+// Wherever a copy stopped. The loader would end the program where a part is not there.
+TEST_F(ModulesTest, AFileThatIsCutOff) {
+  const std::string whole = bytes_of(fs::path(tests::module_folder()) / "encounter_sample.so");
+  std::uint64_t at = 1;
+  for (; at < whole.size(); at += 1 + at / 3) {
+    std::ofstream(file("sample"), std::ios::binary) << whole.substr(0, at);
+    if (app::cut_off(file("sample")).empty() && at > 64) break;  // of what is loaded nothing is missing
+    EXPECT_THAT(refusal("sample"),
+                AllOf(HasSubstr(file("sample") + ": cannot be loaded"), HasSubstr("again")));
+  }
+  EXPECT_GT(at, 10'000U);
+  EXPECT_EQ(app::cut_off(whole, whole.size()), "");
+}
+
+// Whatever stands in its header.
+TEST_F(ModulesTest, AHeaderThatPromisesMoreThanThereIs) {
+  const std::string whole =
+      bytes_of(fs::path(tests::module_folder()) / "encounter_sample.so").substr(0, 4096);
+  for (std::size_t at = 4; at < 1024; ++at)
+    for (const char byte : {'\xff', '\x7f', '\0'}) {
+      std::string spoiled = whole;
+      spoiled[at] = byte;
+      EXPECT_THAT(app::cut_off(spoiled, spoiled.size()), Not(HasSubstr("\n")));
+      (void)app::cut_off(spoiled.substr(0, at), spoiled.size());
+    }
+  EXPECT_THAT(app::cut_off(whole, whole.size()), HasSubstr("is cut off: it has 4096 bytes"));
 }
 
 TEST_F(ModulesTest, ALibraryWithoutTheSymbol) {
