@@ -66,8 +66,7 @@ bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const
 // tinygltf's own words on one line, with the place where they tell one.
 [[noreturn]] void fail_parse(const MeshBytes& file, std::string_view json, bool binary, std::string words) {
   while (!words.empty() && (words.back() == '\n' || words.back() == ' ')) words.pop_back();
-  std::replace_if(
-      words.begin(), words.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  words = printable(std::move(words));
   if (words.size() > 200) words = words.substr(0, 200) + "...";
   if (words.empty()) words = "no reason given";
   // nlohmann's JSON says "... at line 3, column 7: ...".

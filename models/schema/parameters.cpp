@@ -158,17 +158,17 @@ std::vector<Parameter> parameters(const Setup& setup) {
 }
 
 void set(Setup& setup, const std::string& override_text) {
+  const std::string place = "--set " + printable(override_text);
   const auto equals = override_text.find('=');
   const std::string name = override_text.substr(0, equals);
   if (equals == std::string::npos || name.empty()) {
     throw Error(fmt::format(
-        "--set {}: there is no value; expected name=value; write it like '--set object.ball.radius_mm=30'",
-        override_text));
+        "{}: there is no value; expected name=value; write it like '--set object.ball.radius_mm=30'", place));
   }
-  Set one(name, override_text.substr(equals + 1), "--set " + override_text);
+  Set one(name, override_text.substr(equals + 1), place);
   walk(one, setup);
   one.check_found();
-  setup.places[name] = "--set " + override_text;
+  setup.places[name] = place;
 }
 
 void round_to_text(Setup& setup) {

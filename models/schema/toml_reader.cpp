@@ -127,6 +127,8 @@ class Value {
         node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
     const double si = to_si(unit_, value, k);
     if (!std::isfinite(si)) fail(fmt::format("is {}", value), "a finite number", part);
+    if (si == 0.0 && value != 0.0)  // and what is above 0 would be 0
+      fail(fmt::format("is {}", value), "0, or a number of 1e-300 or more", part);
     check_range(value, fmt::format("{}", value), part);
     return si;
   }
@@ -298,11 +300,8 @@ toml::table parse(const std::string& text, const std::string& name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& e) {
-    std::string what(e.description());
-    std::replace_if(
-        what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
     throw Error(fmt::format("{}: this is not TOML: {}; expected 'key = value' or '[table]'; correct the line",
-                            place_in(name, e.source()), what));
+                            place_in(name, e.source()), printable(std::string(e.description()))));
   }
 }
 

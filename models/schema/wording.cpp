@@ -137,7 +137,8 @@ std::string printable(std::string text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (byte(i) < ' ' || byte(i) == 127) text[i] = ' ';
     // U+0080 to U+009F, which terminals obey as well
-    if (byte(i) == 0xC2 && i + 1 < text.size() && byte(i + 1) < 0xA0) text.replace(i, 2, "  ");
+    if (byte(i) == 0xC2 && i + 1 < text.size() && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0)
+      text.replace(i, 2, "  ");
   }
   return text;
 }
@@ -163,10 +164,14 @@ std::string quoted_toml(const std::string& text) {
 }
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
+  // Nobody has mistyped what is longer; and the time goes with the product of the lengths.
+  constexpr std::size_t kLongest = 200;
+  if (word.size() > kLongest) return {};
   if (std::string name = with_other_unit(word, names); !name.empty()) return name;
   std::string best;
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& name : names) {
+    if (name.size() > kLongest) continue;
     const std::size_t n = edits(word, name);
     if (n < fewest && n < std::min(word.size(), name.size())) {
       fewest = n;
@@ -192,12 +197,11 @@ std::string unknown_text(const std::string& table, std::string_view key,
 
 std::string advice(std::string_view word, const std::vector<std::string>& names) {
   const std::string name = nearest_name(word, names);
-  if (!name.empty()) return fmt::format("did you mean '{}'?", name);
+  if (!name.empty()) return fmt::format("did you mean {}?", quoted(name));
   if (names.empty()) return "nothing has a name here";
   constexpr std::size_t kMost = 12;
   std::string list;
-  for (std::size_t i = 0; i < names.size() && i < kMost; ++i)
-    list += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i]);
+  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) list += (i == 0 ? "" : ", ") + quoted(names[i]);
   return fmt::format("the names here are {}{}", list, names.size() > kMost ? ", ..." : "");
 }
 

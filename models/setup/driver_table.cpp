@@ -21,8 +21,9 @@ std::string driverless(const RigSpec& rig, const std::string& name) {
   const std::set<std::string> there = drivers_of(rig);
   return fmt::format(
       "no role of this rig has the driver {}; expected one that a role names; {}", quoted(name),
-      there.empty() ? "write it like 'driver = \"" + name + "\"' in the role's table, or remove this one"
-                    : advice(name, {there.begin(), there.end()}));
+      there.empty()
+          ? "write it like 'driver = \"" + printable(name) + "\"' in the role's table, or remove this one"
+          : advice(name, {there.begin(), there.end()}));
 }
 
 }  // namespace

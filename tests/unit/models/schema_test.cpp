@@ -309,6 +309,19 @@ TEST(Set, refuses_in_one_line_that_begins_with_the_words_given) {
 }
 
 // Where numbers have a decimal comma, "33.5" must not become 33.
+// In SI it would be 0, which the key may not be.
+TEST(Set, refuses_what_is_lost_in_si) {
+  models::Setup s = plane();
+  EXPECT_THAT(message([&] { set(s, "user.depth_mm=5e-324"); }),
+              HasSubstr("is 5e-324; expected 0, or a number of 1e-300 or more"));
+  EXPECT_NO_THROW(set(s, "user.depth_mm=1e-300"));
+}
+TEST(Set, shows_what_it_was_given_on_one_line) {
+  models::Setup s = plane();
+  EXPECT_THAT(message([&] { set(s, "a\nb=1"); }), HasSubstr("--set a b=1: unknown parameter 'a b'"));
+  EXPECT_THAT(message([&] { set(s, "a\nb"); }), HasSubstr("--set a b: there is no value"));
+}
+
 TEST(Locale, does_not_matter) {
   const std::string text = resolved(full());
   const std::string before = std::setlocale(LC_ALL, nullptr);

@@ -13,7 +13,21 @@ TEST(Wording, WhatMovesATerminalsCursorIsASpace) {
             "a  31m");  // U+009B, a terminal's other way to begin
   EXPECT_EQ(printable("H\xC3\xA4nde \xC2\xB5m \xE2\x80\xA6"), "H\xC3\xA4nde \xC2\xB5m \xE2\x80\xA6");
   EXPECT_EQ(printable("\xC2"), "\xC2");
+  EXPECT_EQ(printable("'\xC2' is"), "'\xC2' is");  // half a letter, and what is behind it stays
   EXPECT_EQ(quoted("a\nb"), "'a b'");
+}
+
+TEST(Wording, NamesOfAFileAreShownAsTheyMayBe) {
+  EXPECT_EQ(advice("ball", {"bal\n"}), "did you mean 'bal '?");
+  EXPECT_EQ(advice("b", {"stylus\t", "plane"}), "the names here are 'stylus ', 'plane'");
+}
+
+// Letter by letter two names of this length would take hours.
+TEST(Wording, AVeryLongNameIsNearToNone) {
+  const std::string one(1'000'000, 'a'), other(1'000'000, 'b');
+  EXPECT_EQ(nearest_name(one, {other, "radius_mm"}), "");
+  EXPECT_EQ(nearest_name("radius_m", {other, "radius_mm"}), "radius_mm");
+  EXPECT_EQ(nearest_name(std::string(1'000'000, '_'), {"radius_mm"}), "");
 }
 
 TEST(Wording, LowerCaseIsOfTheLatinLetters) { EXPECT_EQ(lower_case(".JPG\xC3\x84"), ".jpg\xC3\x84"); }
