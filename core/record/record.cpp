@@ -257,6 +257,9 @@ RecordReader::RecordReader(const std::string& path, Partial partial) : path_(pat
     throw Error(path + ": is a pipe; expected a file; write the record into one");
   file_.open(path, std::ios::binary);
   if (!file_) throw Error("cannot read the record '" + path + "': " + std::generic_category().message(errno));
+  file_.seekg(0, std::ios::end);
+  size_ = static_cast<std::uint64_t>(std::max<std::streamoff>(file_.tellg(), 0));
+  file_.seekg(0);
   read_header();
   while (read_chunk()) ticks_ += static_cast<std::int64_t>(chunk_.size() / frame_words());
   rewind();
@@ -289,6 +292,7 @@ void RecordReader::read_header() {
     fail(8, "record format " + std::to_string(format_) + ", but this program reads formats 1 to " +
                 std::to_string(kRecordFormat) + "; use the version of Encounter that wrote it");
   if (size > kHeaderBytes || size % kWord != 0) fail(12, "the record's header is damaged: impossible size");
+  if (size > size_ - byte_) fail(byte_, "the record is cut off in its header");
   std::vector<std::uint64_t> packed(size / kWord);
   std::uint64_t checksum = 0;
   if (!get(packed.data(), size) || !get(&checksum, kWord)) fail(byte_, "the record is cut off in its header");
@@ -331,6 +335,7 @@ bool RecordReader::read_chunk() {
       tag == kEnd && !told_end_ && format_ > 1 && size > 0 && size <= kHeaderBytes && size % kWord == 0;
   const bool seal = tag == kSeal && size == kWord;
   if (!frames && !end && !seal) return stop(at, "the record is damaged: neither a chunk nor the seal");
+  if (size > size_ - byte_) return stop(at, kCut, true);
   chunk_.resize(size / kWord);
   if (!get(chunk_.data(), size) || !get(&checksum, kWord)) return stop(at, kCut, true);
   for (const std::uint64_t word : chunk_) chain_.add(word);

@@ -98,7 +98,7 @@ class RecordReader {
   std::uint32_t format_ = kRecordFormat;
   std::vector<std::uint64_t> chunk_;  // leaves
   std::size_t used_ = 0;
-  std::uint64_t byte_ = 0, first_chunk_ = 0;
+  std::uint64_t size_ = 0, byte_ = 0, first_chunk_ = 0;  // of the file; where it is read; of the first chunk
   StateHash chain_, header_chain_;
   std::uint64_t layout_ = 0;
   std::int64_t ticks_ = 0;
