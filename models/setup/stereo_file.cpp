@@ -38,7 +38,10 @@ void describe_file(Visitor& v, StereoFile& file) {
   describe_lenses(v, file.rig, kKeys);
 }
 
-double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
+double rounded(double value, double per_unit) {
+  const double near = std::round(value * per_unit) / per_unit;
+  return std::isfinite(near) ? near : value;  // which is too large for that, or unset
+}
 
 StereoFile rounded(StereoFile file) {
   file.reprojection = rounded(file.reprojection, 1e4);

@@ -52,6 +52,12 @@ TEST(StereoFile, ComesBackAsItWasWritten) {
   EXPECT_DOUBLE_EQ(read.epipolar, 0.142);
 }
 
+TEST(StereoFile, WhatIsTooLargeToBeRoundedComesBack) {
+  StereoFile file = good();
+  file.reprojection = 1e305;
+  EXPECT_DOUBLE_EQ(parse_stereo(stereo_text(file), "head.toml").reprojection, 1e305);
+}
+
 TEST(StereoFile, KeysSayTheirUnits) {
   EXPECT_THAT(
       stereo_text(good()),
