@@ -30,6 +30,7 @@ find_library(GMP_LIBRARY gmp)
 add_custom_target(tests) # all but those of the benchmarks
 function(enc_test kind shards) # enc_test(folder shards libraries...)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "fuzz/coverage/") # below
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone
     list(FILTER sources EXCLUDE REGEX mesh_property_test)
   endif()
@@ -97,9 +98,23 @@ enc_test(hygiene 2)
 # Where the kernel lets nobody count system calls, the list of tests says so.
 add_test(NAME hygiene.system_calls COMMAND test_hygiene --gtest_filter=SystemCalls.*)
 set_tests_properties(hygiene.system_calls PROPERTIES LABELS hygiene TIMEOUT 60 SKIP_REGULAR_EXPRESSION "SKIPPED")
+enc_test(fuzz 4)
 if(ENCOUNTER_VISION)
   enc_test(threads 1 enc_trackers enc_vision)
   target_sources(test_threads PRIVATE tests/unit/core/vision/finger/drawn_hand.cpp)
 else()
   enc_test(threads 1 enc_trackers)
+endif()
+
+# The targets of tests/fuzz under libFuzzer, which clang alone has: preset `fuzz`, docs/reference/fuzz.md.
+if(ENCOUNTER_SANITIZE MATCHES "fuzzer")
+  file(GLOB sources CONFIGURE_DEPENDS tests/fuzz/coverage/*.cpp tests/fuzz/machine/*.cpp tests/fuzz/targets/*.cpp)
+  if(TARGET enc_images)
+    file(GLOB images CONFIGURE_DEPENDS tests/fuzz/images/*.cpp)
+    list(APPEND sources ${images})
+  endif()
+  enc_program(fuzz ${sources} tests/support/scenes.cpp)
+  target_link_libraries(fuzz PRIVATE enc_fit enc_trial $<$<TARGET_EXISTS:enc_images>:enc_images> fmt::fmt)
+  target_compile_definitions(fuzz PRIVATE ENCOUNTER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_options(fuzz PRIVATE -fsanitize=fuzzer)
 endif()

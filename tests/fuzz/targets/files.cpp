@@ -1,0 +1,149 @@
+// The calibration of a stereo head, a record, and what a record holds.
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/record/record.h"
+#include "models/setup/scene_file.h"
+#include "models/setup/stereo_file.h"
+#include "tests/fuzz/machine/target.h"
+#include "tests/fuzz/targets/seeds.h"
+#include "tests/support/bytes_of.h"
+#include "tests/support/scenes.h"
+
+namespace enc::fuzz {
+namespace {
+
+Target stereo() {
+  Target target;
+  models::StereoFile file;
+  file.title = "13 pairs";
+  file.rig.left = {533.7123, 533.7, 342.2, 235.1, {-0.2891, 0.096, 0.0011, -0.0001, 0.0}};
+  file.rig.right = {536.8, 536.4, 327.1, 249.9, {-0.2892, 0.1051, -0.0005, 0.0002, 0.0}};
+  file.rig.X_CD = Pose<'C', 'D'>(Quat::Identity(), Vec3(0.08316, -0.00064, 0.00055));
+  file.reprojection = 0.194;
+  target.seeds = {models::stereo_text(file)};
+  target.tokens = toml_tokens();
+  target.run = [](const std::string& input) {
+    const models::StereoFile read = models::parse_stereo(input, "fuzz.toml");
+    const std::string text = models::stereo_text(read);
+    std::string again;
+    try {
+      again = models::stereo_text(models::parse_stereo(text, "again.toml"));
+    } catch (const Error& e) {
+      throw Broken(fmt::format("what is written of it is refused: {}", e.what()));
+    }
+    expect(again == text, "what is written of it is read as another");
+    return true;
+  };
+  return target;
+}
+
+// ---- records
+// ---------------------------------------------------------------------------------------------------------
+
+const Folder& folder() {
+  static const Folder kFolder;
+  return kFolder;
+}
+
+std::string small_record(int ticks, const RecordTexts& texts, const RecordTexts& ends) {
+  test::Loop loop(prepare(test::ball_scene(), RigSpec{}));
+  const std::string path = folder().path("seed.encrec");
+  RecordWriter record(path, texts, layout_hash(loop.scene));
+  for (int i = 0; i < ticks; ++i) {
+    loop.tick();
+    record.write(loop.k, loop.in, loop.out, 7);
+  }
+  if (!ends.empty()) record.end_with(ends);
+  record.close();
+  return test::bytes_of(path);
+}
+
+// Checksums as RecordReader wants them, part by part, as far as the sizes lead.
+void seal_again(std::string& bytes) {
+  const auto word = [&](std::size_t at) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof(value));
+    return value;
+  };
+  StateHash chain;
+  for (std::size_t at = 0; at + 16 <= bytes.size();) {
+    const bool first = at == 0;
+    const std::size_t head = first ? 32 : 8, size = word(first ? 8 : at) >> 32U;
+    if (size % 8 != 0 || size > bytes.size() || at + head + size + 8 > bytes.size()) return;
+    if (first)
+      for (std::size_t i = 0; i < head; i += 8) chain.add(word(i));
+    for (std::size_t i = 0; i < size; i += 8) chain.add(word(at + head + i));
+    if (!first) chain.add(word(at));
+    std::memcpy(bytes.data() + at + head + size, &chain.value, 8);
+    at += head + size + 8;
+  }
+}
+
+void read_all(const std::string& path, Partial partial) {
+  RecordReader reader(path, partial);
+  for (int pass = 0; pass < 2; ++pass) {
+    RecordedTick tick;
+    std::int64_t ticks = 0;
+    while (reader.next(tick)) ++ticks;
+    expect(ticks == reader.ticks(), fmt::format("it says {} ticks and gives {}", reader.ticks(), ticks));
+    reader.rewind();
+  }
+}
+
+Target record() {
+  Target target;
+  target.seeds = {small_record(3, {{"resolved", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}},
+                               {{"ledger", "contact,hand_mJ\n1,2.5\n"}}),
+                  small_record(1, {}, {})};
+  target.tokens = {"CHNK",
+                   "TEXT",
+                   "SEAL",
+                   "\x89"
+                   "ENCREC\n",
+                   std::string(8, '\0'),
+                   std::string("\2\0\0\0\0\0\0\0", 8)};
+  target.run = [](const std::string& input) {
+    const std::string path = folder().write("fuzz.encrec", input);
+    static_cast<void>(is_record(path));
+    try {
+      read_all(path, Partial::no);
+    } catch (const Error&) {
+      read_all(path, Partial::yes);
+      throw;
+    }
+    return true;
+  };
+  target.mend = &seal_again;
+  target.inputs = 5000;
+  return target;
+}
+
+models::Setup mesh_setup() {
+  const Folder folder_of_models;
+  folder_of_models.link_models();
+  return models::load(folder_of_models.write("scenes/a.toml", mesh_scene()), "");
+}
+
+// The mesh that a record holds beside its scene.
+Target recorded_mesh() {
+  Target target;
+  const models::Setup setup = mesh_setup();
+  const RecordTexts texts = models::record_texts(setup);
+  target.seeds = {texts.at("mesh:small.obj")};
+  target.run = [texts](const std::string& input) {
+    RecordTexts others = texts;
+    others["mesh:small.obj"] = input;
+    const models::Setup read = models::setup_of(others, "fuzz.encrec");
+    expect(models::record_texts(read) == others, "what is written of it is another");
+    return true;
+  };
+  return target;
+}
+
+const Offer kStereo("stereo", &stereo), kRecord("record", &record), kMesh("recorded_mesh", &recorded_mesh);
+
+}  // namespace
+}  // namespace enc::fuzz

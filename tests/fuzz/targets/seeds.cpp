@@ -1,0 +1,122 @@
+#include "tests/fuzz/targets/seeds.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "models/mesh_files/mesh_write.h"
+#include "models/shapes/shapes.h"
+#include "tests/support/bytes_of.h"
+
+namespace enc::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kRoot = ENCOUNTER_SOURCE_DIR;
+
+}  // namespace
+
+std::string file_text(const std::string& name) { return test::bytes_of(kRoot / name); }
+
+std::vector<std::string> file_texts(const std::string& folder, const std::string& ending, std::size_t most) {
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(kRoot / folder))
+    if (entry.path().extension() == ending && entry.file_size() <= most) paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  std::vector<std::string> texts;
+  for (const fs::path& path : paths) texts.push_back(test::bytes_of(path));
+  return texts;
+}
+
+std::string mesh_scene() {
+  std::string text = file_text("models/scenes/hare.toml");
+  const std::string mesh = "hare.glb\"";
+  return text.replace(text.find(mesh), mesh.size(), "small.obj\"");
+}
+std::string small_mesh() { return models::mesh_bytes(models::geodesic_ball(2), ".obj"); }
+
+const std::vector<std::string>& toml_tokens() {
+  static const std::vector<std::string> kAll{"true",
+                                             "false",
+                                             "1979-05-27",
+                                             "07:32:00Z",
+                                             "{}",
+                                             "[]",
+                                             "[[]]",
+                                             "[0, 0, 0]",
+                                             "[nan, inf, -inf]",
+                                             "\"\"",
+                                             "\"\"\"",
+                                             "'''",
+                                             "\"\\u0000\"",
+                                             "\"\\n\"",
+                                             "\"\\U00110000\"",
+                                             "\"a/b\"",
+                                             "\"..\"",
+                                             "\"/\"",
+                                             "name = \"a\"\n",
+                                             "format = 2\n",
+                                             " = ",
+                                             ".",
+                                             "#",
+                                             "[[object]]\n",
+                                             "[[tool]]\n",
+                                             "[[behaviour]]\n",
+                                             "[camera]\n",
+                                             "[rig]\n",
+                                             "[truth]\n",
+                                             "[arm]\n",
+                                             "[manipulator]\n",
+                                             "[user]\n",
+                                             "[session]\n",
+                                             "[driver.sample]\n",
+                                             "a.b.c.d = 1\n",
+                                             "mesh = \"small.obj\"\n",
+                                             "shape = \"mesh\"\n",
+                                             "shape = \"plane\"\n",
+                                             "shape = \"sphere\"\n",
+                                             "shape = \"box\"\n",
+                                             "1e-9",
+                                             "1e9",
+                                             "1e-300",
+                                             "0x7fffffffffffffff",
+                                             "1_000",
+                                             "0b1"};
+  return kAll;
+}
+
+Folder::Folder() {
+  std::error_code none;
+  const fs::path memory = "/dev/shm";
+  std::string name =
+      ((fs::is_directory(memory, none) ? memory : fs::temp_directory_path()) / "encounter_fuzz_XXXXXX")
+          .string();
+  if (mkdtemp(name.data()) == nullptr) std::abort();  // no target can go on without
+  root_ = name;
+}
+
+Folder::~Folder() {
+  std::error_code none;
+  fs::remove_all(root_, none);
+}
+
+void Folder::link_models() const {
+  for (const auto& entry : fs::directory_iterator(kRoot / "models")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find("toml") != std::string::npos) fs::create_symlink(entry.path(), root_ / name);
+    if (!entry.is_directory()) continue;
+    fs::create_directory(root_ / name);
+    for (const auto& file : fs::directory_iterator(entry.path()))
+      fs::create_symlink(file.path(), root_ / name / file.path().filename());
+  }
+  write("meshes/small.obj", small_mesh());
+}
+
+std::string Folder::write(const std::string& name, const std::string& bytes) const {
+  const fs::path path = root_ / name;
+  if (fs::is_symlink(path)) fs::remove(path);
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+  return path.string();
+}
+
+}  // namespace enc::fuzz
