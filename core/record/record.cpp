@@ -144,6 +144,15 @@ std::string hex(std::uint64_t x) {
   return text;
 }
 
+// What a file says of itself, as a terminal may show it.
+std::string shown(std::string text) {
+  constexpr std::size_t kMost = 80;
+  text.resize(std::min(text.size(), kMost));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
 // "0x1, 0x2"
 std::string listed(const std::vector<std::uint64_t>& numbers) {
   std::string text;
@@ -304,7 +313,7 @@ void RecordReader::read_header() {
   if (std::find(known.begin(), known.end(), start[2]) == known.end() || start[3] != frame_words()) {
     const auto version = texts_.find("version");
     fail(16, "record of another layout: " + hex(start[2]) + " of Encounter " +
-                 (version == texts_.end() ? "(version not said)" : version->second) +
+                 (version == texts_.end() ? "(version not said)" : shown(version->second)) +
                  ", but this program has " + listed(known) +
                  "; use the version of Encounter that wrote it, or record again");
   }

@@ -98,6 +98,10 @@ Target record() {
   target.seeds = {small_record(3, {{"resolved", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}},
                                {{"ledger", "contact,hand_mJ\n1,2.5\n"}}),
                   small_record(1, {}, {})};
+  // Of another layout, by a version that wants two lines.
+  target.seeds.push_back(small_record(1, {{"version", "9\n8"}}, {}));
+  target.seeds.back()[16] ^= 1;
+  seal_again(target.seeds.back());
   target.tokens = {"CHNK",
                    "TEXT",
                    "SEAL",
