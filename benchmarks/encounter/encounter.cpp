@@ -74,7 +74,8 @@ void run(Bench& bench) {
        .log_y = true,
        .series = {misses, bounds},
        .caption = "A miss must stay under the bound, which follows from the numbers of rig and twin alone."});
-  add_force_precision(bench);
+  add_force_precision(bench, {"user.approach_mm_s=[50]", "user.approach_from_mm=20", "user.press_s=0.8",
+                              "user.hold_s=0.1", "user.release_s=0.8", "user.depth_mm=2"});
 }
 
 const Entry kEntry{"encounter", "tennis_ball",

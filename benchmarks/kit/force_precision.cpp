@@ -82,6 +82,7 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set) {
   if (!bench.context.full) {
     options.rounds = 1;
     options.seconds = 4.0;
+    options.converged = 20;
     options.grid = {{"implicitfast", "rk4"}, {1, 4}};
   }
   const ForceStudy study = force_study(bench.context, bench.result.scene, set, options);

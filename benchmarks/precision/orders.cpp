@@ -86,7 +86,7 @@ double apart(const Way& a, const Way& b) {
 
 void add_orders(Bench& bench) {
   constexpr std::array<const char*, 4> kIntegrators{"implicitfast", "euler", "rk4", "discrete"};
-  constexpr double kRounding = 1e-14;  // m
+  constexpr double kRounding = 1e-15;  // m
   Table table{
       "orders", "Error of a path without contact", {"path", "integrator", "timestep_us", "error_um"}, {}};
   const auto fit = [&](const std::string& path, const char* integrator, const auto& way_with, bool alone) {

@@ -82,7 +82,8 @@ void run(Bench& bench) {
     bench.figure(fmt::format("over_limit.{:.0f}.max", limit * 1e3), pushed.over_limit * 1e6, "um",
                  between(-50, 50), "true deflection above the limit under a push of 30 N");
   }
-  add_force_precision(bench, {"user.press_s=1.5", "user.release_s=1.5", "user.depth_mm=4"});
+  add_force_precision(bench, {"user.approach_mm_s=[50]", "user.approach_from_mm=20", "user.press_s=1.5",
+                              "user.hold_s=0.2", "user.release_s=1.5", "user.depth_mm=4"});
 }
 
 const Entry kEntry{"press", "tennis_ball", "one contact for each press, limit held, tip inside, no pull",

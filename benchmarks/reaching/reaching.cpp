@@ -260,7 +260,8 @@ void run(Bench& bench) {
   slide_part(context, result, add);
   add_rest(context, result, add);
   if (context.full) add_reaching_full(context, result);
-  add_force_precision(bench);
+  add_force_precision(bench, {"user.approach_mm_s=[50]", "user.approach_from_mm=40", "user.press_s=0.8",
+                              "user.hold_s=0.2", "user.release_s=0.8"});
   progress(1.0);
 }
 

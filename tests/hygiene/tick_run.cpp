@@ -8,41 +8,12 @@
 
 #include "core/record/record.h"
 #include "tests/support/built.h"
-#include "trial/ledger/ledger_measure.h"
-#include "trial/measure/finger_measure.h"
-#include "trial/measure/passivity_measure.h"
-#include "trial/measure/press_measure.h"
-#include "trial/measure/probe_measure.h"
-#include "trial/measure/seen_measure.h"
-#include "trial/measure/touch_measure.h"
+#include "trial/run_measures.h"
 
 namespace enc::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-// All that `run` looks on with.
-struct Measures {
-  trial::PressMeasure presses;
-  trial::ProbeMeasure pushes;
-  trial::FingerMeasure fingers;
-  trial::TouchMeasure touches;
-  trial::SeenMeasure seen;
-  trial::PassivityMeasure passivity;
-  trial::LedgerMeasure ledger;
-
-  Measures(const models::Setup& setup, trial::TrialOptions& options)
-      : presses(setup), ledger(setup, options) {}
-  void see(const trial::Glance& glance) {
-    presses.see(glance);
-    pushes.see(glance);
-    fingers.see(glance);
-    touches.see(glance);
-    seen.see(glance);
-    passivity.see(glance);
-    ledger.see(glance);
-  }
-};
 
 }  // namespace
 
@@ -64,8 +35,8 @@ Told counted_run(const Case& asked) {
     trial::TrialOptions options = asked.options;
     const models::Setup setup =
         models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + asked.scene + ".toml", "", {});
-    Measures measures(setup, options);
     const auto also = options.watch;
+    trial::RunMeasures measures(setup, options);
     options.watch = [&](const trial::Glance& glance) {
       measures.see(glance);
       if (also) also(glance);

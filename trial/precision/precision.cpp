@@ -12,7 +12,6 @@
 namespace enc::trial {
 namespace {
 
-constexpr int kSecond = 100;   // parts of a period
 constexpr double kSame = 1.1;  // times: as dear
 
 struct Run {
@@ -123,7 +122,7 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
   all.table = shipped.table;
   all.tick = period;
   all.converged = {"rk4", period / options.converged};
-  all.second = {"implicitfast", period / kSecond};
+  all.second = {"implicitfast", period / (2 * options.converged)};
   double done = 0.0;
   const double whole = 8.0 + static_cast<double>(options.rounds) * 2.0;
   const auto tell = [&](double more) {

@@ -52,7 +52,7 @@ struct PrecisionOptions {
   int rounds = 3;               // each point is timed so often, all in turn
   Grid grid{};
   bool shipped_too = true;  // what ships is a point, though the grid has it not
-  int converged = 50;       // parts of a period, of the run that judges (RK4)
+  int converged = 50;  // parts of a period, of the run that judges (RK4); the other one has twice as many
   // A fixed piece of work, timed now, s: costs are told in it, too. Empty: they are not.
   std::function<double()> yardstick{};
   std::function<void(double)> progress{};

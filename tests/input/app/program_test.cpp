@@ -211,7 +211,8 @@ std::string timeless(const std::string& text) {
   std::istringstream lines(text);
   std::string kept;
   const std::regex timed(
-      "^(tick|time) |\"(p50|p99|p99_9|max|wall_s|times_real_time|started_cpu_ms|peak_memory_MiB)\":");
+      "^(tick|time|costs) |^  process "
+      "|\"(p50|p99|p99_9|max|wall_s|times_real_time|started_cpu_ms|peak_memory_MiB)\":");
   for (std::string line; std::getline(lines, line);)
     if (!std::regex_search(line, timed)) kept += line + "\n";
   return kept;

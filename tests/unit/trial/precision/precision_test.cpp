@@ -86,11 +86,15 @@ TEST(Precision, AdviceNamesTheSettingAndTheFloor) {
   EXPECT_THAT(
       app::advice_text(made(), 0.05),
       AllOf(HasSubstr("--set truth.world.timestep_us=500 --set truth.world.integrator=implicitfast"),
-            HasSubstr("errs by 0.0400 of 0.05 N"), HasSubstr("floor 0.0100 N"),
+            HasSubstr("errs by 0.0400 of 0.05 N"), HasSubstr("floor about 0.0100 N"),
             HasSubstr("failed: diverged at tick 7"), HasSubstr("the next cheaper, discrete at 1000 us")));
   EXPECT_THAT(app::advice_text(made(), 0.03), HasSubstr("as it is"));
   EXPECT_THAT(app::advice_text(made(), 0.012), HasSubstr("none of these"));
-  EXPECT_THROW((void)app::advice_text(made(), 0.005), Error);
+  EXPECT_NO_THROW(app::refuse_below_floor(made(), 0.012));
+  EXPECT_THROW(app::refuse_below_floor(made(), 0.005), Error);
+  Precision lucky = made();
+  lucky.points[2].error = 0.004;
+  EXPECT_NO_THROW(app::refuse_below_floor(lucky, 0.005)) << "a point holds it";
 }
 
 TEST(Precision, ASceneWithoutAHandIsRefused) {
