@@ -259,7 +259,7 @@ void run(Bench& bench) {
   add_directions(study, result);
   add_minor_loops(study, result);
   add_converged(study, result);
-  if (context.full)
+  if (!context.quick)
     for (const char* law : {"prandtl_ishlinskii", "energy_stop"})
       add_work_precision(
           {fmt::format("indentation.{}", law),

@@ -31,13 +31,32 @@ const std::array<Form, 2>& forms() {
 }
 constexpr std::array<std::string_view, 4> kIntegrators{"implicitfast", "euler", "rk4", "discrete"};
 
+// What is swept: all of it with --full, else what takes some seconds.
+struct Extent {
+  std::vector<Form> forms;
+  std::vector<std::string_view> integrators{kIntegrators.begin(), kIntegrators.end()};
+  double seconds = kUnset;
+  int rounds = 3;
+};
+Extent extent_of(const WorkSpec& spec, const BenchContext& context) {
+  Extent all{{forms().begin(), forms().end()}};
+  all.seconds = spec.seconds;
+  if (context.full) return all;
+  constexpr double kShort = 6.0;  // s
+  all.forms = {{forms()[0].name, forms()[0].table, 50e-6, {1e-3, 0.25e-3}}};
+  all.integrators = {"implicitfast", "rk4"};
+  all.seconds = std::isnan(spec.seconds) ? kShort : std::min(spec.seconds, kShort);
+  all.rounds = 1;
+  return all;
+}
+
 struct Path {
   std::vector<Vec3> tip;  // true, at each tick
   double cpu = kUnset;    // s of CPU for each second of experiment
   std::string failure;    // why there is none
 };
 
-Path run_once(const WorkSpec& spec, const BenchContext& context, const Form& form,
+Path run_once(const WorkSpec& spec, const BenchContext& context, const Extent& extent, const Form& form,
               std::string_view integrator, double step) {
   Path path;
   const std::vector<std::string> compared{fmt::format("truth.hexapod.form={}", form.name),
@@ -46,7 +65,7 @@ Path run_once(const WorkSpec& spec, const BenchContext& context, const Form& for
   try {
     trial::TrialOptions options;
     options.seed = context.seed;
-    options.seconds = spec.seconds;
+    options.seconds = extent.seconds;
     options.watch = [&](const trial::Glance& glance) { path.tip.push_back(glance.truth.tip.e()); };
     trial::Trial trial(load_scene(context, spec.scene, spec.set, compared), options);
     const double start = thread_seconds();
@@ -79,27 +98,26 @@ struct Point {
 };
 
 // Three runs in turn with all the others, so that a slow moment of the machine does not hit one point alone.
-std::vector<Point> measured(const WorkSpec& spec, const BenchContext& context) {
+std::vector<Point> measured(const WorkSpec& spec, const BenchContext& context, const Extent& extent) {
   std::vector<Point> points;
   std::map<const Form*, Path> converged;
-  for (const Form& form : forms()) {
-    converged[&form] = run_once(spec, context, form, "rk4", form.reference);
-    for (const std::string_view integrator : kIntegrators)
+  for (const Form& form : extent.forms) {
+    converged[&form] = run_once(spec, context, extent, form, "rk4", form.reference);
+    for (const std::string_view integrator : extent.integrators)
       for (const double step : form.steps) points.push_back({&form, integrator, step});
   }
-  constexpr int kRounds = 3;
   std::vector<std::vector<double>> cpu(points.size());
-  for (int round = 0; round < kRounds; ++round)
+  for (int round = 0; round < extent.rounds; ++round)
     for (std::size_t i = 0; i < points.size(); ++i) {
       Point& point = points[i];
       if (!point.failure.empty()) continue;
-      const Path path = run_once(spec, context, *point.form, point.integrator, point.step);
+      const Path path = run_once(spec, context, extent, *point.form, point.integrator, point.step);
       point.failure = path.failure;
       point.error = rms(path, converged[point.form]);
       cpu[i].push_back(path.cpu);
       if (context.progress)
         context.progress(static_cast<double>(i + points.size() * static_cast<std::size_t>(round)) /
-                         static_cast<double>(kRounds * points.size()));
+                         static_cast<double>(static_cast<std::size_t>(extent.rounds) * points.size()));
     }
   for (std::size_t i = 0; i < points.size(); ++i) points[i].cpu = median(cpu[i]);
   return points;
@@ -113,9 +131,9 @@ bool is_default(const Point& point, const models::Setup& setup) {
   return std::abs(point.step - step) < 1e-9 && integrator == point.integrator;
 }
 
-void add_figures(const WorkSpec& spec, const std::vector<Point>& points, const models::Setup& setup,
-                 BenchResult& result) {
-  for (const Form& form : forms()) {
+void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const std::vector<Point>& points,
+                 const models::Setup& setup, BenchResult& result) {
+  for (const Form& form : extent.forms) {
     const Point* chosen = nullptr;
     const Point* cheapest = nullptr;
     for (const Point& point : points) {
@@ -129,6 +147,7 @@ void add_figures(const WorkSpec& spec, const std::vector<Point>& points, const m
         {id + "error.rms", kUnset, chosen->error * 1e6, "um", Role::ours, kUnset, spec.accuracy * 1e6,
          fmt::format("true tip's path at the default, {} at {:g} us, from the converged one",
                      chosen->integrator, chosen->step * 1e6)});
+    if (!full) continue;
     // The structural form is chosen for the legs' vibration, which asks for more: benchmark `structure`.
     const double dearest = std::string_view(form.name) == "control" ? 1.25 : kUnset;
     result.figures.push_back(
@@ -143,15 +162,16 @@ void add_figures(const WorkSpec& spec, const std::vector<Point>& points, const m
 }  // namespace
 
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result) {
-  const std::vector<Point> points = measured(spec, context);
-  add_figures(spec, points, load_scene(context, spec.scene, spec.set), result);
+  const Extent extent = extent_of(spec, context);
+  const std::vector<Point> points = measured(spec, context, extent);
+  add_figures(spec, extent, context.full, points, load_scene(context, spec.scene, spec.set), result);
 
   Table table{spec.benchmark + "_work_precision",
               "Error against run time",
               {"form", "integrator", "timestep_us", "error_um", "cpu_s_per_s", "times_real_time", "failure"}};
   std::vector<CostCurve> curves;
-  for (const Form& form : forms())
-    for (const std::string_view integrator : kIntegrators) {
+  for (const Form& form : extent.forms)
+    for (const std::string_view integrator : extent.integrators) {
       CostCurve curve{fmt::format("{} {}", form.name, integrator)};
       for (const Point& point : points) {
         if (point.form != &form || point.integrator != integrator) continue;
@@ -170,9 +190,9 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
        .x_label = "CPU time for one second of experiment (s)",
        .y_label = "error of the tip's path (um rms)",
        .caption = fmt::format(
-           "True tip against the converged run of the same form; time steps 1 ms (left) to 62.5 us "
+           "True tip against the converged run of the same form; time steps 1 ms (left) to {:g} us "
            "(right). {:g} um is what this benchmark needs. What failed stands at the upper edge.",
-           spec.accuracy * 1e6)},
+           extent.forms.front().steps.back() * 1e6, spec.accuracy * 1e6)},
       curves));
   result.tables.push_back(std::move(table));
 }

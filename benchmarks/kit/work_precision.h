@@ -18,7 +18,8 @@ struct WorkSpec {
 };
 
 // The default step and integrator of each form must meet the accuracy, and no point that meets it may be much
-// cheaper. Runs alone on one core: it measures time.
+// cheaper. Runs alone on one core: it measures time. By default a small form of some seconds, which judges
+// the default alone; with --full all of it.
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result);
 
 }  // namespace enc::bench

@@ -267,7 +267,7 @@ void run(Bench& bench) {
   figures.add_change(tracker.packets == sim::Packets::polled ? tracker.server_rate : tracker.rate);
   add_session_plots(runs, drawn, result);
   add_training(bench, runs);
-  if (context.full) add_precision(context, result);
+  if (!context.quick) add_precision(context, result);
 }
 
 const Entry kEntry{

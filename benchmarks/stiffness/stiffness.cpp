@@ -384,9 +384,10 @@ void run(Bench& bench) {
   if (context.full) {
     add_switches(
         context, [&](double done) { tell(share + (1.0 - share) * done); }, result);
+  }
+  if (!context.quick)
     add_work_precision({"stiffness", "stiffness", {"truth.pusher.tremor_N=0"}, kUnset, 30e-6}, context,
                        result);
-  }
   result.note =
       "Calibrated on the softest stable wall: the pusher's stiffness. Assumed: threshold and drift of the "
       "force's zero, which set the error below 0.3 N/mm.";

@@ -242,7 +242,7 @@ void run(Bench& bench) {
   add_display_figures(result, study);
   add_sync_tables(study, result);
   add_sync_plots(study, result);
-  if (context.full)
+  if (!context.quick)
     for (const std::string_view law : kWords<Reversal>) {
       Set own = kPaper;
       own.push_back(fmt::format("behaviour.tennis_ball.reversal=\"{}\"", law));

@@ -343,7 +343,7 @@ void run(Bench& bench) {
   add_plots(result, pictures);
   add_forensics(context, result);
   add_prediction(context, result);
-  if (context.full)
+  if (!context.quick)
     add_work_precision({"tracking",
                         "tracking",
                         {"travel.axes=\"x\"", "travel.speed_mm_s=40", "travel.dwell_s=0.2"},
