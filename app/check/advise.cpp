@@ -40,7 +40,8 @@ std::string advised(const trial::Precision& all, double error) {
 std::string advice_text(const trial::Precision& all, double error) {
   std::string text = fmt::format(
       "\nprecision   of the true force on what is held, rms while it touches; and of the tip's path\n"
-      "            {:g} s of the scene, {:.1f} s touched, judged by {} at {:g} us; floor about {:.4f} N\n",
+      "            {:g} s of the scene, {:.1f} s touched, judged by {} at {:g} us and another one; floor "
+      "about {:.4f} N\n",
       all.seconds, static_cast<double>(all.touched) * all.tick, all.converged.integrator,
       all.converged.step * 1e6, all.second.error);
   for (const trial::PrecisionPoint& point : all.points) text += row(point);

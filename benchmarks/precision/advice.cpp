@@ -16,17 +16,23 @@ struct Carried {
   [[nodiscard]] bool holds() const { return error <= asked && !(next_error <= asked); }
 };
 
-// An error that somebody could ask for and that asks for something: half way, by ratio, between the best and
-// the cheapest of the points. Where the two err alike, a tenth more than the cheapest.
-double asked_of(const std::vector<PrecisionPoint>& points) {
-  const PrecisionPoint* cheap = nullptr;
-  double best = kUnset;
+// An error that somebody could ask for, and that tells settings apart: in the middle of the widest gap, by
+// ratio, between what some cost gives and what the next cheaper ones do. Where no gap is wide, half more than
+// the cheapest errs.
+double asked_of(std::vector<PrecisionPoint> points) {
+  std::erase_if(points, [](const PrecisionPoint& point) { return !point.failure.empty(); });
+  std::sort(points.begin(), points.end(),
+            [](const PrecisionPoint& a, const PrecisionPoint& b) { return a.cpu < b.cpu; });
+  double asked = kUnset, widest = 1.5, best = kUnset;  // best: of all that are cheaper
   for (const PrecisionPoint& point : points) {
-    if (!point.failure.empty()) continue;
-    if (cheap == nullptr || point.cpu < cheap->cpu) cheap = &point;
+    if (std::isnan(asked)) asked = 1.5 * point.error;
+    if (best > widest * point.error) {
+      widest = best / point.error;
+      asked = std::sqrt(best * point.error);
+    }
     if (!(best <= point.error)) best = point.error;
   }
-  return std::max(std::sqrt(best * cheap->error), std::min(1.3 * best, 1.1 * cheap->error));
+  return asked;
 }
 
 std::string words(const PrecisionPoint& point) {
@@ -41,6 +47,7 @@ double again(const BenchContext& context, const ForceStudy& study, const Precisi
   options.grid = {{point.integrator},
                   {static_cast<int>(std::lround(study.all.converged.step * 50.0 / point.step))}};
   options.shipped_too = false;
+  options.twice = false;
   const ForceStudy judged = force_study(context, study.scene, {}, options);
   return judged.all.points.front().error;
 }

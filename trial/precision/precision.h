@@ -32,7 +32,7 @@ struct PrecisionPoint {
 struct Precision {
   std::string table;  // of the rig, where timestep_us and integrator stand: "truth.world"
   std::vector<PrecisionPoint> points;
-  PrecisionPoint converged;  // what all are judged by
+  PrecisionPoint converged;  // what all are judged by, and by the second: the greater error counts
   PrecisionPoint second;     // the other converged run; its error and way are the floor
   double seconds = 0.0;      // of experiment
   double tick = 1e-3;        // s
@@ -53,6 +53,7 @@ struct PrecisionOptions {
   Grid grid{};
   bool shipped_too = true;  // what ships is a point, though the grid has it not
   int converged = 50;  // parts of a period, of the run that judges (RK4); the other one has twice as many
+  bool twice = true;   // also judged by that other one: what errs more counts
   // A fixed piece of work, timed now, s: costs are told in it, too. Empty: they are not.
   std::function<double()> yardstick{};
   std::function<void(double)> progress{};

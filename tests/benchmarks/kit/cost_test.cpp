@@ -2,6 +2,7 @@
 #include "benchmarks/kit/cost.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -49,6 +50,27 @@ TEST(Race, RoundsBeforeTheFirstAreNotTimedAndChunksBeginAnew) {
   const Race other(3, {[] {}}, 0);
   EXPECT_GT(race.ratio(0, other, 0), 0.0);
   EXPECT_THROW((void)race.ratio(0, Race(2, {[] {}}), 0), std::out_of_range);  // not as many rounds
+}
+
+TEST(Race, TellsHowMuchLongerARoundTook) {
+  const auto work = [](int times) {
+    return [times] {
+      volatile double x = 1.0;
+      for (int i = 0; i < times * 20'000; ++i) x = x * 0.999 + 0.001;
+    };
+  };
+  const Race race(40, {work(1), work(3), work(1)});
+  EXPECT_NEAR(race.more(1, 0) / race.seconds(0), 2.0, 1.0);
+  EXPECT_NEAR(race.more(2, 0) / race.seconds(0), 0.0, 0.5);
+  EXPECT_DOUBLE_EQ(race.more(0, 0), 0.0);
+}
+
+TEST(Order, IsFittedAboveTheFloorAlone) {
+  const std::vector<double> steps{8.0, 4.0, 2.0, 1.0};
+  EXPECT_NEAR(fitted_order(steps, {8.0, 4.0, 2.0, 1.0}, 0.0), 1.0, 1e-12);
+  EXPECT_NEAR(fitted_order(steps, {4096.0, 256.0, 16.0, 3.0}, 2.0), 4.0, 1e-12) << "the last is at the floor";
+  EXPECT_TRUE(std::isnan(fitted_order(steps, {8.0, 4.0, 2.0, 1.0}, 1.0))) << "two points are no fit";
+  EXPECT_NEAR(fitted_order(steps, {8.0, kUnset, 2.0, 1.0}, 0.0), 1.0, 1e-12) << "a failure is no point";
 }
 
 TEST(Cost, WhatFailedIsACrossAndWhatNeverRanIsNothing) {

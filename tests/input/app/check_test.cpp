@@ -155,5 +155,26 @@ TEST(Check, AdviceAsksForAnErrorAndAHand) {
               HasSubstr("does not divide the haptic period"));
 }
 
+// What is there at run time is asked of the kernel and of the physics, in a short run.
+TEST(CheckCosts, SaysWhatASceneIsMadeOf) {
+  const std::string plane = said({scene("plane")});
+  EXPECT_THAT(plane, AllOf(HasSubstr("costs       ready after "), HasSubstr(" x real time"),
+                           HasSubstr("MuJoCo elements: "), HasSubstr("  process   1 thread, "),
+                           HasSubstr("modules none; not loaded "), Not(HasSubstr("not looked for"))));
+#if !defined(__SANITIZE_ADDRESS__)
+  EXPECT_THAT(plane, HasSubstr("OpenGL not loaded"));
+#endif
+  EXPECT_THAT(said({scene("tracking")}), HasSubstr("not looked for: contacts, constraints"));
+  EXPECT_THAT(said({scene("wall")}), HasSubstr("not looked for: islands"));
+  EXPECT_THAT(said({scene("rig_A"), "--set", "rig.force.driver=sample"}),
+              HasSubstr("costs       not measured: not all devices of this rig are simulated"));
+}
+
+TEST(CheckAdvise, IsNoPartOfTheResolvedScene) {
+  const Result r = run_program({"check", scene("plane"), "--resolved", "--advise", "--error-N", "0.05"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_THAT(r.err, HasSubstr("--resolved"));
+}
+
 }  // namespace
 }  // namespace enc::test
