@@ -37,7 +37,7 @@ const trial::PrecisionPoint* shipped_of(const trial::Precision& all) {
 
 }  // namespace
 
-double accuracy_of(const trial::Precision& all) { return std::max(kForceAccuracy, 1.5 * all.second.error); }
+double accuracy_of(const trial::Precision& all) { return std::max(kForceAccuracy, 2.0 * all.second.error); }
 
 ForceStudy force_study(const BenchContext& context, const std::string& scene,
                        const std::vector<std::string>& set, const trial::PrecisionOptions& options) {

@@ -11,8 +11,8 @@
 namespace enc::bench {
 
 // What the force may be off by, N rms. Chosen: three counts of the hexapod's sensor, and what the arm's
-// friction hides anyway. Where two converged runs do not agree so well themselves, half as much more than
-// they differ by.
+// friction hides anyway. Where two converged runs do not agree so well themselves, twice what they differ
+// by: all are judged by both of them.
 inline constexpr double kForceAccuracy = 0.06;
 [[nodiscard]] double accuracy_of(const trial::Precision& all);
 

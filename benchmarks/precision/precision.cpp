@@ -64,7 +64,7 @@ void add_plot(Bench& bench, const Machine& machine, const std::vector<trial::Pre
        .y_label = "force error over what a scene shall hold",
        .caption = fmt::format("True force while something touches, against a converged run of the same hand; "
                               "steps of a whole haptic period (left) to an eighth (right). A scene shall "
-                              "hold {:g} N, or half more than two converged runs differ by. What failed "
+                              "hold {:g} N, or twice what two converged runs differ by. What failed "
                               "stands at the upper edge.",
                               kForceAccuracy)},
       all, &trial::PrecisionPoint::cpu));
