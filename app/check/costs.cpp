@@ -59,6 +59,9 @@ std::string costs_text(const models::Setup& setup, std::uint64_t seed, double re
   const trial::Slots slots = trial::slots_of(setup);
   if (slots.real || !slots.simulated)
     return "\ncosts       not measured: not all devices of this rig are simulated\n";
+  for (const char* module : {"camera", "vision"})
+    if (setup.scene.camera && !module_there(module))
+      return fmt::format("\ncosts       not measured: the module {} is not built\n", module);
   trial::TrialOptions options;
   options.seed = seed;
   options.seconds = kRun;

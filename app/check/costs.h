@@ -8,7 +8,8 @@
 namespace enc::app {
 
 // Some lines. Runs the first quarter of a second of a scene that is all simulated; of another nothing: a
-// device is not to be moved, nor to be waited for. `ready` is the CPU time of the process so far, s.
+// device is not to be moved, nor to be waited for; nor where a camera's modules are not built. `ready` is the
+// CPU time of the process so far, s.
 [[nodiscard]] std::string costs_text(const models::Setup& setup, std::uint64_t seed, double ready);
 
 }  // namespace enc::app
