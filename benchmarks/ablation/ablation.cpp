@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kChunk = 240;  // ticks: four of the display's periods, seven of a camera's at 30 Hz
+constexpr int kChunk = 240;  // ticks
 constexpr double kTick = 1e-3;
 
 std::vector<std::string> scenes(const BenchContext& context) {
