@@ -29,12 +29,11 @@ std::vector<std::string> scenes(const BenchContext& context) {
 struct Costs {
   std::string scene;
   std::vector<Part> parts{};
-  std::vector<double> each{};                         // s for each tick, of a part
-  double minimal = 0.0, everything = 0.0, raw = 0.0;  // s for each tick
-  double ratio = kUnset;                              // everything over minimal
-  int elements = 0, all_elements = 0;                 // of the physics
-  std::size_t equal = 0, forms = 0;                   // felt as by the minimal form
-  std::int64_t pictures = 0;                          // seen by the camera beside it
+  std::vector<double> each{};              // s for each tick, of a part
+  double minimal = 0.0, everything = 0.0;  // s for each tick
+  double ratio = kUnset;                   // everything over minimal
+  int elements = 0, all_elements = 0;      // of the physics
+  std::size_t equal = 0, forms = 0;        // felt as by the minimal form
   [[nodiscard]] double difference() const { return everything - minimal; }
   [[nodiscard]] double sum() const {
     double all = 0.0;
@@ -86,16 +85,16 @@ Costs costs_of(const BenchContext& context, const std::string& scene) {
   costs.all_elements = forms[1]->elements();
   costs.forms = forms.size();
   for (const auto& form : forms) costs.equal += form->felt() == forms[0]->felt() ? 1 : 0;
-  costs.pictures = forms[1]->pictures();
   return costs;
 }
 
 void run(Bench& bench) {
   Table table{"scenes",
               "What each part that a scene leaves out would cost, us for each tick",
-              {"scene", "as it ships", "everything", "times", "display", "camera", "pictures", "features",
-               "counts", "record", "sum of parts (%)", "MuJoCo elements"},
+              {"scene", "as it ships", "everything", "times"},
               {}};
+  for (const Part part : kParts) table.columns.emplace_back(name_of(part));
+  table.columns.insert(table.columns.end(), {"sum of parts (%)", "MuJoCo elements"});
   table.printed = true;
   const std::vector<std::string> all = scenes(bench.context);
   for (const std::string& scene : all) {

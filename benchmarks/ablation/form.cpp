@@ -18,11 +18,6 @@ bool among(const std::vector<Part>& parts, Part part) {
   return std::find(parts.begin(), parts.end(), part) != parts.end();
 }
 
-class NoLog final : public Log {
-  void say(const std::string&) override {}
-};
-NoLog no_log;
-
 // Islands are no part of it: an arm's contacts are solved in another order with them, which gives other bits.
 constexpr int kFeatures = mjDSBL_CONTACT | mjDSBL_CONSTRAINT;
 
@@ -53,11 +48,7 @@ Form::Form(const BenchContext& context, const std::string& scene, const std::vec
   trial::TrialOptions options;
   options.seed = context.seed;
   options.seconds = seconds;
-  options.drivers = [&context](const std::string& module) -> const ModuleInfo& {
-    const ModuleInfo* found = context.module(module);
-    if (found == nullptr) throw Error("the module " + module + " is not built", {}, ErrorKind::device);
-    return *found;
-  };
+  options.drivers = modules_of(context);
   if (among(with, Part::display)) setup_.scene.display = DisplaySpec{};
   options.draw_all = among(with, Part::pictures);
   if (among(with, Part::counts)) counts_ = std::make_unique<trial::RunMeasures>(setup_, options);
@@ -65,7 +56,7 @@ Form::Form(const BenchContext& context, const std::string& scene, const std::vec
   trial_ = std::make_unique<trial::Trial>(setup_, options);
   if (among(with, Part::features)) world().physics().model()->opt.disableflags &= ~kFeatures;
   if (among(with, Part::camera))
-    vision_ = trial::make_vision(setup_, options.drivers, {&world(), context.seed, no_log});
+    vision_ = trial::make_vision(setup_, options.drivers, {&world(), context.seed, log_});
   if (!among(with, Part::record)) return;
   file_ = memfd_create("record", 0);
   if (file_ < 0) throw Error("no file in memory could be made");
@@ -91,7 +82,7 @@ void Form::see(const trial::Glance& glance) {
     for (const double x : v) felt_.add(leaf_bits(x));
   felt_.add(leaf_bits(glance.out.mode));
   if (counts_) counts_->see(glance);
-  if (vision_ && vision_->poll(glance.tick.t, unused_)) ++pictures_;
+  if (vision_) vision_->poll(glance.tick.t, unused_);
 }
 
 }  // namespace enc::bench::ablation

@@ -10,6 +10,7 @@
 #include "core/record/record.h"
 #include "core/record/state_hash.h"
 #include "trial/camera/vision.h"
+#include "trial/device_log.h"
 #include "trial/run_measures.h"
 #include "trial/trial.h"
 
@@ -44,7 +45,6 @@ class Form {
   [[nodiscard]] int elements() const { return trial_->world().physics().elements(); }
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
   [[nodiscard]] sim::World& world() { return trial_->world(); }
-  [[nodiscard]] std::int64_t pictures() const { return pictures_; }
 
  private:
   void see(const trial::Glance& glance);
@@ -52,11 +52,11 @@ class Form {
   models::Setup setup_;
   std::unique_ptr<trial::RunMeasures> counts_;
   std::unique_ptr<trial::Trial> trial_;
+  trial::DeviceLog log_;
   std::unique_ptr<PoseTracker> vision_;
   int file_ = -1;  // in memory
   std::unique_ptr<RecordWriter> record_;
   Stamped<TrackedTool> unused_;
-  std::int64_t pictures_ = 0;
   StateHash felt_;
 };
 

@@ -30,11 +30,6 @@ std::string orders_text(const trial::Precision& all) {
   return text;
 }
 
-const trial::PrecisionPoint* shipped_of(const trial::Precision& all) {
-  const auto at = std::find_if(all.points.begin(), all.points.end(), [](const auto& p) { return p.shipped; });
-  return at == all.points.end() ? nullptr : &*at;
-}
-
 }  // namespace
 
 double accuracy_of(const trial::Precision& all) { return std::max(kForceAccuracy, 2.0 * all.second.error); }
@@ -114,7 +109,7 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set) {
            "failed stands at the upper edge.",
            all.seconds, all.second.error, accuracy)},
       all.points, &trial::PrecisionPoint::yards));
-  const trial::PrecisionPoint* shipped = shipped_of(all);
+  const trial::PrecisionPoint* shipped = trial::shipped(all.points);
   if (shipped == nullptr) return;
   bench.figure("precision.error.rms", shipped->error, "N", at_most(accuracy),
                fmt::format("force at what ships, {} at {:g} us; two converged runs differ by {:.4f} N",

@@ -44,8 +44,7 @@ double again(const BenchContext& context, const ForceStudy& study, const Precisi
   trial::PrecisionOptions options;
   options.rounds = 1;
   options.converged = 80;
-  options.grid = {{point.integrator},
-                  {static_cast<int>(std::lround(study.all.converged.step * 50.0 / point.step))}};
+  options.grid = {{point.integrator}, {static_cast<int>(std::lround(study.all.tick / point.step))}};
   options.shipped_too = false;
   options.twice = false;
   const ForceStudy judged = force_study(context, study.scene, {}, options);

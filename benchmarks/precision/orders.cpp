@@ -85,11 +85,11 @@ double apart(const Way& a, const Way& b) {
 }  // namespace
 
 void add_orders(Bench& bench) {
-  constexpr std::array<const char*, 4> kIntegrators{"implicitfast", "euler", "rk4", "discrete"};
   constexpr double kRounding = 1e-15;  // m
   Table table{
       "orders", "Error of a path without contact", {"path", "integrator", "timestep_us", "error_um"}, {}};
-  const auto fit = [&](const std::string& path, const char* integrator, const auto& way_with, bool alone) {
+  const auto fit = [&](const std::string& path, const std::string& integrator, const auto& way_with,
+                       bool alone) {
     const double coarse = alone ? kGlance : 1e-3;
     const Way truth = way_with("rk4", coarse / 40.0);
     std::vector<double> steps, errors;
@@ -100,14 +100,14 @@ void add_orders(Bench& bench) {
       table.add(path, integrator, fmt::format("{:g}", steps.back() * 1e6),
                 fmt::format("{:.3g}", errors.back() * 1e6));
     }
-    const bool fourth = std::string(integrator) == "rk4" && alone;
+    const bool fourth = integrator == "rk4" && alone;
     bench.figure(fmt::format("order.{}.{}", path, integrator), fitted_order(steps, errors, kRounding), "",
                  fourth ? at_least(3.5) : between(0.75, 1.25),
                  alone ? "power of the step with which the error falls: an arm that falls, by itself"
                        : "a hand on its way and the machine that goes to meet it: what the twin adds to the "
                          "physics is taken once a step");
   };
-  for (const char* integrator : kIntegrators) {
+  for (const std::string& integrator : trial::Grid{}.integrators) {
     fit(
         "fall", integrator,
         [&](const std::string& with, double step) { return falling(bench.context, with, step); }, true);

@@ -43,12 +43,11 @@ std::vector<trial::PrecisionPoint> together(const std::vector<ForceStudy>& studi
     all[i].error = 0.0;
     for (const ForceStudy& study : studies) {
       const std::vector<trial::PrecisionPoint>& points = study.all.points;
-      const auto shipped =
-          std::find_if(points.begin(), points.end(), [](const auto& point) { return point.shipped; });
+      const trial::PrecisionPoint* shipped = trial::shipped(points);
       const trial::PrecisionPoint& point = points[i];
       if (!point.failure.empty()) all[i].failure = study.scene + ": " + point.failure;
       all[i].error = std::max(all[i].error, point.error / accuracy_of(study.all));
-      if (shipped != points.end()) cost.push_back(point.cpu / shipped->cpu);
+      if (shipped != nullptr) cost.push_back(point.cpu / shipped->cpu);
     }
     all[i].cpu = cost.empty() ? kUnset : median(cost);
   }
@@ -78,9 +77,8 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
                 point.failure.empty() ? fmt::format("{:.4f}", point.error) : "",
                 point.failure.empty() ? fmt::format("{:.2f}", point.way * 1e6) : "",
                 fmt::format("{:.0f}", 1.0 / point.cpu), point.shipped ? "ships" : "", point.failure);
-    const auto shipped =
-        std::find_if(points.begin(), points.end(), [](const auto& point) { return point.shipped; });
-    if (shipped == points.end()) continue;  // --set has put another step in its place
+    const trial::PrecisionPoint* shipped = trial::shipped(points);
+    if (shipped == nullptr) continue;  // --set has put another step in its place
     bench.figure(study.scene + ".error.rms", shipped->error, "N", at_most(accuracy_of(study.all)),
                  fmt::format("force at what ships, {} at {:g} us; two converged runs differ by {:.4f} N",
                              shipped->integrator, shipped->step * 1e6, study.all.second.error));
@@ -89,9 +87,9 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
   }
   const std::vector<trial::PrecisionPoint> all = together(studies);
   const trial::PrecisionPoint* best = cheapest(all, 1.0);
-  const auto shipped = std::find_if(all.begin(), all.end(), [](const auto& point) { return point.shipped; });
+  const trial::PrecisionPoint* shipped = trial::shipped(all);
   add_plot(bench, machine, all);
-  if (shipped == all.end() || bench.context.quick) return;  // of one scene it says nothing
+  if (shipped == nullptr || bench.context.quick) return;  // of one scene it says nothing
   bench.figure(fmt::format("{}.default_over_cheapest.cpu", machine.name),
                best != nullptr ? 1.0 / best->cpu : kUnset, "x", at_most(1.25),
                best != nullptr

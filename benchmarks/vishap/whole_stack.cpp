@@ -109,11 +109,7 @@ Ran run_one(const BenchContext& context, const Walked& asked) {
   trial::TrialOptions options;
   options.seed = asked.seed;
   options.seconds = asked.seconds;
-  options.drivers = [&](const std::string& name) -> const ModuleInfo& {
-    const ModuleInfo* module = context.module(name);
-    if (module == nullptr) throw Error("the module " + name + " is not built", {}, ErrorKind::device);
-    return *module;
-  };
+  options.drivers = modules_of(context);
   options.watch = [&](const trial::Glance& glance) { look.see(glance); };
   trial::FrameForce frames;
   if (asked.frames)

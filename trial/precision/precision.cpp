@@ -1,12 +1,12 @@
 #include "trial/precision/precision.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "models/order_statistics.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -105,11 +105,6 @@ std::vector<PrecisionPoint> points_of(const PrecisionOptions& options, const sim
   return points;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
 std::vector<std::string> Precision::settings(const PrecisionPoint& point) const {
@@ -174,13 +169,18 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
     }
   for (std::size_t i = 0; i < all.points.size(); ++i) {
     if (cpu[i].empty()) continue;
-    all.points[i].cpu = median(cpu[i]);
+    all.points[i].cpu = models::median(cpu[i]);
     if (!options.yardstick) continue;
-    all.points[i].yards = median(yards[i]);
+    all.points[i].yards = models::median(yards[i]);
     const auto [least, most] = std::minmax_element(yards[i].begin(), yards[i].end());
     all.points[i].spread = *most / *least;
   }
   return all;
+}
+
+const PrecisionPoint* shipped(const std::vector<PrecisionPoint>& points) {
+  const auto at = std::find_if(points.begin(), points.end(), [](const auto& point) { return point.shipped; });
+  return at == points.end() ? nullptr : &*at;
 }
 
 const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, double error) {

@@ -65,6 +65,8 @@ using SetupWith = std::function<models::Setup(const std::vector<std::string>& se
 // Throws Error for a scene in which nothing can touch: without a simulated hand.
 [[nodiscard]] Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& options);
 
+// What the scene does without being told; null: not among them, as settings have put another in its place.
+[[nodiscard]] const PrecisionPoint* shipped(const std::vector<PrecisionPoint>& points);
 // The cheapest that meets this error, N; null: none. What costs the same within a tenth is as cheap: then
 // what the scene does anyway, else what errs least.
 [[nodiscard]] const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, double error);

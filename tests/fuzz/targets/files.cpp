@@ -126,8 +126,7 @@ Target record() {
 }
 
 models::Setup mesh_setup() {
-  const Folder folder_of_models;
-  folder_of_models.link_models();
+  const ModelsFolder folder_of_models;
   return models::load(folder_of_models.write("scenes/a.toml", mesh_scene()), "");
 }
 

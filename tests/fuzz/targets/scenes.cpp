@@ -18,9 +18,7 @@ namespace {
 using models::Setup;
 
 const Folder& folder() {
-  static const Folder kFolder;
-  static const bool kFilled = (kFolder.link_models(), true);
-  static_cast<void>(kFilled);
+  static const ModelsFolder kFolder;
   return kFolder;
 }
 
@@ -72,9 +70,7 @@ Target behaviours() {
   target.seeds = {file_text("models/behaviours.toml")};
   target.tokens = toml_tokens();
   target.run = [](const std::string& input) {
-    static const Folder kOwn;
-    static const bool kFilled = (kOwn.link_models(), true);
-    static_cast<void>(kFilled);
+    static const ModelsFolder kOwn;
     kOwn.write("behaviours.toml", input);
     return sane(models::load(kOwn.path("scenes/two_objects.toml"), ""));
   };
@@ -87,9 +83,7 @@ Target response() {
   target.seeds = file_texts("models/responses", ".toml");
   target.tokens = toml_tokens();
   target.run = [](const std::string& input) {
-    static const Folder kOwn;
-    static const bool kFilled = (kOwn.link_models(), true);
-    static_cast<void>(kFilled);
+    static const ModelsFolder kOwn;
     const ResponseSpec read = models::load_response(kOwn.write("responses/tennis_ball.toml", input));
     const std::string text = models::response_text(read, "fuzz");
     kOwn.write("responses/again.toml", text);

@@ -100,14 +100,14 @@ Folder::~Folder() {
   fs::remove_all(root_, none);
 }
 
-void Folder::link_models() const {
+ModelsFolder::ModelsFolder() {
   for (const auto& entry : fs::directory_iterator(kRoot / "models")) {
     const std::string name = entry.path().filename().string();
-    if (name.find("toml") != std::string::npos) fs::create_symlink(entry.path(), root_ / name);
+    if (name.find("toml") != std::string::npos) fs::create_symlink(entry.path(), path(name));
     if (!entry.is_directory()) continue;
-    fs::create_directory(root_ / name);
+    fs::create_directory(path(name));
     for (const auto& file : fs::directory_iterator(entry.path()))
-      fs::create_symlink(file.path(), root_ / name / file.path().filename());
+      fs::create_symlink(file.path(), path(name + '/' + file.path().filename().string()));
   }
   write("meshes/small.obj", small_mesh());
 }

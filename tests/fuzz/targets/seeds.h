@@ -26,14 +26,17 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  // Links to all of models/, in folders of its own; and the small mesh.
-  void link_models() const;
   // Writes a file and gives its path. What was there, also a link, is replaced.
   std::string write(const std::string& name, const std::string& bytes) const;
   [[nodiscard]] std::string path(const std::string& name) const { return (root_ / name).string(); }
 
  private:
   std::filesystem::path root_;
+};
+
+// One with links to all of models/, in folders of its own; and the small mesh.
+struct ModelsFolder : Folder {
+  ModelsFolder();
 };
 
 }  // namespace enc::fuzz
