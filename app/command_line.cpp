@@ -74,7 +74,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* check_command = app.add_subcommand(
       "check",
       "read a scene and its rig, find their mistakes, and say what will be built, what is left out and why, "
-      "where each frame is, how hard and how soft an object may be; nothing moves");
+      "where each frame is, how hard and how soft an object may be, what it costs; no device moves (the twin "
+      "runs for 0.25 s)");
   scene_options(check_command, check_options);
   CLI::Option* resolved =
       check_command->add_flag("--resolved", check_options.resolved,
@@ -82,11 +83,14 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::Option* advise = check_command->add_flag(
       "--advise", check_options.advise,
       "also run it at several time steps and integrators of its twin (about a minute) and name the "
-      "cheapest that errs by no more than --error-N");
+      "cheapest that errs by no more than --error-N, --error-um");
   advise->excludes(resolved);
   check_command
       ->add_option("--error-N", check_options.error_N,
                    "of --advise: error of the true force, N rms while something touches")
+      ->needs(advise);
+  check_command
+      ->add_option("--error-um", check_options.error_um, "of --advise: error of the tip's path, um rms")
       ->needs(advise);
   check_command->callback([&] { code = check(check_options); });
 

@@ -31,7 +31,7 @@ struct RunOptions : SceneOptions {
 struct CheckOptions : SceneOptions {
   bool resolved = false;  // the scene file that stands alone, instead of the answer
   bool advise = false;    // and how fine the twin need step, for
-  std::optional<double> error_N;
+  std::optional<double> error_N, error_um;
 };
 struct ViewOptions : SceneOptions {
   std::string shot;

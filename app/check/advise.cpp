@@ -1,5 +1,7 @@
 #include "app/check/advise.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -20,16 +22,35 @@ std::string row(const trial::PrecisionPoint& point) {
                      1.0 / point.cpu, point.shipped ? "  as it is" : "");
 }
 
-std::string advised(const trial::Precision& all, double error) {
-  const trial::PrecisionPoint* best = cheapest(all.points, error);
-  if (best == nullptr) return fmt::format("advice      none of these errs by less than {:g} N\n", error);
+// What was asked for, of a point: "0.0518 N" or "0.0518 N and 12.30 um".
+std::string errs_by(const trial::PrecisionPoint& point, const trial::Accuracy& asked) {
+  std::string text;
+  if (!std::isnan(asked.force)) text = fmt::format("{:.4f} N", point.error);
+  if (!std::isnan(asked.way))
+    text += fmt::format("{}{:.2f} um", text.empty() ? "" : " and ", point.way * 1e6);
+  return text;
+}
+
+std::string words(const trial::Accuracy& asked) {
+  std::string text;
+  if (!std::isnan(asked.force)) text = fmt::format("{:g} N", asked.force);
+  if (!std::isnan(asked.way)) text += fmt::format("{}{:g} um", text.empty() ? "" : " and ", asked.way * 1e6);
+  return text;
+}
+
+std::string advised(const trial::Precision& all, const trial::Accuracy& asked) {
+  const trial::PrecisionPoint* best = cheapest(all.points, asked);
+  if (best == nullptr) return fmt::format("advice      none of these errs by less than {}\n", words(asked));
   std::string text =
-      fmt::format("advice     {}\n            errs by {:.4f} of {:g} N, {:.0f} x real time{}\n",
+      fmt::format("advice     {}\n            errs by {}, allowed {}, {:.0f} x real time\n",
                   best->shipped ? " as it is:" + settings_text(all, *best) : settings_text(all, *best),
-                  best->error, error, 1.0 / best->cpu, "");
+                  errs_by(*best, asked), words(asked), 1.0 / best->cpu);
+  if (all.second.share(asked) > 0.5)
+    text += fmt::format(
+        "            less than twice the floor is asked for: another converged run may judge otherwise\n");
   if (const trial::PrecisionPoint* next = next_cheaper(all.points, *best))
-    text += fmt::format("            the next cheaper, {} at {:g} us, errs by {:.4f} N, {:.0f} x real time\n",
-                        next->integrator, next->step * 1e6, next->error, 1.0 / next->cpu);
+    text += fmt::format("            the next cheaper, {} at {:g} us, errs by {}, {:.0f} x real time\n",
+                        next->integrator, next->step * 1e6, errs_by(*next, asked), 1.0 / next->cpu);
   else
     text += "            nothing cheaper was found: no step is longer than the haptic period\n";
   return text;
@@ -37,28 +58,26 @@ std::string advised(const trial::Precision& all, double error) {
 
 }  // namespace
 
-std::string advice_text(const trial::Precision& all, double error) {
+std::string advice_text(const trial::Precision& all, const trial::Accuracy& asked) {
   std::string text = fmt::format(
       "\nprecision   of the true force on what is held, rms while it touches; and of the tip's path\n"
       "            {:g} s of the scene, {:.1f} s touched, judged by {} at {:g} us and another one; floor "
-      "about {:.4f} N\n",
+      "about {:.4f} N, {:.2f} um\n",
       all.seconds, static_cast<double>(all.touched) * all.tick, all.converged.integrator,
-      all.converged.step * 1e6, all.second.error);
+      all.converged.step * 1e6, all.second.error, all.second.way * 1e6);
   for (const trial::PrecisionPoint& point : all.points) text += row(point);
-  return text + advised(all, error) +
-         "            judged by the force alone: what is stable, `encounter bench stability` says\n";
+  return text + advised(all, asked) +
+         "            judged by these errors alone: what is stable, `encounter bench stability` says\n";
 }
 
-void refuse_below_floor(const trial::Precision& all, double error) {
-  const double floor = all.second.error;
-  if (error >= floor || cheapest(all.points, error) != nullptr) return;
-  throw Error(
-      fmt::format("an error of {:g} N is below what this scene can tell, {:.4f} N: two converged runs "
-                  "({} at {:g} us, {} at {:g} us) differ by that, as counts of its sensors fall "
-                  "the other way; expected at least that",
-                  error, floor, all.converged.integrator, all.converged.step * 1e6, all.second.integrator,
-                  all.second.step * 1e6),
-      "--error-N");
+void refuse_below_floor(const trial::Precision& all, const trial::Accuracy& asked) {
+  if (all.second.meets(asked) || cheapest(all.points, asked) != nullptr) return;
+  throw Error(fmt::format("an error of {} is below what this scene can tell, {}: two converged runs "
+                          "({} at {:g} us, {} at {:g} us) differ by that, as counts of its sensors fall "
+                          "the other way; expected at least that",
+                          words(asked), errs_by(all.second, asked), all.converged.integrator,
+                          all.converged.step * 1e6, all.second.integrator, all.second.step * 1e6),
+              std::isnan(asked.force) ? "--error-um" : "--error-N");
 }
 
 }  // namespace enc::app

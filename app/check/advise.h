@@ -1,4 +1,5 @@
-// `check --advise`: which time step and integrator of the twin are enough for an error that the user states.
+// `check --advise`: which time step and integrator of the twin are enough for an error that the user states:
+// of the force, of the tip's path, or of both.
 #pragma once
 
 #include <string>
@@ -7,8 +8,8 @@
 
 namespace enc::app {
 
-[[nodiscard]] std::string advice_text(const trial::Precision& all, double error);
-// Throws Error for an error, N, that nothing holds and that two converged runs do not hold either.
-void refuse_below_floor(const trial::Precision& all, double error);
+[[nodiscard]] std::string advice_text(const trial::Precision& all, const trial::Accuracy& asked);
+// Throws Error for an error that nothing holds and that two converged runs do not hold either.
+void refuse_below_floor(const trial::Precision& all, const trial::Accuracy& asked);
 
 }  // namespace enc::app

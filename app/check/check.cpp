@@ -193,6 +193,21 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
              law.rig.peak, law.rig.continuous, law.rig.speed * 1e3, law.rig.acceleration);
 }
 
+trial::Accuracy accuracy_of(const CheckOptions& options) {
+  const auto refuse_unless_above_0 = [](const std::optional<double>& error, const char* option,
+                                        const char* what) {
+    if (!error || (*error > 0.0 && std::isfinite(*error))) return;
+    throw Error(fmt::format("how much may it err? expected {} above 0, such as --advise {}", what, option),
+                std::string(option).substr(0, std::string(option).find(' ')));
+  };
+  if (!options.error_N && !options.error_um)
+    throw Error("how much may it err? expected a force or a length, such as --advise --error-N 0.05",
+                "--error-N");
+  refuse_unless_above_0(options.error_N, "--error-N 0.05", "a force in N");
+  refuse_unless_above_0(options.error_um, "--error-um 20", "a length in um");
+  return {options.error_N.value_or(kUnset), options.error_um.value_or(kUnset) * 1e-6};
+}
+
 int advise(const CheckOptions& options) {
   std::fflush(stdout);  // it takes its time
   trial::PrecisionOptions how;
@@ -208,10 +223,11 @@ int advise(const CheckOptions& options) {
       },
       how);
   if (terminal) fmt::print(stderr, "\r        \r");
-  fmt::print("{}", advice_text(all, *options.error_N));
+  const trial::Accuracy asked = accuracy_of(options);
+  fmt::print("{}", advice_text(all, asked));
   std::fflush(stdout);
-  refuse_below_floor(all, *options.error_N);
-  return cheapest(all.points, *options.error_N) != nullptr ? 0 : 1;
+  refuse_below_floor(all, asked);
+  return cheapest(all.points, asked) != nullptr ? 0 : 1;
 }
 
 }  // namespace
@@ -221,9 +237,7 @@ int check(const CheckOptions& options) {
   const double ready = cpu_seconds();
   const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
-  if (options.advise && !(options.error_N.value_or(0.0) > 0.0 && std::isfinite(*options.error_N)))
-    throw Error("how much may it err? expected a force in N above 0, such as --advise --error-N 0.05",
-                "--error-N");
+  if (options.advise) (void)accuracy_of(options);  // refused before it takes its time
   if (options.resolved) {
     std::string made =
         fmt::format("# Encounter {}: {}, rig {}", ENCOUNTER_VERSION, options.scene, setup.rig_path);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,8 @@
 namespace enc::app {
 namespace {
 
-constexpr double kRun = 0.25;  // s, of experiment
+constexpr double kRun = 0.25;                                        // s, of experiment
+constexpr std::string_view kPrefix = "encounter_", kSuffix = ".so";  // of a module's file
 
 // Of the engine, for which this scene has no use.
 std::string not_looked_for(const mjModel& model) {
@@ -42,13 +44,18 @@ bool among(const std::vector<std::string>& libraries, const std::string& part) {
 std::string process_text() {
   const std::vector<std::string> libraries = mapped_libraries();
   std::vector<std::string> loaded, left;
+  for (const std::string& library : libraries)  // in whichever folder it stood
+    if (const std::size_t at = library.rfind(kPrefix); at != std::string::npos && library.ends_with(kSuffix))
+      loaded.push_back(
+          library.substr(at + kPrefix.size(), library.size() - at - kPrefix.size() - kSuffix.size()));
   for (const std::string& name : modules_there())
-    (among(libraries, "encounter_" + name + ".") ? loaded : left).push_back(name);
+    if (std::find(loaded.begin(), loaded.end(), name) == loaded.end()) left.push_back(name);
   const bool gl = among(libraries, "libGL") || among(libraries, "libEGL") || among(libraries, "libOSMesa");
   const int threads = thread_count();
   return fmt::format(
-      "  process   {} thread{}, {} libraries, {:.0f} MiB; OpenGL {}; modules {}; not loaded {}\n", threads,
-      threads == 1 ? "" : "s", libraries.size(), peak_memory_mb(), gl ? "loaded" : "not loaded",
+      "  process   {} thread{}, {} libraries, {:.0f} MiB at most so far; OpenGL {}; modules {}; not loaded "
+      "{}\n",
+      threads, threads == 1 ? "" : "s", libraries.size(), peak_memory_mb(), gl ? "loaded" : "not loaded",
       loaded.empty() ? "none" : fmt::format("{}", fmt::join(loaded, ", ")),
       left.empty() ? "none" : fmt::format("{}", fmt::join(left, ", ")));
 }
@@ -72,7 +79,7 @@ std::string costs_text(const models::Setup& setup, std::uint64_t seed, double re
   const trial::TrialResult result = trial.run();
   const double tick = (cpu_seconds() - built) / static_cast<double>(result.ticks);
   return fmt::format(
-             "\ncosts       ready after {:.0f} ms of CPU time; a tick takes {:.1f} us: {:.0f} x real time "
+             "\ncosts       ready after {:.0f} ms of CPU time; a tick takes {:.1f} us: {:.3g} x real time "
              "(its first {:g} s)\n",
              (ready + built - before) * 1e3, tick * 1e6, 1.0 / (tick * setup.rig.loop.rate), kRun) +
          physics_text(trial.world().physics()) + process_text();

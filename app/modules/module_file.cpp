@@ -33,7 +33,7 @@ std::string cut_off(std::string_view head, std::uint64_t size) {
   for (std::uint64_t i = 0; i < header.e_phnum && why.empty(); ++i) {
     Elf64_Phdr segment{};
     std::memcpy(&segment, head.data() + header.e_phoff + i * sizeof(segment), sizeof(segment));
-    if (segment.p_type == PT_LOAD) why = ends(segment.p_offset, segment.p_filesz);
+    if (segment.p_type == PT_LOAD && segment.p_filesz > 0) why = ends(segment.p_offset, segment.p_filesz);
   }
   return why;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "benchmarks/kit/load_scene.h"
@@ -44,7 +45,7 @@ std::vector<Part> left_out(const BenchContext& context, const std::string& scene
 
 Form::Form(const BenchContext& context, const std::string& scene, const std::vector<Part>& with,
            double seconds)
-    : setup_(load_scene(context, scene)) {
+    : parts_(with), setup_(load_scene(context, scene)) {
   trial::TrialOptions options;
   options.seed = context.seed;
   options.seconds = seconds;
@@ -75,14 +76,50 @@ void Form::run(int ticks) {
   }
 }
 
+// Nine tenths of what is due: the first picture comes late.
+bool Form::works(Part part, const Form& minimal) const {
+  const double due = 0.9 * static_cast<double>(ticks_) / setup_.rig.loop.rate;
+  switch (part) {
+    case Part::display:
+      return static_cast<double>(surfaces_) >= due * setup_.twin.display.rate;
+    case Part::camera:
+      return static_cast<double>(pictures_) >= due * setup_.rig.camera.rate;
+    case Part::pictures:
+      return elements() > minimal.elements();
+    case Part::features:
+      return (trial_->world().physics().model()->opt.disableflags & kFeatures) == 0;
+    case Part::counts:  // a contact is booked when it is over
+      return trial_->result().contacts < 2 || !counts_->ledger.contacts().empty();
+    case Part::record: {
+      struct stat file {};
+      return fstat(file_, &file) == 0 &&
+             file.st_size >= static_cast<off_t>(static_cast<double>(ticks_) * 0.5 * sizeof(Inputs));
+    }
+  }
+  return false;
+}
+
+bool Form::has(Part part) const { return among(parts_, part); }
+
+std::vector<Part> Form::idle(const Form& minimal) const {
+  std::vector<Part> all;
+  for (const Part part : parts_)
+    if (!works(part, minimal)) all.push_back(part);
+  return all;
+}
+
 void Form::see(const trial::Glance& glance) {
   const sim::Truth& truth = glance.truth;
   for (const Vec3 v : {truth.tip.e(), truth.tool_tip.e(), truth.contact_force.e(), glance.out.tip.p(),
                        glance.out.force.e(), glance.out.arm_force.e()})
     for (const double x : v) felt_.add(leaf_bits(x));
   felt_.add(leaf_bits(glance.out.mode));
+  ++ticks_;
   if (counts_) counts_->see(glance);
-  if (vision_) vision_->poll(glance.tick.t, unused_);
+  if (vision_ && vision_->poll(glance.tick.t, unused_)) ++pictures_;
+  if (glance.in.dent.health == Health::absent || glance.in.dent.t == drawn_) return;
+  drawn_ = glance.in.dent.t;
+  ++surfaces_;
 }
 
 }  // namespace enc::bench::ablation

@@ -31,8 +31,14 @@ inline constexpr std::array kParts{Part::display,  Part::camera, Part::pictures,
 // What the scene leaves out.
 [[nodiscard]] std::vector<Part> left_out(const BenchContext& context, const std::string& scene);
 
-// A run of a scene with some of them. What touches, where everything is and what is commanded goes into a
-// hash, tick for tick.
+// What a run has done, tick for tick, as hashes: what touches, where everything is and what is commanded; and
+// all that the core knows and says.
+struct Bits {
+  std::uint64_t felt = 0, core = 0;
+  bool operator==(const Bits&) const = default;
+};
+
+// A run of a scene with some of them.
 class Form {
  public:
   Form(const BenchContext& context, const std::string& scene, const std::vector<Part>& with, double seconds);
@@ -41,14 +47,19 @@ class Form {
   ~Form();
 
   void run(int ticks);
-  [[nodiscard]] std::uint64_t felt() const { return felt_.value; }
+  [[nodiscard]] Bits bits() const { return {felt_.value, trial_->result().hash}; }
+  [[nodiscard]] bool has(Part part) const;
+  // Which of its parts did nothing so far, or are off: they would have cost nothing.
+  [[nodiscard]] std::vector<Part> idle(const Form& minimal) const;
   [[nodiscard]] int elements() const { return trial_->world().physics().elements(); }
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
   [[nodiscard]] sim::World& world() { return trial_->world(); }
 
  private:
   void see(const trial::Glance& glance);
+  [[nodiscard]] bool works(Part part, const Form& minimal) const;
 
+  std::vector<Part> parts_;
   models::Setup setup_;
   std::unique_ptr<trial::RunMeasures> counts_;
   std::unique_ptr<trial::Trial> trial_;
@@ -57,6 +68,8 @@ class Form {
   int file_ = -1;  // in memory
   std::unique_ptr<RecordWriter> record_;
   Stamped<TrackedTool> unused_;
+  std::int64_t ticks_ = 0, pictures_ = 0, surfaces_ = 0;  // seen by vision; drawn by the display
+  Time drawn_{};
   StateHash felt_;
 };
 

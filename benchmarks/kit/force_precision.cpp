@@ -115,7 +115,7 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set) {
                fmt::format("force at what ships, {} at {:g} us; two converged runs differ by {:.4f} N",
                            shipped->integrator, shipped->step * 1e6, all.second.error));
   if (!bench.context.full) return;
-  const trial::PrecisionPoint* best = cheapest(all.points, accuracy);
+  const trial::PrecisionPoint* best = cheapest(all.points, {accuracy});
   bench.figure("precision.default_over_cheapest.cpu", best != nullptr ? shipped->yards / best->yards : kUnset,
                "x", at_most(kDearest),
                best != nullptr

@@ -86,7 +86,7 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
                  fmt::format("the tip's path; the two by {:.2f}", study.all.second.way * 1e6));
   }
   const std::vector<trial::PrecisionPoint> all = together(studies);
-  const trial::PrecisionPoint* best = cheapest(all, 1.0);
+  const trial::PrecisionPoint* best = cheapest(all, {1.0});
   const trial::PrecisionPoint* shipped = trial::shipped(all);
   add_plot(bench, machine, all);
   if (shipped == nullptr || bench.context.quick) return;  // of one scene it says nothing

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,8 +12,6 @@
 
 namespace enc::trial {
 namespace {
-
-constexpr double kSame = 1.1;  // times: as dear
 
 struct Run {
   std::vector<Vec3> force, tip;
@@ -183,16 +182,25 @@ const PrecisionPoint* shipped(const std::vector<PrecisionPoint>& points) {
   return at == points.end() ? nullptr : &*at;
 }
 
-const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, double error) {
+double PrecisionPoint::share(const Accuracy& most) const {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  if (!failure.empty() || std::isnan(error) || std::isnan(way)) return kInfinite;
+  double greatest = 0.0;
+  if (!std::isnan(most.force)) greatest = error / most.force;
+  if (!std::isnan(most.way)) greatest = std::max(greatest, way / most.way);
+  return greatest;
+}
+
+const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, const Accuracy& most) {
   const PrecisionPoint* best = nullptr;
   for (const PrecisionPoint& point : points)
-    if (point.meets(error) && (best == nullptr || point.cpu < best->cpu)) best = &point;
+    if (point.meets(most) && (best == nullptr || point.cpu < best->cpu)) best = &point;
   if (best == nullptr) return nullptr;
-  const double most = kSame * best->cpu;
+  const double dearest = kAsDear * best->cpu;
   for (const PrecisionPoint& point : points) {
-    if (!point.meets(error) || point.cpu > most) continue;
+    if (!point.meets(most) || point.cpu > dearest) continue;
     if (point.shipped) return &point;
-    if (point.error < best->error) best = &point;
+    if (point.share(most) < best->share(most)) best = &point;
   }
   return best;
 }
@@ -200,7 +208,7 @@ const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, double
 const PrecisionPoint* next_cheaper(const std::vector<PrecisionPoint>& points, const PrecisionPoint& than) {
   const PrecisionPoint* next = nullptr;
   for (const PrecisionPoint& point : points)
-    if (point.failure.empty() && point.cpu * kSame < than.cpu && (next == nullptr || point.cpu > next->cpu))
+    if (point.failure.empty() && point.cpu * kAsDear < than.cpu && (next == nullptr || point.cpu > next->cpu))
       next = &point;
   return next;
 }

@@ -16,6 +16,12 @@
 
 namespace enc::trial {
 
+// What may be off at most; unset: by anything.
+struct Accuracy {
+  double force = kUnset;  // N rms
+  double way = kUnset;    // m rms, of the tip's path
+};
+
 struct PrecisionPoint {
   std::string integrator;
   double step = 0.0;       // s
@@ -26,7 +32,9 @@ struct PrecisionPoint {
   double yards = kUnset;   // what a tick cost in yardsticks, the median of some runs
   double spread = kUnset;  // greatest over least of these runs
   bool shipped = false;    // what the scene does without being told
-  [[nodiscard]] bool meets(double most) const { return failure.empty() && error <= most; }
+  // The error over what is allowed, the greater of the two; of what failed infinite.
+  [[nodiscard]] double share(const Accuracy& most) const;
+  [[nodiscard]] bool meets(const Accuracy& most) const { return share(most) <= 1.0; }
 };
 
 struct Precision {
@@ -39,6 +47,9 @@ struct Precision {
   std::int64_t touched = 0;  // ticks, in the converged run
   [[nodiscard]] std::vector<std::string> settings(const PrecisionPoint& point) const;  // for --set
 };
+
+// What costs less than so many times as much is as dear: times are not known better.
+inline constexpr double kAsDear = 1.1;
 
 struct Grid {
   std::vector<std::string> integrators{"implicitfast", "euler", "rk4", "discrete"};
@@ -67,9 +78,9 @@ using SetupWith = std::function<models::Setup(const std::vector<std::string>& se
 
 // What the scene does without being told; null: not among them, as settings have put another in its place.
 [[nodiscard]] const PrecisionPoint* shipped(const std::vector<PrecisionPoint>& points);
-// The cheapest that meets this error, N; null: none. What costs the same within a tenth is as cheap: then
+// The cheapest that is so accurate; null: none. What costs the same within a tenth is as cheap: then
 // what the scene does anyway, else what errs least.
-[[nodiscard]] const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, double error);
+[[nodiscard]] const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, const Accuracy& most);
 // The dearest of those that are cheaper than this one; null: none.
 [[nodiscard]] const PrecisionPoint* next_cheaper(const std::vector<PrecisionPoint>& points,
                                                  const PrecisionPoint& than);

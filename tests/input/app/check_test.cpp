@@ -151,6 +151,8 @@ TEST(Check, AdviceAsksForAnErrorAndAHand) {
   EXPECT_THAT(refused("plane", {}), HasSubstr("such as --advise --error-N 0.05"));
   for (const char* error : {"0", "-1", "nan", "inf"})
     EXPECT_THAT(refused("plane", {"--error-N", error}), HasSubstr("expected a force in N above 0")) << error;
+  EXPECT_THAT(refused("plane", {"--error-N", "0.05", "--error-um", "0"}),
+              HasSubstr("expected a length in um above 0"));
   EXPECT_THAT(refused("tracking", {"--error-N", "0.05"}), HasSubstr("no hand touches anything"));
   EXPECT_THAT(refused("plane", {"--error-N", "0.05", "--set", "truth.world.timestep_us=300"}),
               HasSubstr("does not divide the haptic period"));

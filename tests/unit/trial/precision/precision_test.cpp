@@ -70,11 +70,11 @@ Precision made() {
 
 TEST(Precision, TheCheapestThatHolds) {
   const std::vector<PrecisionPoint> points = made().points;
-  ASSERT_NE(cheapest(points, 0.05), nullptr);
-  EXPECT_EQ(cheapest(points, 0.05)->step, 0.5e-3);
-  EXPECT_EQ(cheapest(points, 0.035)->integrator, "rk4");
-  EXPECT_EQ(cheapest(points, 0.1)->integrator, "discrete") << "as dear as the cheapest, and errs less";
-  EXPECT_EQ(cheapest(points, 0.02), nullptr);
+  ASSERT_NE(cheapest(points, {0.05}), nullptr);
+  EXPECT_EQ(cheapest(points, {0.05})->step, 0.5e-3);
+  EXPECT_EQ(cheapest(points, {0.035})->integrator, "rk4");
+  EXPECT_EQ(cheapest(points, {0.1})->integrator, "discrete") << "as dear as the cheapest, and errs less";
+  EXPECT_EQ(cheapest(points, {0.02}), nullptr);
   EXPECT_EQ(next_cheaper(points, points[2])->step, 0.5e-3);
   EXPECT_EQ(next_cheaper(points, points[1])->integrator, "discrete");
   EXPECT_EQ(next_cheaper(points, points[0]), nullptr);
@@ -83,18 +83,37 @@ TEST(Precision, TheCheapestThatHolds) {
 TEST(Precision, AdviceNamesTheSettingAndTheFloor) {
   using testing::AllOf;
   using testing::HasSubstr;
+  using testing::Not;
   EXPECT_THAT(
-      app::advice_text(made(), 0.05),
+      app::advice_text(made(), {0.05}),
       AllOf(HasSubstr("--set truth.world.timestep_us=500 --set truth.world.integrator=implicitfast"),
-            HasSubstr("errs by 0.0400 of 0.05 N"), HasSubstr("floor about 0.0100 N"),
+            HasSubstr("errs by 0.0400 N, allowed 0.05 N"), HasSubstr("floor about 0.0100 N"),
             HasSubstr("failed: diverged at tick 7"), HasSubstr("the next cheaper, discrete at 1000 us")));
-  EXPECT_THAT(app::advice_text(made(), 0.03), HasSubstr("as it is"));
-  EXPECT_THAT(app::advice_text(made(), 0.012), HasSubstr("none of these"));
-  EXPECT_NO_THROW(app::refuse_below_floor(made(), 0.012));
-  EXPECT_THROW(app::refuse_below_floor(made(), 0.005), Error);
+  EXPECT_THAT(app::advice_text(made(), {0.03}), HasSubstr("as it is"));
+  EXPECT_THAT(app::advice_text(made(), {0.012}), HasSubstr("none of these"));
+  EXPECT_THAT(app::advice_text(made(), {0.05}), Not(HasSubstr("less than twice the floor")));
+  EXPECT_THAT(app::advice_text(made(), {0.0199}), HasSubstr("none of these errs by less than 0.0199 N"));
+  EXPECT_NO_THROW(app::refuse_below_floor(made(), {0.012}));
+  EXPECT_THROW(app::refuse_below_floor(made(), {0.005}), Error);
   Precision lucky = made();
   lucky.points[2].error = 0.004;
-  EXPECT_NO_THROW(app::refuse_below_floor(lucky, 0.005)) << "a point holds it";
+  EXPECT_NO_THROW(app::refuse_below_floor(lucky, {0.005})) << "a point holds it";
+}
+
+// 1 um by the force's own setting, 4 um by all others.
+TEST(Precision, AdviceOfThePath) {
+  Precision all = made();
+  for (PrecisionPoint& one : all.points) one.way = one.integrator == "rk4" ? 1e-6 : 4e-6;
+  EXPECT_EQ(cheapest(all.points, {kUnset, 2e-6})->integrator, "rk4");
+  EXPECT_EQ(cheapest(all.points, {0.1, 2e-6})->integrator, "rk4") << "both must hold";
+  EXPECT_EQ(cheapest(all.points, {0.02, 2e-6}), nullptr) << "both must hold";
+  EXPECT_NE(cheapest(all.points, {kUnset, 5e-6})->integrator, "rk4");
+  EXPECT_THAT(app::advice_text(all, {kUnset, 1.5e-6}),
+              testing::AllOf(testing::HasSubstr("errs by 1.00 um, allowed 1.5 um"),
+                             testing::HasSubstr("less than twice the floor is asked for")));
+  EXPECT_THAT(app::advice_text(all, {0.05, 2.5e-6}), testing::HasSubstr("errs by 0.0300 N and 1.00 um"));
+  all.second.way = 2e-6;
+  EXPECT_THROW(app::refuse_below_floor(all, {kUnset, 0.5e-6}), Error);
 }
 
 TEST(Precision, ASceneWithoutAHandIsRefused) {
