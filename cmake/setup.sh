@@ -137,6 +137,21 @@ setup_chessboards() {
   else say "pairs of chessboards could not be fetched; their tests are skipped"; fi
 }
 
+# PIPython, PI's own client and server of GCS, for tests, which are skipped without it. Nothing else reads it.
+setup_pipython() {
+  local home=$root/.deps/pipython version=2.11.0.6 work=$root/.deps/unpacked
+  [[ ! -d $home ]] || return 0
+  doing="fetching PIPython"
+  say "fetching PIPython $version (0.2 MB)"
+  rm -rf "$home.part" "$work" && mkdir -p "$work"
+  echo "PIPython==$version --hash=sha256:3998a10a6318b7a00e43b37a97cffafef6900cc2a7a80acb531329b43b27c3c2" >"$work/requirements.txt"
+  if logged env PIP_REQUIRE_VIRTUALENV=0 PIP_NO_INPUT=1 PIP_DISABLE_PIP_VERSION_CHECK=1 /usr/bin/python3 -m pip download \
+      --retries 2 --no-deps --only-binary=:all: --require-hashes -r "$work/requirements.txt" -d "$work" &&
+    logged /usr/bin/python3 -m zipfile -e "$work"/*.whl "$home.part"; then mv "$home.part" "$home"
+  else say "PIPython could not be fetched; its tests are skipped"; fi
+  rm -rf "$work"
+}
+
 # CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.
 yardstick() {
   local LC_ALL=C TIMEFORMAT='%U %S' user system

@@ -1,0 +1,87 @@
+// The talk with a controller that was inspected: which bytes go when, and what those that come mean. It knows
+// neither sockets nor clocks. Positions are asked for again and again, one question at a time; set-points go
+// along, where there is a new one; the machine is stopped where none comes any more.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "core/sample.h"
+#include "hw_drivers/gcs/drive/settings.h"
+#include "hw_drivers/gcs/wire/answer.h"
+#include "hw_drivers/gcs/wire/coordinates.h"
+
+namespace enc::gcs {
+
+// The newest that the loop said. Numbers only grow, so that whoever comes late still sees all that counts.
+struct Order {
+  std::int64_t number = 0;   // of set-points
+  std::int64_t stops = 0;    // of stops
+  std::int64_t stopped = 0;  // the number at the last stop: what is not beyond it is void
+  Coordinates to{};
+};
+
+enum class Loss : std::uint8_t { none, silent, closed, garbled };
+[[nodiscard]] std::string_view words_of(Loss loss) noexcept;
+
+// The newest that the machine said.
+struct Report {
+  Pose<'R', 'H'> X_RH;
+  Vec<'R'> velocity;  // of the tip, m/s
+  Duration t{};       // of the drivers' clock, when the position was true: between question and answer
+  Health health = Health::ok;
+  int error = 0;            // the last that was no zero
+  std::int64_t errors = 0;  // how many were not
+  std::int64_t stops = 0;   // of Order, which were sent
+};
+
+class Conversation {
+ public:
+  Conversation(const GcsSettings& settings, const Stand& stand, const Coordinates& at, Duration now);
+
+  void told(const Order& order, Duration now) noexcept;
+  // What is to be sent now; often nothing. It stays until the next call.
+  [[nodiscard]] std::string_view send(Duration now) noexcept;
+  // True where the report is new.
+  bool take(std::string_view bytes, Duration now) noexcept;
+  void closed() noexcept { lose(Loss::closed); }
+
+  [[nodiscard]] const Report& report() const noexcept { return report_; }
+  [[nodiscard]] Loss loss() const noexcept { return loss_; }
+  [[nodiscard]] bool moving() const noexcept { return moving_; }  // told to, and not stopped since
+  [[nodiscard]] Duration longest_answer() const noexcept { return longest_; }
+  [[nodiscard]] std::int64_t answers() const noexcept { return answers_; }
+  [[nodiscard]] std::int64_t watchdogs() const noexcept { return watchdogs_; }
+
+ private:
+  enum class Awaiting : std::uint8_t { nothing, position, error };
+
+  void lose(Loss loss) noexcept;
+  void add_stop(Duration now) noexcept;
+  void add_question(Duration now) noexcept;
+  void take_position(Duration now) noexcept;
+  void take_error() noexcept;
+
+  Duration timeout_, cycle_, poll_, watchdog_;
+  double velocity_;  // to be told once, m/s; 0: not, or no more
+  Stand stand_;
+  AnswerReader reader_;
+  Text out_;
+  Order order_;
+  Duration fresh_{};        // when the newest set-point came
+  std::int64_t sent_ = 0;   // number of the set-point that was sent last
+  Duration moved_, asked_;  // when the last set-point and question went
+  bool moving_ = false;
+  bool stopped_us_ = false;    // our own stop is the reason of an error 10 that is still to come
+  bool carries_move_ = false;  // the question under way
+  bool after_stop_ = false;    // the question under way went after that stop
+  Awaiting awaiting_ = Awaiting::nothing;
+  Report report_;
+  Vec3 from_;  // where and when velocity is counted from
+  Duration from_t_;
+  Loss loss_ = Loss::none;
+  Duration longest_{};
+  std::int64_t answers_ = 0, watchdogs_ = 0;
+};
+
+}  // namespace enc::gcs

@@ -1,0 +1,161 @@
+#include "hw_drivers/gcs/fake/commands.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace enc::gcs {
+namespace {
+
+std::array<bool, kAxes> same(bool value) { return {value, value, value, value, value, value}; }
+
+constexpr std::array<std::string_view, kAxes> kUnits{"MM", "MM", "MM", "DEG", "DEG", "DEG"};
+
+}  // namespace
+
+std::span<const Commands::Entry> Commands::all() noexcept {
+  using Of = Controller&;
+  using Rest = std::string_view;
+  static constexpr std::array kAll = std::to_array<Entry>({
+      {"*IDN?", "Get Device Identification", [](Of of, Rest) { of.say(of.settings_.identity); }},
+      {"CST?", "[{<AxisID>}] Get Assignment Of Stages To Axes",
+       [](Of of, Rest rest) {
+         std::array<std::string_view, kAxes> names;
+         names.fill(of.settings_.stage);
+         of.say_axes(rest, kAxisNames, names);
+       }},
+      {"CSV?", "Get Current Syntax Version", [](Of of, Rest) { of.say("2.0"); }},
+      {"ERR?", "Get Error Number", error},
+      {"FRF", "[{<AxisID>}] Fast Reference Move To Reference Switch", reference},
+      {"FRF?", "[{<AxisID>}] Get Referencing Result",
+       [](Of of, Rest rest) { of.say_flags(rest, same(of.referenced_)); }},
+      {"HLP?", "Get List Of Available Commands", help},
+      {"HLT", "[{<AxisID>}] Halt Motion Smoothly", halt},
+      {"MOV", "{<AxisID> <Position>} Set Target Position", move},
+      {"MOV?", "[{<AxisID>}] Get Target Position",
+       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, of.shown(of.profile_.aim())); }},
+      {"MVR", "{<AxisID> <Distance>} Set Target Relative To Current Position", move_by},
+      {"ONT?", "[{<AxisID>}] Get On-Target State",
+       [](Of of, Rest rest) { of.say_flags(rest, of.on_target()); }},
+      {"POS?", "[{<AxisID>}] Get Real Position",
+       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, of.shown(of.measured_)); }},
+      {"PUN?", "[{<AxisID>}] Get Axis Unit",
+       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, std::span<const std::string_view>(kUnits)); }},
+      {"SAI?", "[ALL] Get List Of Current Axis Identifiers",
+       [](Of of, Rest rest) {
+         if (const Rest word = next_word(rest); of.wrong(!word.empty() && word != "ALL", kSyntax)) return;
+         of.answer_ += "X \nY \nZ \nU \nV \nW\n";
+       }},
+      {"SPI", "{<PPCoordinate> <Position>} Set Pivot Point", pivot},
+      {"SPI?", "[{<PPCoordinate>}] Get Pivot Point",
+       [](Of of, Rest rest) {
+         const Vec3& p = of.stand_.pivot;
+         const std::array values{millimetres(p.x()), millimetres(p.y()), millimetres(p.z())};
+         of.say_axes(rest, kPivotNames, values);
+       }},
+      {"SSN?", "Get Device Serial Number", [](Of of, Rest) { of.say("119000000"); }},
+      {"STP", "Stop All Axes", [](Of of, Rest) { of.stop(kAbrupt); }},
+      {"SVO", "{<AxisID> <ServoState>} Set Servo Mode", servo},
+      {"SVO?", "[{<AxisID>}] Get Servo Mode", [](Of of, Rest rest) { of.say_flags(rest, of.servo_); }},
+      {"TMN?", "[{<AxisID>}] Get Minimum Commandable Position",
+       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, to_wire_units(of.travel_.low)); }},
+      {"TMX?", "[{<AxisID>}] Get Maximum Commandable Position",
+       [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, to_wire_units(of.travel_.high)); }},
+      {"VER?", "Get Versions Of Firmware And Drivers", [](Of of, Rest) { of.say("FW: fake"); }},
+      {"VLS", "<SystemVelocity> Set System Velocity", velocity},
+      {"VLS?", "Get System Velocity",
+       [](Of of, Rest) {
+         Text text;
+         of.say(text.add(millimetres(of.velocity_)).view());
+       }},
+      {"VMO?", "{<AxisID> <Position>} Virtual Move", possible},
+  });
+  return kAll;
+}
+
+void Commands::help(Controller& of, std::string_view) {
+  of.answer_ += "The following commands are valid: \n";
+  for (const std::string_view byte :
+       {"#3 Get Real Position \n", "#4 Request Status Register \n", "#5 Request Motion Status \n",
+        "#6 Query If Position Has Changed Since Last #6 \n", "#7 Request Controller Ready Status \n",
+        "#8 Query If Macro Is Running \n", "#9 Get Wave Generator Status \n", "#24 Stop All Axes \n",
+        "#27 System Abort \n"})
+    of.answer_ += byte;
+  for (const Entry& one : all()) of.answer_.append(one.word).append(" ").append(one.help).append(" \n");
+  of.say("end of help");
+}
+
+void Commands::move(Controller& of, std::string_view rest) { go(of, rest, false); }
+void Commands::move_by(Controller& of, std::string_view rest) { go(of, rest, true); }
+
+void Commands::go(Controller& of, std::string_view rest, bool relative) {
+  const Coordinates aim = to_wire_units(of.profile_.aim());
+  Coordinates to = relative ? Coordinates{} : aim;
+  if (!of.read_pairs(rest, kAxisNames, to)) return;
+  for (std::size_t i = 0; relative && i < kAxes; ++i) to[i] += aim[i];
+  if (of.wrong(of.referencing_, kNotInMotion) || of.wrong(!of.referenced_ || !of.all_on(), kNotReady)) return;
+  if (of.wrong(!of.within(from_wire_units(to)), kOutOfLimits)) return;
+  of.profile_.go(from_wire_units(to));
+}
+
+void Commands::possible(Controller& of, std::string_view rest) {
+  Coordinates to = to_wire_units(of.profile_.aim());
+  if (of.read_pairs(rest, kAxisNames, to)) of.say(of.within(from_wire_units(to)) ? "1" : "0");
+}
+
+// Any axis references all. The way to zero is the reference move of this one.
+void Commands::reference(Controller& of, std::string_view rest) {
+  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+    if (of.wrong(word.size() != 1 || kAxisNames.find(word[0]) == std::string_view::npos, kNoSuchAxis)) return;
+  if (of.wrong(of.profile_.moving(), kNotInMotion)) return;
+  of.referenced_ = false;
+  of.referencing_ = true;
+  of.servo_ = same(true);
+  of.profile_.go(Coordinates{});
+}
+
+void Commands::servo(Controller& of, std::string_view rest) {
+  Coordinates values{};
+  for (std::size_t i = 0; i < kAxes; ++i) values[i] = of.servo_[i] ? 1.0 : 0.0;
+  if (!of.read_pairs(rest, kAxisNames, values)) return;
+  for (const double value : values)
+    if (of.wrong(value != 0.0 && value != 1.0, kOutOfRange)) return;
+  for (std::size_t i = 0; i < kAxes; ++i) of.servo_[i] = values[i] == 1.0;
+  if (!of.all_on()) of.profile_.halt(kAbrupt);
+}
+
+void Commands::velocity(Controller& of, std::string_view rest) {
+  const std::string_view word = next_word(rest);
+  double value = 0.0;
+  if (of.wrong(word.empty(), kMissing) || of.wrong(!read_number(word, value), kNoNumber)) return;
+  if (of.wrong(!next_word(rest).empty(), kWrongCount)) return;
+  if (of.wrong(!(value > 0.0) || metres(value) > of.settings_.most_velocity, kVelocityOutOfLimits)) return;
+  if (!of.wrong(of.profile_.moving(), kNotInMotion)) of.velocity_ = metres(value);
+}
+
+void Commands::pivot(Controller& of, std::string_view rest) {
+  const Vec3& p = of.stand_.pivot;
+  std::array values{millimetres(p.x()), millimetres(p.y()), millimetres(p.z())};
+  if (!of.read_pairs(rest, kPivotNames, values)) return;
+  const Coordinates& at = of.profile_.aim();
+  if (of.wrong(at[3] != 0.0 || at[4] != 0.0 || at[5] != 0.0, kPivotWhileTurned)) return;
+  constexpr double kFarthest = 1000.0;  // mm
+  for (const double value : values)
+    if (of.wrong(std::abs(value) > kFarthest, kOutOfRange)) return;
+  if (!of.wrong(of.profile_.moving(), kNotInMotion))
+    of.stand_.pivot = {metres(values[0]), metres(values[1]), metres(values[2])};
+}
+
+void Commands::halt(Controller& of, std::string_view rest) {
+  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+    if (of.wrong(word.size() != 1 || kAxisNames.find(word[0]) == std::string_view::npos, kNoSuchAxis)) return;
+  of.stop(kSmooth);
+}
+
+void Commands::error(Controller& of, std::string_view) {
+  Text text;
+  of.say(text.add(of.error_).view());
+  of.error_ = kNoError;
+}
+
+}  // namespace enc::gcs

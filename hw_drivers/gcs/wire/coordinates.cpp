@@ -1,0 +1,53 @@
+#include "hw_drivers/gcs/wire/coordinates.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace enc::gcs {
+namespace {
+
+constexpr double kMillimetre = 1e-3, kDegree = std::numbers::pi / 180.0;
+constexpr double unit(std::size_t axis) { return axis < 3 ? kMillimetre : kDegree; }
+
+}  // namespace
+
+Coordinates to_wire_units(const Coordinates& metres_and_radians) noexcept {
+  Coordinates all{};
+  for (std::size_t i = 0; i < kAxes; ++i) all[i] = metres_and_radians[i] / unit(i);
+  return all;
+}
+
+Coordinates from_wire_units(const Coordinates& millimetres_and_degrees) noexcept {
+  Coordinates all{};
+  for (std::size_t i = 0; i < kAxes; ++i) all[i] = millimetres_and_degrees[i] * unit(i);
+  return all;
+}
+
+double metres(double millimetres) noexcept { return millimetres * kMillimetre; }
+double millimetres(double metres) noexcept { return metres / kMillimetre; }
+
+Pose<'R', 'H'> pose_of(const Coordinates& at, const Stand& stand) noexcept {
+  const Quat turn = Eigen::AngleAxisd(at[3], Vec3::UnitX()) * Eigen::AngleAxisd(at[4], Vec3::UnitY()) *
+                    Eigen::AngleAxisd(at[5], Vec3::UnitZ());
+  const Vec3 centre = stand.origin + stand.pivot;
+  return {turn, Vec3(centre + Vec3(at[0], at[1], at[2]) + turn * (stand.tip - centre))};
+}
+
+bool coordinates_of(const Pose<'R', 'H'>& X_RH, const Stand& stand, Coordinates& at) noexcept {
+  if (!X_RH.valid()) return false;
+  const Mat3 turn = X_RH.q().normalized().toRotationMatrix();
+  constexpr double kLeast = 1e-6;  // of the cosine of V
+  const double cosine = std::hypot(turn(0, 0), turn(0, 1));
+  if (!(cosine > kLeast)) return false;
+  const Vec3 centre = stand.origin + stand.pivot;
+  const Vec3 shift = X_RH.p() - centre - turn * (stand.tip - centre);
+  at = {shift.x(),
+        shift.y(),
+        shift.z(),
+        std::atan2(-turn(1, 2), turn(2, 2)),
+        std::atan2(turn(0, 2), cosine),
+        std::atan2(-turn(0, 1), turn(0, 0))};
+  return true;
+}
+
+}  // namespace enc::gcs

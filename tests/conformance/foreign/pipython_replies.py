@@ -1,0 +1,52 @@
+"""PIPython's ReplyServer as a controller for our driver: python3 pipython_replies.py FOLDER PORT. It answers only what it
+knows; prints what it was told, each command with how often, when the driver is gone."""
+import collections
+import sys
+import threading
+
+import pipython_parts
+
+pipython_parts.import_from(sys.argv[1])
+from pipython.pitools import replyserver
+
+axes = "XYZUVW"
+
+
+def each(value):
+    return " \n".join(f"{axis}={value}" for axis in axes) + "\n"
+
+
+told, gone = collections.Counter(), threading.Event()
+
+
+class Handler(replyserver.ReplyHandler):
+    def handle(self):
+        try:
+            super().handle()
+        finally:
+            gone.set()
+
+    def _ReplyHandler__verify_answer(self, received):
+        told[received] += 1
+        return super()._ReplyHandler__verify_answer(received)
+
+
+replyserver.ReplyHandler = Handler
+server = replyserver.ReplyServer(host="127.0.0.1", port=int(sys.argv[2]))
+server.append("*IDN?\n", "(c)2017 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 117012345, 2.3.0.1\n")
+server.append("CSV?\n", "2.0\n")
+server.append("ERR?\n", "0\n")
+server.append("FRF?\n", each(1))
+server.append("SVO?\n", each(1))
+server.append("SPI?\n", "R=0 \nS=0 \nT=0\n")
+server.append("TMN?\n", each(-90))
+server.append("TMX?\n", each(90))
+server.append("VLS?\n", "50.0\n")
+server.append("POS?\n", "X=1.5 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n")
+server.append("MOV X 1.5 Y 0 Z 0 U 0 V 0 W 0\n")
+server.append("\x18")
+if not gone.wait(30):
+    sys.exit("nobody came")
+server.check
+for command, times in sorted(told.items()):
+    print(repr(command), times)

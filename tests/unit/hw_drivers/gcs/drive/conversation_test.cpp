@@ -1,0 +1,209 @@
+// The driver's side of the wire, byte by byte, in a time that the test makes.
+#include "hw_drivers/gcs/drive/conversation.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace enc::gcs {
+namespace {
+
+constexpr Duration ms(std::int64_t n) { return Duration(n * 1'000'000); }
+const std::string kAsk = "POS?\nERR?\n";
+const std::string kZero = "X=0 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n";
+const Stand kStand{{0, 0, 0.1}, {0, 0, 0}, {0, 0, 0.3}};
+
+struct Talk {
+  GcsSettings settings;
+  Conversation conversation;
+  Order order;
+
+  explicit Talk(const GcsSettings& with = {}) : settings(with), conversation(with, kStand, {}, Duration{}) {}
+  std::string sent(std::int64_t at) { return std::string(conversation.send(ms(at))); }
+  bool heard(const std::string& bytes, std::int64_t at) { return conversation.take(bytes, ms(at)); }
+  void aim(double x, std::int64_t at) {
+    ++order.number;
+    order.to = {x, 0, 0, 0, 0, 0};
+    conversation.told(order, ms(at));
+  }
+  void stop(std::int64_t at) {
+    ++order.stops;
+    order.stopped = order.number;
+    conversation.told(order, ms(at));
+  }
+  [[nodiscard]] Health health() const { return conversation.report().health; }
+};
+
+std::string move(const std::string& x) { return "MOV X " + x + " Y 0 Z 0 U 0 V 0 W 0\n"; }
+
+TEST(GcsConversation, AsksOneQuestionAtATimeAndTellsNothingByItself) {
+  Talk talk;
+  EXPECT_EQ(talk.sent(0), kAsk);
+  for (int t = 1; t < 100; ++t) EXPECT_EQ(talk.sent(t), "") << t;
+  EXPECT_TRUE(talk.heard(kZero, 100));
+  EXPECT_EQ(talk.sent(100), "");  // ERR? is still to come
+  EXPECT_TRUE(talk.heard("0\n", 101));
+  EXPECT_EQ(talk.sent(101), kAsk);
+  talk.heard(kZero + "0\n", 102);
+  EXPECT_EQ(talk.sent(102), "");  // poll_ms is 2
+  EXPECT_EQ(talk.sent(103), kAsk);
+  EXPECT_FALSE(talk.conversation.moving());
+  EXPECT_EQ(talk.conversation.answers(), 2);
+  EXPECT_EQ(talk.conversation.longest_answer(), ms(101));
+}
+
+TEST(GcsConversation, ASetPointGoesOnceAndNoOftenerThanTheCycle) {
+  GcsSettings settings;
+  settings.velocity = 0.02;
+  Talk talk(settings);
+  talk.aim(0.001, 0);
+  EXPECT_EQ(talk.sent(0), "VLS 20\n" + move("1") + kAsk);  // the velocity is told once, before the first
+  std::string last = kAsk;
+  std::map<int, std::string> moves;
+  for (int t = 1; t < 30; ++t) {
+    if (!last.empty()) talk.heard(kZero + "0\n", t);
+    talk.aim(0.001 * t, t);
+    last = talk.sent(t);
+    if (last.starts_with("MOV")) moves[t] = last;
+  }
+  EXPECT_EQ(moves,
+            (std::map<int, std::string>{{10, move("10") + kAsk}, {20, move("20") + kAsk}}));  // the newest
+  EXPECT_TRUE(talk.conversation.moving());
+}
+
+TEST(GcsConversation, WithoutAFreshSetPointTheMachineIsStoppedOnce) {
+  Talk talk;
+  talk.aim(0.001, 0);
+  EXPECT_EQ(talk.sent(0), move("1") + kAsk);
+  EXPECT_EQ(talk.sent(4), "");
+  EXPECT_EQ(talk.sent(5), "\x18");  // watchdog_ms is 5: also while an answer is awaited
+  EXPECT_EQ(talk.sent(6), "");
+  EXPECT_EQ(talk.conversation.watchdogs(), 1);
+  talk.heard(kZero + "0\n", 6);
+  EXPECT_EQ(talk.sent(50), kAsk);
+  talk.heard(kZero + "10\n", 51);  // what our own stop leaves behind
+  EXPECT_EQ(talk.health(), Health::ok);
+  EXPECT_EQ(talk.conversation.report().errors, 0);
+  talk.aim(0.002, 53);
+  EXPECT_EQ(talk.sent(53), move("2") + kAsk);  // a command starts anew
+}
+
+TEST(GcsConversation, AnOldSetPointIsNotSentLate) {
+  Talk talk;
+  EXPECT_EQ(talk.sent(0), kAsk);
+  talk.aim(0.001, 1);
+  talk.heard(kZero + "0\n", 20);
+  EXPECT_EQ(talk.sent(20), kAsk);
+  EXPECT_FALSE(talk.conversation.moving());
+}
+
+TEST(GcsConversation, AStopGoesAtOnceEachTimeAndVoidsWhatWasToldBefore) {
+  Talk talk;
+  EXPECT_EQ(talk.sent(0), kAsk);
+  talk.aim(0.001, 1);
+  talk.stop(1);
+  EXPECT_EQ(talk.sent(1), "\x18");
+  EXPECT_EQ(talk.conversation.report().stops, 1);
+  talk.heard(kZero + "10\n", 2);
+  EXPECT_EQ(talk.sent(2), kAsk);  // no MOV: it was told before
+  talk.heard(kZero + "0\n", 3);
+  talk.stop(3);
+  EXPECT_EQ(talk.sent(3), "\x18");
+  talk.aim(0.002, 4);
+  EXPECT_EQ(talk.sent(4), move("2") + kAsk);
+  talk.heard(kZero + "10\n", 5);
+  EXPECT_EQ(talk.health(), Health::ok);
+  // Stop and command at once: first the one, then the other.
+  talk.stop(30);
+  talk.aim(0.003, 30);
+  EXPECT_EQ(talk.sent(30), "\x18" + move("3") + kAsk);
+}
+
+TEST(GcsConversation, AStopThatIsNotOursIsAFault) {
+  Talk talk;
+  talk.aim(0.001, 0);
+  EXPECT_EQ(talk.sent(0), move("1") + kAsk);
+  talk.heard(kZero + "10\n", 1);
+  EXPECT_EQ(talk.health(), Health::fault);
+  EXPECT_EQ(talk.conversation.report().error, 10);
+}
+
+TEST(GcsConversation, ErrorsAreSaidUntilASetPointIsTaken) {
+  Talk talk;
+  talk.aim(0.001, 0);
+  EXPECT_EQ(talk.sent(0), move("1") + kAsk);
+  talk.heard(kZero + "7\n", 1);
+  EXPECT_EQ(talk.health(), Health::out_of_range);
+  talk.aim(0.001, 2);
+  EXPECT_EQ(talk.sent(2), kAsk);  // no cycle yet
+  talk.heard(kZero + "0\n", 3);
+  EXPECT_EQ(talk.health(), Health::out_of_range);
+  talk.aim(0.001, 10);
+  EXPECT_EQ(talk.sent(10), move("1") + kAsk);
+  talk.heard(kZero + "0\n", 11);
+  EXPECT_EQ(talk.health(), Health::ok);
+  for (const auto& [error, health] : {std::pair{"5\n", Health::fault},
+                                      {"8\n", Health::out_of_range},
+                                      {"504\n", Health::fault},
+                                      {"4711\n", Health::fault}}) {
+    Talk other;
+    EXPECT_EQ(other.sent(0), kAsk);
+    other.heard(kZero + error, 1);
+    EXPECT_EQ(other.health(), health) << error;
+  }
+}
+
+TEST(GcsConversation, APositionIsTrueBetweenQuestionAndAnswer) {
+  Talk talk;
+  EXPECT_EQ(talk.sent(0), kAsk);
+  talk.heard("X=1 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n0\n", 4);
+  EXPECT_EQ(talk.conversation.report().t, ms(2));
+  EXPECT_LT((talk.conversation.report().X_RH.p() - Vec3(0.001, 0, 0.3)).norm(), 1e-15);
+  EXPECT_EQ(talk.conversation.report().velocity.norm(), 0.0);  // not over so short a time
+  EXPECT_EQ(talk.sent(20), kAsk);
+  talk.heard("X=1.5 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n0\n", 24);
+  EXPECT_NEAR(talk.conversation.report().velocity.e().x(), 0.0015 / 0.022, 1e-12);  // from zero at 0
+}
+
+TEST(GcsConversation, ALinkIsLostForGood) {
+  Talk silent;
+  EXPECT_EQ(silent.sent(0), kAsk);
+  EXPECT_EQ(silent.sent(200), "");
+  EXPECT_EQ(silent.conversation.loss(), Loss::none);
+  EXPECT_EQ(silent.sent(201), "");
+  EXPECT_EQ(silent.conversation.loss(), Loss::silent);
+  silent.heard(kZero + "0\n", 202);
+  EXPECT_EQ(silent.sent(300), "");
+  EXPECT_EQ(silent.conversation.loss(), Loss::silent);
+  for (const std::string& bad :
+       {std::string("0\n"), std::string("X=0 \nY=0\n"), kZero + "X=1\n", kZero + "0\n0\n",
+        std::string(5000, 'a'), std::string("HTTP/1.1 400 Bad Request\r\n")}) {
+    Talk talk;
+    EXPECT_EQ(talk.sent(0), kAsk);
+    talk.heard(bad, 1);
+    EXPECT_EQ(talk.conversation.loss(), Loss::garbled) << bad;
+    EXPECT_EQ(talk.sent(10), "");
+  }
+  Talk closed;
+  closed.conversation.closed();
+  EXPECT_EQ(closed.conversation.loss(), Loss::closed);
+  EXPECT_EQ(closed.sent(0), "");
+}
+
+TEST(GcsConversation, AnySegmentationOfTheAnswersGivesTheSame) {
+  Talk talk;
+  EXPECT_EQ(talk.sent(0), kAsk);
+  for (const char byte : "X=1.25 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n7\n") {
+    if (byte == '\0') break;
+    talk.heard(std::string(1, byte), 1);
+  }
+  EXPECT_EQ(talk.conversation.loss(), Loss::none);
+  EXPECT_EQ(talk.conversation.answers(), 1);
+  EXPECT_EQ(talk.health(), Health::out_of_range);
+  EXPECT_NEAR(talk.conversation.report().X_RH.p().x(), 0.00125, 1e-15);
+}
+
+}  // namespace
+}  // namespace enc::gcs
