@@ -1,8 +1,8 @@
-"""PIPython's ReplyServer as a controller for our driver: python3 pipython_replies.py FOLDER PORT. It answers only what it
-knows; prints what it was told, each command with how often, when the driver is gone."""
+"""PIPython's ReplyServer as a controller for our driver, which is at the other end of our input and output: python3
+pipython_replies.py FOLDER. It answers only what it knows; ends with 0 where it was told what it must be."""
 import collections
+import socket
 import sys
-import threading
 
 import pipython_parts
 
@@ -16,23 +16,18 @@ def each(value):
     return " \n".join(f"{axis}={value}" for axis in axes) + "\n"
 
 
-told, gone = collections.Counter(), threading.Event()
+told = collections.Counter()
 
 
 class Handler(replyserver.ReplyHandler):
-    def handle(self):
-        try:
-            super().handle()
-        finally:
-            gone.set()
-
     def _ReplyHandler__verify_answer(self, received):
         told[received] += 1
         return super()._ReplyHandler__verify_answer(received)
 
 
 replyserver.ReplyHandler = Handler
-server = replyserver.ReplyServer(host="127.0.0.1", port=int(sys.argv[2]))
+server = replyserver.ReplyServer(host="127.0.0.1", port=0)
+port = server._ReplyServer__server.server_address[1]
 server.append("*IDN?\n", "(c)2017 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 117012345, 2.3.0.1\n")
 server.append("CSV?\n", "2.0\n")
 server.append("ERR?\n", "0\n")
@@ -45,8 +40,11 @@ server.append("VLS?\n", "50.0\n")
 server.append("POS?\n", "X=1.5 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n")
 server.append("MOV X 1.5 Y 0 Z 0 U 0 V 0 W 0\n")
 server.append("\x18")
-if not gone.wait(30):
-    sys.exit("nobody came")
+wire = socket.create_connection(("127.0.0.1", port), 10)
+wire.settimeout(None)
+pipython_parts.Bridge(wire).serve(wire)
 server.check
-for command, times in sorted(told.items()):
-    print(repr(command), times)
+expected = {"*IDN?\n": 1, "FRF?\n": 1, "MOV X 1.5 Y 0 Z 0 U 0 V 0 W 0\n": 2, "\x18": 1, "POS?\n": 5, "ERR?\n": 5}
+for command, least in expected.items():
+    if told[command] < least:
+        sys.exit(f"PIPython's server was told {command!r} {told[command]} times: {dict(told)}")

@@ -4,7 +4,7 @@
 #include "hw_drivers/gcs/fake/commands.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "tests/fuzz/machine/target.h"
-#include "tests/support/following_machine.h"
+#include "tests/support/devices/following_machine.h"
 
 namespace enc::fuzz {
 namespace {

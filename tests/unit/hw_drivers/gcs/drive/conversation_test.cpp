@@ -130,6 +130,20 @@ TEST(GcsConversation, AStopThatIsNotOursIsAFault) {
   EXPECT_EQ(talk.conversation.report().error, 10);
 }
 
+// Ours is one; after it was seen, or a question that went later was answered, it is no excuse any more.
+TEST(GcsConversation, OurStopExcusesOneErrorTen) {
+  for (const char* first : {"10\n", "0\n"}) {
+    Talk talk;
+    talk.stop(0);
+    EXPECT_EQ(talk.sent(0), "\x18" + kAsk);
+    talk.heard(kZero + first, 1);
+    EXPECT_EQ(talk.health(), Health::ok) << first;
+    EXPECT_EQ(talk.sent(2), kAsk);
+    talk.heard(kZero + "10\n", 3);
+    EXPECT_EQ(talk.health(), Health::fault) << first;
+  }
+}
+
 TEST(GcsConversation, ErrorsAreSaidUntilASetPointIsTaken) {
   Talk talk;
   talk.aim(0.001, 0);

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "hw_drivers/gcs/fake/controller.h"
-#include "tests/support/following_machine.h"
+#include "tests/support/devices/following_machine.h"
 
 namespace enc::gcs {
 namespace {

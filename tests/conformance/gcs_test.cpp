@@ -1,0 +1,160 @@
+// What the driver of the C-887 does beyond what every manipulator does: links that are lost, and every end of
+// a run.
+#include <chrono>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/conformance/gcs_bench.h"
+
+namespace enc::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string refused(GcsBench& bench) {
+  try {
+    bench.driver();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::device);
+    return e.what();
+  }
+  return "";
+}
+void wait(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
+// Until something holds, at most 3 s.
+template <class What>
+bool comes(const What& what) {
+  for (int i = 0; i < 3000 && !what(); ++i) wait(1);
+  return what();
+}
+Pose<'R', 'H'> beside(const Manipulator& machine, double x) {
+  return Pose<'R', 'H'>::shift(x, 0, machine.reach().machine.zero().p().z());
+}
+
+TEST(GcsDriver, SaysWhatItFound) {
+  GcsBench bench;
+  const auto driver = bench.driver();
+  EXPECT_EQ(driver->describe(), "C-887.53 119000000 at 127.0.0.1:50000, firmware 2.10.0.1, referenced");
+  EXPECT_TRUE(driver->linked());
+  EXPECT_EQ(driver->reach().speed, 0.05);
+  EXPECT_THAT(driver->remarks(), ElementsAre(HasSubstr(" positions, the longest answer took ")));
+  GcsBench faster;
+  faster.settings.velocity = 0.08;
+  EXPECT_EQ(faster.driver()->reach().speed, 0.08);
+}
+
+TEST(GcsDriver, WhoDoesNotAnswerIsOneLine) {
+  GcsBench fresh({.referenced = false});
+  EXPECT_THAT(refused(fresh), HasSubstr("is not referenced"));
+  GcsBench silent;
+  silent.silent = true;
+  EXPECT_EQ(refused(silent),
+            "127.0.0.1:50000: no answer to *IDN? within 1000 ms; see that it is a C-887, and ready");
+  GcsBench gone;
+  gone.hung_up = true;
+  EXPECT_EQ(refused(gone),
+            "127.0.0.1:50000: closed the connection; close other clients (PIMikroMove) and try again");
+}
+
+// However it ends while it moves, the machine comes to rest on its way: by stop(), by the end of the driver,
+// by a loop that says nothing any more.
+TEST(GcsDriver, EveryEndLeavesTheMachineAtRest) {
+  for (const int end : {0, 1, 2}) {
+    GcsBench bench;
+    auto driver = bench.driver();
+    const auto way = beside(*driver, 0.03);
+    for (int i = 0; i < 200; ++i) {
+      driver->command(way);
+      wait(1);
+    }
+    EXPECT_FALSE(bench.seen().at_rest) << end;
+    if (end == 0) driver->stop();
+    if (end == 1) {
+      driver.reset();
+      bench.pass(bench.time + Duration(80'000'000));  // braking at 1.64 m/s2 takes 31 ms
+    }
+    wait(end == 2 ? 200 : 80);
+    EXPECT_TRUE(bench.seen().at_rest) << end;
+    const double stood = bench.seen().x;
+    wait(50);
+    EXPECT_EQ(bench.seen().x, stood) << end;
+    EXPECT_LT(stood, 0.028) << end;
+    EXPECT_GT(stood, 0.002) << end;
+    if (end == 2) {
+      EXPECT_THAT(driver->remarks(), Contains(HasSubstr("stopped 1 times: the loop was silent")));
+    }
+  }
+}
+
+TEST(GcsDriver, WithoutACommandNothingIsTold) {
+  GcsBench bench;
+  {
+    const auto driver = bench.driver();
+    wait(50);
+    EXPECT_EQ(driver->read(Time{}).health, Health::ok);
+  }
+  EXPECT_TRUE(bench.controller.at_rest());
+  EXPECT_EQ(bench.controller.error(), 0);  // no #24 either
+}
+
+TEST(GcsDriver, ALostLinkIsSaidAndStaysLost) {
+  for (const bool silent : {false, true}) {
+    GcsBench bench;
+    {
+      const auto driver = bench.driver();
+      driver->command(beside(*driver, 0.001));
+      (silent ? bench.silent : bench.hung_up) = true;
+      EXPECT_TRUE(comes([&] { return !driver->linked(); })) << silent;
+      EXPECT_EQ(driver->read(Time{}).health, Health::fault);
+      driver->command(beside(*driver, 0.002));
+      driver->stop();  // waits for nothing
+      bench.silent = bench.hung_up = false;
+      wait(20);
+      EXPECT_FALSE(driver->linked());
+    }
+    EXPECT_THAT(bench.log.lines(), ElementsAre(HasSubstr(silent ? "lost: no answer in time"
+                                                                : "lost: closed by the controller")));
+    if (silent) {
+      EXPECT_EQ(bench.controller.error(), 10);  // it was told to stand, in case that it hears
+    }
+  }
+}
+
+TEST(GcsDriver, AFailureOfTheMachineIsAFaultAndALine) {
+  GcsBench bench;
+  const auto driver = bench.driver();
+  bench.failure = 504;
+  EXPECT_TRUE(comes([&] { return driver->read(Time{}).health == Health::fault; }));
+  EXPECT_TRUE(driver->linked());
+  EXPECT_TRUE(comes([&] { return bench.log.lines().size() == 1; }));
+  for (int i = 0; i < 50; ++i) {
+    driver->command(beside(*driver, 0.001));
+    wait(1);
+  }
+  EXPECT_EQ(driver->read(Time{}).health, Health::fault);  // its servos are off: no set-point is taken
+  EXPECT_THAT(bench.log.lines(), ElementsAre(HasSubstr("met error 504: a strut does not follow"),
+                                             HasSubstr("met error 5: not referenced")));
+}
+
+// The tip's acceleration is the set-points'.
+TEST(GcsDriver, TheAccelerationIsThatOfTheSetPoints) {
+  gcs::Acceleration acceleration(1e-3, 0.41);
+  double most = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const double t = 1e-3 * i;
+    most = acceleration.next({0.5 * 0.3 * t * t, 0, 0}).e().x();
+    EXPECT_NEAR(most, i > 1 ? 0.3 : 0.0, 1e-9) << i;
+  }
+  EXPECT_NEAR(acceleration.next({1, 0, 0}).norm(), 0.41, 1e-12);  // a leap: what the machine can do
+  acceleration.stand();
+  EXPECT_EQ(acceleration.next({0, 0, 0}).norm(), 0.0);
+  EXPECT_EQ(acceleration.next({1, 0, 0}).norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace enc::test
