@@ -1,0 +1,214 @@
+#include "hw_drivers/net/socket.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "core/error.h"
+#include "hw_drivers/net/steady.h"
+
+namespace enc::net {
+namespace {
+
+constexpr int kMilliseconds = 1'000'000;  // ns in one
+
+using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
+
+Error refused(const std::string& host, std::uint16_t port, const std::string& what) {
+  return Error(fmt::format("{}: {}", place(host, port), what), {}, ErrorKind::device);
+}
+
+Addresses resolve(const std::string& host, std::uint16_t port, int type, int flags) {
+  addrinfo wanted{};
+  wanted.ai_family = AF_UNSPEC;
+  wanted.ai_socktype = type;
+  wanted.ai_flags = flags | AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  const int code = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found);
+  if (code != 0)
+    throw refused(host, port,
+                  fmt::format("'{}' is no address and no name that is known ({}); see the address in the rig "
+                              "file",
+                              host, gai_strerror(code)));
+  return {found, freeaddrinfo};
+}
+
+int open_for(const addrinfo& address) {
+  const int descriptor = socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (descriptor < 0) throw Error(fmt::format("no socket could be opened: {}", std::strerror(errno)));
+  const int yes = 1;
+  if (address.ai_socktype == SOCK_STREAM)
+    setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);  // a set-point does not wait for more
+  return descriptor;
+}
+
+bool waits(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
+
+// 0: something came; ETIMEDOUT; or what went wrong.
+int wait_for(int descriptor, short events, Duration most) {
+  const Duration until = steady_now() + most;
+  for (;;) {
+    const Duration left = std::max(Duration{}, until - steady_now());
+    pollfd one{descriptor, events, 0};
+    const timespec time{left.count() / 1'000'000'000, left.count() % 1'000'000'000};
+    const int ready = ppoll(&one, 1, &time, nullptr);
+    if (ready > 0) return 0;
+    if (ready == 0) return ETIMEDOUT;
+    if (errno != EINTR) return errno;
+  }
+}
+
+std::string advice_of(int error, Duration timeout) {
+  switch (error) {
+    case ECONNREFUSED:
+      return "nobody listens there; see that the device is on, and the port in the rig file";
+    case ETIMEDOUT:
+      return fmt::format("no answer within {} ms; see power, cable and address",
+                         timeout.count() / kMilliseconds);
+    case ENETUNREACH:
+    case EHOSTUNREACH:
+      return "no way leads there; see cable, network and address";
+    default:
+      return std::strerror(error);
+  }
+}
+
+int connected(int descriptor, const addrinfo& address, Duration timeout) {
+  if (connect(descriptor, address.ai_addr, address.ai_addrlen) == 0) return 0;
+  if (errno != EINPROGRESS) return errno;
+  if (const int error = wait_for(descriptor, POLLOUT, timeout); error != 0) return error;
+  int error = 0;
+  socklen_t size = sizeof error;
+  return getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
+}
+
+}  // namespace
+
+class Opener {
+ public:
+  // The first of the name's addresses that takes us; where none does, why the last one did not.
+  static Socket connect_to(const std::string& host, std::uint16_t port, int type, Duration timeout) {
+    const Addresses all = resolve(host, port, type, 0);
+    int error = 0;
+    for (const addrinfo* one = all.get(); one != nullptr; one = one->ai_next) {
+      Socket socket(open_for(*one), type == SOCK_DGRAM);
+      error = connected(socket.descriptor_, *one, timeout);
+      if (error == 0) return socket;
+    }
+    throw refused(host, port, advice_of(error, timeout));
+  }
+
+  static Socket bind_to(const std::string& host, std::uint16_t port, int type) {
+    const Addresses all = resolve(host, port, type, AI_PASSIVE);
+    Socket socket(open_for(*all), type == SOCK_DGRAM);
+    const int yes = 1;
+    if (type == SOCK_STREAM) setsockopt(socket.descriptor_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    if (bind(socket.descriptor_, all->ai_addr, all->ai_addrlen) != 0 ||
+        (type == SOCK_STREAM && listen(socket.descriptor_, 8) != 0))
+      throw refused(host, port,
+                    errno == EADDRINUSE
+                        ? "the port is taken; end what has it, or give another"
+                        : fmt::format("{}; an address of this machine is needed", std::strerror(errno)));
+    return socket;
+  }
+};
+
+Socket::Socket(Socket&& other) noexcept { *this = std::move(other); }
+
+Socket& Socket::operator=(Socket&& other) noexcept {
+  if (this == &other) return *this;
+  close();
+  descriptor_ = std::exchange(other.descriptor_, -1);
+  datagrams_ = other.datagrams_;
+  closed_ = other.closed_;
+  peer_size_ = other.peer_size_;
+  std::copy(std::begin(other.peer_), std::end(other.peer_), std::begin(peer_));
+  return *this;
+}
+
+Socket::~Socket() { close(); }
+
+void Socket::close() noexcept {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+std::uint16_t Socket::port() const noexcept {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  if (getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
+  if (address.ss_family == AF_INET6) return ntohs(reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port);
+  return ntohs(reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
+}
+
+std::size_t Socket::send(std::span<const std::byte> bytes) noexcept {
+  if (closed() || bytes.empty()) return 0;
+  const ssize_t sent = ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  if (sent >= 0) return static_cast<std::size_t>(sent);
+  closed_ = !datagrams_ && !waits(errno);
+  return 0;
+}
+
+std::size_t Socket::receive(std::span<std::byte> into) noexcept {
+  if (closed() || into.empty()) return 0;
+  static_assert(sizeof peer_ >= sizeof(sockaddr_storage));
+  socklen_t size = sizeof peer_;
+  const ssize_t came =
+      recvfrom(descriptor_, into.data(), into.size(), 0,
+               datagrams_ ? reinterpret_cast<sockaddr*>(peer_) : nullptr, datagrams_ ? &size : nullptr);
+  if (came >= 0 && datagrams_) peer_size_ = size;
+  if (came > 0) return static_cast<std::size_t>(came);
+  closed_ = !datagrams_ && (came == 0 || !waits(errno));
+  return 0;
+}
+
+std::size_t Socket::reply(std::span<const std::byte> bytes) noexcept {
+  if (closed() || peer_size_ == 0) return 0;
+  const ssize_t sent = sendto(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL,
+                              reinterpret_cast<const sockaddr*>(peer_), peer_size_);
+  return sent < 0 ? 0 : static_cast<std::size_t>(sent);
+}
+
+bool Socket::wait(Duration most) noexcept { return is_open() && wait_for(descriptor_, POLLIN, most) == 0; }
+
+Socket Socket::accept() noexcept {
+  const int descriptor =
+      is_open() ? accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK) : -1;
+  const int yes = 1;
+  if (descriptor >= 0) setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  return Socket(descriptor, false);
+}
+
+Socket connect_tcp(const std::string& host, std::uint16_t port, Duration timeout) {
+  return Opener::connect_to(host, port, SOCK_STREAM, timeout);
+}
+
+Socket connect_udp(const std::string& host, std::uint16_t port) {
+  return Opener::connect_to(host, port, SOCK_DGRAM, Duration{});
+}
+
+Socket listen_tcp(const std::string& address, std::uint16_t port) {
+  return Opener::bind_to(address, port, SOCK_STREAM);
+}
+
+Socket bind_udp(const std::string& address, std::uint16_t port) {
+  return Opener::bind_to(address, port, SOCK_DGRAM);
+}
+
+std::string place(const std::string& host, std::uint16_t port) {
+  return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, port)
+                                             : fmt::format("[{}]:{}", host, port);
+}
+
+}  // namespace enc::net
