@@ -53,7 +53,7 @@ int open_for(const addrinfo& address) {
   return descriptor;
 }
 
-bool waits(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
+bool waits(int error) { return error == EAGAIN || error == EINTR; }
 
 // 0: something came; ETIMEDOUT; or what went wrong.
 int wait_for(int descriptor, short events, Duration most) {
