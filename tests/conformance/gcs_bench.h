@@ -43,11 +43,11 @@ struct GcsBench {
     }
     [[nodiscard]] bool closed() const noexcept override { return bench_.hung_up; }
     void wait(Duration most) noexcept override {
-      if (answers_.empty()) std::this_thread::sleep_for(most / bench_.pace);
+      if (answers_.empty()) std::this_thread::sleep_for(most);
       bench_.pass(now());
     }
     [[nodiscard]] Duration now() const noexcept override {
-      return std::chrono::steady_clock::now().time_since_epoch() * bench_.pace;
+      return std::chrono::steady_clock::now().time_since_epoch();
     }
 
    private:
@@ -55,9 +55,7 @@ struct GcsBench {
     std::string answers_;
   };
 
-  // `faster`: how many times as fast as the wall clock its clock is.
-  explicit GcsBench(const gcs::ControllerSettings& with = {}, int faster = 1)
-      : pace(faster), controller(machine, with) {
+  explicit GcsBench(const gcs::ControllerSettings& with = {}) : controller(machine, with) {
     settings.watchdog = 0.05;  // s: other tests take the processor, too
   }
   Offer offer() { return {defaults.table, defaults.rig, reach, Duration(1'000'000), log}; }
@@ -76,7 +74,6 @@ struct GcsBench {
     return seen_;
   }
 
-  int pace;
   DefaultOffer defaults;
   gcs::GcsSettings settings;
   Reach reach{0.05, 0.41, Hexapod{HexapodGeometry{}}};

@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "hw_drivers/gcs/drive/net_link.h"
 #include "tests/conformance/gcs_bench.h"
+#include "tests/conformance/gcs_port.h"
 
 namespace enc::test {
 namespace {
@@ -139,6 +141,62 @@ TEST(GcsDriver, AFailureOfTheMachineIsAFaultAndALine) {
   EXPECT_EQ(driver->read(Time{}).health, Health::fault);  // its servos are off: no set-point is taken
   EXPECT_THAT(bench.log.lines(), ElementsAre(HasSubstr("met error 504: a strut does not follow"),
                                              HasSubstr("met error 5: not referenced")));
+}
+
+// ---- over loopback
+// ------------------------------------------------------------------------------------------
+
+TEST(GcsPort, ASecondClientIsRefusedAndTheFirstGoesOn) {
+  GcsPort there;
+  const auto first = gcs::connected(there.offer());
+  EXPECT_EQ(first->describe(), "C-887.53 119000000 at 127.0.0.1:" + std::to_string(there.server.port()) +
+                                   ", firmware 2.10.0.1, referenced");
+  try {
+    static_cast<void>(gcs::connected(there.offer()));
+    ADD_FAILURE() << "two clients of one controller";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("closed the connection; close other clients"));
+  }
+  EXPECT_THAT(there.log.lines(), ElementsAre("fake C-887: a second client was refused"));
+  first->command(beside(*first, 0.001));
+  EXPECT_TRUE(comes([&] { return first->read(Time{}).value.X_RH.p().x() > 1e-6; }));
+  EXPECT_TRUE(first->linked());
+}
+
+TEST(GcsPort, TheNextClientFindsItAsItIs) {
+  GcsPort there;
+  for (const double x : {0.001, 0.002}) {
+    const auto driver = gcs::connected(there.offer());
+    EXPECT_NEAR(driver->read(Time{}).value.X_RH.p().x(), x - 0.001, 3e-6);
+    for (int i = 0; i < 400; ++i) {
+      driver->command(beside(*driver, x));
+      wait(1);
+    }
+  }
+}
+
+TEST(GcsPort, AControllerThatGoesAwayIsALostLink) {
+  auto there = std::make_unique<GcsPort>();
+  Offer offer = there->offer();
+  trial::DeviceLog log;
+  const auto driver = gcs::connected({offer.table, offer.rig, offer.reach, offer.period, log});
+  EXPECT_TRUE(driver->linked());
+  there.reset();
+  EXPECT_TRUE(comes([&] { return !driver->linked(); }));
+  EXPECT_THAT(log.lines(), ElementsAre(HasSubstr("lost: closed by the controller")));
+  driver->stop();
+}
+
+TEST(GcsPort, NobodyThereIsOneLine) {
+  GcsPort there;
+  there.table.port = 1;
+  try {
+    static_cast<void>(gcs::connected(there.offer()));
+    ADD_FAILURE() << "there is nobody";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::device);
+    EXPECT_THAT(e.what(), HasSubstr("127.0.0.1:1: nobody listens there"));
+  }
 }
 
 // The tip's acceleration is the set-points'.

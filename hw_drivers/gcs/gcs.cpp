@@ -1,0 +1,18 @@
+// A hexapod on a PI C-887 controller, over GCS 2.0 and TCP (docs/guide/laboratory.md).
+#include "core/module.h"
+#include "hw_drivers/gcs/drive/net_link.h"
+#include "hw_drivers/gcs/drive/settings.h"
+
+namespace enc::gcs {
+namespace {
+
+constexpr DriverModule kDriver{.settings = [](Settings& table) { GcsSettings{}.declare(table); },
+                               .manipulator = connected};
+constexpr ModuleInfo kInfo{.name = "gcs", .driver = &kDriver};
+
+}  // namespace
+}  // namespace enc::gcs
+
+extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() {
+  return &enc::gcs::kInfo;
+}
