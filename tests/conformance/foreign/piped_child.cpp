@@ -16,7 +16,6 @@ PipedChild::PipedChild(std::vector<std::string> words) {
   std::array<int, 2> in{-1, -1}, out{-1, -1};
   if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0)
     throw std::runtime_error("no pipe");
-  std::signal(SIGPIPE, SIG_IGN);  // a child that is gone is seen by its output
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in[0], 0);
@@ -40,14 +39,6 @@ PipedChild::~PipedChild() {
 
 void PipedChild::close(std::size_t end) {
   if (const int file = std::exchange(ends_[end], -1); file >= 0) ::close(file);
-}
-
-void PipedChild::write(std::string_view bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(ends_[0], bytes.data(), bytes.size());
-    if (n <= 0) return;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
 }
 
 std::size_t PipedChild::read(std::span<char> into, int milliseconds) {

@@ -1,10 +1,9 @@
-// A program whose input and output are ours: what it writes we read, what we write it reads.
+// A program that writes to us and runs until we close its input.
 #pragma once
 
 #include <array>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <sys/types.h>
@@ -18,7 +17,6 @@ class PipedChild {
   PipedChild(const PipedChild&) = delete;
   PipedChild& operator=(const PipedChild&) = delete;
 
-  void write(std::string_view bytes) const;
   // What came, after at most so many ms; 0: nothing, or closed().
   std::size_t read(std::span<char> into, int milliseconds);
   [[nodiscard]] bool closed() const { return closed_; }

@@ -1,8 +1,6 @@
-"""PIPython drives the fake controller at the other end of our input and output: python3 pipython_client.py FOLDER. Ends with
-0 where all is as it must be."""
+"""PIPython drives the fake controller: python3 pipython_client.py FOLDER PORT. Ends with 0 where all is as it must be."""
 import socket
 import sys
-import threading
 import time
 
 import pipython_parts
@@ -11,17 +9,8 @@ pipython_parts.import_from(sys.argv[1])
 from pipython import GCSDevice, GCSError, pitools
 from pipython.pidevice.interfaces.pisocket import PISocket
 
-listener = socket.create_server(("127.0.0.1", 0))
-port = listener.getsockname()[1]
+port = int(sys.argv[2])
 axes = ["X", "Y", "Z", "U", "V", "W"]
-
-
-def serve():
-    bridge = pipython_parts.Bridge()
-    while True:
-        connection, _ = listener.accept()
-        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        bridge.serve(connection)
 
 
 def expect(good, what):
@@ -103,7 +92,6 @@ def drip():
         expect(answer.startswith(b"X=") and b" \nY=" in answer and answer.endswith(b"\n0\n"), f"{answer}")
 
 
-threading.Thread(target=serve, daemon=True).start()
 one = GCSDevice(gateway=PISocket(host="127.0.0.1", port=port))
 drive(one)
 one.close()

@@ -1,7 +1,6 @@
-"""PIPython's ReplyServer as a controller for our driver, which is at the other end of our input and output: python3
-pipython_replies.py FOLDER. It answers only what it knows; ends with 0 where it was told what it must be."""
+"""PIPython's ReplyServer as a controller for our driver: python3 pipython_replies.py FOLDER. Says its port in a line, and
+answers only what it knows until its input ends; ends with 0 where it was told what it must be."""
 import collections
-import socket
 import sys
 
 import pipython_parts
@@ -40,9 +39,8 @@ server.append("VLS?\n", "50.0\n")
 server.append("POS?\n", "X=1.5 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n")
 server.append("MOV X 1.5 Y 0 Z 0 U 0 V 0 W 0\n")
 server.append("\x18")
-wire = socket.create_connection(("127.0.0.1", port), 10)
-wire.settimeout(None)
-pipython_parts.Bridge(wire).serve(wire)
+print(port, flush=True)
+sys.stdin.read()
 server.check
 expected = {"*IDN?\n": 1, "FRF?\n": 1, "MOV X 1.5 Y 0 Z 0 U 0 V 0 W 0\n": 2, "\x18": 1, "POS?\n": 5, "ERR?\n": 5}
 for command, least in expected.items():
