@@ -2,6 +2,9 @@
 // it and with one part at a time. What the hand feels must be the same to the bit.
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -70,39 +73,63 @@ bool equal(const Form& form, const Form& minimal) {
   return form.bits() == minimal.bits();
 }
 
+// Forms of one scene, each a chunk of ticks in turn, the first of them minimal.
+class Rivals {
+ public:
+  Rivals(const BenchContext& context, const std::string& scene, const std::vector<std::vector<Part>>& forms,
+         int chunks) {
+    std::vector<std::function<void()>> ways;
+    for (const std::vector<Part>& with : forms) {
+      forms_.push_back(std::make_unique<Form>(context, scene, with, (chunks + 1) * kChunk * kTick + 1.0));
+      ways.emplace_back([form = forms_.back().get()] { form->run(kChunk); });
+    }
+    race_.emplace(static_cast<std::size_t>(chunks), ways);
+  }
+  [[nodiscard]] double minimal() const { return race_->seconds(0) / kChunk; }  // s for each tick
+  [[nodiscard]] double more(std::size_t form) const { return race_->more(form, 0) / kChunk; }
+  [[nodiscard]] double ratio(std::size_t form) const { return race_->ratio(form, 0); }
+  [[nodiscard]] int elements(std::size_t form) const { return forms_[form]->elements(); }
+  void judge(Costs& costs) const {
+    costs.forms += forms_.size();
+    for (const auto& form : forms_) {
+      costs.equal += equal(*form, *forms_.front()) ? 1 : 0;
+      for (const Part part : form->idle(*forms_.front()))
+        if (costs.idle.find(name_of(part)) == std::string::npos)
+          costs.idle += fmt::format(" {}", name_of(part));
+    }
+  }
+
+ private:
+  std::vector<std::unique_ptr<Form>> forms_;
+  std::optional<Race> race_;
+};
+
+// The camera races apart: its pictures leave nothing of the others in the processor's caches.
 Costs costs_of(const BenchContext& context, const std::string& scene) {
   Costs costs{scene};
   costs.parts = left_out(context, scene);
-  const int chunks = context.quick ? 12 : 40;
-  const double seconds = (chunks + 1) * kChunk * kTick;
-  std::vector<std::unique_ptr<Form>> forms;
-  const auto add = [&](const std::vector<Part>& with) {
-    forms.push_back(std::make_unique<Form>(context, scene, with, seconds + 1.0));
-  };
-  add({});
-  add(costs.parts);
   std::vector<Part> unseen = costs.parts;
   std::erase(unseen, Part::camera);
-  add(unseen);
-  for (const Part part : costs.parts) add({part});
-  std::vector<std::function<void()>> ways;
-  ways.reserve(forms.size());
-  for (const auto& form : forms) ways.emplace_back([&form] { form->run(kChunk); });
-  const Race race(static_cast<std::size_t>(chunks), ways);
-  for (std::size_t i = 0; i < costs.parts.size(); ++i) costs.each.push_back(race.more(i + 3, 0) / kChunk);
-  costs.minimal = race.seconds(0) / kChunk;
-  costs.everything = costs.minimal + race.more(1, 0) / kChunk;
-  costs.unseen = costs.minimal + race.more(2, 0) / kChunk;
-  costs.ratio = race.ratio(1, 0);
-  costs.elements = forms[0]->elements();
-  costs.all_elements = forms[1]->elements();
-  costs.forms = forms.size();
-  for (const auto& form : forms) {
-    costs.equal += equal(*form, *forms[0]) ? 1 : 0;
-    for (const Part part : form->idle(*forms[0]))
-      if (costs.idle.find(name_of(part)) == std::string::npos)
-        costs.idle += fmt::format(" {}", name_of(part));
-  }
+  std::vector<std::vector<Part>> forms{{}, unseen};
+  for (const Part part : unseen) forms.push_back({part});
+  const Rivals small(context, scene, forms, 120);
+  small.judge(costs);
+  costs.minimal = small.minimal();
+  costs.unseen = costs.everything = costs.minimal + small.more(1);
+  costs.ratio = small.ratio(1);
+  costs.elements = small.elements(0);
+  costs.all_elements = small.elements(1);
+  std::size_t next = 2;
+  for (const Part part : costs.parts)
+    costs.each.push_back(part == Part::camera ? kUnset : small.more(next++));
+  const auto camera = std::find(costs.parts.begin(), costs.parts.end(), Part::camera);
+  if (camera == costs.parts.end()) return costs;
+  const Rivals seen(context, scene, {{}, costs.parts, {Part::camera}}, context.quick ? 8 : 24);
+  seen.judge(costs);
+  costs.everything = costs.minimal + seen.more(1);
+  costs.ratio = seen.ratio(1);
+  costs.all_elements = seen.elements(1);
+  costs.each[static_cast<std::size_t>(camera - costs.parts.begin())] = seen.more(2);
   return costs;
 }
 

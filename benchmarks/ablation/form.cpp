@@ -34,9 +34,11 @@ std::vector<Part> left_out(const BenchContext& context, const std::string& scene
   Form form(context, scene, {}, 1.0);
   const SceneSpec& named = form.setup().scene;
   const bool renders = named.manipulator && named.user;  // something that could be seen
+  const int looked_at = Form(context, scene, {Part::pictures}, 1.0).elements();
   std::vector<Part> parts;
   for (const Part part : kParts)
     if ((part != Part::display || (!named.display && renders)) &&
+        (part != Part::pictures || looked_at > form.elements()) &&
         (part != Part::camera || (!named.camera && named.arm && named.user)) &&  // whose rig has one
         (part != Part::features || (form.world().physics().model()->opt.disableflags & kFeatures) != 0))
       parts.push_back(part);
@@ -89,7 +91,8 @@ bool Form::works(Part part, const Form& minimal) const {
     case Part::features:
       return (trial_->world().physics().model()->opt.disableflags & kFeatures) == 0;
     case Part::counts:  // a contact is booked when it is over
-      return trial_->result().contacts < 2 || !counts_->ledger.contacts().empty();
+      return trial_->result().contacts < 2 || !counts_->ledger.contacts().empty() ||
+             !counts_->presses.presses().empty() || !counts_->pushes.pushes().empty();
     case Part::record: {
       struct stat file {};
       return fstat(file_, &file) == 0 &&
