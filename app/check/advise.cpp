@@ -77,7 +77,7 @@ void refuse_below_floor(const trial::Precision& all, const trial::Accuracy& aske
                           "the other way; expected at least that",
                           words(asked), errs_by(all.second, asked), all.converged.integrator,
                           all.converged.step * 1e6, all.second.integrator, all.second.step * 1e6),
-              std::isnan(asked.force) ? "--error-um" : "--error-N");
+              all.second.error > asked.force ? "--error-N" : "--error-um");
 }
 
 }  // namespace enc::app

@@ -127,20 +127,33 @@ TEST(GcsDriver, ALostLinkIsSaidAndStaysLost) {
   }
 }
 
+TEST(GcsDriver, AWatchdogOfLessThanThreeCyclesIsRefused) {
+  GcsBench bench;
+  bench.settings.watchdog = 0.0029;
+  try {
+    static_cast<void>(bench.driver());
+    ADD_FAILURE() << "it would stop and go";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("watchdog_ms is 2.9, and the loop's cycle takes 1 ms"));
+  }
+  bench.settings.watchdog = 0.003;
+  EXPECT_TRUE(bench.driver()->linked());
+}
+
 TEST(GcsDriver, AFailureOfTheMachineIsAFaultAndALine) {
   GcsBench bench;
   const auto driver = bench.driver();
   bench.failure = 504;
   EXPECT_TRUE(comes([&] { return driver->read(Time{}).health == Health::fault; }));
-  EXPECT_TRUE(driver->linked());
-  EXPECT_TRUE(comes([&] { return bench.log.lines().size() == 1; }));
+  EXPECT_TRUE(comes([&] { return !driver->linked(); }));
+  EXPECT_TRUE(comes([&] { return bench.log.lines().size() == 2; }));
   for (int i = 0; i < 50; ++i) {
     driver->command(beside(*driver, 0.001));
     wait(1);
   }
-  EXPECT_EQ(driver->read(Time{}).health, Health::fault);  // its servos are off: no set-point is taken
+  EXPECT_EQ(driver->read(Time{}).health, Health::fault);  // and stays so in this run
   EXPECT_THAT(bench.log.lines(), ElementsAre(HasSubstr("met error 504: a strut does not follow"),
-                                             HasSubstr("met error 5: not referenced")));
+                                             HasSubstr("lost: a fault of the machine")));
 }
 
 // ---- over loopback

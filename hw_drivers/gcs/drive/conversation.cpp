@@ -20,8 +20,8 @@ Health health_of(int error) noexcept {
 }  // namespace
 
 std::string_view words_of(Loss loss) noexcept {
-  constexpr std::array<std::string_view, 4> kWords{"linked", "no answer in time", "closed by the controller",
-                                                   "an answer that is none"};
+  constexpr std::array<std::string_view, 5> kWords{"linked", "no answer in time", "closed by the controller",
+                                                   "an answer that is none", "a fault of the machine"};
   return kWords[static_cast<std::size_t>(loss)];
 }
 
@@ -46,8 +46,8 @@ void Conversation::lose(Loss loss) noexcept {
   if (loss_ == Loss::none) loss_ = loss;
 }
 
-void Conversation::told(const Order& order, Duration now) noexcept {
-  if (order.number != order_.number) fresh_ = now;
+void Conversation::told(const Order& order) noexcept {
+  fresh_ = order.given;
   order_ = order;
 }
 
@@ -80,10 +80,12 @@ void Conversation::add_stop(Duration now) noexcept {
 }
 
 void Conversation::add_question(Duration now) noexcept {
+  carries_velocity_ = false;
   carries_move_ =
       order_.number > std::max(sent_, order_.stopped) && now - moved_ >= cycle_ && now - fresh_ < watchdog_;
   if (carries_move_) {
-    if (velocity_ > 0.0) add_velocity(out_, velocity_);
+    carries_velocity_ = velocity_ > 0.0;
+    if (carries_velocity_) add_velocity(out_, velocity_);
     velocity_ = 0.0;
     carries_move_ = add_move(out_, order_.to);
     moving_ = moving_ || carries_move_;
@@ -133,7 +135,8 @@ void Conversation::take_position(Duration now) noexcept {
   awaiting_ = Awaiting::error;
 }
 
-// A fault stays until a set-point is taken again: one that was read once is gone from the controller.
+// Who was stopped by another hand, or by a strut, moves no more in this run: what is cured meanwhile is cured
+// by a person, who may still be within reach. What is out of range stays so until a set-point is taken again.
 void Conversation::take_error() noexcept {
   int error = 0;
   if (!read_error(reader_.answer(), error)) return lose(Loss::garbled);
@@ -146,6 +149,8 @@ void Conversation::take_error() noexcept {
     ++report_.errors;
   }
   if (error != kNoError || carries_move_) report_.health = health_of(error);
+  // Nor does one that would not take the velocity: it would go with another one.
+  if (report_.health == Health::fault || (error != kNoError && carries_velocity_)) lose(Loss::fault);
 }
 
 }  // namespace enc::gcs

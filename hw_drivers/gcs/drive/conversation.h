@@ -19,9 +19,10 @@ struct Order {
   std::int64_t stops = 0;    // of stops
   std::int64_t stopped = 0;  // the number at the last stop: what is not beyond it is void
   Coordinates to{};
+  Duration given{};  // of the drivers' clock, when the loop gave it: not when this side saw it
 };
 
-enum class Loss : std::uint8_t { none, silent, closed, garbled };
+enum class Loss : std::uint8_t { none, silent, closed, garbled, fault };
 [[nodiscard]] std::string_view words_of(Loss loss) noexcept;
 
 // The newest that the machine said.
@@ -39,7 +40,7 @@ class Conversation {
  public:
   Conversation(const GcsSettings& settings, const Stand& stand, const Coordinates& at, Duration now);
 
-  void told(const Order& order, Duration now) noexcept;
+  void told(const Order& order) noexcept;
   // What is to be sent now; often nothing. It stays until the next call.
   [[nodiscard]] std::string_view send(Duration now) noexcept;
   // True where the report is new.
@@ -68,13 +69,13 @@ class Conversation {
   AnswerReader reader_;
   Text out_;
   Order order_;
-  Duration fresh_{};        // when the newest set-point came
+  Duration fresh_{};        // when the newest set-point was given
   std::int64_t sent_ = 0;   // number of the set-point that was sent last
   Duration moved_, asked_;  // when the last set-point and question went
   bool moving_ = false;
-  bool stopped_us_ = false;    // our own stop is the reason of an error 10 that is still to come
-  bool carries_move_ = false;  // the question under way
-  bool after_stop_ = false;    // the question under way went after that stop
+  bool stopped_us_ = false;  // our own stop is the reason of an error 10 that is still to come
+  bool carries_move_ = false, carries_velocity_ = false;  // the question under way
+  bool after_stop_ = false;                               // the question under way went after that stop
   Awaiting awaiting_ = Awaiting::nothing;
   Report report_;
   Vec3 from_;  // where and when velocity is counted from

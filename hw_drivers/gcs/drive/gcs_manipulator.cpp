@@ -33,6 +33,13 @@ GcsManipulator::GcsManipulator(const Offer& offer, const GcsSettings& settings, 
       found_(inspect([this](std::string_view line) { return ask(line); }, settings_, offer.reach)),
       reach_(offer.reach),
       accelerations_(seconds(offer.period), offer.reach.acceleration) {
+  constexpr double kCycles = 3.0;  // with fewer it stops at each that is late, and goes on
+  if (settings_.watchdog < kCycles * seconds(offer.period) - 1e-9)
+    throw Error(
+        fmt::format("{}: watchdog_ms is {:g}, and the loop's cycle takes {:g} ms; expected at least "
+                    "{:g} of them",
+                    settings_.place(), 1e3 * settings_.watchdog, 1e3 * seconds(offer.period), kCycles),
+        {}, ErrorKind::device);
   reach_.speed = found_.velocity;
   if (found_.left_over != kNoError)
     log_.say(fmt::format("{}: had {}, before anything was told", describe(), error_words(found_.left_over)));
@@ -103,6 +110,7 @@ void GcsManipulator::command(const Pose<'R', 'H'>& X_RH) noexcept {
   ++order_.number;
   told_ = true;
   order_.to = to;
+  order_.given = link_->now();
   orders_.write(order_);
 }
 
@@ -124,16 +132,21 @@ void GcsManipulator::talk() noexcept {
   std::string_view unsent;
   int said = kNoError;
   while (!end_ && conversation.loss() == Loss::none) {
-    if (orders_.read(order)) conversation.told(order, link_->now());
+    // What has come is taken first: after a pause of the process it is no late answer.
+    const std::size_t got = link_->receive(bytes);
+    if (conversation.take({bytes.data(), got}, link_->now())) publish(conversation, said);
+    if (got == 0 && link_->closed()) conversation.closed();
+    if (orders_.read(order)) conversation.told(order);
     // Only when all is gone, so that a line is never cut by the next one.
     if (unsent.empty()) unsent = conversation.send(link_->now());
     unsent.remove_prefix(link_->send(unsent));
     if (unsent.empty()) stops_sent_ = conversation.report().stops;
     link_->wait(kTurn);
-    const std::size_t got = link_->receive(bytes);
-    if (conversation.take({bytes.data(), got}, link_->now())) publish(conversation, said);
-    if (got == 0 && link_->closed()) conversation.closed();
   }
+  // A stop that was asked for while this thread had no turn still goes.
+  if (orders_.read(order)) conversation.told(order);
+  if (unsent.empty() && conversation.loss() == Loss::none) unsent = conversation.send(link_->now());
+  static_cast<void>(link_->send(unsent));
   if (conversation.loss() != Loss::none) lose(conversation.loss());
 }
 
@@ -145,14 +158,14 @@ void GcsManipulator::publish(const Conversation& conversation, int& said) noexce
   longest_ = conversation.longest_answer().count();
   const int error = report.health == Health::ok ? kNoError : report.error;
   if (error != kNoError && error != said) log_.say(fmt::format("{} met {}", describe(), error_words(error)));
-  said = error;
+  if (error != kNoError) said = error;
 }
 
 // For good. Where it still hears us it is told to stand.
 void GcsManipulator::lose(Loss loss) noexcept {
   static_cast<void>(link_->send(std::string_view(&kStopByte, told_ ? 1 : 0)));
   linked_ = false;
-  log_.say(fmt::format("{} lost: {}; see power and cable, then begin a new run", describe(), words_of(loss)));
+  log_.say(fmt::format("{} lost: {}; see to it, then begin a new run", describe(), words_of(loss)));
 }
 
 std::vector<std::string> GcsManipulator::remarks() const {

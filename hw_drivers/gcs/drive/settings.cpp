@@ -11,11 +11,12 @@ void GcsSettings::declare(Settings& table) {
   table.value({.name = "cycle_ms", .meaning = "between two set-points (MOV)", .low = 1, .high = 1e3}, cycle);
   table.value({.name = "poll_ms", .meaning = "between two questions for the position", .low = 1, .high = 1e3},
               poll);
-  table.value({.name = "watchdog_ms",
-               .meaning = "without a command of the loop: the machine is stopped",
-               .low = 1,
-               .high = 1e3},
-              watchdog);
+  table.value(
+      {.name = "watchdog_ms",
+       .meaning = "without a command of the loop, three of its cycles at least: the machine is stopped",
+       .low = 1,
+       .high = 1e3},
+      watchdog);
   table.value({.name = "velocity_mm_s",
                .meaning = "told to the controller (VLS) before it moves; 0: the one it has",
                .low = 0,

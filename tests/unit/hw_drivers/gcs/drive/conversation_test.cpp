@@ -26,12 +26,13 @@ struct Talk {
   void aim(double x, std::int64_t at) {
     ++order.number;
     order.to = {x, 0, 0, 0, 0, 0};
-    conversation.told(order, ms(at));
+    order.given = ms(at);
+    conversation.told(order);
   }
-  void stop(std::int64_t at) {
+  void stop() {
     ++order.stops;
     order.stopped = order.number;
-    conversation.told(order, ms(at));
+    conversation.told(order);
   }
   [[nodiscard]] Health health() const { return conversation.report().health; }
 };
@@ -103,20 +104,20 @@ TEST(GcsConversation, AStopGoesAtOnceEachTimeAndVoidsWhatWasToldBefore) {
   Talk talk;
   EXPECT_EQ(talk.sent(0), kAsk);
   talk.aim(0.001, 1);
-  talk.stop(1);
+  talk.stop();
   EXPECT_EQ(talk.sent(1), "\x18");
   EXPECT_EQ(talk.conversation.report().stops, 1);
   talk.heard(kZero + "10\n", 2);
   EXPECT_EQ(talk.sent(2), kAsk);  // no MOV: it was told before
   talk.heard(kZero + "0\n", 3);
-  talk.stop(3);
+  talk.stop();
   EXPECT_EQ(talk.sent(3), "\x18");
   talk.aim(0.002, 4);
   EXPECT_EQ(talk.sent(4), move("2") + kAsk);
   talk.heard(kZero + "10\n", 5);
   EXPECT_EQ(talk.health(), Health::ok);
   // Stop and command at once: first the one, then the other.
-  talk.stop(30);
+  talk.stop();
   talk.aim(0.003, 30);
   EXPECT_EQ(talk.sent(30), "\x18" + move("3") + kAsk);
 }
@@ -128,13 +129,44 @@ TEST(GcsConversation, AStopThatIsNotOursIsAFault) {
   talk.heard(kZero + "10\n", 1);
   EXPECT_EQ(talk.health(), Health::fault);
   EXPECT_EQ(talk.conversation.report().error, 10);
+  EXPECT_EQ(talk.conversation.loss(), Loss::fault);
+  for (int t = 2; t < 1000; ++t) {
+    talk.aim(0.001, t);
+    ASSERT_EQ(talk.sent(t), "") << "a person may be there; at " << t;
+  }
+}
+
+// SIGSTOP: this side wakes up and finds what the loop gave before.
+TEST(GcsConversation, WhatWasGivenBeforeAPauseIsNotSentAfterIt) {
+  Talk talk;
+  talk.aim(0.001, 0);
+  EXPECT_EQ(talk.sent(0), move("1") + kAsk);
+  talk.heard(kZero + "0\n", 1);
+  ++talk.order.number;
+  talk.order.given = ms(2);
+  talk.conversation.told(talk.order);
+  EXPECT_EQ(talk.sent(150), "\x18" + kAsk);
+  EXPECT_FALSE(talk.conversation.moving());
+  EXPECT_EQ(talk.conversation.watchdogs(), 1);
+}
+
+TEST(GcsConversation, AVelocityThatIsNotTakenEndsIt) {
+  for (const char* error : {"8\n", "53\n"}) {
+    GcsSettings settings;
+    settings.velocity = 0.02;
+    Talk talk(settings);
+    talk.aim(0.001, 0);
+    EXPECT_EQ(talk.sent(0), "VLS 20\n" + move("1") + kAsk);
+    talk.heard(kZero + error, 1);
+    EXPECT_EQ(talk.conversation.loss(), Loss::fault);
+  }
 }
 
 // Ours is one; after it was seen, or a question that went later was answered, it is no excuse any more.
 TEST(GcsConversation, OurStopExcusesOneErrorTen) {
   for (const char* first : {"10\n", "0\n"}) {
     Talk talk;
-    talk.stop(0);
+    talk.stop();
     EXPECT_EQ(talk.sent(0), "\x18" + kAsk);
     talk.heard(kZero + first, 1);
     EXPECT_EQ(talk.health(), Health::ok) << first;
