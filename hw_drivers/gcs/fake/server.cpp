@@ -37,18 +37,22 @@ void Server::serve() noexcept {
 void Server::accept() {
   net::Socket next = listener_.accept();
   if (!next.is_open()) return;
+  // Who came later may have waited for the first to go: what that one still said comes first.
+  while (client_.is_open() && answer()) {
+  }
   if (client_.is_open()) return log_.say("fake C-887: a second client was refused");
   client_ = std::move(next);
   unsent_.clear();
   controller_.forget_line();
 }
 
-void Server::answer() {
+bool Server::answer() {
   std::array<char, kMostText> bytes{};
   const std::size_t got = client_.receive(std::as_writable_bytes(std::span(bytes)));
   unsent_.append(controller_.take({bytes.data(), got}));
   if (!unsent_.empty()) unsent_.erase(0, client_.send(std::as_bytes(std::span(unsent_))));
   if ((got == 0 && client_.closed()) || unsent_.size() > kMostUnsent) client_ = {};
+  return got > 0;
 }
 
 }  // namespace enc::gcs

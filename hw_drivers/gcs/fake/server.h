@@ -28,7 +28,7 @@ class Server {
  private:
   void serve() noexcept;  // the thread
   void accept();
-  void answer();
+  bool answer();  // true: something came
 
   Log& log_;
   Controller controller_;
