@@ -67,6 +67,16 @@ system_mujoco() {
   grep -qsE 'define mjVERSION_HEADER +4[0-9]{6}' /usr/local/include/mujoco/mujoco.h /usr/include/mujoco/mujoco.h
 }
 
+# A Python wheel as a file, pinned by version and hash, without installing it.
+fetch_wheel() {  # NAME==VERSION SHA256 INTO OPTION...: options of pip
+  local wheel=$1 hash=$2 into=$3; shift 3
+  rm -rf "$into" && mkdir -p "$into" || return 1
+  echo "$wheel --hash=sha256:$hash" >"$into/requirements.txt"
+  # Debian's python3 by its path, because it is the one that python3-pip belongs to.
+  logged env PIP_REQUIRE_VIRTUALENV=0 PIP_NO_INPUT=1 PIP_DISABLE_PIP_VERSION_CHECK=1 /usr/bin/python3 -m pip download \
+    --retries 2 --no-deps --only-binary=:all: "$@" --require-hashes -r "$into/requirements.txt" -d "$into"
+}
+
 # Debian's MuJoCo is too old, so we take library and headers out of the Python wheel, pinned by version and hash.
 setup_mujoco() {
   local home=$root/.deps/mujoco-$mujoco_version work=$root/.deps/unfinished
@@ -74,12 +84,7 @@ setup_mujoco() {
   [[ $(uname -m) == x86_64 ]] || stop "MuJoCo $mujoco_version is fetched for x86_64 only; install MuJoCo 4 and set ENCOUNTER_MUJOCO to its folder"
   doing="fetching MuJoCo $mujoco_version"
   say "fetching MuJoCo $mujoco_version (10 MB)"
-  rm -rf "$work" && mkdir -p "$work"
-  echo "mujoco-core==$mujoco_version --hash=sha256:$mujoco_sha256" >"$work/requirements.txt"
-  # Debian's python3 by its path, because it is the one that python3-pip belongs to.
-  logged env PIP_REQUIRE_VIRTUALENV=0 PIP_NO_INPUT=1 PIP_DISABLE_PIP_VERSION_CHECK=1 /usr/bin/python3 -m pip download \
-    --retries 2 --no-deps --only-binary=:all: --python-version 3.11 --platform manylinux_2_28_x86_64 \
-    --require-hashes -r "$work/requirements.txt" -d "$work" || {
+  fetch_wheel "mujoco-core==$mujoco_version" "$mujoco_sha256" "$work" --python-version 3.11 --platform manylinux_2_28_x86_64 || {
     tail -n 3 "$log" >&2
     stop "MuJoCo $mujoco_version is missing and could not be fetched; see that this machine is online (or set ENCOUNTER_MUJOCO to the folder of a MuJoCo 4), then give the same command again"
   }
@@ -143,10 +148,8 @@ setup_pipython() {
   [[ ! -d $home ]] || return 0
   doing="fetching PIPython"
   say "fetching PIPython $version (0.2 MB)"
-  rm -rf "$home.part" "$work" && mkdir -p "$work"
-  echo "PIPython==$version --hash=sha256:3998a10a6318b7a00e43b37a97cffafef6900cc2a7a80acb531329b43b27c3c2" >"$work/requirements.txt"
-  if logged env PIP_REQUIRE_VIRTUALENV=0 PIP_NO_INPUT=1 PIP_DISABLE_PIP_VERSION_CHECK=1 /usr/bin/python3 -m pip download \
-      --retries 2 --no-deps --only-binary=:all: --require-hashes -r "$work/requirements.txt" -d "$work" &&
+  rm -rf "$home.part"
+  if fetch_wheel "PIPython==$version" 3998a10a6318b7a00e43b37a97cffafef6900cc2a7a80acb531329b43b27c3c2 "$work" &&
     logged /usr/bin/python3 -m zipfile -e "$work"/*.whl "$home.part"; then mv "$home.part" "$home"
   else say "PIPython could not be fetched; its tests are skipped"; fi
   rm -rf "$work"

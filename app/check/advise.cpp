@@ -22,32 +22,26 @@ std::string row(const trial::PrecisionPoint& point) {
                      1.0 / point.cpu, point.shipped ? "  as it is" : "");
 }
 
-// What was asked for, of a point: "0.0518 N" or "0.0518 N and 12.30 um".
-std::string errs_by(const trial::PrecisionPoint& point, const trial::Accuracy& asked) {
-  std::string text;
-  if (!std::isnan(asked.force)) text = fmt::format("{:.4f} N", point.error);
-  if (!std::isnan(asked.way))
-    text += fmt::format("{}{:.2f} um", text.empty() ? "" : " and ", point.way * 1e6);
-  return text;
+// Those of the two that were asked for: "0.0518 N", "12.30 um", or both.
+std::string both(const trial::Accuracy& asked, const std::string& force, const std::string& way) {
+  if (std::isnan(asked.way)) return force;
+  return std::isnan(asked.force) ? way : force + " and " + way;
 }
-
+std::string errs_by(const trial::PrecisionPoint& point, const trial::Accuracy& asked) {
+  return both(asked, fmt::format("{:.4f} N", point.error), fmt::format("{:.2f} um", point.way * 1e6));
+}
 std::string words(const trial::Accuracy& asked) {
-  std::string text;
-  if (!std::isnan(asked.force)) text = fmt::format("{:g} N", asked.force);
-  if (!std::isnan(asked.way)) text += fmt::format("{}{:g} um", text.empty() ? "" : " and ", asked.way * 1e6);
-  return text;
+  return both(asked, fmt::format("{:g} N", asked.force), fmt::format("{:g} um", asked.way * 1e6));
 }
 
 std::string advised(const trial::Precision& all, const trial::Accuracy& asked) {
   const trial::PrecisionPoint* best = cheapest(all.points, asked);
   if (best == nullptr) return fmt::format("advice      none of these errs by less than {}\n", words(asked));
-  std::string text =
-      fmt::format("advice     {}\n            errs by {}, allowed {}, {:.0f} x real time\n",
-                  best->shipped ? " as it is:" + settings_text(all, *best) : settings_text(all, *best),
-                  errs_by(*best, asked), words(asked), 1.0 / best->cpu);
+  std::string text = fmt::format("advice     {}\n            errs by {}, allowed {}, {:.0f} x real time\n",
+                                 (best->shipped ? " as it is:" : "") + settings_text(all, *best),
+                                 errs_by(*best, asked), words(asked), 1.0 / best->cpu);
   if (all.second.share(asked) > 0.5)
-    text += fmt::format(
-        "            less than twice the floor is asked for: another converged run may judge otherwise\n");
+    text += "            less than twice the floor is asked for: another converged run may judge otherwise\n";
   if (const trial::PrecisionPoint* next = next_cheaper(all.points, *best))
     text += fmt::format("            the next cheaper, {} at {:g} us, errs by {}, {:.0f} x real time\n",
                         next->integrator, next->step * 1e6, errs_by(*next, asked), 1.0 / next->cpu);

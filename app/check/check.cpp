@@ -194,21 +194,22 @@ std::string arm_limits(const models::Setup& setup, const Scene& scene) {
 }
 
 trial::Accuracy accuracy_of(const CheckOptions& options) {
-  const auto refuse_unless_above_0 = [](const std::optional<double>& error, const char* option,
-                                        const char* what) {
+  const auto refuse_unless_above_0 = [](const std::optional<double>& error, const char* what,
+                                        const char* option, const char* example) {
     if (!error || (*error > 0.0 && std::isfinite(*error))) return;
-    throw Error(fmt::format("how much may it err? expected {} above 0, such as --advise {}", what, option),
-                std::string(option).substr(0, std::string(option).find(' ')));
+    throw Error(fmt::format("how much may it err? expected {} above 0, such as --advise {} {}", what, option,
+                            example),
+                option);
   };
   if (!options.error_N && !options.error_um)
     throw Error("how much may it err? expected a force or a length, such as --advise --error-N 0.05",
                 "--error-N");
-  refuse_unless_above_0(options.error_N, "--error-N 0.05", "a force in N");
-  refuse_unless_above_0(options.error_um, "--error-um 20", "a length in um");
+  refuse_unless_above_0(options.error_N, "a force in N", "--error-N", "0.05");
+  refuse_unless_above_0(options.error_um, "a length in um", "--error-um", "20");
   return {options.error_N.value_or(kUnset), options.error_um.value_or(kUnset) * 1e-6};
 }
 
-int advise(const CheckOptions& options) {
+int advise(const CheckOptions& options, const trial::Accuracy& asked) {
   std::fflush(stdout);  // it takes its time
   trial::PrecisionOptions how;
   how.seed = options.seed;
@@ -217,13 +218,12 @@ int advise(const CheckOptions& options) {
   if (terminal) how.progress = show_progress;
   const trial::Precision all = trial::precision_of(
       [&](const std::vector<std::string>& set) {
-        CheckOptions asked = options;
-        asked.set.insert(asked.set.end(), set.begin(), set.end());
-        return load_setup(asked);
+        CheckOptions with = options;
+        with.set.insert(with.set.end(), set.begin(), set.end());
+        return load_setup(with);
       },
       how);
   if (terminal) fmt::print(stderr, "\r        \r");
-  const trial::Accuracy asked = accuracy_of(options);
   fmt::print("{}", advice_text(all, asked));
   std::fflush(stdout);
   refuse_below_floor(all, asked);
@@ -237,7 +237,8 @@ int check(const CheckOptions& options) {
   const double ready = cpu_seconds();
   const Scene scene = trial::prepare_setup(setup);
   print_notes(setup.notes);
-  if (options.advise) (void)accuracy_of(options);  // refused before it takes its time
+  std::optional<trial::Accuracy> asked;
+  if (options.advise) asked = accuracy_of(options);  // refused before it takes its time
   if (options.resolved) {
     std::string made =
         fmt::format("# Encounter {}: {}, rig {}", ENCOUNTER_VERSION, options.scene, setup.rig_path);
@@ -251,7 +252,7 @@ int check(const CheckOptions& options) {
              frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
              stability_text(setup, trial::certificates_of(setup, scene, true)));
   fmt::print("{}", costs_text(setup, options.seed, ready));
-  return options.advise ? advise(options) : 0;
+  return asked ? advise(options, *asked) : 0;
 }
 
 }  // namespace enc::app

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,8 +15,7 @@
 namespace enc::app {
 namespace {
 
-constexpr double kRun = 0.25;                                        // s, of experiment
-constexpr std::string_view kPrefix = "encounter_", kSuffix = ".so";  // of a module's file
+constexpr double kRun = 0.25;  // s, of experiment
 
 // Of the engine, for which this scene has no use.
 std::string not_looked_for(const mjModel& model) {
@@ -45,9 +43,7 @@ std::string process_text() {
   const std::vector<std::string> libraries = mapped_libraries();
   std::vector<std::string> loaded, left;
   for (const std::string& library : libraries)  // in whichever folder it stood
-    if (const std::size_t at = library.rfind(kPrefix); at != std::string::npos && library.ends_with(kSuffix))
-      loaded.push_back(
-          library.substr(at + kPrefix.size(), library.size() - at - kPrefix.size() - kSuffix.size()));
+    if (const std::string name = module_name(library); !name.empty()) loaded.push_back(name);
   for (const std::string& name : modules_there())
     if (std::find(loaded.begin(), loaded.end(), name) == loaded.end()) left.push_back(name);
   const bool gl = among(libraries, "libGL") || among(libraries, "libEGL") || among(libraries, "libOSMesa");

@@ -62,13 +62,19 @@ std::string modules_dir() {
   return beside_program();
 }
 
+std::string module_name(const std::string& file) {
+  if (file.size() <= kPrefix.size() + kSuffix.size() || !file.starts_with(kPrefix) ||
+      !file.ends_with(kSuffix))
+    return {};
+  return file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size());
+}
+
 std::vector<std::string> modules_there() {
   std::vector<std::string> names;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(modules_dir(), none)) {
-    const std::string file = entry.path().filename().string();
-    if (file.size() > kPrefix.size() + kSuffix.size() && file.starts_with(kPrefix) && file.ends_with(kSuffix))
-      names.push_back(file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()));
+    if (const std::string name = module_name(entry.path().filename().string()); !name.empty())
+      names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;

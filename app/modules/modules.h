@@ -13,6 +13,8 @@ namespace enc::app {
 
 // $ENCOUNTER_MODULES, else `modules` beside the program.
 [[nodiscard]] std::string modules_dir();
+// "view" of "encounter_view.so"; empty: no module's file.
+[[nodiscard]] std::string module_name(const std::string& file);
 // Names of those that are there ("sample", "view"), in order. Nothing is loaded.
 [[nodiscard]] std::vector<std::string> modules_there();
 // Whether load_module() would find its file.

@@ -27,7 +27,7 @@ constexpr std::array kNorms{Norm{"force, N", &PrecisionPoint::error, &trial::Acc
 struct Carried {
   std::string scene;
   const Norm* norm = nullptr;
-  std::string advised{}, next{"-"};
+  const PrecisionPoint *advised = nullptr, *next = nullptr;  // of the study; null: none
   double asked = kUnset, error = kUnset, next_error = kUnset;
   std::string failure{};  // of a run that judges
   [[nodiscard]] bool meets() const { return error <= asked; }
@@ -56,8 +56,8 @@ double asked_of(const std::vector<PrecisionPoint>& points, double PrecisionPoint
   return std::isnan(asked) && least != nullptr ? 1.5 * least->*error : asked;
 }
 
-std::string words(const PrecisionPoint& point) {
-  return fmt::format("{} at {:g} us", point.integrator, point.step * 1e6);
+std::string words(const PrecisionPoint* point) {
+  return point != nullptr ? fmt::format("{} at {:g} us", point->integrator, point->step * 1e6) : "-";
 }
 
 bool same(const PrecisionPoint& a, const PrecisionPoint& b) {
@@ -84,32 +84,29 @@ std::vector<PrecisionPoint> again(const BenchContext& context, const ForceStudy&
 
 std::vector<Carried> carried_out(const BenchContext& context, const ForceStudy& study) {
   std::vector<Carried> all;
-  std::vector<const PrecisionPoint*> points, advised, next;
+  std::vector<const PrecisionPoint*> points;
   for (const Norm& norm : kNorms) {
     Carried one{study.scene, &norm};
     one.asked = asked_of(study.all.points, norm.error);
     trial::Accuracy most;
     most.*norm.most = one.asked;
-    advised.push_back(trial::cheapest(study.all.points, most));
-    next.push_back(advised.back() == nullptr ? nullptr
-                                             : trial::next_cheaper(study.all.points, *advised.back()));
-    for (const PrecisionPoint* point : {advised.back(), next.back()})
+    one.advised = trial::cheapest(study.all.points, most);
+    if (one.advised != nullptr) one.next = trial::next_cheaper(study.all.points, *one.advised);
+    for (const PrecisionPoint* point : {one.advised, one.next})
       if (point != nullptr) points.push_back(point);
     all.push_back(std::move(one));
   }
   const std::vector<PrecisionPoint> judged = again(context, study, points);
-  const auto error_of = [&](Carried& one, const PrecisionPoint& point) {
-    const auto at = std::find_if(judged.begin(), judged.end(), [&](const auto& j) { return same(j, point); });
+  const auto error_of = [&](Carried& one, const PrecisionPoint* point) {
+    if (point == nullptr) return kUnset;
+    const auto at =
+        std::find_if(judged.begin(), judged.end(), [&](const auto& j) { return same(j, *point); });
     if (!at->failure.empty()) one.failure = at->failure;
     return at->failure.empty() ? *at.*one.norm->error : kUnset;
   };
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (advised[i] == nullptr) continue;
-    all[i].advised = words(*advised[i]);
-    all[i].error = error_of(all[i], *advised[i]);
-    if (next[i] == nullptr) continue;
-    all[i].next = words(*next[i]);
-    all[i].next_error = error_of(all[i], *next[i]);
+  for (Carried& one : all) {
+    one.error = error_of(one, one.advised);
+    one.next_error = error_of(one, one.next);
   }
   return all;
 }
@@ -135,8 +132,8 @@ void add_advice(Bench& bench, const std::vector<ForceStudy>& studies) {
         return std::isnan(error) ? "-" : fmt::format("{:.4g}", error / one.norm->unit);
       };
       const bool holds = one.meets() && (!one.has_next() || one.next_fails());
-      table.add(one.scene, one.norm->name, printed(one.asked), one.advised, printed(one.error), one.next,
-                printed(one.next_error),
+      table.add(one.scene, one.norm->name, printed(one.asked), words(one.advised), printed(one.error),
+                words(one.next), printed(one.next_error),
                 !one.failure.empty() ? one.failure
                 : holds              ? "holds"
                                      : "does not");

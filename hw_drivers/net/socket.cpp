@@ -44,12 +44,17 @@ Addresses resolve(const std::string& host, std::uint16_t port, int type, int fla
   return {found, freeaddrinfo};
 }
 
+void switch_on(int descriptor, int level, int option) {
+  const int on = 1;
+  setsockopt(descriptor, level, option, &on, sizeof on);
+}
+// A set-point does not wait for more.
+void send_at_once(int descriptor) { switch_on(descriptor, IPPROTO_TCP, TCP_NODELAY); }
+
 int open_for(const addrinfo& address) {
   const int descriptor = socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (descriptor < 0) throw Error(fmt::format("no socket could be opened: {}", std::strerror(errno)));
-  const int yes = 1;
-  if (address.ai_socktype == SOCK_STREAM)
-    setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);  // a set-point does not wait for more
+  if (address.ai_socktype == SOCK_STREAM) send_at_once(descriptor);
   return descriptor;
 }
 
@@ -112,8 +117,7 @@ class Opener {
   static Socket bind_to(const std::string& host, std::uint16_t port, int type) {
     const Addresses all = resolve(host, port, type, AI_PASSIVE);
     Socket socket(open_for(*all), type == SOCK_DGRAM);
-    const int yes = 1;
-    if (type == SOCK_STREAM) setsockopt(socket.descriptor_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    if (type == SOCK_STREAM) switch_on(socket.descriptor_, SOL_SOCKET, SO_REUSEADDR);
     if (bind(socket.descriptor_, all->ai_addr, all->ai_addrlen) != 0 ||
         (type == SOCK_STREAM && listen(socket.descriptor_, 8) != 0))
       throw refused(host, port,
@@ -185,8 +189,7 @@ bool Socket::wait(Duration most) noexcept { return is_open() && wait_for(descrip
 Socket Socket::accept() noexcept {
   const int descriptor =
       is_open() ? accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK) : -1;
-  const int yes = 1;
-  if (descriptor >= 0) setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  if (descriptor >= 0) send_at_once(descriptor);
   return Socket(descriptor, false);
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <string>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "core/latest.h"
 #include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/gcs/fake/controller.h"
+#include "hw_drivers/net/steady.h"
 #include "tests/support/default_offer.h"
 #include "tests/support/devices/following_machine.h"
 #include "trial/device_log.h"
@@ -46,9 +46,7 @@ struct GcsBench {
       if (answers_.empty()) std::this_thread::sleep_for(most);
       bench_.pass(now());
     }
-    [[nodiscard]] Duration now() const noexcept override {
-      return std::chrono::steady_clock::now().time_since_epoch();
-    }
+    [[nodiscard]] Duration now() const noexcept override { return net::steady_now(); }
 
    private:
     GcsBench& bench_;
@@ -58,7 +56,7 @@ struct GcsBench {
   explicit GcsBench(const gcs::ControllerSettings& with = {}) : controller(machine, with) {
     settings.watchdog = 0.05;  // s: other tests take the processor, too
   }
-  Offer offer() { return {defaults.table, defaults.rig, reach, Duration(1'000'000), log}; }
+  Offer offer() { return {defaults.table, defaults.rig, machine.can, Duration(1'000'000), log}; }
   std::unique_ptr<Manipulator> driver() {
     return std::make_unique<gcs::GcsManipulator>(offer(), settings, std::make_unique<FakeLink>(*this));
   }
@@ -76,9 +74,8 @@ struct GcsBench {
 
   DefaultOffer defaults;
   gcs::GcsSettings settings;
-  Reach reach{0.05, 0.41, Hexapod{HexapodGeometry{}}};
   trial::DeviceLog log;
-  FollowingMachine machine{reach};
+  FollowingMachine machine;
   gcs::Controller controller;
   Duration time{};
   std::atomic<int> failure = gcs::kNoError;

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "hw_drivers/gcs/fake/server.h"
 #include "tests/support/default_offer.h"
@@ -13,15 +11,14 @@
 namespace enc::test {
 
 struct GcsPort {
-  struct Table final : Settings {
+  struct Table final : DefaultOffer::Defaults {
+    using DefaultOffer::Defaults::value;
     void value(const Setting& key, double& number) override {
       if (key.name == "watchdog_ms") number = 0.05;  // s
     }
     void value(const Setting& key, std::int64_t& whole) override {
       if (key.name == "port") whole = port;
     }
-    void value(const Setting&, std::string&) override {}
-    void value(const Setting&, std::vector<double>&) override {}
     std::int64_t port = 0;
   };
 

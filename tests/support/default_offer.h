@@ -7,7 +7,7 @@
 namespace enc::test {
 
 struct DefaultOffer {
-  struct Defaults final : Settings {
+  struct Defaults : Settings {
     void value(const Setting&, double&) override {}
     void value(const Setting&, std::int64_t&) override {}
     void value(const Setting&, std::string&) override {}

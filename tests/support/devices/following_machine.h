@@ -6,9 +6,6 @@
 namespace enc::test {
 
 struct FollowingMachine final : Manipulator {
-  explicit FollowingMachine(const Reach& promised = {0.05, 0.41, Hexapod{HexapodGeometry{}}})
-      : can(promised), pose(promised.machine.zero()) {}
-
   [[nodiscard]] Reach reach() const override { return can; }
   Stamped<TipSample> read(Time now) noexcept override {
     return {{pose, Vec<'R'>::zero(), Vec<'R'>::zero()}, now, Health::ok};
@@ -16,8 +13,8 @@ struct FollowingMachine final : Manipulator {
   void command(const Pose<'R', 'H'>& X_RH) noexcept override { pose = X_RH; }
   void stop() noexcept override {}
 
-  Reach can;
-  Pose<'R', 'H'> pose;
+  Reach can{0.05, 0.41, Hexapod{HexapodGeometry{}}};
+  Pose<'R', 'H'> pose = can.machine.zero();
 };
 
 }  // namespace enc::test
