@@ -67,6 +67,9 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
   run_command->add_flag("--armed", run_options.armed,
                         "send commands to real devices; without it they are only computed and recorded");
+  run_command->add_flag("--lockstep", run_options.lockstep,
+                        "the devices are those of `encounter fake --lockstep`, whose time goes on with each "
+                        "set-point: as fast as it goes, and the same in every run");
   force_option(run_command, run_options.force);
   run_command->callback([&] { code = run(run_options); });
 
@@ -93,6 +96,32 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       ->add_option("--error-um", check_options.error_um, "of --advise: error of the tip's path, um rms")
       ->needs(advise);
   check_command->callback([&] { code = check(check_options); });
+
+  FakeOptions fake_options;
+  CLI::App* fake_command = app.add_subcommand(
+      "fake",
+      "stand in for the devices of a rig: serve their wires from one simulated world, until it is told "
+      "to end");
+  fake_command->add_option("rig", fake_options.rig, "a name in models/rigs, or a file")->required();
+  fake_command->add_option("--scene", fake_options.scene, "what happens there; default: the tennis ball")
+      ->check(unnamed);
+  fake_command->add_option("--set", fake_options.set, "override, as for run");
+  fake_command->add_option("--seed", fake_options.seed, "of all noise");
+  fake_command->add_flag("--lockstep", fake_options.lockstep,
+                         "time goes on by a period with each set-point, and not by itself (run --lockstep)");
+  fake_command->callback([&] { code = fake(fake_options); });
+
+  DevicesOptions devices_options;
+  CLI::App* devices_command = app.add_subcommand(
+      "devices",
+      "ask the devices of a rig: what answers, how often, how regularly and how late; nothing moves");
+  devices_command->add_option("rig", devices_options.rig, "a name in models/rigs, or a file")->required();
+  devices_command->add_option("--scene", devices_options.scene, "whose devices; default: the tennis ball's")
+      ->check(unnamed);
+  devices_command->add_option("--set", devices_options.set, "override, as for run");
+  devices_command->add_option("--for-s", devices_options.seconds, "how long each is read")
+      ->capture_default_str();
+  devices_command->callback([&] { code = devices(devices_options); });
 
   ReplayOptions replay_options;
   CLI::App* replay_command =

@@ -26,6 +26,7 @@ struct RunOptions : SceneOptions {
   std::string frames;  // folder in which what its camera sees is kept
   bool json = false;
   bool armed = false;
+  bool lockstep = false;
   bool force = false;  // replaces a file that is there; so below
 };
 struct CheckOptions : SceneOptions {
@@ -52,6 +53,12 @@ struct ExportOptions {
   std::vector<std::string> set;  // likewise, "name=value"
   bool partial = false, force = false;
   bool ledger = false;  // of a record: its energy ledger, and not its ticks
+};
+struct FakeOptions : SceneOptions {
+  bool lockstep = false;
+};
+struct DevicesOptions : SceneOptions {
+  double seconds = 1.0;
 };
 struct ParamsOptions : SceneOptions {
   bool json = false;
@@ -100,6 +107,8 @@ struct MeshOptions {
 int command_line(int argc, char** argv);
 
 int run(const RunOptions& options);
+int fake(const FakeOptions& options);
+int devices(const DevicesOptions& options);
 int check(const CheckOptions& options);
 int replay(const ReplayOptions& options);
 int export_record(const ExportOptions& options);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,8 +30,9 @@ std::string driver_of(const models::Setup& setup, const Role& role) {
 }
 
 template <class Role>
-auto make(const Role& role, const models::Setup& setup, const DriverSource& modules, Log& log, bool waits) {
-  return driver_device(driver_of(setup, role), role.make, role.name, setup, modules, log, waits);
+auto make(const Role& role, const models::Setup& setup, const DriverSource& modules, Log& log,
+          Keeping keeping) {
+  return driver_device(driver_of(setup, role), role.make, role.name, setup, modules, log, keeping);
 }
 
 class NoLog final : public Log {
@@ -80,14 +82,26 @@ void read_driver_tables(models::Setup& setup, const DriverFinder& find) {
       models::read_driver_table(setup, driver, module->driver->settings);
 }
 
-void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, bool waits) {
+std::vector<std::string> tool_names(const models::Setup& setup) {
+  std::vector<std::string> names;
+  for (const ToolSpec& tool : setup.scene.tools) names.push_back(tool.name);
+  return names;
+}
+
+std::set<std::string> drivers_used(const models::Setup& setup) {
   std::set<std::string> used;
   each_role([&](const auto& role) { used.insert(driver_of(setup, role)); });
+  used.erase("");
+  return used;
+}
+
+void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, Keeping keeping) {
+  const std::set<std::string> used = drivers_used(setup);
   read_driver_tables(setup,
                      [&](const std::string& name) { return used.contains(name) ? &drivers(name) : nullptr; });
   each_role([&](const auto& role) {
     if (!driver_of(setup, role).empty() && !sees(setup, role))
-      rig.*role.slot = make(role, setup, drivers, log, waits);
+      rig.*role.slot = make(role, setup, drivers, log, keeping);
   });
 }
 
@@ -102,18 +116,17 @@ std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& s
   return all;
 }
 
-std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSource& drivers) {
+std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup, const DriverSource& drivers,
+                                         Log& log) {
   std::vector<DeviceWords> all;
-  NoLog log;
   each_role([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
+    auto& device = rig.*role.slot;
     try {
-      std::unique_ptr<Device> device;
-      if (sees(setup, role))
-        device = make_vision(setup, drivers, {.log = log});
-      else
-        device = make(role, setup, drivers, log, false);
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(device)>, std::unique_ptr<PoseTracker>>)
+        if (sees(setup, role)) device = make_vision(setup, drivers, {.log = log});
+      if (!device) device = make(role, setup, drivers, log, {});
       const std::string said = device->describe();
       all.push_back({role.table, said.empty() ? driver : said, true});
     } catch (const Error& e) {
@@ -121,6 +134,12 @@ std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSou
     }
   });
   return all;
+}
+
+std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSource& drivers) {
+  NoLog log;
+  Rig rig;
+  return put_each_driver(rig, setup, drivers, log);
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@
 #include "trial/prepare.h"
 
 namespace enc::trial {
+
+// How the run and its devices keep time (Offer).
+struct Keeping {
+  bool waits = false, lockstep = false;
+};
 
 // The module of a driver, by the name that the rig gives it. Throws Error (kind device) where there is none.
 using DriverSource = std::function<const ModuleInfo&(const std::string& driver)>;
@@ -37,7 +43,11 @@ using DriverFinder = std::function<const ModuleInfo*(const std::string& driver)>
 void read_driver_tables(models::Setup& setup, const DriverFinder& find);
 
 // Puts the drivers' devices in the slots for which the rig names one; before, their tables are read.
-void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, bool waits);
+void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, Keeping keeping);
+
+[[nodiscard]] std::vector<std::string> tool_names(const models::Setup& setup);  // by index
+// The drivers that fill a role which the scene names; the twin is none.
+[[nodiscard]] std::set<std::string> drivers_used(const models::Setup& setup);
 
 // What a driver says of its device.
 struct DeviceWords {
@@ -45,6 +55,9 @@ struct DeviceWords {
   bool there = true;        // false: the words say what is wrong
 };
 [[nodiscard]] std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& setup);
+// Makes each device, or says why there is none. Nothing moves.
+[[nodiscard]] std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup,
+                                                       const DriverSource& drivers, Log& log);
 // The same without a run: each device is made, asked and let go. Nothing moves.
 [[nodiscard]] std::vector<DeviceWords> ask_drivers(const models::Setup& setup, const DriverSource& drivers);
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,20 +15,24 @@
 
 namespace enc::trial {
 
-// `make` is the module's member for such a device, `name` is for messages: "force sensor", `waits` is
-// Offer's. Throws Error (kind device).
+// `make` is the module's member for such a device, `name` is for messages: "force sensor", `keeping`
+// is Offer's. Throws Error (kind device).
 template <class Device>
 std::unique_ptr<Device> driver_device(const std::string& driver, Maker<Device> DriverModule::*make,
                                       const char* name, const models::Setup& setup,
-                                      const DriverSource& modules, Log& log, bool waits) {
+                                      const DriverSource& modules, Log& log, Keeping keeping) {
   const ModuleInfo& module = modules(driver);
   if (module.driver == nullptr || module.driver->*make == nullptr)
     throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, name),
                 {}, ErrorKind::device);
+  if (keeping.lockstep && !module.driver->lockstep)
+    throw Error(fmt::format("module '{}' cannot keep step with a fake; leave out --lockstep", driver), {},
+                ErrorKind::device);
   models::DriverTableReader table(setup, driver);
   const Reach reach = reach_of(setup.rig);
-  auto device =
-      (module.driver->*make)({table, setup.rig, reach, from_seconds(1.0 / setup.rig.loop.rate), log, waits});
+  const std::vector<std::string> tools = tool_names(setup);
+  auto device = (module.driver->*make)({table, setup.rig, reach, from_seconds(1.0 / setup.rig.loop.rate), log,
+                                        keeping.waits, keeping.lockstep, tools});
   if (!device)
     throw Error(fmt::format("module '{}' made no {}; mend the driver", driver, name), {}, ErrorKind::device);
   return device;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "trial/ledger/ledger_measure.h"
+#include "trial/measure/felt_measure.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
@@ -22,6 +23,7 @@ struct RunMeasures {
 
   void see(const Glance& glance) {
     presses.see(glance);
+    felt.see(glance);
     pushes.see(glance);
     fingers.see(glance);
     touches.see(glance);
@@ -31,6 +33,7 @@ struct RunMeasures {
   }
 
   PressMeasure presses;
+  FeltMeasure felt;
   ProbeMeasure pushes;
   FingerMeasure fingers;
   TouchMeasure touches;

@@ -41,6 +41,17 @@ double pace_of(const TrialOptions& options, bool wall) {
   return 1.0;
 }
 
+void refuse_lockstep(const Slots& slots, bool armed) {
+  if (!slots.machine)
+    throw Error(
+        "--lockstep: the rig's machine is simulated, and no fake has a time to keep; expected a driver in "
+        "[manipulator]; leave it out, or name another rig");
+  if (!armed)
+    throw Error(
+        "--lockstep: the time of a fake goes on with each set-point, and without --armed none is sent; add "
+        "it");
+}
+
 // What a simulated machine only says, a real one does not begin (sources/choices 15).
 void refuse_limits(const models::Setup& setup, const Scene& scene) {
   for (const Certified& one : certificates_of(setup, scene))
@@ -57,7 +68,8 @@ void refuse_limits(const models::Setup& setup, const Scene& scene) {
 Trial::Trial(models::Setup setup, TrialOptions options)
     : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
   const Slots slots = options_.drivers ? slots_of(setup_) : Slots{};
-  const bool wall = slots.real && keeps_wall_time(setup_, options_.drivers);
+  if (options_.lockstep) refuse_lockstep(slots, options_.armed);
+  const bool wall = slots.real && !options_.lockstep && keeps_wall_time(setup_, options_.drivers);
   const double pace = pace_of(options_, wall);
   if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
   // What keeps no wall clock works within the loop, so that it is the same in every run.
@@ -67,7 +79,12 @@ Trial::Trial(models::Setup setup, TrialOptions options)
                 ": vision through a camera that is simulated, or only plays, works within the haptic loop, "
                 "where a frame takes many periods; expected a real camera, for which it has a thread of its "
                 "own; a real machine is not armed for it");
+  if (wall && options_.real_time) {
+    real_time_ = std::make_unique<RealTime>(true);
+    result_.real_time = real_time_->words();
+  }
   simulated_ = !slots.real;
+  leads_ = slots.machine && slots.simulated && setup_.scene.manipulator.has_value();
   if (slots.simulated || !slots.real) {
     world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
     if (options_.work) world_->ask_for_work();
@@ -76,7 +93,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
     rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
   }
   gate_ = Gate(setup_, slots.real && !options_.armed);
-  if (slots.real) put_drivers(rig_, setup_, options_.drivers, log_, pace == 0.0);
+  if (slots.real) put_drivers(rig_, setup_, options_.drivers, log_, {pace == 0.0, options_.lockstep});
   if (setup_.scene.camera) {
     if (!options_.drivers)
       throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
@@ -147,6 +164,7 @@ bool Trial::tick() {
   rig_.read(now_.t, in_);
   if (setup_.scene.camera) result_.vision.see(now_.t, in_.tool);
   gate_.mark(rig_, now_.t, in_);
+  if (leads_ && in_.tip.health != Health::absent) world_->lead_machine(in_.tip.value);
   if (options_.disturb) options_.disturb(in_);
   const WallClock::time_point before = WallClock::now();
   if (options_.law)

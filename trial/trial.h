@@ -20,6 +20,7 @@
 #include "trial/assemble.h"
 #include "trial/device_log.h"
 #include "trial/gate.h"
+#include "trial/real_time.h"
 #include "trial/trial_result.h"
 
 namespace enc::trial {
@@ -47,6 +48,8 @@ struct TrialOptions {
   std::string frames{};     // folder in which the frames of its camera are kept; empty: nowhere
   bool work = false;        // the twin counts its work, as a LedgerMeasure asks; nothing else differs
   bool armed = false;       // commands are sent to real devices; else they are only computed
+  bool real_time = false;   // a run that keeps the wall clock comes before other work (real_time.h)
+  bool lockstep = false;    // what answers is a fake whose time goes on with this loop's; needs `armed`
   std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
   // Hooks, in the order of a tick; an empty one is not called.
   std::function<void(Rig&)> fit_out{};  // once: puts other devices in place of those of the rig
@@ -94,6 +97,7 @@ class Trial {
 
   models::Setup setup_;
   TrialOptions options_;
+  std::unique_ptr<RealTime> real_time_;  // before the devices, whose threads are as this one
   Scene scene_;
   std::unique_ptr<sim::World> world_;
   sim::Truth unknown_;
@@ -110,6 +114,7 @@ class Trial {
   std::int64_t last_tick_ = 0;
   RecordWriter* record_ = nullptr;
   bool simulated_ = true;  // every slot
+  bool leads_ = false;     // the twin's machine follows one that is not simulated
 };
 
 }  // namespace enc::trial

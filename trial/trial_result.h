@@ -38,6 +38,7 @@ struct TrialResult {
   std::int64_t missed = 0;           // cycles that were lost to the wall clock
   Lateness lateness;                 // against the wall clock
   std::vector<DeviceWords> devices;  // real ones, as they describe themselves
+  std::string real_time;             // how the loop comes before other work; empty: not asked for
   std::vector<LostLink> links;       // the first 16 that were lost
   std::vector<std::string> log;      // what drivers said
 };

@@ -91,6 +91,12 @@ std::vector<std::string> drivers_there() {
   return names;
 }
 
+SceneOptions with_scene(const SceneOptions& options) {
+  SceneOptions with = options;
+  if (with.scene.empty()) with.scene = models::models_dir({}) + "/scenes/tennis_ball.toml";
+  return with;
+}
+
 models::Setup load_setup(const SceneOptions& options) {
   models::Setup setup = models::load(options.scene, options.rig, options.set);
   trial::read_driver_tables(

@@ -25,6 +25,8 @@ namespace enc::app {
 
 // Drivers alone: no other module of the program.
 [[nodiscard]] std::vector<std::string> drivers_there();
+// With the scene of the tennis ball, where none is named.
+[[nodiscard]] SceneOptions with_scene(const SceneOptions& options);
 // A set-up with the tables of its drivers read, as far as their modules are there.
 [[nodiscard]] models::Setup load_setup(const SceneOptions& options);
 

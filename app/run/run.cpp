@@ -103,6 +103,8 @@ int run(const RunOptions& options) {
   trial_options.pace = pace_of(options.pace);
   trial_options.drivers = load_module;
   trial_options.armed = options.armed;
+  trial_options.lockstep = options.lockstep;
+  trial_options.real_time = options.armed;
   trial_options.frames = options.frames;
   trial_options.stop = [] { return StopSignals::caught() != 0; };
   const bool terminal = isatty(STDERR_FILENO) != 0;

@@ -191,6 +191,11 @@ std::string run_json(const RunReport& r) {
   if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns);
   if (r.result.vision.frames > 0) json["vision"] = vision_json(r.result.vision);
   json["stability"] = stability_json(r.certificates);
+  if (!r.measured.felt.truth) {
+    json["felt_peak_N"] = number(r.measured.felt.peak);
+    json["felt_depth_mm"] = number(1e3 * r.measured.felt.deepest);
+  }
+  if (!r.result.real_time.empty()) json["real_time"] = r.result.real_time;
   json["simulated_s"] = r.result.simulated;
   json["wall_s"] = r.result.wall;
   json["times_real_time"] = number(r.result.simulated / r.result.wall);

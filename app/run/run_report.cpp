@@ -54,6 +54,11 @@ std::string range_text(const std::vector<trial::PressFigures>& presses) {
 
 std::string press_lines(const RunReport& r) {
   if (r.scene.impedance()) return "";
+  if (!r.measured.felt.truth)
+    return fmt::format(
+        "felt        peak {:.2f} N, {:.3f} mm deep, as the core knows them; what needs the truth is left "
+        "out, because not every device is simulated\n",
+        r.measured.felt.peak, 1e3 * r.measured.felt.deepest);
   const auto& presses = r.measured.presses.presses();
   const auto met = [](const trial::PressFigures& p) { return !std::isnan(p.miss); };
   if (std::none_of(presses.begin(), presses.end(), met)) return "";
@@ -282,6 +287,17 @@ std::string pushed_lines(const RunReport& r) {
                      peak(pushes, &trial::PressFigures::peak_deflection) * 1e3);
 }
 
+// Of a run that keeps the wall clock.
+std::string loop_line(const trial::TrialResult& result) {
+  std::string text;
+  if (!result.real_time.empty()) text += "real time   " + result.real_time + "\n";
+  if (result.period_ns.empty()) return text;
+  const StepTimes period = step_times(result.period_ns);
+  return text +
+         fmt::format("loop        from tick to tick p50 {:.3f}, p99 {:.3f}, p99.9 {:.3f}, max {:.3f} ms\n",
+                     period.p50 * 1e-6, period.p99 * 1e-6, period.p999 * 1e-6, period.max * 1e-6);
+}
+
 // Rates and jitter of the two loops; of the haptic one by the wall clock, where it keeps that.
 std::string vision_lines(const trial::TrialResult& result) {
   const trial::FrameTimes& vision = result.vision;
@@ -295,11 +311,7 @@ std::string vision_lines(const trial::TrialResult& result) {
       "{:.1f}, p99 {:.1f} ms\n",
       vision.rate(), vision.threaded ? "in a thread of its own" : "within the loop",
       ms(vision.intervals, 0.5), ms(vision.intervals, 0.99), ms(vision.ages, 0.5), ms(vision.ages, 0.99));
-  if (result.period_ns.empty()) return text;
-  const StepTimes period = step_times(result.period_ns);
-  return text +
-         fmt::format("loop        from tick to tick p50 {:.3f}, p99 {:.3f}, p99.9 {:.3f}, max {:.3f} ms\n",
-                     period.p50 * 1e-6, period.p99 * 1e-6, period.p999 * 1e-6, period.max * 1e-6);
+  return text;
 }
 
 }  // namespace
@@ -329,6 +341,7 @@ std::string run_text(const RunReport& r) {
     text += fmt::format("link        {} lost at {:.3f} s; it waits until the run is resumed\n", link.role,
                         seconds(link.t.time_since_epoch()));
   for (const std::string& line : r.result.log) text += "log         " + line + "\n";
+  text += loop_line(r.result);
   if (r.result.missed > 0)
     text += fmt::format("late        cycles lost to the wall clock: {}; stalls: {}, the longest {:.3f} s\n",
                         r.result.missed, r.result.lateness.times, r.result.lateness.longest);

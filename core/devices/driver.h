@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/devices/display.h"
@@ -15,6 +16,9 @@
 #include "core/world/rig_spec.h"
 
 namespace enc {
+
+class Fake;
+struct FakeOffer;
 
 // What a driver has to tell a person: printed when the run is over. From any thread, but never from read(),
 // poll(), command() or show(), which must not wait.
@@ -35,6 +39,9 @@ struct Offer {
   // The run waits for whoever is slow, so that it can be repeated; else it keeps the wall clock and nobody
   // may make it wait.
   bool waits = false;
+  // And what answers is a fake whose time goes on with the run's, a cycle with each set-point.
+  bool lockstep = false;
+  std::span<const std::string> tools{};  // names of the scene's, by index
 };
 
 template <class Role>
@@ -56,6 +63,8 @@ struct DriverModule {
   Maker<Gripper> gripper = nullptr;
   Maker<StereoCamera> camera = nullptr;  // for a tracker that looks through it: no role of the loop
   bool plays = false;                    // its devices play what was recorded: they need no wall clock
+  bool lockstep = false;                 // its devices can keep step with a fake (Offer::lockstep)
+  std::unique_ptr<Fake> (*fake)(const FakeOffer& offer) = nullptr;  // what stands in for them all (fake.h)
 };
 
 }  // namespace enc

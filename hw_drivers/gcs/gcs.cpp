@@ -2,12 +2,15 @@
 #include "core/module.h"
 #include "hw_drivers/gcs/drive/net_link.h"
 #include "hw_drivers/gcs/drive/settings.h"
+#include "hw_drivers/gcs/fake/server.h"
 
 namespace enc::gcs {
 namespace {
 
 constexpr DriverModule kDriver{.settings = [](Settings& table) { GcsSettings{}.declare(table); },
-                               .manipulator = connected};
+                               .manipulator = connected,
+                               .lockstep = true,
+                               .fake = served};
 constexpr ModuleInfo kInfo{.name = "gcs", .driver = &kDriver};
 
 }  // namespace

@@ -23,7 +23,8 @@ class Socket {
   [[nodiscard]] bool is_open() const noexcept { return descriptor_ >= 0; }
   // The other end has gone, or the network reports it unreachable. A socket of UDP is never closed.
   [[nodiscard]] bool closed() const noexcept { return closed_ || !is_open(); }
-  [[nodiscard]] std::uint16_t port() const noexcept;  // of this end; 0: none
+  [[nodiscard]] std::uint16_t port() const noexcept;                     // of this end; 0: none
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }  // to wait on; -1: none
 
   // How many bytes were taken; the rest is to be sent again. Of UDP: all or nothing.
   std::size_t send(std::span<const std::byte> bytes) noexcept;

@@ -5,18 +5,12 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/machine/servo.h"
 
 namespace enc::sim {
 namespace {
 
 constexpr double kTurnSpeed = 0.6;  // rad/s (sources/hexapod 1)
-
-Vec3 clipped(const Vec3& v, double longest) {
-  const double size = v.norm();
-  return size > longest ? Vec3(v * (longest / size)) : v;
-}
-
-Vec3 in_steps(const Vec3& p, double step) { return step > 0.0 ? Vec3((p / step).array().round() * step) : p; }
 
 }  // namespace
 
@@ -56,6 +50,7 @@ void HexapodPlant::command(const Pose<'R', 'H'>& X_RH) noexcept {
 }
 
 void HexapodPlant::begin_cycle() noexcept {
+  if (state_.led) return;
   Pending& pending = state_.pending;
   pending.line[static_cast<std::size_t>(pending.head % static_cast<std::int64_t>(kLongestDelay))] =
       state_.newest;
@@ -75,29 +70,27 @@ Pose<'R', 'H'> HexapodPlant::true_pose() const noexcept {
   return {Quat(state_.pose.q()), Vec3(state_.pose.p() + state_.play.e())};
 }
 
-// The servo's period in no less than 40 steps: a fast servo in one step would be quicker than it is.
-void HexapodPlant::move(double timestep) noexcept {
-  const double steps = std::max(1.0, std::ceil(40.0 * truth_.servo * timestep));
-  const Vec3 before = state_.velocity.e();
-  for (int i = 0; i < static_cast<int>(steps); ++i) {
-    follow_position(timestep / steps);
-    follow_rotation(timestep / steps);
-  }
-  state_.acceleration = Vec<'R'>(Vec3((state_.velocity.e() - before) / timestep));
-  const double gain = 1.0 - std::exp(-2.0 * std::numbers::pi * truth_.servo * timestep);
-  state_.play = state_.play + gain * (state_.play_due - state_.play);
+void HexapodPlant::lead(const TipSample& seen) noexcept {
+  if (!seen.X_RH.valid()) return;
+  state_.led = true;
+  state_.pose = state_.wanted = state_.newest = seen.X_RH;
+  state_.velocity = seen.velocity.finite() ? seen.velocity : Vec<'R'>::zero();
+  state_.acceleration = seen.acceleration.finite() ? seen.acceleration : Vec<'R'>::zero();
+  state_.turning = state_.play = Vec<'R'>::zero();
 }
 
-// Second order with limits; semi-implicit, so that it stays stable at the physics step.
-void HexapodPlant::follow_position(double timestep) noexcept {
-  const double w = 2.0 * std::numbers::pi * truth_.servo;
-  const Vec3 error = state_.wanted.p() - state_.pose.p();
-  const Vec3 pull =
-      clipped(w * w * error - 2.0 * truth_.damping * w * state_.velocity.e(), truth_.acceleration);
-  const Vec3 velocity = clipped(state_.velocity.e() + timestep * pull, truth_.speed);
-  state_.velocity = Vec<'R'>(velocity);
-  const Vec3 p = state_.pose.p() + timestep * velocity;
-  std::copy_n(p.data(), 3, state_.pose.xyz.begin());
+void HexapodPlant::move(double timestep) noexcept {
+  if (state_.led) return;
+  const ServoLaw law{truth_.servo, truth_.damping, truth_.speed, truth_.acceleration};
+  ServoMotion motion{state_.pose.p(), state_.velocity.e()};
+  follow(law, state_.wanted.p(), timestep, motion);
+  std::copy_n(motion.p.data(), 3, state_.pose.xyz.begin());
+  state_.velocity = Vec<'R'>(motion.velocity);
+  state_.acceleration = Vec<'R'>(motion.acceleration);
+  const int steps = servo_steps(law, timestep);
+  for (int i = 0; i < steps; ++i) follow_rotation(timestep / steps);
+  const double gain = 1.0 - std::exp(-2.0 * std::numbers::pi * truth_.servo * timestep);
+  state_.play = state_.play + gain * (state_.play_due - state_.play);
 }
 
 void HexapodPlant::follow_rotation(double timestep) noexcept {

@@ -34,6 +34,7 @@ class HexapodPlant {
     Vec<'R'> play = Vec<'R'>::zero(), play_due = Vec<'R'>::zero();
     Stream noise;
     Health health = Health::ok;
+    bool led = false;  // it is where lead() says, whatever it is told
   };
 
   HexapodPlant(const HexapodTruth& truth, std::uint64_t seed);
@@ -45,11 +46,12 @@ class HexapodPlant {
   // The set-point for the coming cycle. Not finite: refused (health fault). Out of reach: clamped on the way
   // (health out_of_range).
   void command(const Pose<'R', 'H'>& X_RH) noexcept;
+  // Another machine moves in its place and was seen so: from the next step on it is there.
+  void lead(const TipSample& seen) noexcept;
   void begin_cycle() noexcept;          // the command of `delay_cycles` ago becomes the servo's
   void move(double timestep) noexcept;  // servo over one physics step
 
  private:
-  void follow_position(double timestep) noexcept;
   void follow_rotation(double timestep) noexcept;
 
   HexapodTruth truth_;

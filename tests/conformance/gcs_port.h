@@ -6,6 +6,7 @@
 #include "hw_drivers/gcs/fake/server.h"
 #include "tests/support/default_offer.h"
 #include "tests/support/devices/following_machine.h"
+#include "tests/support/devices/served.h"
 #include "trial/device_log.h"
 
 namespace enc::test {
@@ -33,6 +34,7 @@ struct GcsPort {
   trial::DeviceLog log;
   FollowingMachine machine;
   gcs::Server server;
+  Served served{server};
 };
 
 }  // namespace enc::test

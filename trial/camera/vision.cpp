@@ -105,7 +105,7 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
     if (!offer.kept.empty()) exposed = exposures_in(offer.kept);
     auto camera = simulated ? twin_camera(setup, modules, *offer.world, offer.seed)
                             : driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera",
-                                            setup, modules, offer.log, offer.waits);
+                                            setup, modules, offer.log, Keeping{offer.waits});
     if (!offer.keep.empty())
       camera = std::make_unique<KeepingCamera>(std::move(camera), offer.keep,
                                                *static_cast<const FrameFiles*>(modules("images").frames));

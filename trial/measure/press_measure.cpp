@@ -122,7 +122,7 @@ void PressMeasure::watch_outside(std::int32_t object, double deflection) {
 
 void PressMeasure::see(const Glance& glance) {
   const sim::Truth& truth = glance.truth;
-  if (truth.press < 0 || glance.scene.objects.empty()) return;
+  if (!glance.simulated || truth.press < 0 || glance.scene.objects.empty()) return;
   const std::size_t index = glance.out.object >= 0 ? static_cast<std::size_t>(glance.out.object) : 0;
   const Object& object = glance.scene.objects[index];
   const stages::NearestInWorld at_tip = stages::nearest(object, truth.tip);
@@ -143,7 +143,7 @@ void PressMeasure::see(const Glance& glance) {
     meet(glance, *press, at_tool.normal.e(), at_tool.distance - truth.tool_radius);
     const double force = -dot(truth.contact_force, at_tip.normal);
     compare(glance, *press, object, deflection, force);
-    if (!glance.scene.impedance() && glance.simulated) judge_law(glance, object, deflection, force);
+    if (!glance.scene.impedance()) judge_law(glance, object, deflection, force);
   }
   contacts_before_ = glance.out.contacts;
   mode_before_ = glance.out.mode;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/error_text.h"
@@ -9,6 +10,7 @@
 namespace enc::gcs {
 namespace {
 
+constexpr int kMostWaiting = 2;                 // points in the controller's buffer
 constexpr Duration kNever{-3'600'000'000'000};  // so long ago that everything is due
 
 // What the core is to believe of a machine that answered with this number.
@@ -20,19 +22,29 @@ Health health_of(int error) noexcept {
 }  // namespace
 
 std::string_view words_of(Loss loss) noexcept {
-  constexpr std::array<std::string_view, 5> kWords{"linked", "no answer in time", "closed by the controller",
-                                                   "an answer that is none", "a fault of the machine"};
+  constexpr std::array<std::string_view, 8> kWords{
+      "linked",
+      "no answer in time",
+      "closed by the controller",
+      "an answer that is none",
+      "a fault of the machine",
+      "a servo is off",
+      "it did not take driver.gcs.velocity_mm_s",
+      "it did not take driver.gcs.path with driver.gcs.cycle_ms"};
   return kWords[static_cast<std::size_t>(loss)];
 }
 
 Conversation::Conversation(const GcsSettings& settings, const Stand& stand, const Coordinates& at,
-                           Duration now)
+                           Duration now, double fastest)
     : timeout_(from_seconds(settings.timeout)),
       cycle_(from_seconds(settings.cycle)),
       poll_(from_seconds(settings.poll)),
       watchdog_(from_seconds(settings.watchdog)),
+      fastest_(fastest),
       velocity_(settings.velocity),
+      by_points_(settings.path == "points"),
       stand_(stand),
+      at_(at),
       moved_(kNever),
       asked_(kNever),
       from_t_(now) {
@@ -44,11 +56,6 @@ Conversation::Conversation(const GcsSettings& settings, const Stand& stand, cons
 
 void Conversation::lose(Loss loss) noexcept {
   if (loss_ == Loss::none) loss_ = loss;
-}
-
-void Conversation::told(const Order& order) noexcept {
-  fresh_ = order.given;
-  order_ = order;
 }
 
 std::string_view Conversation::send(Duration now) noexcept {
@@ -63,38 +70,68 @@ std::string_view Conversation::send(Duration now) noexcept {
   return out_.view();
 }
 
-// Also while an answer is awaited: a stop waits for nobody.
+// Also while an answer is awaited: a stop waits for nobody. One that overtook a set-point on the way goes
+// once more when that is answered.
 void Conversation::add_stop(Duration now) noexcept {
   const bool asked = order_.stops != report_.stops;
-  const bool silent = moving_ && now - fresh_ >= watchdog_;
-  if (!asked && !silent) return;
+  const bool silent = moving_ && now - order_.given >= watchdog_;
+  const bool again = overtaken_ && awaiting_ == Awaiting::nothing;
+  if (!asked && !silent && !again) return;
   out_.add(kStopByte);
   if (silent && !asked) {
     ++watchdogs_;
     sent_ = order_.number;
   }
+  overtaken_ = awaiting_ != Awaiting::nothing && carries_move_;
   report_.stops = order_.stops;
   moving_ = false;
   stopped_us_ = true;
   after_stop_ = false;
 }
 
+// The velocity is told and read back before the first set-point goes.
 void Conversation::add_question(Duration now) noexcept {
-  carries_velocity_ = false;
-  carries_move_ =
-      order_.number > std::max(sent_, order_.stopped) && now - moved_ >= cycle_ && now - fresh_ < watchdog_;
-  if (carries_move_) {
-    carries_velocity_ = velocity_ > 0.0;
-    if (carries_velocity_) add_velocity(out_, velocity_);
-    velocity_ = 0.0;
-    carries_move_ = add_move(out_, order_.to);
+  carries_move_ = false;
+  if (ask_servos_) return ask("SVO?", Awaiting::servos, now);
+  const bool move = order_.number > std::max(sent_, order_.stopped) && now - moved_ >= cycle_ &&
+                    now - order_.given < watchdog_;
+  if (move && velocity_ > 0.0) {
+    add_velocity(out_, velocity_);
+    return ask("VLS?", Awaiting::velocity, now);
+  }
+  if (move && !path_told_) {
+    by_points_ ? add_points(out_, seconds(cycle_)) : add_own_path(out_);
+    return ask("SPA? X 0x19001900", Awaiting::path, now);
+  }
+  // Points that wait make it late: while some do, the newest waits here, where it is overtaken.
+  const bool full = by_points_ && room_ < most_room_ - kMostWaiting;
+  if (move && !full) {
+    point_ = next_point(now);
+    carries_move_ = add_move(out_, point_);
     moving_ = moving_ || carries_move_;
     sent_ = order_.number;
     moved_ = now;
   }
-  add_line(out_, "POS?");
+  if (by_points()) out_.add(kRoomByte);
+  ask("POS?", by_points() ? Awaiting::room : Awaiting::position, now);
+}
+
+// On the way to the set-point, as far as it gets in the time since the last one.
+Coordinates Conversation::next_point(Duration now) const noexcept {
+  if (!by_points_) return order_.to;
+  const Coordinates& from = moving_ ? point_ : at_;
+  const double time = seconds(moving_ ? std::max(cycle_, now - moved_) : cycle_);
+  const double most = fastest_ * time, way = distance(from, order_.to);
+  if (!(way > most)) return order_.to;
+  Coordinates to = from;
+  for (std::size_t i = 0; i < kAxes; ++i) to[i] += (order_.to[i] - from[i]) * (most / way);
+  return to;
+}
+
+void Conversation::ask(std::string_view line, Awaiting what, Duration now) noexcept {
+  add_line(out_, line);
   add_line(out_, "ERR?");
-  awaiting_ = Awaiting::position;
+  awaiting_ = what;
   asked_ = now;
   after_stop_ = stopped_us_;
 }
@@ -108,12 +145,26 @@ bool Conversation::take(std::string_view bytes, Duration now) noexcept {
       break;
     }
     if (!reader_.complete()) break;
-    if (awaiting_ == Awaiting::position) {
-      take_position(now);
-    } else {
-      take_error();
-      longest_ = std::max(longest_, now - asked_);
-      ++answers_;
+    switch (awaiting_) {
+      case Awaiting::room:
+        take_room();
+        break;
+      case Awaiting::position:
+        take_position(now);
+        break;
+      case Awaiting::velocity:
+        take_velocity();
+        break;
+      case Awaiting::path:
+        take_path();
+        break;
+      case Awaiting::servos:
+        take_servos();
+        break;
+      default:
+        take_error();
+        longest_ = std::max(longest_, now - asked_);
+        ++answers_;
     }
     reader_.next();
     news = true;
@@ -124,7 +175,8 @@ bool Conversation::take(std::string_view bytes, Duration now) noexcept {
 void Conversation::take_position(Duration now) noexcept {
   Coordinates wire{};
   if (!read_axes(reader_.answer(), kAxisNames, wire)) return lose(Loss::garbled);
-  report_.X_RH = pose_of(from_wire_units(wire), stand_);
+  at_ = from_wire_units(wire);
+  report_.X_RH = pose_of(at_, stand_);
   report_.t = asked_ + (now - asked_) / 2;
   // Over a cycle at least: between two questions the time itself is not known well enough.
   if (report_.t - from_t_ >= cycle_) {
@@ -132,6 +184,41 @@ void Conversation::take_position(Duration now) noexcept {
     from_ = report_.X_RH.p();
     from_t_ = report_.t;
   }
+  awaiting_ = Awaiting::error;
+}
+
+void Conversation::take_velocity() noexcept {
+  constexpr double kShare = 1e-3;  // a controller may round it
+  double said = 0.0;
+  if (!read_single(reader_.answer(), said)) return lose(Loss::garbled);
+  if (!(std::abs(metres(said) - velocity_) <= kShare * velocity_)) return lose(Loss::velocity);
+  velocity_ = 0.0;
+  awaiting_ = Awaiting::error;
+}
+
+void Conversation::take_room() noexcept {
+  if (!read_error(reader_.answer(), room_) || room_ < 0) return lose(Loss::garbled);
+  most_room_ = std::max(most_room_, room_);
+  awaiting_ = Awaiting::position;
+}
+
+// "X 0x19001900=1"
+void Conversation::take_path() noexcept {
+  const std::string_view said = reader_.answer();
+  double source = kUnset;
+  if (!read_single(said.substr(std::min(said.find('=') + 1, said.size())), source))
+    return lose(Loss::garbled);
+  if (source != (by_points_ ? 1.0 : 0.0)) return lose(Loss::path);
+  path_told_ = true;
+  awaiting_ = Awaiting::error;
+}
+
+void Conversation::take_servos() noexcept {
+  Coordinates on{};
+  if (!read_axes(reader_.answer(), kAxisNames, on)) return lose(Loss::garbled);
+  if (std::any_of(on.begin(), on.end(), [](double axis) { return axis != 1.0; }))
+    return lose(Loss::servo_off);
+  ask_servos_ = false;
   awaiting_ = Awaiting::error;
 }
 
@@ -143,14 +230,16 @@ void Conversation::take_error() noexcept {
   awaiting_ = Awaiting::nothing;
   const bool ours = error == kStopped && stopped_us_;
   if (ours || after_stop_) stopped_us_ = false;
-  if (ours) error = kNoError;
+  if (ours) {
+    error = kNoError;
+    ask_servos_ = true;  // a fault between would have switched them off, and its number is gone
+  }
   if (error != kNoError) {
     report_.error = error;
     ++report_.errors;
   }
   if (error != kNoError || carries_move_) report_.health = health_of(error);
-  // Nor does one that would not take the velocity: it would go with another one.
-  if (report_.health == Health::fault || (error != kNoError && carries_velocity_)) lose(Loss::fault);
+  if (report_.health == Health::fault) lose(Loss::fault);
 }
 
 }  // namespace enc::gcs

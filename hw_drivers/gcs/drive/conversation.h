@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "core/sample.h"
@@ -22,7 +23,7 @@ struct Order {
   Duration given{};  // of the drivers' clock, when the loop gave it: not when this side saw it
 };
 
-enum class Loss : std::uint8_t { none, silent, closed, garbled, fault };
+enum class Loss : std::uint8_t { none, silent, closed, garbled, fault, servo_off, velocity, path };
 [[nodiscard]] std::string_view words_of(Loss loss) noexcept;
 
 // The newest that the machine said.
@@ -38,9 +39,11 @@ struct Report {
 
 class Conversation {
  public:
-  Conversation(const GcsSettings& settings, const Stand& stand, const Coordinates& at, Duration now);
+  // `fastest`: of the platform, m/s. No point is farther from the last one than that, however the loop leaps.
+  Conversation(const GcsSettings& settings, const Stand& stand, const Coordinates& at, Duration now,
+               double fastest = std::numeric_limits<double>::infinity());
 
-  void told(const Order& order) noexcept;
+  void told(const Order& order) noexcept { order_ = order; }
   // What is to be sent now; often nothing. It stays until the next call.
   [[nodiscard]] std::string_view send(Duration now) noexcept;
   // True where the report is new.
@@ -50,32 +53,47 @@ class Conversation {
   [[nodiscard]] const Report& report() const noexcept { return report_; }
   [[nodiscard]] Loss loss() const noexcept { return loss_; }
   [[nodiscard]] bool moving() const noexcept { return moving_; }  // told to, and not stopped since
+  // The controller was told that its path is made of points.
+  [[nodiscard]] bool by_points() const noexcept { return by_points_ && path_told_; }
   [[nodiscard]] Duration longest_answer() const noexcept { return longest_; }
   [[nodiscard]] std::int64_t answers() const noexcept { return answers_; }
   [[nodiscard]] std::int64_t watchdogs() const noexcept { return watchdogs_; }
 
  private:
-  enum class Awaiting : std::uint8_t { nothing, position, error };
+  // What the question under way asks for; each is followed by ERR?.
+  enum class Awaiting : std::uint8_t { nothing, room, position, velocity, path, servos, error };
 
   void lose(Loss loss) noexcept;
   void add_stop(Duration now) noexcept;
   void add_question(Duration now) noexcept;
+  [[nodiscard]] Coordinates next_point(Duration now) const noexcept;
+  void ask(std::string_view line, Awaiting what, Duration now) noexcept;
   void take_position(Duration now) noexcept;
+  void take_room() noexcept;
+  void take_velocity() noexcept;
+  void take_path() noexcept;
+  void take_servos() noexcept;
   void take_error() noexcept;
 
   Duration timeout_, cycle_, poll_, watchdog_;
+  double fastest_;   // m/s
   double velocity_;  // to be told once, m/s; 0: not, or no more
+  bool by_points_;
+  bool path_told_ = false;          // and read back
+  int room_ = -1, most_room_ = -1;  // of the buffer of points, when it was asked last; with none in it
   Stand stand_;
   AnswerReader reader_;
   Text out_;
   Order order_;
-  Duration fresh_{};        // when the newest set-point was given
-  std::int64_t sent_ = 0;   // number of the set-point that was sent last
-  Duration moved_, asked_;  // when the last set-point and question went
+  Coordinates at_{}, point_{};  // where it was said to be, and the last point that was sent
+  std::int64_t sent_ = 0;       // number of the set-point that was sent last
+  Duration moved_, asked_;      // when the last set-point and question went
   bool moving_ = false;
-  bool stopped_us_ = false;  // our own stop is the reason of an error 10 that is still to come
-  bool carries_move_ = false, carries_velocity_ = false;  // the question under way
-  bool after_stop_ = false;                               // the question under way went after that stop
+  bool stopped_us_ = false;    // our own stop is the reason of an error 10 that is still to come
+  bool carries_move_ = false;  // the question under way
+  bool overtaken_ = false;     // a stop went after it: it may be carried out after that
+  bool after_stop_ = false;    // the question under way went after that stop
+  bool ask_servos_ = false;    // our stop took the place of whatever error was there
   Awaiting awaiting_ = Awaiting::nothing;
   Report report_;
   Vec3 from_;  // where and when velocity is counted from

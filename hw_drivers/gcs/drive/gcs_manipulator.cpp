@@ -8,15 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "hw_drivers/gcs/wire/answer.h"
 #include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/error_text.h"
 
 namespace enc::gcs {
 namespace {
 
-constexpr Duration kAnswer{1'000'000'000};  // to a question before the run: some take the controller longer
-constexpr Duration kTurn{1'000'000};        // of the thread, where nothing comes
+constexpr Duration kTurn{1'000'000};  // of the thread, where nothing comes
 constexpr Duration kStopTime{100'000'000};
 
 Health worse(Health a, Health b) noexcept {
@@ -26,146 +24,111 @@ Health worse(Health a, Health b) noexcept {
 
 }  // namespace
 
-GcsManipulator::GcsManipulator(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link)
-    : settings_(settings),
-      log_(offer.log),
-      link_(std::move(link)),
-      found_(inspect([this](std::string_view line) { return ask(line); }, settings_, offer.reach)),
-      reach_(offer.reach),
-      accelerations_(seconds(offer.period), offer.reach.acceleration) {
+GcsManipulator::GcsManipulator(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link,
+                               Turns turns)
+    : machine_(offer, settings, std::move(link)),
+      conversation_(settings, machine_.found().stand, machine_.found().at, machine_.link().now(),
+                    machine_.found().velocity) {
   constexpr double kCycles = 3.0;  // with fewer it stops at each that is late, and goes on
-  if (settings_.watchdog < kCycles * seconds(offer.period) - 1e-9)
-    throw Error(
-        fmt::format("{}: watchdog_ms is {:g}, and the loop's cycle takes {:g} ms; expected at least "
-                    "{:g} of them",
-                    settings_.place(), 1e3 * settings_.watchdog, 1e3 * seconds(offer.period), kCycles),
-        {}, ErrorKind::device);
-  reach_.speed = found_.velocity;
-  if (found_.left_over != kNoError)
-    log_.say(fmt::format("{}: had {}, before anything was told", describe(), error_words(found_.left_over)));
-  report_.X_RH = pose_ = pose_of(found_.at, found_.stand);
+  if (settings.watchdog < kCycles * seconds(offer.period) - 1e-9)
+    throw Error(fmt::format("{}: watchdog_ms is {:g}, and the loop's cycle takes {:g} ms; expected at least "
+                            "{:g} of them",
+                            settings.place(), 1e3 * settings.watchdog, 1e3 * seconds(offer.period), kCycles),
+                {}, ErrorKind::device);
+  if (machine_.found().lockstep)
+    throw Error(machine_.describe() +
+                    ": its time goes on with each set-point; add --lockstep, or begin the fake without",
+                {}, ErrorKind::device);
+  report_.X_RH = machine_.at_first();
   report_.velocity = Vec<'R'>::zero();
-  report_.t = link_->now();
-  thread_ = std::thread([this] { talk(); });
+  report_.t = machine_.link().now();
+  if (turns == Turns::thread) thread_ = std::thread([this] { talk(); });
 }
 
 GcsManipulator::~GcsManipulator() {
   if (order_.number > 0) stop();
   end_ = true;
-  thread_.join();
-}
-
-// Before the thread begins: waits for the answer.
-std::string GcsManipulator::ask(std::string_view line) {
-  const auto failed = [&](const std::string& what) {
-    return Error(fmt::format("{}: {}", settings_.place(), what), {}, ErrorKind::device);
-  };
+  if (thread_.joinable()) thread_.join();
+  if (!conversation_.by_points() || !linked_) return;
   Text text;
-  add_line(text, line);
-  std::string_view unsent = text.view();
-  AnswerReader reader;
-  std::array<char, kMostText> bytes{};
-  for (const Duration until = link_->now() + kAnswer; !reader.complete(); link_->wait(kTurn)) {
-    unsent.remove_prefix(link_->send(unsent));
-    const std::string_view more(bytes.data(), link_->receive(bytes));
-    if (reader.take(more) != more.size() || reader.overflown())
-      throw failed(fmt::format("said more than an answer to {}; see that it is a C-887", line));
-    if (reader.complete()) break;
-    if (link_->closed())
-      throw failed("closed the connection; close other clients (PIMikroMove) and try again");
-    if (link_->now() > until)
-      throw failed(fmt::format("no answer to {} within {:.0f} ms; see that it is a C-887, and ready", line,
-                               1e3 * seconds(kAnswer)));
-  }
-  return std::string(reader.answer());
-}
-
-std::string GcsManipulator::describe() const {
-  return fmt::format("{} at {}, firmware {}, referenced", found_.identity, settings_.place(),
-                     found_.firmware.empty() ? "unknown" : found_.firmware);
+  add_own_path(text);  // as it was found
+  static_cast<void>(machine_.link().send(text.view()));
 }
 
 Stamped<TipSample> GcsManipulator::read(Time now) noexcept {
+  if (!thread_.joinable()) turn();
   if (reports_.read(report_) || !read_) {
     // How old it is is taken off once, when it is new; it never is from the time to come.
-    const Duration old = std::max(Duration{}, link_->now() - report_.t);
+    const Duration old = std::max(Duration{}, machine_.link().now() - report_.t);
     stamp_ = read_ ? std::max(stamp_, now - old) : now - old;
     read_ = true;
   }
-  const Health health = linked() ? worse(health_, report_.health) : Health::fault;
-  return {{report_.X_RH, report_.velocity, acceleration_}, stamp_, health};
+  const Health health = linked() ? worse(machine_.aim().health, report_.health) : Health::fault;
+  return {{report_.X_RH, report_.velocity, machine_.acceleration()}, stamp_, health};
 }
 
 void GcsManipulator::command(const Pose<'R', 'H'>& X_RH) noexcept {
-  health_ = Health::fault;  // not a number, or not a rotation: refused, and said
-  acceleration_ = Vec<'R'>::zero();
-  Coordinates to{};
-  if (!X_RH.valid() || !coordinates_of(clamped(reach_, pose_, X_RH), found_.stand, to))
-    return accelerations_.stand();
-  // Within the struts, and within what the controller takes on each axis.
-  const bool beyond = found_.travel.clamp(to);
-  health_ = !beyond && reach_.contains(X_RH) ? Health::ok : Health::out_of_range;
-  pose_ = pose_of(to, found_.stand);
-  acceleration_ = accelerations_.next(pose_.p());
+  const Aim& aim = machine_.aim(X_RH);
+  if (aim.health == Health::fault) return;
   ++order_.number;
-  told_ = true;
-  order_.to = to;
-  order_.given = link_->now();
+  order_.to = aim.to;
+  order_.given = machine_.link().now();
   orders_.write(order_);
+  if (!thread_.joinable()) turn();
 }
 
 void GcsManipulator::stop() noexcept {
   ++order_.stops;
   order_.stopped = order_.number;
   orders_.write(order_);
-  acceleration_ = Vec<'R'>::zero();
-  accelerations_.stand();
-  for (const Duration until = link_->now() + kStopTime;
-       stops_sent_ < order_.stops && linked() && link_->now() < until;)
+  machine_.stand();
+  if (!thread_.joinable()) turn();
+  for (const Duration until = machine_.link().now() + kStopTime;
+       stops_sent_ < order_.stops && linked() && machine_.link().now() < until;)
     std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
 
 void GcsManipulator::talk() noexcept {
-  Conversation conversation(settings_, found_.stand, found_.at, link_->now());
-  Order order;
-  std::array<char, kMostText> bytes{};
-  std::string_view unsent;
-  int said = kNoError;
-  while (!end_ && conversation.loss() == Loss::none) {
-    // What has come is taken first: after a pause of the process it is no late answer.
-    const std::size_t got = link_->receive(bytes);
-    if (conversation.take({bytes.data(), got}, link_->now())) publish(conversation, said);
-    if (got == 0 && link_->closed()) conversation.closed();
-    if (orders_.read(order)) conversation.told(order);
-    // Only when all is gone, so that a line is never cut by the next one.
-    if (unsent.empty()) unsent = conversation.send(link_->now());
-    unsent.remove_prefix(link_->send(unsent));
-    if (unsent.empty()) stops_sent_ = conversation.report().stops;
-    link_->wait(kTurn);
-  }
+  while (!end_ && turn()) machine_.link().wait(kTurn);
+  if (conversation_.loss() != Loss::none) return;
   // A stop that was asked for while this thread had no turn still goes.
-  if (orders_.read(order)) conversation.told(order);
-  if (unsent.empty() && conversation.loss() == Loss::none) unsent = conversation.send(link_->now());
-  static_cast<void>(link_->send(unsent));
-  if (conversation.loss() != Loss::none) lose(conversation.loss());
+  if (orders_.read(newest_)) conversation_.told(newest_);
+  if (unsent_.empty()) unsent_ = conversation_.send(machine_.link().now());
+  static_cast<void>(machine_.link().send(unsent_));
 }
 
-void GcsManipulator::publish(const Conversation& conversation, int& said) noexcept {
-  const Report& report = conversation.report();
+bool GcsManipulator::turn() noexcept {
+  if (!linked_) return false;
+  Link& link = machine_.link();
+  // What has come is taken first: after a pause of the process it is no late answer.
+  const std::size_t got = link.receive(bytes_);
+  if (conversation_.take({bytes_.data(), got}, link.now())) publish();
+  if (got == 0 && link.closed()) conversation_.closed();
+  if (orders_.read(newest_)) conversation_.told(newest_);
+  // Only when all is gone, so that a line is never cut by the next one.
+  if (unsent_.empty()) unsent_ = conversation_.send(link.now());
+  unsent_.remove_prefix(link.send(unsent_));
+  if (unsent_.empty()) stops_sent_ = conversation_.report().stops;
+  if (conversation_.loss() != Loss::none) lose(conversation_.loss(), newest_.number > 0);
+  return linked_;
+}
+
+void GcsManipulator::publish() noexcept {
+  const Report& report = conversation_.report();
   reports_.write(report);
-  answers_ = conversation.answers();
-  watchdogs_ = conversation.watchdogs();
-  longest_ = conversation.longest_answer().count();
+  answers_ = conversation_.answers();
+  watchdogs_ = conversation_.watchdogs();
+  longest_ = conversation_.longest_answer().count();
   const int error = report.health == Health::ok ? kNoError : report.error;
-  if (error != kNoError && error != said) log_.say(fmt::format("{} met {}", describe(), error_words(error)));
-  if (error != kNoError) said = error;
+  if (error != kNoError && error != said_) machine_.say(fmt::format(" met {}", error_words(error)));
+  if (error != kNoError) said_ = error;
 }
 
 // For good. Where it still hears us it is told to stand.
-void GcsManipulator::lose(Loss loss) noexcept {
-  static_cast<void>(link_->send(std::string_view(&kStopByte, told_ ? 1 : 0)));
+void GcsManipulator::lose(Loss loss, bool told) noexcept {
+  static_cast<void>(machine_.link().send(std::string_view(&kStopByte, told ? 1 : 0)));
   linked_ = false;
-  log_.say(fmt::format("{} lost: {}; see to it, then begin a new run", describe(), words_of(loss)));
+  machine_.say(fmt::format(" lost: {}; see to it, then begin a new run", words_of(loss)));
 }
 
 std::vector<std::string> GcsManipulator::remarks() const {
@@ -174,7 +137,7 @@ std::vector<std::string> GcsManipulator::remarks() const {
                                              1e3 * seconds(Duration(longest_.load())))};
   if (const std::int64_t times = watchdogs_; times > 0)
     lines.push_back(fmt::format("{}: stopped {} times: the loop was silent for {:g} ms", describe(), times,
-                                1e3 * settings_.watchdog));
+                                1e3 * machine_.settings().watchdog));
   return lines;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "hw_drivers/gcs/wire/answer.h"
+#include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/error_text.h"
 
 namespace enc::gcs {
@@ -54,10 +55,22 @@ struct Inspector {
   }
 
   void identify(Found& found);
+  void plain() const;
   void ready() const;
   void able(Found& found) const;
   Travel far_enough(const Stand& stand) const;
 };
+
+// "X=MM \n ... W=DEG\n"
+bool has_units(std::string_view answer) {
+  for (const char axis : kAxisNames) {
+    const std::size_t at = answer.find(std::string{axis, '='});
+    if (at == std::string_view::npos) return false;
+    const std::string_view unit = answer.substr(at + 2, answer.find('\n', at) - at - 2);
+    if (trimmed(unit) != (kAxisNames.find(axis) < 3 ? "MM" : "DEG")) return false;
+  }
+  return true;
+}
 
 // -1: older, 1: newer; parts that are no numbers count as 0.
 int compared(std::string_view is, std::string_view least) {
@@ -90,6 +103,7 @@ void Inspector::identify(Found& found) {
   }
   found.identity = fields[1].empty() ? shown(answer) : fields[1] + " " + fields[2];
   found.firmware = fields[3];
+  found.lockstep = answer.find(kLockstep) != std::string::npos;
   name = found.identity + " at " + settings.place();
   if (!settings.firmware.empty() && compared(found.firmware, settings.firmware) < 0)
     refuse(fmt::format("{} has firmware '{}', older than {}; update it or lower driver.gcs.firmware", name,
@@ -97,6 +111,39 @@ void Inspector::identify(Found& found) {
   double version = kUnset;
   if (const std::string said = ask("CSV?"); !read_single(said, version) || version != 2.0)
     refuse(fmt::format("{} speaks GCS '{}', not 2.0; another driver is needed", name, shown(said)));
+}
+
+// What is said in mm and degrees, along the axes that the controller has by itself, to a profile generator of
+// its own.
+void Inspector::plain() const {
+  if (const std::string said = ask("CST?"); said.find(settings.stage) == std::string::npos)
+    refuse(
+        fmt::format("{} drives another machine: it answered '{}' to CST?, expected '{}'; correct "
+                    "driver.gcs.address or driver.gcs.stage",
+                    name, shown(said), settings.stage));
+  if (const std::string said = ask("PUN?"); !has_units(said))
+    refuse(
+        fmt::format("{} has other units: it answered '{}' to PUN?, expected MM for X Y Z and DEG for U V "
+                    "W; set them so",
+                    name, shown(said)));
+  if (const std::string said = ask("KEN?"); !trimmed(said).starts_with("ZERO="))
+    refuse(
+        fmt::format("{} works in another coordinate system: it answered '{}' to KEN?, expected ZERO; send "
+                    "KEN ZERO",
+                    name, shown(said)));
+  constexpr std::string_view kSource = "SPA? X 0x19001900";
+  const std::string said = ask(kSource);
+  const std::size_t equals = said.find('=');
+  double source = kUnset;
+  if (equals == std::string::npos || !read_single(std::string_view(said).substr(equals + 1), source) ||
+      (source != 0.0 && source != 1.0))
+    refuse(
+        fmt::format("{} takes its path from elsewhere: it answered '{}' to {}, expected 0 or 1; send SPA "
+                    "X 0x19001900 0",
+                    name, shown(said), kSource));
+  if (const std::string moving = ask("\x05"); trimmed(moving) != "0")
+    refuse(fmt::format("{} moves: it answered '{}' to #5, expected 0; stop it (STP), and see who told it",
+                       name, shown(moving)));
 }
 
 void Inspector::ready() const {
@@ -158,6 +205,7 @@ Found inspect(const Ask& ask, const GcsSettings& settings, const Reach& promised
   Inspector inspector{ask, settings, promised};
   inspector.identify(found);
   found.left_over = inspector.error();
+  inspector.plain();
   inspector.ready();
   inspector.able(found);
   if (const int number = inspector.error(); number != kNoError)

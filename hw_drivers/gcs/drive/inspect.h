@@ -20,8 +20,9 @@ struct Found {
   double velocity = kUnset;  // of the platform, m/s
   Stand stand;
   Travel travel;
-  Coordinates at{};   // where it stands
-  int left_over = 0;  // an error that was there before
+  Coordinates at{};       // where it stands
+  int left_over = 0;      // an error that was there before
+  bool lockstep = false;  // a fake whose time goes on with each set-point, and not by itself
 };
 
 // Throws Error (kind device): another device, not referenced, a servo off, or less than the rig promises.

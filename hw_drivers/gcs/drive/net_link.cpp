@@ -1,6 +1,7 @@
 #include "hw_drivers/gcs/drive/net_link.h"
 
 #include "hw_drivers/gcs/drive/gcs_manipulator.h"
+#include "hw_drivers/gcs/drive/lockstep_manipulator.h"
 
 namespace enc::gcs {
 
@@ -10,7 +11,9 @@ std::unique_ptr<Manipulator> connected(const Offer& offer) {
   settings.declare(offer.table);
   net::Socket socket =
       net::connect_tcp(settings.address, static_cast<std::uint16_t>(settings.port), kConnect);
-  return std::make_unique<GcsManipulator>(offer, settings, std::make_unique<NetLink>(std::move(socket)));
+  auto link = std::make_unique<NetLink>(std::move(socket));
+  if (offer.lockstep) return std::make_unique<LockstepManipulator>(offer, settings, std::move(link));
+  return std::make_unique<GcsManipulator>(offer, settings, std::move(link));
 }
 
 }  // namespace enc::gcs

@@ -7,6 +7,10 @@
 namespace enc::gcs {
 namespace {
 
+std::array<double, 3> in_millimetres(const Vec3& p) {
+  return {millimetres(p.x()), millimetres(p.y()), millimetres(p.z())};
+}
+
 std::array<bool, kAxes> same(bool value) { return {value, value, value, value, value, value}; }
 
 constexpr std::array<std::string_view, kAxes> kUnits{"MM", "MM", "MM", "DEG", "DEG", "DEG"};
@@ -31,6 +35,7 @@ std::span<const Commands::Entry> Commands::all() noexcept {
        [](Of of, Rest rest) { of.say_flags(rest, same(of.referenced_)); }},
       {"HLP?", "Get List Of Available Commands", help},
       {"HLT", "[{<AxisID>}] Halt Motion Smoothly", halt},
+      {"KEN?", "[{<CSName>}] Get Enabled Coordinate Systems", [](Of of, Rest) { of.say("ZERO=KSD"); }},
       {"MOV", "{<AxisID> <Position>} Set Target Position", move},
       {"MOV?", "[{<AxisID>}] Get Target Position",
        [](Of of, Rest rest) { of.say_axes(rest, kAxisNames, of.shown(of.profile_.aim())); }},
@@ -46,12 +51,18 @@ std::span<const Commands::Entry> Commands::all() noexcept {
          if (const Rest word = next_word(rest); of.wrong(!word.empty() && word != "ALL", kSyntax)) return;
          of.answer_ += "X \nY \nZ \nU \nV \nW\n";
        }},
+      {"SCT", "T <Time> Set Cycle Time, ms", cycle_time},
+      {"SCT?", "[T] Get Cycle Time, ms",
+       [](Of of, Rest) {
+         Text text;
+         of.say(text.add("T=").add(1e3 * of.points_cycle_).view());
+       }},
+      {"SPA", "{<ItemID> <PamID> <PamValue>} Set Volatile Memory Parameters", set_parameter},
+      {"SPA?", "[{<ItemID> <PamID>}] Get Volatile Memory Parameters", parameter},
       {"SPI", "{<PPCoordinate> <Position>} Set Pivot Point", pivot},
       {"SPI?", "[{<PPCoordinate>}] Get Pivot Point",
        [](Of of, Rest rest) {
-         const Vec3& p = of.stand_.pivot;
-         const std::array values{millimetres(p.x()), millimetres(p.y()), millimetres(p.z())};
-         of.say_axes(rest, kPivotNames, values);
+         of.say_axes(rest, kPivotNames, in_millimetres(of.stand_.pivot));
        }},
       {"SSN?", "Get Device Serial Number", [](Of of, Rest) { of.say("119000000"); }},
       {"STP", "Stop All Axes", [](Of of, Rest) { of.stop(kAbrupt); }},
@@ -78,8 +89,8 @@ void Commands::help(Controller& of, std::string_view) {
   for (const std::string_view byte :
        {"#3 Get Real Position \n", "#4 Request Status Register \n", "#5 Request Motion Status \n",
         "#6 Query If Position Has Changed Since Last #6 \n", "#7 Request Controller Ready Status \n",
-        "#8 Query If Macro Is Running \n", "#9 Get Wave Generator Status \n", "#24 Stop All Axes \n",
-        "#27 System Abort \n"})
+        "#8 Query If Macro Is Running \n", "#9 Get Wave Generator Status \n",
+        "#11 Get Memory Space Of Trajectory Points \n", "#24 Stop All Axes \n", "#27 System Abort \n"})
     of.answer_ += byte;
   for (const Entry& one : all()) of.answer_.append(one.word).append(" ").append(one.help).append(" \n");
   of.say("end of help");
@@ -95,7 +106,7 @@ void Commands::go(Controller& of, std::string_view rest, bool relative) {
   for (std::size_t i = 0; relative && i < kAxes; ++i) to[i] += aim[i];
   if (of.wrong(of.referencing_, kNotInMotion) || of.wrong(!of.referenced_ || !of.all_on(), kNotReady)) return;
   if (of.wrong(!of.within(from_wire_units(to)), kOutOfLimits)) return;
-  of.profile_.go(from_wire_units(to));
+  of.go(from_wire_units(to));
 }
 
 void Commands::possible(Controller& of, std::string_view rest) {
@@ -103,11 +114,16 @@ void Commands::possible(Controller& of, std::string_view rest) {
   if (of.read_pairs(rest, kAxisNames, to)) of.say(of.within(from_wire_units(to)) ? "1" : "0");
 }
 
+bool Commands::names_axes(Controller& of, std::string_view rest) {
+  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+    if (of.is_none(word, kAxisNames)) return false;
+  return true;
+}
+
 // Any axis references all. The way to zero is the reference move of this one.
 void Commands::reference(Controller& of, std::string_view rest) {
-  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
-    if (of.wrong(word.size() != 1 || kAxisNames.find(word[0]) == std::string_view::npos, kNoSuchAxis)) return;
-  if (of.wrong(of.profile_.moving(), kNotInMotion)) return;
+  if (!names_axes(of, rest)) return;
+  if (of.wrong(!of.at_rest(), kNotInMotion)) return;
   of.referenced_ = false;
   of.referencing_ = true;
   of.servo_ = same(true);
@@ -130,26 +146,52 @@ void Commands::velocity(Controller& of, std::string_view rest) {
   if (of.wrong(word.empty(), kMissing) || of.wrong(!read_number(word, value), kNoNumber)) return;
   if (of.wrong(!next_word(rest).empty(), kWrongCount)) return;
   if (of.wrong(!(value > 0.0) || metres(value) > of.settings_.most_velocity, kVelocityOutOfLimits)) return;
-  if (!of.wrong(of.profile_.moving(), kNotInMotion)) of.velocity_ = metres(value);
+  if (!of.wrong(!of.at_rest(), kNotInMotion)) of.velocity_ = metres(value);
 }
 
 void Commands::pivot(Controller& of, std::string_view rest) {
-  const Vec3& p = of.stand_.pivot;
-  std::array values{millimetres(p.x()), millimetres(p.y()), millimetres(p.z())};
+  std::array<double, 3> values = in_millimetres(of.stand_.pivot);
   if (!of.read_pairs(rest, kPivotNames, values)) return;
   const Coordinates& at = of.profile_.aim();
   if (of.wrong(at[3] != 0.0 || at[4] != 0.0 || at[5] != 0.0, kPivotWhileTurned)) return;
   constexpr double kFarthest = 1000.0;  // mm
   for (const double value : values)
     if (of.wrong(std::abs(value) > kFarthest, kOutOfRange)) return;
-  if (!of.wrong(of.profile_.moving(), kNotInMotion))
+  if (!of.wrong(!of.at_rest(), kNotInMotion))
     of.stand_.pivot = {metres(values[0]), metres(values[1]), metres(values[2])};
 }
 
+// Of all parameters it has one: whose path it is.
+bool Commands::names_parameter(Controller& of, std::string_view axis, std::string_view number) {
+  constexpr std::string_view kPathSource = "0x19001900";
+  if (of.wrong(number.empty(), kMissing) || of.is_none(axis, kAxisNames)) return false;
+  return !of.wrong(number != kPathSource, kUnknownParameter);
+}
+
+void Commands::parameter(Controller& of, std::string_view rest) {
+  const std::string_view axis = next_word(rest), number = next_word(rest);
+  if (names_parameter(of, axis, number))
+    of.say(std::string(axis).append(" ").append(number).append(of.by_points_ ? "=1" : "=0"));
+}
+
+void Commands::set_parameter(Controller& of, std::string_view rest) {
+  const std::string_view axis = next_word(rest), number = next_word(rest), value = next_word(rest);
+  if (!names_parameter(of, axis, number)) return;
+  if (of.wrong(value.empty(), kMissing) || of.wrong(value != "0" && value != "1", kOutOfRange)) return;
+  if (!of.wrong(!of.at_rest(), kNotInMotion)) of.by_points_ = value == "1";
+}
+
+void Commands::cycle_time(Controller& of, std::string_view rest) {
+  constexpr double kShortest = 1.0, kLongest = 1000.0;  // ms
+  double value = 0.0;
+  if (of.wrong(next_word(rest) != "T", kSyntax) || of.wrong(!read_number(next_word(rest), value), kNoNumber))
+    return;
+  if (of.wrong(!(value >= kShortest && value <= kLongest), kOutOfRange)) return;
+  if (!of.wrong(!of.at_rest(), kNotInMotion)) of.points_cycle_ = 1e-3 * value;
+}
+
 void Commands::halt(Controller& of, std::string_view rest) {
-  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
-    if (of.wrong(word.size() != 1 || kAxisNames.find(word[0]) == std::string_view::npos, kNoSuchAxis)) return;
-  of.stop(kSmooth);
+  if (names_axes(of, rest)) of.stop(kSmooth);
 }
 
 void Commands::error(Controller& of, std::string_view) {

@@ -23,10 +23,15 @@ struct Commands {
   static void servo(Controller& of, std::string_view rest);
   static void velocity(Controller& of, std::string_view rest);
   static void pivot(Controller& of, std::string_view rest);
+  static void parameter(Controller& of, std::string_view rest);
+  static void set_parameter(Controller& of, std::string_view rest);
+  static void cycle_time(Controller& of, std::string_view rest);
   static void halt(Controller& of, std::string_view rest);
   static void error(Controller& of, std::string_view rest);
 
  private:
+  static bool names_parameter(Controller& of, std::string_view axis, std::string_view number);
+  static bool names_axes(Controller& of, std::string_view rest);  // or nothing
   static void go(Controller& of, std::string_view rest, bool relative);
 };
 

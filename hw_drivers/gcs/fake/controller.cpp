@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hw_drivers/gcs/fake/commands.h"
+#include "hw_drivers/gcs/wire/command.h"
 
 namespace enc::gcs {
 namespace {
@@ -22,6 +23,8 @@ Controller::Controller(Manipulator& machine, const ControllerSettings& settings)
   stand_.origin = {0, 0, settings.origin_height};
   stand_.tip = reach_.machine.zero().p();
   travel_ = travel_of(reach_, stand_);
+  if (settings_.advance)
+    settings_.identity.insert(settings_.identity.rfind(", "), std::string(" ").append(kLockstep));
 }
 
 std::string_view Controller::take(std::string_view bytes) {
@@ -71,7 +74,7 @@ void Controller::byte(char command) {
     case 4:
       return say("0x" + hex(status()));
     case 5:
-      return say(hex(profile_.moving() ? kAll : 0));
+      return say(hex(at_rest() ? 0 : kAll));
     case 6: {
       unsigned changed = 0;
       for (std::size_t i = 0; i < kAxes; ++i) changed |= measured_[i] != seen_[i] ? 1U << i : 0U;
@@ -83,6 +86,8 @@ void Controller::byte(char command) {
     case 8:
     case 9:
       return say("0");
+    case 11:
+      return say(std::to_string(points_.free()));
     case 24:
     case 27:
       return stop(kAbrupt);
@@ -96,20 +101,26 @@ bool Controller::wrong(bool bad, int error) noexcept {
   return bad;
 }
 
+bool Controller::is_none(std::string_view word, std::string_view names) noexcept {
+  return wrong(word.size() != 1 || names.find(word[0]) == std::string_view::npos, kNoSuchAxis);
+}
+
 void Controller::fail(int error) noexcept {
   error_ = error;
   servo_ = {};
   profile_.halt(kAbrupt);
+  points_.clear();
 }
 
 void Controller::stop(double hardness) noexcept {
   profile_.halt(hardness);
+  points_.clear();
   referencing_ = false;
   error_ = kStopped;
 }
 
 void Controller::cycle(Time now) noexcept {
-  if (!begun_) {
+  if (!begun_ || now < now_) {  // its world has begun anew
     begun_ = true;
     now_ = now - kCycle;
     Coordinates at{};
@@ -117,16 +128,36 @@ void Controller::cycle(Time now) noexcept {
     measured_ = seen_ = profile_.at();
   }
   now_ = std::max(now_, now - kCaughtUp);
+  if (settings_.advance) return;
   for (; now_ + kCycle <= now; now_ += kCycle) {
-    profile_.step(seconds(kCycle), {velocity_, reach_.acceleration});
+    if (by_points_)
+      profile_.reset(points_.step(profile_.at(), seconds(kCycle), points_cycle_, velocity_));
+    else
+      profile_.step(seconds(kCycle), {velocity_, reach_.acceleration});
     machine_.command(pose_of(profile_.at(), stand_));
-    Coordinates at{};
-    if (coordinates_of(machine_.read(now_ + kCycle).value.X_RH, stand_, at)) measured_ = at;
+    measure(now_ + kCycle);
     if (referencing_ && !profile_.moving()) {
       referencing_ = false;
       referenced_ = true;
     }
   }
+}
+
+void Controller::measure(Time now) noexcept {
+  Coordinates at{};
+  if (coordinates_of(machine_.read(now).value.X_RH, stand_, at)) measured_ = at;
+}
+
+void Controller::go(const Coordinates& to) {
+  if (!settings_.advance && by_points_) {
+    if (!wrong(points_.free() == 0, kOutOfRange)) points_.add(to);
+    return;
+  }
+  if (!settings_.advance) return profile_.go(to);
+  profile_.reset(to);
+  machine_.command(pose_of(to, stand_));
+  settings_.advance();
+  measure(now_);
 }
 
 bool Controller::within(const Coordinates& to) const noexcept {
@@ -148,22 +179,21 @@ std::array<bool, kAxes> Controller::on_target() const noexcept {
   constexpr double kNear = 10e-6;  // m, and rad
   std::array<bool, kAxes> on{};
   for (std::size_t i = 0; i < kAxes; ++i)
-    on[i] =
-        referenced_ && servo_[i] && !profile_.moving() && std::abs(measured_[i] - profile_.aim()[i]) < kNear;
+    on[i] = referenced_ && servo_[i] && at_rest() && std::abs(measured_[i] - profile_.aim()[i]) < kNear;
   return on;
 }
 
 // Bits 12: servo on, 13: in motion, 14: referencing, 15: on target.
 unsigned Controller::status() const noexcept {
-  return (all_on() ? 1U << 12U : 0U) | (profile_.moving() ? 1U << 13U : 0U) |
-         (referencing_ ? 1U << 14U : 0U) | (on_target()[0] ? 1U << 15U : 0U);
+  return (all_on() ? 1U << 12U : 0U) | (at_rest() ? 0U : 1U << 13U) | (referencing_ ? 1U << 14U : 0U) |
+         (on_target()[0] ? 1U << 15U : 0U);
 }
 
 void Controller::say_axes(std::string_view words, std::string_view names,
                           std::span<const std::string_view> values) {
   std::string list;
   for (std::string_view word = next_word(words); !word.empty(); word = next_word(words)) {
-    if (wrong(word.size() != 1 || names.find(word[0]) == std::string_view::npos, kNoSuchAxis)) return;
+    if (is_none(word, names)) return;
     if (wrong(list.find(word[0]) != std::string::npos, kAxisTwice)) return;
     list += word;
   }
@@ -194,8 +224,8 @@ bool Controller::read_pairs(std::string_view words, std::string_view names,
   std::string_view word = next_word(words);
   if (wrong(word.empty(), kMissing)) return false;
   for (; !word.empty(); word = next_word(words)) {
-    const std::size_t axis = word.size() == 1 ? names.find(word[0]) : std::string_view::npos;
-    if (wrong(axis == std::string_view::npos, kNoSuchAxis)) return false;
+    if (is_none(word, names)) return false;
+    const std::size_t axis = names.find(word[0]);
     if (wrong(((seen >> axis) & 1U) != 0, kAxisTwice)) return false;
     seen |= 1U << axis;
     const std::string_view number = next_word(words);

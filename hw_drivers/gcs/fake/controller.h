@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "core/devices/manipulator.h"
+#include "hw_drivers/gcs/fake/points.h"
 #include "hw_drivers/gcs/fake/profile.h"
 #include "hw_drivers/gcs/wire/error_text.h"
 #include "hw_drivers/gcs/wire/text.h"
@@ -25,6 +27,9 @@ struct ControllerSettings {
   double velocity = 0.05;         // VLS at power-on, m/s
   double most_velocity = 0.1;     // m/s
   double origin_height = 0.1845;  // of its coordinates above R, m
+  // What a set-point lets happen; empty: time goes on by itself. With it a set-point goes to the machine as
+  // it is, without a path of the controller's own: the machine moves while this runs.
+  std::function<void()> advance{};
 };
 
 class Controller {
@@ -37,7 +42,7 @@ class Controller {
   void cycle(Time now) noexcept;
   void forget_line() noexcept;  // a client is gone
 
-  [[nodiscard]] bool at_rest() const noexcept { return !profile_.moving(); }
+  [[nodiscard]] bool at_rest() const noexcept { return !profile_.moving() && !points_.going(); }
   [[nodiscard]] const Coordinates& measured() const noexcept { return measured_; }
   [[nodiscard]] const Coordinates& aim() const noexcept { return profile_.aim(); }
   [[nodiscard]] int error() const noexcept { return error_; }  // that ERR? would say
@@ -51,6 +56,9 @@ class Controller {
   void line(std::string_view text);
   // Notes the error where it is one; says whether.
   bool wrong(bool bad, int error) noexcept;
+  bool is_none(std::string_view word, std::string_view names) noexcept;  // of these axes
+  void go(const Coordinates& to);
+  void measure(Time now) noexcept;
   void stop(double hardness) noexcept;
   // "X=1 \nY=2\n" of the axes that the words name, of all where they name none.
   void say_axes(std::string_view words, std::string_view names, std::span<const std::string_view> values);
@@ -71,6 +79,9 @@ class Controller {
   Stand stand_;
   Travel travel_;
   Profile profile_;
+  Points points_;
+  bool by_points_ = false;           // its path, and not one of its own
+  double points_cycle_ = 0.010;      // s
   Coordinates measured_{}, seen_{};  // now, and when #6 asked last
   std::array<bool, kAxes> servo_{true, true, true, true, true, true};
   bool referenced_, referencing_ = false;

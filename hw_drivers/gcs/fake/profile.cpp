@@ -2,19 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace enc::gcs {
 namespace {
 
-constexpr double kDegreeAsMetres = 1e-3 / (std::numbers::pi / 180.0);  // m/rad
-constexpr double weight(std::size_t axis) { return axis < 3 ? 1.0 : kDegreeAsMetres; }
-
-double norm(const Coordinates& way) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kAxes; ++i) sum += way[i] * way[i] * weight(i) * weight(i);
-  return std::sqrt(sum);
-}
+double norm(const Coordinates& way) { return distance(Coordinates{}, way); }
 
 }  // namespace
 

@@ -3,34 +3,35 @@
 #include <array>
 #include <utility>
 
-#include "hw_drivers/net/steady.h"
+#include "core/error.h"
+#include "hw_drivers/gcs/drive/settings.h"
 
 namespace enc::gcs {
 namespace {
 
-constexpr Duration kTurn{1'000'000};
 constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that reads nothing is let go
 
 }  // namespace
 
 Server::Server(Manipulator& machine, const ControllerSettings& settings, const std::string& address,
-               std::uint16_t port, Log& log)
-    : log_(log), controller_(machine, settings), listener_(net::listen_tcp(address, port)) {
-  thread_ = std::thread([this] { serve(); });
-}
+               std::uint16_t port, Log& log, std::function<void()> begin)
+    : log_(log),
+      controller_(machine, settings),
+      address_(address),
+      begin_(std::move(begin)),
+      listener_(net::listen_tcp(address, port)) {}
 
-Server::~Server() {
-  end_ = true;
-  thread_.join();
-}
+std::string Server::describe() const { return "C-887 at " + net::place(address_, port()); }
 
-void Server::serve() noexcept {
-  while (!end_) {
-    (client_.is_open() ? client_ : listener_).wait(kTurn);
-    accept();
-    if (client_.is_open()) answer();
-    controller_.cycle(Time(net::steady_now()));
+void Server::serve(Time) {
+  accept();
+  while (client_.is_open() && answer()) {
   }
+}
+
+void Server::wait_on(std::vector<int>& descriptors) const {
+  descriptors.push_back(listener_.descriptor());
+  if (client_.is_open()) descriptors.push_back(client_.descriptor());
 }
 
 // A second client is sent away at once, as there is one controller for one.
@@ -44,6 +45,7 @@ void Server::accept() {
   client_ = std::move(next);
   unsent_.clear();
   controller_.forget_line();
+  if (begin_) begin_();
 }
 
 bool Server::answer() {
@@ -53,6 +55,20 @@ bool Server::answer() {
   if (!unsent_.empty()) unsent_.erase(0, client_.send(std::as_bytes(std::span(unsent_))));
   if ((got == 0 && client_.closed()) || unsent_.size() > kMostUnsent) client_ = {};
   return got > 0;
+}
+
+std::unique_ptr<Fake> served(const FakeOffer& offer) {
+  GcsSettings settings;
+  settings.declare(offer.table);
+  if (!offer.rig.manipulator)
+    throw Error("the scene names no [manipulator], which a fake C-887 moves; choose another scene");
+  ControllerSettings controller;
+  controller.velocity = std::max(settings.velocity, offer.spec.manipulator.speed);
+  controller.most_velocity = std::max(controller.most_velocity, controller.velocity);
+  controller.origin_height = settings.origin_height;
+  controller.advance = offer.advance;
+  return std::make_unique<Server>(*offer.rig.manipulator, controller, settings.address,
+                                  static_cast<std::uint16_t>(settings.port), offer.log, offer.begin);
 }
 
 }  // namespace enc::gcs

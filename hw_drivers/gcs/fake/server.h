@@ -1,42 +1,44 @@
-// The fake controller on a port: one client at a time, one thread, on the wall clock.
+// The fake controller on a port, for one client at a time.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
-#include <string_view>
-#include <thread>
+#include <vector>
 
-#include "core/devices/driver.h"
+#include "core/devices/fake.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "hw_drivers/net/socket.h"
 
 namespace enc::gcs {
 
-class Server {
+class Server final : public Fake {
  public:
   // Port 0: any that is free. Throws Error (kind device) where nobody may listen there. `machine` and `log`
-  // stay until the server is gone, and the machine is the thread's until then.
+  // stay until the server is gone. `begin` is called when a client comes.
   Server(Manipulator& machine, const ControllerSettings& settings, const std::string& address,
-         std::uint16_t port, Log& log);
-  ~Server();
-  Server(const Server&) = delete;
-  Server& operator=(const Server&) = delete;
+         std::uint16_t port, Log& log, std::function<void()> begin = {});
 
   [[nodiscard]] std::uint16_t port() const { return listener_.port(); }
+  [[nodiscard]] std::string describe() const override;
+  void serve(Time now) override;
+  void publish(Time now) override { controller_.cycle(now); }
+  void wait_on(std::vector<int>& descriptors) const override;
 
  private:
-  void serve() noexcept;  // the thread
   void accept();
   bool answer();  // true: something came
 
   Log& log_;
   Controller controller_;
+  std::string address_;
+  std::function<void()> begin_;
   net::Socket listener_;
   net::Socket client_;
   std::string unsent_;
-  std::atomic<bool> end_ = false;
-  std::thread thread_;
 };
+
+// The fake of a rig's [driver.gcs], in front of its manipulator.
+[[nodiscard]] std::unique_ptr<Fake> served(const FakeOffer& offer);
 
 }  // namespace enc::gcs

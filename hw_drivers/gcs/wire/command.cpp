@@ -24,6 +24,11 @@ void add_servo(Text& text, bool on) noexcept {
   text.add(kLineEnd);
 }
 
+void add_points(Text& text, double cycle) noexcept {
+  text.add("SPA X 0x19001900 1").add(kLineEnd).add("SCT T ").add(1e3 * cycle).add(kLineEnd);
+}
+void add_own_path(Text& text) noexcept { add_line(text, "SPA X 0x19001900 0"); }
+
 void add_line(Text& text, std::string_view words) noexcept { text.add(words).add(kLineEnd); }
 
 }  // namespace enc::gcs

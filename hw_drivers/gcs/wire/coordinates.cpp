@@ -50,4 +50,14 @@ bool coordinates_of(const Pose<'R', 'H'>& X_RH, const Stand& stand, Coordinates&
   return true;
 }
 
+double distance(const Coordinates& from, const Coordinates& to) noexcept {
+  constexpr double kDegreeAsMetres = 1e-3 / (std::numbers::pi / 180.0);  // m/rad
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const double way = (to[i] - from[i]) * (i < 3 ? 1.0 : kDegreeAsMetres);
+    sum += way * way;
+  }
+  return std::sqrt(sum);
+}
+
 }  // namespace enc::gcs

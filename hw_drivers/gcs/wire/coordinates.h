@@ -23,6 +23,9 @@ using Coordinates = std::array<double, kAxes>;  // of X Y Z, m, and of U V W, ra
 [[nodiscard]] double metres(double millimetres) noexcept;
 [[nodiscard]] double millimetres(double metres) noexcept;
 
+// From one to the other, m: a degree counts as a millimetre.
+[[nodiscard]] double distance(const Coordinates& from, const Coordinates& to) noexcept;
+
 // How the controller's axes stand in R, with which they are parallel.
 struct Stand {
   Vec3 origin{0, 0, 0};  // of the coordinates: the pivot while R, S and T are 0; m

@@ -10,7 +10,7 @@ namespace enc::gcs {
 inline constexpr int kNoError = 0, kSyntax = 1, kUnknownCommand = 2, kTooLong = 3, kNotReady = 5,
                      kOutOfLimits = 7, kVelocityOutOfLimits = 8, kPivotWhileTurned = 9, kStopped = 10,
                      kNoSuchAxis = 15, kOutOfRange = 17, kAxisTwice = 22, kWrongCount = 24, kNoNumber = 25,
-                     kMissing = 26, kNotInMotion = 53;
+                     kMissing = 26, kNotInMotion = 53, kUnknownParameter = 54;
 
 struct ErrorMeaning {
   int number;

@@ -11,7 +11,8 @@ namespace enc::gcs {
 namespace {
 
 constexpr Duration ms(std::int64_t n) { return Duration(n * 1'000'000); }
-const std::string kAsk = "POS?\nERR?\n";
+const std::string kAsk = "POS?\nERR?\n", kServos = "SVO?\nERR?\n";
+const std::string kOn = "X=1 \nY=1 \nZ=1 \nU=1 \nV=1 \nW=1\n";
 const std::string kZero = "X=0 \nY=0 \nZ=0 \nU=0 \nV=0 \nW=0\n";
 const Stand kStand{{0, 0, 0.1}, {0, 0, 0}, {0, 0, 0.3}};
 
@@ -60,17 +61,22 @@ TEST(GcsConversation, ASetPointGoesOnceAndNoOftenerThanTheCycle) {
   settings.velocity = 0.02;
   Talk talk(settings);
   talk.aim(0.001, 0);
-  EXPECT_EQ(talk.sent(0), "VLS 20\n" + move("1") + kAsk);  // the velocity is told once, before the first
+  // The velocity is told once, and read back, before the first goes.
+  EXPECT_EQ(talk.sent(0), "VLS 20\nVLS?\nERR?\n");
+  EXPECT_FALSE(talk.conversation.moving());
+  talk.heard("20.001\n0\n", 1);
+  talk.aim(0.001, 2);
+  EXPECT_EQ(talk.sent(2), move("1") + kAsk);
   std::string last = kAsk;
   std::map<int, std::string> moves;
-  for (int t = 1; t < 30; ++t) {
+  for (int t = 3; t < 30; ++t) {
     if (!last.empty()) talk.heard(kZero + "0\n", t);
     talk.aim(0.001 * t, t);
     last = talk.sent(t);
     if (last.starts_with("MOV")) moves[t] = last;
   }
   EXPECT_EQ(moves,
-            (std::map<int, std::string>{{10, move("10") + kAsk}, {20, move("20") + kAsk}}));  // the newest
+            (std::map<int, std::string>{{12, move("12") + kAsk}, {22, move("22") + kAsk}}));  // the newest
   EXPECT_TRUE(talk.conversation.moving());
 }
 
@@ -83,12 +89,15 @@ TEST(GcsConversation, WithoutAFreshSetPointTheMachineIsStoppedOnce) {
   EXPECT_EQ(talk.sent(6), "");
   EXPECT_EQ(talk.conversation.watchdogs(), 1);
   talk.heard(kZero + "0\n", 6);
-  EXPECT_EQ(talk.sent(50), kAsk);
-  talk.heard(kZero + "10\n", 51);  // what our own stop leaves behind
+  EXPECT_EQ(talk.sent(50), "\x18" + kAsk);  // the first may have overtaken the set-point
+  talk.heard(kZero + "10\n", 51);           // what our own stop leaves behind
   EXPECT_EQ(talk.health(), Health::ok);
   EXPECT_EQ(talk.conversation.report().errors, 0);
   talk.aim(0.002, 53);
-  EXPECT_EQ(talk.sent(53), move("2") + kAsk);  // a command starts anew
+  EXPECT_EQ(talk.sent(53), kServos);  // it took the place of whatever else there was
+  talk.heard(kOn + "0\n", 54);
+  talk.aim(0.002, 55);
+  EXPECT_EQ(talk.sent(55), move("2") + kAsk);  // a command starts anew
 }
 
 TEST(GcsConversation, AnOldSetPointIsNotSentLate) {
@@ -108,14 +117,18 @@ TEST(GcsConversation, AStopGoesAtOnceEachTimeAndVoidsWhatWasToldBefore) {
   EXPECT_EQ(talk.sent(1), "\x18");
   EXPECT_EQ(talk.conversation.report().stops, 1);
   talk.heard(kZero + "10\n", 2);
-  EXPECT_EQ(talk.sent(2), kAsk);  // no MOV: it was told before
-  talk.heard(kZero + "0\n", 3);
+  EXPECT_EQ(talk.sent(2), kServos);
+  talk.heard(kOn + "0\n", 3);
+  EXPECT_EQ(talk.sent(4), kAsk);  // no MOV: it was told before
+  talk.heard(kZero + "0\n", 5);
   talk.stop();
-  EXPECT_EQ(talk.sent(3), "\x18");
-  talk.aim(0.002, 4);
-  EXPECT_EQ(talk.sent(4), move("2") + kAsk);
-  talk.heard(kZero + "10\n", 5);
+  EXPECT_EQ(talk.sent(5), "\x18");
+  talk.aim(0.002, 6);
+  EXPECT_EQ(talk.sent(6), move("2") + kAsk);
+  talk.heard(kZero + "10\n", 7);
   EXPECT_EQ(talk.health(), Health::ok);
+  EXPECT_EQ(talk.sent(8), kServos);
+  talk.heard(kOn + "0\n", 9);
   // Stop and command at once: first the one, then the other.
   talk.stop();
   talk.aim(0.003, 30);
@@ -151,15 +164,48 @@ TEST(GcsConversation, WhatWasGivenBeforeAPauseIsNotSentAfterIt) {
 }
 
 TEST(GcsConversation, AVelocityThatIsNotTakenEndsIt) {
-  for (const char* error : {"8\n", "53\n"}) {
+  for (const auto& [answer, loss] : {std::pair{"50\n", Loss::velocity},
+                                     {"20\n8\n", Loss::none},
+                                     {"20\n53\n", Loss::fault},
+                                     {"nan\n", Loss::garbled}}) {
     GcsSettings settings;
     settings.velocity = 0.02;
     Talk talk(settings);
     talk.aim(0.001, 0);
-    EXPECT_EQ(talk.sent(0), "VLS 20\n" + move("1") + kAsk);
-    talk.heard(kZero + error, 1);
-    EXPECT_EQ(talk.conversation.loss(), Loss::fault);
+    EXPECT_EQ(talk.sent(0), "VLS 20\nVLS?\nERR?\n");
+    talk.heard(answer, 1);
+    EXPECT_EQ(talk.conversation.loss(), loss) << answer;
+    EXPECT_FALSE(talk.conversation.moving());
   }
+}
+
+// A stop overtakes the lines before it: a controller may carry them out afterwards.
+TEST(GcsConversation, AStopThatOvertookASetPointGoesOnceMore) {
+  Talk talk;
+  talk.aim(0.001, 0);
+  EXPECT_EQ(talk.sent(0), move("1") + kAsk);
+  talk.stop();
+  EXPECT_EQ(talk.sent(1), "\x18");
+  EXPECT_EQ(talk.sent(2), "");
+  talk.heard(kZero + "10\n", 3);
+  EXPECT_EQ(talk.sent(3), "\x18" + kServos);
+  talk.heard(kOn + "10\n", 4);  // of the second
+  EXPECT_EQ(talk.conversation.loss(), Loss::none);
+  EXPECT_EQ(talk.sent(6), kServos);
+  talk.heard(kOn + "0\n", 7);
+  EXPECT_EQ(talk.sent(9), kAsk);
+  EXPECT_EQ(talk.conversation.report().stops, 1);
+}
+
+// Error 10 is the last one; what came before it is seen by the servos.
+TEST(GcsConversation, AFaultThatOurStopHidIsFound) {
+  Talk talk;
+  talk.stop();
+  EXPECT_EQ(talk.sent(0), "\x18" + kAsk);
+  talk.heard(kZero + "10\n", 1);
+  EXPECT_EQ(talk.sent(2), kServos);
+  talk.heard("X=1 \nY=1 \nZ=0 \nU=1 \nV=1 \nW=1\n", 3);
+  EXPECT_EQ(talk.conversation.loss(), Loss::servo_off);
 }
 
 // Ours is one; after it was seen, or a question that went later was answered, it is no excuse any more.
@@ -170,8 +216,9 @@ TEST(GcsConversation, OurStopExcusesOneErrorTen) {
     EXPECT_EQ(talk.sent(0), "\x18" + kAsk);
     talk.heard(kZero + first, 1);
     EXPECT_EQ(talk.health(), Health::ok) << first;
-    EXPECT_EQ(talk.sent(2), kAsk);
-    talk.heard(kZero + "10\n", 3);
+    const bool seen = first[0] == '1';
+    EXPECT_EQ(talk.sent(2), seen ? kServos : kAsk);
+    talk.heard((seen ? kOn : kZero) + "10\n", 3);
     EXPECT_EQ(talk.health(), Health::fault) << first;
   }
 }

@@ -28,7 +28,8 @@ struct Device {
         [&](std::string_view line) {
           told.append(line).append(" ");
           const auto found = instead.find(std::string(line));
-          std::string own(controller.take(std::string(line) + "\n"));
+          const bool byte = line[0] < ' ';
+          std::string own(controller.take(std::string(line) + (byte ? "" : "\n")));
           return found != instead.end() ? found->second : own;
         },
         settings, machine.can);
@@ -57,7 +58,8 @@ TEST(GcsInspect, FindsWhatIsThereAndTellsNothing) {
   EXPECT_EQ(found.stand.pivot, Vec3(0, 0, 0.0125));
   EXPECT_EQ(found.left_over, 2);
   EXPECT_EQ(found.at, Coordinates{});
-  EXPECT_EQ(device.told, "*IDN? CSV? ERR? FRF? SVO? SPI? TMN? TMX? VLS? POS? ERR? ");
+  EXPECT_EQ(device.told,
+            "*IDN? CSV? ERR? CST? PUN? KEN? SPA? X 0x19001900 \x05 FRF? SVO? SPI? TMN? TMX? VLS? POS? ERR? ");
   EXPECT_TRUE(device.controller.at_rest());
 }
 
@@ -71,6 +73,22 @@ TEST(GcsInspect, AnotherDeviceIsNamed) {
   EXPECT_TRUE(says(device.refused(), "speaks GCS '3.0', not 2.0"));
   device.instead = {{"*IDN?", "C-887 \x1b[31m\n"}, {"CSV?", "x\n"}};
   EXPECT_TRUE(says(device.refused(), "C-887 ?[31m at"));
+}
+
+TEST(GcsInspect, WhatIsMeantOtherwiseIsRefused) {
+  const std::string inches = "X=IN \nY=IN \nZ=IN \nU=DEG \nV=DEG \nW=DEG\n";
+  for (const auto& [question, answer, words] :
+       {std::tuple{"CST?", std::string("X=H-811.I2 \nY=H-811.I2\n"), "expected 'H-840'"},
+        {"PUN?", inches, "has other units: it answered 'X=IN"},
+        {"PUN?", std::string("X=MM \nY=MM \nZ=MM \nU=DEG \nV=DEG\n"), "has other units"},
+        {"KEN?", std::string("TOOL1=KST\n"), "another coordinate system: it answered 'TOOL1=KST' to KEN?"},
+        {"SPA? X 0x19001900", std::string("X 0x19001900=1\n"), "takes its path from elsewhere"},
+        {"SPA? X 0x19001900", std::string("what\n"), "expected 0; send SPA X 0x19001900 0"},
+        {"\x05", std::string("3f\n"), "moves: it answered '3f' to #5"}}) {
+    Device device;
+    device.instead[question] = answer;
+    EXPECT_TRUE(says(device.refused(), words)) << question << ": " << device.refused();
+  }
 }
 
 TEST(GcsInspect, FirmwareIsComparedByItsParts) {

@@ -1,0 +1,49 @@
+// What is there of a rig: whether each device answers, how often it says something, how regularly and how
+// late.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/modules/modules.h"
+#include "app/options.h"
+#include "app/run/stop_signals.h"
+#include "core/error.h"
+#include "models/files.h"
+#include "models/setup/scene_file.h"
+#include "trial/fakes/probe.h"
+
+namespace enc::app {
+namespace {
+
+std::string line_of(const trial::Probed& device) {
+  if (!device.there) return fmt::format("{:12} NOT THERE: {}\n", device.role, device.words);
+  std::string text = fmt::format("{:12} {}\n", device.role, device.words);
+  if (device.samples == 0) return text + fmt::format("{:12} said nothing\n", "");
+  return text + fmt::format(
+                    "{:12} {:.1f} samples a second, {:.2f} ms apart, {:.2f} at most; old when they come: "
+                    "{:.2f} ms, p99 "
+                    "{:.2f}\n",
+                    "", device.rate, 1e3 * device.interval_p50, 1e3 * device.interval_max,
+                    1e3 * device.age_p50, 1e3 * device.age_p99);
+}
+
+}  // namespace
+
+int devices(const DevicesOptions& options) {
+  const StopSignals signals;
+  if (!(options.seconds > 0.0 && options.seconds <= 1e4))
+    throw Error("--for-s: expected a number above 0, up to 10000");
+  const models::Setup setup = load_setup(with_scene(options));
+  const auto found =
+      trial::probe_devices(setup, load_module, options.seconds, [] { return StopSignals::caught() != 0; });
+  if (found.empty()) fmt::print("every device that the scene names is simulated\n");
+  bool all = true;
+  for (const trial::Probed& device : found) {
+    fmt::print("{}", line_of(device));
+    all = all && device.there && device.samples > 0;
+  }
+  if (StopSignals::caught() != 0) return 128 + StopSignals::caught();
+  return all ? 0 : 3;
+}
+
+}  // namespace enc::app

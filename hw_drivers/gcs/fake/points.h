@@ -1,0 +1,56 @@
+// A path of points, of which one is due each cycle (parameter 0x19001900 = 1, SCT): straight from one to the
+// next, each in a cycle, or as fast as it may. Where none is left it stands at the last.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "hw_drivers/gcs/wire/coordinates.h"
+
+namespace enc::gcs {
+
+class Points {
+ public:
+  static constexpr std::size_t kMost = 64;
+
+  [[nodiscard]] std::size_t free() const noexcept { return kMost - count_; }
+  [[nodiscard]] bool going() const noexcept { return going_ || count_ > 0; }
+  void add(const Coordinates& point) noexcept {
+    if (free() > 0) line_[(first_ + count_++) % kMost] = point;
+  }
+  void clear() noexcept {
+    count_ = 0;
+    going_ = false;
+  }
+  // Where it is dt later, from where it is; s, m/s.
+  [[nodiscard]] Coordinates step(Coordinates at, double dt, double cycle, double fastest) noexcept {
+    for (double left = dt; left > 1e-9;) {
+      if (!going_) {
+        if (count_ == 0) return at;
+        to_ = line_[first_];
+        first_ = (first_ + 1) % kMost;
+        --count_;
+        going_ = true;
+        due_ = std::max(cycle, distance(at, to_) / fastest);
+      }
+      const double span = due_ < left ? due_ : left;
+      for (std::size_t i = 0; i < kAxes; ++i) at[i] += (to_[i] - at[i]) * (span / due_);
+      due_ -= span;
+      left -= span;
+      if (due_ > 1e-9) continue;
+      at = to_;
+      going_ = false;
+    }
+    return at;
+  }
+
+ private:
+  std::array<Coordinates, kMost> line_{};
+  std::size_t first_ = 0, count_ = 0;
+  Coordinates to_{};
+  double due_ = 0.0;  // s until it is at to_
+  bool going_ = false;
+};
+
+}  // namespace enc::gcs

@@ -1,0 +1,23 @@
+// [driver.igtl] of a rig file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/devices/settings.h"
+
+namespace enc::igtl {
+
+struct IgtlSettings {
+  std::string address = "127.0.0.1";
+  std::int64_t port = 18946;
+  double timeout = 0.5;      // s
+  double silent = 0.5;       // s
+  double least_delay = 0.0;  // s
+  std::string suffix = "ToTracker";
+
+  void declare(Settings& table);
+  [[nodiscard]] std::string place() const;  // "192.168.0.21:18946"
+};
+
+}  // namespace enc::igtl

@@ -1,0 +1,75 @@
+#include "hw_drivers/igtl/drive/udp_tracker.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "hw_drivers/net/steady.h"
+
+namespace enc::igtl {
+namespace {
+
+constexpr int kMostDatagrams = 64;  // of a poll: a flood does not hold up the loop
+
+}  // namespace
+
+UdpTracker::UdpTracker(const Offer& offer, const IgtlSettings& settings)
+    : settings_(settings),
+      reception_(settings, offer.tools, offer.lockstep),
+      socket_(net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))),
+      lockstep_(offer.lockstep) {
+  constexpr Duration kAgain{50'000'000};  // a datagram may be lost
+  const Duration until = net::steady_now() + from_seconds(settings.timeout);
+  std::array<std::byte, kMostBytes> bytes{};
+  Message answer;
+  do {
+    if (net::steady_now() > until)
+      throw Error(fmt::format("{}: no tool data within {:.0f} ms; see that its server runs, and sends "
+                              "OpenIGTLink over UDP to who asks",
+                              settings_.place(), 1e3 * settings.timeout),
+                  {}, ErrorKind::device);
+    ask("STT_TRANS");
+    socket_.wait(kAgain);
+  } while (read({bytes.data(), socket_.receive(bytes)}, answer) != Wrong::nothing);
+}
+
+UdpTracker::~UdpTracker() { ask("STP_TRANS"); }
+
+void UdpTracker::ask(const char* what) noexcept {
+  static_cast<void>(socket_.send(Written(what, "Encounter", 0, 0, {}).bytes()));
+}
+
+std::string UdpTracker::describe() const { return "tool data of " + settings_.place() + ", answered"; }
+
+bool UdpTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
+  if (!polled_) begun_ = now;
+  if (polled_ && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
+  polled_ = true;
+  bool news = false;
+  std::array<std::byte, kMostBytes> bytes{};
+  for (int i = 0; i < kMostDatagrams && linked_; ++i) {
+    const std::size_t got = socket_.receive(bytes);
+    if (got == 0) break;
+    news = reception_.take({bytes.data(), got}, now, newest_) || news;
+  }
+  const Time last = reception_.heard() ? reception_.last() : begun_;
+  if (!lockstep_ && age(now, last) > settings_.silent) linked_ = false;
+  if (news) newest = newest_;
+  return news;
+}
+
+std::vector<std::string> UdpTracker::remarks() const {
+  const Counts& counts = reception_.counts();
+  return {fmt::format("{}: {} poses, {} datagrams missing, {} old or twice, {} wrong", describe(),
+                      counts.poses, counts.missing, counts.old, counts.wrong)};
+}
+
+std::unique_ptr<PoseTracker> subscribed(const Offer& offer) {
+  IgtlSettings settings;
+  settings.declare(offer.table);
+  return std::make_unique<UdpTracker>(offer, settings);
+}
+
+}  // namespace enc::igtl

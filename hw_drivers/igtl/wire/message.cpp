@@ -1,0 +1,185 @@
+#include "hw_drivers/igtl/wire/message.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "hw_drivers/net/big_endian.h"
+
+namespace enc::igtl {
+namespace {
+
+constexpr std::uint64_t kBillion = 1'000'000'000;
+
+using net::put;
+using net::take;
+
+template <std::size_t kLength>
+Name<kLength> take_name(std::span<const std::byte> bytes, std::size_t at) noexcept {
+  Name<kLength> name;
+  for (std::size_t i = 0; i < kLength; ++i) name.letters[i] = static_cast<char>(bytes[at + i]);
+  return name;
+}
+
+template <std::size_t kLength>
+void put_name(std::span<std::byte> bytes, std::size_t at, std::string_view text) noexcept {
+  const Name<kLength> name(text);
+  for (std::size_t i = 0; i < kLength; ++i) bytes[at + i] = static_cast<std::byte>(name.letters[i]);
+}
+
+constexpr std::array<std::uint64_t, 256> crc_table() noexcept {
+  std::array<std::uint64_t, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    std::uint64_t value = static_cast<std::uint64_t>(i) << 56U;
+    for (int bit = 0; bit < 8; ++bit)
+      value = (value << 1U) ^ ((value >> 63U) != 0 ? 0x42F0E1EBA9EA3693ULL : 0ULL);
+    table[i] = value;
+  }
+  return table;
+}
+
+}  // namespace
+
+std::uint64_t crc64(std::span<const std::byte> bytes) noexcept {
+  static constexpr std::array<std::uint64_t, 256> kTable = crc_table();
+  std::uint64_t crc = 0;
+  for (const std::byte byte : bytes)
+    crc = kTable[static_cast<std::size_t>((crc >> 56U) ^ static_cast<std::uint64_t>(byte))] ^ (crc << 8U);
+  return crc;
+}
+
+Wrong read(std::span<const std::byte> bytes, Message& message) noexcept {
+  if (bytes.size() < kHeader) return Wrong::cut;
+  const auto version = take<std::uint16_t>(bytes, 0);
+  if (version != 1 && version != 2) return Wrong::version;
+  const std::span<const std::byte> body = bytes.subspan(kHeader);
+  if (take<std::uint64_t>(bytes, 42) != body.size()) return Wrong::size;
+  if (take<std::uint64_t>(bytes, 50) != crc64(body)) return Wrong::checksum;
+  Message read;
+  read.type = take_name<12>(bytes, 2);
+  read.device = take_name<20>(bytes, 14);
+  const auto fraction = static_cast<std::uint64_t>(take<std::uint32_t>(bytes, 38));
+  read.stamp_ns = static_cast<std::int64_t>(take<std::uint32_t>(bytes, 34) * kBillion +
+                                            ((fraction * kBillion + (1ULL << 31U)) >> 32U));
+  read.content = body;
+  if (version == 2) {
+    if (body.size() < kExtendedHeader) return Wrong::size;
+    const std::size_t extended = take<std::uint16_t>(body, 0);
+    const std::size_t behind = std::size_t{take<std::uint16_t>(body, 2)} + take<std::uint32_t>(body, 4);
+    if (extended < kExtendedHeader || extended > body.size() || behind > body.size() - extended)
+      return Wrong::size;
+    read.numbered = true;
+    read.number = take<std::uint32_t>(body, 8);
+    read.content = body.subspan(extended, body.size() - extended - behind);
+    read.metadata = body.last(behind);
+  }
+  message = read;
+  return Wrong::nothing;
+}
+
+Written::Written(std::string_view type, std::string_view device, std::int64_t stamp_ns, std::uint32_t number,
+                 std::span<const std::byte> content, std::string_view key, std::string_view value) noexcept {
+  constexpr std::size_t kCount = 2, kPair = 8;
+  constexpr std::uint16_t kAscii = 3;
+  const std::size_t header = kCount + (key.empty() ? 0 : kPair), text = key.size() + value.size();
+  const std::size_t room = bytes_.size() - kHeader - kExtendedHeader;
+  const std::size_t fits = std::min(content.size(), room - std::min(room, header + text));
+  size_ = std::min(bytes_.size(), kHeader + kExtendedHeader + fits + header + text);
+  const std::span<std::byte> all(bytes_.data(), size_);
+  const std::span<std::byte> body = all.subspan(kHeader);
+  put(body, 0, static_cast<std::uint16_t>(kExtendedHeader));
+  put(body, 2, static_cast<std::uint16_t>(header));
+  put(body, 4, static_cast<std::uint32_t>(text));
+  put(body, 8, number);
+  const std::span<std::byte> behind = body.subspan(kExtendedHeader + fits);
+  if (!key.empty()) {
+    put(behind, 0, std::uint16_t{1});
+    put(behind, 2, static_cast<std::uint16_t>(key.size()));
+    put(behind, 4, kAscii);
+    put(behind, 6, static_cast<std::uint32_t>(value.size()));
+    const auto letters = std::as_bytes(std::span(key)), words = std::as_bytes(std::span(value));
+    std::copy(letters.begin(), letters.end(), behind.begin() + static_cast<std::ptrdiff_t>(header));
+    std::copy(words.begin(), words.end(), behind.begin() + static_cast<std::ptrdiff_t>(header + key.size()));
+  }
+  std::copy_n(content.begin(), fits, body.begin() + kExtendedHeader);
+  const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(stamp_ns, 0));
+  put(all, 0, std::uint16_t{2});
+  put_name<12>(all, 2, type);
+  put_name<20>(all, 14, device);
+  put(all, 34, static_cast<std::uint32_t>(ns / kBillion));
+  put(all, 38, static_cast<std::uint32_t>(((ns % kBillion) << 32U) / kBillion));
+  put(all, 42, static_cast<std::uint64_t>(body.size()));
+  put(all, 50, crc64(body));
+}
+
+bool read_transform(std::span<const std::byte> content, Pose<'C', 'T'>& X_CT) noexcept {
+  if (content.size() != kTransform) return false;
+  std::array<double, 12> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = std::bit_cast<float>(take<std::uint32_t>(content, 4 * i));
+    if (!std::isfinite(numbers[i])) return false;
+  }
+  const Eigen::Matrix3d turn = Eigen::Map<const Eigen::Matrix3d>(numbers.data());
+  constexpr double kRounding = 1e-5;  // of single precision, and of who computed the matrix with it
+  if (!(turn.transpose() * turn).isIdentity(kRounding) || !(turn.determinant() > 0.0)) return false;
+  X_CT = Pose<'C', 'T'>(Quat(turn).normalized(), 1e-3 * Vec3(numbers[9], numbers[10], numbers[11]));
+  return true;
+}
+
+std::array<std::byte, kTransform> transform(const Pose<'C', 'T'>& X_CT) noexcept {
+  std::array<double, 12> numbers{};
+  Eigen::Map<Eigen::Matrix3d>(numbers.data()) = X_CT.q().toRotationMatrix();
+  Eigen::Map<Vec3>(numbers.data() + 9) = 1e3 * X_CT.p();
+  std::array<std::byte, kTransform> content{};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    put(content, 4 * i, std::bit_cast<std::uint32_t>(static_cast<float>(numbers[i])));
+  return content;
+}
+
+std::string pose_text(const Pose<'C', 'T'>& X_CT) {
+  const auto& q = X_CT.xyzw;
+  const Vec3 p = 1e3 * X_CT.p();
+  return fmt::format("{} {} {} {} {} {} {}", p.x(), p.y(), p.z(), q[0], q[1], q[2], q[3]);
+}
+
+std::string_view value_of(std::span<const std::byte> metadata, std::string_view key) noexcept {
+  if (metadata.size() < 2) return {};
+  const std::size_t count = take<std::uint16_t>(metadata, 0);
+  const std::size_t header = 2 + 8 * count;
+  if (header > metadata.size()) return {};
+  std::string_view text(reinterpret_cast<const char*>(metadata.data()) + header, metadata.size() - header);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t letters = take<std::uint16_t>(metadata, 2 + 8 * i);
+    const std::size_t words = take<std::uint32_t>(metadata, 6 + 8 * i);
+    if (letters > text.size() || words > text.size() - letters) return {};
+    if (text.substr(0, letters) == key) return text.substr(letters, words);
+    text.remove_prefix(letters + words);
+  }
+  return {};
+}
+
+bool read_pose(std::string_view text, Pose<'C', 'T'>& X_CT) noexcept {
+  std::array<double, 7> numbers{};
+  for (double& number : numbers) {
+    while (text.starts_with(' ')) text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || !std::isfinite(number)) return false;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  }
+  const Quat q(numbers[6], numbers[3], numbers[4], numbers[5]);
+  constexpr double kUnit = 1e-9;
+  if (!text.empty() || !(std::abs(q.norm() - 1.0) < kUnit)) return false;
+  X_CT = Pose<'C', 'T'>(q, 1e-3 * Vec3(numbers[0], numbers[1], numbers[2]));
+  return true;
+}
+
+std::array<std::byte, 31> status_ok() noexcept {
+  std::array<std::byte, 31> content{};
+  put(content, 0, std::uint16_t{1});
+  return content;
+}
+
+}  // namespace enc::igtl

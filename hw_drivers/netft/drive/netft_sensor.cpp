@@ -1,0 +1,95 @@
+#include "hw_drivers/netft/drive/netft_sensor.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "hw_drivers/net/steady.h"
+#include "hw_drivers/netft/drive/inspect.h"
+
+namespace enc::netft {
+namespace {
+
+constexpr int kMostRecords = 4096;  // of a read: more than a socket holds
+
+}  // namespace
+
+NetftSensor::NetftSensor(const Offer& offer, const NetftSettings& settings)
+    : settings_(settings),
+      found_(inspect(fetch(settings, "/netftapi2.xml"), settings, offer.period)),
+      session_(found_, from_seconds(settings.least_delay), offer.lockstep),
+      socket_(net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))),
+      lockstep_(offer.lockstep) {
+  first_record();
+  if (!lockstep_) ask(Command::stop);  // until the run begins: what fills the socket before is old then
+}
+
+NetftSensor::~NetftSensor() { ask(Command::stop); }
+
+void NetftSensor::first_record() {
+  constexpr Duration kAgain{50'000'000};  // a datagram may be lost
+  for (const Duration until = net::steady_now() + from_seconds(settings_.timeout);;) {
+    ask(Command::start);
+    socket_.wait(kAgain);
+    Record record;
+    if (receive() && netft::read(std::span(datagram_).first(size_), record)) return;
+    if (net::steady_now() > until)
+      throw Error(
+          fmt::format("{}: its page answers, and no record comes within {:.0f} ms; see that UDP passes the "
+                      "network, and driver.netft.port",
+                      settings_.place(), 1e3 * settings_.timeout),
+          {}, ErrorKind::device);
+  }
+}
+
+void NetftSensor::ask(Command command) noexcept {
+  static_cast<void>(socket_.send(bytes_of(Request{command})));
+}
+
+bool NetftSensor::receive() noexcept {
+  size_ = socket_.receive(datagram_);
+  return size_ > 0;
+}
+
+std::string NetftSensor::describe() const {
+  return fmt::format("{} at {}, configuration '{}', {:g} records a second, answered", found_.product,
+                     settings_.place(), found_.name, found_.rate);
+}
+
+Stamped<Wrench> NetftSensor::read(Time now) noexcept {
+  const bool first = !reading_;
+  reading_ = true;
+  if (first) begun_ = now;
+  if (first && lockstep_) session_.take(std::span(datagram_).first(size_), now);
+  if (first && !lockstep_) {
+    while (receive()) {  // of before
+    }
+    ask(Command::start);
+  }
+  if (!first && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
+  for (int i = 0; i < kMostRecords && linked_ && receive(); ++i)
+    session_.take(std::span(datagram_).first(size_), now);
+  Stamped<Wrench> newest = session_.newest();
+  const Time last = newest.health == Health::absent ? begun_ : session_.last();
+  if (!lockstep_ && age(now, last) > settings_.silent + 1e-9) linked_ = false;
+  if (!linked_) newest.health = Health::fault;
+  return newest;
+}
+
+std::vector<std::string> NetftSensor::remarks() const {
+  const Counts& counts = session_.counts();
+  std::string line = fmt::format(
+      "{}: {} records, {} missing, {} old or twice, {} wrong; longest without one {:.1f} ms", describe(),
+      counts.records, counts.missing, counts.old, counts.wrong, 1e3 * counts.longest_gap);
+  if (counts.status != 0) line += "; " + status_words(counts.status);
+  return {line};
+}
+
+std::unique_ptr<ForceSensor> streaming(const Offer& offer) {
+  NetftSettings settings;
+  settings.declare(offer.table);
+  return std::make_unique<NetftSensor>(offer, settings);
+}
+
+}  // namespace enc::netft

@@ -1,0 +1,47 @@
+// A force/torque sensor on an ATI Net Box [VHMR 2]. Its records are taken within the loop: what has come is
+// in the socket, and nothing waits. Nothing is taken off: zero and weight are the core's to know.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/devices/driver.h"
+#include "hw_drivers/net/socket.h"
+#include "hw_drivers/netft/drive/session.h"
+#include "hw_drivers/netft/drive/settings.h"
+
+namespace enc::netft {
+
+class NetftSensor final : public ForceSensor {
+ public:
+  // Asks for its page and for a first record. Throws Error (kind device).
+  NetftSensor(const Offer& offer, const NetftSettings& settings);
+  NetftSensor(const NetftSensor&) = delete;
+  NetftSensor& operator=(const NetftSensor&) = delete;
+  ~NetftSensor() override;  // asks it to send no more
+
+  [[nodiscard]] std::string describe() const override;
+  [[nodiscard]] bool linked() const noexcept override { return linked_; }
+  [[nodiscard]] std::vector<std::string> remarks() const override;
+  Stamped<Wrench> read(Time now) noexcept override;
+
+ private:
+  void ask(Command command) noexcept;
+  void first_record();
+  bool receive() noexcept;  // into datagram_
+
+  NetftSettings settings_;
+  Configuration found_;
+  Session session_;
+  net::Socket socket_;
+  std::array<std::byte, 256> datagram_{};  // longer ones are no records
+  std::size_t size_ = 0;
+  Time begun_{};
+  bool lockstep_, reading_ = false, linked_ = true;
+};
+
+[[nodiscard]] std::unique_ptr<ForceSensor> streaming(const Offer& offer);
+
+}  // namespace enc::netft

@@ -1,0 +1,48 @@
+// What is made of records: which are news, what they weigh and when they were true. It knows neither sockets
+// nor clocks.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "hw_drivers/net/clock_tie.h"
+#include "hw_drivers/netft/wire/configuration.h"
+#include "hw_drivers/netft/wire/record.h"
+
+namespace enc::netft {
+
+inline constexpr double kSampleRate = 7000.0;  // of the box's own counter, Hz
+
+struct Counts {
+  std::int64_t records = 0;
+  std::int64_t missing = 0;  // numbers that never came, or came too late
+  std::int64_t old = 0;      // came behind a newer one, or twice
+  std::int64_t wrong = 0;    // no record
+  std::uint32_t status = 0;  // the last that was a fault or saturated
+  double longest_gap = 0.0;  // between two that came, s
+};
+
+class Session {
+ public:
+  // Lockstep: a record is true when it comes.
+  Session(const Configuration& of, Duration least_delay, bool lockstep)
+      : of_(of), tie_(least_delay), lockstep_(lockstep) {}
+
+  void take(std::span<const std::byte> datagram, Time now) noexcept;
+  // absent before the first record.
+  [[nodiscard]] const Stamped<Wrench>& newest() const noexcept { return newest_; }
+  [[nodiscard]] Time last() const noexcept { return last_; }  // when it came
+  [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
+
+ private:
+  Configuration of_;
+  net::ClockTie tie_;
+  bool lockstep_, begun_ = false;
+  Counts counts_;
+  std::uint32_t number_ = 0, sample_ = 0;
+  std::int64_t samples_ = 0;  // since the first, as it never goes round
+  Stamped<Wrench> newest_;
+  Time last_{};
+};
+
+}  // namespace enc::netft

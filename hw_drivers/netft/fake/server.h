@@ -1,0 +1,48 @@
+// The fake box on its ports: records over UDP to who asked last, its page over HTTP.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/devices/fake.h"
+#include "hw_drivers/net/socket.h"
+#include "hw_drivers/netft/fake/box.h"
+
+namespace enc::netft {
+
+class Server final : public Fake {
+ public:
+  // Port 0: any that is free. Throws Error (kind device) where nobody may listen there. `sensor` stays until
+  // the server is gone.
+  Server(ForceSensor& sensor, const Configuration& configuration, const std::string& address,
+         std::uint16_t port, std::uint16_t http_port);
+
+  [[nodiscard]] std::uint16_t port() const { return records_.port(); }
+  [[nodiscard]] std::uint16_t http_port() const { return listener_.port(); }
+  [[nodiscard]] Box& box() { return box_; }
+  [[nodiscard]] std::string describe() const override;
+  void serve(Time now) override;
+  void publish(Time now) override;
+  void wait_on(std::vector<int>& descriptors) const override;
+
+ private:
+  struct Reader {
+    net::Socket socket;
+    std::string asked, unsent;
+    bool answered = false;
+  };
+  void send(Time now) noexcept;
+  void serve_page();
+
+  Box box_;
+  std::string address_;
+  net::Socket records_, listener_;
+  std::vector<Reader> readers_;
+};
+
+// The fake of a rig's [driver.netft], in front of its force sensor.
+[[nodiscard]] std::unique_ptr<Fake> served(const FakeOffer& offer);
+
+}  // namespace enc::netft

@@ -1,0 +1,128 @@
+#include "hw_drivers/netft/wire/configuration.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+namespace enc::netft {
+namespace {
+
+constexpr double kPound = 4.4482216152605, kKilogram = 9.80665, kInch = 0.0254,
+                 kFoot = 0.3048;  // N, m; exact
+
+using Unit = std::pair<std::string_view, double>;
+constexpr std::array<Unit, 6> kForces{{{"N", 1.0},
+                                       {"lbf", kPound},
+                                       {"klbf", 1e3 * kPound},
+                                       {"kN", 1e3},
+                                       {"kgf", kKilogram},
+                                       {"gf", 1e-3 * kKilogram}}};
+constexpr std::array<Unit, 10> kTorques{{{"N-m", 1.0},
+                                         {"Nm", 1.0},
+                                         {"N-mm", 1e-3},
+                                         {"Nmm", 1e-3},
+                                         {"lbf-in", kPound* kInch},
+                                         {"lbf-ft", kPound* kFoot},
+                                         {"kgf-cm", 1e-2 * kKilogram},
+                                         {"kgf-m", kKilogram},
+                                         {"kN-m", 1e3},
+                                         {"kNm", 1e3}}};
+
+template <std::size_t kCount>
+double unit_of(std::string_view name, const std::array<Unit, kCount>& units) {
+  const auto* found =
+      std::find_if(units.begin(), units.end(), [&](const Unit& one) { return one.first == name; });
+  return found == units.end() ? kUnset : found->second;
+}
+
+double number(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() ? value : kUnset;
+}
+
+struct Page {
+  pugi::xml_node root;
+  std::string wrong{};  // the first of it
+
+  // A tag that must be there once; what is there twice is not to be believed either way.
+  std::optional<std::string> text(const char* tag, bool needed) {
+    const pugi::xml_node first = root.child(tag);
+    if (first && first.next_sibling(tag)) say(fmt::format("has two <{}>", tag));
+    if (!first && needed) say(fmt::format("has no <{}>", tag));
+    if (!first) return {};
+    return first.text().get();
+  }
+  double positive(const char* tag) {
+    const std::optional<std::string> said = text(tag, true);
+    const double value = said ? number(*said) : kUnset;
+    if (said && !(value > 0.0 && std::isfinite(value)))
+      say(fmt::format("says <{}> '{:.40}', expected a positive number", tag, *said));
+    return value;
+  }
+  void say(const std::string& words) {
+    if (wrong.empty()) wrong = words;
+  }
+};
+
+}  // namespace
+
+std::string read_xml(std::string_view xml, Configuration& configuration) {
+  if (xml.size() > kMostXml) return fmt::format("is longer than {} bytes", kMostXml);
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_buffer(xml.data(), xml.size(), pugi::parse_default);
+  if (!parsed) return fmt::format("is no XML: {} at byte {}", parsed.description(), parsed.offset);
+  Page page{document.document_element()};
+  Configuration read;
+  read.product = page.text("prodname", true).value_or("");
+  read.name = page.text("cfgnam", false).value_or("");
+  const double counts_force = page.positive("cfgcpf"), counts_torque = page.positive("cfgcpt");
+  const std::string force = page.text("scfgfu", true).value_or(""),
+                    torque = page.text("scfgtu", true).value_or("");
+  const double newtons = unit_of(force, kForces), newton_metres = unit_of(torque, kTorques);
+  if (std::isnan(newtons))
+    page.say(fmt::format("says force unit '{:.40}', expected N, lbf, klbf, kN, kgf or gf", force));
+  if (std::isnan(newton_metres))
+    page.say(fmt::format(
+        "says torque unit '{:.40}', expected N-m, N-mm, lbf-in, lbf-ft, kgf-cm, kgf-m or kN-m", torque));
+  read.per_newton = counts_force / newtons;
+  read.per_newton_metre = counts_torque / newton_metres;
+  if (const auto ratings = page.text("cfgmr", false)) {
+    std::string_view rest = *ratings;
+    for (std::size_t i = 0; i < read.ratings.size(); ++i) {
+      const std::size_t end = std::min(rest.find(';'), rest.size());
+      read.ratings[i] = number(rest.substr(0, end)) * (i < 3 ? newtons : newton_metres);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+  if (const auto rate = page.text("comrdtrate", false)) read.rate = number(*rate);
+  if (const auto streams = page.text("comrdte", false))
+    read.streams = *streams == "Enabled" || number(*streams) == 1.0;
+  if (const auto filter = page.text("setuserfilter", false)) {
+    const double index = number(*filter);
+    read.filter = index >= 0.0 && index < 100.0 ? static_cast<int>(index) : -1;
+  }
+  if (page.wrong.empty()) configuration = read;
+  return page.wrong;
+}
+
+std::string xml_of(const Configuration& of) {
+  std::string ratings;
+  for (const double rating : of.ratings) ratings += fmt::format("{}{:g}", ratings.empty() ? "" : ";", rating);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\r\n<netft><prodname>{}</prodname><setcfgsel>0</setcfgsel>"
+      "<cfgnam>{}</cfgnam><cfgfu>2</cfgfu><scfgfu>N</scfgfu><cfgtu>3</cfgtu><scfgtu>N-m</scfgtu>"
+      "<cfgcpf>{:.0f}</cfgcpf><cfgcpt>{:.0f}</cfgcpt><cfgmr>{}</cfgmr><comrdte>{}</comrdte>"
+      "<comrdtrate>{:.0f}</comrdtrate><setuserfilter>{}</setuserfilter></netft>\r\n",
+      of.product, of.name, of.per_newton, of.per_newton_metre, ratings, of.streams ? "Enabled" : "Disabled",
+      of.rate, of.filter);
+}
+
+}  // namespace enc::netft

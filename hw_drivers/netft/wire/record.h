@@ -1,0 +1,49 @@
+// RDT, the raw data of an ATI Net F/T over UDP: requests of 8 bytes, records of 36, big-endian.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/sample.h"
+
+namespace enc::netft {
+
+inline constexpr std::size_t kRequest = 8, kRecord = 36;
+
+enum class Command : std::uint16_t {
+  stop = 0,
+  start = 2,
+  start_buffered = 3,
+  clear_latch = 0x41,
+  bias = 0x42
+};
+
+struct Request {
+  Command command = Command::stop;
+  std::uint32_t samples = 0;  // 0: without end
+};
+[[nodiscard]] std::array<std::byte, kRequest> bytes_of(const Request& request) noexcept;
+[[nodiscard]] bool read(std::span<const std::byte> bytes, Request& request) noexcept;
+
+struct Record {
+  std::uint32_t number = 0;              // from 1, anew with each request
+  std::uint32_t sample = 0;              // of the sensor's own clock, 7,000 a second
+  std::uint32_t status = 0;              // 0: well
+  std::array<std::int32_t, 6> counts{};  // Fx Fy Fz Tx Ty Tz
+};
+[[nodiscard]] std::array<std::byte, kRecord> bytes_of(const Record& record) noexcept;
+[[nodiscard]] bool read(std::span<const std::byte> bytes, Record& record) noexcept;
+
+inline constexpr std::uint32_t kError = 1U << 31U;      // any of the others
+inline constexpr std::uint32_t kSaturated = 1U << 17U;  // the transducer, or its converter
+inline constexpr std::uint32_t kMonitor = 1U << 16U;    // a threshold of the user's was met: no fault
+
+// What the core is to believe of a record with this status.
+[[nodiscard]] Health health_of(std::uint32_t status) noexcept;
+// "status 0x80020000: transducer saturated"; of all bits that are set.
+[[nodiscard]] std::string status_words(std::uint32_t status);
+
+}  // namespace enc::netft

@@ -1,0 +1,147 @@
+// The driver of the Net F/T and its fake over loopback.
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "hw_drivers/netft/drive/inspect.h"
+#include "hw_drivers/netft/drive/netft_sensor.h"
+#include "hw_drivers/netft/fake/server.h"
+#include "tests/support/default_offer.h"
+#include "tests/support/devices/served.h"
+
+namespace enc::test {
+namespace {
+
+using testing::HasSubstr;
+
+struct Pressed final : ForceSensor {
+  Stamped<Wrench> read(Time now) noexcept override {
+    const double f = newtons;
+    return {{Vec<'F'>(0, 0, f), Vec<'F'>(0.1, 0, 0)}, now, health};
+  }
+  std::atomic<double> newtons = -12.5;
+  std::atomic<Health> health = Health::ok;
+};
+
+struct NetftPorts {
+  struct Table final : DefaultOffer::Defaults {
+    using DefaultOffer::Defaults::value;
+    void value(const Setting& key, double& number) override {
+      if (key.name == "silent_ms") number = 0.05;  // s: other tests take the processor, too
+      if (key.name == "timeout_ms") number = 0.3;
+    }
+    void value(const Setting& key, std::int64_t& whole) override {
+      if (key.name == "port") whole = port;
+      if (key.name == "http_port") whole = http_port;
+    }
+    void value(const Setting& key, std::string& text) override {
+      if (key.name == "address") text = "127.0.0.1";
+    }
+    std::int64_t port = 0, http_port = 0;
+  };
+  NetftPorts() {
+    table.port = server.port();
+    table.http_port = server.http_port();
+  }
+  Offer offer() { return {table, defaults.rig, defaults.reach, Duration(1'000'000), defaults.log}; }
+  std::string refused() {
+    try {
+      static_cast<void>(netft::streaming(offer()));
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::device);
+      return e.what();
+    }
+    return "";
+  }
+
+  DefaultOffer defaults;
+  Table table;
+  Pressed sensor;
+  netft::Server server{sensor, netft::gamma(), "127.0.0.1", 0, 0};
+};
+
+// In a time that begins when it is first asked.
+struct Loop {
+  Duration begun = net::steady_now();
+  [[nodiscard]] Time now() const { return Time(net::steady_now() - begun); }
+  Stamped<Wrench> read_for(ForceSensor& sensor, int cycles) const {
+    Stamped<Wrench> sample;
+    for (int i = 0; i < cycles; ++i) {
+      sample = sensor.read(now());
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return sample;
+  }
+};
+
+TEST(NetftDriver, ReadsWhatTheSensorSays) {
+  NetftPorts there;
+  const Served served(there.server);
+  const auto driver = netft::streaming(there.offer());
+  EXPECT_THAT(driver->describe(), HasSubstr("Net F/T at 127.0.0.1:"));
+  EXPECT_THAT(driver->describe(),
+              HasSubstr("configuration 'Gamma SI-130-10', 1000 records a second, answered"));
+  const Loop loop;
+  Stamped<Wrench> sample = loop.read_for(*driver, 50);
+  ASSERT_EQ(sample.health, Health::ok);
+  EXPECT_NEAR(sample.value.force.xyz[2], -12.5, 1e-6);
+  EXPECT_NEAR(sample.value.torque.xyz[0], 0.1, 1e-6);
+  there.sensor.newtons = 3.0;
+  sample = loop.read_for(*driver, 50);
+  EXPECT_NEAR(sample.value.force.xyz[2], 3.0, 1e-6);
+  there.sensor.health = Health::saturated;
+  EXPECT_EQ(loop.read_for(*driver, 50).health, Health::saturated);
+  EXPECT_THAT(driver->remarks().at(0), HasSubstr("transducer saturated"));
+}
+
+TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
+  NetftPorts there;
+  auto served = std::make_unique<Served>(there.server);
+  const auto driver = netft::streaming(there.offer());
+  const Loop loop;
+  EXPECT_EQ(loop.read_for(*driver, 20).health, Health::ok);
+  EXPECT_TRUE(driver->linked());
+  served.reset();
+  EXPECT_EQ(loop.read_for(*driver, 100).health, Health::fault);
+  EXPECT_FALSE(driver->linked());
+  served = std::make_unique<Served>(there.server);
+  EXPECT_EQ(loop.read_for(*driver, 50).health, Health::fault);
+  EXPECT_FALSE(driver->linked());
+}
+
+TEST(NetftDriver, WhoDoesNotAnswerIsNamed) {
+  NetftPorts there;
+  EXPECT_THAT(there.refused(), HasSubstr("no whole answer within 300 ms; see that it is a Net F/T"));
+  {
+    const Served served(there.server);
+    there.table.port = 1;
+    EXPECT_THAT(there.refused(),
+                HasSubstr("127.0.0.1:1: its page answers, and no record comes within 300 ms"));
+    there.table.port = there.server.port();
+    EXPECT_EQ(there.refused(), "");
+  }
+  there.table.http_port = 1;
+  EXPECT_THAT(there.refused(), HasSubstr("127.0.0.1:1: nobody listens there"));
+}
+
+TEST(NetftDriver, AnotherPageIsNotFound) {
+  NetftPorts there;
+  const Served served(there.server);
+  netft::NetftSettings settings;
+  settings.address = "127.0.0.1";
+  settings.http_port = there.server.http_port();
+  EXPECT_THAT(netft::fetch(settings, "/netftapi2.xml?index=3"), HasSubstr("<prodname>Net F/T</prodname>"));
+  try {
+    static_cast<void>(netft::fetch(settings, "/else"));
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("/else answered with HTTP status 404, expected 200"));
+  }
+}
+
+}  // namespace
+}  // namespace enc::test

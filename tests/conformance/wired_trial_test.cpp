@@ -1,0 +1,91 @@
+// The scene of the tennis ball through the wires of the laboratory, in virtual time.
+#include "tests/conformance/wired_trial.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace enc::test {
+namespace {
+
+const std::string kBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
+
+models::Setup fakes(std::vector<std::string> set = {}) { return models::load(kBall, "fakes", set); }
+
+constexpr Time kBegun{Duration(10'000'000)};  // the first record is there
+
+struct Outcome {
+  int contacts = 0;
+  double peak = 0.0;  // N
+  bool held = false;
+};
+
+Outcome outcome(WiredTrial& wired) {
+  Outcome of;
+  while (wired.tick()) {
+    of.peak = std::max(of.peak, wired.trial().truth().contact_force.norm());
+    of.held = of.held || (wired.now() > kBegun && wired.trial().outputs().mode == Mode::hold);
+  }
+  of.contacts = wired.trial().outputs().contacts;
+  return of;
+}
+
+// One press of the ball: its first ends at 20 s.
+trial::TrialOptions one_press() {
+  trial::TrialOptions options;
+  options.seconds = 20.0;
+  return options;
+}
+
+TEST(WiredTrial, EachDeviceBehindItsWireGivesTheSamePress) {
+  WiredTrial none(fakes(), one_press(), {false, false, false});
+  const Outcome pure = outcome(none);
+  EXPECT_EQ(pure.contacts, 1);
+  for (const WiredTrial::Wires wires : {WiredTrial::Wires{true, false, false},
+                                        {false, true, false},
+                                        {false, false, true},
+                                        {true, true, true}}) {
+    SCOPED_TRACE(testing::Message() << wires.machine << wires.force << wires.tracker);
+    WiredTrial wired(fakes({"rig.driver.gcs.cycle_ms=1", "rig.driver.gcs.poll_ms=1"}), one_press(), wires);
+    const Outcome of = outcome(wired);
+    EXPECT_EQ(of.contacts, 1);
+    EXPECT_FALSE(of.held);
+    EXPECT_NEAR(of.peak, pure.peak, 0.2);
+  }
+}
+
+// What the cycle of set-points does (docs/guide/laboratory.md): up to 10 ms a press is the same; with 20 ms
+// it is felt twice; 50 ms is too slow for what the core believes of the machine, and it holds.
+TEST(WiredTrial, SlowerCyclesOfSetPoints) {
+  for (const auto& [cycle, contacts, held] :
+       {std::tuple{"2", 1, false}, {"5", 1, false}, {"10", 1, false}, {"50", 0, true}}) {
+    SCOPED_TRACE(cycle);
+    WiredTrial wired(fakes({std::string("rig.driver.gcs.cycle_ms=") + cycle}), one_press());
+    const Outcome of = outcome(wired);
+    EXPECT_EQ(of.contacts, contacts);
+    EXPECT_EQ(of.held, held);
+    EXPECT_TRUE(held || std::abs(of.peak - 12.31) < 0.2) << of.peak;
+  }
+}
+
+// No set-point goes for 2 s, as when the process is stopped: the machine stands, and is told one at a time
+// after.
+TEST(WiredTrial, AfterAPauseNothingIsMadeUpFor) {
+  WiredTrial wired(fakes(), one_press());
+  while (wired.now() < Time(from_seconds(5.5))) wired.tick();
+  wired.loop_stands(Duration(2'000'000'000));
+  EXPECT_TRUE(wired.controller().at_rest());
+  const auto& plant = wired.trial().world().machine->state();
+  const Vec3 before = plant.pose.p();
+  double fastest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    wired.tick();
+    fastest = std::max(fastest, plant.velocity.norm());
+  }
+  EXPECT_LE(fastest, 0.050 * 1.001);
+  EXPECT_LT((plant.pose.p() - before).norm(), 0.3 * 0.050);
+}
+
+}  // namespace
+}  // namespace enc::test

@@ -1,0 +1,109 @@
+// Datagrams that are lost, late, doubled or of another clock.
+#include "hw_drivers/igtl/drive/reception.h"
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace enc::igtl {
+namespace {
+
+constexpr Duration ms(double n) { return from_seconds(1e-3 * n); }
+const std::vector<std::string> kTools{"stylus", "a_tool_with_a_long_name"};
+
+Written pose(double x, std::int64_t stamp_ns, std::uint32_t number, const char* device = "stylusToTracker") {
+  return {"TRANSFORM", device, stamp_ns, number, transform(Pose<'C', 'T'>::shift(x, 0, 1))};
+}
+
+struct Bench {
+  IgtlSettings settings;
+  Reception reception;
+  Stamped<TrackedTool> newest;
+  explicit Bench(bool lockstep = true, double least_delay = 0.0)
+      : reception(with(least_delay), kTools, lockstep) {}
+  IgtlSettings with(double least_delay) {
+    settings.least_delay = least_delay;
+    return settings;
+  }
+  bool take(const Written& message, double now_ms = 0.0) {
+    return reception.take(message.bytes(), Time(ms(now_ms)), newest);
+  }
+};
+
+TEST(IgtlReception, TakesEachPoseOnceWithItsToolAndTime) {
+  Bench bench;
+  EXPECT_TRUE(bench.take(pose(0.25, 5'000'000, 1)));
+  EXPECT_EQ(bench.newest.health, Health::ok);
+  EXPECT_EQ(bench.newest.value.tool, 0);
+  EXPECT_EQ(bench.newest.t, Time(ms(5)));
+  EXPECT_EQ(bench.newest.value.X_CT.p().x(), 0.25);
+  EXPECT_FALSE(bench.take(pose(0.5, 6'000'000, 1))) << "a number twice";
+  EXPECT_FALSE(bench.take(pose(0.5, 5'000'000, 2))) << "a stamp twice";
+  EXPECT_TRUE(bench.take(pose(0.5, 7'000'000, 3, "a_tool_with_a_long_nameToTracker"))) << "cut to 20 letters";
+  EXPECT_EQ(bench.newest.value.tool, 1);
+  EXPECT_FALSE(bench.take(pose(0.5, 8'000'000, 4, "hammerToTracker")));
+  EXPECT_EQ(bench.reception.counts().poses, 2);
+  EXPECT_EQ(bench.reception.counts().old, 2);
+  EXPECT_EQ(bench.reception.counts().wrong, 1);
+}
+
+TEST(IgtlReception, NumbersGoRound) {
+  Bench bench;
+  EXPECT_TRUE(bench.take(pose(0, 1, 0xfffffffe)));
+  EXPECT_TRUE(bench.take(pose(0, 2, 0xffffffff)));
+  EXPECT_TRUE(bench.take(pose(0, 3, 0)));
+  EXPECT_FALSE(bench.take(pose(0, 4, 0xffffffff)));
+  EXPECT_TRUE(bench.take(pose(0, 5, 3)));
+  EXPECT_EQ(bench.reception.counts().missing, 2);
+}
+
+// However it loses, turns round and doubles: stamps only grow, what is newest stays, doubles change nothing.
+TEST(IgtlReception, AnyWayOfDatagramsGivesTimesThatOnlyGrow) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::mt19937_64 random(seed);
+    Bench once, doubled;
+    std::vector<int> way;
+    for (int i = 1; i <= 500; ++i)
+      if (random() % 5 != 0) way.push_back(i);  // a fifth is lost
+    for (std::size_t i = 0; i + 3 < way.size(); ++i)
+      if (random() % 10 < 3) std::swap(way[i], way[i + 1 + random() % 2]);
+    Time last{};
+    int most = 0;
+    for (const int n : way) {
+      const Written message = pose(1e-3 * n, 10'000'000LL * n, static_cast<std::uint32_t>(n));
+      const bool news = once.take(message);
+      EXPECT_EQ(news, n > most) << "seed " << seed;
+      most = std::max(most, n);
+      EXPECT_GE(once.newest.t, last);
+      last = once.newest.t;
+      EXPECT_EQ(doubled.take(message), news);
+      EXPECT_FALSE(doubled.take(message));
+      EXPECT_EQ(doubled.newest.t, once.newest.t);
+      EXPECT_EQ(doubled.newest.value.X_CT.xyz, once.newest.value.X_CT.xyz);
+    }
+    EXPECT_EQ(most, way.back() > most ? way.back() : most);
+  }
+}
+
+// A clock that began elsewhere and goes 50 ppm too fast, a network of 0.2 ms at least and 2 ms on average.
+TEST(IgtlReception, AnotherClockIsTiedToThisOne) {
+  std::mt19937_64 random(7);
+  std::exponential_distribution<double> more(1.0 / 2e-3);
+  Bench bench(false, 0.2e-3);
+  double worst = 0.0;
+  for (std::uint32_t n = 1; n <= 6000; ++n) {
+    const double t = 0.01 * n;
+    const auto stamp = static_cast<std::int64_t>(1e9 * (1700.0 + t * (1.0 + 50e-6)));
+    const double arrives = t + 0.2e-3 + more(random);
+    if (!bench.take(pose(0, stamp, n), 1e3 * arrives)) continue;
+    if (t > 5.0) worst = std::max(worst, std::abs(seconds(bench.newest.t.time_since_epoch()) - t));
+  }
+  EXPECT_LT(worst, 0.5e-3);
+  EXPECT_GT(bench.reception.counts().poses, 5000);
+}
+
+}  // namespace
+}  // namespace enc::igtl

@@ -1,0 +1,95 @@
+#include "trial/fakes/fakes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include "core/error.h"
+#include "models/setup/driver_table.h"
+#include "trial/prepare.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr Duration kLongest{50'000'000};  // of a turn
+constexpr Duration kLate{100'000'000};    // periods that are later are not made up
+
+Duration wall_now() {
+  return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
+}  // namespace
+
+Fakes::Fakes(models::Setup setup, FakesOptions options)
+    : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
+  const std::set<std::string> drivers = drivers_used(setup_);
+  if (drivers.empty())
+    throw Error(setup_.rig_path +
+                ": every device that the scene names is simulated, and has no wire; expected a "
+                "driver such as \"gcs\"; name another rig");
+  read_driver_tables(setup_, [&](const std::string& name) {
+    return drivers.contains(name) ? &options_.drivers(name) : nullptr;
+  });
+  world_ = make_world(setup_, scene_, options_.seed);
+  rig_ = world_->rig();
+  first_ = world_->save();
+  const std::vector<std::string> tools = tool_names(setup_);
+  for (const std::string& name : drivers) {
+    const ModuleInfo& module = options_.drivers(name);
+    if (module.driver == nullptr || module.driver->fake == nullptr)
+      throw Error(
+          fmt::format("{}: module '{}' has no fake; leave that role to \"sim\", or name another driver",
+                      setup_.rig_path, name),
+          {}, ErrorKind::device);
+    models::DriverTableReader table(setup_, name);
+    const auto go_on =
+        options_.lockstep ? std::function<void()>([this] { advance(); }) : std::function<void()>();
+    fakes_.push_back(module.driver->fake({table, rig_, setup_.rig, log_, go_on, tools, [this] { begin(); }}));
+  }
+  advance();
+  due_ = wall_now() + now_.dt;
+}
+
+std::vector<std::string> Fakes::describe() const {
+  std::vector<std::string> lines;
+  for (const auto& fake : fakes_) lines.push_back(fake->describe());
+  return lines;
+}
+
+// Who comes to tell the machine finds the world as it was at first, so that each run is the same.
+void Fakes::begin() {
+  ++begun_;
+  world_->restore(first_);
+  advance();
+  due_ = wall_now() + now_.dt;
+}
+
+void Fakes::advance() {
+  now_ = rig_.clock->next();
+  for (const auto& fake : fakes_) fake->publish(now_.t);
+}
+
+void Fakes::wait(Duration most) {
+  std::vector<int> descriptors;
+  for (const auto& fake : fakes_) fake->wait_on(descriptors);
+  std::vector<pollfd> all;
+  for (const int descriptor : descriptors) all.push_back({descriptor, POLLIN, 0});
+  const std::int64_t ns = std::clamp<std::int64_t>(most.count(), 0, kLongest.count());
+  const timespec time{0, static_cast<long>(ns)};
+  static_cast<void>(ppoll(all.data(), all.size(), &time, nullptr));
+}
+
+void Fakes::turn() {
+  wait(options_.lockstep ? kLongest : due_ - wall_now());
+  for (const auto& fake : fakes_) fake->serve(now_.t);
+  if (options_.lockstep) return;
+  const Duration now = wall_now();
+  if (now - due_ > kLate) due_ = now;
+  for (; due_ <= now; due_ += now_.dt) advance();
+}
+
+}  // namespace enc::trial

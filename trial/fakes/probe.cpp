@@ -1,0 +1,78 @@
+#include "trial/fakes/probe.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <thread>
+
+#include "core/devices/roles.h"
+#include "core/error.h"
+#include "models/order_statistics.h"
+#include "trial/device_log.h"
+
+namespace enc::trial {
+namespace {
+
+struct Series {
+  Time last{};
+  bool any = false;
+  std::vector<double> intervals, ages;  // s
+  void add(Time t, Time now) {
+    if (any) intervals.push_back(age(t, last));
+    ages.push_back(age(now, t));
+    last = t;
+    any = true;
+  }
+};
+
+}  // namespace
+
+std::vector<Probed> probe_devices(models::Setup setup, const DriverSource& drivers, double seconds,
+                                  const std::function<bool()>& stop) {
+  std::vector<Probed> all;
+  std::array<std::size_t, kRoles> place{};  // in `all`, of each role; one beyond: none
+  place.fill(kRoles);
+  Rig rig;
+  DeviceLog log;
+  for (const DeviceWords& words : put_each_driver(rig, setup, drivers, log))
+    all.push_back({words.role, words.words, words.there});
+  each_role([&](const auto& role) {
+    if (rig.*role.slot == nullptr) return;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Probed& one) { return one.role == role.table; });
+    place[static_cast<std::size_t>(role.id)] = static_cast<std::size_t>(found - all.begin());
+  });
+  std::array<Series, kRoles> series;
+  Inputs in;
+  using Wall = std::chrono::steady_clock;
+  const auto period = std::chrono::nanoseconds(from_seconds(1.0 / setup.rig.loop.rate));
+  const Wall::time_point begun = Wall::now();
+  rig.clock = std::make_unique<CountingClock>(setup.rig.loop.rate);
+  for (std::int64_t i = 1; !stop(); ++i) {
+    std::this_thread::sleep_until(begun + i * period);
+    const Time now(std::chrono::duration_cast<Duration>(Wall::now() - begun));
+    if (age(now, Time{}) > seconds) break;
+    rig.read(now, in);
+    each_role([&](const auto& role) {
+      const auto& said = in.*role.said;
+      Series& of = series[static_cast<std::size_t>(role.id)];
+      if (rig.*role.slot && said.health != Health::absent && (!of.any || said.t > of.last))
+        of.add(said.t, now);
+    });
+  }
+  for (std::size_t i = 0; i < kRoles; ++i) {
+    Series& of = series[i];
+    if (place[i] >= all.size() || !of.any) continue;
+    Probed& device = all[place[i]];
+    device.samples = static_cast<std::int64_t>(of.ages.size());
+    device.rate = static_cast<double>(device.samples) / seconds;
+    device.age_p50 = models::median(of.ages);
+    device.age_p99 = models::percentile(of.ages, 0.99);
+    if (of.intervals.empty()) continue;
+    device.interval_p50 = models::median(of.intervals);
+    device.interval_max = *std::max_element(of.intervals.begin(), of.intervals.end());
+  }
+  return all;
+}
+
+}  // namespace enc::trial

@@ -1,0 +1,27 @@
+// What the devices of a rig say when nobody tells them anything: how often, how regularly and how late.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "models/setup/scene_file.h"
+#include "trial/assemble.h"
+
+namespace enc::trial {
+
+struct Probed {
+  std::string role, words;  // as DeviceWords has them
+  bool there = true;
+  std::int64_t samples = 0;                             // news in that time
+  double rate = kUnset;                                 // Hz
+  double interval_p50 = kUnset, interval_max = kUnset;  // between the times that samples were true, s
+  double age_p50 = kUnset, age_p99 = kUnset;            // of a sample when it came, s
+};
+
+// Makes every device that is not simulated, reads each for so long at the loop's rate, and lets it go.
+// Nothing is told: nothing moves. `stop` is asked before each reading.
+[[nodiscard]] std::vector<Probed> probe_devices(models::Setup setup, const DriverSource& drivers,
+                                                double seconds, const std::function<bool()>& stop);
+
+}  // namespace enc::trial
