@@ -10,6 +10,7 @@
 #include "hw_drivers/netft/drive/inspect.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
+#include "hw_drivers/netft/wire/command.h"
 #include "tests/support/default_offer.h"
 #include "tests/support/devices/served.h"
 
@@ -37,15 +38,17 @@ struct NetftPorts {
     void value(const Setting& key, std::int64_t& whole) override {
       if (key.name == "port") whole = port;
       if (key.name == "http_port") whole = http_port;
+      if (key.name == "command_port") whole = command_port;
     }
     void value(const Setting& key, std::string& text) override {
       if (key.name == "address") text = "127.0.0.1";
     }
-    std::int64_t port = 0, http_port = 0;
+    std::int64_t port = 0, http_port = 0, command_port = 0;
   };
   NetftPorts() {
     table.port = server.port();
     table.http_port = server.http_port();
+    table.command_port = server.command_port();
   }
   Offer offer() { return {table, defaults.rig, defaults.reach, Duration(1'000'000), defaults.log}; }
   std::string refused() {
@@ -61,7 +64,7 @@ struct NetftPorts {
   DefaultOffer defaults;
   Table table;
   Pressed sensor;
-  netft::Server server{sensor, netft::gamma(), "127.0.0.1", 0, 0};
+  netft::Server server{sensor, netft::gamma(), "127.0.0.1", netft::Ports{}};
 };
 
 // In a time that begins when it is first asked.
@@ -84,7 +87,8 @@ TEST(NetftDriver, ReadsWhatTheSensorSays) {
   const auto driver = netft::streaming(there.offer());
   EXPECT_THAT(driver->describe(), HasSubstr("Net F/T at 127.0.0.1:"));
   EXPECT_THAT(driver->describe(),
-              HasSubstr("configuration 'Gamma SI-130-10', 1000 records a second, answered"));
+              HasSubstr("configuration 'Gamma SI-130-10', 1000 records a second, answered, its command "
+                        "interface agrees"));
   const Loop loop;
   Stamped<Wrench> sample = loop.read_for(*driver, 50);
   ASSERT_EQ(sample.health, Health::ok);
@@ -126,6 +130,27 @@ TEST(NetftDriver, WhoDoesNotAnswerIsNamed) {
   }
   there.table.http_port = 1;
   EXPECT_THAT(there.refused(), HasSubstr("127.0.0.1:1: nobody listens there"));
+}
+
+TEST(NetftDriver, ACommandInterfaceThatMeansOtherUnitsIsRefused) {
+  NetftPorts there;
+  const Served served(there.server);
+  netft::NetftSettings settings;
+  settings.address = "127.0.0.1";
+  settings.command_port = there.server.command_port();
+  const std::vector<std::byte> answer = netft::ask_calibration(settings);
+  ASSERT_EQ(answer.size(), netft::kCalibrationSize);
+  netft::agree(answer, netft::gamma(), settings);
+  netft::Configuration pounds = netft::gamma();
+  pounds.per_newton /= 4.4482216152605;
+  try {
+    netft::agree(answer, pounds, settings);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("its command interface 1000000 for unit 2 and 1000000 for unit 3"));
+  }
+  settings.command_port = 1;
+  EXPECT_TRUE(netft::ask_calibration(settings).empty()) << "nobody listens there";
 }
 
 TEST(NetftDriver, AnotherPageIsNotFound) {

@@ -18,6 +18,7 @@ class Ported final : public Settings {
     table_.value(key, whole);
     if (key.name == "port") whole = port_;
     if (key.name == "http_port") whole = http_port_;
+    if (key.name == "command_port") whole = 0;
   }
   void value(const Setting& key, std::string& text) override { table_.value(key, text); }
   void value(const Setting& key, std::vector<double>& numbers) override { table_.value(key, numbers); }
@@ -111,8 +112,7 @@ void WiredTrial::put(Rig& rig, const Wires& wires) {
   }
   if (wires.force) {
     twin_.force = std::move(rig.force);
-    box_ = std::make_unique<netft::Server>(*twin_.force, netft::gamma(), "127.0.0.1", std::uint16_t{0},
-                                           std::uint16_t{0});
+    box_ = std::make_unique<netft::Server>(*twin_.force, netft::gamma(), "127.0.0.1", netft::Ports{});
     const Served served(*box_);
     Ported table(setup_, "netft", box_->port(), box_->http_port());
     rig.force = netft::streaming(offer(table));

@@ -1,6 +1,7 @@
 #include "hw_drivers/netft/drive/inspect.h"
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "core/error.h"
 #include "hw_drivers/net/socket.h"
 #include "hw_drivers/net/steady.h"
+#include "hw_drivers/netft/wire/command.h"
 #include "hw_drivers/netft/wire/http.h"
 
 namespace enc::netft {
@@ -50,6 +52,46 @@ std::string fetch(const NetftSettings& settings, const std::string& path) {
   return std::string(answer.body());
 }
 
+std::vector<std::byte> ask_calibration(const NetftSettings& settings) {
+  const Duration timeout = from_seconds(settings.timeout);
+  net::Socket socket;
+  try {
+    socket = net::connect_tcp(settings.address, static_cast<std::uint16_t>(settings.command_port), timeout);
+  } catch (const Error&) {
+    return {};
+  }
+  const auto question = bytes_of(Ask{.question = Question::calibration});
+  std::vector<std::byte> answer;
+  std::size_t sent = 0;
+  for (const Duration until = net::steady_now() + timeout; answer.size() < kCalibrationSize;) {
+    sent += socket.send(std::span(question).subspan(sent));
+    constexpr Duration kTurn{10'000'000};
+    socket.wait(kTurn);
+    std::array<std::byte, kCalibrationSize> bytes{};
+    const std::size_t got = socket.receive(std::span(bytes).first(kCalibrationSize - answer.size()));
+    answer.insert(answer.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(got));
+    if ((got == 0 && socket.closed()) || net::steady_now() > until)
+      refuse(fmt::format(
+          "{}: its command interface takes READCALINFO and says nothing; see driver.netft.command_port "
+          "(0: not asked)",
+          net::place(settings.address, static_cast<std::uint16_t>(settings.command_port))));
+  }
+  return answer;
+}
+
+void agree(std::span<const std::byte> answer, const Configuration& page, const NetftSettings& settings) {
+  Calibration says;
+  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-6 * b; };  // NaN is like nothing
+  if (read(answer, says) && same(says.per_force / force_of_code(says.force_unit), page.per_newton) &&
+      same(says.per_torque / torque_of_code(says.torque_unit), page.per_newton_metre))
+    return;
+  refuse(fmt::format(
+      "{}: its page says {:g} counts for a newton and {:g} for a newton metre, its command interface {} for "
+      "unit {} and {} for unit {}; save its page Configurations again, and switch it off and on",
+      settings.place(), page.per_newton, page.per_newton_metre, says.per_force, says.force_unit,
+      says.per_torque, says.torque_unit));
+}
+
 Configuration inspect(const std::string& xml, const NetftSettings& settings, Duration period) {
   Configuration found;
   const std::string place = settings.place();
@@ -60,6 +102,11 @@ Configuration inspect(const std::string& xml, const NetftSettings& settings, Dur
         fmt::format("{} is another device: it says '{}', expected '{}'; correct driver.netft.address or "
                     "driver.netft.product",
                     place, shown(found.product), settings.product));
+  if (found.turned)
+    refuse(
+        fmt::format("{} turns or moves its axes itself (tool transform, cfgtfx); set it to 0 on its page "
+                    "Configurations: where the sensor stands is the rig's to say (frames.H_F)",
+                    place));
   if (!found.streams)
     refuse(
         fmt::format("{} sends no records: RDT is switched off; enable it on its page Communications", place));
@@ -73,11 +120,11 @@ Configuration inspect(const std::string& xml, const NetftSettings& settings, Dur
     const bool force = i < 3;
     const double least = force ? settings.range : settings.torque_range;
     if (found.ratings[i] >= least * (1 - 1e-9)) continue;
-    constexpr std::array<const char*, 6> kAxes{"Fx", "Fy", "Fz", "Tx", "Ty", "Tz"};
+    constexpr std::array<const char*, kAxes> kNames{"Fx", "Fy", "Fz", "Tx", "Ty", "Tz"};
     refuse(fmt::format(
         "{} can do less than the rig file promises: {} to {:g} of {:g} {}; choose another configuration "
         "on its page, or lower driver.netft.{}",
-        place, kAxes[i], found.ratings[i], least, force ? "N" : "N m",
+        place, kNames[i], found.ratings[i], least, force ? "N" : "N m",
         force ? "range_N" : "torque_range_Nm"));
   }
   return found;

@@ -21,6 +21,11 @@ NetftSensor::NetftSensor(const Offer& offer, const NetftSettings& settings)
       session_(found_, from_seconds(settings.least_delay), offer.lockstep),
       socket_(net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))),
       lockstep_(offer.lockstep) {
+  if (settings_.command_port != 0)
+    if (const std::vector<std::byte> answer = ask_calibration(settings_); !answer.empty()) {
+      agree(answer, found_, settings_);
+      agreed_ = true;
+    }
   first_record();
   if (!lockstep_) ask(Command::stop);  // until the run begins: what fills the socket before is old then
 }
@@ -53,8 +58,9 @@ bool NetftSensor::receive() noexcept {
 }
 
 std::string NetftSensor::describe() const {
-  return fmt::format("{} at {}, configuration '{}', {:g} records a second, answered", found_.product,
-                     settings_.place(), found_.name, found_.rate);
+  return fmt::format("{} at {}, configuration '{}', {:g} records a second, answered{}", found_.product,
+                     settings_.place(), found_.name, found_.rate,
+                     agreed_ ? ", its command interface agrees" : "");
 }
 
 Stamped<Wrench> NetftSensor::read(Time now) noexcept {

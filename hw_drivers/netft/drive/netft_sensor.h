@@ -40,6 +40,7 @@ class NetftSensor final : public ForceSensor {
   std::size_t size_ = 0;
   Time begun_{};
   bool lockstep_, reading_ = false, linked_ = true;
+  bool agreed_ = false;  // the command interface was asked, too
 };
 
 [[nodiscard]] std::unique_ptr<ForceSensor> streaming(const Offer& offer);

@@ -8,6 +8,12 @@ void NetftSettings::declare(Settings& table) {
   table.value({.name = "address", .meaning = "of the Net Box"}, address);
   table.value({.name = "port", .meaning = "of its records (RDT), UDP", .low = 1, .high = 65535}, port);
   table.value({.name = "http_port", .meaning = "of its pages, TCP", .low = 1, .high = 65535}, http_port);
+  table.value(
+      {.name = "command_port",
+       .meaning = "of its command interface, TCP, which is asked whether it means the same; 0: not asked",
+       .low = 0,
+       .high = 65535},
+      command_port);
   table.value({.name = "timeout_ms", .meaning = "for its page and its first record", .low = 1, .high = 1e4},
               timeout);
   table.value({.name = "silent_ms", .meaning = "without a record: the link is lost", .low = 1, .high = 1e4},

@@ -10,7 +10,7 @@ namespace enc::netft {
 
 struct NetftSettings {
   std::string address = "192.168.1.1";
-  std::int64_t port = 49152, http_port = 80;
+  std::int64_t port = 49152, http_port = 80, command_port = 49151;
   double timeout = 0.5;        // s
   double silent = 0.005;       // s
   double range = 130.0;        // N

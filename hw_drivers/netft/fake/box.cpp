@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hw_drivers/netft/drive/session.h"
+#include "hw_drivers/netft/wire/command.h"
 
 namespace enc::netft {
 
@@ -66,6 +67,28 @@ Record Box::record(Time now) noexcept {
   record.number = ++number_;
   if (left_ > 0 && --left_ == 0) streams_ = false;
   return record;
+}
+
+std::vector<std::byte> Box::answer(std::span<const std::byte> question, Time now) {
+  const auto bytes = [](const auto& all) { return std::vector<std::byte>(all.begin(), all.end()); };
+  constexpr std::uint16_t kScale = 16384;  // so that the ratings fit into 16 bits
+  Ask ask;
+  if (!read(question, ask)) return {};
+  if (ask.question == Question::calibration) {
+    Calibration says{2,
+                     3,
+                     static_cast<std::uint32_t>(of_.per_newton),
+                     static_cast<std::uint32_t>(of_.per_newton_metre),
+                     {}};
+    says.scale.fill(kScale);
+    return bytes(bytes_of(says));
+  }
+  if (ask.bias) bias_ = counts_;
+  const Record now_record = record(now);
+  Reading reading{static_cast<std::uint16_t>(now_record.status >> 16U), {}};
+  for (std::size_t i = 0; i < kAxes; ++i)
+    reading.coarse[i] = static_cast<std::int16_t>(std::clamp(now_record.counts[i] / kScale, -32768, 32767));
+  return bytes(bytes_of(reading));
 }
 
 }  // namespace enc::netft

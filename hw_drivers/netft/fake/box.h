@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/devices/force_sensor.h"
 #include "hw_drivers/netft/wire/configuration.h"
@@ -23,6 +24,8 @@ class Box {
   bool take(std::span<const std::byte> request) noexcept;
   [[nodiscard]] bool streams() const noexcept { return streams_; }
   [[nodiscard]] Record record(Time now) noexcept;  // the next
+  // To 20 bytes of the command interface; empty: it does not know them.
+  [[nodiscard]] std::vector<std::byte> answer(std::span<const std::byte> question, Time now);
   [[nodiscard]] std::string xml() const { return xml_of(of_); }
   // For tests: what goes with each record from now on; 0: nothing.
   void fail(std::uint32_t status) noexcept { failure_ = status; }

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "hw_drivers/netft/drive/settings.h"
+#include "hw_drivers/netft/wire/command.h"
 #include "hw_drivers/netft/wire/http.h"
 
 namespace enc::netft {
@@ -16,11 +17,12 @@ constexpr std::size_t kMostReaders = 8, kMostAsked = 4096;
 }  // namespace
 
 Server::Server(ForceSensor& sensor, const Configuration& configuration, const std::string& address,
-               std::uint16_t port, std::uint16_t http_port)
+               const Ports& ports)
     : box_(sensor, configuration),
       address_(address),
-      records_(net::bind_udp(address, port)),
-      listener_(net::listen_tcp(address, http_port)) {}
+      records_(net::bind_udp(address, ports.records)),
+      listener_(net::listen_tcp(address, ports.page)),
+      commands_(net::listen_tcp(address, ports.commands)) {}
 
 std::string Server::describe() const {
   return "Net F/T at " + net::place(address_, port()) + ", its page at " + net::place(address_, http_port());
@@ -29,7 +31,9 @@ std::string Server::describe() const {
 void Server::wait_on(std::vector<int>& descriptors) const {
   descriptors.push_back(records_.descriptor());
   descriptors.push_back(listener_.descriptor());
+  descriptors.push_back(commands_.descriptor());
   for (const Reader& reader : readers_) descriptors.push_back(reader.socket.descriptor());
+  for (const Reader& reader : askers_) descriptors.push_back(reader.socket.descriptor());
 }
 
 void Server::serve(Time now) {
@@ -37,6 +41,7 @@ void Server::serve(Time now) {
   for (std::size_t got = records_.receive(bytes); got > 0; got = records_.receive(bytes))
     if (box_.take(std::span(bytes).first(got))) send(now);
   serve_page();
+  serve_commands(now);
 }
 
 void Server::publish(Time now) {
@@ -45,11 +50,32 @@ void Server::publish(Time now) {
 
 void Server::send(Time now) noexcept { static_cast<void>(records_.reply(bytes_of(box_.record(now)))); }
 
-void Server::serve_page() {
-  for (net::Socket next = listener_.accept(); next.is_open(); next = listener_.accept()) {
-    if (readers_.size() >= kMostReaders) readers_.erase(readers_.begin());
-    readers_.push_back({std::move(next), {}, {}});
+void Server::accept(net::Socket& listener, std::vector<Reader>& readers) {
+  for (net::Socket next = listener.accept(); next.is_open(); next = listener.accept()) {
+    if (readers.size() >= kMostReaders) readers.erase(readers.begin());
+    readers.push_back({std::move(next), {}, {}});
   }
+}
+
+// Questions of 20 bytes, one behind the other.
+void Server::serve_commands(Time now) {
+  accept(commands_, askers_);
+  for (Reader& asker : askers_) {
+    std::array<char, 1024> bytes{};
+    const std::size_t got = asker.socket.receive(std::as_writable_bytes(std::span(bytes)));
+    asker.asked.append(bytes.data(), got);
+    for (; asker.asked.size() >= kAskSize; asker.asked.erase(0, kAskSize))
+      for (const std::byte byte : box_.answer(std::as_bytes(std::span(asker.asked)).first(kAskSize), now))
+        asker.unsent.push_back(static_cast<char>(byte));
+    asker.unsent.erase(0,
+                       asker.unsent.empty() ? 0 : asker.socket.send(std::as_bytes(std::span(asker.unsent))));
+    if ((got == 0 && asker.socket.closed()) || asker.unsent.size() > kMostAsked) asker.socket = {};
+  }
+  std::erase_if(askers_, [](const Reader& asker) { return !asker.socket.is_open(); });
+}
+
+void Server::serve_page() {
+  accept(listener_, readers_);
   for (Reader& reader : readers_) {
     std::array<char, 1024> bytes{};
     const std::size_t got = reader.socket.receive(std::as_writable_bytes(std::span(bytes)));
@@ -75,9 +101,10 @@ std::unique_ptr<Fake> served(const FakeOffer& offer) {
   settings.declare(offer.table);
   if (!offer.rig.force)
     throw Error("the scene names no [force], whose records a fake Net F/T sends; choose another scene");
-  return std::make_unique<Server>(*offer.rig.force, gamma(), settings.address,
-                                  static_cast<std::uint16_t>(settings.port),
-                                  static_cast<std::uint16_t>(settings.http_port));
+  const auto port = [](std::int64_t number) { return static_cast<std::uint16_t>(number); };
+  return std::make_unique<Server>(
+      *offer.rig.force, gamma(), settings.address,
+      Ports{port(settings.port), port(settings.http_port), port(settings.command_port)});
 }
 
 }  // namespace enc::netft

@@ -1,4 +1,5 @@
-// The fake box on its ports: records over UDP to who asked last, its page over HTTP.
+// The fake box on its ports: records over UDP to who asked last, its page over HTTP, its
+// command interface over TCP.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +13,20 @@
 
 namespace enc::netft {
 
+struct Ports {
+  std::uint16_t records = 0, page = 0, commands = 0;
+};
+
 class Server final : public Fake {
  public:
   // Port 0: any that is free. Throws Error (kind device) where nobody may listen there. `sensor` stays until
   // the server is gone.
   Server(ForceSensor& sensor, const Configuration& configuration, const std::string& address,
-         std::uint16_t port, std::uint16_t http_port);
+         const Ports& ports);
 
   [[nodiscard]] std::uint16_t port() const { return records_.port(); }
   [[nodiscard]] std::uint16_t http_port() const { return listener_.port(); }
+  [[nodiscard]] std::uint16_t command_port() const { return commands_.port(); }
   [[nodiscard]] Box& box() { return box_; }
   [[nodiscard]] std::string describe() const override;
   void serve(Time now) override;
@@ -34,12 +40,14 @@ class Server final : public Fake {
     bool answered = false;
   };
   void send(Time now) noexcept;
+  static void accept(net::Socket& listener, std::vector<Reader>& readers);
   void serve_page();
+  void serve_commands(Time now);
 
   Box box_;
   std::string address_;
-  net::Socket records_, listener_;
-  std::vector<Reader> readers_;
+  net::Socket records_, listener_, commands_;
+  std::vector<Reader> readers_, askers_;
 };
 
 // The fake of a rig's [driver.netft], in front of its force sensor.

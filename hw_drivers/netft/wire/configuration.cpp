@@ -63,7 +63,7 @@ struct Page {
   double positive(const char* tag) {
     const std::optional<std::string> said = text(tag, true);
     const double value = said ? number(*said) : kUnset;
-    if (said && !(value > 0.0 && std::isfinite(value)))
+    if (said && !(value > 1e-9 && value < 1e15))
       say(fmt::format("says <{}> '{:.40}', expected a positive number", tag, *said));
     return value;
   }
@@ -73,6 +73,16 @@ struct Page {
 };
 
 }  // namespace
+
+double force_of_code(int code) noexcept {
+  constexpr std::array<double, 6> kUnits{kPound, 1.0, 1e3 * kPound, 1e3, kKilogram, 1e-3 * kKilogram};
+  return code >= 1 && code <= 6 ? kUnits[static_cast<std::size_t>(code - 1)] : kUnset;
+}
+
+double torque_of_code(int code) noexcept {
+  constexpr std::array<double, 6> kUnits{kPound * kInch, kPound * kFoot, 1.0, 1e-3, 1e-2 * kKilogram, 1e3};
+  return code >= 1 && code <= 6 ? kUnits[static_cast<std::size_t>(code - 1)] : kUnset;
+}
 
 std::string read_xml(std::string_view xml, Configuration& configuration) {
   if (xml.size() > kMostXml) return fmt::format("is longer than {} bytes", kMostXml);
@@ -109,6 +119,8 @@ std::string read_xml(std::string_view xml, Configuration& configuration) {
     const double index = number(*filter);
     read.filter = index >= 0.0 && index < 100.0 ? static_cast<int>(index) : -1;
   }
+  if (const auto transform = page.text("cfgtfx", false))
+    read.turned = transform->find_first_of("123456789") != std::string::npos;
   if (page.wrong.empty()) configuration = read;
   return page.wrong;
 }

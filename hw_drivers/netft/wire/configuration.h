@@ -20,8 +20,14 @@ struct Configuration {
   std::array<double, 6> ratings{kUnset, kUnset, kUnset, kUnset, kUnset, kUnset};  // cfgmr: N, N m
   double rate = kUnset;  // comrdtrate, of records, Hz
   bool streams = true;   // comrdte: RDT is switched on
+  bool turned = false;   // cfgtfx: forces are given in other axes than the transducer's
   int filter = 0;        // setuserfilter
 };
+
+// How many newtons, or newton metres, one of the units is that the command interface names by a number;
+// unset: there is none of that number.
+[[nodiscard]] double force_of_code(int code) noexcept;   // 1 lbf, 2 N, 3 klbf, 4 kN, 5 kg, 6 g
+[[nodiscard]] double torque_of_code(int code) noexcept;  // 1 lbf-in, 2 lbf-ft, 3 N-m, 4 N-mm, 5 kg-cm, 6 kN-m
 
 // Empty, and `configuration` is set; else what is wrong and what was expected.
 [[nodiscard]] std::string read_xml(std::string_view xml, Configuration& configuration);

@@ -11,7 +11,7 @@
 
 namespace enc::netft {
 
-inline constexpr std::size_t kRequest = 8, kRecord = 36;
+inline constexpr std::size_t kRequest = 8, kRecord = 36, kAxes = 6;  // Fx Fy Fz Tx Ty Tz
 
 enum class Command : std::uint16_t {
   stop = 0,
@@ -29,10 +29,10 @@ struct Request {
 [[nodiscard]] bool read(std::span<const std::byte> bytes, Request& request) noexcept;
 
 struct Record {
-  std::uint32_t number = 0;              // from 1, anew with each request
-  std::uint32_t sample = 0;              // of the sensor's own clock, 7,000 a second
-  std::uint32_t status = 0;              // 0: well
-  std::array<std::int32_t, 6> counts{};  // Fx Fy Fz Tx Ty Tz
+  std::uint32_t number = 0;  // from 1, anew with each request
+  std::uint32_t sample = 0;  // of the sensor's own clock, 7,000 a second
+  std::uint32_t status = 0;  // 0: well
+  std::array<std::int32_t, kAxes> counts{};
 };
 [[nodiscard]] std::array<std::byte, kRecord> bytes_of(const Record& record) noexcept;
 [[nodiscard]] bool read(std::span<const std::byte> bytes, Record& record) noexcept;

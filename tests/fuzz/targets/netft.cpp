@@ -4,6 +4,7 @@
 #include "hw_drivers/netft/drive/inspect.h"
 #include "hw_drivers/netft/drive/session.h"
 #include "hw_drivers/netft/fake/box.h"
+#include "hw_drivers/netft/wire/command.h"
 #include "hw_drivers/netft/wire/http.h"
 #include "tests/fuzz/machine/target.h"
 
@@ -33,7 +34,8 @@ Target records() {
                    Time(Duration(1'000'000 * static_cast<std::int64_t>(at))));
       expect(session.newest().t >= last, "time goes back");
       last = session.newest().t;
-      expect(session.newest().value.force.finite(), "a force is no number");
+      expect(session.newest().health == Health::absent || session.newest().value.force.finite(),
+             "a force is no number");
     }
     return session.counts().records > 0;
   };
@@ -112,6 +114,31 @@ Target box() {
   return target;
 }
 
+Target command() {
+  Target target;
+  target.seeds = {text_of(netft::bytes_of(netft::Ask{})),
+                  text_of(netft::bytes_of(netft::Ask{.question = netft::Question::calibration})),
+                  text_of(netft::bytes_of(netft::Calibration{2, 3, 1000000, 1000000, {}}))};
+  target.tokens = {std::string("\x12\x34", 2), std::string("\xff\xff\xff\xff", 4)};
+  target.run = [](const std::string& input) {
+    netft::Ask ask;
+    netft::Reading reading;
+    netft::Calibration calibration;
+    bool refused = false;
+    try {
+      netft::agree(bytes_in(input), netft::gamma(), {});
+    } catch (const Error&) {
+      refused = true;
+    }
+    const bool known = netft::read(bytes_in(input), ask) || netft::read(bytes_in(input), reading);
+    const bool says = netft::read(bytes_in(input), calibration);
+    expect(says || refused, "what is no calibration agrees");
+    return known || says;
+  };
+  return target;
+}
+
+const Offer kCommand("netft_command", &command);
 const Offer kRecords("netft_records", &records);
 const Offer kPage("netft_page", &page);
 const Offer kHttp("netft_http", &http);

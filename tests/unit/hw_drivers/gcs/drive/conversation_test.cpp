@@ -21,7 +21,19 @@ struct Talk {
   Conversation conversation;
   Order order;
 
-  explicit Talk(const GcsSettings& with = {}) : settings(with), conversation(with, kStand, {}, Duration{}) {}
+  // With a path of the controller's own, which was told before the time begins.
+  explicit Talk(const GcsSettings& with = own_path())
+      : settings(with), conversation(with, kStand, {}, Duration{}) {
+    if (with.velocity > 0.0 || with.path != "own") return;
+    aim(0, -100);
+    EXPECT_EQ(sent(-100), "SPA X 0x19001900 0\nSPA? X 0x19001900\nERR?\n");
+    heard("X 0x19001900=0\n0\n", -100);
+  }
+  static GcsSettings own_path() {
+    GcsSettings settings;
+    settings.path = "own";
+    return settings;
+  }
   std::string sent(std::int64_t at) { return std::string(conversation.send(ms(at))); }
   bool heard(const std::string& bytes, std::int64_t at) { return conversation.take(bytes, ms(at)); }
   void aim(double x, std::int64_t at) {
@@ -52,31 +64,34 @@ TEST(GcsConversation, AsksOneQuestionAtATimeAndTellsNothingByItself) {
   EXPECT_EQ(talk.sent(102), "");  // poll_ms is 2
   EXPECT_EQ(talk.sent(103), kAsk);
   EXPECT_FALSE(talk.conversation.moving());
-  EXPECT_EQ(talk.conversation.answers(), 2);
+  EXPECT_EQ(talk.conversation.answers(), 3);
   EXPECT_EQ(talk.conversation.longest_answer(), ms(101));
 }
 
 TEST(GcsConversation, ASetPointGoesOnceAndNoOftenerThanTheCycle) {
-  GcsSettings settings;
+  GcsSettings settings = Talk::own_path();
   settings.velocity = 0.02;
   Talk talk(settings);
   talk.aim(0.001, 0);
   // The velocity is told once, and read back, before the first goes.
   EXPECT_EQ(talk.sent(0), "VLS 20\nVLS?\nERR?\n");
   EXPECT_FALSE(talk.conversation.moving());
-  talk.heard("20.001\n0\n", 1);
+  talk.heard("20.001\n0\n", 0);
   talk.aim(0.001, 2);
-  EXPECT_EQ(talk.sent(2), move("1") + kAsk);
+  EXPECT_EQ(talk.sent(2), "SPA X 0x19001900 0\nSPA? X 0x19001900\nERR?\n");
+  talk.heard("X 0x19001900=0\n0\n", 2);
+  talk.aim(0.001, 4);
+  EXPECT_EQ(talk.sent(4), move("1") + kAsk);
   std::string last = kAsk;
   std::map<int, std::string> moves;
-  for (int t = 3; t < 30; ++t) {
+  for (int t = 5; t < 30; ++t) {
     if (!last.empty()) talk.heard(kZero + "0\n", t);
     talk.aim(0.001 * t, t);
     last = talk.sent(t);
     if (last.starts_with("MOV")) moves[t] = last;
   }
   EXPECT_EQ(moves,
-            (std::map<int, std::string>{{12, move("12") + kAsk}, {22, move("22") + kAsk}}));  // the newest
+            (std::map<int, std::string>{{14, move("14") + kAsk}, {24, move("24") + kAsk}}));  // the newest
   EXPECT_TRUE(talk.conversation.moving());
 }
 
@@ -168,7 +183,7 @@ TEST(GcsConversation, AVelocityThatIsNotTakenEndsIt) {
                                      {"20\n8\n", Loss::none},
                                      {"20\n53\n", Loss::fault},
                                      {"nan\n", Loss::garbled}}) {
-    GcsSettings settings;
+    GcsSettings settings = Talk::own_path();
     settings.velocity = 0.02;
     Talk talk(settings);
     talk.aim(0.001, 0);
@@ -221,6 +236,30 @@ TEST(GcsConversation, OurStopExcusesOneErrorTen) {
     talk.heard((seen ? kOn : kZero) + "10\n", 3);
     EXPECT_EQ(talk.health(), Health::fault) << first;
   }
+}
+
+// One point each cycle; while more than two wait at the controller none is added, and none is farther than
+// the platform gets.
+TEST(GcsConversation, PointsAreWatchedAndNeverFar) {
+  Order order;
+  Conversation talk(GcsSettings{}, kStand, {}, Duration{}, 0.05);
+  const auto tell = [&](double x, std::int64_t at) {
+    ++order.number;
+    order.to = {x, 0, 0, 0, 0, 0};
+    order.given = ms(at);
+    talk.told(order);
+    return std::string(talk.send(ms(at)));
+  };
+  EXPECT_EQ(tell(0.01, 0), "SPA X 0x19001900 1\nSCT T 10\nSPA? X 0x19001900\nERR?\n");
+  talk.take("X 0x19001900=1\n0\n", ms(0));
+  EXPECT_TRUE(talk.by_points());
+  EXPECT_EQ(tell(0.01, 2), move("0.5") + "\x0b" + kAsk) << "10 mm in a cycle of 10 ms, at 50 mm/s";
+  talk.take("64\n" + kZero + "0\n", ms(3));
+  EXPECT_EQ(tell(0.0007, 12), move("0.7") + "\x0b" + kAsk);
+  talk.take("61\n" + kZero + "0\n", ms(13));
+  EXPECT_EQ(tell(0.0008, 22), "\x0b" + kAsk) << "three wait";
+  talk.take("62\n" + kZero + "0\n", ms(23));
+  EXPECT_EQ(tell(0.0009, 24), move("0.9") + "\x0b" + kAsk);
 }
 
 TEST(GcsConversation, ErrorsAreSaidUntilASetPointIsTaken) {
@@ -293,7 +332,7 @@ TEST(GcsConversation, AnySegmentationOfTheAnswersGivesTheSame) {
     talk.heard(std::string(1, byte), 1);
   }
   EXPECT_EQ(talk.conversation.loss(), Loss::none);
-  EXPECT_EQ(talk.conversation.answers(), 1);
+  EXPECT_EQ(talk.conversation.answers(), 2);
   EXPECT_EQ(talk.health(), Health::out_of_range);
   EXPECT_NEAR(talk.conversation.report().X_RH.p().x(), 0.00125, 1e-15);
 }

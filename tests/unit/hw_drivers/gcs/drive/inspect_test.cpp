@@ -82,8 +82,8 @@ TEST(GcsInspect, WhatIsMeantOtherwiseIsRefused) {
         {"PUN?", inches, "has other units: it answered 'X=IN"},
         {"PUN?", std::string("X=MM \nY=MM \nZ=MM \nU=DEG \nV=DEG\n"), "has other units"},
         {"KEN?", std::string("TOOL1=KST\n"), "another coordinate system: it answered 'TOOL1=KST' to KEN?"},
-        {"SPA? X 0x19001900", std::string("X 0x19001900=1\n"), "takes its path from elsewhere"},
-        {"SPA? X 0x19001900", std::string("what\n"), "expected 0; send SPA X 0x19001900 0"},
+        {"SPA? X 0x19001900", std::string("X 0x19001900=2\n"), "takes its path from elsewhere"},
+        {"SPA? X 0x19001900", std::string("what\n"), "expected 0 or 1; send SPA X 0x19001900 0"},
         {"\x05", std::string("3f\n"), "moves: it answered '3f' to #5"}}) {
     Device device;
     device.instead[question] = answer;
