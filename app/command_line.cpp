@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <encounter_version.h>
 
+#include "app/laboratory/laboratory.h"
 #include "app/options.h"
 #include "app/process.h"
 #include "core/error.h"
@@ -97,7 +98,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       ->needs(advise);
   check_command->callback([&] { code = check(check_options); });
 
-  FakeOptions fake_options;
+  LaboratoryOptions fake_options;
   CLI::App* fake_command = app.add_subcommand(
       "fake",
       "stand in for the devices of a rig: serve their wires from one simulated world, until it is told "
@@ -111,7 +112,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
                          "time goes on by a period with each set-point, and not by itself (run --lockstep)");
   fake_command->callback([&] { code = fake(fake_options); });
 
-  DevicesOptions devices_options;
+  LaboratoryOptions devices_options;
   CLI::App* devices_command = app.add_subcommand(
       "devices",
       "ask the devices of a rig: what answers, how often, how regularly and how late; nothing moves");

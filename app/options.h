@@ -54,12 +54,6 @@ struct ExportOptions {
   bool partial = false, force = false;
   bool ledger = false;  // of a record: its energy ledger, and not its ticks
 };
-struct FakeOptions : SceneOptions {
-  bool lockstep = false;
-};
-struct DevicesOptions : SceneOptions {
-  double seconds = 1.0;
-};
 struct ParamsOptions : SceneOptions {
   bool json = false;
 };
@@ -107,8 +101,6 @@ struct MeshOptions {
 int command_line(int argc, char** argv);
 
 int run(const RunOptions& options);
-int fake(const FakeOptions& options);
-int devices(const DevicesOptions& options);
 int check(const CheckOptions& options);
 int replay(const ReplayOptions& options);
 int export_record(const ExportOptions& options);

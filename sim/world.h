@@ -53,10 +53,6 @@ class World {
   // All that moves: physics, plants, queues, random streams.
   [[nodiscard]] std::vector<std::byte> save() const;
   void restore(const std::vector<std::byte>& saved);
-  // A machine that is not simulated moves in the place of this one, which follows what is seen of it.
-  void lead_machine(const TipSample& seen) noexcept {
-    if (machine) machine->lead(seen);
-  }
   void ask_for_work() { step_work_.emplace(); }  // from the next step on, in the truth
 
   std::optional<HexapodPlant> machine;  // there if the scene has no arm

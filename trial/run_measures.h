@@ -1,8 +1,9 @@
 // What `run` counts of each run, all at once.
 #pragma once
 
+#include <algorithm>
+
 #include "trial/ledger/ledger_measure.h"
-#include "trial/measure/felt_measure.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
@@ -12,6 +13,20 @@
 #include "trial/trial.h"
 
 namespace enc::trial {
+
+// What the core itself knows of a press, for runs in which nobody knows the truth.
+struct FeltMeasure {
+  bool truth = true;     // every device is simulated: others know better
+  double peak = 0.0;     // N, along the normal, in contact
+  double deepest = 0.0;  // m, as the machine was told
+
+  void see(const Glance& glance) {
+    truth = glance.simulated;
+    if (glance.out.mode != Mode::contact) return;
+    peak = std::max(peak, -glance.out.force.xyz[2]);
+    deepest = std::max(deepest, glance.out.deflection);
+  }
+};
 
 // Outlives the trial with these options, whose `watch` it is.
 struct RunMeasures {

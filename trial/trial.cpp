@@ -164,7 +164,7 @@ bool Trial::tick() {
   rig_.read(now_.t, in_);
   if (setup_.scene.camera) result_.vision.see(now_.t, in_.tool);
   gate_.mark(rig_, now_.t, in_);
-  if (leads_ && in_.tip.health != Health::absent) world_->lead_machine(in_.tip.value);
+  if (leads_ && world_->machine && in_.tip.health != Health::absent) world_->machine->lead(in_.tip.value);
   if (options_.disturb) options_.disturb(in_);
   const WallClock::time_point before = WallClock::now();
   if (options_.law)

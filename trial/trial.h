@@ -20,7 +20,7 @@
 #include "trial/assemble.h"
 #include "trial/device_log.h"
 #include "trial/gate.h"
-#include "trial/real_time.h"
+#include "trial/time/real_time.h"
 #include "trial/trial_result.h"
 
 namespace enc::trial {

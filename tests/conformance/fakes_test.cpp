@@ -1,5 +1,5 @@
 // The laboratory in two programs: `encounter fake` on one side of real sockets, `encounter run` on the other.
-#include "trial/fakes/fakes.h"
+#include "app/laboratory/fakes.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -48,8 +48,8 @@ std::vector<std::string> free_ports() {
 struct Laboratory {
   explicit Laboratory(bool lockstep) {
     setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
-    fakes = std::make_unique<trial::Fakes>(models::load(kBall, "fakes", ports),
-                                           trial::FakesOptions{app::load_module, 1, lockstep});
+    fakes = std::make_unique<app::Fakes>(models::load(kBall, "fakes", ports),
+                                         app::FakesOptions{app::load_module, 1, lockstep});
     serve();
   }
   ~Laboratory() { pause(); }
@@ -70,7 +70,7 @@ struct Laboratory {
     return all;
   }
   std::vector<std::string> ports = free_ports();
-  std::unique_ptr<trial::Fakes> fakes;
+  std::unique_ptr<app::Fakes> fakes;
   std::atomic<bool> end = false;
   std::thread thread;
 };

@@ -73,7 +73,8 @@ TEST_F(Program, SubcommandThatDoesNotExistIsNamedWithTheNearest) {
 }
 
 TEST_F(Program, EverySubcommandHasHelp) {
-  for (const char* command : {"run", "check", "replay", "view", "params", "bench", "fit", "doctor", "fake", "devices"}) {
+  for (const char* command :
+       {"run", "check", "replay", "view", "params", "bench", "fit", "doctor", "fake", "devices"}) {
     const Result r = run_program({command, "--help"});
     EXPECT_EQ(r.code, 0) << command;
     EXPECT_EQ(r.err, "") << command;

@@ -3,18 +3,18 @@
 
 #include <fmt/format.h>
 
+#include "app/laboratory/fakes.h"
+#include "app/laboratory/laboratory.h"
 #include "app/modules/modules.h"
-#include "app/options.h"
 #include "app/process.h"
 #include "app/run/stop_signals.h"
 #include "core/error.h"
-#include "trial/fakes/fakes.h"
 
 namespace enc::app {
 
-int fake(const FakeOptions& options) {
+int fake(const LaboratoryOptions& options) {
   const StopSignals signals;
-  trial::Fakes fakes(load_setup(with_scene(options)), {load_module, options.seed, options.lockstep});
+  Fakes fakes(load_setup(with_scene(options)), {load_module, options.seed, options.lockstep});
   for (const std::string& line : fakes.describe()) fmt::print("{}\n", line);
   fmt::print("{}; ends with SIGINT or SIGTERM\n", options.lockstep
                                                       ? "time goes on by a period with each set-point"

@@ -8,10 +8,10 @@
 #include "models/setup/scene_file.h"
 #include "trial/assemble.h"
 
-namespace enc::trial {
+namespace enc::app {
 
 struct Probed {
-  std::string role, words;  // as DeviceWords has them
+  std::string role, words;  // as trial::DeviceWords has them
   bool there = true;
   std::int64_t samples = 0;                             // news in that time
   double rate = kUnset;                                 // Hz
@@ -21,7 +21,7 @@ struct Probed {
 
 // Makes every device that is not simulated, reads each for so long at the loop's rate, and lets it go.
 // Nothing is told: nothing moves. `stop` is asked before each reading.
-[[nodiscard]] std::vector<Probed> probe_devices(models::Setup setup, const DriverSource& drivers,
+[[nodiscard]] std::vector<Probed> probe_devices(models::Setup setup, const trial::DriverSource& drivers,
                                                 double seconds, const std::function<bool()>& stop);
 
-}  // namespace enc::trial
+}  // namespace enc::app

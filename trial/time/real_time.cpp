@@ -1,4 +1,4 @@
-#include "trial/real_time.h"
+#include "trial/time/real_time.h"
 
 #include <fmt/format.h>
 #include <pthread.h>

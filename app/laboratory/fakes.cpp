@@ -1,4 +1,4 @@
-#include "trial/fakes/fakes.h"
+#include "app/laboratory/fakes.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,7 +12,7 @@
 #include "models/setup/driver_table.h"
 #include "trial/prepare.h"
 
-namespace enc::trial {
+namespace enc::app {
 namespace {
 
 constexpr Duration kLongest{50'000'000};  // of a turn
@@ -25,19 +25,19 @@ Duration wall_now() {
 }  // namespace
 
 Fakes::Fakes(models::Setup setup, FakesOptions options)
-    : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
-  const std::set<std::string> drivers = drivers_used(setup_);
+    : setup_(std::move(setup)), options_(std::move(options)), scene_(trial::prepare_setup(setup_)) {
+  const std::set<std::string> drivers = trial::drivers_used(setup_);
   if (drivers.empty())
     throw Error(setup_.rig_path +
                 ": every device that the scene names is simulated, and has no wire; expected a "
                 "driver such as \"gcs\"; name another rig");
-  read_driver_tables(setup_, [&](const std::string& name) {
+  trial::read_driver_tables(setup_, [&](const std::string& name) {
     return drivers.contains(name) ? &options_.drivers(name) : nullptr;
   });
-  world_ = make_world(setup_, scene_, options_.seed);
+  world_ = trial::make_world(setup_, scene_, options_.seed);
   rig_ = world_->rig();
   first_ = world_->save();
-  const std::vector<std::string> tools = tool_names(setup_);
+  const std::vector<std::string> tools = trial::tool_names(setup_);
   for (const std::string& name : drivers) {
     const ModuleInfo& module = options_.drivers(name);
     if (module.driver == nullptr || module.driver->fake == nullptr)
@@ -92,4 +92,4 @@ void Fakes::turn() {
   for (; due_ <= now; due_ += now_.dt) advance();
 }
 
-}  // namespace enc::trial
+}  // namespace enc::app

@@ -1,4 +1,4 @@
-#include "trial/fakes/probe.h"
+#include "app/laboratory/probe.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "models/order_statistics.h"
 #include "trial/device_log.h"
 
-namespace enc::trial {
+namespace enc::app {
 namespace {
 
 struct Series {
@@ -27,14 +27,14 @@ struct Series {
 
 }  // namespace
 
-std::vector<Probed> probe_devices(models::Setup setup, const DriverSource& drivers, double seconds,
+std::vector<Probed> probe_devices(models::Setup setup, const trial::DriverSource& drivers, double seconds,
                                   const std::function<bool()>& stop) {
   std::vector<Probed> all;
   std::array<std::size_t, kRoles> place{};  // in `all`, of each role; one beyond: none
   place.fill(kRoles);
   Rig rig;
-  DeviceLog log;
-  for (const DeviceWords& words : put_each_driver(rig, setup, drivers, log))
+  trial::DeviceLog log;
+  for (const trial::DeviceWords& words : trial::put_each_driver(rig, setup, drivers, log))
     all.push_back({words.role, words.words, words.there});
   each_role([&](const auto& role) {
     if (rig.*role.slot == nullptr) return;
@@ -47,7 +47,7 @@ std::vector<Probed> probe_devices(models::Setup setup, const DriverSource& drive
   using Wall = std::chrono::steady_clock;
   const auto period = std::chrono::nanoseconds(from_seconds(1.0 / setup.rig.loop.rate));
   const Wall::time_point begun = Wall::now();
-  rig.clock = std::make_unique<CountingClock>(setup.rig.loop.rate);
+  rig.clock = std::make_unique<trial::CountingClock>(setup.rig.loop.rate);
   for (std::int64_t i = 1; !stop(); ++i) {
     std::this_thread::sleep_until(begun + i * period);
     const Time now(std::chrono::duration_cast<Duration>(Wall::now() - begun));
@@ -75,4 +75,4 @@ std::vector<Probed> probe_devices(models::Setup setup, const DriverSource& drive
   return all;
 }
 
-}  // namespace enc::trial
+}  // namespace enc::app

@@ -4,18 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "app/laboratory/laboratory.h"
+#include "app/laboratory/probe.h"
 #include "app/modules/modules.h"
-#include "app/options.h"
 #include "app/run/stop_signals.h"
 #include "core/error.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
-#include "trial/fakes/probe.h"
 
 namespace enc::app {
 namespace {
 
-std::string line_of(const trial::Probed& device) {
+std::string line_of(const Probed& device) {
   if (!device.there) return fmt::format("{:12} NOT THERE: {}\n", device.role, device.words);
   std::string text = fmt::format("{:12} {}\n", device.role, device.words);
   if (device.samples == 0) return text + fmt::format("{:12} said nothing\n", "");
@@ -29,16 +29,16 @@ std::string line_of(const trial::Probed& device) {
 
 }  // namespace
 
-int devices(const DevicesOptions& options) {
+int devices(const LaboratoryOptions& options) {
   const StopSignals signals;
   if (!(options.seconds > 0.0 && options.seconds <= 1e4))
     throw Error("--for-s: expected a number above 0, up to 10000");
   const models::Setup setup = load_setup(with_scene(options));
   const auto found =
-      trial::probe_devices(setup, load_module, options.seconds, [] { return StopSignals::caught() != 0; });
+      probe_devices(setup, load_module, options.seconds, [] { return StopSignals::caught() != 0; });
   if (found.empty()) fmt::print("every device that the scene names is simulated\n");
   bool all = true;
-  for (const trial::Probed& device : found) {
+  for (const Probed& device : found) {
     fmt::print("{}", line_of(device));
     all = all && device.there && device.samples > 0;
   }

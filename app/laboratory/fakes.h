@@ -14,10 +14,10 @@
 #include "trial/assemble.h"
 #include "trial/device_log.h"
 
-namespace enc::trial {
+namespace enc::app {
 
 struct FakesOptions {
-  DriverSource drivers{};
+  trial::DriverSource drivers{};
   std::uint64_t seed = 1;
   bool lockstep = false;  // time goes on by a period with each set-point; else with the wall clock
 };
@@ -46,7 +46,7 @@ class Fakes {
   Scene scene_;
   std::unique_ptr<sim::World> world_;
   std::vector<std::byte> first_;  // the world before its first tick
-  DeviceLog log_;
+  trial::DeviceLog log_;
   Rig rig_;
   std::vector<std::unique_ptr<Fake>> fakes_;
   Tick now_;
@@ -54,4 +54,4 @@ class Fakes {
   Duration due_{};  // of the wall clock, when the next period is over
 };
 
-}  // namespace enc::trial
+}  // namespace enc::app
