@@ -166,7 +166,7 @@ yardstick() {
 # Minutes that a build will take: what each file takes (measured, in yardsticks), by kind, shared by the processors.
 estimate() {  # the commands of `ninja -t commands` on standard input
   LC_ALL=C awk -v yard="$(yardstick)" -v cores="$(nproc)" '
-    { sanitized = /-fsanitize/ ? 1.4 : 1; n += sanitized * (/unity_benchmarks/ ? 10 : /[\/]tests[\/]/ ? 7.4 : 4.5) }
+    { sanitized = /-fsanitize/ ? 1.4 : 1; n += sanitized * (/unity_(benchmarks|tests)/ ? 12 : /[\/]tests[\/]/ ? 7.4 : 4.5) }
     END { print yard * n / cores / 60 }'
 }
 

@@ -1,11 +1,13 @@
 // A simulated world of the tennis ball scene, for the suites here.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "core/record/state_hash.h"
 #include "models/setup/scene_file.h"
 #include "trial/trial.h"
 
@@ -57,6 +59,17 @@ struct Twin {
   Outputs& out = trial.outputs();
   const Tick& k = trial.now();
 };
+
+// Of all that the core knows over the next ticks, and of where the twin is after them.
+inline std::uint64_t hashed(Twin& twin, int ticks) {
+  StateHash hash;
+  for (int i = 0; i < ticks; ++i) {
+    twin.tick();
+    add_tick(hash, twin.state, twin.out);
+  }
+  hash("twin", twin.world->physics().data()->qpos[0]);
+  return hash.value;
+}
 
 // Nothing but the true force: no noise, no zero error, no drift, no steps.
 inline std::vector<std::string> exact_force() {

@@ -9,9 +9,9 @@
 namespace enc::test {
 namespace {
 
-const std::string kBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
+const std::string kTennisBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
 
-models::Setup fakes(std::vector<std::string> set = {}) { return models::load(kBall, "fakes", set); }
+models::Setup fakes(std::vector<std::string> set = {}) { return models::load(kTennisBall, "fakes", set); }
 
 constexpr Time kBegun{Duration(10'000'000)};  // the first record is there
 

@@ -25,10 +25,10 @@ namespace enc {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kPoints = 2000;  // sanitizers are slow, and look for other things
+constexpr int kQueries = 2000;  // sanitizers are slow, and look for other things
 constexpr double kWindings = 1e6;
 #else
-constexpr int kPoints = 100000;
+constexpr int kQueries = 100000;
 constexpr double kWindings =
     2e7;  // solid angles for each mesh: signs for all points of the small ones, 198 on the largest
 #endif
@@ -78,11 +78,11 @@ double winding_number(const Mesh& mesh, const Vec3& p) {
   return sum / (2.0 * std::numbers::pi);
 }
 
-// Points of all kinds, `count` in all.
-class Points {
+// Queries of all kinds, `count` in all.
+class Queries {
  public:
   // One in `medial_every` is on the medial axis or near the centre.
-  Points(const Mesh& mesh, const MeshTree& tree, int medial_every)
+  Queries(const Mesh& mesh, const MeshTree& tree, int medial_every)
       : mesh_(mesh), tree_(tree), medial_every_(medial_every) {}
 
   Vec3 next() {
@@ -145,10 +145,10 @@ class Points {
   int count_ = 0;
 };
 
-void compare(const std::string& name, const Mesh& mesh, int medial_every = 5, int points = kPoints) {
+void compare(const std::string& name, const Mesh& mesh, int medial_every = 5, int points = kQueries) {
   const MeshTree tree(mesh);
   const Cgal cgal(mesh);
-  Points next(mesh, tree, medial_every);
+  Queries next(mesh, tree, medial_every);
   const int windings =
       std::min(points, static_cast<int>(kWindings / static_cast<double>(mesh.triangles.size())));
   int every = points / windings;
@@ -213,7 +213,7 @@ struct Parts {
   }
 };
 
-constexpr int kFew = kPoints / 4;
+constexpr int kFew = kQueries / 4;
 
 void expect_right(const std::string& name, const Mesh& mesh) {
   const models::CheckedMesh checked = models::check_mesh(mesh, name);

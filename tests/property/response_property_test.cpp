@@ -16,12 +16,13 @@
 namespace enc {
 namespace {
 
-constexpr double kLimit = 6e-3;  // m
+constexpr double kDeepest = 6e-3;  // m
 
 const ResponseSpec& ball_spec() {
   static const ResponseSpec kSpec = [] {
-    const models::LoopData loop = models::parse_loop(test::plant_loop_csv({}, 4e-3, kLimit), "ball", kLimit);
-    return models::fit_loop(loop, {kLimit, models::fit_floor(LoopModel{}), kUnset}).response;
+    const models::LoopData loop =
+        models::parse_loop(test::plant_loop_csv({}, 4e-3, kDeepest), "ball", kDeepest);
+    return models::fit_loop(loop, {kDeepest, models::fit_floor(LoopModel{}), kUnset}).response;
   }();
   return kSpec;
 }
@@ -56,8 +57,8 @@ std::vector<double> closed_path(std::mt19937_64& random, double base, double slo
   const auto turns = static_cast<int>(uniform(random, 2.0, 13.0));
   for (int i = 0; i < turns; ++i) {
     const bool near = uniform(random, 0.0, 1.0) < 0.3;
-    const double to =
-        near ? std::clamp(at + uniform(random, -0.3e-3, 0.3e-3), 0.0, kLimit) : uniform(random, 0.0, kLimit);
+    const double to = near ? std::clamp(at + uniform(random, -0.3e-3, 0.3e-3), 0.0, kDeepest)
+                           : uniform(random, 0.0, kDeepest);
     append(path, at, to, uniform(random, slowest, fastest));
     at = to;
   }
@@ -87,7 +88,7 @@ TEST_P(ResponseProperty, NoClosedPathYieldsEnergy) {
   double least = 1e9;
   double most = 0.0;
   for (int n = 0; n < 1000; ++n) {
-    const double base = n % 2 == 0 ? 0.0 : uniform(random, 0.2e-3, kLimit);
+    const double base = n % 2 == 0 ? 0.0 : uniform(random, 0.2e-3, kDeepest);
     const std::vector<double> path = closed_path(random, base, 2e-6, 20e-6);
     ResponseState s;
     if (base > 0.0) {
@@ -121,7 +122,7 @@ double storage(const Response& r, const ResponseSpec& spec, Reversal reversal, c
       [&](double d) {
         double force = 0.0;
         for (std::size_t k = spec.stops->curve.size(); k-- > 0;)
-          force = d / kLimit * (force + spec.stops->curve[k]);
+          force = d / kDeepest * (force + spec.stops->curve[k]);
         return force;
       },
       0.0, s.deflection);
@@ -129,8 +130,9 @@ double storage(const Response& r, const ResponseSpec& spec, Reversal reversal, c
   for (std::size_t i = 0; i < spec.stops->weights.size(); ++i) {
     if (spec.stops->weights[i] == 0.0) continue;
     const double rest = s.deflection - s.stop[used++];
-    const double stored = spec.stops->weights[i] *
-                          integral([&](double z) { return z / kLimit * (z - rest); }, rest, s.deflection, 2);
+    const double stored =
+        spec.stops->weights[i] *
+        integral([&](double z) { return z / kDeepest * (z - rest); }, rest, s.deflection, 2);
     EXPECT_GE(stored, -1e-18) << "a stop never owes energy";
     sum += stored;
   }
@@ -189,7 +191,7 @@ TEST_P(ResponseProperty, ReversalsDoNotJump) {
 // Wherever a few turns lead.
 ResponseState somewhere(const Response& r, std::mt19937_64& random) {
   ResponseState s;
-  for (int i = 0; i < 4; ++i) r.force(s, uniform(random, 0.0, kLimit));
+  for (int i = 0; i < 4; ++i) r.force(s, uniform(random, 0.0, kDeepest));
   return s;
 }
 
@@ -200,7 +202,7 @@ TEST_P(ResponseProperty, InverseFindsEveryForce) {
   for (int n = 0; n < 100000; ++n) {
     const ResponseState from = somewhere(r, random);
     ResponseState at_limit = from;
-    const double most = r.force(at_limit, kLimit);
+    const double most = r.force(at_limit, kDeepest);
     // A third of the forces are tiny: there the curves are softest.
     const double wanted =
         n % 3 == 0 ? std::pow(10.0, uniform(random, -9.0, 0.0)) : uniform(random, 0.0, most);
@@ -225,7 +227,7 @@ TEST_P(ResponseProperty, DeflectionRisesWithForce) {
     ResponseState a = from;
     ResponseState b = from;
     const double d = r.deflection(a, softer);
-    if (d >= kLimit) continue;
+    if (d >= kDeepest) continue;
     ASSERT_LT(d, r.deflection(b, harder)) << softer << " N, " << harder << " N";
   }
 }
@@ -251,7 +253,7 @@ TEST_P(ResponseProperty, NoiseAtRestStaysSmall) {
   };
   const double most = GetParam() == Reversal::energy_stop ? 0.2 : 0.25;
   for (double depth = 0.1e-3; depth < 5.97e-3; depth += 0.1e-3)
-    for (const double from : {depth, kLimit})
+    for (const double from : {depth, kDeepest})
       EXPECT_LE(peak_to_peak(from, depth), most) << from << " " << depth;
 }
 

@@ -18,7 +18,7 @@ namespace enc {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = ENCOUNTER_SOURCE_DIR;
+const fs::path kTop = ENCOUNTER_SOURCE_DIR;
 const std::vector<std::string> kFolders{"core", "sim", "models", "trial", "hw_drivers", "benchmarks", "app"};
 
 struct Source {
@@ -55,10 +55,10 @@ std::vector<std::string> without_words(const std::vector<std::string>& lines) {
 std::vector<Source> read(const std::vector<std::string>& folders) {
   std::vector<Source> all;
   for (const std::string& folder : folders) {
-    if (!fs::exists(kRoot / folder)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+    if (!fs::exists(kTop / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(kTop / folder)) {
       if (!entry.is_regular_file() || !is_source(entry.path())) continue;
-      Source source{fs::relative(entry.path(), kRoot).generic_string(), folder, {}, {}};
+      Source source{fs::relative(entry.path(), kTop).generic_string(), folder, {}, {}};
       std::ifstream in(entry.path());
       for (std::string line; std::getline(in, line);) source.lines.push_back(line);
       source.code = without_words(source.lines);
@@ -242,7 +242,7 @@ TEST(Shape, UnitTestsMirrorTheTree) {
     if (starts(source.name, "tests/unit/")) folders.insert(fs::path(source.name).parent_path());
   for (const fs::path& folder : folders) {
     const fs::path mirrored = folder.lexically_relative("tests/unit");
-    EXPECT_TRUE(mirrored != "." && fs::is_directory(kRoot / mirrored)) << folder;
+    EXPECT_TRUE(mirrored != "." && fs::is_directory(kTop / mirrored)) << folder;
   }
 }
 
@@ -304,7 +304,7 @@ const std::map<std::string, std::string>& texts() {
   static const std::map<std::string, std::string> kAll = [] {
     const std::set<std::string> made{".git", ".deps", "build", "out"};  // not in the repository [.gitignore]
     std::map<std::string, std::string> all;
-    fs::recursive_directory_iterator entry(kRoot);
+    fs::recursive_directory_iterator entry(kTop);
     for (; entry != fs::recursive_directory_iterator(); ++entry) {
       if (entry.depth() == 0 && made.contains(entry->path().filename().string()))
         entry.disable_recursion_pending();
@@ -316,7 +316,7 @@ const std::map<std::string, std::string>& texts() {
         if (start != std::string::npos) text += " " + line.substr(start);
       }
       if (text.find('\0') == std::string::npos)  // else a picture, a mesh or a record
-        all[fs::relative(entry->path(), kRoot).generic_string()] = text;
+        all[fs::relative(entry->path(), kTop).generic_string()] = text;
     }
     return all;
   }();
@@ -328,7 +328,7 @@ bool is_of_sources(const std::string& name) { return starts(name, "docs/sources/
 std::set<std::string> sections() {
   static const std::regex kHeading("^## ([0-9]+) .+");
   std::set<std::string> found;
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs/sources")) {
+  for (const auto& entry : fs::directory_iterator(kTop / "docs/sources")) {
     std::ifstream in(entry.path());
     std::smatch match;
     for (std::string line; std::getline(in, line);) {
@@ -384,12 +384,12 @@ TEST(Shape, TheTopLevelIsTheAllowedList) {
                                       "tests",
                                       "trial"};
   const std::set<std::string> made{"build", "out"};  // not in the repository [.gitignore]
-  for (const auto& entry : fs::directory_iterator(kRoot)) {
+  for (const auto& entry : fs::directory_iterator(kTop)) {
     const std::string name = entry.path().filename().string();
     EXPECT_TRUE(name[0] == '.' || allowed.contains(name) || made.contains(name))
         << name << " is not on the list";
   }
-  for (const std::string& name : allowed) EXPECT_TRUE(fs::exists(kRoot / name)) << name << " is missing";
+  for (const std::string& name : allowed) EXPECT_TRUE(fs::exists(kTop / name)) << name << " is missing";
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using bench::reaching::ReachMeasure;
 using bench::reaching::ReachOutcome;
 
-Scene wall() {
+Scene flat_wall() {
   Scene scene;
   scene.dt = 0.001;
   scene.objects.push_back({Surface{Plane{}}, Pose<'W', 'O'>::shift(0, 0, 0), {}});
@@ -28,7 +28,7 @@ Scene wall() {
 std::vector<ReachOutcome> reach(
     double stop, bool touching = true,
     const std::function<std::int32_t(int)>& rendered = [](int) { return -1; }) {
-  Scene scene = wall();
+  Scene scene = flat_wall();
   scene.objects.push_back(scene.objects.front());
   ReachMeasure measure;
   Tick tick;

@@ -18,7 +18,7 @@
 namespace enc::fuzz {
 namespace {
 
-const Folder& folder() {
+const Folder& mesh_folder() {
   static const Folder kFolder;
   static const bool kFilled = (kFolder.write("b.bin", std::string(96, '\1')), true);
   static_cast<void>(kFilled);
@@ -158,7 +158,7 @@ Target gltf() {
                   json_of(models::mesh_bytes(tetrahedron(), ".glb"))};
   target.tokens = gltf_tokens();
   target.run = [](const std::string& input) {
-    static const std::string kPath = folder().path("fuzz.gltf");
+    static const std::string kPath = mesh_folder().path("fuzz.gltf");
     return sane({models::read_gltf({kPath, input}, false), {}}, kPath);
   };
   target.bound = {512, 4U << 20U};
@@ -171,7 +171,7 @@ Target glb() {
                   models::mesh_bytes(models::geodesic_ball(1), ".glb")};
   target.tokens = gltf_tokens();
   target.run = [](const std::string& input) {
-    static const std::string kPath = folder().path("fuzz.glb");
+    static const std::string kPath = mesh_folder().path("fuzz.glb");
     return sane({models::read_gltf({kPath, input}, true), {}}, kPath);
   };
   // The lengths: the JSON ends with its last brace, or where BIN begins.

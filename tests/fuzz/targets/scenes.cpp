@@ -17,7 +17,7 @@ namespace {
 
 using models::Setup;
 
-const Folder& folder() {
+const Folder& model_folder() {
   static const ModelsFolder kFolder;
   return kFolder;
 }
@@ -45,7 +45,7 @@ Target scene() {
   target.seeds.push_back(file_text("tests/golden/tennis_ball.resolved.toml"));
   target.tokens = toml_tokens();
   target.run = [](const std::string& input) {
-    return sane(models::load(folder().write("scenes/fuzz.toml", input), ""));
+    return sane(models::load(model_folder().write("scenes/fuzz.toml", input), ""));
   };
   target.inputs = 700;
   return target;
@@ -56,10 +56,11 @@ Target rig() {
   target.seeds = file_texts("models/rigs", ".toml");
   target.tokens = toml_tokens();
   target.run = [](const std::string& input) {
-    const std::string path = folder().write("rigs/fuzz.toml", input);
+    const std::string path = model_folder().write("rigs/fuzz.toml", input);
     static_cast<void>(models::load_rig_setup(path));
     const bool arm = input.find("\n[arm]") != std::string::npos;
-    return sane(models::load(folder().path(arm ? "scenes/wall.toml" : "scenes/tennis_ball.toml"), path));
+    return sane(
+        models::load(model_folder().path(arm ? "scenes/wall.toml" : "scenes/tennis_ball.toml"), path));
   };
   target.inputs = 500;
   return target;
@@ -125,7 +126,7 @@ Target set() {
                   "user.depth_mm=unset"};
   target.tokens = toml_tokens();
   target.run = [](const std::string& input) {
-    static const Setup kSetup = models::load(folder().path("scenes/tennis_ball.toml"), "");
+    static const Setup kSetup = models::load(model_folder().path("scenes/tennis_ball.toml"), "");
     Setup setup = kSetup;
     models::set(setup, input);
     models::settle_drivers(setup);

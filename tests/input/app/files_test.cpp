@@ -23,7 +23,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
-const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
+const Environment kShipped{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
 
 std::string scene(const std::string& name) { return ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml"; }
 
@@ -50,14 +50,14 @@ class ProgramFiles : public testing::Test {
   }
   // The one line on stderr of what is refused.
   static std::string line(const Words& args, int code = 2, double timeout = 60.0) {
-    const Result r = run_program(args, kModels, timeout);
+    const Result r = run_program(args, kShipped, timeout);
     EXPECT_EQ(r.code, code) << args[0] << ": " << r.out << r.err;
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
     return r.err;
   }
   [[nodiscard]] std::string recorded(const std::string& seconds = "0.5") const {
     const Result r =
-        run_program({"run", scene("plane"), "--for-s", seconds, "--record", path("r.encrec")}, kModels);
+        run_program({"run", scene("plane"), "--for-s", seconds, "--record", path("r.encrec")}, kShipped);
     EXPECT_EQ(r.code, 0) << r.err;
     return path("r.encrec");
   }
@@ -93,7 +93,7 @@ TEST_F(ProgramFiles, WhatIsThereStaysWithoutForce) {
     EXPECT_THAT(line(args), AllOf(HasSubstr("is there already"), HasSubstr("--force")));
     EXPECT_EQ(bytes_of(file), "mine") << args[0];
     args.emplace_back("--force");
-    const Result r = run_program(args, kModels);
+    const Result r = run_program(args, kShipped);
     EXPECT_EQ(r.code, 0) << args[0] << r.err;
     EXPECT_NE(bytes_of(file), "mine") << args[0];
     EXPECT_FALSE(std::filesystem::exists(file + ".part"));
@@ -107,7 +107,7 @@ TEST_F(ProgramFiles, TwoRunsDoNotRecordIntoOneFile) {
                         "\"$1\" run \"$2\" --for-s 0.1 --force --record \"$3\"; echo second $?; wait $!; "
                         "echo first $?; \"$1\" replay \"$3\"",
                         "bash", program_file(), scene("plane"), path("r.encrec")},
-                       kModels);
+                       kShipped);
   EXPECT_THAT(r.out, AllOf(HasSubstr("second 2"), HasSubstr("first 0"), HasSubstr("3001 ticks run again")));
   EXPECT_THAT(r.err, HasSubstr("another run is writing it"));
 }
@@ -131,7 +131,7 @@ TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
   for (const Words& args : all) {
     Words command{"bash", "-c", "\"$@\" >/dev/full", "bash", program_file()};
     command.insert(command.end(), args.begin(), args.end());
-    Environment environment = kModels;
+    Environment environment = kShipped;
     environment.emplace_back("ASAN_OPTIONS", "detect_leaks=0");  // of the libraries that doctor looks at
     const Result r = run(command, environment);
     EXPECT_EQ(r.code, 2) << args[0];
@@ -145,10 +145,10 @@ TEST_F(ProgramFiles, AClosedStandardOutputIsSaidAndTheRecordIsWhole) {
   Words command = closed;
   for (const std::string& word : {std::string("bash"), program_file(), scene("plane"), path("c.encrec")})
     command.push_back(word);
-  const Result r = run(command, kModels);
+  const Result r = run(command, kShipped);
   EXPECT_EQ(r.code, 2);
   EXPECT_THAT(r.err, HasSubstr("standard output"));
-  EXPECT_THAT(run_program({"replay", path("c.encrec")}, kModels).out,
+  EXPECT_THAT(run_program({"replay", path("c.encrec")}, kShipped).out,
               HasSubstr("101 ticks run again, equal"));
 }
 
@@ -158,7 +158,7 @@ TEST_F(ProgramFiles, ARecordIsNotStandardOutput) {
     const Result r =
         run({"bash", "-c", "set -o pipefail; \"$1\" run \"$2\" --for-s 0.1 --record " + std::string(words),
              "bash", program_file(), scene("plane"), path("o.encrec")},
-            kModels);
+            kShipped);
     EXPECT_EQ(r.code, 2) << words;
     EXPECT_THAT(r.err, HasSubstr("is standard output, where the report goes")) << words;
     std::filesystem::remove(path("o.encrec"));
@@ -168,7 +168,7 @@ TEST_F(ProgramFiles, ARecordIsNotStandardOutput) {
 
 TEST_F(ProgramFiles, APipeIsNoRecord) {
   const Result r =
-      run({"bash", "-c", "\"$1\" replay <(cat \"$2\")", "bash", program_file(), recorded("0.1")}, kModels);
+      run({"bash", "-c", "\"$1\" replay <(cat \"$2\")", "bash", program_file(), recorded("0.1")}, kShipped);
   EXPECT_EQ(r.code, 2) << r.out;
   EXPECT_THAT(r.err, HasSubstr("is a pipe; expected a file"));
 }
@@ -177,7 +177,7 @@ TEST_F(ProgramFiles, APipeIsNoRecord) {
 TEST_F(ProgramFiles, AFullDiskIsNoVerdictOnTheUser) {
   const Result r = run({"bash", "-c", "ulimit -f 200; exec \"$1\" run \"$2\" --record \"$3\"", "bash",
                         program_file(), scene("tennis_ball"), path("l.encrec")},
-                       kModels);
+                       kShipped);
   EXPECT_EQ(r.code, 2) << r.err;
   EXPECT_THAT(r.out, AllOf(HasSubstr("has not touched anything yet"), testing::Not(HasSubstr("LIMIT"))));
 }
@@ -193,12 +193,12 @@ TEST_F(ProgramFiles, ATipIsNotLargerThanTheMachine) {
 TEST_F(ProgramFiles, AReportSaysHowItWasMade) {
   const Words words{
       "run", scene("plane"), "--for-s", "0.1", "--seed", "7", "--set", "rig.tracker.lost_age_ms=90"};
-  EXPECT_THAT(run_program(words, kModels).out,
+  EXPECT_THAT(run_program(words, kShipped).out,
               AllOf(HasSubstr("\nmade by     Encounter "), HasSubstr("plane.toml, rig "),
                     HasSubstr(", seed 7, --for-s 0.1, --set rig.tracker.lost_age_ms=90\n")));
   Words json = words;
   json.emplace_back("--json");
-  EXPECT_THAT(run_program(json, kModels).out,
+  EXPECT_THAT(run_program(json, kShipped).out,
               AllOf(HasSubstr("\"encounter\": \""), HasSubstr("\"seed\": 7"), HasSubstr("\"for_s\": 0.1"),
                     HasSubstr("\"rig.tracker.lost_age_ms=90\"")));
 }
@@ -210,9 +210,9 @@ TEST_F(ProgramFiles, ALoopThatGivesEnergyIsDoubted) {
     const double d = 6.0 * (k < 300 ? k : 600 - k) / 300.0;
     text += fmt::format("{},{},{},1\n", k * 1e-3, d, (k < 300 ? 1.0 : 1.1) * d);
   }
-  const Result gives = run_program({"fit", write("gives.csv", text)}, kModels);
+  const Result gives = run_program({"fit", write("gives.csv", text)}, kShipped);
   EXPECT_THAT(gives.out, HasSubstr("nothing passive does that"));
-  const Result good = run_program({"fit", good_loop()}, kModels);
+  const Result good = run_program({"fit", good_loop()}, kShipped);
   EXPECT_EQ(good.code, 0) << good.err;
   EXPECT_THAT(good.out, testing::Not(HasSubstr("passive")));
 }
@@ -230,14 +230,14 @@ TEST_F(ProgramFiles, DamageIsNotCalledCutOff) {
   std::string bad = whole;
   bad[whole.size() / 2] = static_cast<char>(bad[whole.size() / 2] ^ 1);
   const std::string damaged = write("bad.encrec", bad);
-  const Result r = run_program({"replay", damaged, "--partial"}, kModels);
+  const Result r = run_program({"replay", damaged, "--partial"}, kShipped);
   EXPECT_EQ(r.code, 1);
   EXPECT_THAT(r.out, AllOf(HasSubstr("ticks run again"), HasSubstr("damaged"), HasSubstr("checksum failure"),
                            testing::Not(HasSubstr("cut off"))));
   EXPECT_THAT(line({"export", damaged, "--partial", "--csv", path("bad.csv")}, 1),
               HasSubstr("checksum failure"));
   const std::string cut = write("cut.encrec", whole.substr(0, whole.size() / 2));
-  EXPECT_EQ(run_program({"replay", cut, "--partial"}, kModels).code, 0);
+  EXPECT_EQ(run_program({"replay", cut, "--partial"}, kShipped).code, 0);
   EXPECT_THAT(line({"replay", cut}), HasSubstr("--partial"));
   // The header is whole, the first chunk is not.
   EXPECT_THAT(line({"replay", write("none.encrec", whole.substr(0, 30000)), "--partial"}),
@@ -255,12 +255,12 @@ TEST_F(ProgramFiles, ALoopWhoseForceDoesNotRiseIsNoLoop) {
 
 TEST_F(ProgramFiles, AMarkBeforeTheTextIsReadOver) {
   const std::string good = bytes_of(good_loop());
-  EXPECT_EQ(run_program({"fit", write("bom.csv", "\xEF\xBB\xBF" + good)}, kModels).code, 0);
+  EXPECT_EQ(run_program({"fit", write("bom.csv", "\xEF\xBB\xBF" + good)}, kShipped).code, 0);
   std::string semicolons = good;
   std::replace(semicolons.begin(), semicolons.end(), ',', ';');
   EXPECT_THAT(line({"fit", write("semi.csv", semicolons)}), HasSubstr("parted by ';'"));
   const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
-  EXPECT_EQ(run_program({"nearest", mesh, write("p.csv", "\xEF\xBB\xBFx_m,y_m,z_m\n0,0,0\n")}, kModels).code,
+  EXPECT_EQ(run_program({"nearest", mesh, write("p.csv", "\xEF\xBB\xBFx_m,y_m,z_m\n0,0,0\n")}, kShipped).code,
             0);
 }
 
@@ -269,7 +269,7 @@ TEST_F(ProgramFiles, NearestKnowsArmsAndHowFarIsTooFar) {
   EXPECT_THAT(line({"nearest", mesh, write("far.csv", "x_m,y_m,z_m\n0,1e300,0\n")}),
               HasSubstr("far.csv:2:3: 1e300 m is farther than"));
   const Result arm =
-      run_program({"nearest", scene("wall") + "#wall", write("p.csv", "x_m,y_m,z_m\n0.1,0,0\n")}, kModels);
+      run_program({"nearest", scene("wall") + "#wall", write("p.csv", "x_m,y_m,z_m\n0.1,0,0\n")}, kShipped);
   EXPECT_EQ(arm.code, 0) << arm.err;
   EXPECT_THAT(arm.out, HasSubstr("\n0,0.1,0,0,0,0,1,"));
 }
@@ -292,16 +292,16 @@ TEST_F(ProgramFiles, WhatNeverEndsIsRefused) {
 }
 
 TEST_F(ProgramFiles, DivergedPhysicsIsNoDevice) {
-  const Result r =
-      run_program({"run", scene("tennis_ball"), "--for-s", "1", "--set", "truth.hand.mass_kg=1e-9"}, kModels);
+  const Result r = run_program(
+      {"run", scene("tennis_ball"), "--for-s", "1", "--set", "truth.hand.mass_kg=1e-9"}, kShipped);
   EXPECT_EQ(r.code, 4) << r.err;
   EXPECT_THAT(r.err, HasSubstr("the physics diverged at tick"));
 }
 
 TEST_F(ProgramFiles, AnArmsTableHasItsTip) {
-  ASSERT_EQ(run_program({"run", scene("wall"), "--for-s", "5", "--record", path("w.encrec")}, kModels).code,
+  ASSERT_EQ(run_program({"run", scene("wall"), "--for-s", "5", "--record", path("w.encrec")}, kShipped).code,
             0);
-  std::istringstream rows(run_program({"export", path("w.encrec")}, kModels).out);
+  std::istringstream rows(run_program({"export", path("w.encrec")}, kShipped).out);
   std::string row;
   std::getline(rows, row);
   double least = 1e9, most = -1e9;  // of tip_x_mm

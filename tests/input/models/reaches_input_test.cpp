@@ -12,7 +12,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string said(const std::vector<std::string>& set, const std::string& scene = "reaching") {
+std::string said_reaching(const std::vector<std::string>& set, const std::string& scene = "reaching") {
   try {
     (void)trial::prepare_setup(models::load(scene_file(scene), "", set));
   } catch (const Error& e) {
@@ -21,33 +21,34 @@ std::string said(const std::vector<std::string>& set, const std::string& scene =
   return {};
 }
 
-TEST(ReachesInput, TheShippedSceneIsReady) { EXPECT_EQ(said({}), ""); }
+TEST(ReachesInput, TheShippedSceneIsReady) { EXPECT_EQ(said_reaching({}), ""); }
 
 TEST(ReachesInput, NumbersOutOfRange) {
   for (const char* set : {"user.reaches.count=0", "user.reaches.spread_mm=0", "user.reaches.polar_max_deg=90",
                           "user.reaches.tilt_deg=[0, 70]", "user.reaches.touch_mm_s=[0, 10]"})
-    EXPECT_THAT(said({set}), HasSubstr("expected")) << set;
+    EXPECT_THAT(said_reaching({set}), HasSubstr("expected")) << set;
 }
 
 TEST(ReachesInput, PairsAreLeastAndMost) {
   for (const char* key :
        {"tilt_deg", "reach_mm", "peak_mm_s", "touch_mm_s", "depth_mm", "press_mm_s", "hold_s", "rest_s"}) {
     const std::string name = std::string("user.reaches.").append(key);
-    EXPECT_THAT(said({name + "=[0.9, 0.5]"}), AllOf(HasSubstr(key), HasSubstr("its first number above")));
-    EXPECT_THAT(said({name + "=[0.5]"}), AllOf(HasSubstr(key), HasSubstr("has 1 numbers")));
+    EXPECT_THAT(said_reaching({name + "=[0.9, 0.5]"}),
+                AllOf(HasSubstr(key), HasSubstr("its first number above")));
+    EXPECT_THAT(said_reaching({name + "=[0.5]"}), AllOf(HasSubstr(key), HasSubstr("has 1 numbers")));
   }
 }
 
 TEST(ReachesInput, KindAndTableBelongTogether) {
-  EXPECT_THAT(said({"user.kind=press_release"}),
+  EXPECT_THAT(said_reaching({"user.kind=press_release"}),
               AllOf(HasSubstr("there is a [user.reaches]"), HasSubstr("remove the table")));
-  EXPECT_THAT(said({"user.kind=reaches"}, "wall"),
+  EXPECT_THAT(said_reaching({"user.kind=reaches"}, "wall"),
               AllOf(HasSubstr("there is no [user.reaches]"), HasSubstr("add the table")));
-  EXPECT_THAT(said({"user.push_N=3"}), HasSubstr("expected no 'push_N'"));
+  EXPECT_THAT(said_reaching({"user.push_N=3"}), HasSubstr("expected no 'push_N'"));
 }
 
 TEST(ReachesInput, AReachBeginsWhereTheFingerIsAway) {
-  EXPECT_THAT(said({"user.reaches.reach_mm=[50, 100]"}),
+  EXPECT_THAT(said_reaching({"user.reaches.reach_mm=[50, 100]"}),
               AllOf(HasSubstr("'follow.pause_mm', 120 mm"), HasSubstr("raise it")));
 }
 

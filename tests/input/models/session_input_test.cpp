@@ -13,7 +13,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string said(const std::vector<std::string>& set, const std::string& scene = "session") {
+std::string said_session(const std::vector<std::string>& set, const std::string& scene = "session") {
   try {
     (void)trial::prepare_setup(models::load(scene_file(scene), "sim", set));
   } catch (const Error& e) {
@@ -22,7 +22,7 @@ std::string said(const std::vector<std::string>& set, const std::string& scene =
   return {};
 }
 
-TEST(SessionInput, TheShippedSceneIsReady) { EXPECT_EQ(said({}), ""); }
+TEST(SessionInput, TheShippedSceneIsReady) { EXPECT_EQ(said_session({}), ""); }
 
 TEST(SessionInput, NumbersOutOfRange) {
   for (const char* set : {"user.session.duration_s=0",
@@ -46,35 +46,36 @@ TEST(SessionInput, NumbersOutOfRange) {
                           "truth.hand.aborted=1.1",
                           "truth.hand.tremor_band_hz=-1",
                           "user.tremor=waves"})
-    EXPECT_THAT(said({set}), AllOf(HasSubstr("expected"), Not(HasSubstr("\n")))) << set;
+    EXPECT_THAT(said_session({set}), AllOf(HasSubstr("expected"), Not(HasSubstr("\n")))) << set;
 }
 
 TEST(SessionInput, PairsAreLeastAndMost) {
   for (const char* key : {"tilt_deg", "reach_mm", "peak_mm_s", "touch_mm_s", "depth_mm", "press_mm_s",
                           "hold_s", "rest_s", "change_share"}) {
     const std::string name = std::string("user.session.").append(key);
-    EXPECT_THAT(said({name + "=[0.9, 0.5]"}), AllOf(HasSubstr(key), HasSubstr("its first number above")));
-    EXPECT_THAT(said({name + "=[0.5]"}),
+    EXPECT_THAT(said_session({name + "=[0.9, 0.5]"}),
+                AllOf(HasSubstr(key), HasSubstr("its first number above")));
+    EXPECT_THAT(said_session({name + "=[0.5]"}),
                 AllOf(HasSubstr(key), HasSubstr("has 1 numbers; expected the least")));
-    EXPECT_THAT(said({name + "=[0.1, 0.2, 0.3]"}), HasSubstr("has 3 numbers"));
+    EXPECT_THAT(said_session({name + "=[0.1, 0.2, 0.3]"}), HasSubstr("has 3 numbers"));
   }
 }
 
 TEST(SessionInput, KindAndTableBelongTogether) {
-  EXPECT_THAT(said({"user.kind=press_release"}),
+  EXPECT_THAT(said_session({"user.kind=press_release"}),
               AllOf(HasSubstr("there is a [user.session]"), HasSubstr("expected")));
-  EXPECT_THAT(said({"user.kind=session"}, "tennis_ball"),
+  EXPECT_THAT(said_session({"user.kind=session"}, "tennis_ball"),
               AllOf(HasSubstr("there is no [user.session]"), HasSubstr("add the table")));
 }
 
 TEST(SessionInput, ToolsAndPlaces) {
-  EXPECT_THAT(said({"user.session.other_tool=prob"}),
+  EXPECT_THAT(said_session({"user.session.other_tool=prob"}),
               AllOf(HasSubstr("there is no tool"), HasSubstr("probe")));
-  EXPECT_THAT(said({"user.session.other_tool=stylus"}), HasSubstr("which is held already"));
-  EXPECT_THAT(said({"user.session.tray_mm=[-80,0,0]"}),
+  EXPECT_THAT(said_session({"user.session.other_tool=stylus"}), HasSubstr("which is held already"));
+  EXPECT_THAT(said_session({"user.session.tray_mm=[-80,0,0]"}),
               AllOf(HasSubstr("'tray_mm' is"), HasSubstr("pause_mm")));
-  EXPECT_THAT(said({"user.push_N=3"}), HasSubstr("expected no 'push_N'"));
-  EXPECT_THAT(said({"user.session.polar_max_dge=3"}), HasSubstr("polar_max_deg"));
+  EXPECT_THAT(said_session({"user.push_N=3"}), HasSubstr("expected no 'push_N'"));
+  EXPECT_THAT(said_session({"user.session.polar_max_dge=3"}), HasSubstr("polar_max_deg"));
 }
 
 }  // namespace

@@ -10,15 +10,15 @@ namespace enc {
 namespace {
 
 template <class A, class B>
-concept Subtracts = requires(A a, B b) {
+concept SubtractsTime = requires(A a, B b) {
   a - b;
 };
 template <class C>
 concept HasNow = requires {
   C::now();
 };
-static_assert(!HasNow<Epoch> && !Subtracts<Time, std::chrono::steady_clock::time_point> &&
-              Subtracts<Time, Time>);
+static_assert(!HasNow<Epoch> && !SubtractsTime<Time, std::chrono::steady_clock::time_point> &&
+              SubtractsTime<Time, Time>);
 
 TEST(Every, DoesNotDriftAt120HzOverAnHour) {
   Every every{120.0, 0, {}};

@@ -16,7 +16,7 @@ namespace enc::models {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kShipped = ENCOUNTER_SOURCE_DIR "/models";
 
 std::map<std::string, std::string> values_of(const Setup& setup) {
   std::map<std::string, std::string> values;
@@ -119,8 +119,8 @@ std::string line_at(const std::string& place) {
 
 TEST(Defaults, ARigThatNamesAnotherValueSaysWhy) {
   int others = 0;
-  for (const std::string& name : files_in(kModels, "rigs")) {
-    const models::Setup rig = load_rig_setup(kModels + "/rigs/" + name + ".toml");
+  for (const std::string& name : files_in(kShipped, "rigs")) {
+    const models::Setup rig = load_rig_setup(kShipped + "/rigs/" + name + ".toml");
     const std::map<std::string, std::string> defaults = values_of(in_code(rig));
     for (const auto& [key, value] : values_of(rig)) {
       const auto place = rig.places.find(key);
@@ -138,7 +138,7 @@ TEST(Defaults, ARigThatNamesAnotherValueSaysWhy) {
 
 // An arm is first of all the one of [VisHap]: the struct has its gains.
 TEST(Defaults, OfAnArmAreThoseOfVisHap) {
-  const models::Setup rig = load_rig_setup(kModels + "/rigs/vishap.toml");
+  const models::Setup rig = load_rig_setup(kShipped + "/rigs/vishap.toml");
   models::Setup code = in_code(rig);
   code.rig.arm.loop.emplace();  // there only where a rig says it
   const std::map<std::string, std::string> defaults = values_of(code);

@@ -123,16 +123,16 @@ TEST(Directions, MistakesInTheFileAreOneLine) {
 
 // ---- in a scene -------------------------------------------------------------------------------------------
 
-const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kFolder = ENCOUNTER_SOURCE_DIR "/models";
 
 Setup any_ball(std::vector<std::string> set) {
   set.insert(set.begin(), "object.ball.behaviour=tennis_ball_any");
-  return load(kModels + "/scenes/indentation.toml", "sim", set);
+  return load(kFolder + "/scenes/indentation.toml", "sim", set);
 }
 
 TEST(Directions, SceneIsPreparedForThePlannedPress) {
-  const ResponseSpec a = load_response(kModels + "/responses/tennis_ball.toml");
-  const ResponseSpec b = load_response(kModels + "/responses/tennis_ball_B.toml");
+  const ResponseSpec a = load_response(kFolder + "/responses/tennis_ball.toml");
+  const ResponseSpec b = load_response(kFolder + "/responses/tennis_ball_B.toml");
   const auto force = [](const ResponseSpec& r) { return Response(r, 0.0).press(6e-3); };
   EXPECT_NEAR(force(any_ball({}).scene.behaviours.front().curves), force(a), 2e-3);
   EXPECT_NEAR(force(any_ball({"user.offset_mm=10"}).scene.behaviours.front().curves), force(b), 2e-3);
@@ -150,7 +150,7 @@ TEST(Directions, ResolvedSceneKeepsTheMixture) {
 TEST(Directions, WhoPressesNoSphereIsRefused) {
   const auto refused = [](const std::string& scene, const std::string& object) -> std::string {
     try {
-      static_cast<void>(load(kModels + "/scenes/" + scene + ".toml", "sim",
+      static_cast<void>(load(kFolder + "/scenes/" + scene + ".toml", "sim",
                              {"object." + object + ".behaviour=tennis_ball_any"}));
     } catch (const Error& e) {
       return e.what();

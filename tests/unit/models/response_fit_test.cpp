@@ -18,7 +18,7 @@
 namespace enc::models {
 namespace {
 
-constexpr double kLimit = 6e-3;  // m
+constexpr double kDeepest = 6e-3;  // m
 constexpr int kReadings = 600;
 
 using Curve = double (*)(double d_mm);  // N
@@ -27,7 +27,7 @@ std::vector<LoopPoint> loop_of(Curve press, Curve release) {
   std::vector<LoopPoint> loop;
   for (const bool pressing : {true, false})
     for (int i = 1; i <= kReadings; ++i) {
-      const double d = kLimit * i / kReadings;
+      const double d = kDeepest * i / kReadings;
       loop.push_back({d, (pressing ? press : release)(d * 1e3), pressing});
     }
   return loop;
@@ -64,7 +64,7 @@ Least least(const ResponseSpec& spec) {
   return l;
 }
 
-std::string refusal(const std::vector<LoopPoint>& loop, double limit = kLimit, double floor = 100.0) {
+std::string refused_fit(const std::vector<LoopPoint>& loop, double limit = kDeepest, double floor = 100.0) {
   try {
     static_cast<void>(fit_response(loop, limit, floor));
   } catch (const Error& error) {
@@ -76,21 +76,21 @@ std::string refusal(const std::vector<LoopPoint>& loop, double limit = kLimit, d
 TEST(ResponseFit, FindsCurvesThatNeedNoConstraint) {
   const auto press = [](double d) { return d * (1.0 + d * (0.2 + d * (-0.02 + d * 0.002))); };
   const auto release = [](double d) { return d * (0.5 + d * 0.1); };
-  const ResponseFit fit = fit_response(loop_of(press, release), kLimit, 119.0);
+  const ResponseFit fit = fit_response(loop_of(press, release), kDeepest, 119.0);
   EXPECT_NEAR(fit.spec.press[0], 1e3, 1e-6);
   EXPECT_NEAR(fit.spec.press[3], 0.002e12, 1e-3 * 0.002e12);
   EXPECT_NEAR(fit.spec.release[1], 0.1e6, 1e-6 * 0.1e6);
   EXPECT_LT(std::max({fit.rmse_press, fit.rmse_release, fit.rmse_press_free, fit.rmse_release_free}), 1e-9);
-  EXPECT_EQ(fit.spec.limit, kLimit);
+  EXPECT_EQ(fit.spec.limit, kDeepest);
 }
 
 // A release without force: no curve of slope >= s from zero lies below s d, so the best is s d itself; RMSE =
 // s 6 mm rms(i / n).
 TEST(ResponseFit, FloorAsByHand) {
   const auto loop = loop_of([](double d) { return 2.0 * d; }, [](double) { return 0.0; });
-  const ResponseFit fit = fit_response(loop, kLimit, 150.0);
+  const ResponseFit fit = fit_response(loop, kDeepest, 150.0);
   EXPECT_NEAR(fit.spec.release[0], 150.0, 0.05);
-  EXPECT_NEAR(value(fit.spec.release, kLimit), 0.9, 1e-3);
+  EXPECT_NEAR(value(fit.spec.release, kDeepest), 0.9, 1e-3);
   EXPECT_NEAR(fit.rmse_release, 0.9 * rms_of_ramp(), 1e-3);
   EXPECT_NEAR(fit.rmse_release_free, 0.0, 1e-9);
   EXPECT_NEAR(fit.rmse_press, 0.0, 1e-9);
@@ -100,9 +100,9 @@ TEST(ResponseFit, FloorAsByHand) {
 // N/mm; RMSE of each 0.5 N/mm 6 mm rms(i / n).
 TEST(ResponseFit, OrderOfTheCurvesAsByHand) {
   const auto loop = loop_of([](double d) { return d; }, [](double d) { return 2.0 * d; });
-  const ResponseFit fit = fit_response(loop, kLimit, 119.0);
-  EXPECT_NEAR(value(fit.spec.press, kLimit), 9.0, 1e-3);
-  EXPECT_NEAR(value(fit.spec.release, kLimit), 9.0, 1e-3);
+  const ResponseFit fit = fit_response(loop, kDeepest, 119.0);
+  EXPECT_NEAR(value(fit.spec.press, kDeepest), 9.0, 1e-3);
+  EXPECT_NEAR(value(fit.spec.release, kDeepest), 9.0, 1e-3);
   EXPECT_NEAR(fit.rmse_press, 3.0 * rms_of_ramp(), 1e-3);
   EXPECT_NEAR(fit.rmse_release, 3.0 * rms_of_ramp(), 1e-3);
 }
@@ -110,13 +110,13 @@ TEST(ResponseFit, OrderOfTheCurvesAsByHand) {
 // The ball's loop. What the constraints cost: the release curve cannot be flat below 0.5 mm, where the plant
 // has lifted off.
 TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
-  const auto loop = test::plant_loop({}, 4e-3, kLimit);
+  const auto loop = test::plant_loop({}, 4e-3, kDeepest);
   for (const double floor : {0.0, 119.0, 124.95, 300.0}) {
-    const ResponseFit fit = fit_response(loop, kLimit, floor);
+    const ResponseFit fit = fit_response(loop, kDeepest, floor);
     const Least l = least(fit.spec);
     EXPECT_GE(l.slope, floor) << floor;
     EXPECT_GE(l.gap, 0.0) << floor;
-    EXPECT_EQ(Response(fit.spec, floor).limit(), kLimit) << floor;
+    EXPECT_EQ(Response(fit.spec, floor).limit(), kDeepest) << floor;
     EXPECT_NEAR(fit.rmse_press_free, 0.022, 0.001);
     EXPECT_NEAR(fit.rmse_release_free, 0.031, 0.001);
     EXPECT_GE(fit.rmse_release, fit.rmse_release_free);
@@ -129,8 +129,8 @@ TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
 // are drawn at random and pulled towards a curve well inside the constraints until they are feasible.
 TEST(ResponseFit, NoFeasibleNeighbourIsBetter) {
   constexpr double kFloor = 124.95;
-  const auto loop = test::plant_loop({}, 4e-3, kLimit);
-  const ResponseFit fit = fit_response(loop, kLimit, kFloor);
+  const auto loop = test::plant_loop({}, 4e-3, kDeepest);
+  const ResponseFit fit = fit_response(loop, kDeepest, kFloor);
   const double best = squares(loop, fit.spec);
   std::mt19937_64 random(20);
   std::normal_distribution<double> normal;
@@ -141,7 +141,7 @@ TEST(ResponseFit, NoFeasibleNeighbourIsBetter) {
     const double size = std::pow(10.0, -1.0 - 3.0 * n / 2000.0);  // N
     double power = 1.0;
     for (std::size_t k = 0; k < 4; ++k) {
-      power *= kLimit;
+      power *= kDeepest;
       const double inside_press = k == 0 ? 1500.0 : 0.0;  // N/m, straight lines
       const double inside_release = k == 0 ? 1000.0 : 0.0;
       y.press[k] += size * (normal(random) / power + 0.05 * (inside_press - y.press[k]));
@@ -169,9 +169,9 @@ TEST(ResponseFit, RandomLoopsAreAlwaysRenderable) {
         const double u = i / 60.0;
         const std::size_t at = pressing ? 0 : 3;
         const double force = 5.0 * (a[at] + u * (a[at + 1] + u * a[at + 2])) + 0.5 * normal(random);
-        loop.push_back({u * kLimit, force, pressing});
+        loop.push_back({u * kDeepest, force, pressing});
       }
-    const ResponseFit fit = fit_response(loop, kLimit, 119.0);  // throws where Response would refuse
+    const ResponseFit fit = fit_response(loop, kDeepest, 119.0);  // throws where Response would refuse
     const Least l = least(fit.spec);
     ASSERT_GE(l.slope, 119.0) << "loop " << n;
     ASSERT_GE(l.gap, 0.0) << "loop " << n;
@@ -180,27 +180,27 @@ TEST(ResponseFit, RandomLoopsAreAlwaysRenderable) {
 
 TEST(ResponseFit, RefusesLoopsThatSayTooLittle) {
   auto loop = loop_of([](double d) { return 2.0 * d; }, [](double d) { return d; });
-  EXPECT_EQ(refusal(loop), "accepted");
+  EXPECT_EQ(refused_fit(loop), "accepted");
   const std::vector<LoopPoint> press_only(loop.begin(), loop.begin() + kReadings);
-  EXPECT_THAT(refusal(press_only), testing::HasSubstr("while releasing"));
+  EXPECT_THAT(refused_fit(press_only), testing::HasSubstr("while releasing"));
   std::vector<LoopPoint> three;
   for (const bool pressing : {true, false})
     for (int i = 0; i < 30; ++i) three.push_back({2e-3 * (1 + i % 3), 1.0, pressing});
-  EXPECT_THAT(refusal(three), testing::HasSubstr("four deflections"));
-  EXPECT_THAT(refusal({}), testing::HasSubstr("four deflections"));
+  EXPECT_THAT(refused_fit(three), testing::HasSubstr("four deflections"));
+  EXPECT_THAT(refused_fit({}), testing::HasSubstr("four deflections"));
   loop[7].force = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal(loop), testing::HasSubstr("finite"));
-  EXPECT_THAT(refusal(three, 0.0), testing::HasSubstr("limit"));
-  EXPECT_THAT(refusal(three, kLimit, -1.0), testing::HasSubstr("lowest slope"));
+  EXPECT_THAT(refused_fit(loop), testing::HasSubstr("finite"));
+  EXPECT_THAT(refused_fit(three, 0.0), testing::HasSubstr("limit"));
+  EXPECT_THAT(refused_fit(three, kDeepest, -1.0), testing::HasSubstr("lowest slope"));
 }
 
 // Readings beyond the limit belong to another response: they change nothing.
 TEST(ResponseFit, LeavesOutWhatLiesBeyondTheLimit) {
   auto loop = loop_of([](double d) { return 2.0 * d; }, [](double d) { return d; });
-  const ResponseFit before = fit_response(loop, kLimit, 119.0);
+  const ResponseFit before = fit_response(loop, kDeepest, 119.0);
   loop.push_back({7e-3, 3.0, true});
   loop.push_back({-1e-3, 3.0, false});
-  const ResponseFit after = fit_response(loop, kLimit, 119.0);
+  const ResponseFit after = fit_response(loop, kDeepest, 119.0);
   EXPECT_EQ(before.spec.press, after.spec.press);
   EXPECT_EQ(before.rmse_release, after.rmse_release);
 }

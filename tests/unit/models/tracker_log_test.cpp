@@ -64,7 +64,7 @@ TEST(TrackerLog, TakesStampsAndInterpolatesTheTip) {
   EXPECT_TRUE(path.knows(0.150));
 }
 
-std::string refusal(const std::string& csv, double rate = kUnset) {
+std::string refused_log(const std::string& csv, double rate = kUnset) {
   try {
     static_cast<void>(parse_tracker_log(csv, "l.csv", rate));
   } catch (const Error& e) {
@@ -103,13 +103,13 @@ TEST(TrackerLog, RefusesWithThePlaceInOneLine) {
       {two_rates, "l.csv:", "packets a second"},
   };
   for (const Case& c : cases) {
-    const std::string what = refusal(c.csv);
+    const std::string what = refused_log(c.csv);
     EXPECT_EQ(what.rfind(c.begins, 0), 0U) << what;
     EXPECT_THAT(what, HasSubstr(c.says));
     EXPECT_EQ(what.find('\n'), std::string::npos) << what;
   }
-  EXPECT_THAT(refusal(good, 500.0), HasSubstr("the rows come at 1000 Hz; expected 500 Hz"));
-  EXPECT_EQ(refusal(good, 1000.0), "accepted");
+  EXPECT_THAT(refused_log(good, 500.0), HasSubstr("the rows come at 1000 Hz; expected 500 Hz"));
+  EXPECT_EQ(refused_log(good, 1000.0), "accepted");
 }
 
 }  // namespace

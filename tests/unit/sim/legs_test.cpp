@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/record/state_hash.h"
 #include "tests/conformance/bench_world.h"
 
 namespace enc::test {
@@ -180,16 +179,6 @@ TEST(Legs, ATurnedBaseStandsAndHangsJustTheSame) {
   const Eigen::Matrix<double, 6, 6> J = machine.jacobian(machine.zero());
   const Eigen::Matrix<double, 6, 1> wrench = J.transpose() * leg_forces(twin);
   EXPECT_NEAR(wrench.head<3>().norm(), kMoved * kGravity, 1e-4);
-}
-
-std::uint64_t hashed(Twin& twin, int ticks) {
-  StateHash hash;
-  for (int i = 0; i < ticks; ++i) {
-    twin.tick();
-    add_tick(hash, twin.state, twin.out);
-  }
-  hash("tip", twin.world->physics().data()->qpos[0]);
-  return hash.value;
 }
 
 TEST(Legs, GoOnFromASavedStateToTheBit) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "core/record/replay.h"
-#include "core/record/state_hash.h"
 #include "tests/conformance/bench_world.h"
 #include "trial/measure/probe_measure.h"
 
@@ -100,15 +99,6 @@ TEST(Rig, SameSeedSameHashOtherSeedOther) {
   const std::uint64_t first = run("rig_C", quick).result.hash;
   EXPECT_EQ(run("rig_C", quick).result.hash, first);
   EXPECT_NE(run("rig_C", quick, 2).result.hash, first);
-}
-
-std::uint64_t hashed(Twin& twin, int ticks) {
-  StateHash hash;
-  for (int i = 0; i < ticks; ++i) {
-    twin.tick();
-    add_tick(hash, twin.state, twin.out);
-  }
-  return hash.value;
 }
 
 TEST(Rig, GoesOnFromTheMiddleOfAPushToTheBit) {

@@ -44,7 +44,7 @@ void walk(const Session& session, std::uint64_t seed, const Look& look) {
   }
 }
 
-bool within(double x, const std::vector<double>& range) {
+bool in_range(double x, const std::vector<double>& range) {
   return x >= range[0] * (1.0 - 1e-9) && x <= range[1] * (1.0 + 1e-9);
 }
 
@@ -92,17 +92,18 @@ TEST(SessionPlan, DrawsStayWithinTheirLimits) {
       last = state.count;
       const SessionPlan::Press& p = state.press;
       const Vec3 away = (p.start - p.touch).e();
-      EXPECT_TRUE(within(away.norm(), spec.reach));
-      EXPECT_TRUE(within(std::acos(std::min(1.0, p.at.normal.e().dot(away.normalized()))) + 1e-9, spec.tilt));
-      EXPECT_TRUE(within(p.primary.peak_speed(), spec.peak_speed));
-      EXPECT_TRUE(within(p.touch_speed, spec.touch_speed));
-      EXPECT_TRUE(within(p.hold_time, spec.hold) || p.aborted);
+      EXPECT_TRUE(in_range(away.norm(), spec.reach));
+      EXPECT_TRUE(
+          in_range(std::acos(std::min(1.0, p.at.normal.e().dot(away.normalized()))) + 1e-9, spec.tilt));
+      EXPECT_TRUE(in_range(p.primary.peak_speed(), spec.peak_speed));
+      EXPECT_TRUE(in_range(p.touch_speed, spec.touch_speed));
+      EXPECT_TRUE(in_range(p.hold_time, spec.hold) || p.aborted);
       EXPECT_LE(std::acos(p.at.normal.xyz[2]), spec.polar_most + 1e-9);
       EXPECT_TRUE(carried_to(session.scene, p.at, session.scene.objects.front().limit));
       EXPECT_EQ(in_the_way(session.scene, p.at.normal, session.scene.tools[state.held == 1 ? 1 : 0]),
                 Obstacle::none);
       if (!p.aborted) {
-        EXPECT_TRUE(within(p.depth, spec.depth)) << p.depth;
+        EXPECT_TRUE(in_range(p.depth, spec.depth)) << p.depth;
       }
     });
   }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/record/state_hash.h"
 #include "tests/conformance/bench_world.h"
 
 namespace enc::test {
@@ -58,15 +57,6 @@ TEST(SessionWorld, TheToolLaidDownStaysWhereItIs) {
   twin.run(2000);
   EXPECT_LT((Vec3(q[0], q[1], q[2]) - there).norm(), 1e-9);
   EXPECT_EQ(twin.world->truth().tool_radius, twin.setup.scene.tools[1].tip_radius);
-}
-
-std::uint64_t hashed(Twin& twin, int ticks) {
-  StateHash hash;
-  for (int i = 0; i < ticks; ++i) {
-    twin.tick();
-    add_tick(hash, twin.state, twin.out);
-  }
-  return hash.value;
 }
 
 TEST(SessionWorld, GoesOnFromTheMiddleOfAChangeToTheBit) {

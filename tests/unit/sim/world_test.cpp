@@ -37,15 +37,6 @@ bool same_bits(const sim::Truth& a, const sim::Truth& b) {
          a.contact_force.xyz == b.contact_force.xyz && a.hand_force.xyz == b.hand_force.xyz;
 }
 
-std::uint64_t hashed(Twin& twin, int ticks) {
-  StateHash hash;
-  for (int i = 0; i < ticks; ++i) {
-    twin.tick();
-    add_tick(hash, twin.state, twin.out);
-  }
-  return hash.value;
-}
-
 TEST(World, SensorReadsContactPlusWeight) {
   std::vector<std::string> set = quick();
   for (const char* text : {"truth.force.quantum_N=1e-12", "truth.force.torque_quantum_Nm=1e-12"})

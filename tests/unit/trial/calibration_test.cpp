@@ -16,13 +16,13 @@ models::Setup still_setup() {
   return setup;
 }
 
-struct Seen {
+struct Offsets {
   Vec3 tool_error;  // believed minus true position of the tool's tip, in W
   Vec3 force;       // sensor reading at rest, in F
 };
 
-Seen look(const models::Setup& setup) {
-  Seen seen{Vec3::Constant(kUnset), Vec3::Constant(kUnset)};
+Offsets offsets_of(const models::Setup& setup) {
+  Offsets seen{Vec3::Constant(kUnset), Vec3::Constant(kUnset)};
   trial::TrialOptions options;
   options.seconds = 0.55;
   options.watch = [&](const trial::Glance& g) {
@@ -35,7 +35,7 @@ Seen look(const models::Setup& setup) {
 }
 
 TEST(Calibration, RightBeliefsGiveNoError) {
-  const Seen seen = look(still_setup());
+  const Offsets seen = offsets_of(still_setup());
   EXPECT_LT(seen.tool_error.norm(), 1e-6) << seen.tool_error.transpose();
   // Weight of 0.91 kg: 8.924 N down, in steps of 0.025 N.
   EXPECT_NEAR(seen.force.z(), -8.925, 0.0126);
@@ -46,14 +46,14 @@ TEST(Calibration, ACameraThatStandsElsewhereShiftsTheToolByAsMuchTheOtherWay) {
   // p_believed = X_WC' X_WC^-1 p_true with X_WC = X_WC' shifted by s: p_true - s.
   models::Setup setup = still_setup();
   setup.twin.frames.W_C.position += Vec3(0.001, -0.002, 0.003);
-  EXPECT_LT((look(setup).tool_error - Vec3(-0.001, 0.002, -0.003)).norm(), 1e-6);
+  EXPECT_LT((offsets_of(setup).tool_error - Vec3(-0.001, 0.002, -0.003)).norm(), 1e-6);
 }
 
 TEST(Calibration, ASensorThatIsTurnedReadsItsWeightAlongAnotherAxis) {
   // F turned by 90 degrees about y: its x axis points along -z of W, so the weight is along +x.
   models::Setup setup = still_setup();
   setup.twin.frames.H_F.rotation = Vec3(0, M_PI / 2, 0);
-  const Seen seen = look(setup);
+  const Offsets seen = offsets_of(setup);
   EXPECT_NEAR(seen.force.x(), 8.925, 0.0126) << seen.force.transpose();
   EXPECT_NEAR(seen.force.z(), 0.0, 0.0126);
 }

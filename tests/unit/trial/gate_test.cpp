@@ -116,7 +116,7 @@ struct Watchers {
   }
 };
 
-models::Setup scene(const std::string& name, const std::vector<std::string>& set = {}) {
+models::Setup shipped_scene(const std::string& name, const std::vector<std::string>& set = {}) {
   return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", {}, set);
 }
 
@@ -172,7 +172,7 @@ TEST(Gate, WhatMovesIsStoppedHoweverARunEnds) {
 
 TEST(Gate, AStoppedArmPushesNoMore) {
   Watchers seen;
-  Trial trial(scene("wall"), seen.options(1.0));
+  Trial trial(shipped_scene("wall"), seen.options(1.0));
   for (int i = 0; i < 500; ++i) trial.tick();
   EXPECT_GT(trial.world().arm->state().wanted.norm(), 0.0);
   for (int times = 0; times < 2; ++times) {
@@ -235,7 +235,7 @@ TEST(Gate, AResumedMachineBeginsWhereItIs) {
     in.tip.value.X_RH.xyz[0] += 0.020;
     in.tip.value.X_RH.xyz[2] -= 0.010;
   };
-  Trial trial(scene("tennis_ball"), options);
+  Trial trial(shipped_scene("tennis_ball"), options);
   while (trial.outputs().mode != Mode::contact) EXPECT_TRUE(trial.tick());
   seen.machine.linked = false;
   for (int i = 0; i < 300; ++i) trial.tick();
@@ -282,7 +282,7 @@ TEST(Gate, WhatWasSaidBeforeALossIsBelievedAfterIt) {
 
 TEST(Gate, WithoutALostLinkNothingIsHeld) {
   Watchers seen;
-  Trial trial(scene("tennis_ball"), seen.options(4.0));
+  Trial trial(shipped_scene("tennis_ball"), seen.options(4.0));
   const TrialResult result = trial.run();
   EXPECT_TRUE(result.links.empty());
   EXPECT_EQ(seen.machine.commands, result.ticks);
@@ -342,7 +342,7 @@ TEST(Gate, AnArmCarriesItselfOrIsToldNothing) {
 // What the core does not hold for, such as a display that nobody looks at yet, the gate does.
 TEST(Gate, OnlyWhatIsSaidInHoldIsSentAfterALostLink) {
   Watchers seen;
-  Trial trial(scene("tennis_ball"), seen.options(30.0));
+  Trial trial(shipped_scene("tennis_ball"), seen.options(30.0));
   Rig& rig = trial.rig();
   Gate gate;
   Inputs in;

@@ -12,7 +12,7 @@
 namespace enc::trial {
 namespace {
 
-models::Setup setup_of(const std::string& scene, const std::vector<std::string>& set = {}) {
+models::Setup touched(const std::string& scene, const std::vector<std::string>& set = {}) {
   return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
 }
 
@@ -32,18 +32,18 @@ std::size_t empty_contacts(const models::Setup& setup, bool withheld = false) {
 }
 
 TEST(TouchMeasure, AnArmKnowsWithoutATruthThatNothingPushedItsProp) {
-  const models::Setup beside = setup_of("wall", {"truth.tracker.bias_mm=[60,0,0]"});
+  const models::Setup beside = touched("wall", {"truth.tracker.bias_mm=[60,0,0]"});
   EXPECT_EQ(empty_contacts(beside), 3U);
   EXPECT_EQ(empty_contacts(beside, true), 0U) << "a machine that is told nothing does not push back";
   for (const char* name : {"wall", "drum", "tiles", "button", "keypad", "room", "hit_ball", "reaching"})
-    EXPECT_EQ(empty_contacts(setup_of(name)), 0U) << name;
+    EXPECT_EQ(empty_contacts(touched(name)), 0U) << name;
 }
 
 // A hand breaks through a wall that no motor holds and strikes the arm's stop. Then its mass rings on its
 // grip about what it pushes with: by the speed of the impact times sqrt(k m).
 TEST(TouchMeasure, AHandPushesHarderThanItsStrengthOnlyByTheImpactOfItsMass) {
   constexpr double kAverage = 1.0;  // s
-  const models::Setup setup = setup_of("wall", {"behaviour.phantom_wall.stiffness_N_per_mm=1000"});
+  const models::Setup setup = touched("wall", {"behaviour.phantom_wall.stiffness_N_per_mm=1000"});
   const sim::HandTruth& hand = setup.twin.hand;
   TrialOptions options;
   double most = 0.0, mean = 0.0, lasting = 0.0, speed = 0.0;

@@ -15,11 +15,11 @@
 namespace enc::tests {
 namespace {
 
-const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kFolder = ENCOUNTER_SOURCE_DIR "/models";
 
 // A finger that comes, is seen from 0.9 s on, and touches at 1.4 s; images of a quarter of the pixels.
 const std::vector<std::string> kPress{"run",
-                                      kModels + "/scenes/camera/wall.toml",
+                                      kFolder + "/scenes/camera/wall.toml",
                                       "--json",
                                       "--for-s",
                                       "2",
@@ -44,7 +44,7 @@ Drawn drawn_by(const std::string& threads) {
   const Result r = run_program(words, {{"LP_NUM_THREADS", threads},
                                        {"LIBGL_ALWAYS_SOFTWARE", "1"},
                                        {"GALLIUM_DRIVER", "llvmpipe"},
-                                       {"ENCOUNTER_MODELS", kModels}});
+                                       {"ENCOUNTER_MODELS", kFolder}});
   EXPECT_EQ(r.code, 0) << r.err << r.out;
   Drawn drawn;
   if (r.code != 0) return drawn;

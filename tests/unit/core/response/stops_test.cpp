@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kFloor = 119.0;  // N/m
+constexpr double kSoftest = 119.0;  // N/m
 
 // Curve 12 u N, that is 2 N/mm to 6 mm; stops of 0.5 and 1 mm, 0.6 and 0.3 N/mm at 6 mm. The polynomials are
 // not used, and one weight of zero stands between.
@@ -25,9 +25,9 @@ ResponseSpec spec() {
   s.stops = StopsSpec{{12.0}, {0.5e-3, 0.7e-3, 1e-3}, {600.0, 0.0, 300.0}};
   return s;
 }
-Response stops(const ResponseSpec& s = spec()) { return {s, kFloor, Reversal::prandtl_ishlinskii}; }
+Response stops(const ResponseSpec& s = spec()) { return {s, kSoftest, Reversal::prandtl_ishlinskii}; }
 
-std::string refusal(const ResponseSpec& s, double floor = kFloor) {
+std::string refused(const ResponseSpec& s, double floor = kSoftest) {
   try {
     const Response response(s, floor, Reversal::prandtl_ishlinskii);
   } catch (const Error& error) {
@@ -87,18 +87,18 @@ TEST(Stops, InverseAsByHand) {
 
 // Slope at 0, released: 2 N/mm - (0.6 * 0.5 + 0.3 * 1) / 6 = 1.9 N/mm.
 TEST(Stops, LeastSlopeAsByHand) {
-  EXPECT_EQ(refusal(spec(), 1899.0), "accepted");
-  EXPECT_THAT(refusal(spec(), 1901.0), HasSubstr("softer than the loop renders stably (1.901"));
+  EXPECT_EQ(refused(spec(), 1899.0), "accepted");
+  EXPECT_THAT(refused(spec(), 1901.0), HasSubstr("softer than the loop renders stably (1.901"));
   ResponseSpec weak = spec();
   weak.stops->curve = {0.59};
-  EXPECT_THAT(refusal(weak, 0.0), HasSubstr("stops' curve falls with deflection from 0.000"));
+  EXPECT_THAT(refused(weak, 0.0), HasSubstr("stops' curve falls with deflection from 0.000"));
 }
 
 TEST(Stops, RefusesWhatIsNoResponse) {
   const auto with = [](auto change) {
     ResponseSpec s = spec();
     change(*s.stops);
-    return refusal(s);
+    return refused(s);
   };
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(with([](StopsSpec& s) { s.weights[0] = -1.0; }), HasSubstr("yield energy"));
@@ -115,7 +115,7 @@ TEST(Stops, RefusesWhatIsNoResponse) {
               HasSubstr("at most 16"));
   ResponseSpec none = spec();
   none.stops.reset();
-  EXPECT_THAT(refusal(none), HasSubstr("no [stops]"));
+  EXPECT_THAT(refused(none), HasSubstr("no [stops]"));
 }
 
 }  // namespace

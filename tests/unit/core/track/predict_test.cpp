@@ -15,16 +15,16 @@ namespace enc {
 namespace {
 
 constexpr Duration kMs{1'000'000};
-Time at_ms(int ms) { return Time(ms * kMs); }
+Time after_ms(int ms) { return Time(ms * kMs); }
 
-TrackerRig rig_with(Prediction prediction) {
+TrackerRig rig_of(Prediction prediction) {
   TrackerRig rig;
   rig.prediction = prediction;
   return rig;
 }
-const TrackerRig kHold = rig_with(Prediction::hold);
-const TrackerRig kVelocity = rig_with(Prediction::constant_velocity);
-const TrackerRig kAcceleration = rig_with(Prediction::constant_acceleration);
+const TrackerRig kHold = rig_of(Prediction::hold);
+const TrackerRig kVelocity = rig_of(Prediction::constant_velocity);
+const TrackerRig kAcceleration = rig_of(Prediction::constant_acceleration);
 
 // By a tracker that knows all ways alike.
 void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>& tip, TipMotion& motion,
@@ -36,11 +36,12 @@ void observe(const TrackerRig& rig, std::int32_t tool, Time t, const Point<'W'>&
 template <class Way>
 TipMotion tracked(const TrackerRig& rig, const Way& way, int end) {
   TipMotion motion;
-  for (int ms = 0; ms <= end; ms += 10) observe(rig, 0, at_ms(ms), Point<'W'>(way(1e-3 * ms), 0, 0), motion);
+  for (int ms = 0; ms <= end; ms += 10)
+    observe(rig, 0, after_ms(ms), Point<'W'>(way(1e-3 * ms), 0, 0), motion);
   return motion;
 }
 double x_at(const TrackerRig& rig, const TipMotion& motion, int ms) {
-  return predict(rig, motion, at_ms(ms)).xyz[0];
+  return predict(rig, motion, after_ms(ms)).xyz[0];
 }
 
 // Second pose, 10 ms after the first, 1 mm on. By hand, with r = 0.015 mm, 0.3 m/s rms, q = 0.055^2 m^2/s^3:
@@ -48,8 +49,8 @@ double x_at(const TrackerRig& rig, const TipMotion& motion, int ms) {
 //   S = P + r^2 = 9.001458e-6;  K = P / S = 0.9999750,  K_v = 100.0006 / s
 TEST(Predict, GainsOfTheSecondPoseAreThoseWorkedByHand) {
   TipMotion motion;
-  observe(kVelocity, 0, at_ms(0), Point<'W'>(0, 0, 0), motion);
-  observe(kVelocity, 0, at_ms(10), Point<'W'>(1e-3, 0, 0), motion);
+  observe(kVelocity, 0, after_ms(0), Point<'W'>(0, 0, 0), motion);
+  observe(kVelocity, 0, after_ms(10), Point<'W'>(1e-3, 0, 0), motion);
   EXPECT_NEAR(motion.position.xyz[0], 0.9999750e-3, 1e-10);
   EXPECT_NEAR(motion.velocity.xyz[0], 0.1000006, 1e-7);
   EXPECT_EQ(motion.velocity.xyz[1], 0.0);
@@ -85,12 +86,12 @@ struct Matrices {
 TEST(Predict, IsTheKalmanFilterThatMatricesGive) {
   for (const TrackerRig& rig : {kVelocity, kAcceleration}) {
     TipMotion motion;
-    observe(rig, 0, at_ms(0), Point<'W'>(0, 0, 0), motion);
+    observe(rig, 0, after_ms(0), Point<'W'>(0, 0, 0), motion);
     Matrices other{Vec3(motion.across.xx, motion.across.vv, motion.across.aa).asDiagonal(), Vec3::Zero()};
     int before = 0;
     for (const int ms : {8, 17, 33, 42, 50, 100, 108, 117}) {
       const double z = 2e-3 * std::sin(0.02 * ms);
-      observe(rig, 0, at_ms(ms), Point<'W'>(z, 0, 0), motion);
+      observe(rig, 0, after_ms(ms), Point<'W'>(z, 0, 0), motion);
       other.step(rig, 1e-3 * (ms - before), z);
       before = ms;
       EXPECT_NEAR(motion.position.xyz[0], other.x(0), 1e-15);
@@ -116,7 +117,7 @@ TrackerRig seen_hand(double surprise) {
 TipMotion stopped(const TrackerRig& rig, bool calm) {
   TipMotion motion;
   for (int ms = 0; ms <= 1050; ms += 50)  // 200 mm/s for a second, then no more
-    observe(rig, 0, at_ms(ms), Point<'W'>(0.2e-3 * std::min(ms, 1000), 0, 0), motion, calm);
+    observe(rig, 0, after_ms(ms), Point<'W'>(0.2e-3 * std::min(ms, 1000), 0, 0), motion, calm);
   return motion;
 }
 
@@ -133,7 +134,7 @@ TEST(Predict, ASurpriseMakesUpForASpeedThatChanges) {
 TEST(Predict, ASurpriseRaisesTheNoiseByWhatExplainsIt) {
   const TrackerRig rig = seen_hand(100.0);
   TipMotion motion;
-  for (int ms = 0; ms <= 1000; ms += 50) observe(rig, 0, at_ms(ms), Point<'W'>(0, 0, 0), motion);
+  for (int ms = 0; ms <= 1000; ms += 50) observe(rig, 0, after_ms(ms), Point<'W'>(0, 0, 0), motion);
   const double h = 0.05, q0 = 0.02 * 0.02, r2 = 0.25e-6, found = 1e-4;
   const double xx = motion.across.xx + 2.0 * h * motion.across.xv + h * h * motion.across.vv;
   const double xv = motion.across.xv + h * motion.across.vv;
@@ -141,7 +142,7 @@ TEST(Predict, ASurpriseRaisesTheNoiseByWhatExplainsIt) {
   ASSERT_GT(found, 9.0 * s);
   const double q = q0 + (found / 3.0 - s) * 3.0 / (h * h * h);
   const double gain = (xv + q * h * h / 2.0) / (found / 3.0);
-  observe(rig, 0, at_ms(1050), Point<'W'>(0.01, 0, 0), motion);
+  observe(rig, 0, after_ms(1050), Point<'W'>(0.01, 0, 0), motion);
   EXPECT_NEAR(motion.velocity.xyz[0], gain * 0.01, 1e-9);
 }
 
@@ -158,11 +159,11 @@ TEST(Predict, EachWayIsFilteredByItsOwnNoise) {
   for (int ms = 0; ms <= 1000; ms += 50) {
     const double x = 0.3e-3 * std::sin(0.3 * ms), z = 0.1e-3 * ms + 1.2e-3 * std::cos(0.4 * ms);
     const TipNoise noise{kAlong, kAcross, Vec<'W'>(0, 0, 1)};
-    enc::observe(rig, 0, at_ms(ms), Point<'W'>(x, 0, z), noise, motion);
-    enc::observe(rig, 0, at_ms(ms), Point<'W'>(Vec3(turned * Vec3(x, 0, z))),
+    enc::observe(rig, 0, after_ms(ms), Point<'W'>(x, 0, z), noise, motion);
+    enc::observe(rig, 0, after_ms(ms), Point<'W'>(Vec3(turned * Vec3(x, 0, z))),
                  {kAlong, kAcross, Vec<'W'>(Vec3(turned * Vec3(0, 0, 1)))}, oblique);
-    observe(deep, 0, at_ms(ms), Point<'W'>(0, 0, z), along);
-    observe(wide, 0, at_ms(ms), Point<'W'>(x, 0, 0), across);
+    observe(deep, 0, after_ms(ms), Point<'W'>(0, 0, z), along);
+    observe(wide, 0, after_ms(ms), Point<'W'>(x, 0, 0), across);
   }
   EXPECT_NEAR(motion.velocity.xyz[2], along.velocity.xyz[2], 1e-12);
   EXPECT_NEAR(motion.velocity.xyz[0], across.velocity.xyz[0], 1e-12);
@@ -194,9 +195,10 @@ TEST(Predict, WhatSurprisesDependsOnTheWay) {
   const auto speed_after = [](const Vec3& off) {
     TipMotion motion;
     for (int ms = 0; ms <= 1000; ms += 50)
-      enc::observe(seen_hand(0.3), 0, at_ms(ms), Point<'W'>(0, 0, 0), {3e-3, 0.5e-3, Vec<'W'>(0, 0, 1)},
+      enc::observe(seen_hand(0.3), 0, after_ms(ms), Point<'W'>(0, 0, 0), {3e-3, 0.5e-3, Vec<'W'>(0, 0, 1)},
                    motion);
-    enc::observe(seen_hand(0.3), 0, at_ms(1050), Point<'W'>(off), {3e-3, 0.5e-3, Vec<'W'>(0, 0, 1)}, motion);
+    enc::observe(seen_hand(0.3), 0, after_ms(1050), Point<'W'>(off), {3e-3, 0.5e-3, Vec<'W'>(0, 0, 1)},
+                 motion);
     return motion.velocity.norm();
   };
   EXPECT_GT(speed_after(Vec3(5e-3, 0, 0)), 0.04);
@@ -208,8 +210,8 @@ TEST(Predict, WhatIsUsualIsNoSurprise) {
   TipMotion with, without;
   for (int ms = 0; ms <= 2000; ms += 50) {
     const Point<'W'> seen(0.5e-3 * std::sin(0.3 * ms), 0.5e-3 * std::cos(0.4 * ms), 0.1e-3 * ms);
-    observe(seen_hand(1.0), 0, at_ms(ms), seen, with);
-    observe(seen_hand(0.0), 0, at_ms(ms), seen, without);
+    observe(seen_hand(1.0), 0, after_ms(ms), seen, with);
+    observe(seen_hand(0.0), 0, after_ms(ms), seen, without);
     EXPECT_EQ(with.position.xyz, without.position.xyz);
     EXPECT_EQ(with.velocity.xyz, without.velocity.xyz);
   }
@@ -254,7 +256,7 @@ TEST(Predict, GoesOnFor100MsThenComesToRestWithin200) {
 TEST(Predict, AfterALongSilenceNothingIsLeftOfTheSpeed) {
   TipMotion motion = tracked(
       kVelocity, [](double t) { return 0.04 * t; }, 1000);
-  observe(kVelocity, 0, at_ms(1101), Point<'W'>(0.05, 0, 0), motion);
+  observe(kVelocity, 0, after_ms(1101), Point<'W'>(0.05, 0, 0), motion);
   EXPECT_EQ(motion.velocity.xyz[0], 0.0);
   EXPECT_EQ(motion.position.xyz[0], 0.05);
 }
@@ -263,7 +265,7 @@ TEST(Predict, ALeapOrAnotherToolBeginsAnew) {
   for (const auto& [tool, x] : {std::pair{0, 0.5}, std::pair{1, 0.0401}}) {
     TipMotion motion = tracked(
         kVelocity, [](double t) { return 0.04 * t; }, 1000);
-    observe(kVelocity, tool, at_ms(1010), Point<'W'>(x, 0, 0), motion);
+    observe(kVelocity, tool, after_ms(1010), Point<'W'>(x, 0, 0), motion);
     EXPECT_EQ(motion.tool, tool);
     EXPECT_EQ(motion.position.xyz[0], x);
     EXPECT_EQ(motion.velocity.xyz[0], 0.0);
@@ -276,7 +278,7 @@ TEST(Predict, IsAtTheDataAtOnceAfterADropOut) {
         kVelocity, [](double t) { return 0.04 * t; }, 1000);
     const int now = 1000 + silence;
     const double seen = x_at(kVelocity, motion, now) + 0.004;
-    observe(kVelocity, 0, at_ms(now), Point<'W'>(seen, 0, 0), motion);
+    observe(kVelocity, 0, after_ms(now), Point<'W'>(seen, 0, 0), motion);
     EXPECT_NEAR(x_at(kVelocity, motion, now), seen, 0.1e-3) << silence;
   }
 }
@@ -284,7 +286,7 @@ TEST(Predict, IsAtTheDataAtOnceAfterADropOut) {
 TEST(Predict, StampsThatAreLateAreTakenBack) {
   TrackerRig rig = kVelocity;
   rig.stamp_late = 0.003;
-  EXPECT_EQ(exposed(rig, at_ms(10)), at_ms(7));
+  EXPECT_EQ(exposed(rig, after_ms(10)), after_ms(7));
 }
 
 // ---- in the core

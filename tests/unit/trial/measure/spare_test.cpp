@@ -20,20 +20,20 @@ namespace enc::trial {
 namespace {
 
 using Set = std::vector<std::string>;
-const Set kControlled{"rig.admittance.passivity=controlled"};
+const Set kControlledHexapod{"rig.admittance.passivity=controlled"};
 
-models::Setup setup_of(const std::string& scene, Set set, const Set& more = {}) {
+models::Setup loaded(const std::string& scene, Set set, const Set& more = {}) {
   set.insert(set.end(), more.begin(), more.end());
   return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
 }
 
-struct Felt {
+struct Pressed {
   double press = 0.0, release = 0.0, in = 0.0, out = 0.0;  // N, N, J, J
   PassivityFigures controller;
   double surplus = 0.0;  // J, by the truth
   TrialResult result;
 };
-Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
+Pressed pressed_in(const models::Setup& setup, std::uint64_t seed = 1) {
   PressMeasure presses(setup);
   PassivityMeasure passivity;
   TrialOptions options;
@@ -44,7 +44,7 @@ Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
     passivity.see(glance);
     ledger.see(glance);
   };
-  Felt felt;
+  Pressed felt;
   Trial trial(setup, options);
   felt.result = trial.run();
   felt.surplus = worst_surplus(ledger.contacts());
@@ -57,7 +57,8 @@ Felt felt_in(const models::Setup& setup, std::uint64_t seed = 1) {
 }
 
 TEST(TrialSpare, TheTennisBallFeelsAsItDid) {
-  const Felt off = felt_in(setup_of("tennis_ball", {})), on = felt_in(setup_of("tennis_ball", kControlled));
+  const Pressed off = pressed_in(loaded("tennis_ball", {})),
+                on = pressed_in(loaded("tennis_ball", kControlledHexapod));
   EXPECT_EQ(on.result.contacts, off.result.contacts);
   EXPECT_NEAR(on.press, off.press, 0.02);
   EXPECT_NEAR(on.release, off.release, 0.02);
@@ -72,7 +73,7 @@ TEST(TrialSpare, TheTennisBallFeelsAsItDid) {
 // left under a push of now is looked at, a hand that meets the tip on its way gets 0.30 mJ (seeds 2 and 21).
 TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {2U, 13U, 21U}) {
-    const Felt on = felt_in(setup_of("session", {}, kControlled), seed);
+    const Pressed on = pressed_in(loaded("session", {}, kControlledHexapod), seed);
     EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed, seed " << seed;
     EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
     EXPECT_GT(on.controller.acted, 0.1) << "s";
@@ -83,7 +84,7 @@ TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
 // nothing is reckoned for that.
 TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {15U, 27U, 41U}) {
-    const Felt on = felt_in(setup_of("training", {}, kControlled), seed);
+    const Pressed on = pressed_in(loaded("training", {}, kControlledHexapod), seed);
     EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
     EXPECT_GT(on.controller.acted, 0.1) << "s";
   }
@@ -92,8 +93,8 @@ TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
 // Waiting 0.1 mm inside, the tooth is hardly rendered then; at 0.01 mm it is.
 TEST(TrialSpare, ALessonFromTheSurfaceIsFelt) {
   const Set near{"follow.inset_mm=0.01"};
-  const Felt off = felt_in(setup_of("training", near), 3),
-             on = felt_in(setup_of("training", near, kControlled), 3);
+  const Pressed off = pressed_in(loaded("training", near), 3),
+                on = pressed_in(loaded("training", near, kControlledHexapod), 3);
   EXPECT_LT(on.press, 2.5) << "N, of 10; " << off.press << " without it";
   EXPECT_LT(on.release, 2.5) << "N; " << off.release << " without it";
   EXPECT_GT(on.in, 0.8 * off.in) << "J";
@@ -102,7 +103,7 @@ TEST(TrialSpare, ALessonFromTheSurfaceIsFelt) {
 
 // A tip that is late is 26 mm off its tool: it comes, and does not stand where it was when the hand had come.
 TEST(TrialSpare, ATipThatIsLateComesWithTheController) {
-  EXPECT_LT(felt_in(setup_of("session", {}, kControlled), 24).controller.acted, 10.0) << "s";
+  EXPECT_LT(pressed_in(loaded("session", {}, kControlledHexapod), 24).controller.acted, 10.0) << "s";
 }
 
 // A wall of 0.03 N/mm, of which the certificate says from 0.106 on.
@@ -110,7 +111,7 @@ const Set kSoft{"rig.force.tare=start", "rig.contact.softest_N_per_mm=0",
                 "behaviour.spring.stiffness_N_per_mm=0.03", "pusher.hold_s=3", "pusher.repeats=2"};
 
 TEST(TrialSpare, ASoftWallThatSwingsGivesOutNothing) {
-  const Felt on = felt_in(setup_of("stiffness", kSoft, kControlled));
+  const Pressed on = pressed_in(loaded("stiffness", kSoft, kControlledHexapod));
   EXPECT_LE(on.controller.given, 0.1e-3) << "J, observed";
   EXPECT_LE(on.surplus, 0.1e-3) << "J, true";
   EXPECT_GT(on.controller.acted, 0.1) << "s";
@@ -139,11 +140,11 @@ TEST(TrialSpare, ASensorThatIsOffPaysForNothing) {
     const std::string stiffness = std::string("stiffness_N_per_mm=") + hand;
     const std::string damping = std::string("damping_Ns_per_m=") + damper;
     models::Setup setup =
-        setup_of("stiffness",
-                 {"rig.force.tare=start", "rig.contact.softest_N_per_mm=0", "truth.pusher." + stiffness,
-                  "rig.contact.hand_" + stiffness, "truth.pusher." + damping, "rig.contact.hand_" + damping,
-                  "pusher.hold_s=6", "pusher.repeats=12"},
-                 kControlled);
+        loaded("stiffness",
+               {"rig.force.tare=start", "rig.contact.softest_N_per_mm=0", "truth.pusher." + stiffness,
+                "rig.contact.hand_" + stiffness, "truth.pusher." + damping, "rig.contact.hand_" + damping,
+                "pusher.hold_s=6", "pusher.repeats=12"},
+               kControlledHexapod);
     for (BehaviourSpec& one : setup.scene.behaviours)
       one.curves.press = one.curves.release = {one.stiffness = 100.0};
     for (const std::uint64_t seed : {1U, 5U})
@@ -162,13 +163,13 @@ TEST(TrialSpare, WhatIsOwedEndsWithItsContact) {
     held = alone ? held + glance.scene.dt : 0.0;
     longest = std::max(longest, held);
   };
-  (void)Trial(setup_of("stiffness", set, kControlled), options).run();
+  (void)Trial(loaded("stiffness", set, kControlledHexapod), options).run();
   EXPECT_GT(longest, 0.1) << "s";
   EXPECT_LT(longest, 4.5) << "s";
 }
 
 TEST(TrialSpare, ARecordedRunReplaysToTheSameBits) {
-  expect_acts_and_replays(setup_of("stiffness", kSoft, kControlled));
+  expect_acts_and_replays(loaded("stiffness", kSoft, kControlledHexapod));
 }
 
 TEST(TrialSpare, WhereNothingIsRenderedItIsRefused) {
@@ -180,10 +181,11 @@ TEST(TrialSpare, WhereNothingIsRenderedItIsRefused) {
     }
     return std::string("not refused");
   };
-  EXPECT_EQ(refused(setup_of("plane", kControlled)), "not refused");
-  EXPECT_THAT(refused(setup_of("tracking", kControlled)), testing::HasSubstr("the scene renders nothing"));
-  EXPECT_THAT(refused(setup_of("rig_A", kControlled)), testing::HasSubstr("the scene renders nothing"));
-  models::Setup empty = setup_of("plane", kControlled);
+  EXPECT_EQ(refused(loaded("plane", kControlledHexapod)), "not refused");
+  EXPECT_THAT(refused(loaded("tracking", kControlledHexapod)),
+              testing::HasSubstr("the scene renders nothing"));
+  EXPECT_THAT(refused(loaded("rig_A", kControlledHexapod)), testing::HasSubstr("the scene renders nothing"));
+  models::Setup empty = loaded("plane", kControlledHexapod);
   empty.scene.objects.clear();
   EXPECT_THAT(refused(empty), testing::HasSubstr("the scene has no object"));
 }

@@ -9,8 +9,8 @@
 namespace enc::certificate {
 namespace {
 
-const SampledLoop kPhantom{0.075, 0.0114, 1e-3};
-const Steps kCounts{0.048, 28.7e-6};
+const SampledLoop kArm{0.075, 0.0114, 1e-3};
+const Steps kEncoder{0.048, 28.7e-6};
 const Hand kHand{0.1, 4.0, 300.0};
 
 SampledLoop held(SampledLoop loop) {
@@ -54,9 +54,9 @@ TEST(Certificate, StableAloneAndNotWithThisHandIsAClassOfItsOwn) {
   const Damper damper{10.0, 0.0};
   ASSERT_LT(spectral_radius(loop.alone(), 300.0, damper.fixed), 1.0);
   ASSERT_GT(spectral_radius(loop, 300.0, damper.fixed), 1.0);
-  EXPECT_EQ(certify(loop, kCounts, {300.0, damper}).verdict, Class::unheld);
-  EXPECT_EQ(certify(loop.alone(), kCounts, {300.0, damper}).verdict, Class::alone);
-  EXPECT_EQ(certify(loop, kCounts, {150.0, damper}).verdict, Class::alone);
+  EXPECT_EQ(certify(loop, kEncoder, {300.0, damper}).verdict, Class::unheld);
+  EXPECT_EQ(certify(loop.alone(), kEncoder, {300.0, damper}).verdict, Class::alone);
+  EXPECT_EQ(certify(loop, kEncoder, {150.0, damper}).verdict, Class::alone);
 }
 
 // What grows too slowly to be seen is not still: undamped, an undelayed spring at 0.1 rad/s and a late one.
@@ -107,15 +107,15 @@ TEST(Certificate, WhatGoesDownToALimitCycleIsWatchedOn) {
 // 2000.
 TEST(Certificate, ThePhantomSettlesWhereItWasFoundTo) {
   const auto rest = [](double stiffness, double from) {
-    return release(kPhantom, {0.048, 0.0}, stiffness, 0.0, from).rest;
+    return release(kArm, {0.048, 0.0}, stiffness, 0.0, from).rest;
   };
   EXPECT_EQ(rest(3500.0, kSmall), Rest::still);
   EXPECT_EQ(rest(1000.0, kLarge), Rest::still);
   EXPECT_EQ(rest(2000.0, kLarge), Rest::away);
   EXPECT_EQ(rest(8000.0, kSmall), Rest::away);
-  EXPECT_EQ(certify(kPhantom, kCounts, {1000.0, {}}).verdict, Class::local);
-  EXPECT_EQ(certify(kPhantom, kCounts, {2000.0, {}}).large.rest, Rest::away);
-  EXPECT_EQ(certify(kPhantom, kCounts, {2000.0, {}}).small.rest, Rest::still);
+  EXPECT_EQ(certify(kArm, kEncoder, {1000.0, {}}).verdict, Class::local);
+  EXPECT_EQ(certify(kArm, kEncoder, {2000.0, {}}).large.rest, Rest::away);
+  EXPECT_EQ(certify(kArm, kEncoder, {2000.0, {}}).small.rest, Rest::still);
 }
 
 TEST(Certificate, ReleaseWithoutFrictionAgreesWithTheEigenvalues) {
@@ -159,24 +159,24 @@ TEST(Certificate, MissingFiguresAreNamed) {
     return found.missing;
   };
   const Asked asked{100.0, {}};
-  EXPECT_EQ(missing({0.1, kUnset, 1e-3}, kCounts, asked), "damping");
-  EXPECT_EQ(missing({0.1, -1.0, 1e-3}, kCounts, asked), "damping");
-  EXPECT_EQ(missing({0.1, 0.1, 0.0}, kCounts, asked), "period");
-  EXPECT_EQ(missing({0.1, 0.1, 1e-3, -1.0}, kCounts, asked), "delay");
-  EXPECT_EQ(missing({0.0, 0.1, 1e-3}, kCounts, asked), "mass");
-  EXPECT_EQ(missing(held({0.0, 0.1, 1e-3}), kCounts, asked), "mass");  // though the hand has one
-  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.601}, kCounts, asked), "delay: more than 600 periods");
-  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.0, 0}, kCounts, asked), "ticks");
-  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.0, 1, -1.0}, kCounts, asked), "filter");
-  EXPECT_EQ(missing(kPhantom, {kUnset, 1e-5}, asked), "friction");
-  EXPECT_EQ(missing(kPhantom, {0.1, kUnset}, asked), "encoder step");
-  EXPECT_EQ(missing(kPhantom, kCounts, {0.0, {}}), "stiffness");
-  EXPECT_EQ(missing(kPhantom, kCounts, {kUnset, {}}), "stiffness");
-  EXPECT_EQ(missing(kPhantom, kCounts, {100.0, {kUnset, 0.0}}), "damper");
+  EXPECT_EQ(missing({0.1, kUnset, 1e-3}, kEncoder, asked), "damping");
+  EXPECT_EQ(missing({0.1, -1.0, 1e-3}, kEncoder, asked), "damping");
+  EXPECT_EQ(missing({0.1, 0.1, 0.0}, kEncoder, asked), "period");
+  EXPECT_EQ(missing({0.1, 0.1, 1e-3, -1.0}, kEncoder, asked), "delay");
+  EXPECT_EQ(missing({0.0, 0.1, 1e-3}, kEncoder, asked), "mass");
+  EXPECT_EQ(missing(held({0.0, 0.1, 1e-3}), kEncoder, asked), "mass");  // though the hand has one
+  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.601}, kEncoder, asked), "delay: more than 600 periods");
+  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.0, 0}, kEncoder, asked), "ticks");
+  EXPECT_EQ(missing({0.1, 0.1, 1e-3, 0.0, 1, -1.0}, kEncoder, asked), "filter");
+  EXPECT_EQ(missing(kArm, {kUnset, 1e-5}, asked), "friction");
+  EXPECT_EQ(missing(kArm, {0.1, kUnset}, asked), "encoder step");
+  EXPECT_EQ(missing(kArm, kEncoder, {0.0, {}}), "stiffness");
+  EXPECT_EQ(missing(kArm, kEncoder, {kUnset, {}}), "stiffness");
+  EXPECT_EQ(missing(kArm, kEncoder, {100.0, {kUnset, 0.0}}), "damper");
 }
 
 TEST(Certificate, RowsAreFoundByName) {
-  const Certificate found = certify(held(kPhantom), kCounts, {300.0, {11.5, 0.0}});
+  const Certificate found = certify(held(kArm), kEncoder, {300.0, {11.5, 0.0}});
   EXPECT_GT(row_of(found, "exact_with_hand").bound, 0.0);
   EXPECT_THROW((void)row_of(found, "nonsense"), std::out_of_range);
 }

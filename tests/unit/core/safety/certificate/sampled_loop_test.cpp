@@ -13,7 +13,7 @@
 namespace enc::certificate {
 namespace {
 
-SampledLoop wall(double damping, double delay) { return {0.1, damping, 1e-3, delay}; }
+SampledLoop wall_with(double damping, double delay) { return {0.1, damping, 1e-3, delay}; }
 
 void expect_within(double value, double expected, double share, const std::string& what) {
   EXPECT_NEAR(value, expected, share * expected) << what;
@@ -26,7 +26,7 @@ TEST(SampledLoop, UndampedWallIsStableUpToTheTable) {
                     {0.2, 2, 80.1, 0.005},   {0.2, 5, 36.4, 0.005},  {0.2, 10, 19.1, 0.005},
                     {1.0, 0, 2003, 0.005},   {1.0, 2, 402, 0.005},   {1.0, 10, 96.9, 0.005}};
   for (const auto& row : rows)
-    expect_within(critical_stiffness(wall(row.damping, row.delay_ms * 1e-3)), row.exact, row.tolerance,
+    expect_within(critical_stiffness(wall_with(row.damping, row.delay_ms * 1e-3)), row.exact, row.tolerance,
                   testing::PrintToString(row.damping) + " " + testing::PrintToString(row.delay_ms));
 }
 
@@ -40,12 +40,12 @@ TEST(SampledLoop, WallDamperIsStableUpToTheTable) {
                     {20, {33073, 10436, 5631, 1334, 0}}};
   for (const auto& row : rows)
     for (std::size_t i = 0; i < 5; ++i)
-      expect_within(critical_stiffness(wall(0.2, delays[i] * 1e-3), {row.damper, 0.0}), row.exact[i], 0.005,
-                    testing::PrintToString(row.damper) + " " + testing::PrintToString(delays[i]));
+      expect_within(critical_stiffness(wall_with(0.2, delays[i] * 1e-3), {row.damper, 0.0}), row.exact[i],
+                    0.005, testing::PrintToString(row.damper) + " " + testing::PrintToString(delays[i]));
 }
 
 TEST(SampledLoop, DamperThatIsUnstableByItselfLeavesNoStiffness) {
-  const SampledLoop loop = wall(0.2, 10e-3);
+  const SampledLoop loop = wall_with(0.2, 10e-3);
   const Range range = stable_range(loop, {20.0, 0.0});
   EXPECT_EQ(range.low, 0.0);
   EXPECT_EQ(range.high, 0.0);
@@ -55,7 +55,7 @@ TEST(SampledLoop, DamperThatIsUnstableByItselfLeavesNoStiffness) {
 TEST(SampledLoop, HandRaisesTheBoundToTheTable) {
   const double exact[] = {8431, 2818, 1698, 784, 425}, delays[] = {0, 1, 2, 5, 10};
   for (std::size_t i = 0; i < 5; ++i) {
-    SampledLoop loop = wall(0.2, delays[i] * 1e-3);
+    SampledLoop loop = wall_with(0.2, delays[i] * 1e-3);
     loop.hand = {0.1, 4.0, 300.0};
     expect_within(critical_stiffness(loop), exact[i], 0.005, testing::PrintToString(delays[i]));
     EXPECT_LT(critical_stiffness(loop.alone()), critical_stiffness(loop));
@@ -65,7 +65,7 @@ TEST(SampledLoop, HandRaisesTheBoundToTheTable) {
 TEST(SampledLoop, StiffnessOnEitherSideOfTheBoundIsStableAndIsNot) {
   for (const double part : {0.0, 0.25, 0.5, 0.999, 1.0, 2.7})
     for (const double damper : {0.0, 0.3}) {
-      const SampledLoop loop = wall(0.3, part * 1e-3);
+      const SampledLoop loop = wall_with(0.3, part * 1e-3);
       const double k = critical_stiffness(loop, {damper, 0.0});
       EXPECT_TRUE(stable(loop, k * 0.9999, damper)) << part;
       EXPECT_FALSE(stable(loop, k * 1.0001, damper)) << part;
@@ -78,7 +78,7 @@ TEST(SampledLoop, StiffnessOnEitherSideOfTheBoundIsStableAndIsNot) {
 TEST(SampledLoop, BoundFallsWithDelayAndPeriodAndRisesWithDamping) {
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= 40; ++i) {
-    const double k = critical_stiffness(wall(0.2, 0.25e-3 * i));
+    const double k = critical_stiffness(wall_with(0.2, 0.25e-3 * i));
     EXPECT_LT(k, before) << i;
     before = k;
   }
@@ -90,7 +90,7 @@ TEST(SampledLoop, BoundFallsWithDelayAndPeriodAndRisesWithDamping) {
   }
   before = 0.0;
   for (const double damping : {0.01, 0.1, 1.0, 5.0}) {
-    const double k = critical_stiffness(wall(damping, 1e-3));
+    const double k = critical_stiffness(wall_with(damping, 1e-3));
     EXPECT_GT(k, before) << damping;
     before = k;
   }
@@ -193,8 +193,8 @@ TEST(SampledLoop, RadiusIsWhatTwoHundredSimulatedLoopsDo) {
 // -----------------------------------------------------------------------------------------------
 
 TEST(SampledLoop, UndampedIsStableForNoStiffness) {
-  EXPECT_EQ(critical_stiffness(wall(0.0, 0.0)), 0.0);
-  EXPECT_EQ(critical_stiffness(wall(0.0, 5e-3)), 0.0);
+  EXPECT_EQ(critical_stiffness(wall_with(0.0, 0.0)), 0.0);
+  EXPECT_EQ(critical_stiffness(wall_with(0.0, 5e-3)), 0.0);
 }
 
 TEST(SampledLoop, WhatIsNotKnownHasNoAnswer) {
@@ -216,7 +216,7 @@ TEST(SampledLoop, WhatIsNotKnownHasNoAnswer) {
                                  {0.1, 0.2, 1e-3, 0, 0},
                                  {0.1, 0.2, 1e-3, 0, 1, 0.0},
                                  {0.1, 0.2, 1e-3, 0, 1, -1.0}};
-  SampledLoop held = wall(0.2, 0.0);
+  SampledLoop held = wall_with(0.2, 0.0);
   held.hand.stiffness = -1.0;
   wrong.push_back(held);
   for (std::size_t i = 0; i < wrong.size(); ++i) {
@@ -225,14 +225,16 @@ TEST(SampledLoop, WhatIsNotKnownHasNoAnswer) {
     EXPECT_TRUE(std::isnan(spectral_radius(wrong[i], 100.0, 0.0))) << i;
     EXPECT_FALSE(stable(wrong[i], 100.0, 0.0)) << i;
   }
-  EXPECT_TRUE(std::isnan(critical_stiffness(wall(0.2, 0.0), {nan, 0.0})));
-  EXPECT_FALSE(stable(wall(0.2, 0.0), nan, 0.0));
+  EXPECT_TRUE(std::isnan(critical_stiffness(wall_with(0.2, 0.0), {nan, 0.0})));
+  EXPECT_FALSE(stable(wall_with(0.2, 0.0), nan, 0.0));
 }
 
 TEST(SampledLoop, SameDelayInOneFormOrAnother) {
   // 3 periods less a part that no clock has, and 3 periods.
-  EXPECT_NEAR(critical_stiffness(wall(0.2, 3e-3)), critical_stiffness(wall(0.2, 3e-3 - 1e-12)), 1e-6);
-  EXPECT_NEAR(critical_stiffness(wall(0.2, 3e-3)), critical_stiffness(wall(0.2, 3e-3 - 1e-8)), 1e-2);
+  EXPECT_NEAR(critical_stiffness(wall_with(0.2, 3e-3)), critical_stiffness(wall_with(0.2, 3e-3 - 1e-12)),
+              1e-6);
+  EXPECT_NEAR(critical_stiffness(wall_with(0.2, 3e-3)), critical_stiffness(wall_with(0.2, 3e-3 - 1e-8)),
+              1e-2);
 }
 
 }  // namespace

@@ -9,13 +9,13 @@
 namespace enc::augment {
 namespace {
 
-const RectifiedPair kPair{500.0, 319.5, 239.5, 0.1, Mat3::Identity()};
+const RectifiedPair kWidePair{500.0, 319.5, 239.5, 0.1, Mat3::Identity()};
 const Pose<'C', 'W'> kSame(Quat::Identity(), Vec3(0, 0, 0));  // W is where C is
 
 double pixels(const ArmPart& part, double margin, Mask* mask = nullptr) {
   Mask own(640, 480);
   Mask& m = mask != nullptr ? *mask : own;
-  cover(kPair, kSame, part, margin, m);
+  cover(kWidePair, kSame, part, margin, m);
   return static_cast<double>(std::count(m.on.begin(), m.on.end(), std::uint8_t{255}));
 }
 

@@ -21,12 +21,12 @@ using test::projected;
 using test::tilted_boards;
 using testing::HasSubstr;
 
-const Board kBoard{9, 6, 0.024};
+const Board kDrawnBoard{9, 6, 0.024};
 
 std::vector<PairCorners> exact_pairs(const StereoRig& rig, std::size_t count) {
   std::vector<PairCorners> pairs;
-  for (const Pose<'C', 'O'>& X_CO : tilted_boards(kBoard, count))
-    pairs.push_back(projected(rig, kBoard, X_CO));
+  for (const Pose<'C', 'O'>& X_CO : tilted_boards(kDrawnBoard, count))
+    pairs.push_back(projected(rig, kDrawnBoard, X_CO));
   return pairs;
 }
 
@@ -53,7 +53,7 @@ void expect_near(const StereoRig& found, const StereoRig& is, double focal, doub
 
 std::string refusal(const std::vector<PairCorners>& pairs) {
   try {
-    static_cast<void>(calibrate_stereo(pairs, kBoard, 640, 480));
+    static_cast<void>(calibrate_stereo(pairs, kDrawnBoard, 640, 480));
   } catch (const Error& e) {
     return e.what();
   }
@@ -63,7 +63,7 @@ std::string refusal(const std::vector<PairCorners>& pairs) {
 // Corners come and go as floats: a thousandth of a pixel is all that they tell.
 TEST(StereoCalibration, FindsAKnownHeadInExactCorners) {
   const StereoRig is = known_head(640, 480);
-  const StereoCalibration found = calibrate_stereo(exact_pairs(is, 10), kBoard, 640, 480);
+  const StereoCalibration found = calibrate_stereo(exact_pairs(is, 10), kDrawnBoard, 640, 480);
   expect_near(found.rig, is, 0.01, 0.01, 0.002, 2e-5);
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_NEAR(found.rig.left.distortion[i], is.left.distortion[i], 1e-3) << i;
@@ -73,7 +73,7 @@ TEST(StereoCalibration, FindsAKnownHeadInExactCorners) {
   EXPECT_LT(found.epipolar, 1e-3);
   EXPECT_LT(found.rows, 1e-3);
   ASSERT_EQ(found.pairs.size(), 10U);
-  for (const PairResidual& pair : found.pairs) EXPECT_NEAR(pair.square, kBoard.square, 1e-6);
+  for (const PairResidual& pair : found.pairs) EXPECT_NEAR(pair.square, kDrawnBoard.square, 1e-6);
 }
 
 // What 0.2 px of noise leaves: three standard deviations, as the fit has them, and residuals that are the
@@ -82,7 +82,7 @@ TEST(StereoCalibration, SaysHowWellNoisyCornersFit) {
   const StereoRig is = known_head(640, 480);
   std::vector<PairCorners> pairs = exact_pairs(is, 13);
   blur(pairs, 0.2);
-  const StereoCalibration found = calibrate_stereo(pairs, kBoard, 640, 480);
+  const StereoCalibration found = calibrate_stereo(pairs, kDrawnBoard, 640, 480);
   const double most = 3.0 * found.focal_deviation * is.left.focal_x;
   expect_near(found.rig, is, most, most, 0.5, std::sqrt(2.0) * most / is.left.focal_x);
   EXPECT_NEAR(found.rms, 0.2 * std::sqrt(2.0), 0.02);  // of both coordinates
@@ -98,8 +98,8 @@ TEST(StereoCalibration, APairOfAnotherHeadStandsOut) {
   std::vector<PairCorners> pairs = exact_pairs(is, 10);
   StereoRig other = is;
   other.X_CD = Pose<'C', 'D'>(is.X_CD.q() * rotation_xyz(Vec3(0.005, 0, 0)), Vec3(is.X_CD.p()));
-  pairs[4] = projected(other, kBoard, tilted_boards(kBoard, 10)[4]);
-  const StereoCalibration found = calibrate_stereo(pairs, kBoard, 640, 480);
+  pairs[4] = projected(other, kDrawnBoard, tilted_boards(kDrawnBoard, 10)[4]);
+  const StereoCalibration found = calibrate_stereo(pairs, kDrawnBoard, 640, 480);
   const double expected = 0.005 * is.right.focal_y;  // px: 2.7
   EXPECT_NEAR(found.pairs[4].epipolar, expected, 0.3);
   EXPECT_NEAR(found.pairs[4].rows, expected, 0.3);
@@ -114,7 +114,7 @@ TEST(StereoCalibration, APairThatIsNoneIsFound) {
   const StereoRig is = known_head(640, 480);
   std::vector<PairCorners> pairs = exact_pairs(is, 8);
   pairs[2].right = pairs[5].right;
-  const StereoCalibration found = calibrate_stereo(pairs, kBoard, 640, 480);
+  const StereoCalibration found = calibrate_stereo(pairs, kDrawnBoard, 640, 480);
   EXPECT_GT(found.rms, kLargestRms);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (i == 2)
@@ -126,13 +126,13 @@ TEST(StereoCalibration, APairThatIsNoneIsFound) {
 
 TEST(StereoCalibration, CornersOfDrawnBoardsAreFound) {
   const StereoRig is = known_head(640, 480);
-  const Pose<'C', 'O'> X_CO = tilted_boards(kBoard, 3)[2];
-  const test::DrawnPair images = drawn(is, kBoard, X_CO);
-  const std::optional<Corners> left = find_corners(images.left.view(), kBoard);
-  const std::optional<Corners> right = find_corners(images.right.view(), kBoard);
+  const Pose<'C', 'O'> X_CO = tilted_boards(kDrawnBoard, 3)[2];
+  const test::DrawnPair images = drawn(is, kDrawnBoard, X_CO);
+  const std::optional<Corners> left = find_corners(images.left.view(), kDrawnBoard);
+  const std::optional<Corners> right = find_corners(images.right.view(), kDrawnBoard);
   ASSERT_TRUE(left && right);
   PairCorners found = in_one_order(*left, *right);
-  const PairCorners are = projected(is, kBoard, X_CO);
+  const PairCorners are = projected(is, kDrawnBoard, X_CO);
   if ((found.left.front() - are.left.front()).norm() > 5.0) {  // from its other end
     std::reverse(found.left.begin(), found.left.end());
     std::reverse(found.right.begin(), found.right.end());
@@ -144,14 +144,14 @@ TEST(StereoCalibration, CornersOfDrawnBoardsAreFound) {
 }
 
 TEST(StereoCalibration, FindsNoBoardWhereThereIsNone) {
-  EXPECT_FALSE(find_corners(Image(640, 480).view(), kBoard));
-  EXPECT_FALSE(find_corners(Image(1, 1).view(), kBoard));
-  const test::DrawnPair images = drawn(known_head(320, 240), {8, 6, 0.024}, tilted_boards(kBoard, 1)[0]);
-  EXPECT_FALSE(find_corners(images.left.view(), kBoard));  // has 8 x 6
+  EXPECT_FALSE(find_corners(Image(640, 480).view(), kDrawnBoard));
+  EXPECT_FALSE(find_corners(Image(1, 1).view(), kDrawnBoard));
+  const test::DrawnPair images = drawn(known_head(320, 240), {8, 6, 0.024}, tilted_boards(kDrawnBoard, 1)[0]);
+  EXPECT_FALSE(find_corners(images.left.view(), kDrawnBoard));  // has 8 x 6
 }
 
 TEST(StereoCalibration, RunsAgainstEachOtherAreTurnedRound) {
-  const PairCorners are = projected(known_head(640, 480), kBoard, tilted_boards(kBoard, 1)[0]);
+  const PairCorners are = projected(known_head(640, 480), kDrawnBoard, tilted_boards(kDrawnBoard, 1)[0]);
   Corners turned = are.right;
   std::reverse(turned.begin(), turned.end());
   EXPECT_EQ(in_one_order(are.left, turned).right, are.right);
@@ -164,7 +164,7 @@ TEST(StereoCalibration, RefusesWhatTellsNothing) {
   EXPECT_THAT(refusal({good.begin(), good.begin() + 3}), HasSubstr("found in 3 pairs; expected at least 4"));
   std::vector<PairCorners> parallel;
   for (int i = 0; i < 6; ++i)
-    parallel.push_back(projected(is, kBoard,
+    parallel.push_back(projected(is, kDrawnBoard,
                                  Pose<'C', 'O'>(rotation_xyz(Vec3(0.2, 0.1, 0.1 * i)),
                                                 Vec3(-0.08 + 0.02 * i, -0.05, 0.45 + 0.03 * i))));
   EXPECT_THAT(refusal(parallel), HasSubstr("stand parallel"));
@@ -176,16 +176,16 @@ TEST(StereoCalibration, RefusesWhatTellsNothing) {
 // The rays of exact corners meet, in the place of the corner.
 TEST(StereoCalibration, TriangulatesInMetres) {
   const StereoRig is = known_head(640, 480);
-  const Pose<'C', 'O'> X_CO = tilted_boards(kBoard, 2)[1];
-  const std::vector<Point<'C'>> places = triangulated(is, projected(is, kBoard, X_CO));
+  const Pose<'C', 'O'> X_CO = tilted_boards(kDrawnBoard, 2)[1];
+  const std::vector<Point<'C'>> places = triangulated(is, projected(is, kDrawnBoard, X_CO));
   EXPECT_LT((places[0] - X_CO.origin()).norm(), 1e-8);
   EXPECT_LT((places[9] - X_CO * Point<'O'>(0.0, 0.024, 0.0)).norm(), 1e-8);
 }
 
 TEST(StereoCalibration, TheSamePairsGiveTheSameBits) {
   const std::vector<PairCorners> pairs = exact_pairs(known_head(640, 480), 5);
-  const StereoCalibration a = calibrate_stereo(pairs, kBoard, 640, 480);
-  const StereoCalibration b = calibrate_stereo(pairs, kBoard, 640, 480);
+  const StereoCalibration a = calibrate_stereo(pairs, kDrawnBoard, 640, 480);
+  const StereoCalibration b = calibrate_stereo(pairs, kDrawnBoard, 640, 480);
   EXPECT_EQ(a.rig.X_CD.xyz, b.rig.X_CD.xyz);
   EXPECT_EQ(a.rig.X_CD.xyzw, b.rig.X_CD.xyzw);
   EXPECT_EQ(a.rig.left.distortion, b.rig.left.distortion);

@@ -15,25 +15,25 @@ namespace {
 
 using drawn::small;
 
-const RectifiedPair kPair{360.5, 159.5, 119.5, 0.09, Mat3::Identity()};
+const RectifiedPair kSmall{360.5, 159.5, 119.5, 0.09, Mat3::Identity()};
 
-struct Scene {
+struct Outline {
   Mask left{320, 240}, right{320, 240};
   Fingertip tip;
   double disparity;
 
-  explicit Scene(const drawn::HandAt& hand) {
+  explicit Outline(const drawn::HandAt& hand) {
     Image image;
     drawn::draw(small(), Side::left, &hand, 1, 0.0, image, &left);
     drawn::draw(small(), Side::right, &hand, 1, 0.0, image, &right);
-    const Triplet at = seen_at(kPair, Point<'C'>(hand.tip));
+    const Triplet at = seen_at(kSmall, Point<'C'>(hand.tip));
     tip.column = at.column;
     tip.row = at.row;
-    tip.outline = kPair.focal * hand.radius / hand.tip.z();
+    tip.outline = kSmall.focal * hand.radius / hand.tip.z();
     disparity = at.disparity;
   }
 };
-drawn::HandAt hand_at(const Vec3& tip, const Vec3& along) {
+drawn::HandAt small_hand(const Vec3& tip, const Vec3& along) {
   return {.tip = tip, .along = along, .radius = 0.010, .length = 0.05};
 }
 ShiftRange round(double disparity) {
@@ -45,7 +45,7 @@ TEST(Silhouette, TheShiftIsThatOfTheTip) {
   for (int side = 0; side < 16; ++side)
     for (const double away : {-0.5, 0.0, 0.5}) {
       const double angle = M_PI / 8.0 * side;
-      const Scene scene(hand_at({0.05, 0.01, 0.4}, {std::cos(angle), std::sin(angle), away}));
+      const Outline scene(small_hand({0.05, 0.01, 0.4}, {std::cos(angle), std::sin(angle), away}));
       std::array<float, 4> shifts{};
       const std::size_t count =
           alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), shifts);
@@ -55,7 +55,7 @@ TEST(Silhouette, TheShiftIsThatOfTheTip) {
 }
 
 TEST(Silhouette, ReadsOnlyWhatItSays) {
-  Scene scene(hand_at({0.02, 0.0, 0.5}, {1, 0.1, 0.2}));
+  Outline scene(small_hand({0.02, 0.0, 0.5}, {1, 0.1, 0.2}));
   const ShiftRange range = round(scene.disparity);
   std::array<float, 4> before{}, after{};
   const std::size_t count = alike_shapes(scene.left, scene.right, scene.tip, range, before);
@@ -68,18 +68,18 @@ TEST(Silhouette, ReadsOnlyWhatItSays) {
 }
 
 TEST(Silhouette, ABackgroundOfTheHueOfSkinTellsNothing) {
-  Scene scene(hand_at({0.02, 0.0, 0.5}, {0, -1, 0}));
+  Outline scene(small_hand({0.02, 0.0, 0.5}, {0, -1, 0}));
   std::fill(scene.right.on.begin(), scene.right.on.end(), std::uint8_t{255});
   std::array<float, 4> shifts{};
   EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), shifts), 0U);
-  Scene edge(hand_at({-0.09, 0.0, 0.4}, {0, -1, 0}));  // some shifts lead out of the right image
+  Outline edge(small_hand({-0.09, 0.0, 0.4}, {0, -1, 0}));  // some shifts lead out of the right image
   ASSERT_LT(edge.tip.column - edge.tip.outline, 1.6 * edge.disparity);
   std::fill(edge.right.on.begin(), edge.right.on.end(), std::uint8_t{255});
   EXPECT_EQ(alike_shapes(edge.left, edge.right, edge.tip, round(edge.disparity), shifts), 0U);
 }
 
 TEST(Silhouette, NoMoreThanThereIsRoomFor) {
-  const Scene scene(hand_at({0.02, 0.0, 0.5}, {0, -1, 0}));
+  const Outline scene(small_hand({0.02, 0.0, 0.5}, {0, -1, 0}));
   std::array<float, 1> one{};
   EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), one), 1U);
   EXPECT_EQ(alike_shapes(scene.left, scene.right, scene.tip, round(scene.disparity), {}), 0U);

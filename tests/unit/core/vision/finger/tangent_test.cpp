@@ -10,14 +10,14 @@
 namespace enc {
 namespace {
 
-const RectifiedPair kPair{721, 319.5, 239.5, 0.09, Mat3::Identity()};
+const RectifiedPair kAhead{721, 319.5, 239.5, 0.09, Mat3::Identity()};
 
 // 12 mm of radius at 300 mm, in a corner: 29 px, and 2 px more from the image's middle outwards.
 TEST(Tangent, ASpheresOutlineIsACircleRoundItsMiddle) {
   const Vec3 centre(0.11, -0.08, 0.30);
   const double radius = 0.012, distance = centre.norm();
   const Pixel middle{319.5 + 721 * centre.x() / centre.z(), 239.5 + 721 * centre.y() / centre.z()};
-  const Tangent tangent(kPair, middle);
+  const Tangent tangent(kAhead, middle);
   const Vec3 along = centre / distance, a = centre.unitOrthogonal(), b = along.cross(a);
   const double sine = radius / distance, cosine = std::sqrt(1.0 - sine * sine);
   double least = 1e9, most = 0.0;
@@ -39,7 +39,7 @@ TEST(Tangent, ASpheresOutlineIsACircleRoundItsMiddle) {
 }
 
 TEST(Tangent, InTheMiddleItIsTheImage) {
-  const Tangent tangent(kPair, {319.5, 239.5});
+  const Tangent tangent(kAhead, {319.5, 239.5});
   const Pixel flat = tangent.of({331.5, 230.5});
   EXPECT_NEAR(flat.column, 12.0, 1e-12);
   EXPECT_NEAR(flat.row, -9.0, 1e-12);

@@ -11,37 +11,37 @@
 namespace enc {
 namespace {
 
-StereoRig small() {
+StereoRig two_wide() {
   StereoRig rig;
   rig.width = 320;
   rig.height = 240;
   rig.left = rig.right = {360.5, 360.5, 159.5, 119.5, {}};
   return rig;
 }
-Time at_frame(int i) { return Time(Duration(50'000'000) * i); }
+Time time_of(int i) { return Time(Duration(50'000'000) * i); }
 
 // The second hand before the first, pixel by pixel.
 drawn::Pair pair_of(const drawn::HandAt& first, const drawn::HandAt& second, int seed) {
-  drawn::Pair pair = drawn::pair_of(small(), &first, static_cast<std::uint64_t>(seed));
+  drawn::Pair pair = drawn::pair_of(two_wide(), &first, static_cast<std::uint64_t>(seed));
   for (const Side side : {Side::left, Side::right}) {
     Image& image = side == Side::left ? pair.left : pair.right;
     Image other;
     Mask on(image.width, image.height);
-    drawn::draw(small(), side, &second, static_cast<std::uint64_t>(seed), 1.5, other, &on);
+    drawn::draw(two_wide(), side, &second, static_cast<std::uint64_t>(seed), 1.5, other, &on);
     for (std::size_t i = 0; i < on.on.size(); ++i)
       if (on.on[i] != 0) std::copy_n(other.rgb.data() + 3 * i, 3, image.rgb.data() + 3 * i);
   }
   return pair;
 }
 
-FingerTracker ready() {
-  static const drawn::Pair kEmpty = drawn::pair_of(small(), nullptr, 90);
-  FingerTracker tracker(small(), drawn::segmentation(), {}, {});
-  (void)tracker.see(kEmpty.frame(), at_frame(-3));
-  (void)tracker.see(kEmpty.frame(), at_frame(-2));
+FingerTracker ready_for_two() {
+  static const drawn::Pair kEmpty = drawn::pair_of(two_wide(), nullptr, 90);
+  FingerTracker tracker(two_wide(), drawn::segmentation(), {}, {});
+  (void)tracker.see(kEmpty.frame(), time_of(-3));
+  (void)tracker.see(kEmpty.frame(), time_of(-2));
   return tracker;
 }
-drawn::HandAt hand_at(double x, double y, double z, double radius = 0.008) {
+drawn::HandAt palm_at(double x, double y, double z, double radius = 0.008) {
   drawn::HandAt hand;
   hand.tip = {x, y, z};
   hand.along = {0.2, -1, 0.1};
@@ -58,13 +58,13 @@ double off(const Finger& finger, const drawn::HandAt& hand) {
 // one's place in frame 7, or going along with it. It is a little higher, so that it comes first in reading
 // order.
 void expect_kept(double aside, double radius, bool along) {
-  FingerTracker tracker = ready();
+  FingerTracker tracker = ready_for_two();
   for (int i = 1; i <= 10; ++i) {
-    const drawn::HandAt own = hand_at(-0.02 + 0.01 * i, 0.02, 0.45);
-    const drawn::HandAt other = hand_at((along ? own.tip.x() : 0.05) + aside, 0.015, 0.45, radius);
+    const drawn::HandAt own = palm_at(-0.02 + 0.01 * i, 0.02, 0.45);
+    const drawn::HandAt other = palm_at((along ? own.tip.x() : 0.05) + aside, 0.015, 0.45, radius);
     const drawn::Pair pair =
-        i <= 3 ? drawn::pair_of(small(), &own, static_cast<std::uint64_t>(i)) : pair_of(own, other, i);
-    const Finger finger = tracker.see(pair.frame(), at_frame(i));
+        i <= 3 ? drawn::pair_of(two_wide(), &own, static_cast<std::uint64_t>(i)) : pair_of(own, other, i);
+    const Finger finger = tracker.see(pair.frame(), time_of(i));
     ASSERT_EQ(finger.state, FingerState::seen) << "frame " << i << ", " << aside << ", " << radius;
     // A tip of 13 px in a mask of tiles of 5 px: 2 px are 2.5 mm here, and 0.4 px of disparity 3 mm.
     EXPECT_LT(off(finger, own), 6e-3) << "frame " << i << ", " << aside << ", " << radius;
@@ -88,17 +88,18 @@ TEST(TwoHands, SideBySideTheTrackedOneIsKept) {
 // The tracked finger leaves: another one that is farther than it could have come is not taken for it, but
 // found anew once it is lost.
 TEST(TwoHands, TheOtherIsTakenOnlyOnceTheTrackedOneIsLost) {
-  FingerTracker tracker = ready();
-  const drawn::HandAt own = hand_at(0.175, 0.02, 0.45), other = hand_at(-0.09, 0.02, 0.45);
+  FingerTracker tracker = ready_for_two();
+  const drawn::HandAt own = palm_at(0.175, 0.02, 0.45), other = palm_at(-0.09, 0.02, 0.45);
   for (int i = 1; i <= 4; ++i)
-    ASSERT_EQ(tracker.see(pair_of(own, other, i).frame(), at_frame(i)).state, FingerState::seen) << i;
-  const double side = off(tracker.see(pair_of(own, other, 5).frame(), at_frame(5)), own);
+    ASSERT_EQ(tracker.see(pair_of(own, other, i).frame(), time_of(i)).state, FingerState::seen) << i;
+  const double side = off(tracker.see(pair_of(own, other, 5).frame(), time_of(5)), own);
   const bool tracks_own = side < 0.03;
   const drawn::HandAt &tracked = tracks_own ? own : other, &left = tracks_own ? other : own;
   Finger finger;
   int i = 6;
   for (; i <= 16; ++i) {
-    finger = tracker.see(drawn::pair_of(small(), &left, static_cast<std::uint64_t>(i)).frame(), at_frame(i));
+    finger =
+        tracker.see(drawn::pair_of(two_wide(), &left, static_cast<std::uint64_t>(i)).frame(), time_of(i));
     if (finger.state == FingerState::seen) break;
     if (!finger.tip.finite()) continue;
     EXPECT_LT(off(finger, tracked), 0.02) << i;  // foreseen, where it was
@@ -111,16 +112,16 @@ TEST(TwoHands, TheOtherIsTakenOnlyOnceTheTrackedOneIsLost) {
 
 // Two alike: one of them is taken, never a place between them, and the same again and again.
 TEST(TwoHands, AtFirstOneOfThemIsTaken) {
-  const drawn::HandAt one = hand_at(0.06, 0.0, 0.45), two = hand_at(-0.04, 0.02, 0.45);
-  FingerTracker tracker = ready(), again = ready();
+  const drawn::HandAt one = palm_at(0.06, 0.0, 0.45), two = palm_at(-0.04, 0.02, 0.45);
+  FingerTracker tracker = ready_for_two(), again = ready_for_two();
   const drawn::Pair pair = pair_of(one, two, 1);
-  const Finger finger = tracker.see(pair.frame(), at_frame(1));
+  const Finger finger = tracker.see(pair.frame(), time_of(1));
   ASSERT_EQ(finger.state, FingerState::seen);
   EXPECT_LT(std::min(off(finger, one), off(finger, two)), 6e-3);
-  EXPECT_EQ(again.see(pair.frame(), at_frame(1)).tip.e(), finger.tip.e());
+  EXPECT_EQ(again.see(pair.frame(), time_of(1)).tip.e(), finger.tip.e());
   const drawn::HandAt& taken = off(finger, one) < off(finger, two) ? one : two;
   for (int i = 2; i <= 6; ++i)
-    EXPECT_LT(off(tracker.see(pair_of(one, two, i).frame(), at_frame(i)), taken), 6e-3) << i;
+    EXPECT_LT(off(tracker.see(pair_of(one, two, i).frame(), time_of(i)), taken), 6e-3) << i;
 }
 
 // A finger upright, its cap's middle at (column, row).
@@ -131,7 +132,7 @@ void draw_upright(Mask& mask, int column, int row) {
       if (dx * dx + dy * dy <= 100) mask.row(y)[x] = 255;
     }
 }
-Fingertip found(const Mask& mask) {
+Fingertip count_of(const Mask& mask) {
   // So long a lens that nothing is seen aslant; R / B is 0.008 / 0.09.
   const RectifiedPair flat{1e6, 119.5, 119.5, 0.09, Mat3::Identity()};
   FingertipFinder finder({}, flat, 40.0, mask.width, mask.height);
@@ -145,21 +146,21 @@ TEST(TwoHands, TheBestScoreIsTakenAndTiesAreInReadingOrder) {
   Mask level(240, 240), higher(240, 240);
   draw_upright(level, 70, 90);
   draw_upright(level, 170, 90);
-  EXPECT_NEAR(found(level).column, 70.0, 1.0);
+  EXPECT_NEAR(count_of(level).column, 70.0, 1.0);
   draw_upright(higher, 70, 90);
   draw_upright(higher, 170, 80);
-  EXPECT_NEAR(found(higher).column, 170.0, 1.0);
+  EXPECT_NEAR(count_of(higher).column, 170.0, 1.0);
   for (int y = 60; y < 200; y += 4) higher.row(y)[168] = higher.row(y + 1)[173] = 0;  // flaws of the first
-  EXPECT_NEAR(found(higher).column, 70.0, 1.0);
+  EXPECT_NEAR(count_of(higher).column, 70.0, 1.0);
 }
 
 // One passes before the other: one of the two is told, or none.
 TEST(TwoHands, HandsThatTouchOrHideEachOtherAreNoHarm) {
-  FingerTracker tracker = ready();
+  FingerTracker tracker = ready_for_two();
   for (int i = 1; i <= 8; ++i) {
-    drawn::HandAt one = hand_at(0.04, 0.02, 0.45), two = hand_at(0.09 - 0.012 * i, 0.02, 0.42);
+    drawn::HandAt one = palm_at(0.04, 0.02, 0.45), two = palm_at(0.09 - 0.012 * i, 0.02, 0.42);
     one.fist = two.fist = true;
-    const Finger finger = tracker.see(pair_of(one, two, i).frame(), at_frame(i));
+    const Finger finger = tracker.see(pair_of(one, two, i).frame(), time_of(i));
     if (finger.state != FingerState::seen) continue;
     EXPECT_TRUE(finger.tip.finite()) << i;
     EXPECT_LT(std::min(off(finger, one), off(finger, two)), 0.03) << i;

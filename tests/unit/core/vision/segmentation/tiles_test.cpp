@@ -12,15 +12,15 @@
 namespace enc::segmentation {
 namespace {
 
-using Colour = std::array<std::uint8_t, 3>;
-constexpr Colour kRed{200, 20, 20}, kGreen{20, 200, 20}, kBlue{20, 20, 200}, kGrey{90, 90, 90},
-    kWhite{250, 250, 250}, kBlack{0, 0, 0};
+using Rgb = std::array<std::uint8_t, 3>;
+constexpr Rgb kRed{200, 20, 20}, kGreen{20, 200, 20}, kBlue{20, 20, 200}, kGrey{90, 90, 90},
+    kPaper{250, 250, 250}, kBlack{0, 0, 0};
 
 // The first `first` pixels of a colour, then another.
-Image filled(int width, int height, const Colour& a, const Colour& b = {}, int first = 1 << 20) {
+Image filled(int width, int height, const Rgb& a, const Rgb& b = {}, int first = 1 << 20) {
   Image image(width, height);
   for (int i = 0; i < width * height; ++i) {
-    const Colour& c = i < first ? a : b;
+    const Rgb& c = i < first ? a : b;
     std::copy(c.begin(), c.end(), image.at(i % width, i / width));
   }
   return image;
@@ -57,7 +57,7 @@ TEST(Tiles, HaveTheIntersectionOfEquation1) {
 // A grey tile has no hue: it is like other grey ones, and unlike a hand; as red as OpenCV's hue 0 it is not.
 TEST(Tiles, WithoutAHueAreAlikeAndUnlikeTheRest) {
   const Image grey = filled(5, 5, kGrey);
-  EXPECT_EQ(intersection(filled(5, 5, kGrey, kRed, 24), filled(5, 5, kWhite, kRed, 24)), 1.0);
+  EXPECT_EQ(intersection(filled(5, 5, kGrey, kRed, 24), filled(5, 5, kPaper, kRed, 24)), 1.0);
   const Image red = filled(5, 5, kRed);
   EXPECT_EQ(intersection(red, grey), 0.0);
   EXPECT_EQ(intersection(filled(5, 5, kRed, kGrey, 5), filled(5, 5, kBlack, kRed, 20)), 1.0);

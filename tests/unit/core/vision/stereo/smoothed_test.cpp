@@ -9,32 +9,32 @@
 namespace enc {
 namespace {
 
-constexpr int kWidth = 40, kHeight = 30;
+constexpr int kColumns = 40, kRows = 30;
 
 Grey noise() {
-  Grey image(kWidth, kHeight);
+  Grey image(kColumns, kRows);
   sim::Stream stream(1, "smoothed");
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) *image.at(x, y) = static_cast<std::uint8_t>(stream.bits());
+  for (int y = 0; y < kRows; ++y)
+    for (int x = 0; x < kColumns; ++x) *image.at(x, y) = static_cast<std::uint8_t>(stream.bits());
   return image;
 }
-const Region kWhole{0, 0, kWidth, kHeight};
+const Region kWhole{0, 0, kColumns, kRows};
 
 TEST(Smoothed, WithoutAPassItIsTheImage) {
   const Grey image = noise();
   const Smoothed same(image, kWhole, 0);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) ASSERT_EQ(*same.at(x, y), static_cast<float>(*image.at(x, y)));
+  for (int y = 0; y < kRows; ++y)
+    for (int x = 0; x < kColumns; ++x) ASSERT_EQ(*same.at(x, y), static_cast<float>(*image.at(x, y)));
 }
 
 TEST(Smoothed, APointSpreadsByHalfAPixelSquaredAPass) {
-  Grey image(kWidth, kHeight);
+  Grey image(kColumns, kRows);
   *image.at(20, 15) = 200;
   for (const int passes : {1, 2, 5}) {
     const Smoothed spread(image, kWhole, passes);
     double sum = 0.0, across = 0.0, down = 0.0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 0; x < kColumns; ++x) {
         const auto level = static_cast<double>(*spread.at(x, y));
         sum += level;
         across += level * (x - 20) * (x - 20);
