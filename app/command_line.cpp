@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <encounter_version.h>
 
+#include "app/laboratory/fault_text.h"
 #include "app/laboratory/laboratory.h"
 #include "app/options.h"
 #include "app/process.h"
@@ -110,6 +111,11 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   fake_command->add_option("--seed", fake_options.seed, "of all noise");
   fake_command->add_flag("--lockstep", fake_options.lockstep,
                          "time goes on by a period with each set-point, and not by itself (run --lockstep)");
+  fake_command->add_option("--fault", fake_options.faults,
+                           "DRIVER:FAULT[@TIME][+TIME], such as gcs:stall@3s+500ms: what goes wrong, when "
+                           "after somebody came, and for how long; again for more. Faults: " +
+                               fault_examples() +
+                               ". The same on a line of standard input: now; 'heal' ends all");
   fake_command->callback([&] { code = fake(fake_options); });
 
   LaboratoryOptions devices_options;

@@ -118,11 +118,15 @@ std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& s
 
 std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup, const DriverSource& drivers,
                                          Log& log) {
+  constexpr const char* kNotAsked =
+      "not asked, as the machine does not answer: a run that has it would lose this one, too";
   std::vector<DeviceWords> all;
+  bool machine_absent = false;
   each_role([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
     auto& device = rig.*role.slot;
+    if (machine_absent) return all.push_back({role.table, kNotAsked, false});
     try {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(device)>, std::unique_ptr<PoseTracker>>)
         if (sees(setup, role)) device = make_vision(setup, drivers, {.log = log});
@@ -131,6 +135,7 @@ std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup, c
       all.push_back({role.table, said.empty() ? driver : said, true});
     } catch (const Error& e) {
       all.push_back({role.table, e.what(), false});
+      machine_absent = role.id == RoleId::manipulator || role.id == RoleId::arm;
     }
   });
   return all;

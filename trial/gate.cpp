@@ -21,15 +21,29 @@ Gate::Gate(const models::Setup& setup, bool dry) {
 
 void Gate::mark(const Rig& rig, Time now, Inputs& in) noexcept {
   each_role([&](const auto& role) {
-    bool& lost = lost_[at(role.id)];
-    if (const auto& device = rig.*role.slot; device && !device->linked()) {
-      if (!lost && links_.size() < kLinks) links_.push_back({role.name, now});
-      lost = true;
-    }
+    const bool& lost = lost_[at(role.id)];
+    if (const auto& device = rig.*role.slot; device && !device->linked())
+      lose(role.id, role.name, now, false);
     marked_[at(role.id)] = lost;
     if (lost) said_[at(role.id)] = std::exchange((in.*role.said).health, Health::fault);
   });
   in.resumed = std::exchange(resumed_, false) && !lost_[at(RoleId::manipulator)];
+}
+
+void Gate::lose(RoleId id, const char* role, Time now, bool by_hand) noexcept {
+  if (!lost_[at(id)] && links_.size() < kLinks) links_.push_back({role, now, by_hand});
+  lost_[at(id)] = true;
+}
+
+void Gate::halt(Rig& rig, Time now) noexcept {
+  each_role([&](const auto& role) {
+    auto& device = rig.*role.slot;
+    if constexpr (requires { device->stop(); })
+      if (device) {
+        lose(role.id, role.name, now, true);
+        if (!dry_[at(role.id)]) device->stop();
+      }
+  });
 }
 
 void Gate::unmark(Inputs& in) noexcept {

@@ -1,6 +1,7 @@
 // Between the core and what moves. A real device that is not armed is read and told nothing. A link that was
 // lost stays lost until somebody resumes: the core sees a fault and holds, the device itself is told nothing,
-// and the others only what the core says in hold.
+// and the others only what the core says in hold. Whoever stops the run by hand takes all that moves from it
+// in the same way.
 #pragma once
 
 #include <array>
@@ -12,9 +13,13 @@
 
 namespace enc::trial {
 
+// What a person wants of a run: that all which moves stands, or goes on.
+enum class Hand : std::uint8_t { none, halt, resume };
+
 struct LostLink {
   const char* role;
   Time t;
+  bool by_hand = false;
 };
 
 class Gate {
@@ -30,6 +35,8 @@ class Gate {
   void write(Rig& rig, const Outputs& out) noexcept;
   // At the end of a run, of all that was not dry.
   void stop(Rig& rig) noexcept;
+  // By hand: what moves is stopped and told nothing until resume().
+  void halt(Rig& rig, Time now) noexcept;
   // Ends the hold of every link that is there again. A machine then begins where it says that it is.
   void resume() noexcept;
 
@@ -38,6 +45,7 @@ class Gate {
   [[nodiscard]] const std::vector<LostLink>& links() const { return links_; }  // the first 16
 
  private:
+  void lose(RoleId id, const char* role, Time now, bool by_hand) noexcept;
   [[nodiscard]] bool open(RoleId id, const Outputs& out) const noexcept;
   [[nodiscard]] bool sent(RoleId id, const Outputs& out) noexcept;  // counts what is not
 

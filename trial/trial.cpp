@@ -41,12 +41,14 @@ double pace_of(const TrialOptions& options, bool wall) {
   return 1.0;
 }
 
-void refuse_lockstep(const Slots& slots, bool armed) {
+void refuse_lockstep(const Slots& slots, const TrialOptions& options) {
   if (!slots.machine)
     throw Error(
         "--lockstep: the rig's machine is simulated, and no fake has a time to keep; expected a driver in "
         "[manipulator]; leave it out, or name another rig");
-  if (!armed)
+  if (options.pace != 0.0)
+    throw Error("--pace: with --lockstep a run goes as fast as its fake; leave one of them out");
+  if (!options.armed)
     throw Error(
         "--lockstep: the time of a fake goes on with each set-point, and without --armed none is sent; add "
         "it");
@@ -68,7 +70,7 @@ void refuse_limits(const models::Setup& setup, const Scene& scene) {
 Trial::Trial(models::Setup setup, TrialOptions options)
     : setup_(std::move(setup)), options_(std::move(options)), scene_(prepare_setup(setup_)) {
   const Slots slots = options_.drivers ? slots_of(setup_) : Slots{};
-  if (options_.lockstep) refuse_lockstep(slots, options_.armed);
+  if (options_.lockstep) refuse_lockstep(slots, options_);
   const bool wall = slots.real && !options_.lockstep && keeps_wall_time(setup_, options_.drivers);
   const double pace = pace_of(options_, wall);
   if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
@@ -159,6 +161,15 @@ bool Trial::tick() {
     result_.interrupted = true;
     return false;
   }
+  // Without its set-points the time of a fake stands, and each tick would wait for it.
+  if (options_.lockstep && gate_.lost()) {
+    result_.interrupted = true;
+    return false;
+  }
+  if (const Hand hand = options_.hand ? options_.hand() : Hand::none; hand == Hand::halt)
+    gate_.halt(rig_, now_.t);
+  else if (hand == Hand::resume)
+    gate_.resume();
   now_ = rig_.clock->next();
   gate_.unmark(in_);
   rig_.read(now_.t, in_);

@@ -51,6 +51,7 @@ struct TrialOptions {
   bool real_time = false;   // a run that keeps the wall clock comes before other work (real_time.h)
   bool lockstep = false;    // what answers is a fake whose time goes on with this loop's; needs `armed`
   std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
+  std::function<Hand()> hand{};  // asked before each tick
   // Hooks, in the order of a tick; an empty one is not called.
   std::function<void(Rig&)> fit_out{};  // once: puts other devices in place of those of the rig
   std::function<void(const Stamped<StereoFrame>&)> look{};  // while reading: each pair of a camera's images
@@ -72,8 +73,7 @@ class Trial {
   TrialResult run();
   // One tick; false when the run is over. run() is this in a loop.
   bool tick();
-  // After a link was lost: from the next tick on devices are believed and told again. A link that is still
-  // lost is lost again.
+  // From the next tick on devices are believed and told again; a link that is still lost is lost again.
   void resume() noexcept { gate_.resume(); }
   [[nodiscard]] const Gate& gate() const { return gate_; }
   [[nodiscard]] const TrialResult& result() const { return result_; }

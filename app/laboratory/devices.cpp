@@ -19,6 +19,8 @@ std::string line_of(const Probed& device) {
   if (!device.there) return fmt::format("{:12} NOT THERE: {}\n", device.role, device.words);
   std::string text = fmt::format("{:12} {}\n", device.role, device.words);
   if (device.samples == 0) return text + fmt::format("{:12} said nothing\n", "");
+  if (!device.last.empty()) text += fmt::format("{:12} {}\n", "", device.last);
+  if (device.samples == 1) return text + fmt::format("{:12} 1 sample\n", "");
   return text + fmt::format(
                     "{:12} {:.1f} samples a second, {:.2f} ms apart, {:.2f} at most; old when they come: "
                     "{:.2f} ms, p99 "

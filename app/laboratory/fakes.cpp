@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -9,6 +10,8 @@
 #include <poll.h>
 
 #include "core/error.h"
+#include "encounter_version.h"
+#include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
 #include "trial/prepare.h"
 
@@ -16,7 +19,8 @@ namespace enc::app {
 namespace {
 
 constexpr Duration kLongest{50'000'000};  // of a turn
-constexpr Duration kLate{100'000'000};    // periods that are later are not made up
+constexpr Duration kLate{
+    5'000'000'000};  // periods that are later are not made up: a device goes on without us
 
 Duration wall_now() {
   return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch());
@@ -48,14 +52,18 @@ Fakes::Fakes(models::Setup setup, FakesOptions options)
     models::DriverTableReader table(setup_, name);
     const auto go_on =
         options_.lockstep ? std::function<void()>([this] { advance(); }) : std::function<void()>();
-    fakes_.push_back(module.driver->fake({table, rig_, setup_.rig, log_, go_on, tools, [this] { begin(); }}));
+    fakes_.push_back(module.driver->fake(
+        {table, rig_, setup_.rig, log_, go_on, tools, [this] { begin(); }, options_.seed + fakes_.size()}));
+    names_.push_back(name);
   }
+  for (const Fault& fault : options_.faults) plans_.push_back(planned(fault, "--fault"));
   advance();
   due_ = wall_now() + now_.dt;
 }
 
 std::vector<std::string> Fakes::describe() const {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines{fmt::format("Encounter {}: {}, rig {}, seed {}", ENCOUNTER_VERSION,
+                                             setup_.scene_path, setup_.rig_path, options_.seed)};
   for (const auto& fake : fakes_) lines.push_back(fake->describe());
   return lines;
 }
@@ -64,12 +72,67 @@ std::vector<std::string> Fakes::describe() const {
 void Fakes::begin() {
   ++begun_;
   world_->restore(first_);
+  for (Planned& plan : plans_) {
+    if (plan.begun && !plan.over) plan.fake->heal(plan.fault.trouble.kind);
+    plan.begun = plan.over = false;
+  }
   advance();
   due_ = wall_now() + now_.dt;
 }
 
+Fakes::Planned Fakes::planned(const Fault& fault, const std::string& where) {
+  using Kind = Trouble::Kind;
+  const auto refuse = [&](const std::string& what) { return Error(fmt::format("{}: {}", where, what)); };
+  const auto name = std::find(names_.begin(), names_.end(), fault.driver);
+  if (name == names_.end())
+    throw refuse(
+        fmt::format("there is no fake of '{}'; {}", fault.driver, models::advice(fault.driver, names_)));
+  if (options_.lockstep && fault.trouble.kind != Kind::saturate && fault.trouble.kind != Kind::error_code &&
+      fault.driver == "gcs")
+    throw refuse(
+        fmt::format("'{}' of gcs: in lockstep time goes on with its answers, so nothing can be late "
+                    "or missing; begin the fake without --lockstep",
+                    text_of(fault.trouble)));
+  Fake* const fake = fakes_[static_cast<std::size_t>(name - names_.begin())].get();
+  if (!fake->knows(fault.trouble.kind))
+    throw refuse(fmt::format("{} knows no '{}'", fake->describe(), text_of(fault.trouble)));
+  const Time from(from_seconds(fault.at));
+  return {fault, fake, from, std::isnan(fault.lasts) ? Time::max() : from + from_seconds(fault.lasts)};
+}
+
+void Fakes::suffer(const Fault& fault, const std::string& where) {
+  Fault from_now = fault;
+  from_now.at += seconds(now_.t.time_since_epoch());
+  plans_.push_back(planned(from_now, where));
+  trouble();
+}
+
+void Fakes::heal() {
+  for (Planned& plan : plans_)
+    if (plan.begun && !plan.over) plan.to = now_.t;
+  trouble();
+}
+
+void Fakes::trouble() {
+  for (Planned& plan : plans_) {
+    if (!plan.begun && now_.t >= plan.from) {
+      plan.begun = true;
+      plan.fake->suffer(plan.fault.trouble);
+      log_.say(fmt::format("{:.3f} s: {} suffers {}", seconds(now_.t.time_since_epoch()), plan.fault.driver,
+                           text_of(plan.fault.trouble)));
+    }
+    if (plan.begun && !plan.over && now_.t >= plan.to) {
+      plan.fake->heal(plan.fault.trouble.kind);
+      plan.over = true;
+      log_.say(fmt::format("{:.3f} s: {} is healed of {}", seconds(now_.t.time_since_epoch()),
+                           plan.fault.driver, text_of(plan.fault.trouble)));
+    }
+  }
+}
+
 void Fakes::advance() {
   now_ = rig_.clock->next();
+  trouble();
   for (const auto& fake : fakes_) fake->publish(now_.t);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/laboratory/fault_text.h"
 #include "core/devices/fake.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
@@ -20,6 +21,7 @@ struct FakesOptions {
   trial::DriverSource drivers{};
   std::uint64_t seed = 1;
   bool lockstep = false;  // time goes on by a period with each set-point; else with the wall clock
+  std::vector<Fault> faults{};
 };
 
 class Fakes {
@@ -32,11 +34,23 @@ class Fakes {
   [[nodiscard]] std::vector<std::string> describe() const;
   // A turn: waits until somebody asks or a period is over, at most 50 ms, answers, and lets time go on.
   void turn();
+  // From now on: `fault.at` counts from here. Throws Error (kind input), as for those of the options: there
+  // is no such fake, its wire knows no such trouble, in lockstep it would stand for ever.
+  void suffer(const Fault& fault, const std::string& where);
+  void heal();  // all of them
   [[nodiscard]] std::vector<std::string> log() const { return log_.lines(); }
   [[nodiscard]] sim::World& world() { return *world_; }
   [[nodiscard]] std::int64_t begun() const { return begun_; }  // how often somebody came
 
  private:
+  struct Planned {
+    Fault fault;
+    Fake* fake;
+    Time from, to;
+    bool begun = false, over = false;
+  };
+  [[nodiscard]] Planned planned(const Fault& fault, const std::string& where);
+  void trouble();  // what begins and ends now
   void advance();
   void begin();
   void wait(Duration most);
@@ -49,6 +63,8 @@ class Fakes {
   trial::DeviceLog log_;
   Rig rig_;
   std::vector<std::unique_ptr<Fake>> fakes_;
+  std::vector<std::string> names_;  // of their drivers
+  std::vector<Planned> plans_;
   Tick now_;
   std::int64_t begun_ = 0;
   Duration due_{};  // of the wall clock, when the next period is over

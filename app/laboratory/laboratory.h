@@ -6,8 +6,9 @@
 namespace enc::app {
 
 struct LaboratoryOptions : SceneOptions {
-  bool lockstep = false;  // of fake
-  double seconds = 1.0;   // of devices
+  bool lockstep = false;            // of fake
+  double seconds = 1.0;             // of devices
+  std::vector<std::string> faults;  // of fake
 };
 int fake(const LaboratoryOptions& options);
 int devices(const LaboratoryOptions& options);

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <thread>
 
+#include <fmt/format.h>
+
 #include "core/devices/roles.h"
 #include "core/error.h"
 #include "models/order_statistics.h"
@@ -24,6 +26,26 @@ struct Series {
     any = true;
   }
 };
+
+std::string words_of(const Vec3& v, double unit) {
+  return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", v.x() / unit, v.y() / unit, v.z() / unit);
+}
+constexpr double kMm = 1e-3;
+
+std::string words_of(const Stamped<TipSample>& tip) {
+  return words_of(tip.value.X_RH.p(), kMm) + " mm, of H in R";
+}
+std::string words_of(const Stamped<Wrench>& said) {
+  return words_of(said.value.force.e(), 1.0) + " N, " + words_of(said.value.torque.e(), 1.0) + " N m, in F" +
+         (said.health == Health::ok ? "" : ", not to be believed");
+}
+std::string words_of(const Stamped<TrackedTool>& tool) {
+  return words_of(tool.value.X_CT.p(), kMm) + fmt::format(" mm, of tool {} in C", tool.value.tool);
+}
+template <class Sample>
+std::string words_of(const Stamped<Sample>&) {
+  return "";
+}
 
 }  // namespace
 
@@ -60,6 +82,10 @@ std::vector<Probed> probe_devices(models::Setup setup, const trial::DriverSource
         of.add(said.t, now);
     });
   }
+  each_role([&](const auto& role) {
+    const std::size_t at = place[static_cast<std::size_t>(role.id)];
+    if (at < all.size()) all[at].last = words_of(in.*role.said);
+  });
   for (std::size_t i = 0; i < kRoles; ++i) {
     Series& of = series[i];
     if (place[i] >= all.size() || !of.any) continue;

@@ -17,10 +17,12 @@ struct Probed {
   double rate = kUnset;                                 // Hz
   double interval_p50 = kUnset, interval_max = kUnset;  // between the times that samples were true, s
   double age_p50 = kUnset, age_p99 = kUnset;            // of a sample when it came, s
+  std::string last{};                                   // the last sample, in words
 };
 
 // Makes every device that is not simulated, reads each for so long at the loop's rate, and lets it go.
-// Nothing is told: nothing moves. `stop` is asked before each reading.
+// Nothing is told: nothing moves. Where a machine does not answer, nothing is asked of the others: a run may
+// have them all, and would lose them. `stop` is asked before each reading.
 [[nodiscard]] std::vector<Probed> probe_devices(models::Setup setup, const trial::DriverSource& drivers,
                                                 double seconds, const std::function<bool()>& stop);
 

@@ -13,6 +13,7 @@
 #include "app/modules/modules.h"
 #include "app/options.h"
 #include "app/process.h"
+#include "app/run/hand.h"
 #include "app/run/run_report.h"
 #include "app/run/stop_signals.h"
 #include "app/run/verdict.h"
@@ -106,7 +107,9 @@ int run(const RunOptions& options) {
   trial_options.lockstep = options.lockstep;
   trial_options.real_time = options.armed;
   trial_options.frames = options.frames;
-  trial_options.stop = [] { return StopSignals::caught() != 0; };
+  HandAtTheRun hand;
+  trial_options.stop = [&hand] { return StopSignals::caught() != 0 || hand.quits(); };
+  trial_options.hand = [&hand] { return hand.next(); };
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) trial_options.progress = show_progress;
   trial::Trial trial(
@@ -116,6 +119,7 @@ int run(const RunOptions& options) {
   print_notes(setup.notes);  // of a scene that is not refused
   print_notes(beyond(setup, certificates));
   trial.record_to(record ? &record->writer : nullptr);
+  if (hand.reads_keys() && options.armed) fmt::print(stderr, "space stops, r resumes, q ends\n");
   const double started = cpu_seconds();
   const trial::TrialResult result = trial.run();
   if (terminal) fmt::print(stderr, "\r        \r");

@@ -171,7 +171,8 @@ std::string run_json(const RunReport& r) {
   for (const auto& [t, why] : r.result.holds)
     json["holds"].push_back({{"time_s", seconds(t.time_since_epoch())}, {"why", why_text(why)}});
   for (const trial::LostLink& link : r.result.links)
-    json["lost_links"].push_back({{"role", link.role}, {"time_s", seconds(link.t.time_since_epoch())}});
+    json["lost_links"].push_back(
+        {{"role", link.role}, {"time_s", seconds(link.t.time_since_epoch())}, {"by_hand", link.by_hand}});
   if (!r.result.log.empty()) json["log"] = r.result.log;
   if (r.scene.impedance()) {
     json["meetings"] = meetings_json(r.measured.fingers);

@@ -268,6 +268,8 @@ std::string ledger_line(const RunReport& r) {
 std::string made_line(const RunReport& r) {
   std::string text = fmt::format("made by     Encounter {}: {}, rig {}, seed {}", ENCOUNTER_VERSION,
                                  r.setup.scene_path, r.setup.rig_path, r.asked.seed);
+  if (r.asked.armed) text += ", --armed";
+  if (r.asked.lockstep) text += ", --lockstep";
   if (r.asked.seconds) text += fmt::format(", --for-s {}", *r.asked.seconds);
   for (const std::string& set : r.asked.set) text += ", --set " + set;
   return text + "\n";
@@ -338,8 +340,8 @@ std::string run_text(const RunReport& r) {
     text += fmt::format("dry         {} commands were withheld from the machine; --armed sends them\n",
                         r.result.withheld);
   for (const trial::LostLink& link : r.result.links)
-    text += fmt::format("link        {} lost at {:.3f} s; it waits until the run is resumed\n", link.role,
-                        seconds(link.t.time_since_epoch()));
+    text += fmt::format("link        {} {} at {:.3f} s\n", link.role,
+                        link.by_hand ? "stopped by hand" : "lost", seconds(link.t.time_since_epoch()));
   for (const std::string& line : r.result.log) text += "log         " + line + "\n";
   text += loop_line(r.result);
   if (r.result.missed > 0)

@@ -2,6 +2,7 @@
 // twin's. A program of its own serves it (encounter fake), on one thread for all that a rig names.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,6 +12,25 @@
 #include "core/rig.h"
 
 namespace enc {
+
+// What goes wrong with a device or on its wire.
+struct Trouble {
+  enum class Kind : std::uint8_t {
+    loss,          // of so many messages: datagrams alone
+    jitter,        // each message takes up to so long
+    reorder,       // so many messages come behind the next: datagrams alone
+    duplicate,     // so many messages come twice: datagrams alone
+    stall,         // nothing is heard or said, the line stays open
+    disconnect,    // the line is cut, and nobody is let in
+    garbage,       // so many messages are noise
+    half_message,  // of so many messages the second half is missing
+    saturate,      // the sensor is at its end
+    error_code,    // the device reports this error
+    slow_start,    // for so long after somebody came nothing is said
+  };
+  Kind kind = Kind::loss;
+  double value = 0.0;  // a share from 0 to 1, a time in s, a code
+};
 
 class Fake {
  public:
@@ -22,6 +42,10 @@ class Fake {
   virtual void publish(Time now) = 0;
   // The file descriptors on which something may come.
   virtual void wait_on(std::vector<int>& descriptors) const = 0;
+  // What its device or its wire may meet; of the others suffer() is not to be called.
+  [[nodiscard]] virtual bool knows(Trouble::Kind kind) const = 0;
+  virtual void suffer(const Trouble& trouble) = 0;  // from now on, until it is healed
+  virtual void heal(Trouble::Kind kind) = 0;
 };
 
 struct FakeOffer {
@@ -33,6 +57,7 @@ struct FakeOffer {
   std::function<void()> advance{};
   std::span<const std::string> tools{};  // names of the scene's, by index; for the call
   std::function<void()> begin{};         // somebody came to tell the machine: the world begins anew
+  std::uint64_t seed = 1;                // of what is lost, late or noise
 };
 
 }  // namespace enc

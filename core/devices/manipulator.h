@@ -9,9 +9,10 @@ namespace enc {
 
 class Manipulator : public Device {
  public:
-  [[nodiscard]] virtual Reach reach() const = 0;                  // asked once, before anything moves
-  virtual Stamped<TipSample> read(Time now) noexcept = 0;         // newest; never blocks
-  virtual void command(const Pose<'R', 'H'>& X_RH) noexcept = 0;  // set-point for the coming period
+  [[nodiscard]] virtual Reach reach() const = 0;           // asked once, before anything moves
+  virtual Stamped<TipSample> read(Time now) noexcept = 0;  // newest; never blocks
+  virtual void command(const Pose<'R', 'H'>&
+                           X_RH) noexcept = 0;  // set-point for the coming period, made of what was read last
   // Comes to rest where it is. Called when a run ends, however it ends, and maybe more than once; a command
   // after it starts anew.
   virtual void stop() noexcept = 0;

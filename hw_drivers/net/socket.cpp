@@ -1,6 +1,7 @@
 #include "hw_drivers/net/socket.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -50,6 +51,11 @@ void switch_on(int descriptor, int level, int option) {
 }
 // A set-point does not wait for more.
 void send_at_once(int descriptor) { switch_on(descriptor, IPPROTO_TCP, TCP_NODELAY); }
+
+void forget_after(int descriptor, Duration time) {
+  const auto ms = static_cast<unsigned>(std::max<std::int64_t>(1, time.count() / kMilliseconds));
+  setsockopt(descriptor, IPPROTO_TCP, TCP_USER_TIMEOUT, &ms, sizeof ms);
+}
 
 int open_for(const addrinfo& address) {
   const int descriptor = socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
@@ -137,7 +143,9 @@ Socket& Socket::operator=(Socket&& other) noexcept {
   datagrams_ = other.datagrams_;
   closed_ = other.closed_;
   peer_size_ = other.peer_size_;
+  sender_size_ = other.sender_size_;
   std::copy(std::begin(other.peer_), std::end(other.peer_), std::begin(peer_));
+  std::copy(std::begin(other.sender_), std::end(other.sender_), std::begin(sender_));
   return *this;
 }
 
@@ -166,15 +174,42 @@ std::size_t Socket::send(std::span<const std::byte> bytes) noexcept {
 
 std::size_t Socket::receive(std::span<std::byte> into) noexcept {
   if (closed() || into.empty()) return 0;
-  static_assert(sizeof peer_ >= sizeof(sockaddr_storage));
-  socklen_t size = sizeof peer_;
-  const ssize_t came =
-      recvfrom(descriptor_, into.data(), into.size(), 0,
-               datagrams_ ? reinterpret_cast<sockaddr*>(peer_) : nullptr, datagrams_ ? &size : nullptr);
-  if (came >= 0 && datagrams_) peer_size_ = size;
+  if (datagrams_) return receive_datagram(into);
+  const ssize_t came = recv(descriptor_, into.data(), into.size(), 0);
   if (came > 0) return static_cast<std::size_t>(came);
-  closed_ = !datagrams_ && (came == 0 || !waits(errno));
+  closed_ = came == 0 || !waits(errno);
   return 0;
+}
+
+// One that is empty, and an error of an earlier one, are not the end of what has come.
+std::size_t Socket::receive_datagram(std::span<std::byte> into) noexcept {
+  static_assert(sizeof sender_ >= sizeof(sockaddr_storage));
+  constexpr int kMostEmpty = 64;
+  for (int i = 0; i < kMostEmpty; ++i) {
+    socklen_t size = sizeof sender_;
+    const ssize_t came =
+        recvfrom(descriptor_, into.data(), into.size(), 0, reinterpret_cast<sockaddr*>(sender_), &size);
+    if (came > 0) {
+      sender_size_ = size;
+      return static_cast<std::size_t>(came);
+    }
+    if (came < 0 && waits(errno)) return 0;
+  }
+  return 0;
+}
+
+void Socket::answer_sender() noexcept {
+  std::copy(std::begin(sender_), std::end(sender_), std::begin(peer_));
+  peer_size_ = sender_size_;
+}
+
+void Socket::finish(Duration most) noexcept {
+  if (!is_open() || datagrams_) return;
+  shutdown(descriptor_, SHUT_WR);
+  std::array<std::byte, 1024> rest{};
+  for (const Duration until = steady_now() + most; !closed() && steady_now() < until;)
+    if (receive(rest) == 0) wait(until - steady_now());
+  close();
 }
 
 std::size_t Socket::reply(std::span<const std::byte> bytes) noexcept {
@@ -193,8 +228,10 @@ Socket Socket::accept() noexcept {
   return Socket(descriptor, false);
 }
 
-Socket connect_tcp(const std::string& host, std::uint16_t port, Duration timeout) {
-  return Opener::connect_to(host, port, SOCK_STREAM, timeout);
+Socket connect_tcp(const std::string& host, std::uint16_t port, Duration timeout, Duration undelivered) {
+  Socket socket = Opener::connect_to(host, port, SOCK_STREAM, timeout);
+  forget_after(socket.descriptor(), undelivered);
+  return socket;
 }
 
 Socket connect_udp(const std::string& host, std::uint16_t port) {

@@ -30,8 +30,12 @@ class Socket {
   std::size_t send(std::span<const std::byte> bytes) noexcept;
   // How many came; 0: none yet, or closed(). Of UDP one datagram; what is longer than `into` is cut there.
   std::size_t receive(std::span<std::byte> into) noexcept;
-  // Of UDP, to and from whoever asks: receive() notes who that was, reply() sends there.
+  // Of UDP, to and from whoever asks: reply() sends to who had sent what was received before answer_sender().
+  void answer_sender() noexcept;
   std::size_t reply(std::span<const std::byte> bytes) noexcept;
+  // Says that nothing more comes, waits until the other side has read all, at most so long, and closes: what
+  // is closed with something unread takes with it what was sent last.
+  void finish(Duration most) noexcept;
   // Returns when something came, and after this long at the latest; true: something came.
   bool wait(Duration most) noexcept;
   // Of a listening one: who has connected meanwhile; not open: nobody.
@@ -41,17 +45,22 @@ class Socket {
   friend class Opener;
   explicit Socket(int descriptor, bool datagrams) : descriptor_(descriptor), datagrams_(datagrams) {}
   void close() noexcept;
+  std::size_t receive_datagram(std::span<std::byte> into) noexcept;
 
   int descriptor_ = -1;
   bool datagrams_ = false, closed_ = false;
-  // Who sent the last datagram: a sockaddr, kept as bytes so that this header needs none of the system's.
-  alignas(8) std::byte peer_[128]{};
-  std::uint32_t peer_size_ = 0;
+  // Who is answered, and who sent the last datagram: each a sockaddr, kept as bytes so that this header needs
+  // none of the system's.
+  alignas(8) std::byte peer_[128]{}, sender_[128]{};
+  std::uint32_t peer_size_ = 0, sender_size_ = 0;
 };
 
 // A name or an address of IPv4 or IPv6, without brackets. All throw Error (kind device) with `host:port`,
 // what went wrong and what to do.
-[[nodiscard]] Socket connect_tcp(const std::string& host, std::uint16_t port, Duration timeout);
+// `undelivered`: after so long a connection is lost on which something cannot be delivered. It never is then:
+// not seconds later, when a cable is back or who sent it is dead.
+[[nodiscard]] Socket connect_tcp(const std::string& host, std::uint16_t port, Duration timeout,
+                                 Duration undelivered = Duration(2'000'000'000));
 [[nodiscard]] Socket connect_udp(const std::string& host, std::uint16_t port);
 // Of a fake: at an address of this machine. Port 0: one that is free, which port() tells.
 [[nodiscard]] Socket listen_tcp(const std::string& address, std::uint16_t port);

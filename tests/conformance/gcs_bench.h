@@ -19,6 +19,12 @@
 
 namespace enc::test {
 
+// As the loop does: a set-point follows the reading of its tick.
+inline void tell(Manipulator& machine, const Pose<'R', 'H'>& to) {
+  static_cast<void>(machine.read(Time{}));
+  machine.command(to);
+}
+
 struct GcsBench {
   // What of the fake may be seen while the driver lives.
   struct Seen {

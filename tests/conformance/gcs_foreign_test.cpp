@@ -10,6 +10,7 @@
 
 #include "hw_drivers/gcs/drive/net_link.h"
 #include "tests/conformance/foreign/piped_child.h"
+#include "tests/conformance/gcs_bench.h"
 #include "tests/conformance/gcs_port.h"
 #include "tests/support/run_program.h"
 
@@ -51,7 +52,7 @@ TEST_F(GcsForeign, TheDriverSpeaksToPipythonsServer) {
     EXPECT_THAT(driver->describe(), testing::EndsWith(", firmware 2.3.0.1, referenced"));
     const auto there = Pose<'R', 'H'>::shift(0.0015, 0, driver->reach().machine.zero().p().z());
     for (int i = 0; i < 500; ++i) {
-      driver->command(there);
+      tell(*driver, there);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     const auto sample = driver->read(Time{});

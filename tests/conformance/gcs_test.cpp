@@ -72,7 +72,7 @@ TEST(GcsDriver, EveryEndLeavesTheMachineAtRest) {
     auto driver = bench.driver();
     const auto way = beside(*driver, 0.03);
     EXPECT_TRUE(comes([&] {
-      driver->command(way);
+      tell(*driver, way);
       return bench.seen().x > 0.005;
     }));
     EXPECT_FALSE(bench.seen().at_rest) << end;
@@ -109,11 +109,11 @@ TEST(GcsDriver, ALostLinkIsSaidAndStaysLost) {
     GcsBench bench;
     {
       const auto driver = bench.driver();
-      driver->command(beside(*driver, 0.001));
+      tell(*driver, beside(*driver, 0.001));
       (silent ? bench.silent : bench.hung_up) = true;
       EXPECT_TRUE(comes([&] { return !driver->linked(); })) << silent;
       EXPECT_EQ(driver->read(Time{}).health, Health::fault);
-      driver->command(beside(*driver, 0.002));
+      tell(*driver, beside(*driver, 0.002));
       driver->stop();  // waits for nothing
       bench.silent = bench.hung_up = false;
       wait(20);
@@ -148,7 +148,7 @@ TEST(GcsDriver, AFailureOfTheMachineIsAFaultAndALine) {
   EXPECT_TRUE(comes([&] { return !driver->linked(); }));
   EXPECT_TRUE(comes([&] { return bench.log.lines().size() == 2; }));
   for (int i = 0; i < 50; ++i) {
-    driver->command(beside(*driver, 0.001));
+    tell(*driver, beside(*driver, 0.001));
     wait(1);
   }
   EXPECT_EQ(driver->read(Time{}).health, Health::fault);  // and stays so in this run
@@ -172,7 +172,7 @@ TEST(GcsPort, ASecondClientIsRefusedAndTheFirstGoesOn) {
   }
   EXPECT_THAT(there.log.lines(), ElementsAre("fake C-887: a second client was refused"));
   EXPECT_TRUE(comes([&] {
-    first->command(beside(*first, 0.001));  // each time: one that grew old on a busy machine is not sent
+    tell(*first, beside(*first, 0.001));  // each time: one that grew old on a busy machine is not sent
     return first->read(Time{}).value.X_RH.p().x() > 1e-6;
   }));
   EXPECT_TRUE(first->linked());
@@ -184,7 +184,7 @@ TEST(GcsPort, TheNextClientFindsItAsItIs) {
     const auto driver = gcs::connected(there.offer());
     EXPECT_NEAR(driver->read(Time{}).value.X_RH.p().x(), x - 0.001, 3e-6);
     for (int i = 0; i < 400; ++i) {
-      driver->command(beside(*driver, x));
+      tell(*driver, beside(*driver, x));
       wait(1);
     }
   }

@@ -17,7 +17,7 @@ RealTime::RealTime(bool wanted) {
   first_ = first_ && pthread_setschedparam(pthread_self(), SCHED_FIFO, &now) == 0;
   locked_ = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   words_ = first_ ? fmt::format("SCHED_FIFO {}", kPriority)
-                  : std::string("not first (allow it in /etc/security/limits.conf: rtprio 40)");
+                  : std::string("not first (allow it in /etc/security/limits.conf: rtprio 41)");
   words_ += locked_ ? ", memory locked" : ", memory not locked (memlock unlimited, likewise)";
 }
 

@@ -45,7 +45,7 @@ Conversation::Conversation(const GcsSettings& settings, const Stand& stand, cons
       by_points_(settings.path == "points"),
       stand_(stand),
       at_(at),
-      moved_(kNever),
+      due_(kNever),
       asked_(kNever),
       from_t_(now) {
   report_.X_RH = pose_of(at, stand);
@@ -93,8 +93,8 @@ void Conversation::add_stop(Duration now) noexcept {
 void Conversation::add_question(Duration now) noexcept {
   carries_move_ = false;
   if (ask_servos_) return ask("SVO?", Awaiting::servos, now);
-  const bool move = order_.number > std::max(sent_, order_.stopped) && now - moved_ >= cycle_ &&
-                    now - order_.given < watchdog_;
+  const bool move =
+      order_.number > std::max(sent_, order_.stopped) && now >= due_ && now - order_.given < watchdog_;
   if (move && velocity_ > 0.0) {
     add_velocity(out_, velocity_);
     return ask("VLS?", Awaiting::velocity, now);
@@ -106,22 +106,23 @@ void Conversation::add_question(Duration now) noexcept {
   // Points that wait make it late: while some do, the newest waits here, where it is overtaken.
   const bool full = by_points_ && room_ < most_room_ - kMostWaiting;
   if (move && !full) {
-    point_ = next_point(now);
+    point_ = next_point();
     carries_move_ = add_move(out_, point_);
     moving_ = moving_ || carries_move_;
     sent_ = order_.number;
-    moved_ = now;
+    // One each cycle in the mean, whenever questions go; what was missed is not made up for.
+    due_ = now - due_ < cycle_ ? due_ + cycle_ : now + cycle_;
   }
   if (by_points()) out_.add(kRoomByte);
   ask("POS?", by_points() ? Awaiting::room : Awaiting::position, now);
 }
 
-// On the way to the set-point, as far as it gets in the time since the last one.
-Coordinates Conversation::next_point(Duration now) const noexcept {
+// On the way to the set-point, as far as it gets in a cycle: for each point the controller takes one, however
+// late it comes.
+Coordinates Conversation::next_point() const noexcept {
   if (!by_points_) return order_.to;
   const Coordinates& from = moving_ ? point_ : at_;
-  const double time = seconds(moving_ ? std::max(cycle_, now - moved_) : cycle_);
-  const double most = fastest_ * time, way = distance(from, order_.to);
+  const double most = fastest_ * seconds(cycle_), way = distance(from, order_.to);
   if (!(way > most)) return order_.to;
   Coordinates to = from;
   for (std::size_t i = 0; i < kAxes; ++i) to[i] += (order_.to[i] - from[i]) * (most / way);

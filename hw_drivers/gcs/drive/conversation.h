@@ -58,6 +58,10 @@ class Conversation {
   [[nodiscard]] Duration longest_answer() const noexcept { return longest_; }
   [[nodiscard]] std::int64_t answers() const noexcept { return answers_; }
   [[nodiscard]] std::int64_t watchdogs() const noexcept { return watchdogs_; }
+  // No stop is to go once more: none was asked for, or what might have come behind it was answered.
+  [[nodiscard]] bool stopped() const noexcept {
+    return order_.stops == report_.stops && !overtaken_ && awaiting_ == Awaiting::nothing;
+  }
 
  private:
   // What the question under way asks for; each is followed by ERR?.
@@ -66,7 +70,7 @@ class Conversation {
   void lose(Loss loss) noexcept;
   void add_stop(Duration now) noexcept;
   void add_question(Duration now) noexcept;
-  [[nodiscard]] Coordinates next_point(Duration now) const noexcept;
+  [[nodiscard]] Coordinates next_point() const noexcept;
   void ask(std::string_view line, Awaiting what, Duration now) noexcept;
   void take_position(Duration now) noexcept;
   void take_room() noexcept;
@@ -87,7 +91,7 @@ class Conversation {
   Order order_;
   Coordinates at_{}, point_{};  // where it was said to be, and the last point that was sent
   std::int64_t sent_ = 0;       // number of the set-point that was sent last
-  Duration moved_, asked_;      // when the last set-point and question went
+  Duration due_, asked_;        // when the next set-point may go, and the last question went
   bool moving_ = false;
   bool stopped_us_ = false;    // our own stop is the reason of an error 10 that is still to come
   bool carries_move_ = false;  // the question under way

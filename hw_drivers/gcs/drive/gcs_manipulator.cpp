@@ -6,6 +6,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include "core/error.h"
 #include "hw_drivers/gcs/wire/command.h"
@@ -16,6 +18,17 @@ namespace {
 
 constexpr Duration kTurn{1'000'000};  // of the thread, where nothing comes
 constexpr Duration kStopTime{100'000'000};
+constexpr Duration kAgain{20'000'000};  // between the stops of a link that was lost
+constexpr int kStops = 3;
+
+// Before the loop, whose watchdog it has: a loop that runs away does not keep it from its turn.
+void come_first() noexcept {
+  int policy = SCHED_OTHER;
+  sched_param priority{};
+  if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0 || policy != SCHED_FIFO) return;
+  ++priority.sched_priority;
+  static_cast<void>(pthread_setschedparam(pthread_self(), policy, &priority));
+}
 
 Health worse(Health a, Health b) noexcept {
   if (a == Health::fault || b == Health::fault) return Health::fault;
@@ -56,6 +69,7 @@ GcsManipulator::~GcsManipulator() {
 }
 
 Stamped<TipSample> GcsManipulator::read(Time now) noexcept {
+  tick_ = machine_.link().now();
   if (!thread_.joinable()) turn();
   if (reports_.read(report_) || !read_) {
     // How old it is is taken off once, when it is new; it never is from the time to come.
@@ -72,7 +86,7 @@ void GcsManipulator::command(const Pose<'R', 'H'>& X_RH) noexcept {
   if (aim.health == Health::fault) return;
   ++order_.number;
   order_.to = aim.to;
-  order_.given = machine_.link().now();
+  order_.given = tick_;
   orders_.write(order_);
   if (!thread_.joinable()) turn();
 }
@@ -82,13 +96,17 @@ void GcsManipulator::stop() noexcept {
   order_.stopped = order_.number;
   orders_.write(order_);
   machine_.stand();
-  if (!thread_.joinable()) turn();
+  if (!thread_.joinable()) {
+    turn();
+    return;
+  }
   for (const Duration until = machine_.link().now() + kStopTime;
        stops_sent_ < order_.stops && linked() && machine_.link().now() < until;)
     std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
 
 void GcsManipulator::talk() noexcept {
+  come_first();
   while (!end_ && turn()) machine_.link().wait(kTurn);
   if (conversation_.loss() != Loss::none) return;
   // A stop that was asked for while this thread had no turn still goes.
@@ -108,7 +126,7 @@ bool GcsManipulator::turn() noexcept {
   // Only when all is gone, so that a line is never cut by the next one.
   if (unsent_.empty()) unsent_ = conversation_.send(link.now());
   unsent_.remove_prefix(link.send(unsent_));
-  if (unsent_.empty()) stops_sent_ = conversation_.report().stops;
+  if (unsent_.empty() && conversation_.stopped()) stops_sent_ = conversation_.report().stops;
   if (conversation_.loss() != Loss::none) lose(conversation_.loss(), newest_.number > 0);
   return linked_;
 }
@@ -124,10 +142,21 @@ void GcsManipulator::publish() noexcept {
   if (error != kNoError) said_ = error;
 }
 
-// For good. Where it still hears us it is told to stand.
+// For good. Where it still hears us it is told to stand: behind whatever line was cut, and again, as a
+// set-point that it had not read yet may come behind the first.
 void GcsManipulator::lose(Loss loss, bool told) noexcept {
-  static_cast<void>(machine_.link().send(std::string_view(&kStopByte, told ? 1 : 0)));
   linked_ = false;
+  Link& link = machine_.link();
+  for (int i = 0; told && i < kStops && !link.closed(); ++i) {
+    unsent_.remove_prefix(link.send(unsent_));
+    if (unsent_.empty()) static_cast<void>(link.send(std::string_view(&kStopByte, 1)));
+    for (const Duration until = link.now() + kAgain; thread_.joinable() && link.now() < until;) {
+      link.wait(kTurn);
+      while (link.receive(bytes_) > 0) {  // of before: nobody believes it any more
+      }
+      if (link.closed()) break;
+    }
+  }
   machine_.say(fmt::format(" lost: {}; see to it, then begin a new run", words_of(loss)));
 }
 

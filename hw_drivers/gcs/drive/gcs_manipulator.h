@@ -33,7 +33,7 @@ class GcsManipulator final : public Manipulator {
   [[nodiscard]] Reach reach() const override { return machine_.reach(); }
   Stamped<TipSample> read(Time now) noexcept override;
   void command(const Pose<'R', 'H'>& X_RH) noexcept override;
-  // Waits until the stop was sent, or the link is gone, at most 100 ms.
+  // Waits until the stop was sent and nothing can come behind it, or the link is gone, at most 100 ms.
   void stop() noexcept override;
   // Takes what came and sends what is due; false: the link is lost. Each read() and command() makes one where
   // turns are called.
@@ -51,6 +51,7 @@ class GcsManipulator final : public Manipulator {
   Report report_;
   Time stamp_{};
   bool read_ = false;
+  Duration tick_{};  // of the link's clock, when the tick began: a set-point is as old as what it was made of
 
   // Of who makes the turns.
   Conversation conversation_;

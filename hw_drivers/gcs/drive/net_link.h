@@ -14,6 +14,12 @@ namespace enc::gcs {
 class NetLink final : public Link {
  public:
   explicit NetLink(net::Socket socket) : socket_(std::move(socket)) {}
+  NetLink(const NetLink&) = delete;
+  NetLink& operator=(const NetLink&) = delete;
+  ~NetLink() override {
+    constexpr Duration kRead{200'000'000};
+    socket_.finish(kRead);
+  }
   std::size_t send(std::string_view bytes) noexcept override {
     return bytes.empty() ? 0 : socket_.send(std::as_bytes(std::span(bytes)));
   }

@@ -127,6 +127,7 @@ void Commands::reference(Controller& of, std::string_view rest) {
   of.referenced_ = false;
   of.referencing_ = true;
   of.servo_ = same(true);
+  of.by_points_ = false;
   of.profile_.go(Coordinates{});
 }
 
@@ -137,7 +138,9 @@ void Commands::servo(Controller& of, std::string_view rest) {
   for (const double value : values)
     if (of.wrong(value != 0.0 && value != 1.0, kOutOfRange)) return;
   for (std::size_t i = 0; i < kAxes; ++i) of.servo_[i] = values[i] == 1.0;
-  if (!of.all_on()) of.profile_.halt(kAbrupt);
+  if (of.all_on()) return;
+  of.profile_.halt(kAbrupt);
+  of.points_.clear();
 }
 
 void Commands::velocity(Controller& of, std::string_view rest) {

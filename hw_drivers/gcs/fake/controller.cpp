@@ -121,11 +121,14 @@ void Controller::stop(double hardness) noexcept {
 
 void Controller::cycle(Time now) noexcept {
   if (!begun_ || now < now_) {  // its world has begun anew
+    if (begun_) error_ = kNoError;
     begun_ = true;
     now_ = now - kCycle;
     Coordinates at{};
     if (coordinates_of(machine_.read(now).value.X_RH, stand_, at)) profile_.reset(at);
     measured_ = seen_ = profile_.at();
+    points_.clear();
+    by_points_ = false;
   }
   now_ = std::max(now_, now - kCaughtUp);
   if (settings_.advance) return;
@@ -150,6 +153,10 @@ void Controller::measure(Time now) noexcept {
 
 void Controller::go(const Coordinates& to) {
   if (!settings_.advance && by_points_) {
+    // A point is a cycle away, and no farther than its velocity allows.
+    constexpr double kRounding = 1.0 + 1e-6;
+    const double way = distance(points_.last(profile_.at()), to);
+    if (wrong(way > velocity_ * points_cycle_ * kRounding, kVelocityOutOfLimits)) return;
     if (!wrong(points_.free() == 0, kOutOfRange)) points_.add(to);
     return;
   }

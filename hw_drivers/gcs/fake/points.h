@@ -19,6 +19,10 @@ class Points {
   void add(const Coordinates& point) noexcept {
     if (free() > 0) line_[(first_ + count_++) % kMost] = point;
   }
+  // The one that was added last; where none waits, where it is.
+  [[nodiscard]] const Coordinates& last(const Coordinates& at) const noexcept {
+    return count_ > 0 ? line_[(first_ + count_ - 1) % kMost] : going_ ? to_ : at;
+  }
   void clear() noexcept {
     count_ = 0;
     going_ = false;

@@ -14,19 +14,22 @@ constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that reads nothing i
 }  // namespace
 
 Server::Server(Manipulator& machine, const ControllerSettings& settings, const std::string& address,
-               std::uint16_t port, Log& log, std::function<void()> begin)
+               std::uint16_t port, Log& log, std::function<void()> begin, std::uint64_t seed)
     : log_(log),
       controller_(machine, settings),
       address_(address),
       begin_(std::move(begin)),
-      listener_(net::listen_tcp(address, port)) {}
+      listener_(net::listen_tcp(address, port)),
+      line_(net::BadLine::Wire::stream, seed) {}
 
 std::string Server::describe() const { return "C-887 at " + net::place(address_, port()); }
 
-void Server::serve(Time) {
-  accept();
-  while (client_.is_open() && answer()) {
+void Server::serve(Time now) {
+  if (line_.suffers(Trouble::Kind::stall)) return;
+  accept(now);
+  while (client_.is_open() && answer(now)) {
   }
+  if (client_.is_open()) send(now);  // what was late
 }
 
 void Server::wait_on(std::vector<int>& descriptors) const {
@@ -35,26 +38,43 @@ void Server::wait_on(std::vector<int>& descriptors) const {
 }
 
 // A second client is sent away at once, as there is one controller for one.
-void Server::accept() {
+void Server::accept(Time now) {
   net::Socket next = listener_.accept();
-  if (!next.is_open()) return;
+  if (!next.is_open() || line_.suffers(Trouble::Kind::disconnect)) return;
   // Who came later may have waited for the first to go: what that one still said comes first.
-  while (client_.is_open() && answer()) {
+  while (client_.is_open() && answer(now)) {
   }
   if (client_.is_open()) return log_.say("fake C-887: a second client was refused");
   client_ = std::move(next);
   unsent_.clear();
+  line_.begin(now);
   controller_.forget_line();
   if (begin_) begin_();
 }
 
-bool Server::answer() {
+bool Server::answer(Time now) {
   std::array<char, kMostText> bytes{};
   const std::size_t got = client_.receive(std::as_writable_bytes(std::span(bytes)));
-  unsent_.append(controller_.take({bytes.data(), got}));
-  if (!unsent_.empty()) unsent_.erase(0, client_.send(std::as_bytes(std::span(unsent_))));
+  line_.put(now, std::as_bytes(std::span(controller_.take({bytes.data(), got}))));
+  send(now);
   if ((got == 0 && client_.closed()) || unsent_.size() > kMostUnsent) client_ = {};
   return got > 0;
+}
+
+void Server::send(Time now) {
+  for (auto next = line_.take(now); next; next = line_.take(now))
+    for (const std::byte byte : *next) unsent_.push_back(static_cast<char>(byte));
+  if (!unsent_.empty()) unsent_.erase(0, client_.send(std::as_bytes(std::span(unsent_))));
+}
+
+bool Server::knows(Trouble::Kind kind) const {
+  return kind == Trouble::Kind::error_code || line_.knows(kind);
+}
+
+void Server::suffer(const Trouble& trouble) {
+  if (trouble.kind == Trouble::Kind::error_code) return controller_.fail(static_cast<int>(trouble.value));
+  line_.suffer(trouble);
+  if (trouble.kind == Trouble::Kind::disconnect) client_ = {};
 }
 
 std::unique_ptr<Fake> served(const FakeOffer& offer) {
@@ -68,7 +88,8 @@ std::unique_ptr<Fake> served(const FakeOffer& offer) {
   controller.origin_height = settings.origin_height;
   controller.advance = offer.advance;
   return std::make_unique<Server>(*offer.rig.manipulator, controller, settings.address,
-                                  static_cast<std::uint16_t>(settings.port), offer.log, offer.begin);
+                                  static_cast<std::uint16_t>(settings.port), offer.log, offer.begin,
+                                  offer.seed);
 }
 
 }  // namespace enc::gcs

@@ -8,6 +8,7 @@
 
 #include "core/devices/fake.h"
 #include "hw_drivers/gcs/fake/controller.h"
+#include "hw_drivers/net/bad_line.h"
 #include "hw_drivers/net/socket.h"
 
 namespace enc::gcs {
@@ -17,17 +18,21 @@ class Server final : public Fake {
   // Port 0: any that is free. Throws Error (kind device) where nobody may listen there. `machine` and `log`
   // stay until the server is gone. `begin` is called when a client comes.
   Server(Manipulator& machine, const ControllerSettings& settings, const std::string& address,
-         std::uint16_t port, Log& log, std::function<void()> begin = {});
+         std::uint16_t port, Log& log, std::function<void()> begin = {}, std::uint64_t seed = 1);
 
   [[nodiscard]] std::uint16_t port() const { return listener_.port(); }
   [[nodiscard]] std::string describe() const override;
   void serve(Time now) override;
   void publish(Time now) override { controller_.cycle(now); }
   void wait_on(std::vector<int>& descriptors) const override;
+  [[nodiscard]] bool knows(Trouble::Kind kind) const override;
+  void suffer(const Trouble& trouble) override;
+  void heal(Trouble::Kind kind) override { line_.heal(kind); }
 
  private:
-  void accept();
-  bool answer();  // true: something came
+  void accept(Time now);
+  bool answer(Time now);  // true: something came
+  void send(Time now);
 
   Log& log_;
   Controller controller_;
@@ -35,6 +40,7 @@ class Server final : public Fake {
   std::function<void()> begin_;
   net::Socket listener_;
   net::Socket client_;
+  net::BadLine line_;
   std::string unsent_;
 };
 

@@ -1,9 +1,12 @@
 #include "hw_drivers/igtl/drive/reception.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace enc::igtl {
 namespace {
+
+constexpr std::int64_t kNoStamp = std::numeric_limits<std::int64_t>::min();
 
 // What is said twice, once in single precision.
 bool same(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
@@ -14,8 +17,15 @@ bool same(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
 }  // namespace
 
 Reception::Reception(const IgtlSettings& settings, std::span<const std::string> tools, bool lockstep)
-    : lockstep_(lockstep), tie_(from_seconds(settings.least_delay)) {
+    : least_delay_(from_seconds(settings.least_delay)), lockstep_(lockstep), tie_(least_delay_) {
   for (const std::string& tool : tools) devices_.emplace_back(tool + settings.suffix);
+  stamps_ns_.assign(devices_.size(), kNoStamp);
+}
+
+void Reception::set_back() noexcept {
+  ++counts_.steps;
+  tie_ = net::ClockTie(least_delay_);
+  std::fill(stamps_ns_.begin(), stamps_ns_.end(), kNoStamp);
 }
 
 bool Reception::take(std::span<const std::byte> datagram, Time now, Stamped<TrackedTool>& newest) noexcept {
@@ -37,6 +47,8 @@ bool Reception::take(std::span<const std::byte> datagram, Time now, Stamped<Trac
     numbered_ = true;
     number_ = message.number;
   }
+  if (int code = 0; message.type.view() == "STATUS" && read_status(message.content, code) && code != 1)
+    counts_.status = code;
   if (message.type.view() != "TRANSFORM") return false;
   const auto tool = std::find_if(devices_.begin(), devices_.end(), [&](const Name<20>& device) {
     return device.view() == message.device.view();
@@ -52,11 +64,13 @@ bool Reception::take(std::span<const std::byte> datagram, Time now, Stamped<Trac
     ++counts_.wrong;
     return false;
   }
-  if (message.stamp_ns <= stamp_ns_) {
+  std::int64_t& last_stamp = stamps_ns_[static_cast<std::size_t>(tool - devices_.begin())];
+  if (numbered_ && message.stamp_ns < last_stamp) set_back();  // a newer number
+  if (message.stamp_ns <= last_stamp) {
     ++counts_.old;
     return false;
   }
-  stamp_ns_ = message.stamp_ns;
+  last_stamp = message.stamp_ns;
   seen.tool = static_cast<std::int32_t>(tool - devices_.begin());
   const Time t = lockstep_ ? Time(Duration(message.stamp_ns)) : tie_.here(message.stamp_ns, now);
   newest = {seen, std::max(t, newest.t), Health::ok};

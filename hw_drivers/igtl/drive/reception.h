@@ -18,6 +18,8 @@ struct Counts {
   std::int64_t missing = 0;  // numbers that never came, or came too late
   std::int64_t old = 0;      // came behind a newer one, or twice
   std::int64_t wrong = 0;    // no message, or of a tool that the scene does not know
+  std::int64_t steps = 0;    // of the other clock, back
+  int status = 0;            // the last that the server reported and that is not 1, all is well
 };
 
 class Reception {
@@ -32,13 +34,16 @@ class Reception {
   [[nodiscard]] Time last() const noexcept { return last_; }    // when
 
  private:
+  void set_back() noexcept;  // the other clock was
+
   std::vector<Name<20>> devices_;
+  Duration least_delay_;
   bool lockstep_;
   net::ClockTie tie_;
   Counts counts_;
   bool heard_ = false, numbered_ = false;
   std::uint32_t number_ = 0;
-  std::int64_t stamp_ns_ = INT64_MIN;
+  std::vector<std::int64_t> stamps_ns_;  // of each tool, the last
   Time last_{};
 };
 

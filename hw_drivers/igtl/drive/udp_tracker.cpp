@@ -12,6 +12,7 @@ namespace enc::igtl {
 namespace {
 
 constexpr int kMostDatagrams = 64;  // of a poll: a flood does not hold up the loop
+constexpr int kMostWaiting = 4096;  // before the first: more than a socket holds
 
 }  // namespace
 
@@ -44,11 +45,15 @@ void UdpTracker::ask(const char* what) noexcept {
 std::string UdpTracker::describe() const { return "tool data of " + settings_.place() + ", answered"; }
 
 bool UdpTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
-  if (!polled_) begun_ = now;
+  const bool first = !polled_;
+  if (first) begun_ = now;
   if (polled_ && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
   polled_ = true;
   bool news = false;
   std::array<std::byte, kMostBytes> bytes{};
+  if (first && !lockstep_)  // what came before the run is old
+    for (int i = 0; i < kMostWaiting && socket_.receive(bytes) > 0; ++i) {
+    }
   for (int i = 0; i < kMostDatagrams && linked_; ++i) {
     const std::size_t got = socket_.receive(bytes);
     if (got == 0) break;
@@ -62,8 +67,10 @@ bool UdpTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
 
 std::vector<std::string> UdpTracker::remarks() const {
   const Counts& counts = reception_.counts();
-  return {fmt::format("{}: {} poses, {} datagrams missing, {} old or twice, {} wrong", describe(),
-                      counts.poses, counts.missing, counts.old, counts.wrong)};
+  return {fmt::format("{}: {} poses, {} datagrams missing, {} old or twice, {} wrong{}{}", describe(),
+                      counts.poses, counts.missing, counts.old, counts.wrong,
+                      counts.steps > 0 ? fmt::format("; its clock was set back {} times", counts.steps) : "",
+                      counts.status > 1 ? fmt::format("; it reported status {}", counts.status) : "")};
 }
 
 std::unique_ptr<PoseTracker> subscribed(const Offer& offer) {

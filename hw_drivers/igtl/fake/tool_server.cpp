@@ -8,46 +8,78 @@
 namespace enc::igtl {
 
 ToolServer::ToolServer(PoseTracker& tracker, std::vector<std::string> devices, const std::string& address,
-                       std::uint16_t port, Duration alive)
+                       std::uint16_t port, Duration alive, std::uint64_t seed)
     : tracker_(tracker),
       devices_(std::move(devices)),
       address_(address),
       socket_(net::bind_udp(address, port)),
-      alive_(alive) {}
+      alive_(alive),
+      line_(net::BadLine::Wire::datagrams, seed) {}
 
 std::string ToolServer::describe() const { return "tool data at " + net::place(address_, port()); }
 
 // One client: who asks later takes its place.
 void ToolServer::serve(Time now) {
+  if (line_.dead()) return;
   std::array<std::byte, kMostBytes> bytes{};
   for (std::size_t got = socket_.receive(bytes); got > 0; got = socket_.receive(bytes)) {
     Message message;
     if (read({bytes.data(), got}, message) != Wrong::nothing) continue;
+    socket_.answer_sender();
+    if (message.type.view() == "STT_TRANS" && !asked_) line_.begin(now);
     if (message.type.view() == "STT_TRANS") asked_ = true;
     if (message.type.view() == "STP_TRANS") asked_ = false;
-    if (asked_) send(Written("STATUS", "Server", now.time_since_epoch().count(), ++number_, status_ok()));
+    if (asked_) say_status(now);
   }
+  leave(now);
 }
 
 void ToolServer::publish(Time now) {
   if (now < sent_) sent_ = now;  // its world has begun anew
   Stamped<TrackedTool> newest;
-  if (tracker_.poll(now, newest)) {
+  if (tracker_.poll(now, newest) && status_ == 1) {
     const std::int64_t stamp = newest.t.time_since_epoch().count();
     const auto tool = static_cast<std::size_t>(newest.value.tool);
     if (newest.health == Health::ok && newest.value.tool >= 0 && tool < devices_.size()) {
       sent_ = now;
-      send(Written("TRANSFORM", devices_[tool], stamp, ++number_, transform(newest.value.X_CT), kPoseKey,
-                   pose_text(newest.value.X_CT)));
+      send(now, Written("TRANSFORM", devices_[tool], stamp, ++number_, transform(newest.value.X_CT), kPoseKey,
+                        pose_text(newest.value.X_CT)));
     }
   } else if (now - sent_ >= alive_) {
     sent_ = now;
-    send(Written("STATUS", "Server", now.time_since_epoch().count(), ++number_, status_ok()));
+    say_status(now);
   }
+  leave(now);
 }
 
-void ToolServer::send(const Written& message) noexcept {
-  if (asked_) static_cast<void>(socket_.reply(message.bytes()));
+void ToolServer::leave(Time now) {
+  for (auto next = line_.take(now); next; next = line_.take(now)) static_cast<void>(socket_.reply(*next));
+}
+
+void ToolServer::say_status(Time now) {
+  send(now, Written("STATUS", "Server", now.time_since_epoch().count(), ++number_, status(status_)));
+}
+
+void ToolServer::send(Time now, const Written& message) {
+  if (asked_) line_.put(now, message.bytes());
+}
+
+bool ToolServer::knows(Trouble::Kind kind) const {
+  return kind == Trouble::Kind::error_code || line_.knows(kind);
+}
+
+void ToolServer::suffer(const Trouble& trouble) {
+  if (trouble.kind == Trouble::Kind::error_code) {
+    status_ = static_cast<std::uint16_t>(trouble.value);
+  } else {
+    line_.suffer(trouble);
+  }
+  if (trouble.kind == Trouble::Kind::disconnect) asked_ = false;
+}
+
+void ToolServer::heal(Trouble::Kind kind) {
+  if (kind == Trouble::Kind::error_code) status_ = 1;
+  line_.heal(kind);
 }
 
 std::unique_ptr<Fake> served(const FakeOffer& offer) {
@@ -60,7 +92,7 @@ std::unique_ptr<Fake> served(const FakeOffer& offer) {
   for (const std::string& tool : offer.tools) devices.push_back(tool + settings.suffix);
   return std::make_unique<ToolServer>(*offer.rig.tracker, std::move(devices), settings.address,
                                       static_cast<std::uint16_t>(settings.port),
-                                      offer.advance ? Duration{} : kServerPeriod);
+                                      offer.advance ? Duration{} : kServerPeriod, offer.seed);
 }
 
 }  // namespace enc::igtl

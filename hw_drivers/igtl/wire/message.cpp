@@ -176,9 +176,15 @@ bool read_pose(std::string_view text, Pose<'C', 'T'>& X_CT) noexcept {
   return true;
 }
 
-std::array<std::byte, 31> status_ok() noexcept {
+bool read_status(std::span<const std::byte> content, int& code) noexcept {
+  if (content.size() < 30) return false;
+  code = net::take<std::uint16_t>(content, 0);
+  return true;
+}
+
+std::array<std::byte, 31> status(std::uint16_t code) noexcept {
   std::array<std::byte, 31> content{};
-  put(content, 0, std::uint16_t{1});
+  put(content, 0, code);
   return content;
 }
 

@@ -71,6 +71,7 @@ inline constexpr std::string_view kPoseKey = "pose";
 [[nodiscard]] std::string_view value_of(std::span<const std::byte> metadata, std::string_view key) noexcept;
 [[nodiscard]] bool read_pose(std::string_view text, Pose<'C', 'T'>& X_CT) noexcept;
 // The content of a STATUS that all is well.
-[[nodiscard]] std::array<std::byte, 31> status_ok() noexcept;
+[[nodiscard]] bool read_status(std::span<const std::byte> content, int& code) noexcept;  // false: it is none
+[[nodiscard]] std::array<std::byte, 31> status(std::uint16_t code) noexcept;             // 1: all is well
 
 }  // namespace enc::igtl

@@ -17,12 +17,13 @@ constexpr std::size_t kMostReaders = 8, kMostAsked = 4096;
 }  // namespace
 
 Server::Server(ForceSensor& sensor, const Configuration& configuration, const std::string& address,
-               const Ports& ports)
+               const Ports& ports, std::uint64_t seed)
     : box_(sensor, configuration),
       address_(address),
       records_(net::bind_udp(address, ports.records)),
       listener_(net::listen_tcp(address, ports.page)),
-      commands_(net::listen_tcp(address, ports.commands)) {}
+      commands_(net::listen_tcp(address, ports.commands)),
+      line_(net::BadLine::Wire::datagrams, seed) {}
 
 std::string Server::describe() const {
   return "Net F/T at " + net::place(address_, port()) + ", its page at " + net::place(address_, http_port());
@@ -37,9 +38,17 @@ void Server::wait_on(std::vector<int>& descriptors) const {
 }
 
 void Server::serve(Time now) {
+  if (line_.dead()) return;
   std::array<std::byte, 64> bytes{};
-  for (std::size_t got = records_.receive(bytes); got > 0; got = records_.receive(bytes))
-    if (box_.take(std::span(bytes).first(got))) send(now);
+  for (std::size_t got = records_.receive(bytes); got > 0; got = records_.receive(bytes)) {
+    const bool streamed = box_.streams();
+    Request request;
+    if (read(std::span(bytes).first(got), request) && request.command != Command::stop)
+      records_.answer_sender();
+    const bool at_once = box_.take(std::span(bytes).first(got));
+    if (!streamed && box_.streams()) line_.begin(now);
+    if (at_once) send(now);
+  }
   serve_page();
   serve_commands(now);
 }
@@ -48,7 +57,29 @@ void Server::publish(Time now) {
   if (box_.streams()) send(now);
 }
 
-void Server::send(Time now) noexcept { static_cast<void>(records_.reply(bytes_of(box_.record(now)))); }
+void Server::send(Time now) {
+  line_.put(now, bytes_of(box_.record(now)));
+  for (auto next = line_.take(now); next; next = line_.take(now)) static_cast<void>(records_.reply(*next));
+}
+
+bool Server::knows(Trouble::Kind kind) const {
+  return kind == Trouble::Kind::saturate || kind == Trouble::Kind::error_code || line_.knows(kind);
+}
+
+void Server::suffer(const Trouble& trouble) {
+  if (trouble.kind == Trouble::Kind::saturate) return box_.fail(kError | kSaturated);
+  if (trouble.kind == Trouble::Kind::error_code)
+    return box_.fail(static_cast<std::uint32_t>(trouble.value) | kError);
+  line_.suffer(trouble);
+  if (trouble.kind != Trouble::Kind::disconnect) return;
+  readers_.clear();
+  askers_.clear();
+}
+
+void Server::heal(Trouble::Kind kind) {
+  if (kind == Trouble::Kind::saturate || kind == Trouble::Kind::error_code) box_.fail(0);
+  line_.heal(kind);
+}
 
 void Server::accept(net::Socket& listener, std::vector<Reader>& readers) {
   for (net::Socket next = listener.accept(); next.is_open(); next = listener.accept()) {
@@ -104,7 +135,7 @@ std::unique_ptr<Fake> served(const FakeOffer& offer) {
   const auto port = [](std::int64_t number) { return static_cast<std::uint16_t>(number); };
   return std::make_unique<Server>(
       *offer.rig.force, gamma(), settings.address,
-      Ports{port(settings.port), port(settings.http_port), port(settings.command_port)});
+      Ports{port(settings.port), port(settings.http_port), port(settings.command_port)}, offer.seed);
 }
 
 }  // namespace enc::netft

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/devices/fake.h"
+#include "hw_drivers/net/bad_line.h"
 #include "hw_drivers/net/socket.h"
 #include "hw_drivers/netft/fake/box.h"
 
@@ -22,7 +23,7 @@ class Server final : public Fake {
   // Port 0: any that is free. Throws Error (kind device) where nobody may listen there. `sensor` stays until
   // the server is gone.
   Server(ForceSensor& sensor, const Configuration& configuration, const std::string& address,
-         const Ports& ports);
+         const Ports& ports, std::uint64_t seed = 1);
 
   [[nodiscard]] std::uint16_t port() const { return records_.port(); }
   [[nodiscard]] std::uint16_t http_port() const { return listener_.port(); }
@@ -32,6 +33,9 @@ class Server final : public Fake {
   void serve(Time now) override;
   void publish(Time now) override;
   void wait_on(std::vector<int>& descriptors) const override;
+  [[nodiscard]] bool knows(Trouble::Kind kind) const override;
+  void suffer(const Trouble& trouble) override;
+  void heal(Trouble::Kind kind) override;
 
  private:
   struct Reader {
@@ -39,7 +43,7 @@ class Server final : public Fake {
     std::string asked, unsent;
     bool answered = false;
   };
-  void send(Time now) noexcept;
+  void send(Time now);
   static void accept(net::Socket& listener, std::vector<Reader>& readers);
   void serve_page();
   void serve_commands(Time now);
@@ -47,6 +51,7 @@ class Server final : public Fake {
   Box box_;
   std::string address_;
   net::Socket records_, listener_, commands_;
+  net::BadLine line_;  // of the records; its page and commands are there or not
   std::vector<Reader> readers_, askers_;
 };
 

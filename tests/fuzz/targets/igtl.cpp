@@ -27,7 +27,7 @@ Target datagram() {
   Target target;
   const auto content = igtl::transform(Pose<'C', 'T'>::shift(0.1, 0.2, 0.9));
   target.seeds = {text_of(igtl::Written("TRANSFORM", "stylusToTracker", 1'500'000'000, 7, content).bytes()),
-                  text_of(igtl::Written("STATUS", "Server", 1'500'000'000, 8, igtl::status_ok()).bytes())};
+                  text_of(igtl::Written("STATUS", "Server", 1'500'000'000, 8, igtl::status(1)).bytes())};
   target.tokens = {"TRANSFORM",
                    "STATUS",
                    std::string("\x7f\xc0\x00\x00", 4),

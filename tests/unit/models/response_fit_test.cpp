@@ -128,9 +128,9 @@ TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
 // The problem is convex: if no feasible neighbour is better, near or far, the minimum is found. Neighbours
 // are drawn at random and pulled towards a curve well inside the constraints until they are feasible.
 TEST(ResponseFit, NoFeasibleNeighbourIsBetter) {
-  constexpr double kFloor = 124.95;
+  constexpr double kLowest = 124.95;
   const auto loop = test::plant_loop({}, 4e-3, kDeepest);
-  const ResponseFit fit = fit_response(loop, kDeepest, kFloor);
+  const ResponseFit fit = fit_response(loop, kDeepest, kLowest);
   const double best = squares(loop, fit.spec);
   std::mt19937_64 random(20);
   std::normal_distribution<double> normal;
@@ -148,7 +148,7 @@ TEST(ResponseFit, NoFeasibleNeighbourIsBetter) {
       y.release[k] += size * (normal(random) / power + 0.05 * (inside_release - y.release[k]));
     }
     const Least l = least(y);
-    if (l.slope < kFloor || l.gap < 0.0) continue;
+    if (l.slope < kLowest || l.gap < 0.0) continue;
     ++tried;
     // The fit keeps 1.2e-4 N away from its constraints, which costs 6e-5 of the sum of squares.
     if (squares(loop, y) < best * (1.0 - 1e-4)) ++better;

@@ -84,8 +84,43 @@ TEST(IgtlReception, AnyWayOfDatagramsGivesTimesThatOnlyGrow) {
       EXPECT_EQ(doubled.newest.t, once.newest.t);
       EXPECT_EQ(doubled.newest.value.X_CT.xyz, once.newest.value.X_CT.xyz);
     }
-    EXPECT_EQ(most, way.back() > most ? way.back() : most);
+    EXPECT_EQ(most, *std::max_element(way.begin(), way.end()));
   }
+}
+
+// Of a frame in which two tools are seen both count; a clock that is set back is a clock that is new.
+TEST(IgtlReception, ToolsShareAStampAndAClockThatIsSetBackIsNew) {
+  Bench bench(false);
+  EXPECT_TRUE(bench.take(pose(0.1, 1'000'000'000, 1), 100.0));
+  EXPECT_TRUE(bench.take(pose(0.2, 1'000'000'000, 2, "a_tool_with_a_long_nameToTracker"), 100.0));
+  EXPECT_EQ(bench.newest.value.tool, 1);
+  EXPECT_TRUE(bench.take(pose(0.3, 500'000'000, 3), 110.0)) << "half a second earlier";
+  EXPECT_EQ(bench.newest.t, Time(ms(110)));
+  EXPECT_EQ(bench.reception.counts().steps, 1);
+  EXPECT_FALSE(bench.take(pose(0.3, 1'010'000'000, 2), 111.0)) << "an older number";
+  EXPECT_TRUE(bench.take(pose(0.4, 510'000'000, 4), 120.0));
+  EXPECT_EQ(bench.newest.t, Time(ms(120)));
+}
+
+TEST(IgtlReception, WhatTheServerReportsIsKept) {
+  Bench bench;
+  EXPECT_FALSE(bench.take({"STATUS", "Server", 0, 1, status(1)}));
+  EXPECT_EQ(bench.reception.counts().status, 0);
+  EXPECT_FALSE(bench.take({"STATUS", "Server", 0, 2, status(17)}));
+  EXPECT_EQ(bench.reception.counts().status, 17);
+}
+
+// The quickest was 12.7 ms under way, and that is what is taken off; one that comes much later is late, and
+// stays late however long it lasts.
+TEST(IgtlReception, TheLeastDelayIsTakenOffAndADelayThatLastsIsNoClock) {
+  Bench bench(false, 12.7e-3);
+  for (std::uint32_t n = 1; n <= 100; ++n)
+    ASSERT_TRUE(bench.take(pose(0, 10'000'000LL * n, n), 10.0 * n + 12.7));
+  EXPECT_NEAR(seconds(bench.newest.t.time_since_epoch()), 1.0, 1e-6);
+  for (std::uint32_t n = 101; n <= 2000; ++n)
+    ASSERT_TRUE(bench.take(pose(0, 10'000'000LL * n, n), 10.0 * n + 12.7 + 50.0));
+  EXPECT_LT(seconds(bench.newest.t.time_since_epoch()), 20.0 + 0.005) << "50 ms late: 19 s later, too";
+  EXPECT_GE(seconds(bench.newest.t.time_since_epoch()), 20.0 - 1e-6);
 }
 
 // A clock that began elsewhere and goes 50 ppm too fast, a network of 0.2 ms at least and 2 ms on average.

@@ -101,6 +101,11 @@ TEST(Socket, Datagrams) {
   EXPECT_EQ(client.send(bytes_of("two")), 3U);
   EXPECT_EQ(received(server, 2), "on") << "cut, and the rest is gone";
   EXPECT_EQ(received(server), "two");
+  EXPECT_EQ(server.reply(bytes_of("nobody")), 0U) << "who sent is not answered before that is wanted";
+  server.answer_sender();
+  Socket stranger = connect_udp("127.0.0.1", server.port());
+  EXPECT_EQ(stranger.send(bytes_of("?")), 1U);
+  EXPECT_EQ(received(server), "?");
   EXPECT_EQ(server.reply(bytes_of("three")), 5U);
   EXPECT_EQ(received(client), "three");
   { const Socket gone = std::move(server); }

@@ -101,8 +101,8 @@ TEST(NetftWire, UnitsAreTurnedByTheirFactor) {
   EXPECT_NEAR(1e6 / of.per_newton, 4.4482216152605, 1e-12);
   for (const char* unit : {"kN", "kgf", "gf", "klbf"})
     EXPECT_EQ(read_xml(page(unit, "N-mm"), of), "") << unit;
-  EXPECT_TRUE(mentions(read_xml(page("stone", "N-m"), of), "mentions force unit 'stone', expected N, lbf"));
-  EXPECT_TRUE(mentions(read_xml(page("N", "ft"), of), "mentions torque unit 'ft'"));
+  EXPECT_TRUE(mentions(read_xml(page("stone", "N-m"), of), "says force unit 'stone', expected N, lbf"));
+  EXPECT_TRUE(mentions(read_xml(page("N", "ft"), of), "says torque unit 'ft'"));
 }
 
 TEST(NetftWire, WhatIsMissingDoubledOrNoNumberIsSaid) {

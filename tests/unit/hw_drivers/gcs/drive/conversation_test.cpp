@@ -262,6 +262,25 @@ TEST(GcsConversation, PointsAreWatchedAndNeverFar) {
   EXPECT_EQ(tell(0.0009, 24), move("0.9") + "\x0b" + kAsk);
 }
 
+// For each point the controller takes a cycle: one that comes late is no longer for it.
+TEST(GcsConversation, AfterALateAnswerAPointIsNoFartherThanACycleAllows) {
+  Order order;
+  Conversation talk(GcsSettings{}, kStand, {}, Duration{}, 0.05);
+  const auto tell = [&](double x, std::int64_t at) {
+    ++order.number;
+    order.to = {x, 0, 0, 0, 0, 0};
+    order.given = ms(at);
+    talk.told(order);
+    return std::string(talk.send(ms(at)));
+  };
+  static_cast<void>(tell(0.0, 0));
+  talk.take("X 0x19001900=1\n0\n", ms(0));
+  EXPECT_EQ(tell(0.0004, 10), move("0.4") + "\x0b" + kAsk);
+  EXPECT_EQ(tell(0.005, 150), "") << "still awaited";
+  talk.take("64\n" + kZero + "0\n", ms(160));
+  EXPECT_EQ(tell(0.005, 161), move("0.9") + "\x0b" + kAsk) << "0.5 mm in a cycle of 10 ms, at 50 mm/s";
+}
+
 TEST(GcsConversation, ErrorsAreSaidUntilASetPointIsTaken) {
   Talk talk;
   talk.aim(0.001, 0);

@@ -1,0 +1,66 @@
+#include "hw_drivers/net/bad_line.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace enc::net {
+
+using Kind = Trouble::Kind;
+
+bool BadLine::knows(Kind kind) const noexcept {
+  const bool of_datagrams = kind == Kind::loss || kind == Kind::reorder || kind == Kind::duplicate;
+  const bool of_device = kind == Kind::saturate || kind == Kind::error_code;
+  return !of_device && (!of_datagrams || wire_ == Wire::datagrams);
+}
+
+void BadLine::begin(Time now) {
+  begun_ = last_ = now_ = now;
+  on_the_way_.clear();
+}
+
+bool BadLine::happens(Kind kind) {
+  const std::optional<double>& share = of(kind);
+  return share && uniform() < *share;
+}
+
+// What ends in a line feed still does: the listener is told nonsense, and not kept waiting for an end.
+void BadLine::spoil(std::vector<std::byte>& bytes) {
+  const bool line = !bytes.empty() && bytes.back() == std::byte{'\n'};
+  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random_() & 0xffU);
+  if (line) bytes.back() = std::byte{'\n'};
+}
+
+void BadLine::put(Time now, std::span<const std::byte> message) {
+  if (now < now_) begin(now);  // its world has begun anew
+  now_ = now;
+  if (message.empty() || dead() || happens(Kind::loss)) return;
+  const std::optional<double>& start = of(Kind::slow_start);
+  const Time ready = start ? begun_ + from_seconds(*start) : now;
+  if (now < ready && wire_ == Wire::datagrams) return;  // nobody has begun to send
+  Message next{std::max(now, ready), {message.begin(), message.end()}};
+  if (happens(Kind::garbage)) spoil(next.bytes);
+  if (happens(Kind::half_message)) next.bytes.resize(next.bytes.size() / 2);
+  if (of(Kind::jitter)) next.due += from_seconds(*of(Kind::jitter) * uniform());
+  if (wire_ == Wire::stream) next.due = last_ = std::max(next.due, last_);
+  next.waits = happens(Kind::reorder);
+  const int copies = happens(Kind::duplicate) ? 2 : 1;
+  for (int i = 0; i < copies; ++i) {
+    const auto at = std::find_if(on_the_way_.begin(), on_the_way_.end(),
+                                 [&](const Message& other) { return other.due > next.due && !other.waits; });
+    on_the_way_.insert(at, next);
+  }
+}
+
+std::optional<std::vector<std::byte>> BadLine::take(Time now) {
+  if (now < now_) begin(now);
+  if (dead()) return {};
+  const auto next = std::find_if(on_the_way_.begin(), on_the_way_.end(),
+                                 [now](const Message& m) { return !m.waits && m.due <= now; });
+  if (next == on_the_way_.end()) return {};
+  std::vector<std::byte> bytes = std::move(next->bytes);
+  on_the_way_.erase(next);
+  for (Message& other : on_the_way_) other.waits = false;
+  return bytes;
+}
+
+}  // namespace enc::net
