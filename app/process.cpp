@@ -37,6 +37,8 @@ void check_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) fail_output();
 }
 
+bool reads_terminal() { return isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp(); }
+
 void show_progress(double share) {
   fmt::print(stderr, "\r  {:3.0f} %", share * 100.0);
   std::fflush(stderr);

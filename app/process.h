@@ -14,6 +14,8 @@ void fill_streams();
 void check_output();
 [[noreturn]] void fail_output();
 
+// Standard input is a terminal, and who types there types for this process.
+[[nodiscard]] bool reads_terminal();
 void show_progress(double share);  // on a line of standard error, which is a terminal
 [[nodiscard]] int thread_count();
 [[nodiscard]] double peak_memory_mb();

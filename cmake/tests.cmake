@@ -64,7 +64,9 @@ function(enc_test kind shards) # enc_test(folder shards libraries...)
     list(APPEND folders ${folder})
   endforeach()
   list(REMOVE_DUPLICATES folders)
-  enc_batches(test_${kind} "${folders}") # a third of the time: the templates of gtest and Eigen are made once a folder
+  # A third of the time: the templates of gtest and Eigen are made once a folder. The helpers of its files need names of
+  # their own: where two share one, the call in the one may silently take the other.
+  enc_batches(test_${kind} "${folders}")
   if(kind STREQUAL "benchmarks")
     add_dependencies(test_${kind} program bench)
   elseif(kind STREQUAL "threads") # starts no program and loads no module

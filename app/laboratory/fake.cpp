@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdio>
 #include <string>
-#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -26,7 +26,7 @@ class Lines {
   void read(Take take) {
     pollfd ready{STDIN_FILENO, POLLIN, 0};
     if (over_ || ::poll(&ready, 1, 0) <= 0) return;
-    if (isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) != getpgrp()) return;
+    if (isatty(STDIN_FILENO) != 0 && !reads_terminal()) return;
     std::array<char, 512> bytes{};
     const ssize_t got = ::read(STDIN_FILENO, bytes.data(), bytes.size());
     over_ = got <= 0;

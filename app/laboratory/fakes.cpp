@@ -19,8 +19,7 @@ namespace enc::app {
 namespace {
 
 constexpr Duration kLongest{50'000'000};  // of a turn
-constexpr Duration kLate{
-    5'000'000'000};  // periods that are later are not made up: a device goes on without us
+constexpr Duration kLate{5'000'000'000};  // what is later is not made up: a device goes on without us
 
 Duration wall_now() {
   return std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch());
@@ -81,21 +80,15 @@ void Fakes::begin() {
 }
 
 Fakes::Planned Fakes::planned(const Fault& fault, const std::string& where) {
-  using Kind = Trouble::Kind;
   const auto refuse = [&](const std::string& what) { return Error(fmt::format("{}: {}", where, what)); };
   const auto name = std::find(names_.begin(), names_.end(), fault.driver);
   if (name == names_.end())
     throw refuse(
         fmt::format("there is no fake of '{}'; {}", fault.driver, models::advice(fault.driver, names_)));
-  if (options_.lockstep && fault.trouble.kind != Kind::saturate && fault.trouble.kind != Kind::error_code &&
-      fault.driver == "gcs")
-    throw refuse(
-        fmt::format("'{}' of gcs: in lockstep time goes on with its answers, so nothing can be late "
-                    "or missing; begin the fake without --lockstep",
-                    text_of(fault.trouble)));
   Fake* const fake = fakes_[static_cast<std::size_t>(name - names_.begin())].get();
   if (!fake->knows(fault.trouble.kind))
-    throw refuse(fmt::format("{} knows no '{}'", fake->describe(), text_of(fault.trouble)));
+    throw refuse(fmt::format("{} knows no '{}'{}", fake->describe(), text_of(fault.trouble),
+                             options_.lockstep ? "; without --lockstep it may" : ""));
   const Time from(from_seconds(fault.at));
   return {fault, fake, from, std::isnan(fault.lasts) ? Time::max() : from + from_seconds(fault.lasts)};
 }
@@ -113,19 +106,22 @@ void Fakes::heal() {
   trouble();
 }
 
+void Fakes::say(const Planned& plan, const char* what) {
+  log_.say(fmt::format("{:.3f} s: {} {} {}", seconds(now_.t.time_since_epoch()), plan.fault.driver, what,
+                       text_of(plan.fault.trouble)));
+}
+
 void Fakes::trouble() {
   for (Planned& plan : plans_) {
     if (!plan.begun && now_.t >= plan.from) {
       plan.begun = true;
       plan.fake->suffer(plan.fault.trouble);
-      log_.say(fmt::format("{:.3f} s: {} suffers {}", seconds(now_.t.time_since_epoch()), plan.fault.driver,
-                           text_of(plan.fault.trouble)));
+      say(plan, "suffers");
     }
     if (plan.begun && !plan.over && now_.t >= plan.to) {
       plan.fake->heal(plan.fault.trouble.kind);
       plan.over = true;
-      log_.say(fmt::format("{:.3f} s: {} is healed of {}", seconds(now_.t.time_since_epoch()),
-                           plan.fault.driver, text_of(plan.fault.trouble)));
+      say(plan, "is healed of");
     }
   }
 }

@@ -35,7 +35,7 @@ class Fakes {
   // A turn: waits until somebody asks or a period is over, at most 50 ms, answers, and lets time go on.
   void turn();
   // From now on: `fault.at` counts from here. Throws Error (kind input), as for those of the options: there
-  // is no such fake, its wire knows no such trouble, in lockstep it would stand for ever.
+  // is no such fake, its wire knows no such trouble.
   void suffer(const Fault& fault, const std::string& where);
   void heal();  // all of them
   [[nodiscard]] std::vector<std::string> log() const { return log_.lines(); }
@@ -51,6 +51,7 @@ class Fakes {
   };
   [[nodiscard]] Planned planned(const Fault& fault, const std::string& where);
   void trouble();  // what begins and ends now
+  void say(const Planned& plan, const char* what);
   void advance();
   void begin();
   void wait(Duration most);

@@ -7,6 +7,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "app/process.h"
+
 namespace enc::app {
 namespace {
 
@@ -31,8 +33,7 @@ HandAtTheRun::HandAtTheRun() {
     sigaction(kSignals[i], &action, &before[i]);
   }
   auto terminal = std::make_unique<Terminal>();
-  const bool attended = isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp();
-  if (!attended || tcgetattr(STDIN_FILENO, &terminal->settings) != 0) return;
+  if (!reads_terminal() || tcgetattr(STDIN_FILENO, &terminal->settings) != 0) return;
   termios keys = terminal->settings;
   keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C stays a signal
   keys.c_cc[VMIN] = keys.c_cc[VTIME] = 0;                 // nobody waits for a key

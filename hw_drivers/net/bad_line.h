@@ -36,6 +36,11 @@ class BadLine {
   void put(Time now, std::span<const std::byte> message);
   // The next that is to leave by now.
   [[nodiscard]] std::optional<std::vector<std::byte>> take(Time now);
+  // All of them, each to send(bytes).
+  template <class Send>
+  void leave(Time now, Send send) {
+    for (auto next = take(now); next; next = take(now)) send(std::span<const std::byte>(*next));
+  }
 
  private:
   struct Message {

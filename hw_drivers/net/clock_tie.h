@@ -16,6 +16,7 @@ class ClockTie {
  public:
   explicit ClockTie(Duration least) : least_(least) {}  // under way, of the quickest
 
+  void forget() noexcept { *this = ClockTie(least_); }  // the device's clock is another now
   // When it was by the loop's clock, of what the device stamped and has come by now.
   [[nodiscard]] Time here(std::int64_t stamp_ns, Time now) noexcept {
     if (shortest_[0] == kNone || now - since_ > kSpan) {

@@ -16,7 +16,7 @@ struct Hand {
   double stiffness, damping;  // N/m, N s/m
 };
 
-Scene wall(double stiffness, const Hand& hand, PassivityForm form) {
+Scene held_wall(double stiffness, const Hand& hand, PassivityForm form) {
   RigSpec rig;
   rig.contact.softest = 0.0;
   rig.contact.hand_stiffness = hand.stiffness;
@@ -34,8 +34,8 @@ struct Exchanged {
   double put = 0.0, out = 0.0;  // most that was put in; most that had come out more than was put in
   int bounces = 0;              // off the hand, while it presses
 };
-Exchanged pushed(double object, const Hand& hand, PassivityForm form, std::uint64_t seed) {
-  test::PushedMachine machine(wall(object, hand, form), seed);
+Exchanged exchanged_when_pushed(double object, const Hand& hand, PassivityForm form, std::uint64_t seed) {
+  test::PushedMachine machine(held_wall(object, hand, form), seed);
   const double deep = std::min(0.015, 30.0 / object);
   const double reach = deep * (1.0 + object / hand.stiffness);
   constexpr double kPeriod = 8.0, kWaits = 2e-3;  // s; m off the surface
@@ -65,7 +65,7 @@ TEST(SpareProperty, NoHandGetsMoreOutThanItHasPutIn) {
   for (std::uint64_t i = 0; i < 30; ++i) {
     const double object = 5.0 * std::pow(400.0, unit(random));
     const Hand hand{100.0 * std::pow(20.0, unit(random)), 1.0 + 7.0 * unit(random)};
-    const Exchanged with = pushed(object, hand, PassivityForm::controlled, i);
+    const Exchanged with = exchanged_when_pushed(object, hand, PassivityForm::controlled, i);
     EXPECT_LE(with.out, 0.1e-3) << "wall " << object << " N/m, hand " << hand.stiffness << " N/m, "
                                 << hand.damping << " N s/m";
     EXPECT_GT(with.put, 0.1e-3) << "it is pressed";
@@ -74,7 +74,7 @@ TEST(SpareProperty, NoHandGetsMoreOutThanItHasPutIn) {
 
 // Without it they do, so the test above can fail.
 TEST(SpareProperty, WithoutItASoftWallPaysOut) {
-  const Exchanged without = pushed(30.0, {700.0, 4.0}, PassivityForm::none, 1);
+  const Exchanged without = exchanged_when_pushed(30.0, {700.0, 4.0}, PassivityForm::none, 1);
   EXPECT_GT(without.out, 2e-3);
   EXPECT_GT(without.bounces, 5);
 }
@@ -82,8 +82,8 @@ TEST(SpareProperty, WithoutItASoftWallPaysOut) {
 // What is stable gives as much back as it did, to its end.
 TEST(SpareProperty, AWallThatIsStableIsLeftAsItIs) {
   for (const double object : {300.0, 1000.0, 5000.0}) {
-    const Exchanged off = pushed(object, {700.0, 4.0}, PassivityForm::none, 3),
-                    on = pushed(object, {700.0, 4.0}, PassivityForm::controlled, 3);
+    const Exchanged off = exchanged_when_pushed(object, {700.0, 4.0}, PassivityForm::none, 3),
+                    on = exchanged_when_pushed(object, {700.0, 4.0}, PassivityForm::controlled, 3);
     EXPECT_NEAR(on.put, off.put, 0.01 * off.put) << object;
     EXPECT_LE(off.out, 0.1e-3) << object;
   }

@@ -15,6 +15,12 @@ struct Result {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
+// Where the models are that the program is shipped with, wherever it is started.
+inline const Environment kShipped{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
+inline std::string shipped_scene(const std::string& name) {
+  return std::string(ENCOUNTER_SOURCE_DIR).append("/models/scenes/").append(name).append(".toml");
+}
+
 // Another program, which is looked for in PATH. It is killed (code 137) after `timeout` seconds.
 Result run(const std::vector<std::string>& command, const Environment& environment = {},
            double timeout = 60.0);

@@ -16,6 +16,7 @@ constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that reads nothing i
 Server::Server(Manipulator& machine, const ControllerSettings& settings, const std::string& address,
                std::uint16_t port, Log& log, std::function<void()> begin, std::uint64_t seed)
     : log_(log),
+      lockstep_(settings.advance != nullptr),
       controller_(machine, settings),
       address_(address),
       begin_(std::move(begin)),
@@ -62,13 +63,14 @@ bool Server::answer(Time now) {
 }
 
 void Server::send(Time now) {
-  for (auto next = line_.take(now); next; next = line_.take(now))
-    for (const std::byte byte : *next) unsent_.push_back(static_cast<char>(byte));
+  line_.leave(now, [this](std::span<const std::byte> bytes) {
+    for (const std::byte byte : bytes) unsent_.push_back(static_cast<char>(byte));
+  });
   if (!unsent_.empty()) unsent_.erase(0, client_.send(std::as_bytes(std::span(unsent_))));
 }
 
 bool Server::knows(Trouble::Kind kind) const {
-  return kind == Trouble::Kind::error_code || line_.knows(kind);
+  return kind == Trouble::Kind::error_code || (!lockstep_ && line_.knows(kind));
 }
 
 void Server::suffer(const Trouble& trouble) {

@@ -35,6 +35,7 @@ class Server final : public Fake {
   void send(Time now);
 
   Log& log_;
+  bool lockstep_;  // time goes on with its answers: none can be late or missing
   Controller controller_;
   std::string address_;
   std::function<void()> begin_;

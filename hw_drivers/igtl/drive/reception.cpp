@@ -17,14 +17,14 @@ bool same(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
 }  // namespace
 
 Reception::Reception(const IgtlSettings& settings, std::span<const std::string> tools, bool lockstep)
-    : least_delay_(from_seconds(settings.least_delay)), lockstep_(lockstep), tie_(least_delay_) {
+    : lockstep_(lockstep), tie_(from_seconds(settings.least_delay)) {
   for (const std::string& tool : tools) devices_.emplace_back(tool + settings.suffix);
   stamps_ns_.assign(devices_.size(), kNoStamp);
 }
 
 void Reception::set_back() noexcept {
   ++counts_.steps;
-  tie_ = net::ClockTie(least_delay_);
+  tie_.forget();
   std::fill(stamps_ns_.begin(), stamps_ns_.end(), kNoStamp);
 }
 

@@ -37,7 +37,6 @@ class Reception {
   void set_back() noexcept;  // the other clock was
 
   std::vector<Name<20>> devices_;
-  Duration least_delay_;
   bool lockstep_;
   net::ClockTie tie_;
   Counts counts_;

@@ -53,7 +53,7 @@ void ToolServer::publish(Time now) {
 }
 
 void ToolServer::leave(Time now) {
-  for (auto next = line_.take(now); next; next = line_.take(now)) static_cast<void>(socket_.reply(*next));
+  line_.leave(now, [this](std::span<const std::byte> bytes) { static_cast<void>(socket_.reply(bytes)); });
 }
 
 void ToolServer::say_status(Time now) {

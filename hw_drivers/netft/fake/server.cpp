@@ -42,12 +42,10 @@ void Server::serve(Time now) {
   std::array<std::byte, 64> bytes{};
   for (std::size_t got = records_.receive(bytes); got > 0; got = records_.receive(bytes)) {
     const bool streamed = box_.streams();
-    Request request;
-    if (read(std::span(bytes).first(got), request) && request.command != Command::stop)
-      records_.answer_sender();
-    const bool at_once = box_.take(std::span(bytes).first(got));
-    if (!streamed && box_.streams()) line_.begin(now);
-    if (at_once) send(now);
+    if (!box_.take(std::span(bytes).first(got))) continue;
+    records_.answer_sender();  // who asked for records gets them
+    if (!streamed) line_.begin(now);
+    send(now);
   }
   serve_page();
   serve_commands(now);
@@ -59,7 +57,7 @@ void Server::publish(Time now) {
 
 void Server::send(Time now) {
   line_.put(now, bytes_of(box_.record(now)));
-  for (auto next = line_.take(now); next; next = line_.take(now)) static_cast<void>(records_.reply(*next));
+  line_.leave(now, [this](std::span<const std::byte> bytes) { static_cast<void>(records_.reply(bytes)); });
 }
 
 bool Server::knows(Trouble::Kind kind) const {

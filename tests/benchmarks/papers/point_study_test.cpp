@@ -32,7 +32,7 @@ trial::GuidedRun guided(const trial::RegistrationRig& r, std::size_t pairs, std:
       trial::visit_places(arm, trial::places_of(r, pairs).visited, r.camera.rate, frames), r.X_WC, r.camera,
       seed);
 }
-std::string refusal(const std::string& text) {
+std::string refused_point(const std::string& text) {
   try {
     (void)trial::parse_points(text, "p.csv");
   } catch (const Error& error) {
@@ -71,27 +71,30 @@ TEST(PointSet, IsToldFromATrackersLog) {
 
 TEST(PointSet, RefusesWithThePlace) {
   const std::string three = "0,0,1,0,0,0,1\n0.1,0,1,0.1,0,0,2\n0,0.1,1,0,0.1,0,3\n";
-  EXPECT_THAT(refusal(kHeader + three),
+  EXPECT_THAT(refused_point(kHeader + three),
               HasSubstr("p.csv:4:1: there are 3 pairs of points; expected at least 4"));
-  EXPECT_THAT(refusal(kHeader), HasSubstr("there are 0 pairs"));
-  EXPECT_THAT(refusal(kHeader + three + "0,0,nan,0,0,0.1,4\n"),
+  EXPECT_THAT(refused_point(kHeader), HasSubstr("there are 0 pairs"));
+  EXPECT_THAT(refused_point(kHeader + three + "0,0,nan,0,0,0.1,4\n"),
               HasSubstr("p.csv:5:5: 'camera_z_m' is 'nan'"));
-  EXPECT_THAT(refusal(kHeader + three + "0,0,1,0,0\n"), HasSubstr("p.csv:5:9: this row has 5 columns"));
-  EXPECT_THAT(refusal("camera_x_mm,camera_y_m,camera_z_m,device_x_m,device_y_m,device_z_m\n"),
+  EXPECT_THAT(refused_point(kHeader + three + "0,0,1,0,0\n"), HasSubstr("p.csv:5:9: this row has 5 columns"));
+  EXPECT_THAT(refused_point("camera_x_mm,camera_y_m,camera_z_m,device_x_m,device_y_m,device_z_m\n"),
               HasSubstr("p.csv:1:1: there is no column 'camera_x_m'"));
-  EXPECT_THAT(refusal(kHeader + three + "0,0,1100,0,0,100,4\n"),
+  EXPECT_THAT(refused_point(kHeader + three + "0,0,1100,0,0,100,4\n"),
               HasSubstr("p.csv:5:5: 1100 m is farther than 10 m"));
-  EXPECT_THAT(refusal(kHeader + three + "0,0,1.1,0,0,0.1,3.5\n"), HasSubstr("p.csv:5:17: 'pair' is '3.5'"));
-  EXPECT_THAT(refusal(kHeader + three + "0,0.1,1,0,0.11,0,3\n"),
+  EXPECT_THAT(refused_point(kHeader + three + "0,0,1.1,0,0,0.1,3.5\n"),
+              HasSubstr("p.csv:5:17: 'pair' is '3.5'"));
+  EXPECT_THAT(refused_point(kHeader + three + "0,0.1,1,0,0.11,0,3\n"),
               HasSubstr("p.csv:5:9: the device is 10 mm from"));
-  EXPECT_THAT(refusal(kHeader + "0,0,1,0,0,0,1\n0,0,1.1,0,0,0.1,2\n0,0,1.2,0,0,0.2,3\n0,0,1.3,0,0,0.3,4\n"),
-              HasSubstr("p.csv:1:1: the camera's points lie on one line"));
-  EXPECT_THAT(refusal(kHeader + "0,0,1,0,0,0,1\n0,0,1,0,0,0,2\n0,0,1,0,0,0,3\n0,0,1,0,0,0,4\n"),
+  EXPECT_THAT(
+      refused_point(kHeader + "0,0,1,0,0,0,1\n0,0,1.1,0,0,0.1,2\n0,0,1.2,0,0,0.2,3\n0,0,1.3,0,0,0.3,4\n"),
+      HasSubstr("p.csv:1:1: the camera's points lie on one line"));
+  EXPECT_THAT(refused_point(kHeader + "0,0,1,0,0,0,1\n0,0,1,0,0,0,2\n0,0,1,0,0,0,3\n0,0,1,0,0,0,4\n"),
               HasSubstr("p.csv:1:1: the camera's points are all in one place"));
-  EXPECT_THAT(refusal(kHeader + three + "0,0,1.1,0,0,-0.1,4\n"),
+  EXPECT_THAT(refused_point(kHeader + three + "0,0,1.1,0,0,-0.1,4\n"),
               HasSubstr("p.csv:1:1: the points are mirror images"));
-  EXPECT_THAT(refusal(kHeader + "0,0,1,0,0,0,1\n0.3,0,1,0.1,0,0,2\n0,0.3,1,0,0.1,0,3\n0,0,1.3,0,0,0.1,4\n"),
-              HasSubstr("the camera's points are 3 times as far apart"));
+  EXPECT_THAT(
+      refused_point(kHeader + "0,0,1,0,0,0,1\n0.3,0,1,0.1,0,0,2\n0,0.3,1,0,0.1,0,3\n0,0,1.3,0,0,0.1,4\n"),
+      HasSubstr("the camera's points are 3 times as far apart"));
 }
 
 TEST(PointStudy, ItsIntervalsHoldTheTruth) {

@@ -10,7 +10,7 @@
 namespace enc::bench {
 namespace {
 
-std::string refusal(const char* text) {
+std::string refused_table(const char* text) {
   try {
     const Reference table = Reference::parse(text, "t.csv");
     (void)table.number(table.row({{"a", "1"}}), "b");
@@ -28,12 +28,12 @@ TEST(Reference, ReadsCellsByTheirNames) {
 }
 
 TEST(Reference, SaysWhatIsWrong) {
-  EXPECT_EQ(refusal("a,b\n1,2\n"), "nothing");
-  EXPECT_THAT(refusal("a,b\n1\n"), testing::StartsWith("t.csv:2:1: 1 cells; expected 2"));
-  EXPECT_THAT(refusal("a,b\n"), testing::HasSubstr("no rows"));
-  EXPECT_THAT(refusal("a,b\n1,x\n"), testing::HasSubstr("expected a number"));
-  EXPECT_THAT(refusal("a,b\n2,1\n"), testing::HasSubstr("no row with a '1'"));
-  EXPECT_THAT(refusal("a,c\n1,1\n"), testing::HasSubstr("no column 'b'"));
+  EXPECT_EQ(refused_table("a,b\n1,2\n"), "nothing");
+  EXPECT_THAT(refused_table("a,b\n1\n"), testing::StartsWith("t.csv:2:1: 1 cells; expected 2"));
+  EXPECT_THAT(refused_table("a,b\n"), testing::HasSubstr("no rows"));
+  EXPECT_THAT(refused_table("a,b\n1,x\n"), testing::HasSubstr("expected a number"));
+  EXPECT_THAT(refused_table("a,b\n2,1\n"), testing::HasSubstr("no row with a '1'"));
+  EXPECT_THAT(refused_table("a,c\n1,1\n"), testing::HasSubstr("no column 'b'"));
 }
 
 // The norms follow from their components but for the one that the paper has wrong.

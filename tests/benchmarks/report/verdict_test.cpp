@@ -22,7 +22,7 @@ constexpr const char* kHeader =
 
 std::vector<Threshold> of(const std::string& rows) { return parse_thresholds(kHeader + rows, "t.csv"); }
 
-std::string refusal(const std::string& rows) {
+std::string refused_rows(const std::string& rows) {
   try {
     (void)of(rows);
   } catch (const Error& e) {
@@ -111,12 +111,14 @@ TEST(Verdict, ThePaperIsJudgedAsTheTwinIs) {
 }
 
 TEST(Verdict, SaysWhatIsWrongWithTheThresholds) {
-  EXPECT_EQ(refusal("x,any,absolute,1,1,1,-,-,-,-,mm,a,b,c\n"), "nothing");
-  EXPECT_THAT(refusal("x,any,absolute,1,2,3,-,-,-,-,mm,a,b,c\n"), HasSubstr("row 1: expected 0 < least"));
-  EXPECT_THAT(refusal("x,any,absolute,0,0,0,-,-,-,-,mm,a,b,c\n"), HasSubstr("expected 0 < least"));
-  EXPECT_THAT(refusal("x,up,absolute,1,1,1,-,-,-,-,mm,a,b,c\n"), HasSubstr("sign 'up'; expected any"));
-  EXPECT_THAT(refusal("x,any,share,7,5,10,-,1,12,0.1,N,a,b,c\n"), HasSubstr("expected a number"));
-  EXPECT_THAT(refusal("x,any,sharp,1,1,1,-,-,-,-,mm,a,b,c\n"), HasSubstr("kind 'sharp'; expected absolute"));
+  EXPECT_EQ(refused_rows("x,any,absolute,1,1,1,-,-,-,-,mm,a,b,c\n"), "nothing");
+  EXPECT_THAT(refused_rows("x,any,absolute,1,2,3,-,-,-,-,mm,a,b,c\n"),
+              HasSubstr("row 1: expected 0 < least"));
+  EXPECT_THAT(refused_rows("x,any,absolute,0,0,0,-,-,-,-,mm,a,b,c\n"), HasSubstr("expected 0 < least"));
+  EXPECT_THAT(refused_rows("x,up,absolute,1,1,1,-,-,-,-,mm,a,b,c\n"), HasSubstr("sign 'up'; expected any"));
+  EXPECT_THAT(refused_rows("x,any,share,7,5,10,-,1,12,0.1,N,a,b,c\n"), HasSubstr("expected a number"));
+  EXPECT_THAT(refused_rows("x,any,sharp,1,1,1,-,-,-,-,mm,a,b,c\n"),
+              HasSubstr("kind 'sharp'; expected absolute"));
 }
 
 // The shipped thresholds: each has a source, and the known figures meet the right one.

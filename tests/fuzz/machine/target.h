@@ -3,11 +3,18 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace enc::fuzz {
+
+inline std::string text_of(std::span<const std::byte> bytes) {
+  std::string text;
+  for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
+  return text;
+}
 
 // Heap that a parser may hold at once, in bytes: so many for each byte of its input, and so many besides.
 struct Bound {

@@ -5,12 +5,6 @@
 namespace enc::fuzz {
 namespace {
 
-std::string text_of(std::span<const std::byte> bytes) {
-  std::string text;
-  for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
-  return text;
-}
-
 // Length and checksum of the header, so that the body is read, too.
 void mend(std::string& input) {
   constexpr std::size_t kSize = 42, kCrc = 50;

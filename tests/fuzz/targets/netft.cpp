@@ -11,19 +11,14 @@
 namespace enc::fuzz {
 namespace {
 
-std::string as_text(std::span<const std::byte> bytes) {
-  std::string text;
-  for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
-  return text;
-}
 std::span<const std::byte> bytes_in(const std::string& input) { return std::as_bytes(std::span(input)); }
 
 // Records one behind the other, of 36 bytes each: times only grow, forces are numbers.
 Target records() {
   Target target;
   const netft::Record first{1, 7, 0, {1500000, -2000000, 12000000, 0, 0, 0}}, second{2, 14, 0x80020000, {}};
-  target.seeds = {as_text(netft::bytes_of(first)) + as_text(netft::bytes_of(second)),
-                  as_text(netft::bytes_of(first))};
+  target.seeds = {text_of(netft::bytes_of(first)) + text_of(netft::bytes_of(second)),
+                  text_of(netft::bytes_of(first))};
   target.tokens = {std::string("\xff\xff\xff\xff", 4), std::string("\x80\x00\x00\x00", 4),
                    std::string(4, '\0')};
   target.run = [](const std::string& input) {
@@ -94,8 +89,8 @@ Target box() {
     }
   };
   Target target;
-  target.seeds = {as_text(netft::bytes_of(netft::Request{netft::Command::start, 0})) +
-                  as_text(netft::bytes_of(netft::Request{netft::Command::bias, 0}))};
+  target.seeds = {text_of(netft::bytes_of(netft::Request{netft::Command::start, 0})) +
+                  text_of(netft::bytes_of(netft::Request{netft::Command::bias, 0}))};
   target.tokens = {std::string("\x12\x34", 2), std::string("\x00\x42", 2),
                    std::string("\xff\xff\xff\xff", 4)};
   target.run = [](const std::string& input) {
@@ -116,9 +111,9 @@ Target box() {
 
 Target command() {
   Target target;
-  target.seeds = {as_text(netft::bytes_of(netft::Ask{})),
-                  as_text(netft::bytes_of(netft::Ask{.question = netft::Question::calibration})),
-                  as_text(netft::bytes_of(netft::Calibration{2, 3, 1000000, 1000000, {}}))};
+  target.seeds = {text_of(netft::bytes_of(netft::Ask{})),
+                  text_of(netft::bytes_of(netft::Ask{.question = netft::Question::calibration})),
+                  text_of(netft::bytes_of(netft::Calibration{2, 3, 1000000, 1000000, {}}))};
   target.tokens = {std::string("\x12\x34", 2), std::string("\xff\xff\xff\xff", 4)};
   target.run = [](const std::string& input) {
     netft::Ask ask;

@@ -22,8 +22,6 @@ using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
 
-const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
-
 class Calibrate : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return (temporary_.path() / name).string(); }
@@ -33,7 +31,7 @@ class Calibrate : public testing::Test {
   }
   // What one line on stderr says, with exit code 2.
   static std::string line(const std::vector<std::string>& args) {
-    const Result r = run_program(args, kModels);
+    const Result r = run_program(args, kShipped);
     EXPECT_EQ(r.code, 2) << r.out;
     EXPECT_EQ(r.out, "");
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
@@ -75,7 +73,7 @@ TEST_F(Calibrate, ReadsWhatExportWrites) {
   const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml";
   ASSERT_EQ(run_program({"run", scene, "--for-s", "3", "--record", path("r.encrec"), "--set",
                          "truth.tracker.bias_mm=[0.2,0,-0.1]"},
-                        kModels)
+                        kShipped)
                 .code,
             0);
   ASSERT_EQ(run_program({"export", path("r.encrec"), "--csv", path("r.csv")}).code, 0);
@@ -92,7 +90,7 @@ TEST_F(Calibrate, FindsTheLatencyOfTheTrackingScene) {
   const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml";
   ASSERT_EQ(run_program({"run", scene, "--record", path("t.encrec"), "--set", "travel.dwell_s=0.5", "--set",
                          "travel.ways=both_ways", "--set", "truth.tracker.latency_ms=8.5"},
-                        kModels)
+                        kShipped)
                 .code,
             0);
   ASSERT_EQ(run_program({"export", path("t.encrec"), "--csv", path("t.csv")}).code, 0);
@@ -137,7 +135,7 @@ const std::string kPoints =
 // A person presses a ball: the tip follows the tool, and is no reference for it.
 TEST_F(Calibrate, AToolThatGoesItsOwnWayTellsNothing) {
   const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
-  ASSERT_EQ(run_program({"run", scene, "--for-s", "40", "--record", path("p.encrec")}, kModels).code, 0);
+  ASSERT_EQ(run_program({"run", scene, "--for-s", "40", "--record", path("p.encrec")}, kShipped).code, 0);
   ASSERT_EQ(run_program({"export", path("p.encrec"), "--csv", path("p.csv")}).code, 0);
   EXPECT_THAT(line({"calibrate", path("p.csv")}), HasSubstr("of the tool's motion"));
 }
@@ -165,7 +163,7 @@ TEST_F(Calibrate, AToolThatMovesAlongAStillTipTellsNothing) {
   const auto carried = [](double t, double noise) {
     return fmt::format("{:.4f},{:.4f},{:.4f}", swing(t - 0.03) + noise, (t > 4.0 ? 5.0 : 0.0) + noise, noise);
   };
-  const Result r = run_program({"calibrate", write("x.csv", made_log(swing, carried))}, kModels);
+  const Result r = run_program({"calibrate", write("x.csv", made_log(swing, carried))}, kShipped);
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out, AllOf(HasSubstr("y of the tip stood still and y of the tool moved by 5.0 mm"),
                            testing::Not(HasSubstr("z of the tip stood still"))));
@@ -179,7 +177,7 @@ TEST_F(Calibrate, AScaleThatIsWrongAndATimeThatCannotBeAreSaid) {
     };
   };
   const auto told = [&](double scale, double late) {
-    return run_program({"calibrate", write("k.csv", made_log(swing, tool(scale, late)))}, kModels).out;
+    return run_program({"calibrate", write("k.csv", made_log(swing, tool(scale, late)))}, kShipped).out;
   };
   const std::string large = told(1.3, 0.03), early = told(1.0, -0.09), good = told(1.0, 0.03);
   EXPECT_THAT(large, AllOf(HasSubstr("times as far as x of the tip"), testing::Not(HasSubstr("\nset "))));
@@ -250,7 +248,7 @@ TEST_F(Calibrate, RefusesBadPointsInOneLine) {
 
 TEST_F(Calibrate, DrivesTheArmOfARigThroughTheCamerasView) {
   const std::vector<std::string> args{"calibrate", "vishap", "--out", path("p.csv"), "--json", "--force"};
-  const Result r = run_program(args, kModels);
+  const Result r = run_program(args, kShipped);
   ASSERT_EQ(r.code, 0) << r.err;
   const auto told = nlohmann::json::parse(r.out);
   EXPECT_EQ(told["pairs"], 8);
@@ -260,13 +258,13 @@ TEST_F(Calibrate, DrivesTheArmOfARigThroughTheCamerasView) {
     EXPECT_LT(told["true_error_mm"][a].get<double>(), 0.5);
     EXPECT_EQ(told["true_error_mm"][a], told["camera_to_arm_error_mm"][a]);
   }
-  EXPECT_EQ(run_program(args, kModels).out, r.out);  // to the byte
-  const Result of_file = run_program({"calibrate", path("p.csv"), "--json"}, kModels);
+  EXPECT_EQ(run_program(args, kShipped).out, r.out);  // to the byte
+  const Result of_file = run_program({"calibrate", path("p.csv"), "--json"}, kShipped);
   const auto read = nlohmann::json::parse(of_file.out);
   EXPECT_NEAR(read["position_mm"][0].get<double>(), told["position_mm"][0].get<double>(), 1e-3);
   const Result text = run_program(
       {"calibrate", "vishap", "--pairs", "4", "--frames", "2", "--set", "truth.arm.misplaced_mm=[0,0,3]"},
-      kModels);
+      kShipped);
   ASSERT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out, AllOf(HasSubstr("mm in W, "), HasSubstr("mm between camera and arm"),
                               HasSubstr("the arm was driven to each place")));

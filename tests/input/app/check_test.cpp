@@ -19,9 +19,9 @@ using testing::HasSubstr;
 using testing::Not;
 using tests::Result;
 using tests::run_program;
+using tests::shipped_scene;
 const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
 
-std::string scene(const std::string& name) { return kModels + "/scenes/" + name + ".toml"; }
 Result checked(const std::vector<std::string>& words) {
   std::vector<std::string> command{"check"};
   command.insert(command.end(), words.begin(), words.end());
@@ -38,7 +38,7 @@ std::string said(const std::vector<std::string>& words) {
 // Of what can be rendered stably it has a table of its own.
 TEST(Check, AnswersInAtMost30LinesAndATable) {
   for (const std::string& name : models::files_in(kModels, "scenes")) {
-    const std::string answer = said({scene(name)});
+    const std::string answer = said({shipped_scene(name)});
     const auto table = answer.find("\nstability\n");
     const std::string before = answer.substr(0, table);
     EXPECT_LE(std::count(before.begin(), before.end(), '\n'), 30) << name << "\n" << answer;
@@ -52,8 +52,8 @@ TEST(Check, AnswersInAtMost30LinesAndATable) {
 // What the scene does not have has no edge and no words.
 TEST(Check, NamesNoPartThatIsNotThere) {
   for (const std::string& name : models::files_in(kModels, "scenes")) {
-    const SceneSpec s = models::load(scene(name), "").scene;
-    const std::string answer = said({scene(name)});
+    const SceneSpec s = models::load(shipped_scene(name), "").scene;
+    const std::string answer = said({shipped_scene(name)});
     const std::string told = answer.substr(answer.find("\nframes\n"));
     const auto only_with = [&](bool part, const char* words) {
       EXPECT_EQ(told.find(words) != std::string::npos, part) << name << ": " << words << "\n" << told;
@@ -79,7 +79,7 @@ TEST(Check, NamesNoPartThatIsNotThere) {
 // Many objects share lines; what somebody asks of one, and what is beyond the arm, has its own.
 TEST(Check, SaysWhatIsAskedOfOneOfManyObjects) {
   EXPECT_THAT(
-      said({scene("keypad")}),
+      said({shipped_scene("keypad")}),
       AllOf(HasSubstr("objects 'key_1', 'key_2' and 10 more: click, 0.5 N/mm"),
             HasSubstr("  object 'key_5': force at most 7.06 N"), HasSubstr("it can be held for hours"),
             HasSubstr("the weakest object: up to 7.06 N ('key_5')")));
@@ -88,7 +88,7 @@ TEST(Check, SaysWhatIsAskedOfOneOfManyObjects) {
 // Whoever sets a number that nothing reads is told; one that is read says nothing.
 TEST(Check, SaysWhatNothingReads) {
   const auto warned = [](const std::string& name, const std::string& set) {
-    return checked({scene(name), "--set", set}).err;
+    return checked({shipped_scene(name), "--set", set}).err;
   };
   EXPECT_THAT(warned("wall", "truth.camera.noise_of_255=3"),
               HasSubstr("warning: nothing in this scene reads [truth.camera]; leave it out"));
@@ -111,9 +111,11 @@ TEST(CheckResolved, PrintsASceneFileThatRunsWithTheSameHash) {
   };
   for (const char* name : {"tennis_ball", "hare", "keypad", "tracking", "rig_A", "stiffness"}) {
     const std::string path = folder.file(std::string(name) + "_alone.toml");
-    const std::string text = checked({scene(name), "--resolved", "--set", "rig.tracker.lost_age_ms=350"}).out;
+    const std::string text =
+        checked({shipped_scene(name), "--resolved", "--set", "rig.tracker.lost_age_ms=350"}).out;
     std::ofstream(path) << text;
-    EXPECT_EQ(hash_of(path, {}), hash_of(scene(name), {"--set", "rig.tracker.lost_age_ms=350"})) << name;
+    EXPECT_EQ(hash_of(path, {}), hash_of(shipped_scene(name), {"--set", "rig.tracker.lost_age_ms=350"}))
+        << name;
     // But for where it comes from, which is its first line.
     const auto scene_of = [](const std::string& file) { return file.substr(file.find('\n')); };
     EXPECT_THAT(text, testing::StartsWith("# Encounter "));
@@ -121,7 +123,7 @@ TEST(CheckResolved, PrintsASceneFileThatRunsWithTheSameHash) {
     EXPECT_EQ(scene_of(said({path, "--resolved"})), scene_of(text)) << name;
     const auto untimed = [](const std::string& out) { return out.substr(0, out.find("\ncosts ")); };
     EXPECT_EQ(untimed(checked({path}).out),
-              untimed(checked({scene(name), "--set", "rig.tracker.lost_age_ms=350"}).out))
+              untimed(checked({shipped_scene(name), "--set", "rig.tracker.lost_age_ms=350"}).out))
         << name;
   }
 }
@@ -129,7 +131,7 @@ TEST(CheckResolved, PrintsASceneFileThatRunsWithTheSameHash) {
 TEST(CheckResolved, RefusesWhatIsWrongInIt) {
   const TemporaryFolder folder;
   const std::string path = folder.file("alone.toml");
-  std::string text = said({scene("wall"), "--resolved"});
+  std::string text = said({shipped_scene("wall"), "--resolved"});
   text.replace(text.find("filter_hz = 60"), 14, "filter_hz = -6");
   std::ofstream(path) << text;
   const Result r = run_program({"check", path});
@@ -142,7 +144,7 @@ TEST(CheckResolved, RefusesWhatIsWrongInIt) {
 
 TEST(Check, AdviceAsksForAnErrorAndAHand) {
   const auto refused = [](const std::string& name, const std::vector<std::string>& words) {
-    std::vector<std::string> command{"check", scene(name), "--advise"};
+    std::vector<std::string> command{"check", shipped_scene(name), "--advise"};
     command.insert(command.end(), words.begin(), words.end());
     const Result r = run_program(command);
     EXPECT_EQ(r.code, 2) << r.err;
@@ -160,21 +162,22 @@ TEST(Check, AdviceAsksForAnErrorAndAHand) {
 
 // What is there at run time is asked of the kernel and of the physics, in a short run.
 TEST(CheckCosts, SaysWhatASceneIsMadeOf) {
-  const std::string plane = said({scene("plane")});
+  const std::string plane = said({shipped_scene("plane")});
   EXPECT_THAT(plane, AllOf(HasSubstr("costs       ready after "), HasSubstr(" x real time"),
                            HasSubstr("MuJoCo elements: "), HasSubstr("  process   1 thread, "),
                            HasSubstr("modules none; not loaded "), Not(HasSubstr("not looked for"))));
 #if !defined(__SANITIZE_ADDRESS__)
   EXPECT_THAT(plane, HasSubstr("OpenGL not loaded"));
 #endif
-  EXPECT_THAT(said({scene("tracking")}), HasSubstr("not looked for: contacts, constraints"));
-  EXPECT_THAT(said({scene("wall")}), HasSubstr("not looked for: islands"));
-  EXPECT_THAT(said({scene("rig_A"), "--set", "rig.force.driver=sample"}),
+  EXPECT_THAT(said({shipped_scene("tracking")}), HasSubstr("not looked for: contacts, constraints"));
+  EXPECT_THAT(said({shipped_scene("wall")}), HasSubstr("not looked for: islands"));
+  EXPECT_THAT(said({shipped_scene("rig_A"), "--set", "rig.force.driver=sample"}),
               HasSubstr("costs       not measured: not all devices of this rig are simulated"));
 }
 
 TEST(CheckAdvise, IsNoPartOfTheResolvedScene) {
-  const Result r = run_program({"check", scene("plane"), "--resolved", "--advise", "--error-N", "0.05"});
+  const Result r =
+      run_program({"check", shipped_scene("plane"), "--resolved", "--advise", "--error-N", "0.05"});
   EXPECT_EQ(r.code, 2);
   EXPECT_THAT(r.err, HasSubstr("--resolved"));
 }

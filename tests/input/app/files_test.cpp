@@ -23,10 +23,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
-const Environment kShipped{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
-
-std::string scene(const std::string& name) { return ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml"; }
-
 class ProgramFiles : public testing::Test {
  protected:
   [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
@@ -34,7 +30,7 @@ class ProgramFiles : public testing::Test {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
   }
-  [[nodiscard]] std::string plane() const { return write("p.toml", bytes_of(scene("plane"))); }
+  [[nodiscard]] std::string plane() const { return write("p.toml", bytes_of(shipped_scene("plane"))); }
   // A loop that is pressed to 6 mm and released.
   template <class Force>
   [[nodiscard]] std::string loop(const std::string& name, Force force) const {
@@ -56,8 +52,8 @@ class ProgramFiles : public testing::Test {
     return r.err;
   }
   [[nodiscard]] std::string recorded(const std::string& seconds = "0.5") const {
-    const Result r =
-        run_program({"run", scene("plane"), "--for-s", seconds, "--record", path("r.encrec")}, kShipped);
+    const Result r = run_program(
+        {"run", shipped_scene("plane"), "--for-s", seconds, "--record", path("r.encrec")}, kShipped);
     EXPECT_EQ(r.code, 0) << r.err;
     return path("r.encrec");
   }
@@ -82,7 +78,7 @@ TEST_F(ProgramFiles, AnInputIsNeverAnOutputEvenWithForce) {
 
 TEST_F(ProgramFiles, WhatIsThereStaysWithoutForce) {
   const std::string csv = good_loop(), record = recorded();
-  const std::vector<Words> all{{"run", scene("plane"), "--for-s", "0.1", "--record"},
+  const std::vector<Words> all{{"run", shipped_scene("plane"), "--for-s", "0.1", "--record"},
                                {"export", record, "--csv"},
                                {"fit", csv, "--out"},
                                {"mesh", "cube", "--out"},
@@ -106,7 +102,7 @@ TEST_F(ProgramFiles, TwoRunsDoNotRecordIntoOneFile) {
                         "while [ ! -s \"$3.part\" ]; do sleep 0.05; done; "
                         "\"$1\" run \"$2\" --for-s 0.1 --force --record \"$3\"; echo second $?; wait $!; "
                         "echo first $?; \"$1\" replay \"$3\"",
-                        "bash", program_file(), scene("plane"), path("r.encrec")},
+                        "bash", program_file(), shipped_scene("plane"), path("r.encrec")},
                        kShipped);
   EXPECT_THAT(r.out, AllOf(HasSubstr("second 2"), HasSubstr("first 0"), HasSubstr("3001 ticks run again")));
   EXPECT_THAT(r.err, HasSubstr("another run is writing it"));
@@ -117,9 +113,9 @@ TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
   const std::string record = recorded(), csv = good_loop();
   const std::string points = write("points.csv", "x_m,y_m,z_m\n0,0,0.1\n");
   const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
-  const std::vector<Words> all{{"run", scene("plane"), "--for-s", "0.1"},
-                               {"check", scene("plane")},
-                               {"params", scene("plane")},
+  const std::vector<Words> all{{"run", shipped_scene("plane"), "--for-s", "0.1"},
+                               {"check", shipped_scene("plane")},
+                               {"params", shipped_scene("plane")},
                                {"replay", record},
                                {"export", record},
                                {"nearest", mesh, points},
@@ -143,7 +139,8 @@ TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
 TEST_F(ProgramFiles, AClosedStandardOutputIsSaidAndTheRecordIsWhole) {
   const Words closed{"bash", "-c", "\"$1\" run \"$2\" --for-s 0.1 --record \"$3\" >&-"};
   Words command = closed;
-  for (const std::string& word : {std::string("bash"), program_file(), scene("plane"), path("c.encrec")})
+  for (const std::string& word :
+       {std::string("bash"), program_file(), shipped_scene("plane"), path("c.encrec")})
     command.push_back(word);
   const Result r = run(command, kShipped);
   EXPECT_EQ(r.code, 2);
@@ -157,7 +154,7 @@ TEST_F(ProgramFiles, ARecordIsNotStandardOutput) {
        {"/dev/stdout > \"$3\"", "\"$3\" --force > \"$3\"", "\"$3\" > \"$3.part\"", "/dev/stdout | cat"}) {
     const Result r =
         run({"bash", "-c", "set -o pipefail; \"$1\" run \"$2\" --for-s 0.1 --record " + std::string(words),
-             "bash", program_file(), scene("plane"), path("o.encrec")},
+             "bash", program_file(), shipped_scene("plane"), path("o.encrec")},
             kShipped);
     EXPECT_EQ(r.code, 2) << words;
     EXPECT_THAT(r.err, HasSubstr("is standard output, where the report goes")) << words;
@@ -176,7 +173,7 @@ TEST_F(ProgramFiles, APipeIsNoRecord) {
 // The run was not whole: that nothing was touched is not the user's doing.
 TEST_F(ProgramFiles, AFullDiskIsNoVerdictOnTheUser) {
   const Result r = run({"bash", "-c", "ulimit -f 200; exec \"$1\" run \"$2\" --record \"$3\"", "bash",
-                        program_file(), scene("tennis_ball"), path("l.encrec")},
+                        program_file(), shipped_scene("tennis_ball"), path("l.encrec")},
                        kShipped);
   EXPECT_EQ(r.code, 2) << r.err;
   EXPECT_THAT(r.out, AllOf(HasSubstr("has not touched anything yet"), testing::Not(HasSubstr("LIMIT"))));
@@ -184,15 +181,15 @@ TEST_F(ProgramFiles, AFullDiskIsNoVerdictOnTheUser) {
 
 TEST_F(ProgramFiles, ATipIsNotLargerThanTheMachine) {
   for (const char* key : {"rig.manipulator", "tool.stylus", "truth.hexapod"})
-    EXPECT_THAT(
-        line({"run", scene("session"), "--for-s", "0.1", "--set", std::string(key) + ".tip_radius_mm=1e300"}),
-        HasSubstr("1000 in mm"))
+    EXPECT_THAT(line({"run", shipped_scene("session"), "--for-s", "0.1", "--set",
+                      std::string(key) + ".tip_radius_mm=1e300"}),
+                HasSubstr("1000 in mm"))
         << key;
 }
 
 TEST_F(ProgramFiles, AReportSaysHowItWasMade) {
-  const Words words{
-      "run", scene("plane"), "--for-s", "0.1", "--seed", "7", "--set", "rig.tracker.lost_age_ms=90"};
+  const Words words{"run",   shipped_scene("plane"),      "--for-s", "0.1", "--seed", "7",
+                    "--set", "rig.tracker.lost_age_ms=90"};
   EXPECT_THAT(run_program(words, kShipped).out,
               AllOf(HasSubstr("\nmade by     Encounter "), HasSubstr("plane.toml, rig "),
                     HasSubstr(", seed 7, --for-s 0.1, --set rig.tracker.lost_age_ms=90\n")));
@@ -218,10 +215,11 @@ TEST_F(ProgramFiles, ALoopThatGivesEnergyIsDoubted) {
 }
 
 TEST_F(ProgramFiles, ANameThatIsEmptyIsNoName) {
-  for (const Words& args : std::vector<Words>{{"run", scene("plane"), "--for-s", "0.1", "--record", ""},
-                                              {"export", path("r.encrec"), "--csv", ""},
-                                              {"fit", path("l.csv"), "--out", ""},
-                                              {"mesh", "cube", "--out", ""}})
+  for (const Words& args :
+       std::vector<Words>{{"run", shipped_scene("plane"), "--for-s", "0.1", "--record", ""},
+                          {"export", path("r.encrec"), "--csv", ""},
+                          {"fit", path("l.csv"), "--out", ""},
+                          {"mesh", "cube", "--out", ""}})
     EXPECT_THAT(line(args), HasSubstr(args[args.size() - 2])) << args[0];
 }
 
@@ -268,8 +266,8 @@ TEST_F(ProgramFiles, NearestKnowsArmsAndHowFarIsTooFar) {
   const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
   EXPECT_THAT(line({"nearest", mesh, write("far.csv", "x_m,y_m,z_m\n0,1e300,0\n")}),
               HasSubstr("far.csv:2:3: 1e300 m is farther than"));
-  const Result arm =
-      run_program({"nearest", scene("wall") + "#wall", write("p.csv", "x_m,y_m,z_m\n0.1,0,0\n")}, kShipped);
+  const Result arm = run_program(
+      {"nearest", shipped_scene("wall") + "#wall", write("p.csv", "x_m,y_m,z_m\n0.1,0,0\n")}, kShipped);
   EXPECT_EQ(arm.code, 0) << arm.err;
   EXPECT_THAT(arm.out, HasSubstr("\n0,0.1,0,0,0,0,1,"));
 }
@@ -277,14 +275,15 @@ TEST_F(ProgramFiles, NearestKnowsArmsAndHowFarIsTooFar) {
 TEST_F(ProgramFiles, WhatNeverEndsIsRefused) {
   std::filesystem::create_symlink("/dev/zero", path("zero.toml"));
   for (const Words& args : std::vector<Words>{
-           {"run", scene("tennis_ball"), "--set", "user.hold_s=1e12"},
-           {"run", scene("wall"), "--set", "user.hold_s=1e12"},
-           {"run", scene("rig_A"), "--set", "probe.repeats=1000000"},
-           {"run", scene("tennis_ball"), "--for-s", "0.1", "--set", "truth.tracker.rate_hz=1e-12"},
-           {"run", scene("tennis_ball"), "--for-s", "0.1", "--set", "truth.tracker.server_rate_hz=1e-12"},
-           {"run", scene("tennis_ball"), "--for-s", "0.1", "--set", "truth.display.rate_hz=1e-12"},
+           {"run", shipped_scene("tennis_ball"), "--set", "user.hold_s=1e12"},
+           {"run", shipped_scene("wall"), "--set", "user.hold_s=1e12"},
+           {"run", shipped_scene("rig_A"), "--set", "probe.repeats=1000000"},
+           {"run", shipped_scene("tennis_ball"), "--for-s", "0.1", "--set", "truth.tracker.rate_hz=1e-12"},
+           {"run", shipped_scene("tennis_ball"), "--for-s", "0.1", "--set",
+            "truth.tracker.server_rate_hz=1e-12"},
+           {"run", shipped_scene("tennis_ball"), "--for-s", "0.1", "--set", "truth.display.rate_hz=1e-12"},
            {"run", path("zero.toml")},
-           {"run", scene("plane"), "--rig", path("zero.toml")},
+           {"run", shipped_scene("plane"), "--rig", path("zero.toml")},
            {"fit", "/dev/zero"},
            {"calibrate", "/dev/zero"},
            {"nearest", ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb", "/dev/zero"}})
@@ -293,14 +292,16 @@ TEST_F(ProgramFiles, WhatNeverEndsIsRefused) {
 
 TEST_F(ProgramFiles, DivergedPhysicsIsNoDevice) {
   const Result r = run_program(
-      {"run", scene("tennis_ball"), "--for-s", "1", "--set", "truth.hand.mass_kg=1e-9"}, kShipped);
+      {"run", shipped_scene("tennis_ball"), "--for-s", "1", "--set", "truth.hand.mass_kg=1e-9"}, kShipped);
   EXPECT_EQ(r.code, 4) << r.err;
   EXPECT_THAT(r.err, HasSubstr("the physics diverged at tick"));
 }
 
 TEST_F(ProgramFiles, AnArmsTableHasItsTip) {
-  ASSERT_EQ(run_program({"run", scene("wall"), "--for-s", "5", "--record", path("w.encrec")}, kShipped).code,
-            0);
+  ASSERT_EQ(
+      run_program({"run", shipped_scene("wall"), "--for-s", "5", "--record", path("w.encrec")}, kShipped)
+          .code,
+      0);
   std::istringstream rows(run_program({"export", path("w.encrec")}, kShipped).out);
   std::string row;
   std::getline(rows, row);

@@ -22,9 +22,6 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using Words = std::vector<std::string>;
 
-std::string path_of(const std::string& name) {
-  return std::string(ENCOUNTER_SOURCE_DIR).append("/models/scenes/").append(name).append(".toml");
-}
 using test::bytes_of;
 
 class RigProgram : public testing::Test {
@@ -33,7 +30,7 @@ class RigProgram : public testing::Test {
 
   // What must be refused, by `run` and by `check` in the same words; gives its line.
   [[nodiscard]] static std::string refused(Words set) {
-    Words args{path_of("rig_A")};
+    Words args{shipped_scene("rig_A")};
     for (std::string& text : set) {
       args.emplace_back("--set");
       args.push_back(std::move(text));
@@ -59,7 +56,7 @@ class RigProgram : public testing::Test {
   }
   // A rig's scene of another make.
   [[nodiscard]] std::string edited(const std::string& from, const std::string& to) const {
-    std::string text = bytes_of(path_of("rig_A"));
+    std::string text = bytes_of(shipped_scene("rig_A"));
     const auto at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     fs::create_directories(folder_ / "scenes");
@@ -69,8 +66,6 @@ class RigProgram : public testing::Test {
   test::TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path();
 };
-
-const Environment kWithModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
 
 struct Row {
   std::string mode;
@@ -104,7 +99,7 @@ std::vector<Row> rows_of(const std::string& csv) {
 
 TEST_F(RigProgram, RunsReplaysAndExports) {
   const Result ran =
-      run_program({"run", path_of("rig_A"), "--set", "probe.repeats=2", "--record", path("a.encrec")});
+      run_program({"run", shipped_scene("rig_A"), "--set", "probe.repeats=2", "--record", path("a.encrec")});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out,
               AllOf(HasSubstr("probe (10 mm radius, 2 pushes of 6 mm)"), HasSubstr("\npushes      2 of 2"),
@@ -147,7 +142,7 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
 
 // In an ordinary scene the columns are what the object was made to answer: contact after contact.
 TEST_F(RigProgram, ExportsAnOrdinaryPress) {
-  ASSERT_EQ(run_program({"run", path_of("plane"), "--record", path("p.encrec")}).code, 0);
+  ASSERT_EQ(run_program({"run", shipped_scene("plane"), "--record", path("p.encrec")}).code, 0);
   RecordReader record(path("p.encrec"));
   double deepest = 0.0;
   for (const Row& row : rows_of(run_program({"export", path("p.encrec")}).out)) {
@@ -163,7 +158,8 @@ TEST_F(RigProgram, ExportsAnOrdinaryPress) {
 }
 
 TEST_F(RigProgram, ExportSaysWhatIsWrong) {
-  ASSERT_EQ(run_program({"run", path_of("rig_A"), "--for-s", "0.5", "--record", path("a.encrec")}).code, 0);
+  ASSERT_EQ(run_program({"run", shipped_scene("rig_A"), "--for-s", "0.5", "--record", path("a.encrec")}).code,
+            0);
   const std::string before = bytes_of(path("a.encrec"));
   EXPECT_THAT(line({"export", path("a.encrec"), "--csv", path("a.encrec")}),
               HasSubstr("is read by this command"));
@@ -198,7 +194,7 @@ TEST_F(RigProgram, MistakesInAProbe) {
 
 TEST_F(RigProgram, MistakesInATravel) {
   const auto said = [&](const std::string& set) {
-    const Result r = run_program({"run", path_of("tracking"), "--set", set});
+    const Result r = run_program({"run", shipped_scene("tracking"), "--set", set});
     EXPECT_EQ(r.code, 2) << set;
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
     return r.err;
@@ -221,7 +217,7 @@ TEST_F(RigProgram, MistakesInATravel) {
 
 TEST_F(RigProgram, ScenesThatAreNoRig) {
   const auto said = [&](const std::string& from, const std::string& to) {
-    const Result r = run_program({"run", edited(from, to)}, kWithModels);
+    const Result r = run_program({"run", edited(from, to)}, kShipped);
     EXPECT_EQ(r.code, 2);
     EXPECT_THAT(r.err, StartsWith("encounter: " + path("scenes/rig.toml") + ":"));
     return r.err;

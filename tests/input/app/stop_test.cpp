@@ -74,15 +74,11 @@ class Started {
   pid_t child_ = -1;
 };
 
-std::string scene(const char* name) {
-  return std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + name + ".toml";
-}
-
 TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}}) {
     const test::TemporaryFolder folder;
     const std::string record = (folder.path() / "r.encrec").string();
-    const Started run({"run", scene("tennis_ball"), "--pace", "wall", "--record", record});
+    const Started run({"run", shipped_scene("tennis_ball"), "--pace", "wall", "--record", record});
     const std::string aside = record + ".part";  // until it is sealed
     while (!std::filesystem::exists(aside) || std::filesystem::file_size(aside) < 4096) after_ms(20);
     after_ms(300);
@@ -99,7 +95,7 @@ TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
 TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
   const test::TemporaryFolder folder;
   const std::string record = folder.file("r.encrec"), csv = folder.file("t.csv");
-  ASSERT_EQ(run_program({"run", scene("tennis_ball"), "--for-s", "60", "--record", record}).code, 0);
+  ASSERT_EQ(run_program({"run", shipped_scene("tennis_ball"), "--for-s", "60", "--record", record}).code, 0);
   const Started table({"export", record, "--csv", csv});
   while (!std::filesystem::exists(csv + ".part") || std::filesystem::file_size(csv + ".part") == 0)
     after_ms(1);
@@ -110,11 +106,11 @@ TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
 
 // Also where the clock waits for hours, and where devices are real and armed.
 TEST(Stop, AlsoWhileTheClockWaits) {
-  const Started slow({"run", scene("tennis_ball"), "--pace", "1e-6"});
+  const Started slow({"run", shipped_scene("tennis_ball"), "--pace", "1e-6"});
   slow.ready();
   slow.send(SIGTERM);
   EXPECT_EQ(slow.wait(), 143);
-  const Started armed({"run", scene("rig_A"), "--set", "rig.manipulator.driver=\"sample\"", "--set",
+  const Started armed({"run", shipped_scene("rig_A"), "--set", "rig.manipulator.driver=\"sample\"", "--set",
                        "rig.force.driver=\"sample\"", "--armed"});
   armed.ready();
   armed.send(SIGINT);
@@ -128,17 +124,17 @@ TEST(Stop, AlsoWhereNobodyReadsTheReport) {
       {"bash", "-c",
        "set -m; exec 3> >(exec 0<&-; exec sleep 3); \"$1\" run \"$2\" --pace wall >&3 & p=$!; sleep 1.5; "
        "kill -INT $p; wait $p",
-       "bash", program_file(), scene("tennis_ball")});
+       "bash", program_file(), shipped_scene("tennis_ball")});
   EXPECT_EQ(r.code, 130) << r.err;
-  const Result full = tests::run(
-      {"bash", "-c", "\"$1\" run \"$2\" --for-s 0.1 > /dev/full", "bash", program_file(), scene("plane")});
+  const Result full = tests::run({"bash", "-c", "\"$1\" run \"$2\" --for-s 0.1 > /dev/full", "bash",
+                                  program_file(), shipped_scene("plane")});
   EXPECT_EQ(full.code, 2);
   EXPECT_THAT(full.err, HasSubstr("standard output"));
 }
 
 TEST(Stop, WhatIsIgnoredStaysIgnored) {
   std::signal(SIGHUP, SIG_IGN);  // as nohup does; the child inherits it
-  const Started run({"run", scene("plane"), "--pace", "wall", "--for-s", "1"});
+  const Started run({"run", shipped_scene("plane"), "--pace", "wall", "--for-s", "1"});
   std::signal(SIGHUP, SIG_DFL);
   run.ready();
   run.send(SIGHUP);
@@ -149,7 +145,7 @@ TEST(Stop, WhatIsIgnoredStaysIgnored) {
 TEST(Stop, AStoppedProcessMakesNothingUp) {
   const std::vector<std::string> sample{"--set", "rig.manipulator.driver=\"sample\"", "--set",
                                         "rig.force.driver=\"sample\"", "--armed"};
-  std::vector<std::string> args{"run", scene("rig_A"), "--for-s", "2.5", "--json"};
+  std::vector<std::string> args{"run", shipped_scene("rig_A"), "--for-s", "2.5", "--json"};
   args.insert(args.end(), sample.begin(), sample.end());
   const Started armed(args);
   armed.ready();
@@ -166,8 +162,8 @@ TEST(Stop, AStoppedProcessMakesNothingUp) {
   EXPECT_LE(number("ticks"), 2501.0 - 950.0);
   EXPECT_THAT(text, HasSubstr("clock late"));
 
-  const Result free = run_program({"run", scene("plane"), "--for-s", "1"});
-  const Started paced({"run", scene("plane"), "--for-s", "1", "--pace", "wall"});
+  const Result free = run_program({"run", shipped_scene("plane"), "--for-s", "1"});
+  const Started paced({"run", shipped_scene("plane"), "--for-s", "1", "--pace", "wall"});
   paced.ready();
   paced.send(SIGSTOP);
   after_ms(700);
@@ -180,8 +176,8 @@ TEST(Stop, AStoppedProcessMakesNothingUp) {
 
 TEST(Stop, ADryRunSaysWhatWasWithheld) {
   const Result dry =
-      run_program({"run", scene("rig_A"), "--for-s", "0.2", "--set", "rig.manipulator.driver=\"sample\"",
-                   "--set", "rig.force.driver=\"sample\""},
+      run_program({"run", shipped_scene("rig_A"), "--for-s", "0.2", "--set",
+                   "rig.manipulator.driver=\"sample\"", "--set", "rig.force.driver=\"sample\""},
                   {{"ENCOUNTER_MODULES", module_folder()}});
   const std::size_t after =
       dry.out.find(" ticks", dry.out.find("state hash"));  // on a busy machine some are lost

@@ -11,7 +11,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string said(const std::string& set) {
+std::string said_gains(const std::string& set) {
   try {
     (void)trial::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", {set}));
   } catch (const Error& e) {
@@ -21,17 +21,17 @@ std::string said(const std::string& set) {
 }
 
 TEST(GainsInput, UnderDampedIsRefusedWithTheRatio) {
-  EXPECT_EQ(said("rig.arm.damping_Ns_per_m=11.5"), "");
-  EXPECT_THAT(said("rig.arm.damping_Ns_per_m=5"),
+  EXPECT_EQ(said_gains("rig.arm.damping_Ns_per_m=11.5"), "");
+  EXPECT_THAT(said_gains("rig.arm.damping_Ns_per_m=5"),
               AllOf(HasSubstr("under-damped: ratio 0.4"), HasSubstr("expected 1 or more"),
                     HasSubstr("damping_Ns_per_m")));
-  EXPECT_THAT(said("rig.arm.stiffness_N_per_m=1200"), HasSubstr("under-damped: ratio 0.5"));
+  EXPECT_THAT(said_gains("rig.arm.stiffness_N_per_m=1200"), HasSubstr("under-damped: ratio 0.5"));
 }
 
 TEST(GainsInput, NegativeOrZeroIsRefused) {
   for (const char* key : {"stiffness_N_per_m", "damping_Ns_per_m", "filter_hz"})
     for (const char* value : {"-1", "0", "nan"})
-      EXPECT_THAT(said(std::string("rig.arm.") + key + "=" + value), HasSubstr(key)) << key << value;
+      EXPECT_THAT(said_gains(std::string("rig.arm.") + key + "=" + value), HasSubstr(key)) << key << value;
 }
 
 }  // namespace

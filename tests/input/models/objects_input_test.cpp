@@ -28,7 +28,7 @@ models::Setup setup_of(const std::string& scene, const std::vector<std::string>&
 }
 
 // What is wrong; empty if the scene can be made ready.
-std::string said(const std::string& scene, const std::vector<std::string>& set) {
+std::string said_objects(const std::string& scene, const std::vector<std::string>& set) {
   try {
     (void)trial::prepare_setup(setup_of(scene, set));
   } catch (const Error& e) {
@@ -39,7 +39,7 @@ std::string said(const std::string& scene, const std::vector<std::string>& set) 
 
 TEST(ObjectsInput, TheShippedScenesAreReadyAndHaveTheirProps) {
   for (const char* scene : {"keypad", "room", "hit_ball", "tiles", "drum"}) {
-    EXPECT_EQ(said(scene, {}), "") << scene;
+    EXPECT_EQ(said_objects(scene, {}), "") << scene;
     EXPECT_THAT(setup_of(scene).notes, IsEmpty()) << scene;
   }
   EXPECT_EQ(trial::prepare_setup(setup_of("keypad")).objects.size(), 12U);
@@ -50,18 +50,20 @@ TEST(ObjectsInput, NumbersOutOfRange) {
   for (const char* set :
        {"object.key_1.width_mm=0", "object.key_1.height_mm=-15", "object.key_1.thickness_mm=0",
         "follow.hysteresis_mm=-1", "object.key_1.width_mm=nan"})
-    EXPECT_THAT(said("keypad", {set}), HasSubstr("; expected a ")) << set;
+    EXPECT_THAT(said_objects("keypad", {set}), HasSubstr("; expected a ")) << set;
   for (const char* set :
        {"behaviour.hit_ball.interaction.mass_kg=-0.1", "behaviour.hit_ball.interaction.mass_kg=0",
         "behaviour.hit_ball.interaction.restitution=0", "behaviour.hit_ball.interaction.restitution=1.1",
         "behaviour.hit_ball.interaction.travel_mm=0", "behaviour.hit_ball.stiffness_N_per_mm=-1"})
-    EXPECT_THAT(said("hit_ball", {set}), HasSubstr("; expected a ")) << set;
-  EXPECT_THAT(said("tiles", {"behaviour.tile.interaction.friction_N=-1"}), HasSubstr("; expected a "));
-  EXPECT_THAT(said("tiles", {"behaviour.tile.interaction.way=[0,0,-0.5]"}), HasSubstr("expected length 1"));
+    EXPECT_THAT(said_objects("hit_ball", {set}), HasSubstr("; expected a ")) << set;
+  EXPECT_THAT(said_objects("tiles", {"behaviour.tile.interaction.friction_N=-1"}),
+              HasSubstr("; expected a "));
+  EXPECT_THAT(said_objects("tiles", {"behaviour.tile.interaction.way=[0,0,-0.5]"}),
+              HasSubstr("expected length 1"));
 }
 
 TEST(ObjectsInput, AnEntryThatTheDatabaseDoesNotHaveIsOneLineWithItsPlace) {
-  const std::string what = said("keypad", {"object.key_3.behaviour=\"key_buton\""});
+  const std::string what = said_objects("keypad", {"object.key_3.behaviour=\"key_buton\""});
   EXPECT_THAT(what, AllOf(HasSubstr("there is no behaviour 'key_buton'"), HasSubstr("behaviours.toml"),
                           HasSubstr("did you mean 'key_button'?")));
   EXPECT_EQ(std::count(what.begin(), what.end(), '\n'), 0);
@@ -71,7 +73,7 @@ TEST(ObjectsInput, ANormalOfAnotherLengthIsMendedAndTold) {
   const models::Setup setup = setup_of("keypad", {"object.key_2.normal=[0,0,2]"});
   EXPECT_EQ(setup.scene.objects[1].normal, Vec3(0, 0, 1));
   EXPECT_THAT(setup.notes, ElementsAre(AllOf(HasSubstr("'normal' has length 2"), HasSubstr("[0, 0, 1]"))));
-  EXPECT_THAT(said("keypad", {"object.key_2.normal=[0,0,0]"}), HasSubstr("no direction"));
+  EXPECT_THAT(said_objects("keypad", {"object.key_2.normal=[0,0,0]"}), HasSubstr("no direction"));
 }
 
 TEST(ObjectsInput, AWrongPropIsWarnedOf) {

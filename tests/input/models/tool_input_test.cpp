@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // Of a whole trial, which builds the twin.
-std::string said(const std::string& scene, const std::string& rig, const std::vector<std::string>& set) {
+std::string said_tool(const std::string& scene, const std::string& rig, const std::vector<std::string>& set) {
   try {
     trial::TrialOptions options;
     options.seconds = 0.5;
@@ -29,10 +29,11 @@ std::string said(const std::string& scene, const std::string& rig, const std::ve
 // built.
 TEST(ToolInput, AMassThatIsNoneIsRefused) {
   for (const char* mass : {"0", "-1", "1e-20", "1e-9", "9e-7", "nan", "inf"}) {
-    EXPECT_THAT(said("wall", "vishap", {std::string("tool.finger.mass_kg=") + mass}),
+    EXPECT_THAT(said_tool("wall", "vishap", {std::string("tool.finger.mass_kg=") + mass}),
                 AllOf(HasSubstr("'mass_kg'"), HasSubstr("expected"), Not(HasSubstr("\n"))))
         << mass;
-    EXPECT_THAT(said("session", "sim", {std::string("tool.probe.mass_kg=") + mass}), HasSubstr("'mass_kg'"))
+    EXPECT_THAT(said_tool("session", "sim", {std::string("tool.probe.mass_kg=") + mass}),
+                HasSubstr("'mass_kg'"))
         << mass;
   }
 }
@@ -40,10 +41,10 @@ TEST(ToolInput, AMassThatIsNoneIsRefused) {
 TEST(ToolInput, AToolThatTheHandCannotHoldIsRefusedByName) {
   for (const char* mass : {"1e-6", "1e-3", "0.00217"}) {
     EXPECT_THAT(
-        said("wall", "vishap", {std::string("tool.finger.mass_kg=") + mass}),
+        said_tool("wall", "vishap", {std::string("tool.finger.mass_kg=") + mass}),
         AllOf(HasSubstr("tool 'finger' weighs"), HasSubstr("expected more than"), Not(HasSubstr("\n"))))
         << mass;
-    EXPECT_THAT(said("session", "sim", {std::string("tool.probe.mass_kg=") + mass}),
+    EXPECT_THAT(said_tool("session", "sim", {std::string("tool.probe.mass_kg=") + mass}),
                 HasSubstr("tool 'probe' weighs"))
         << mass;
   }
@@ -51,9 +52,10 @@ TEST(ToolInput, AToolThatTheHandCannotHoldIsRefusedByName) {
 
 // 2 b h + k h^2 = 8.7 g at 1 ms: a quarter of that is where the grip diverges. A shorter step holds less.
 TEST(ToolInput, WhatIsNotRefusedRuns) {
-  EXPECT_EQ(said("wall", "vishap", {"tool.finger.mass_kg=0.0022"}), "");
-  EXPECT_EQ(said("tennis_ball", "sim", {"tool.stylus.mass_kg=0.0022"}), "");
-  EXPECT_EQ(said("tennis_ball", "sim", {"tool.stylus.mass_kg=0.0011", "truth.world.timestep_us=500"}), "");
+  EXPECT_EQ(said_tool("wall", "vishap", {"tool.finger.mass_kg=0.0022"}), "");
+  EXPECT_EQ(said_tool("tennis_ball", "sim", {"tool.stylus.mass_kg=0.0022"}), "");
+  EXPECT_EQ(said_tool("tennis_ball", "sim", {"tool.stylus.mass_kg=0.0011", "truth.world.timestep_us=500"}),
+            "");
 }
 
 }  // namespace

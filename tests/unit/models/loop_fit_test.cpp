@@ -129,7 +129,7 @@ TEST(LoopCsv, CoarsePositionsAndAPauseDoNotConfuseTheBranches) {
   EXPECT_LT(loop.moving[0].size(), 3050U) << "most of the pause is left out";
 }
 
-std::string refusal(const std::string& csv) {
+std::string refused_loop(const std::string& csv) {
   try {
     static_cast<void>(parse_loop(csv, "loop.csv", kLimit));
   } catch (const Error& e) {
@@ -174,7 +174,7 @@ TEST(LoopCsv, RefusesWithThePlaceInOneLine) {
       {head + "1,6,2,1\n2,1,2,1\n", "loop.csv:3:1:", "at least 20"},
   };
   for (const Case& c : cases) {
-    const std::string what = refusal(c.csv);
+    const std::string what = refused_loop(c.csv);
     EXPECT_EQ(what.rfind(c.begins, 0), 0U) << what;
     EXPECT_THAT(what, HasSubstr(c.says));
     EXPECT_EQ(what.find('\n'), std::string::npos) << what;

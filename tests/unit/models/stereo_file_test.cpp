@@ -30,7 +30,7 @@ StereoFile good() {
   return file;
 }
 
-std::string refusal(const std::string& from, const std::string& to) {
+std::string refused_change(const std::string& from, const std::string& to) {
   try {
     static_cast<void>(parse_stereo(replaced(stereo_text(good()), from, to), "head.toml"));
   } catch (const Error& e) {
@@ -66,20 +66,21 @@ TEST(StereoFile, KeysSayTheirUnits) {
 }
 
 TEST(StereoFile, MistakesAreRefusedWithTheirPlace) {
-  EXPECT_THAT(refusal("focal_px = [533.7123, 533.7]", "focal_px = [533.7123]"),
+  EXPECT_THAT(refused_change("focal_px = [533.7123, 533.7]", "focal_px = [533.7123]"),
               AllOf(StartsWith("head.toml:9:"), HasSubstr("has 1 elements; expected 2 positive numbers")));
-  EXPECT_THAT(refusal("focal_px = [533.7123, 533.7]", "focal_px = [-533.7, 533.7]"),
+  EXPECT_THAT(refused_change("focal_px = [533.7123, 533.7]", "focal_px = [-533.7, 533.7]"),
               AllOf(StartsWith("head.toml:9:"), HasSubstr("positive")));
-  EXPECT_THAT(refusal("width_px", "widht_px"), AllOf(StartsWith("head.toml:3:1: "), HasSubstr("width_px")));
-  EXPECT_THAT(refusal("[right]", "[rihgt]"), AllOf(StartsWith("head.toml:"), HasSubstr("right")));
-  EXPECT_THAT(refusal("[342.2, 235.1]", "[3420.2, 235.1]"),
+  EXPECT_THAT(refused_change("width_px", "widht_px"),
+              AllOf(StartsWith("head.toml:3:1: "), HasSubstr("width_px")));
+  EXPECT_THAT(refused_change("[right]", "[rihgt]"), AllOf(StartsWith("head.toml:"), HasSubstr("right")));
+  EXPECT_THAT(refused_change("[342.2, 235.1]", "[3420.2, 235.1]"),
               AllOf(StartsWith("head.toml:10:1: "), HasSubstr("a place in an image of 640 x 480 px")));
-  EXPECT_THAT(refusal("[-0.2891, ", "[-2.891, "),
+  EXPECT_THAT(refused_change("[-0.2891, ", "[-2.891, "),
               AllOf(StartsWith("head.toml:11:1: "), HasSubstr("folds the image")));
-  EXPECT_THAT(refusal("position_mm = [83.16", "position_mm = [-83.16"),
+  EXPECT_THAT(refused_change("position_mm = [83.16", "position_mm = [-83.16"),
               AllOf(StartsWith("head.toml:17:1: "), HasSubstr("to the right")));
-  EXPECT_THAT(refusal("format = 1", "format = 2"), StartsWith("head.toml:1:10: "));
-  EXPECT_THAT(refusal("[left]", "[left"), HasSubstr("is not TOML"));
+  EXPECT_THAT(refused_change("format = 1", "format = 2"), StartsWith("head.toml:1:10: "));
+  EXPECT_THAT(refused_change("[left]", "[left"), HasSubstr("is not TOML"));
 }
 
 TEST(StereoFile, AFileThatIsNotThereIsOneLine) {

@@ -19,8 +19,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
-
 std::vector<std::string> words(const std::vector<std::string>& more) {
   std::vector<std::string> all{"calibrate", "vishap", "--through-images"};
   all.insert(all.end(), more.begin(), more.end());
@@ -29,7 +27,7 @@ std::vector<std::string> words(const std::vector<std::string>& more) {
 
 // What one line on stderr says, with exit code 2.
 std::string line(const std::vector<std::string>& args) {
-  const Result r = run_program(args, kModels);
+  const Result r = run_program(args, kShipped);
   EXPECT_EQ(r.code, 2) << r.out;
   EXPECT_EQ(r.out, "");
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
@@ -37,17 +35,17 @@ std::string line(const std::vector<std::string>& args) {
 }
 
 TEST(CalibrateThroughImages, FindsTheBallAndSaysHowOften) {
-  const Result text = run_program(words({"--frames", "4"}), kModels);
+  const Result text = run_program(words({"--frames", "4"}), kShipped);
   ASSERT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out, AllOf(HasSubstr("place 1     4 of 4 frames found the ball; a frame scatters by 0."),
                               HasSubstr("place 8     4 of 4"), HasSubstr("[frames.W_C]\n")));
-  const Result json = run_program(words({"--frames", "4", "--json"}), kModels);
+  const Result json = run_program(words({"--frames", "4", "--json"}), kShipped);
   const auto told = nlohmann::json::parse(json.out);
   ASSERT_EQ(told["places"].size(), 8U);
   EXPECT_EQ(told["places"][0]["found"], 4);
   for (std::size_t a = 0; a < 3; ++a) EXPECT_LT(told["true_error_mm"][a].get<double>(), 0.5);
-  EXPECT_EQ(run_program(words({"--frames", "4", "--json"}), kModels).out, json.out);  // to the byte
-  EXPECT_NE(run_program(words({"--frames", "4", "--json", "--seed", "2"}), kModels).out, json.out);
+  EXPECT_EQ(run_program(words({"--frames", "4", "--json"}), kShipped).out, json.out);  // to the byte
+  EXPECT_NE(run_program(words({"--frames", "4", "--json", "--seed", "2"}), kShipped).out, json.out);
 }
 
 TEST(CalibrateThroughImages, SaysWhyTheBallWasNotFound) {
@@ -81,7 +79,7 @@ TEST(CalibrateThroughImages, AModuleThatWasNotBuiltIsNamed) {
   fs::create_symlink(fs::path(module_folder()) / "encounter_fit.so", modules / "encounter_fit.so");
   std::vector<std::string> command = words({});
   command.insert(command.begin(), program.string());
-  const Result r = run(command, kModels);
+  const Result r = run(command, kShipped);
   EXPECT_EQ(r.code, 2) << r.out;
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
   EXPECT_THAT(r.err, AllOf(HasSubstr("encounter_vision.so"),

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -124,38 +125,40 @@ std::string refused(const Configuration& of, const NetftSettings& settings = {})
   return "";
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST(NetftInspect, WhatIsNotAsItMustBeIsRefusedWithAWayOut) {
   EXPECT_EQ(refused(gamma()), "");
   Configuration other = gamma();
   other.product = "Ethernet Axia";
-  EXPECT_TRUE(says(refused(other), "is another device: it says 'Ethernet Axia', expected 'F/T'"));
+  EXPECT_THAT(refused(other),
+              testing::HasSubstr("is another device: it says 'Ethernet Axia', expected 'F/T'"));
   Configuration slow = gamma();
   slow.rate = 500;
-  EXPECT_TRUE(
-      says(refused(slow), "sends 500 records a second, and the loop makes 1000; set the RDT output rate"));
+  EXPECT_THAT(
+      refused(slow),
+      testing::HasSubstr("sends 500 records a second, and the loop makes 1000; set the RDT output rate"));
   slow.rate = kUnset;
-  EXPECT_TRUE(says(refused(slow), "sends nan records"));
+  EXPECT_THAT(refused(slow), testing::HasSubstr("sends nan records"));
   Configuration off = gamma();
   off.streams = false;
-  EXPECT_TRUE(says(refused(off), "RDT is switched off; enable it"));
+  EXPECT_THAT(refused(off), testing::HasSubstr("RDT is switched off; enable it"));
   Configuration weak = gamma();
   weak.ratings[2] = 65;
-  EXPECT_TRUE(
-      says(refused(weak), "can do less than the rig file promises: Fz to 65 of 130 N; choose another"));
+  EXPECT_THAT(
+      refused(weak),
+      testing::HasSubstr("can do less than the rig file promises: Fz to 65 of 130 N; choose another"));
   weak.ratings[2] = kUnset;
-  EXPECT_TRUE(says(refused(weak), "Fz to nan of 130 N"));
+  EXPECT_THAT(refused(weak), testing::HasSubstr("Fz to nan of 130 N"));
   NetftSettings settings;
   settings.torque_range = 20;
-  EXPECT_TRUE(says(refused(gamma(), settings),
-                   "Tx to 10 of 20 N m; choose another configuration on its page, or lower "
-                   "driver.netft.torque_range_Nm"));
+  EXPECT_THAT(refused(gamma(), settings),
+              testing::HasSubstr("Tx to 10 of 20 N m; choose another configuration on its page, or lower "
+                                 "driver.netft.torque_range_Nm"));
   try {
     static_cast<void>(inspect("<html>\n</html>", {}, Duration(1'000'000)));
     FAIL();
   } catch (const Error& e) {
-    EXPECT_TRUE(says(e.what(), "its netftapi2.xml has no <prodname>; see that it is a Net F/T"));
+    EXPECT_THAT(e.what(),
+                testing::HasSubstr("its netftapi2.xml has no <prodname>; see that it is a Net F/T"));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "hw_drivers/netft/fake/box.h"
@@ -20,10 +21,6 @@ std::string hex(std::span<const std::byte> bytes) {
     for (const unsigned half : {static_cast<unsigned>(byte) >> 4U, static_cast<unsigned>(byte) & 15U})
       text.push_back("0123456789abcdef"[half]);
   return text;
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(NetftWire, RequestsAreThoseOfTheManual) {
@@ -76,8 +73,8 @@ TEST(NetftWire, AStatusIsWellSaturatedOrAFault) {
   for (const unsigned bit : {30U, 28U, 14U, 5U, 1U, 0U})
     EXPECT_EQ(health_of(0x80000000U | 1U << bit), Health::fault) << bit;
   EXPECT_EQ(health_of(0x80020002), Health::fault) << "saturated, and more";
-  EXPECT_TRUE(mentions(status_words(0x80020000), "status 0x80020000: transducer saturated"));
-  EXPECT_TRUE(mentions(status_words(0xd0000000), "CPU or RAM; analog board"));
+  EXPECT_THAT(status_words(0x80020000), testing::HasSubstr("status 0x80020000: transducer saturated"));
+  EXPECT_THAT(status_words(0xd0000000), testing::HasSubstr("CPU or RAM; analog board"));
 }
 
 std::string page(const std::string& force, const std::string& torque, const std::string& more = "") {
@@ -101,23 +98,24 @@ TEST(NetftWire, UnitsAreTurnedByTheirFactor) {
   EXPECT_NEAR(1e6 / of.per_newton, 4.4482216152605, 1e-12);
   for (const char* unit : {"kN", "kgf", "gf", "klbf"})
     EXPECT_EQ(read_xml(page(unit, "N-mm"), of), "") << unit;
-  EXPECT_TRUE(mentions(read_xml(page("stone", "N-m"), of), "says force unit 'stone', expected N, lbf"));
-  EXPECT_TRUE(mentions(read_xml(page("N", "ft"), of), "says torque unit 'ft'"));
+  EXPECT_THAT(read_xml(page("stone", "N-m"), of),
+              testing::HasSubstr("says force unit 'stone', expected N, lbf"));
+  EXPECT_THAT(read_xml(page("N", "ft"), of), testing::HasSubstr("says torque unit 'ft'"));
 }
 
 TEST(NetftWire, WhatIsMissingDoubledOrNoNumberIsSaid) {
   Configuration of;
   of.product = "as before";
-  EXPECT_TRUE(mentions(read_xml("", of), "is no XML"));
-  EXPECT_TRUE(mentions(read_xml("<netft><prodname>x", of), "is no XML"));
+  EXPECT_THAT(read_xml("", of), testing::HasSubstr("is no XML"));
+  EXPECT_THAT(read_xml("<netft><prodname>x", of), testing::HasSubstr("is no XML"));
   EXPECT_EQ(read_xml("<netft/>", of), "has no <prodname>");
   EXPECT_EQ(read_xml(page("N", "N-m", "<cfgcpf>1</cfgcpf>"), of), "has two <cfgcpf>");
   for (const char* bad : {"0", "-1", "nan", "inf", "1e6x", ""}) {
     std::string text = page("N", "N-m");
     text.replace(text.find("<cfgcpf>1000000"), 15, std::string("<cfgcpf>") + bad);
-    EXPECT_TRUE(mentions(read_xml(text, of), "expected a positive number")) << bad;
+    EXPECT_THAT(read_xml(text, of), testing::HasSubstr("expected a positive number")) << bad;
   }
-  EXPECT_TRUE(mentions(read_xml(std::string(kMostXml + 1, ' '), of), "longer than"));
+  EXPECT_THAT(read_xml(std::string(kMostXml + 1, ' '), of), testing::HasSubstr("longer than"));
   EXPECT_EQ(of.product, "as before");
 }
 
@@ -157,11 +155,11 @@ TEST(NetftHttp, WhatIsNoWholeAnswerIsSaid) {
     HttpAnswer answer;
     answer.take(bytes);
     answer.closed();
-    EXPECT_TRUE(mentions(answer.wrong(), words)) << bytes << ": " << answer.wrong();
+    EXPECT_THAT(answer.wrong(), testing::HasSubstr(words)) << bytes << ": " << answer.wrong();
   }
   HttpAnswer flood;
   for (int i = 0; i < 100; ++i) flood.take(std::string(1000, 'x'));
-  EXPECT_TRUE(mentions(flood.wrong(), "more than"));
+  EXPECT_THAT(flood.wrong(), testing::HasSubstr("more than"));
 }
 
 TEST(NetftHttp, OnlyAWholeRequestHasAPath) {

@@ -53,7 +53,7 @@ struct Scene {
     return match_cap(left, right, skin, tip, kPair, surfaces);
   }
 };
-drawn::HandAt hand_at(const Vec3& tip, const Vec3& along, double radius = 0.010) {
+drawn::HandAt cap_hand_at(const Vec3& tip, const Vec3& along, double radius = 0.010) {
   return {.tip = tip, .along = along, .radius = radius, .length = 0.05};
 }
 
@@ -61,7 +61,7 @@ drawn::HandAt hand_at(const Vec3& tip, const Vec3& along, double radius = 0.010)
 TEST(CapMatch, ACapAtTheEdgeOfTheImageIsAsFarAsItIs) {
   for (const Vec3& along : {Vec3(1, 0.2, 0), Vec3(-1, 0.2, 0), Vec3(0.1, -1, 0)})
     for (const Vec3& tip : {Vec3(0.10, 0.04, 0.32), Vec3(0.02, -0.05, 0.32), Vec3(0.12, 0.06, 0.55)}) {
-      const Scene scene(hand_at(tip, along));
+      const Scene scene(cap_hand_at(tip, along));
       const std::array<float, 1> surface{static_cast<float>(scene.front)};
       const CapDisparity found = scene.match(surface);
       ASSERT_TRUE(found.good) << tip.transpose() << " / " << along.transpose();
@@ -72,7 +72,7 @@ TEST(CapMatch, ACapAtTheEdgeOfTheImageIsAsFarAsItIs) {
 
 TEST(CapMatch, FindsHowTheFingerSlopes) {
   for (const double away : {-0.5, 0.5}) {
-    const Scene scene(hand_at({0.05, 0.02, 0.35}, {0.4, -0.8, away}));
+    const Scene scene(cap_hand_at({0.05, 0.02, 0.35}, {0.4, -0.8, away}));
     const std::array<float, 1> surface{static_cast<float>(scene.front)};
     const CapDisparity found = scene.match(surface);
     ASSERT_TRUE(found.good);
@@ -83,7 +83,7 @@ TEST(CapMatch, FindsHowTheFingerSlopes) {
 }
 
 TEST(CapMatch, ABlockOfTheBackgroundIsNotBelieved) {
-  const Scene scene(hand_at({0.05, 0.02, 0.45}, {0.4, -0.8, 0.1}));
+  const Scene scene(cap_hand_at({0.05, 0.02, 0.45}, {0.4, -0.8, 0.1}));
   const auto front = static_cast<float>(scene.front);
   const std::array<float, 3> first{front, 50.0F, 95.0F}, last{95.0F, 50.0F, front};
   const std::array<float, 1> wrong{50.0F};
@@ -99,7 +99,7 @@ TEST(CapMatch, ABlockOfTheBackgroundIsNotBelieved) {
 // one of them the finger would not end where it does.
 TEST(CapMatch, TheFingersEndTellsPlacesApartThatLookAlike) {
   for (const double way : {-1.0, 1.0}) {
-    const drawn::HandAt hand = hand_at({0.06, 0.02, 0.45}, {way, 0.0, 0.0}, 0.010);
+    const drawn::HandAt hand = cap_hand_at({0.06, 0.02, 0.45}, {way, 0.0, 0.0}, 0.010);
     Scene scene(hand);
     Image ignored;
     Mask there(320, 240);
@@ -122,7 +122,7 @@ TEST(CapMatch, TheFingersEndTellsPlacesApartThatLookAlike) {
 }
 
 TEST(CapMatch, OneImageMayBeBrighter) {
-  const drawn::HandAt hand = hand_at({0.05, 0.02, 0.45}, {0.4, -0.8, 0.1});
+  const drawn::HandAt hand = cap_hand_at({0.05, 0.02, 0.45}, {0.4, -0.8, 0.1});
   const Scene same(hand), brighter(hand, 20);
   const std::array<float, 1> surface{static_cast<float>(same.front)};
   EXPECT_NEAR(brighter.match(surface).disparity, same.match(surface).disparity, 0.02);
@@ -130,7 +130,7 @@ TEST(CapMatch, OneImageMayBeBrighter) {
 
 // Not smoothed, these are off by 0.37 px rms; as it is, by 0.17.
 TEST(CapMatch, SkinOfLittleDetailSeenFromNearIsMoreThanNoise) {
-  drawn::HandAt hand = hand_at({0.03, 0.0, 0.30}, {0.9, -0.3, 0.1}, 0.020);
+  drawn::HandAt hand = cap_hand_at({0.03, 0.0, 0.30}, {0.9, -0.3, 0.1}, 0.020);
   hand.marks = 0.01;
   double squares = 0.0;
   constexpr int kPairs = 12;
@@ -145,7 +145,7 @@ TEST(CapMatch, SkinOfLittleDetailSeenFromNearIsMoreThanNoise) {
 }
 
 TEST(CapMatch, SpecksAreLeftOut) {
-  const drawn::HandAt hand = hand_at({0.05, 0.02, 0.40}, {0.4, -0.8, 0.3}, 0.012);
+  const drawn::HandAt hand = cap_hand_at({0.05, 0.02, 0.40}, {0.4, -0.8, 0.3}, 0.012);
   Scene scene(hand);
   const double x = scene.tip.column, y = scene.tip.row;
   const std::array<float, 1> surface{static_cast<float>(scene.front)};
@@ -160,7 +160,7 @@ TEST(CapMatch, SpecksAreLeftOut) {
 
 // 2.4 radii from where the search for the cap begins there is no image any more.
 TEST(CapFit, ACapThatEntersTheImageFromBelowIsFitted) {
-  const Scene scene(hand_at({0.0, 0.0660, 0.30}, {0.05, -1, 0}, 0.012));
+  const Scene scene(cap_hand_at({0.0, 0.0660, 0.30}, {0.05, -1, 0}, 0.012));
   const Pixel start{scene.tip.column, scene.tip.row + 0.75 * scene.tip.outline};
   ASSERT_GT(start.row + 2.4 * scene.tip.outline, 240.0);
   const CapFit fit = fit_cap(scene.skin, kPair, start, scene.tip.outline);
@@ -174,7 +174,7 @@ TEST(CapFit, ACapAtTheEdgeOfTheImageIsACircleSeenStraightOn) {
   flat.focal = 1e6;
   double apart = 0.0;
   for (const Vec3& along : {Vec3(1, 0.2, 0), Vec3(-1, 0.2, 0), Vec3(0.1, -1, 0)}) {
-    const Scene scene(hand_at({0.10, 0.05, 0.30}, along, 0.012));
+    const Scene scene(cap_hand_at({0.10, 0.05, 0.30}, along, 0.012));
     const Pixel start{scene.tip.column + 3.0 * scene.tip.along_x, scene.tip.row + 3.0 * scene.tip.along_y};
     const CapFit fit = fit_cap(scene.skin, kPair, start, scene.tip.outline);
     ASSERT_TRUE(fit.good);

@@ -20,6 +20,8 @@ struct HandAt {
   double marks = 0.15;  // contrast of the skin
 };
 
+inline Time at_frame(int i) { return Time(Duration(50'000'000) * i); }  // 20 Hz
+
 // Half the size, so that drawing takes a fifth of a second.
 inline StereoRig small() {
   StereoRig rig;

@@ -23,7 +23,7 @@ StereoRig crooked() {
   rig.X_CD = {Quat(Eigen::AngleAxisd(0.03, Vec3(0.2, -0.9, 0.3).normalized())), Vec3(0.09, 0.001, -0.002)};
   return rig;
 }
-Time at_frame(int i) { return Time(Duration(50'000'000) * i); }
+using drawn::at_frame;
 
 const drawn::Pair& empty_room() {
   static const drawn::Pair kEmpty = drawn::pair_of(small(), nullptr, 90);

@@ -11,7 +11,7 @@
 namespace enc {
 namespace {
 
-Time nth_frame(int i) { return Time(Duration(50'000'000) * i); }
+using drawn::at_frame;
 
 // Second find 50 ms later, 10 px on: P = 0.09 + 400^2 * 0.0025 + 600^2 * 1.25e-4 / 3 = 415.09,
 // P_xv = 400^2 * 0.05 + 600^2 * 0.0025 / 2 = 8450; S = 415.18: K = 0.99978323, K_v = 20.3526.
@@ -21,8 +21,8 @@ TEST(TripletFilter, GainsOfTheSecondFindAreThoseWorkedByHand) {
   spec.start_speed = 400.0;
   TripletFilter filter;
   const Vec3 variance(0.09, 0.09, 0.01);
-  filter.begin(spec, nth_frame(0), {100, 100, 100}, variance);
-  filter.predict(spec, nth_frame(1));
+  filter.begin(spec, at_frame(0), {100, 100, 100}, variance);
+  filter.predict(spec, at_frame(1));
   EXPECT_NEAR(filter.variance()[0], 415.09, 1e-9);
   filter.correct({110, 100, 100}, variance);
   EXPECT_NEAR(filter.at().column, 100 + 10 * 0.99978323, 1e-6);
@@ -35,9 +35,9 @@ TEST(TripletFilter, ConstantVelocityIsFollowedWithoutLag) {
   TripletFilter filter;
   const Vec3 variance(0.09, 0.09, 0.02);
   const auto truth = [](int i) { return Triplet{50 + 18.0 * i, 400 - 7.0 * i, 90 + 0.8 * i}; };
-  filter.begin(spec, nth_frame(0), truth(0), variance);
+  filter.begin(spec, at_frame(0), truth(0), variance);
   for (int i = 1; i < 30; ++i) {
-    filter.predict(spec, nth_frame(i));
+    filter.predict(spec, at_frame(i));
     if (i > 20) {
       EXPECT_LT((filter.at().e() - truth(i).e()).norm(), 1e-6) << i;  // foreseen, before it is seen
     }
@@ -71,10 +71,10 @@ TEST(TripletFilter, ItsCovarianceIsTrue) {
       const Vec3 seen = x + variance.cwiseSqrt().cwiseProduct(random.normal3());
       const Triplet z{seen[0], seen[1], seen[2]};
       if (i == 0) {
-        filter.begin(spec, nth_frame(0), z, variance);
+        filter.begin(spec, at_frame(0), z, variance);
         continue;
       }
-      filter.predict(spec, nth_frame(i));
+      filter.predict(spec, at_frame(i));
       before += filter.surprise(z, variance);
       filter.correct(z, variance);
       const Vec3 off = filter.at().e() - x;

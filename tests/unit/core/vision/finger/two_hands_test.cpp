@@ -18,7 +18,7 @@ StereoRig two_wide() {
   rig.left = rig.right = {360.5, 360.5, 159.5, 119.5, {}};
   return rig;
 }
-Time time_of(int i) { return Time(Duration(50'000'000) * i); }
+using drawn::at_frame;
 
 // The second hand before the first, pixel by pixel.
 drawn::Pair pair_of(const drawn::HandAt& first, const drawn::HandAt& second, int seed) {
@@ -37,8 +37,8 @@ drawn::Pair pair_of(const drawn::HandAt& first, const drawn::HandAt& second, int
 FingerTracker ready_for_two() {
   static const drawn::Pair kEmpty = drawn::pair_of(two_wide(), nullptr, 90);
   FingerTracker tracker(two_wide(), drawn::segmentation(), {}, {});
-  (void)tracker.see(kEmpty.frame(), time_of(-3));
-  (void)tracker.see(kEmpty.frame(), time_of(-2));
+  (void)tracker.see(kEmpty.frame(), at_frame(-3));
+  (void)tracker.see(kEmpty.frame(), at_frame(-2));
   return tracker;
 }
 drawn::HandAt palm_at(double x, double y, double z, double radius = 0.008) {
@@ -64,7 +64,7 @@ void expect_kept(double aside, double radius, bool along) {
     const drawn::HandAt other = palm_at((along ? own.tip.x() : 0.05) + aside, 0.015, 0.45, radius);
     const drawn::Pair pair =
         i <= 3 ? drawn::pair_of(two_wide(), &own, static_cast<std::uint64_t>(i)) : pair_of(own, other, i);
-    const Finger finger = tracker.see(pair.frame(), time_of(i));
+    const Finger finger = tracker.see(pair.frame(), at_frame(i));
     ASSERT_EQ(finger.state, FingerState::seen) << "frame " << i << ", " << aside << ", " << radius;
     // A tip of 13 px in a mask of tiles of 5 px: 2 px are 2.5 mm here, and 0.4 px of disparity 3 mm.
     EXPECT_LT(off(finger, own), 6e-3) << "frame " << i << ", " << aside << ", " << radius;
@@ -91,15 +91,15 @@ TEST(TwoHands, TheOtherIsTakenOnlyOnceTheTrackedOneIsLost) {
   FingerTracker tracker = ready_for_two();
   const drawn::HandAt own = palm_at(0.175, 0.02, 0.45), other = palm_at(-0.09, 0.02, 0.45);
   for (int i = 1; i <= 4; ++i)
-    ASSERT_EQ(tracker.see(pair_of(own, other, i).frame(), time_of(i)).state, FingerState::seen) << i;
-  const double side = off(tracker.see(pair_of(own, other, 5).frame(), time_of(5)), own);
+    ASSERT_EQ(tracker.see(pair_of(own, other, i).frame(), at_frame(i)).state, FingerState::seen) << i;
+  const double side = off(tracker.see(pair_of(own, other, 5).frame(), at_frame(5)), own);
   const bool tracks_own = side < 0.03;
   const drawn::HandAt &tracked = tracks_own ? own : other, &left = tracks_own ? other : own;
   Finger finger;
   int i = 6;
   for (; i <= 16; ++i) {
     finger =
-        tracker.see(drawn::pair_of(two_wide(), &left, static_cast<std::uint64_t>(i)).frame(), time_of(i));
+        tracker.see(drawn::pair_of(two_wide(), &left, static_cast<std::uint64_t>(i)).frame(), at_frame(i));
     if (finger.state == FingerState::seen) break;
     if (!finger.tip.finite()) continue;
     EXPECT_LT(off(finger, tracked), 0.02) << i;  // foreseen, where it was
@@ -115,13 +115,13 @@ TEST(TwoHands, AtFirstOneOfThemIsTaken) {
   const drawn::HandAt one = palm_at(0.06, 0.0, 0.45), two = palm_at(-0.04, 0.02, 0.45);
   FingerTracker tracker = ready_for_two(), again = ready_for_two();
   const drawn::Pair pair = pair_of(one, two, 1);
-  const Finger finger = tracker.see(pair.frame(), time_of(1));
+  const Finger finger = tracker.see(pair.frame(), at_frame(1));
   ASSERT_EQ(finger.state, FingerState::seen);
   EXPECT_LT(std::min(off(finger, one), off(finger, two)), 6e-3);
-  EXPECT_EQ(again.see(pair.frame(), time_of(1)).tip.e(), finger.tip.e());
+  EXPECT_EQ(again.see(pair.frame(), at_frame(1)).tip.e(), finger.tip.e());
   const drawn::HandAt& taken = off(finger, one) < off(finger, two) ? one : two;
   for (int i = 2; i <= 6; ++i)
-    EXPECT_LT(off(tracker.see(pair_of(one, two, i).frame(), time_of(i)), taken), 6e-3) << i;
+    EXPECT_LT(off(tracker.see(pair_of(one, two, i).frame(), at_frame(i)), taken), 6e-3) << i;
 }
 
 // A finger upright, its cap's middle at (column, row).
@@ -132,7 +132,7 @@ void draw_upright(Mask& mask, int column, int row) {
       if (dx * dx + dy * dy <= 100) mask.row(y)[x] = 255;
     }
 }
-Fingertip count_of(const Mask& mask) {
+Fingertip tip_in(const Mask& mask) {
   // So long a lens that nothing is seen aslant; R / B is 0.008 / 0.09.
   const RectifiedPair flat{1e6, 119.5, 119.5, 0.09, Mat3::Identity()};
   FingertipFinder finder({}, flat, 40.0, mask.width, mask.height);
@@ -146,12 +146,12 @@ TEST(TwoHands, TheBestScoreIsTakenAndTiesAreInReadingOrder) {
   Mask level(240, 240), higher(240, 240);
   draw_upright(level, 70, 90);
   draw_upright(level, 170, 90);
-  EXPECT_NEAR(count_of(level).column, 70.0, 1.0);
+  EXPECT_NEAR(tip_in(level).column, 70.0, 1.0);
   draw_upright(higher, 70, 90);
   draw_upright(higher, 170, 80);
-  EXPECT_NEAR(count_of(higher).column, 170.0, 1.0);
+  EXPECT_NEAR(tip_in(higher).column, 170.0, 1.0);
   for (int y = 60; y < 200; y += 4) higher.row(y)[168] = higher.row(y + 1)[173] = 0;  // flaws of the first
-  EXPECT_NEAR(count_of(higher).column, 70.0, 1.0);
+  EXPECT_NEAR(tip_in(higher).column, 70.0, 1.0);
 }
 
 // One passes before the other: one of the two is told, or none.
@@ -160,7 +160,7 @@ TEST(TwoHands, HandsThatTouchOrHideEachOtherAreNoHarm) {
   for (int i = 1; i <= 8; ++i) {
     drawn::HandAt one = palm_at(0.04, 0.02, 0.45), two = palm_at(0.09 - 0.012 * i, 0.02, 0.42);
     one.fist = two.fist = true;
-    const Finger finger = tracker.see(pair_of(one, two, i).frame(), time_of(i));
+    const Finger finger = tracker.see(pair_of(one, two, i).frame(), at_frame(i));
     if (finger.state != FingerState::seen) continue;
     EXPECT_TRUE(finger.tip.finite()) << i;
     EXPECT_LT(std::min(off(finger, one), off(finger, two)), 0.03) << i;

@@ -238,47 +238,44 @@ TEST(GcsConversation, OurStopExcusesOneErrorTen) {
   }
 }
 
-// One point each cycle; while more than two wait at the controller none is added, and none is farther than
-// the platform gets.
-TEST(GcsConversation, PointsAreWatchedAndNeverFar) {
-  Order order;
-  Conversation talk(GcsSettings{}, kStand, {}, Duration{}, 0.05);
-  const auto tell = [&](double x, std::int64_t at) {
+// By points of 0.5 mm, which are what 50 mm/s make of a cycle of 10 ms.
+struct PointTalk {
+  std::string tell(double x, std::int64_t at) {
     ++order.number;
     order.to = {x, 0, 0, 0, 0, 0};
     order.given = ms(at);
     talk.told(order);
     return std::string(talk.send(ms(at)));
-  };
-  EXPECT_EQ(tell(0.01, 0), "SPA X 0x19001900 1\nSCT T 10\nSPA? X 0x19001900\nERR?\n");
-  talk.take("X 0x19001900=1\n0\n", ms(0));
-  EXPECT_TRUE(talk.by_points());
-  EXPECT_EQ(tell(0.01, 2), move("0.5") + "\x0b" + kAsk) << "10 mm in a cycle of 10 ms, at 50 mm/s";
-  talk.take("64\n" + kZero + "0\n", ms(3));
-  EXPECT_EQ(tell(0.0007, 12), move("0.7") + "\x0b" + kAsk);
-  talk.take("61\n" + kZero + "0\n", ms(13));
-  EXPECT_EQ(tell(0.0008, 22), "\x0b" + kAsk) << "three wait";
-  talk.take("62\n" + kZero + "0\n", ms(23));
-  EXPECT_EQ(tell(0.0009, 24), move("0.9") + "\x0b" + kAsk);
+  }
+  Order order;
+  Conversation talk{GcsSettings{}, kStand, {}, Duration{}, 0.05};
+};
+
+// One point each cycle; while more than two wait at the controller none is added, and none is farther than
+// the platform gets.
+TEST(GcsConversation, PointsAreWatchedAndNeverFar) {
+  PointTalk points;
+  EXPECT_EQ(points.tell(0.01, 0), "SPA X 0x19001900 1\nSCT T 10\nSPA? X 0x19001900\nERR?\n");
+  points.talk.take("X 0x19001900=1\n0\n", ms(0));
+  EXPECT_TRUE(points.talk.by_points());
+  EXPECT_EQ(points.tell(0.01, 2), move("0.5") + "\x0b" + kAsk) << "10 mm in a cycle of 10 ms, at 50 mm/s";
+  points.talk.take("64\n" + kZero + "0\n", ms(3));
+  EXPECT_EQ(points.tell(0.0007, 12), move("0.7") + "\x0b" + kAsk);
+  points.talk.take("61\n" + kZero + "0\n", ms(13));
+  EXPECT_EQ(points.tell(0.0008, 22), "\x0b" + kAsk) << "three wait";
+  points.talk.take("62\n" + kZero + "0\n", ms(23));
+  EXPECT_EQ(points.tell(0.0009, 24), move("0.9") + "\x0b" + kAsk);
 }
 
 // For each point the controller takes a cycle: one that comes late is no longer for it.
 TEST(GcsConversation, AfterALateAnswerAPointIsNoFartherThanACycleAllows) {
-  Order order;
-  Conversation talk(GcsSettings{}, kStand, {}, Duration{}, 0.05);
-  const auto tell = [&](double x, std::int64_t at) {
-    ++order.number;
-    order.to = {x, 0, 0, 0, 0, 0};
-    order.given = ms(at);
-    talk.told(order);
-    return std::string(talk.send(ms(at)));
-  };
-  static_cast<void>(tell(0.0, 0));
-  talk.take("X 0x19001900=1\n0\n", ms(0));
-  EXPECT_EQ(tell(0.0004, 10), move("0.4") + "\x0b" + kAsk);
-  EXPECT_EQ(tell(0.005, 150), "") << "still awaited";
-  talk.take("64\n" + kZero + "0\n", ms(160));
-  EXPECT_EQ(tell(0.005, 161), move("0.9") + "\x0b" + kAsk) << "0.5 mm in a cycle of 10 ms, at 50 mm/s";
+  PointTalk points;
+  static_cast<void>(points.tell(0.0, 0));
+  points.talk.take("X 0x19001900=1\n0\n", ms(0));
+  EXPECT_EQ(points.tell(0.0004, 10), move("0.4") + "\x0b" + kAsk);
+  EXPECT_EQ(points.tell(0.005, 150), "") << "still awaited";
+  points.talk.take("64\n" + kZero + "0\n", ms(160));
+  EXPECT_EQ(points.tell(0.005, 161), move("0.9") + "\x0b" + kAsk) << "0.5 mm in a cycle of 10 ms, at 50 mm/s";
 }
 
 TEST(GcsConversation, ErrorsAreSaidUntilASetPointIsTaken) {
