@@ -136,6 +136,7 @@ void Fakes::wait(Duration most) {
   std::vector<int> descriptors;
   for (const auto& fake : fakes_) fake->wait_on(descriptors);
   std::vector<pollfd> all;
+  all.reserve(descriptors.size());
   for (const int descriptor : descriptors) all.push_back({descriptor, POLLIN, 0});
   const std::int64_t ns = std::clamp<std::int64_t>(most.count(), 0, kLongest.count());
   const timespec time{0, static_cast<long>(ns)};

@@ -49,8 +49,8 @@ std::string words_of(const Stamped<Sample>&) {
 
 }  // namespace
 
-std::vector<Probed> probe_devices(models::Setup setup, const trial::DriverSource& drivers, double seconds,
-                                  const std::function<bool()>& stop) {
+std::vector<Probed> probe_devices(const models::Setup& setup, const trial::DriverSource& drivers,
+                                  double seconds, const std::function<bool()>& stop) {
   std::vector<Probed> all;
   std::array<std::size_t, kRoles> place{};  // in `all`, of each role; one beyond: none
   place.fill(kRoles);

@@ -23,7 +23,8 @@ struct Probed {
 // Makes every device that is not simulated, reads each for so long at the loop's rate, and lets it go.
 // Nothing is told: nothing moves. Where a machine does not answer, nothing is asked of the others: a run may
 // have them all, and would lose them. `stop` is asked before each reading.
-[[nodiscard]] std::vector<Probed> probe_devices(models::Setup setup, const trial::DriverSource& drivers,
-                                                double seconds, const std::function<bool()>& stop);
+[[nodiscard]] std::vector<Probed> probe_devices(const models::Setup& setup,
+                                                const trial::DriverSource& drivers, double seconds,
+                                                const std::function<bool()>& stop);
 
 }  // namespace enc::app
