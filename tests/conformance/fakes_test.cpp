@@ -3,7 +3,10 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <random>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,6 +22,7 @@
 #include "hw_drivers/net/steady.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace enc::test {
 namespace {
@@ -69,10 +73,56 @@ struct Laboratory {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
+  [[nodiscard]] std::string log() {
+    pause();
+    std::string all;
+    for (const std::string& line : fakes->log()) all.append(line).push_back('\n');
+    return all;
+  }
+  // Of the machine, while nobody serves it.
+  [[nodiscard]] bool stands() const { return fakes->world().machine->state().velocity.norm() < 1e-4; }
+  [[nodiscard]] double away() const {  // m, from its zero
+    const auto& machine = *fakes->world().machine;
+    return (machine.state().pose.p() - machine.machine().zero().p()).norm();
+  }
   std::vector<std::string> ports = free_ports();
   std::unique_ptr<app::Fakes> fakes;
   std::atomic<bool> end = false;
   std::thread thread;
+};
+
+// The program, until it ends or this goes; what it prints goes into a file.
+class Started {
+ public:
+  Started(const std::vector<std::string>& words, const std::string& output) {
+    std::vector<std::string> all{tests::program_file()};
+    all.insert(all.end(), words.begin(), words.end());
+    static_cast<void>(fflush(nullptr));  // the child has none of it
+    child_ = fork();
+    if (child_ != 0) return;
+    std::vector<char*> arguments;
+    for (std::string& word : all) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    static_cast<void>(freopen(output.c_str(), "w", stdout));
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  ~Started() {
+    send(SIGKILL);
+    wait();
+  }
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+  void send(int signal) const {
+    if (child_ > 0) kill(child_, signal);
+  }
+  void wait() {
+    if (child_ > 0) waitpid(child_, nullptr, 0);
+    child_ = -1;
+  }
+
+ private:
+  pid_t child_ = -1;
 };
 
 nlohmann::json json_of(const Result& result) {
@@ -123,9 +173,48 @@ TEST(Fakes, WithoutArmedTheMachineHearsNoSetPoint) {
   Laboratory there(false);
   const nlohmann::json dry = json_of(run_program(there.words({"--for-s", "2", "--json"})));
   EXPECT_GT(dry["withheld_commands"].get<int>(), 1000);
-  there.pause();
+  EXPECT_THAT(there.log(), HasSubstr("a client has gone, which told it to move 0 times"));
   EXPECT_EQ(there.fakes->world().machine->state().pose.p(),
             there.fakes->world().machine->machine().zero().p());
+  there.serve();
+  EXPECT_GT(json_of(run_program(there.words({"--armed", "--for-s", "2", "--json"})))["ticks"], 100);
+  EXPECT_THAT(there.log(), testing::ContainsRegex("told it to move [1-9][0-9]+ times"));
+}
+
+// For 2 s the program is not there. The machine stands at its last point, the first tick afterwards holds,
+// and no point is farther than one cycle allows: the fake refuses those with error 8, and the run says so.
+TEST(Fakes, ARunThatWasStoppedHoldsOnItsNextTickAndMakesNothingUp) {
+  Laboratory there(false);
+  const TemporaryFolder folder;
+  const std::string record = folder.file("stopped.encrec"), report = folder.file("report");
+  Started run(there.words({"--armed", "--for-s", "8", "--record", record}), report);
+  std::this_thread::sleep_for(std::chrono::milliseconds(4000));
+  run.send(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+  there.pause();
+  EXPECT_TRUE(there.stands());
+  EXPECT_GT(there.away(), 1e-3);
+  there.serve();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+  run.send(SIGCONT);
+  run.wait();
+  const Result table = run_program({"export", record, "--csv", "-"});
+  ASSERT_EQ(table.code, 0) << table.err;
+  std::istringstream lines(table.out);
+  std::string line, mode;
+  std::getline(lines, line);
+  EXPECT_EQ(line.rfind("time_s,mode,", 0), 0U);
+  double before = 0.0;
+  while (mode.empty() && std::getline(lines, line)) {
+    const double time = std::stod(line);
+    if (time - before > 1.5) mode = line.substr(line.find(',') + 1);
+    before = time;
+  }
+  EXPECT_EQ(mode.substr(0, mode.find(',')), "hold");
+  std::ifstream printed(report);
+  const std::string text(std::istreambuf_iterator<char>(printed), {});
+  EXPECT_THAT(text, HasSubstr("modes"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("error 8")));
 }
 
 // However it is killed, the machine comes to rest: its points run dry.
@@ -133,38 +222,27 @@ void kill_at_random_moments(int times) {
   Laboratory there(false);
   std::mt19937_64 random(20261126);
   double longest = 0.0;
+  int moved = 0;
   for (int i = 0; i < times; ++i) {
-    const int signal = i % 2 == 0 ? SIGKILL : SIGTERM;
-    std::vector<std::string> words{tests::program_file()};
-    for (const std::string& word : there.words({"--armed"})) words.push_back(word);
-    static_cast<void>(fflush(nullptr));  // the child has none of it
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-      std::vector<char*> arguments;
-      for (std::string& word : words) arguments.push_back(word.data());
-      arguments.push_back(nullptr);
-      static_cast<void>(freopen("/dev/null", "w", stdout));
-      execv(arguments[0], arguments.data());
-      _exit(127);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(200 + random() % 1800));
-    kill(child, signal);
+    Started run(there.words({"--armed"}), "/dev/null");
+    std::this_thread::sleep_for(std::chrono::milliseconds(200 + random() % 4800));
+    run.send(i % 2 == 0 ? SIGKILL : SIGTERM);
     const Duration killed = net::steady_now();
-    int status = 0;
-    waitpid(child, &status, 0);
-    constexpr double kSpeed = 1e-4;  // m/s
+    run.wait();
     bool still = false;
     while (!still && net::steady_now() - killed < Duration(5'000'000'000)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       there.pause();
-      still = there.fakes->world().machine->state().velocity.norm() < kSpeed;
+      still = there.stands();
       there.serve();
     }
     EXPECT_TRUE(still) << i;
+    moved += there.away() > 1e-3 ? 1 : 0;
     longest = std::max(longest, seconds(net::steady_now() - killed));
   }
+  EXPECT_GT(moved, times / 4) << "killed before anything moved";
   testing::Test::RecordProperty("longest_s", std::to_string(longest));
+  testing::Test::RecordProperty("moved", std::to_string(moved));
 }
 TEST(Fakes, AKilledRunLeavesTheMachineAtRest) { kill_at_random_moments(6); }
 TEST(FakesLong, AKilledRunLeavesTheMachineAtRest) { kill_at_random_moments(100); }

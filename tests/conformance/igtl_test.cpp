@@ -96,6 +96,25 @@ TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
   EXPECT_FALSE(driver->linked());
 }
 
+// The process is stopped within a tick: what it reads then came later than the tick began.
+TEST(IgtlDriver, AfterATickThatWasHeldUpPosesAreAsFreshAsBefore) {
+  IgtlPort there;
+  const Served served(there.server);
+  const auto driver = igtl::subscribed(there.offer());
+  ASSERT_GT(there.watch(*driver, 300).news, 10);
+  const Time began(net::steady_now() - there.begun);
+  constexpr double kHeldUp = 0.15;  // s: less than it may be silent
+  std::this_thread::sleep_for(std::chrono::duration<double>(kHeldUp));
+  EXPECT_TRUE(driver->poll(began, there.newest));
+  EXPECT_LE(there.newest.t, began);
+  double freshest = kHeldUp;
+  for (int i = 0; i < 30; ++i) {
+    const IgtlPort::Watched one = there.watch(*driver, 10);
+    if (one.news > 0) freshest = std::min(freshest, one.oldest);
+  }
+  EXPECT_LT(freshest, 0.3 * kHeldUp);
+}
+
 TEST(IgtlDriver, WhoDoesNotAnswerIsNamed) {
   IgtlPort there;
   try {

@@ -117,6 +117,25 @@ TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
   EXPECT_FALSE(driver->linked());
 }
 
+// The process is stopped within a tick: what it reads then came later than the tick began.
+TEST(NetftDriver, AfterATickThatWasHeldUpForceIsAsFreshAsBefore) {
+  NetftPorts there;
+  const Served served(there.server);
+  const auto driver = netft::streaming(there.offer());
+  const Loop loop;
+  ASSERT_EQ(loop.read_for(*driver, 100).health, Health::ok);
+  const Time began = loop.now();
+  constexpr double kHeldUp = 0.25;  // s: all records of it are in the socket
+  std::this_thread::sleep_for(std::chrono::duration<double>(kHeldUp));
+  EXPECT_LE(driver->read(began).t, began);
+  double freshest = kHeldUp;
+  for (int i = 0; i < 100; ++i) {
+    const Stamped<Wrench> sample = loop.read_for(*driver, 1);
+    freshest = std::min(freshest, age(loop.now(), sample.t));
+  }
+  EXPECT_LT(freshest, 0.1 * kHeldUp);
+}
+
 TEST(NetftDriver, WhoDoesNotAnswerIsNamed) {
   NetftPorts there;
   EXPECT_THAT(there.refused(), HasSubstr("no whole answer within 300 ms; see that it is a Net F/T"));

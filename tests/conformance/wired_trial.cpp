@@ -94,7 +94,7 @@ void WiredTrial::put(Rig& rig, const Wires& wires) {
   const Reach reach = reach_of(setup_.rig);
   const auto offer = [&](Settings& table, std::span<const std::string> tools = {}) {
     return Offer{table, setup_.rig, reach, from_seconds(1.0 / setup_.rig.loop.rate),
-                 log_,  false,      false, tools};
+                 log_,  true,       false, tools};
   };
   if (wires.machine) {
     twin_.manipulator = std::move(rig.manipulator);

@@ -100,6 +100,7 @@ void Commands::move(Controller& of, std::string_view rest) { go(of, rest, false)
 void Commands::move_by(Controller& of, std::string_view rest) { go(of, rest, true); }
 
 void Commands::go(Controller& of, std::string_view rest, bool relative) {
+  ++of.told_;
   const Coordinates aim = to_wire_units(of.profile_.aim());
   Coordinates to = relative ? Coordinates{} : aim;
   if (!of.read_pairs(rest, kAxisNames, to)) return;
@@ -122,6 +123,7 @@ bool Commands::names_axes(Controller& of, std::string_view rest) {
 
 // Any axis references all. The way to zero is the reference move of this one.
 void Commands::reference(Controller& of, std::string_view rest) {
+  ++of.told_;
   if (!names_axes(of, rest)) return;
   if (of.wrong(!of.at_rest(), kNotInMotion)) return;
   of.referenced_ = false;

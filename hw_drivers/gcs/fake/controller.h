@@ -46,6 +46,8 @@ class Controller {
   [[nodiscard]] const Coordinates& measured() const noexcept { return measured_; }
   [[nodiscard]] const Coordinates& aim() const noexcept { return profile_.aim(); }
   [[nodiscard]] int error() const noexcept { return error_; }  // that ERR? would say
+  // How often it was told to move, be it refused or not: MOV, MVR, FRF.
+  [[nodiscard]] std::int64_t told() const noexcept { return told_; }
   // For tests: something fails, as a strut may. The servos are off then.
   void fail(int error) noexcept;
 
@@ -87,6 +89,7 @@ class Controller {
   bool referenced_, referencing_ = false;
   double velocity_;
   int error_ = kNoError;
+  std::int64_t told_ = 0;
   Text line_;
   bool long_ = false;  // the line is too long already
   std::string answer_;

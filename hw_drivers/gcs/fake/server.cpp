@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "hw_drivers/gcs/drive/settings.h"
 
@@ -50,6 +52,7 @@ void Server::accept(Time now) {
   unsent_.clear();
   line_.begin(now);
   controller_.forget_line();
+  told_before_ = controller_.told();
   if (begin_) begin_();
 }
 
@@ -58,8 +61,14 @@ bool Server::answer(Time now) {
   const std::size_t got = client_.receive(std::as_writable_bytes(std::span(bytes)));
   line_.put(now, std::as_bytes(std::span(controller_.take({bytes.data(), got}))));
   send(now);
-  if ((got == 0 && client_.closed()) || unsent_.size() > kMostUnsent) client_ = {};
+  if ((got == 0 && client_.closed()) || unsent_.size() > kMostUnsent) leave();
   return got > 0;
+}
+
+void Server::leave() {
+  client_ = {};
+  log_.say(fmt::format("fake C-887: a client has gone, which told it to move {} times",
+                       controller_.told() - told_before_));
 }
 
 void Server::send(Time now) {
@@ -76,7 +85,7 @@ bool Server::knows(Trouble::Kind kind) const {
 void Server::suffer(const Trouble& trouble) {
   if (trouble.kind == Trouble::Kind::error_code) return controller_.fail(static_cast<int>(trouble.value));
   line_.suffer(trouble);
-  if (trouble.kind == Trouble::Kind::disconnect) client_ = {};
+  if (trouble.kind == Trouble::Kind::disconnect && client_.is_open()) leave();
 }
 
 std::unique_ptr<Fake> served(const FakeOffer& offer) {

@@ -33,6 +33,7 @@ class Server final : public Fake {
   void accept(Time now);
   bool answer(Time now);  // true: something came
   void send(Time now);
+  void leave();  // the client has
 
   Log& log_;
   bool lockstep_;  // time goes on with its answers: none can be late or missing
@@ -41,6 +42,7 @@ class Server final : public Fake {
   std::function<void()> begin_;
   net::Socket listener_;
   net::Socket client_;
+  std::int64_t told_before_ = 0;  // of the controller, when that came
   net::BadLine line_;
   std::string unsent_;
 };

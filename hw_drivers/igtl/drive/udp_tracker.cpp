@@ -20,6 +20,7 @@ UdpTracker::UdpTracker(const Offer& offer, const IgtlSettings& settings)
     : settings_(settings),
       reception_(settings, offer.tools, offer.lockstep),
       socket_(net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))),
+      arrival_(!offer.waits),
       lockstep_(offer.lockstep) {
   constexpr Duration kAgain{50'000'000};  // a datagram may be lost
   const Duration until = net::steady_now() + from_seconds(settings.timeout);
@@ -57,11 +58,13 @@ bool UdpTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
   for (int i = 0; i < kMostDatagrams && linked_; ++i) {
     const std::size_t got = socket_.receive(bytes);
     if (got == 0) break;
-    news = reception_.take({bytes.data(), got}, now, newest_) || news;
+    news = reception_.take({bytes.data(), got}, arrival_.at(now, net::steady_now()), newest_) || news;
   }
   const Time last = reception_.heard() ? reception_.last() : begun_;
   if (!lockstep_ && age(now, last) > settings_.silent) linked_ = false;
   if (news) newest = newest_;
+  if (news)
+    newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
   return news;
 }
 

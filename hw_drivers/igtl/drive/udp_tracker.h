@@ -8,6 +8,7 @@
 
 #include "core/devices/driver.h"
 #include "hw_drivers/igtl/drive/reception.h"
+#include "hw_drivers/net/arrival.h"
 #include "hw_drivers/net/socket.h"
 
 namespace enc::igtl {
@@ -31,6 +32,7 @@ class UdpTracker final : public PoseTracker {
   IgtlSettings settings_;
   Reception reception_;
   net::Socket socket_;
+  net::Arrival arrival_;
   Stamped<TrackedTool> newest_;
   Time begun_{};
   bool polled_ = false, linked_ = true, lockstep_;

@@ -20,6 +20,7 @@ NetftSensor::NetftSensor(const Offer& offer, const NetftSettings& settings)
       found_(inspect(fetch(settings, "/netftapi2.xml"), settings, offer.period)),
       session_(found_, from_seconds(settings.least_delay), offer.lockstep),
       socket_(net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))),
+      arrival_(!offer.waits),
       lockstep_(offer.lockstep) {
   if (settings_.command_port != 0)
     if (const std::vector<std::byte> answer = ask_calibration(settings_); !answer.empty()) {
@@ -75,8 +76,9 @@ Stamped<Wrench> NetftSensor::read(Time now) noexcept {
   }
   if (!first && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
   for (int i = 0; i < kMostRecords && linked_ && receive(); ++i)
-    session_.take(std::span(datagram_).first(size_), now);
+    session_.take(std::span(datagram_).first(size_), arrival_.at(now, net::steady_now()));
   Stamped<Wrench> newest = session_.newest();
+  newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
   const Time last = newest.health == Health::absent ? begun_ : session_.last();
   if (!lockstep_ && age(now, last) > settings_.silent + 1e-9) linked_ = false;
   if (!linked_) newest.health = Health::fault;

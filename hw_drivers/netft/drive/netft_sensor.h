@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/devices/driver.h"
+#include "hw_drivers/net/arrival.h"
 #include "hw_drivers/net/socket.h"
 #include "hw_drivers/netft/drive/session.h"
 #include "hw_drivers/netft/drive/settings.h"
@@ -36,6 +37,7 @@ class NetftSensor final : public ForceSensor {
   Configuration found_;
   Session session_;
   net::Socket socket_;
+  net::Arrival arrival_;
   std::array<std::byte, 256> datagram_{};  // longer ones are no records
   std::size_t size_ = 0;
   Time begun_{};
