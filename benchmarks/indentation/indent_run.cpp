@@ -9,7 +9,6 @@
 #include "benchmarks/kit/parallel.h"
 #include "core/task/walk.h"
 #include "sim/random.h"
-#include "trial/trial.h"
 
 namespace enc::bench::indentation {
 namespace {
@@ -79,9 +78,9 @@ Recording split(const Branch& contact, double limit) {
   return {part(d.begin(), end), part(begin, d.end())};
 }
 
-IndentRun indent_run(const models::Setup& setup, std::uint64_t seed) {
+IndentRun indent_run(const models::Setup& setup, std::uint64_t seed, const trial::TrialOptions& base) {
   Recorder recorder;
-  trial::TrialOptions options;
+  trial::TrialOptions options = base;
   options.seed = seed;
   options.watch = [&](const trial::Glance& glance) { recorder.see(glance); };
   trial::Trial trial(setup, options);

@@ -10,6 +10,7 @@
 
 #include "core/response/response.h"
 #include "models/setup/scene_file.h"
+#include "trial/trial.h"
 
 namespace enc::bench::indentation {
 
@@ -57,7 +58,9 @@ struct IndentRun {
   double simulated = 0.0;          // s
   std::int32_t contacts = 0;
 };
-[[nodiscard]] IndentRun indent_run(const models::Setup& setup, std::uint64_t seed);
+// `base`: with what devices and under which conditions; seed and watch are set here.
+[[nodiscard]] IndentRun indent_run(const models::Setup& setup, std::uint64_t seed,
+                                   const trial::TrialOptions& base = {});
 
 // How a hand differs from one run to the next: each of these is drawn anew. [sources/hand 2]
 struct HandSpread {

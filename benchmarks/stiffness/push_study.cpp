@@ -8,7 +8,6 @@
 
 #include "benchmarks/kit/parallel.h"
 #include "core/task/walk.h"
-#include "trial/trial.h"
 
 namespace enc::bench::stiffness {
 namespace {
@@ -158,8 +157,9 @@ double push_time(const models::Setup& setup) {
   return p.rest_time + p.ramp_time + p.hold_time;
 }
 
-Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace) {
-  trial::TrialOptions options;
+Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace,
+               const trial::TrialOptions& base) {
+  trial::TrialOptions options = base;
   options.seed = seed;
   options.seconds = push_time(setup);
   trial::Trial trial(setup, options);

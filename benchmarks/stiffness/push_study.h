@@ -11,6 +11,7 @@
 
 #include "core/machine/loop_model.h"
 #include "models/setup/scene_file.h"
+#include "trial/trial.h"
 
 namespace enc::bench::stiffness {
 
@@ -48,7 +49,9 @@ struct PushTrace {
                                        const std::vector<std::string>& variant = {});
 // The same with another stiffness of the pushed object, N/m.
 [[nodiscard]] models::Setup with_stiffness(models::Setup setup, double stiffness);
-[[nodiscard]] Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace = nullptr);
+// `base`: with what devices and under which conditions.
+[[nodiscard]] Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace = nullptr,
+                             const trial::TrialOptions& base = {});
 
 // How many of some seeded pushes are unstable, over a grid of stiffnesses. Remembers what it has found.
 class StabilityMap {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "trial/trial.h"
 
 namespace enc::bench::tracking {
 namespace {
@@ -94,8 +93,9 @@ void TravelErrors::add(const TravelErrors& other) {
   packets.insert(packets.end(), other.packets.begin(), other.packets.end());
 }
 
-TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets) {
-  trial::TrialOptions options;
+TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets,
+                        const trial::TrialOptions& base) {
+  trial::TrialOptions options = base;
   options.seed = seed;
   trial::Trial trial(setup, options);
   TravelMeasure measure(trial, keep_packets);

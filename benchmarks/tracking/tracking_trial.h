@@ -9,6 +9,7 @@
 
 #include "benchmarks/tracking/tracking_theory.h"
 #include "models/setup/scene_file.h"
+#include "trial/trial.h"
 
 namespace enc::bench::tracking {
 
@@ -41,8 +42,9 @@ struct TravelErrors {
   void add(const TravelErrors& other);
 };
 
-// Runs the travel of the set-up once.
-[[nodiscard]] TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets);
+// Runs the travel of the set-up once. `base`: with what devices and under which conditions.
+[[nodiscard]] TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets,
+                                      const trial::TrialOptions& base = {});
 
 // What rig, truth and scene of a set-up say to the theory.
 [[nodiscard]] ChainSpec chain_of(const models::Setup& setup);

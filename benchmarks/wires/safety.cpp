@@ -1,0 +1,198 @@
+#include "benchmarks/wires/safety.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+
+namespace enc::bench::wires {
+namespace {
+
+using Kind = Trouble::Kind;
+
+void nothing(WiredTrial&) {}
+
+template <Kind kind>
+void heal_force(WiredTrial& at) {
+  at.wires().box().heal(kind);
+}
+template <Kind kind>
+void heal_tracker(WiredTrial& at) {
+  at.wires().tools().heal(kind);
+}
+
+const std::array kFaults{
+    Fault{"manipulator", "silent", [](WiredTrial& at) { at.wires().machine.silent = true; },
+          [](WiredTrial& at) { at.wires().machine.silent = false; }, End::link_lost, 9, kTipLost},
+    Fault{"manipulator", "closed", [](WiredTrial& at) { at.wires().machine.hung_up = true; },
+          [](WiredTrial& at) { at.wires().machine.hung_up = false; }, End::link_lost, 2, kTipInvalid},
+    Fault{"manipulator", "garbage", [](WiredTrial& at) { at.wires().machine.instead = "?\x7f what\n"; },
+          nothing, End::link_lost, 6, kTipInvalid},
+    Fault{"manipulator", "half a message, then nothing",
+          [](WiredTrial& at) { at.wires().machine.half = true; },
+          [](WiredTrial& at) { at.wires().machine.silent = false; }, End::link_lost, 9, kTipLost},
+    Fault{"manipulator", "a strut fails (error 504)",
+          [](WiredTrial& at) { at.wires().controller().fail(504); },
+          [](WiredTrial& at) {
+            static_cast<void>(at.wires().controller().take("SVO X 1 Y 1 Z 1 U 1 V 1 W 1\n"));
+          },
+          End::link_lost, 6, kTipInvalid},
+    Fault{"manipulator", "stopped by another hand (error 10)",
+          [](WiredTrial& at) { static_cast<void>(at.wires().controller().take("STP\n")); }, nothing,
+          End::link_lost, 6, kTipInvalid},
+    Fault{"force", "silent", [](WiredTrial& at) { at.wires().force_silent = true; },
+          [](WiredTrial& at) { at.wires().force_silent = false; }, End::link_lost, 6, kForceLost},
+    Fault{"force", "saturated", [](WiredTrial& at) { at.wires().box().box().fail(0x80020000); },
+          [](WiredTrial& at) { at.wires().box().box().fail(0); }, End::holds, 2, kForceSaturated},
+    Fault{"force", "reports an error", [](WiredTrial& at) { at.wires().box().box().fail(0x90000000); },
+          [](WiredTrial& at) { at.wires().box().box().fail(0); }, End::holds, 2, kForceInvalid},
+    Fault{"force", "all noise",
+          [](WiredTrial& at) {
+            at.wires().box().suffer({Kind::garbage, 1.0});
+          },
+          heal_force<Kind::garbage>, End::link_lost, 6, kForceLost},
+    Fault{"force", "half messages",
+          [](WiredTrial& at) {
+            at.wires().box().suffer({Kind::half_message, 1.0});
+          },
+          heal_force<Kind::half_message>, End::link_lost, 6, kForceLost},
+    Fault{"force", "5 % lost",
+          [](WiredTrial& at) {
+            at.wires().box().suffer({Kind::loss, 0.05});
+          },
+          heal_force<Kind::loss>, End::unharmed},
+    Fault{"force", "30 % behind the next",
+          [](WiredTrial& at) {
+            at.wires().box().suffer({Kind::reorder, 0.3});
+          },
+          heal_force<Kind::reorder>, End::unharmed},
+    Fault{"force", "half come twice",
+          [](WiredTrial& at) {
+            at.wires().box().suffer({Kind::duplicate, 0.5});
+          },
+          heal_force<Kind::duplicate>, End::unharmed},
+    Fault{"tracker", "silent", [](WiredTrial& at) { at.wires().tracker_silent = true; },
+          [](WiredTrial& at) { at.wires().tracker_silent = false; }, End::link_lost, 101, kToolLost},
+    Fault{"tracker", "all noise",
+          [](WiredTrial& at) {
+            at.wires().tools().suffer({Kind::garbage, 1.0});
+          },
+          heal_tracker<Kind::garbage>, End::link_lost, 101, kToolLost},
+    Fault{"tracker", "half messages",
+          [](WiredTrial& at) {
+            at.wires().tools().suffer({Kind::half_message, 1.0});
+          },
+          heal_tracker<Kind::half_message>, End::link_lost, 101, kToolLost},
+    Fault{"tracker", "20 % lost and 30 % behind the next",
+          [](WiredTrial& at) {
+            at.wires().tools().suffer({Kind::loss, 0.2});
+            at.wires().tools().suffer({Kind::reorder, 0.3});
+          },
+          [](WiredTrial& at) {
+            at.wires().tools().heal(Kind::loss);
+            at.wires().tools().heal(Kind::reorder);
+          },
+          End::unharmed},
+    Fault{"tracker", "half come twice",
+          [](WiredTrial& at) {
+            at.wires().tools().suffer({Kind::duplicate, 0.5});
+          },
+          heal_tracker<Kind::duplicate>, End::unharmed},
+    // From when the loop is back: the machine stands already.
+    Fault{"program", "its loop stands for 100 ms",
+          [](WiredTrial& at) { at.wires().stand(Duration(100'000'000), false); }, nothing, End::holds, 1,
+          kClockLate},
+    Fault{"program", "stopped for 2 s (SIGSTOP)",
+          [](WiredTrial& at) { at.wires().stand(Duration(2'000'000'000), true); }, nothing, End::holds, 1,
+          kClockLate},
+};
+
+constexpr int kInjured = 700, kCured = 500;  // ticks
+constexpr double kStands = 1e-4;             // m/s
+constexpr double kSlack = 1e-4;              // m: steps and noise of a tip that stands
+
+// s: until the stop has gone through the points that the controller has, its dead time and its servo.
+constexpr double kBrakes = 0.060;
+
+}  // namespace
+
+std::span<const Fault> faults() { return kFaults; }
+
+double rest_bound(const Fault& fault, const Reaction& of, double acceleration) {
+  return fault.hold + 1e3 * (kBrakes + of.speed / acceleration);
+}
+
+double way_bound(const Fault& fault, const Reaction& of, double acceleration) {
+  return of.speed * (1e-3 * fault.hold + kBrakes) + 0.5 * of.speed * of.speed / acceleration + kSlack;
+}
+
+std::string wrong_with(const Fault& fault, const Reaction& of, double acceleration) {
+  std::string wrong;
+  const auto say = [&](bool bad, const std::string& what) {
+    if (bad) wrong += (wrong.empty() ? "" : "; ") + what;
+  };
+  if (fault.end == End::unharmed) {
+    say(of.held, "held: " + why_text(of.why));
+    say(!of.linked, "a link was lost");
+    return wrong;
+  }
+  say(!(of.hold <= fault.hold), fmt::format("held after {} ms, at most {}", of.hold, fault.hold));
+  say((of.why & fault.why) == 0, "held for another reason: " + why_text(of.why));
+  const double rest = rest_bound(fault, of, acceleration), way = way_bound(fault, of, acceleration);
+  say(!(of.rest <= rest), fmt::format("at rest after {} ms, at most {:.0f}", of.rest, rest));
+  say(!(of.way <= way), fmt::format("went {:.2f} mm, at most {:.2f}", 1e3 * of.way, 1e3 * way));
+  say(of.linked != (fault.end == End::holds), of.linked ? "the link came back" : "the link is lost");
+  say(of.goes_on != (fault.end == End::holds),
+      of.goes_on ? "it goes on by itself" : "it does not go on: " + of.end);
+  return wrong;
+}
+
+models::Setup short_press(const std::string& models) {
+  return models::load(models + "/scenes/tennis_ball.toml", "fakes",
+                      {"rig.driver.gcs.watchdog_ms=5", "rig.driver.netft.silent_ms=5", "user.press_s=1",
+                       "user.hold_s=0.2", "user.release_s=1", "user.rest_s=0.5", "user.approach_mm_s=[50]"});
+}
+
+Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::uint64_t seed) {
+  trial::TrialOptions options;
+  options.seed = seed;
+  WiredTrial wired(setup, std::move(options));
+  trial::Trial& trial = wired.trial();
+  Reaction of;
+  const auto in = [&](Mode wanted) { return trial.outputs().mode == wanted; };
+  while (wired.tick() && !in(mode)) {
+  }
+  // While it lasts: restoring does so for some ten milliseconds.
+  std::mt19937_64 random(seed);
+  const int most = mode == Mode::contact ? 1500 : mode == Mode::restore ? 5 : 100;
+  const int later = static_cast<int>(random() % static_cast<std::uint64_t>(most));
+  for (int i = 0; i < later && in(mode); ++i)
+    if (!wired.tick()) break;
+  const auto& plant = trial.world().machine->state();
+  of.speed = plant.velocity.norm();
+  const Vec3 first = plant.pose.p();
+  fault.inject(wired);
+  for (int i = 1; i <= kInjured; ++i) {
+    if (!wired.tick()) break;
+    of.held = of.held || in(Mode::hold);
+    if (in(Mode::hold) && std::isinf(of.hold)) {
+      of.hold = i;
+      of.why = trial.outputs().why;
+    }
+    const bool still = plant.velocity.norm() < kStands;
+    if (!still) of.rest = kNever;
+    if (still && std::isinf(of.rest)) of.rest = i;
+    of.way = std::max(of.way, (plant.pose.p() - first).norm());
+  }
+  fault.cure(wired);
+  for (int i = 0; i < kCured && wired.tick(); ++i) of.goes_on = of.goes_on || !in(Mode::hold);
+  of.end = why_text(trial.outputs().why);
+  const Rig& rig = trial.rig();
+  of.linked = rig.manipulator->linked() && rig.force->linked() && rig.tracker->linked();
+  of.simulated = seconds(trial.now().t.time_since_epoch());
+  return of;
+}
+
+}  // namespace enc::bench::wires

@@ -1,0 +1,59 @@
+// Fault x device x mode: what a run comes to, and how soon after the fault was injected. In virtual time; the
+// table of docs/reference/safety.md is this one.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "benchmarks/wires/wired_trial.h"
+#include "core/mode.h"
+
+namespace enc::bench::wires {
+
+// What becomes of a run.
+enum class End : std::uint8_t {
+  unharmed,  // it does not hold
+  holds,     // while the fault lasts, and goes on
+  link_lost  // it holds, and needs a new run
+};
+
+struct Fault {
+  const char *device, *name;
+  void (*inject)(WiredTrial& at);
+  void (*cure)(WiredTrial& at);  // after 0.7 s
+  End end;
+  double hold = 0.0;      // ms after it, at most: held by then
+  std::uint32_t why = 0;  // among the reasons
+};
+[[nodiscard]] std::span<const Fault> faults();
+
+inline constexpr Mode kInjectedIn[] = {Mode::away, Mode::follow, Mode::contact, Mode::restore};
+
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
+
+struct Reaction {
+  double hold = kNever, rest = kNever;  // ms after it; rest: below 0.1 mm/s from then on, for 0.7 s
+  double speed = 0.0;                   // of the tip, m/s, when it was injected
+  double way = 0.0;                     // of the tip from then on, m, for 0.7 s
+  std::uint32_t why = 0;                // of the first hold
+  bool held = false;                    // in the 0.7 s
+  bool linked = true;                   // all, 0.5 s after it was cured
+  bool goes_on = false;                 // was in another mode than hold in those 0.5 s
+  std::string end{};                    // why it holds at the end
+  double simulated = 0.0;               // s
+};
+// Bounds that hold for every cell, from the machine's speed and the rig's acceleration.
+[[nodiscard]] double rest_bound(const Fault& fault, const Reaction& of, double acceleration);  // ms
+[[nodiscard]] double way_bound(const Fault& fault, const Reaction& of, double acceleration);   // m
+// What of it does not hold; empty: all does.
+[[nodiscard]] std::string wrong_with(const Fault& fault, const Reaction& of, double acceleration);
+
+// A short press of the tennis ball on the rig `fakes`, with the times of silence that ship for real devices.
+[[nodiscard]] models::Setup short_press(const std::string& models);
+// Injects it in that mode, at a moment of it by the seed.
+[[nodiscard]] Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::uint64_t seed);
+
+}  // namespace enc::bench::wires

@@ -1,0 +1,166 @@
+#include "hw_drivers/wires/wires.h"
+
+#include <algorithm>
+#include <atomic>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "core/world/scene.h"
+#include "hw_drivers/igtl/drive/udp_tracker.h"
+#include "hw_drivers/netft/drive/netft_sensor.h"
+
+namespace enc::wires {
+namespace {
+
+// A driver's table with the ports of a fake that has taken any.
+class Ported final : public Settings {
+ public:
+  Ported(Settings& table, std::int64_t port, std::int64_t http_port = 0)
+      : table_(table), port_(port), http_port_(http_port) {}
+  void value(const Setting& key, double& number) override { table_.value(key, number); }
+  void value(const Setting& key, std::int64_t& whole) override {
+    table_.value(key, whole);
+    if (key.name == "port") whole = port_;
+    if (key.name == "http_port") whole = http_port_;
+    if (key.name == "command_port") whole = 0;
+  }
+  void value(const Setting& key, std::string& text) override {
+    table_.value(key, text);
+    if (key.name == "address") text = "127.0.0.1";
+  }
+  void value(const Setting& key, std::vector<double>& numbers) override { table_.value(key, numbers); }
+
+ private:
+  Settings& table_;
+  std::int64_t port_, http_port_;
+};
+
+// Answers while a driver asks in its constructor. Time stands.
+class Answering {
+ public:
+  explicit Answering(Fake& fake)
+      : thread_([this, &fake] {
+          while (!end_) {
+            fake.serve(Time{});
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+          }
+        }) {}
+  ~Answering() { end_ = true; }
+  Answering(const Answering&) = delete;
+  Answering& operator=(const Answering&) = delete;
+
+ private:
+  std::atomic<bool> end_ = false;
+  std::jthread thread_;
+};
+
+}  // namespace
+
+class Wires::Link final : public gcs::Link {
+ public:
+  explicit Link(Wires& of) : of_(of) {}
+  std::size_t send(std::string_view bytes) noexcept override {
+    if (closed()) return 0;
+    std::string answers(of_.controller_->take(bytes));
+    Spoilt& spoilt = of_.machine;
+    if (!spoilt.instead.empty() && !answers.empty()) answers = std::exchange(spoilt.instead, {});
+    if (spoilt.half && !answers.empty()) {
+      answers.resize(answers.size() / 2);
+      spoilt.half = false;
+      spoilt.silent = true;
+      answers_ += answers;
+    } else if (!spoilt.silent) {
+      answers_ += answers;
+    }
+    return bytes.size();
+  }
+  std::size_t receive(std::span<char> into) noexcept override {
+    const std::size_t size = std::min(into.size(), answers_.size());
+    std::copy_n(answers_.begin(), size, into.begin());
+    answers_.erase(0, size);
+    return size;
+  }
+  [[nodiscard]] bool closed() const noexcept override { return of_.machine.hung_up; }
+  void wait(Duration) noexcept override {}
+  [[nodiscard]] Duration now() const noexcept override { return of_.now_.time_since_epoch(); }
+
+ private:
+  Wires& of_;
+  std::string answers_;
+};
+
+// The rig's own, and what is behind the wires goes on with it.
+class Wires::Clock final : public enc::Clock {
+ public:
+  Clock(Wires& of, std::unique_ptr<enc::Clock> clock) : of_(of), clock_(std::move(clock)) {}
+  Tick next() override {
+    missed_ = 0;
+    Tick tick = clock_->next();
+    of_.pass(tick.t);
+    for (const Time until = tick.t + std::exchange(of_.standing_, {}); tick.t < until; ++missed_) {
+      if (of_.driver_ != nullptr && !of_.process_stands_) static_cast<void>(of_.driver_->turn());
+      tick = clock_->next();
+      of_.pass(tick.t);
+    }
+    return tick;
+  }
+  [[nodiscard]] std::int64_t missed() const noexcept override { return missed_; }
+
+ private:
+  Wires& of_;
+  std::unique_ptr<enc::Clock> clock_;
+  std::int64_t missed_ = 0;
+};
+
+Wires::~Wires() = default;
+
+void Wires::fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::span<const std::string> tools,
+                    Log& log, Which which) {
+  const Reach reach = reach_of(spec);
+  const auto offer = [&](Settings& table) {
+    return Offer{table, spec, reach, from_seconds(1.0 / spec.loop.rate), log, true, false, tools};
+  };
+  if (which.machine && rig.manipulator) {
+    twin_.manipulator = std::move(rig.manipulator);
+    gcs::ControllerSettings controller;
+    controller.velocity = reach.speed;
+    controller_ = std::make_unique<gcs::Controller>(*twin_.manipulator, controller);
+    controller_->cycle(now_);
+    gcs::GcsSettings settings;
+    settings.declare(tables.gcs);
+    auto driver = std::make_unique<gcs::GcsManipulator>(offer(tables.gcs), settings,
+                                                        std::make_unique<Link>(*this), gcs::Turns::called);
+    driver_ = driver.get();
+    rig.manipulator = std::move(driver);
+  }
+  if (which.force && rig.force) {
+    twin_.force = std::move(rig.force);
+    box_ = std::make_unique<netft::Server>(*twin_.force, netft::gamma(), "127.0.0.1", netft::Ports{}, seed_);
+    const Answering answering(*box_);
+    Ported table(tables.netft, box_->port(), box_->http_port());
+    rig.force = netft::streaming(offer(table));
+  }
+  if (which.tracker && rig.tracker) {
+    twin_.tracker = std::move(rig.tracker);
+    std::vector<std::string> devices;
+    for (const std::string& tool : tools) devices.push_back(tool + "ToTracker");
+    tools_ = std::make_unique<igtl::ToolServer>(*twin_.tracker, devices, "127.0.0.1", std::uint16_t{0},
+                                                igtl::kServerPeriod, seed_ + 1);
+    const Answering answering(*tools_);
+    Ported table(tables.igtl, tools_->port());
+    rig.tracker = igtl::subscribed(offer(table));
+  }
+  rig.clock = std::make_unique<Clock>(*this, std::move(rig.clock));
+}
+
+void Wires::pass(Time now) {
+  now_ = now;
+  if (controller_) controller_->cycle(now);
+  if (box_) box_->serve(now);
+  if (box_ && !force_silent) box_->publish(now);
+  if (tools_) tools_->serve(now);
+  if (tools_ && !tracker_silent) tools_->publish(now);
+}
+
+}  // namespace enc::wires
