@@ -155,6 +155,22 @@ setup_pipython() {
   rm -rf "$work"
 }
 
+# pynetft, a foreign client of the Net F/T, for tests, which are skipped without it. Nothing else reads it. It is a library
+# for one version of Python, Debian's 3.11, and one kind of processor: where it does not load, it is not kept.
+setup_pynetft() {
+  local home=$root/.deps/pynetft version=2.1.3 work=$root/.deps/unpacked
+  [[ ! -d $home ]] || return 0
+  doing="fetching pynetft"
+  say "fetching pynetft $version (0.5 MB)"
+  rm -rf "$home.part"
+  if fetch_wheel "pynetft==$version" 8b38a2e9b0dc7fbbbe63c21b9fb29258d4d62e29997fb5dfcaff9f05e61203a9 "$work" \
+    --python-version 3.11 --platform manylinux2014_x86_64 &&
+    logged /usr/bin/python3 -m zipfile -e "$work"/*.whl "$home.part" &&
+    logged env PYTHONPATH="$home.part" /usr/bin/python3 -B -c 'import pynetft'; then mv "$home.part" "$home"
+  else say "pynetft could not be fetched or does not load here; its tests are skipped"; fi
+  rm -rf "$work" "$home.part"
+}
+
 # CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.
 yardstick() {
   local LC_ALL=C TIMEFORMAT='%U %S' user system
