@@ -37,6 +37,10 @@ std::string bounds(const Figure& f) {
   return std::isfinite(f.low) ? fmt::format(" at least {:.4g}", f.low) : "";
 }
 
+std::string value(const Figure& f) {
+  return std::isnan(f.twin) ? std::string("absent") : fmt::format("{:.4g}", f.twin);
+}
+
 // The words that were given, for the report: whoever repeats them gets its figures.
 std::string command_of(const trial::BenchOptions& options) {
   std::string text = "./encounter bench";
@@ -211,7 +215,7 @@ class Session {
     for (const Figure& f : result.figures) {
       if (!wanted(choice, f)) continue;
       if (!f.ok()) fell_short_.push_back(f.id);
-      fmt::print("  {:34} {:10.4g} {:5}{}{}{}\n", f.id, f.twin, f.unit,
+      fmt::print("  {:34} {:>10} {:5}{}{}{}\n", f.id, value(f), f.unit,
                  std::isfinite(f.paper) ? fmt::format(" (paper {:.4g}, {})", f.paper, role_name(f.role)) : "",
                  bounds(f), f.ok() ? "" : "  OUT OF BOUNDS");
     }

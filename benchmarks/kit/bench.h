@@ -29,6 +29,7 @@ struct Figure {
   double low = kUnset, high = kUnset;  // bounds, both sides; unset: none
   std::string note;
   double least = kUnset, most = kUnset;  // over seeds or repeats, where there are several
+  bool absent = false;  // nobody can know it here, such as the truth of a real machine: nothing to hold
   [[nodiscard]] bool ok() const;
 };
 

@@ -49,6 +49,11 @@ void Bench::figure(const std::string& id, const Value& twin, const char* unit, c
                             bounds.high, std::move(note), twin.least, twin.most});
 }
 
+void Bench::absent(const std::string& id, const char* unit, std::string note) {
+  figure(id, kUnset, unit, std::move(note));
+  result.figures.back().absent = true;
+}
+
 void Bench::plot(Plot plot) {
   plot.id = result.name + "." + plot.id;
   result.plots.push_back(std::move(plot));
