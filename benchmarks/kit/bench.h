@@ -71,6 +71,10 @@ struct BenchContext {
   std::function<void(double)> progress;  // share done; any thread may call it
   // Loads a module of the program by name; null where it was not built.
   std::function<const ModuleInfo*(const std::string&)> module{};
+  // Over the devices of a rig (over_rig.h); empty: in the twin.
+  std::string rig{};
+  bool armed = false, lockstep = false, fakes = false;
+  std::function<bool()> stop{};  // asked by whatever runs there: true ends it
   // How many seeds or laps: what the user says, else the benchmark's own.
   [[nodiscard]] std::size_t count(std::size_t own, std::size_t if_quick) const {
     if (repeats > 0) return static_cast<std::size_t>(repeats);
