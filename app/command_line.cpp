@@ -49,6 +49,14 @@ void scene_options(CLI::App* command, SceneOptions& options) {
       ->check(bad_seed);
 }
 
+void device_options(CLI::App* command, bool& armed, bool& lockstep) {
+  command->add_flag("--armed", armed,
+                    "send commands to real devices; without it they are only computed and recorded");
+  command->add_flag("--lockstep", lockstep,
+                    "the devices are those of `encounter fake --lockstep`, whose time goes on with each "
+                    "set-point: as fast as it goes, and the same in every run");
+}
+
 int dispatch(CLI::App& app, int argc, char** argv) {
   int code = 0;
   RunOptions run_options;
@@ -67,11 +75,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
                    "keep what the scene's camera sees in this new folder, as PNG images")
       ->check(unnamed);
   run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
-  run_command->add_flag("--armed", run_options.armed,
-                        "send commands to real devices; without it they are only computed and recorded");
-  run_command->add_flag("--lockstep", run_options.lockstep,
-                        "the devices are those of `encounter fake --lockstep`, whose time goes on with each "
-                        "set-point: as fast as it goes, and the same in every run");
+  device_options(run_command, run_options.armed, run_options.lockstep);
   force_option(run_command, run_options.force);
   run_command->callback([&] { code = run(run_options); });
 
@@ -206,6 +210,14 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   bench_command->add_flag("--quick", bench_options.quick, "fewer repeats; all of them in about a minute");
   bench_command->add_flag("--full", bench_options.full,
                           "also what takes minutes: what each part does, error against run time");
+  bench_command
+      ->add_option("--rig", bench_options.rig,
+                   "measure over the devices of this rig in place of the twin: a name in models/rigs, or a "
+                   "file; tracking and stiffness can")
+      ->check(unnamed);
+  device_options(bench_command, bench_options.armed, bench_options.lockstep);
+  bench_command->add_flag("--fakes", bench_options.fakes,
+                          "`encounter fake` stands in for the devices of --rig; it is begun and ended here");
   bench_command->add_flag("--list", bench_options.list, "only print the benchmarks and what they show");
   force_option(bench_command, bench_options.force);
   bench_command->callback([&] { code = bench(bench_options); });

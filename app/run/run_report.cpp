@@ -281,7 +281,7 @@ std::string counted(std::int64_t count, const char* what) {
 
 // What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
 std::string pushed_lines(const RunReport& r) {
-  if (!r.setup.scene.pusher) return "";
+  if (!r.setup.scene.pusher || !r.measured.felt.truth) return "";
   const auto& pushes = r.measured.presses.presses();
   return fmt::format("pushed      {} of {} times from outside; at most {:.2f} N and {:.3f} mm deep (true)\n",
                      pushes.size(), r.setup.scene.pusher->repeats,

@@ -37,6 +37,10 @@ std::string bounds(const Figure& f) {
   return std::isfinite(f.low) ? fmt::format(" at least {:.4g}", f.low) : "";
 }
 
+std::string value(const Figure& f) {
+  return std::isnan(f.twin) ? std::string("absent") : fmt::format("{:.4g}", f.twin);
+}
+
 // The words that were given, for the report: whoever repeats them gets its figures.
 std::string command_of(const trial::BenchOptions& options) {
   std::string text = "./encounter bench";
@@ -45,6 +49,10 @@ std::string command_of(const trial::BenchOptions& options) {
   if (options.full) text += " --full";
   if (options.seed != 1) text += fmt::format(" --seed {}", options.seed);
   if (options.repeats != 0) text += fmt::format(" --repeats {}", options.repeats);
+  if (!options.rig.empty()) text += " --rig " + options.rig;
+  if (options.armed) text += " --armed";
+  if (options.lockstep) text += " --lockstep";
+  if (options.fakes) text += " --fakes";
   for (const std::string& set : options.set) text += " --set '" + set + "'";
   return text;
 }
@@ -134,6 +142,7 @@ void check_folder(const std::string& path, bool force) {
 
 std::vector<Choice> choices_of(const trial::BenchOptions& options) {
   std::vector<Choice> all = chosen(options.names);
+  if (!options.rig.empty()) all = over_devices(std::move(all), !options.names.empty());
   if (options.set.empty()) return all;
   std::vector<std::string> left;
   all = settable(std::move(all), !options.names.empty(), models::models_dir(""), left);
@@ -164,6 +173,11 @@ class Session {
     context_.full = options.full;
     context_.set = options.set;
     context_.module = modules;
+    context_.rig = options.rig;
+    context_.armed = options.armed;
+    context_.lockstep = options.lockstep;
+    context_.fakes = options.fakes;
+    context_.stop = [this] { return stopping_.load(); };
     context_.progress = [this](double share) { share_ = share; };
   }
 
@@ -194,14 +208,25 @@ class Session {
     const WallClock::time_point start = WallClock::now();
     std::future<BenchResult> work =
         std::async(std::launch::async, [&] { return result_of(benchmark, context_); });
-    while (work.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-      if (const int signal = signals_.came(); signal > 0) stop(signal);
+    while (work.wait_for(kTurn) != std::future_status::ready) {
+      if (const int signal = signals_.came(); signal > 0) {
+        let_go(work);
+        stop(signal);
+      }
       teller.tell(share_);
     }
     BenchResult result = work.get();
     result.run_time = since(start);
     teller.end();
     return result;
+  }
+
+  // A machine that moves is stopped by its run, and fakes are ended; a second signal does not wait for that.
+  void let_go(const std::future<BenchResult>& work) {
+    stopping_ = true;
+    while (!options_.rig.empty() && work.wait_for(kTurn) != std::future_status::ready &&
+           signals_.came() <= 0) {
+    }
   }
 
   void print(const Choice& choice, const BenchResult& result) {
@@ -211,7 +236,7 @@ class Session {
     for (const Figure& f : result.figures) {
       if (!wanted(choice, f)) continue;
       if (!f.ok()) fell_short_.push_back(f.id);
-      fmt::print("  {:34} {:10.4g} {:5}{}{}{}\n", f.id, f.twin, f.unit,
+      fmt::print("  {:34} {:>10} {:5}{}{}{}\n", f.id, value(f), f.unit,
                  std::isfinite(f.paper) ? fmt::format(" (paper {:.4g}, {})", f.paper, role_name(f.role)) : "",
                  bounds(f), f.ok() ? "" : "  OUT OF BOUNDS");
     }
@@ -243,6 +268,8 @@ class Session {
     _exit(128 + signal);
   }
 
+  static constexpr std::chrono::milliseconds kTurn{50};
+
   const trial::BenchOptions& options_;
   const std::vector<Choice> choices_;
   std::optional<models::OutFolder> folder_;
@@ -250,6 +277,7 @@ class Session {
   Report report_;
   BenchContext context_;
   std::atomic<double> share_{0.0};
+  std::atomic<bool> stopping_{false};
   std::vector<std::string> fell_short_;  // ids
 };
 
@@ -269,6 +297,11 @@ int bench_command(const trial::BenchOptions& options, const trial::ModuleFinder&
   if (options.list) return list_benchmarks();
   if (options.repeats < 0 || options.repeats > 1'000'000)
     throw Error("--repeats: expected a whole number from 1 to 1000000");
+  for (const auto& [given, name] :
+       {std::pair{options.armed, "--armed"}, {options.lockstep, "--lockstep"}, {options.fakes, "--fakes"}})
+    if (given && options.rig.empty())
+      throw Error(fmt::format(
+          "{}: it is of the devices of a rig; expected --rig, too; name one, or leave it out", name));
   if (options.quick && options.full) throw Error("--quick and --full exclude each other; give one of them");
   return Session(options, modules).run();
 }

@@ -29,6 +29,7 @@ struct Figure {
   double low = kUnset, high = kUnset;  // bounds, both sides; unset: none
   std::string note;
   double least = kUnset, most = kUnset;  // over seeds or repeats, where there are several
+  bool absent = false;  // nobody can know it here, such as the truth of a real machine: nothing to hold
   [[nodiscard]] bool ok() const;
 };
 
@@ -70,6 +71,10 @@ struct BenchContext {
   std::function<void(double)> progress;  // share done; any thread may call it
   // Loads a module of the program by name; null where it was not built.
   std::function<const ModuleInfo*(const std::string&)> module{};
+  // Over the devices of a rig (over_rig.h); empty: in the twin.
+  std::string rig{};
+  bool armed = false, lockstep = false, fakes = false;
+  std::function<bool()> stop{};  // asked by whatever runs there: true ends it
   // How many seeds or laps: what the user says, else the benchmark's own.
   [[nodiscard]] std::size_t count(std::size_t own, std::size_t if_quick) const {
     if (repeats > 0) return static_cast<std::size_t>(repeats);

@@ -4,12 +4,18 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <string_view>
+#include <thread>
 
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "core/error.h"
 
 namespace enc::bench {
 namespace {
@@ -28,11 +34,11 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
   [[nodiscard]] int fd() const { return fd_; }
+  // So far: who writes has the same place in it, and that stays.
   [[nodiscard]] std::string text() const {
     std::string all;
     std::array<char, 65536> buffer;
-    lseek(fd_, 0, SEEK_SET);
-    for (ssize_t n = 0; (n = read(fd_, buffer.data(), buffer.size())) > 0;)
+    for (ssize_t n = 0; (n = pread(fd_, buffer.data(), buffer.size(), static_cast<off_t>(all.size()))) > 0;)
       all.append(buffer.data(), static_cast<std::size_t>(n));
     return all;
   }
@@ -62,6 +68,43 @@ struct Spawn {
   Spawn& operator=(const Spawn&) = delete;
 };
 
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> list;
+  list.reserve(words.size() + 1);
+  for (std::string& word : words) list.push_back(word.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+// Between fork() and the program: nothing that allocates or locks.
+[[noreturn]] void become(char* const* words, int in, int out, int err, pid_t parent) {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(127);  // who would have ended us has gone
+  dup2(in, STDIN_FILENO);
+  dup2(out, STDOUT_FILENO);
+  dup2(err, STDERR_FILENO);
+  execv(words[0], words);
+  _exit(127);
+}
+
+// "encounter fake"
+std::string short_name(const std::vector<std::string>& words) {
+  const std::string& file = words.front();
+  return file.substr(file.rfind('/') + 1) + (words.size() > 1 ? " " + words[1] : "");
+}
+
+// The first line of what it said, without its own name before it.
+std::string why_ended(const std::string& said) {
+  constexpr std::string_view kName = "encounter: ";
+  const std::string line = said.substr(0, said.find('\n'));
+  if (line.empty()) return "it ended before it had begun";
+  return line.starts_with(kName) ? line.substr(kName.size()) : line;
+}
+
 double seconds_of(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
@@ -74,10 +117,7 @@ Child run_child(std::vector<std::string> words, const std::string& input) {
   posix_spawn_file_actions_adddup2(&spawn.files, in.fd(), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&spawn.files, out.fd(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&spawn.files, err.fd(), STDERR_FILENO);
-  std::vector<char*> list;
-  list.reserve(words.size() + 1);
-  for (std::string& word : words) list.push_back(word.data());
-  list.push_back(nullptr);
+  const std::vector<char*> list = pointers_to(words);
   Child child;
   pid_t pid = 0;
   const auto start = std::chrono::steady_clock::now();
@@ -94,6 +134,48 @@ Child run_child(std::vector<std::string> words, const std::string& input) {
   child.out = out.text();
   child.err = err.text();
   return child;
+}
+
+Companion::Companion(std::vector<std::string> words, const std::string& ready, double longest) {
+  using Steady = std::chrono::steady_clock;
+  const MemoryFile in, out, err;
+  const std::string name = short_name(words);
+  const std::vector<char*> list = pointers_to(words);
+  const pid_t parent = getpid();
+  child_ = fork();
+  if (child_ == 0) become(list.data(), in.fd(), out.fd(), err.fd(), parent);
+  if (child_ < 0) throw Error(name + ": could not be started: there is no room for another process");
+  const auto until = Steady::now() + std::chrono::duration<double>(longest);
+  while (out.text().find(ready) == std::string::npos) {
+    int status = 0;
+    if (waitpid(child_, &status, WNOHANG) == child_) {
+      child_ = -1;
+      const bool device = WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ErrorKind::device);
+      throw Error(name + ": " + why_ended(err.text()), {}, device ? ErrorKind::device : ErrorKind::input);
+    }
+    if (Steady::now() > until) {
+      end();
+      throw Error(fmt::format("{}: was silent for {:g} s", name, longest), {}, ErrorKind::device);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+Companion::~Companion() { end(); }
+
+void Companion::end() {
+  if (child_ < 0) return;
+  kill(child_, SIGTERM);
+  bool ended = false;
+  for (int i = 0; i < 1000 && !ended; ++i) {
+    ended = waitpid(child_, nullptr, WNOHANG) != 0;
+    if (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  if (!ended) {
+    kill(child_, SIGKILL);
+    waitpid(child_, nullptr, 0);
+  }
+  child_ = -1;
 }
 
 }  // namespace enc::bench

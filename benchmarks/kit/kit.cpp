@@ -15,8 +15,9 @@ std::vector<Benchmark>& table() {
 
 }  // namespace
 
-Entry::Entry(const char* name, const char* scene, const char* what, void (*run)(Bench&)) {
-  table().push_back({name, scene, what, run});
+Entry::Entry(const char* name, const char* scene, const char* what, void (*run)(Bench&),
+             void (*over_rig)(Bench&)) {
+  table().push_back({name, scene, what, run, over_rig});
   std::sort(table().begin(), table().end(), [](const Benchmark& a, const Benchmark& b) {
     return std::string_view(a.name) < std::string_view(b.name);
   });
@@ -26,7 +27,7 @@ std::span<const Benchmark> benchmarks() { return table(); }
 
 BenchResult result_of(const Benchmark& benchmark, const BenchContext& context) {
   Bench bench(benchmark, context);
-  benchmark.run(bench);
+  (context.rig.empty() ? benchmark.run : benchmark.over_rig)(bench);
   return std::move(bench.result);
 }
 
@@ -47,6 +48,11 @@ void Bench::figure(const std::string& id, const Value& twin, const char* unit, c
                    Bounds bounds, std::string note) {
   result.figures.push_back({result.name + "." + id, paper.value, twin.middle, unit, paper.role, bounds.low,
                             bounds.high, std::move(note), twin.least, twin.most});
+}
+
+void Bench::absent(const std::string& id, const char* unit, std::string note) {
+  figure(id, kUnset, unit, std::move(note));
+  result.figures.back().absent = true;
 }
 
 void Bench::plot(Plot plot) {

@@ -87,6 +87,8 @@ class Bench {
               std::string note = {});
   void figure(const std::string& id, const Value& twin, const char* unit, const Paper& paper, Bounds bounds,
               std::string note = {});
+  // What only the simulator's truth says, where nobody knows that.
+  void absent(const std::string& id, const char* unit, std::string note);
   void plot(Plot plot);
   void table(Table table);
   void picture(Picture picture);

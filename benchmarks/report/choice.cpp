@@ -96,6 +96,20 @@ std::vector<Choice> settable(std::vector<Choice> choices, bool named, const std:
   return choices;
 }
 
+std::vector<Choice> over_devices(std::vector<Choice> choices, bool named) {
+  std::vector<std::string> can, cannot;
+  for (const Benchmark& b : benchmarks())
+    if (b.over_rig != nullptr) can.emplace_back(b.name);
+  for (const Choice& choice : choices)
+    if (choice.benchmark->over_rig == nullptr) cannot.emplace_back(choice.benchmark->name);
+  if (named && !cannot.empty())
+    throw Error(
+        fmt::format("--rig: {} measure{} in the twin alone; expected {}; leave out --rig or the others",
+                    fmt::join(cannot, ", "), cannot.size() == 1 ? "s" : "", fmt::join(can, " or ")));
+  std::erase_if(choices, [](const Choice& choice) { return choice.benchmark->over_rig == nullptr; });
+  return choices;
+}
+
 bool wanted(const Choice& choice, const Figure& figure) {
   return choice.ids.empty() || std::any_of(choice.ids.begin(), choice.ids.end(),
                                            [&](const std::string& id) { return begins(figure.id, id); });

@@ -26,6 +26,9 @@ struct Choice {
 // is refused where it was named (throws Error) and left out of all; `left` has their names.
 [[nodiscard]] std::vector<Choice> settable(std::vector<Choice> choices, bool named, const std::string& models,
                                            std::vector<std::string>& left);
+// For --rig: those that can be measured over devices, likewise; the others are left out of all without a
+// word.
+[[nodiscard]] std::vector<Choice> over_devices(std::vector<Choice> choices, bool named);
 [[nodiscard]] bool wanted(const Choice& choice, const Figure& figure);
 // Only a run knows the ids. Throws Error, with the nearest one, where an id was named that there is not.
 void check_ids(const Choice& choice, const BenchResult& result);

@@ -17,6 +17,12 @@ namespace {
 
 std::string cell(double x) { return std::isfinite(x) ? fmt::format("{:.4g}", x) : ""; }
 
+// What was measured. Without a value, the column "holds" says whether there should have been one.
+std::string twin_cell(const Figure& f) {
+  if (std::isnan(f.twin)) return "absent";
+  return std::isfinite(f.twin) ? cell(f.twin) : "none";
+}
+
 // "0.2 .. 0.5", "at most 0.5", "at least 0.2"
 std::string range(double low, double high) {
   if (std::isfinite(low) && std::isfinite(high)) return cell(low) + " .. " + cell(high);
@@ -135,11 +141,14 @@ Table figure_table(const BenchResult& result) {
   for (const Figure& f : result.figures) {
     const double difference = f.twin - f.paper;
     const double percent = f.paper != 0.0 ? 100.0 * difference / std::abs(f.paper) : kUnset;
-    table.rows.push_back({f.id, cell(f.paper), std::isfinite(f.twin) ? cell(f.twin) : "none",
+    table.rows.push_back({f.id, cell(f.paper), twin_cell(f),
                           std::isfinite(difference) ? fmt::format("{:+.3g}", difference) : "",
                           std::isfinite(percent) ? fmt::format("{:+.1f}", percent) : "",
                           range(f.least, f.most), f.unit, role_name(f.role), range(f.low, f.high),
-                          f.ok() ? "yes" : "NO", f.note});
+                          f.absent ? ""
+                          : f.ok() ? "yes"
+                                   : "NO",
+                          f.note});
   }
   table.note =
       fmt::format("Scene {}; {}{:.2f} s.{}", result.scene,
@@ -159,7 +168,7 @@ Table role_table(const Report& report) {
       for (const Figure& f : result.figures) {
         if (f.role != role) continue;
         ++figures;
-        hold += f.ok() ? 1 : 0;
+        hold += f.ok() && !f.absent ? 1 : 0;
         if (role != Role::ours) ids.push_back(f.id);
       }
     table.rows.push_back({role_name(role), std::to_string(figures), std::to_string(hold),

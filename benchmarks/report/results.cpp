@@ -99,6 +99,7 @@ Machine this_machine() {
 }
 
 bool Figure::ok() const {
+  if (absent) return true;
   if (!std::isfinite(twin)) return false;
   return !(std::isfinite(low) && twin < low) && !(std::isfinite(high) && twin > high);
 }

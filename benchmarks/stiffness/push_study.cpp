@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "benchmarks/kit/over_rig.h"
 #include "benchmarks/kit/parallel.h"
 #include "core/task/walk.h"
 
@@ -22,27 +23,34 @@ std::span<const double> last(const std::vector<double>& signal, double share) {
 }
 
 // Signals of the hold. Displacements are from where the tip rests unloaded at the surface, m; forces press,
-// N.
+// N. What needs the truth is empty where nobody knows it.
 struct Hold {
   std::vector<double> force, zero_error, displacement, true_displacement;
 };
 
 class Observer {
  public:
-  Observer(const Scene& scene, const sim::World& world, const models::Setup& setup)
+  // `world`: where every device is its view; null: only what the core is told can be asked for.
+  Observer(const Scene& scene, const sim::World* world, const models::Setup& setup)
       : scene_(scene), world_(world), setup_(setup), at_(pushed_point(setup.scene, scene).at) {}
 
   [[nodiscard]] double true_displacement() const {
     // Where the machine stands wrong, its rest is wrong by as much.
-    const Pose<'W', 'R'>& X_WR = world_.X_WR();
+    const Pose<'W', 'R'>& X_WR = world_->X_WR();
     const Vec3 rest = X_WR.q() * (scene_.X_WR.inverse() * rest_point()).e() + X_WR.p();
-    return at_.normal.e().dot(rest - world_.truth().tip.e());
+    return at_.normal.e().dot(rest - world_->truth().tip.e());
+  }
+  [[nodiscard]] bool held(Time now) const {
+    if (world_ == nullptr)
+      return part_at(*setup_.scene.pusher, seconds(now.time_since_epoch())) == PushPart::hold;
+    return world_->truth().phase == sim::Phase::hold && world_->truth().press == 0;
   }
   void see(const Inputs& in, const Outputs& out, const State& state, Hold& hold) const {
     const Pose<'W', 'H'> X_WH = scene_.X_WR * in.tip.value.X_RH;
     hold.force.push_back(-dot(out.felt, at_.normal));
-    hold.zero_error.push_back(-dot(zero_error(X_WH, state), at_.normal));
     hold.displacement.push_back(dot(rest_point() - X_WH.origin(), at_.normal));
+    if (world_ == nullptr) return;
+    hold.zero_error.push_back(-dot(zero_error(X_WH, state), at_.normal));
     hold.true_displacement.push_back(true_displacement());
   }
 
@@ -55,12 +63,12 @@ class Observer {
   [[nodiscard]] Vec<'W'> zero_error(const Pose<'W', 'H'>& X_WH, const State& state) const {
     const Pose<'W', 'F'> X_WF = X_WH * scene_.X_HF;
     const double unknown = setup_.twin.hexapod.mass - scene_.force.mass;
-    return X_WF * (world_.force->zero() - recall<Commanded>(state).force_zero) +
+    return X_WF * (world_->force->zero() - recall<Commanded>(state).force_zero) +
            Vec<'W'>(0, 0, -unknown * kGravity);
   }
 
   const Scene& scene_;
-  const sim::World& world_;
+  const sim::World* world_;
   const models::Setup& setup_;
   PressPoint at_;
 };
@@ -79,12 +87,14 @@ Push judged(const Hold& hold, double stiffness, double dt) {
   const double x = steady_mean(steady(hold.displacement));
   push.force = steady_mean(steady(hold.force));
   push.measured = push.force / x;
-  push.load =
-      (push.force - steady_mean(steady(hold.zero_error))) / steady_mean(steady(hold.true_displacement));
   push.reading = hold.force.back() / hold.displacement.back();
-  push.peak_to_peak = peak_to_peak(last(hold.true_displacement, kWatched));
+  push.way = peak_to_peak(last(hold.displacement, kWatched));
   push.force_noise = deviation(steady(hold.force), push.force);
   push.frequency = strongest_frequency(steady(hold.force), dt);
+  if (hold.true_displacement.empty()) return push;
+  push.load =
+      (push.force - steady_mean(steady(hold.zero_error))) / steady_mean(steady(hold.true_displacement));
+  push.peak_to_peak = peak_to_peak(last(hold.true_displacement, kWatched));
   return push;
 }
 
@@ -141,15 +151,24 @@ models::Setup push_setup(const std::string& models, const std::vector<std::strin
 }
 
 models::Setup with_stiffness(models::Setup setup, double stiffness) {
-  const std::string& name = setup.scene.pusher->object;
-  const auto object = std::find_if(setup.scene.objects.begin(), setup.scene.objects.end(),
-                                   [&](const ObjectSpec& o) { return name.empty() || o.name == name; });
-  for (BehaviourSpec& b : setup.scene.behaviours) {
-    if (b.name != object->behaviour) continue;
-    b.stiffness = stiffness;
-    b.curves.press = b.curves.release = {stiffness, 0, 0, 0};
-  }
+  BehaviourSpec& b = setup.scene.behaviours[pushed_behaviour(setup.scene)];
+  b.stiffness = stiffness;
+  b.curves.press = b.curves.release = {stiffness, 0, 0, 0};
   return setup;
+}
+
+std::size_t pushed_behaviour(const SceneSpec& scene) {
+  const std::string& name = scene.pusher->object;
+  const auto object = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                   [&](const ObjectSpec& o) { return name.empty() || o.name == name; });
+  const auto behaviour = std::find_if(scene.behaviours.begin(), scene.behaviours.end(),
+                                      [&](const BehaviourSpec& b) { return b.name == object->behaviour; });
+  return static_cast<std::size_t>(behaviour - scene.behaviours.begin());
+}
+
+PushPart part_at(const PusherSpec& pusher, double t) {
+  if (t < pusher.rest_time) return PushPart::rest;
+  return t < pusher.rest_time + pusher.ramp_time ? PushPart::ramp : PushPart::hold;
 }
 
 double push_time(const models::Setup& setup) {
@@ -163,17 +182,17 @@ Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace,
   options.seed = seed;
   options.seconds = push_time(setup);
   trial::Trial trial(setup, options);
-  const Observer observer(trial.scene(), trial.world(), setup);
+  const bool known = !options.drivers || !trial::slots_of(setup).real;
+  const Observer observer(trial.scene(), known ? &trial.world() : nullptr, setup);
   Hold hold;
   while (trial.tick()) {
-    const sim::Truth& truth = trial.world().truth();
-    if (trace != nullptr) {
-      trace->time.push_back(seconds(truth.t.time_since_epoch()));
+    if (trace != nullptr && known) {
+      trace->time.push_back(seconds(trial.truth().t.time_since_epoch()));
       trace->deflection.push_back(observer.true_displacement());
     }
-    if (truth.phase == sim::Phase::hold && truth.press == 0)
-      observer.see(trial.inputs(), trial.outputs(), trial.state(), hold);
+    if (observer.held(trial.now().t)) observer.see(trial.inputs(), trial.outputs(), trial.state(), hold);
   }
+  check_ended(trial);
   return judged(hold, setup.scene.behaviours.front().stiffness, trial.scene().dt);
 }
 

@@ -1,5 +1,6 @@
 // The experiment of [VHMR Fig 3]: the machine renders a spring, something pushes into it from outside and
-// waits. What stiffness is felt, and does the machine come to rest? One push is one whole run.
+// waits. What stiffness is felt, and does the machine come to rest? One push is one whole run, in the twin or
+// over devices.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +26,7 @@ inline constexpr double kWander = 1e-3;
 // Mean under a raised cosine: what still swings does not depend on where the window cuts it.
 [[nodiscard]] double steady_mean(std::span<const double> signal);
 
+// What needs the truth is unset where nobody knows it.
 struct Push {
   double stiffness = kUnset;  // N/m, commanded
   double measured = kUnset;   // N/m, the paper's way: measured force over measured displacement
@@ -32,6 +34,7 @@ struct Push {
   double reading = kUnset;    // N/m: measured, from the last single reading
   double force = kUnset;      // N, measured
   double peak_to_peak = kUnset;  // m, of the true tip
+  double way = kUnset;           // m, the same of where the machine says it is
   double force_noise = kUnset;   // N rms, of the measured force, less its mean
   double frequency = kUnset;     // Hz, of the measured force
   [[nodiscard]] bool unstable() const { return !(peak_to_peak <= kWander); }
@@ -49,9 +52,16 @@ struct PushTrace {
                                        const std::vector<std::string>& variant = {});
 // The same with another stiffness of the pushed object, N/m.
 [[nodiscard]] models::Setup with_stiffness(models::Setup setup, double stiffness);
-// `base`: with what devices and under which conditions.
+// `base` as over_rig.h has it; the trace needs the truth.
 [[nodiscard]] Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace = nullptr,
                              const trial::TrialOptions& base = {});
+
+// Of a scene's behaviours the index of that which is pushed.
+[[nodiscard]] std::size_t pushed_behaviour(const SceneSpec& scene);
+// Where a push is by the scene's times, s since the run began: before it, going in, held. In the twin the
+// truth says so; over devices whoever pushes keeps to these times, and the fakes' pusher does.
+enum class PushPart : std::uint8_t { rest, ramp, hold };
+[[nodiscard]] PushPart part_at(const PusherSpec& pusher, double t);
 
 // How many of some seeded pushes are unstable, over a grid of stiffnesses. Remembers what it has found.
 class StabilityMap {

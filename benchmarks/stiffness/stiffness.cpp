@@ -394,6 +394,6 @@ void run(Bench& bench) {
 }
 
 const Entry kEntry{"stiffness", "stiffness",
-                   "apparent over commanded stiffness, softest stable wall (VHMR Fig 3)", run};
+                   "apparent over commanded stiffness, softest stable wall (VHMR Fig 3)", run, over_rig};
 
 }  // namespace enc::bench::stiffness

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/benchmark.h"
 #include "benchmarks/stiffness/push_study.h"
 
 namespace enc::bench::stiffness {
@@ -34,6 +35,9 @@ struct Spread {
 [[nodiscard]] const std::vector<std::string>& unlimited_acceleration();
 [[nodiscard]] const std::vector<std::string>& no_threshold_no_drift();
 [[nodiscard]] const std::vector<std::string>& uncompensated_gripper();
+
+// Fig 3 over the devices of the user's rig.
+void over_rig(Bench& bench);
 
 // Both explanations of the knee at 0.3 N/mm beside each other, as figures and a table.
 void add_knee(const BenchContext& context, BenchResult& result);

@@ -1,4 +1,6 @@
-// The motions on which predictions are compared [sources/tracking 4, sources/tracking 5].
+// Where the tool is now, when its newest pose is old: hold, constant velocity, constant acceleration, over
+// the paper's motion and over motions it does not have [sources/tracking 4, sources/tracking 5,
+// sources/choices 10].
 #pragma once
 
 #include <cstdint>
@@ -7,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/kit/bench.h"
 #include "benchmarks/tracking/motion.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "sim/twin_spec.h"
@@ -30,5 +33,8 @@ struct PredictionRow {
 // acceleration: of the machine that makes the paper's moves, m/s^2; paper: what the rows of its moves are
 // compared with.
 [[nodiscard]] std::vector<PredictionRow> prediction_rows(double acceleration, const Table1& paper);
+
+// Adds figures `tracking.predicted.*`, plots and tables to the benchmark `tracking`.
+void add_prediction(const BenchContext& context, BenchResult& result);
 
 }  // namespace enc::bench::tracking

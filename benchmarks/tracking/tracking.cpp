@@ -11,7 +11,7 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
 #include "benchmarks/tracking/forensics.h"
-#include "benchmarks/tracking/prediction.h"
+#include "benchmarks/tracking/prediction_rows.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_plots.h"
 #include "benchmarks/tracking/tracking_trial.h"
@@ -357,7 +357,7 @@ void run(Bench& bench) {
 
 const Entry kEntry{
     "tracking", "tracking",
-    "the tracker against the machine that carries the tool (VHMR Table 1); latency of a log; prediction",
-    run};
+    "the tracker against the machine that carries the tool (VHMR Table 1); latency of a log; prediction", run,
+    over_rig};
 
 }  // namespace enc::bench::tracking

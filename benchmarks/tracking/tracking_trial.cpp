@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "benchmarks/kit/over_rig.h"
 
 namespace enc::bench::tracking {
 namespace {
@@ -25,7 +26,9 @@ class TravelMeasure {
     if (velocity.norm() > kMoving) moved_ = t;
     if (in.tool.health != Health::ok || in.tool.t == stamp_) return;
     stamp_ = in.tool.t;
-    const Point<'W'> tip = scene.X_WR * in.tip.value.X_RH.origin();
+    // Over a wire a position is some milliseconds old.
+    const Vec<'W'> since(Vec3(age(trial_.now().t, in.tip.t) * velocity));
+    const Point<'W'> tip = scene.X_WR * in.tip.value.X_RH.origin() + since;
     const Tool& tool = scene.tools[static_cast<std::size_t>(in.tool.value.tool)];
     const Vec3 error = (scene.X_WC * in.tool.value.X_CT * tool.tip.centre - tip).e();
     errors_.largest = std::max(errors_.largest, error.norm());
@@ -100,6 +103,7 @@ TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool kee
   trial::Trial trial(setup, options);
   TravelMeasure measure(trial, keep_packets);
   while (trial.tick()) measure.see();
+  check_ended(trial);
   TravelErrors errors = measure.take();
   errors.simulated = static_cast<double>(trial.result().ticks) * trial.scene().dt;
   return errors;

@@ -1,5 +1,6 @@
-// The experiment of [VHMR 4.1] in the twin: scene `tracking` through the whole loop, and the error whenever a
-// new packet has come: tracked tool tip (through the believed calibration) less where the machine says it is.
+// The experiment of [VHMR 4.1], in the twin or over devices: scene `tracking` through the whole loop, and the
+// error whenever a new packet has come: tracked tool tip (through the believed calibration) less where the
+// machine says it is. All of it is what the core is told: no truth is asked.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/kit/benchmark.h"
 #include "benchmarks/tracking/tracking_theory.h"
 #include "models/setup/scene_file.h"
 #include "trial/trial.h"
@@ -42,9 +44,12 @@ struct TravelErrors {
   void add(const TravelErrors& other);
 };
 
-// Runs the travel of the set-up once. `base`: with what devices and under which conditions.
+// Runs the travel of the set-up once; `base` as over_rig.h has it.
 [[nodiscard]] TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool keep_packets,
                                       const trial::TrialOptions& base = {});
+
+// Table 1 over the devices of the user's rig: tracking_rig.cpp.
+void over_rig(Bench& bench);
 
 // What rig, truth and scene of a set-up say to the theory.
 [[nodiscard]] ChainSpec chain_of(const models::Setup& setup);

@@ -237,12 +237,6 @@ void check_pusher(const Setup& setup) {
   alone(s.display.has_value(), "display");
   if (!s.force)
     fail(setup, "pusher", "the tip cannot feel the pusher; expected a [force]; add it or remove [pusher]");
-  if (setup.rig.force.driver != "none" && setup.rig.force.driver != "sim")
-    fail(
-        setup, "pusher",
-        fmt::format("[pusher] is simulated and the rig's force sensor is {}; expected 'sim'; use '--rig sim' "
-                    "or push the real machine by other means, without [pusher]",
-                    quoted(setup.rig.force.driver)));
   if (s.pusher->rest_time < setup.rig.force.tare_time)
     fail(setup, "pusher.rest_s",
          fmt::format("'rest_s' is {:g}; expected at least 'rig.force.tare_time_s', {:g}, in which the force "
@@ -332,6 +326,16 @@ void check_unit(const Setup& setup, const std::string& key, const Vec3& v) {
   fail(setup, key,
        fmt::format("'{}' has length {:.6g}{}; expected length 1; write it like '{} = [{}, {}, {}]'", name,
                    length, none ? " and no direction" : "", name, u.x(), u.y(), u.z()));
+}
+
+// As with [user] and a real tracker: the scene says what is done, and who does it is there.
+void note_pusher(Setup& setup) {
+  const std::string& driver = setup.rig.force.driver;
+  if (!setup.scene.pusher || driver == "none" || driver == "sim") return;
+  setup.notes.push_back(
+      fmt::format("{}: warning: [pusher] is simulated and the rig's force sensor is {}, which feels what is "
+                  "there: somebody has to push, or `encounter fake` with this scene",
+                  place_of(setup, "pusher"), quoted(driver)));
 }
 
 void check(const Setup& setup) {

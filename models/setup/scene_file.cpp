@@ -325,6 +325,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   note_stops(setup);
   note_props(setup);
   note_views(setup);
+  note_pusher(setup);
   note_unread(setup);
   fill_curves(setup, models_dir(scene_path));
   fill_meshes(setup, models_dir(scene_path));

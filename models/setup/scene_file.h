@@ -89,6 +89,7 @@ void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_stops(Setup& setup);    // time constants that MuJoCo takes for two time steps
 void note_props(Setup& setup);    // objects that want another prop than is mounted
 void note_views(Setup& setup);    // objects that the camera does not see
+void note_pusher(Setup& setup);   // that nobody simulated pushes a real force sensor
 void note_unread(Setup& setup);   // what --set names and nothing in the scene reads
 void check(const Setup& setup);   // what one key alone does not show; throws
 void round_to_text(

@@ -18,9 +18,9 @@
 #include <unistd.h>
 
 #include "app/modules/modules.h"
-#include "hw_drivers/net/socket.h"
 #include "hw_drivers/net/steady.h"
 #include "tests/support/built.h"
+#include "tests/support/devices/free_ports.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -32,21 +32,6 @@ using tests::Result;
 using tests::run_program;
 
 const std::string kBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
-
-// Ports that nobody has just now.
-std::vector<std::string> free_ports() {
-  std::vector<std::string> set;
-  const net::Socket machine = net::listen_tcp("127.0.0.1", 0), page = net::listen_tcp("127.0.0.1", 0),
-                    commands = net::listen_tcp("127.0.0.1", 0);
-  const net::Socket records = net::bind_udp("127.0.0.1", 0), tools = net::bind_udp("127.0.0.1", 0);
-  for (const auto& [key, port] : {std::pair{"gcs.port", machine.port()},
-                                  {"netft.http_port", page.port()},
-                                  {"netft.command_port", commands.port()},
-                                  {"netft.port", records.port()},
-                                  {"igtl.port", tools.port()}})
-    set.push_back("rig.driver." + std::string(key) + "=" + std::to_string(port));
-  return set;
-}
 
 // The fakes in this process, where their machine can be seen.
 struct Laboratory {

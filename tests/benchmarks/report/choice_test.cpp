@@ -97,5 +97,19 @@ TEST(Choice, WhatReadsNoSceneTakesNoSettings) {
   EXPECT_THAT(left, IsSupersetOf({"footprint", "nearest", "response"}));
 }
 
+// Over devices only what needs no truth can be measured; what was named is not passed over.
+TEST(Choice, OverTheDevicesOfARigOnlyThoseThatCan) {
+  EXPECT_THAT(names_of(over_devices(chosen({}), false)), ElementsAre("stiffness", "tracking"));
+  EXPECT_THAT(names_of(over_devices(chosen({"tracking.rig", "stiffness"}), true)),
+              ElementsAre("tracking", "stiffness"));
+  try {
+    (void)over_devices(chosen({"press", "tracking", "dent"}), true);
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(),
+                HasSubstr("--rig: press, dent measure in the twin alone; expected stiffness or tracking"));
+  }
+}
+
 }  // namespace
 }  // namespace enc::bench

@@ -95,7 +95,27 @@ TEST(ReportTable, AFigureWithoutAValueDoesNotHold) {
   BenchResult result{
       "press", "tennis_ball", 1, 1, {{"press.c.max", 1.0, kUnset, "N", Role::ours, kUnset, kUnset, ""}}};
   const Table table = figure_table(result);
-  EXPECT_THAT(table.rows[0], AllOf(Contains("none"), Contains("NO")));
+  EXPECT_THAT(table.rows[0], AllOf(Contains("absent"), Contains("NO")));
+}
+
+// Of a real machine nobody knows the truth: what only that says is no failure.
+TEST(ReportTable, AFigureThatNobodyCanKnowIsAbsentAndNoFailure) {
+  Report report = small_report();
+  BenchResult& result = report.results.front();
+  Figure absent{"press.d.max", kUnset, kUnset, "N", Role::ours, kUnset, kUnset, "of the truth alone"};
+  EXPECT_FALSE(absent.ok());
+  absent.absent = true;
+  EXPECT_TRUE(absent.ok());
+  result.figures.push_back(absent);
+  const std::vector<std::string> row = figure_table(result).rows.back();
+  EXPECT_THAT(row, AllOf(Contains("absent"), Not(Contains("NO")), Not(Contains("yes"))));
+  EXPECT_THAT(report_html(report),
+              AllOf(HasSubstr("<td>absent</td>"), HasSubstr("1 out of bounds: press.b")));
+  EXPECT_THAT(report_markdown(report), HasSubstr("| press.d.max |  | absent |"));
+  EXPECT_THAT(role_table(report).rows.back(), ElementsAre("ours", "2", "1", "all others"));
+  const auto json = nlohmann::json::parse(results_json(report));
+  EXPECT_TRUE(json["benchmarks"][0]["figures"][3]["twin"].is_null());
+  EXPECT_EQ(json["benchmarks"][0]["figures"][3]["ok"], true);
 }
 
 TEST(ReportTable, CountsWhatIsCalibratedAndWhatPredicted) {

@@ -48,6 +48,13 @@ TEST(PusherInput, WhatTheMachineCannotDo) {
   EXPECT_THAT(said_of({"pusher.rest_s=0.1"}), HasSubstr("'rest_s' is 0.1; expected at least"));
 }
 
+// A fake of the rig is pushed by its own world, a machine by whoever is there.
+TEST(PusherInput, WhoPushesARealSensorIsSaid) {
+  const auto notes = [](const char* rig) { return models::load(scene_file("stiffness"), rig).notes; };
+  EXPECT_THAT(notes("sim"), ::testing::IsEmpty());
+  EXPECT_THAT(notes("fakes"), ::testing::ElementsAre(HasSubstr("force sensor is 'netft', which feels what")));
+}
+
 TEST(PusherInput, SofterThanTheLoopRendersIsRefusedUnlessWanted) {
   const std::string soft = "behaviour.spring.stiffness_N_per_mm=0.02";
   EXPECT_THAT(said_of({soft}), HasSubstr("softer than the loop renders"));

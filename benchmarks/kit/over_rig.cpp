@@ -1,0 +1,91 @@
+#include "benchmarks/kit/over_rig.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "benchmarks/kit/load_scene.h"
+#include "core/error.h"
+
+namespace enc::bench {
+
+OnRig on_rig(const BenchContext& context, const std::string& name, std::vector<std::string> own,
+             const std::vector<std::string>& held) {
+  OnRig on{context.models + "/scenes/" + name + ".toml", std::move(own), {}};
+  on.set.insert(on.set.end(), context.set.begin(), context.set.end());
+  on.set.insert(on.set.end(), held.begin(), held.end());
+  on.setup = models::load(on.scene, context.rig, on.set);
+  if (trial::slots_of(on.setup).machine && !context.armed)
+    throw Error(fmt::format(
+        "--rig: the machine of {} is told nothing without --armed, and does nothing that could be "
+        "measured; add it, or name another rig",
+        on.setup.rig_path));
+  return on;
+}
+
+trial::TrialOptions rig_options(const BenchContext& context) {
+  trial::TrialOptions options = twin_options(context);
+  options.drivers = modules_of(context);
+  options.armed = context.armed;
+  options.lockstep = context.lockstep;
+  options.real_time = context.armed && !context.lockstep;
+  return options;
+}
+
+trial::TrialOptions twin_options(const BenchContext& context) {
+  trial::TrialOptions options;
+  options.stop = context.stop;
+  return options;
+}
+
+bool attended(const BenchContext& context, const models::Setup& setup) {
+  return trial::slots_of(setup).real && !context.fakes && !context.lockstep;
+}
+
+void tell(const std::string& line) {
+  if (isatty(STDERR_FILENO) != 0)
+    fmt::print(stderr, "\r{:78}\n", line);
+  else
+    fmt::print(stderr, "{}\n", line);
+}
+
+std::unique_ptr<Companion> fakes_of(const BenchContext& context, const OnRig& on, std::uint64_t seed,
+                                    const std::vector<std::string>& more) {
+  constexpr double kLongest = 60.0;  // s: a busy machine, and the checks of a sanitizer
+  if (!context.fakes) return nullptr;
+  std::error_code none;
+  std::vector<std::string> words{std::filesystem::read_symlink("/proc/self/exe", none).string(),
+                                 "fake",
+                                 context.rig,
+                                 "--scene",
+                                 on.scene,
+                                 "--seed",
+                                 std::to_string(seed)};
+  if (context.lockstep) words.emplace_back("--lockstep");
+  for (const auto* settings : {&on.set, &more})
+    for (const std::string& set : *settings) words.insert(words.end(), {"--set", set});
+  return std::make_unique<Companion>(std::move(words), "ends with SIGINT or SIGTERM", kLongest);
+}
+
+std::string rig_text(const BenchContext& context, const models::Setup& setup) {
+  std::string text = "rig " + setup.rig_path;
+  if (context.fakes) text += ", fakes of its devices";
+  if (context.lockstep) text += " in lockstep";
+  return text;
+}
+
+void check_ended(const trial::Trial& trial) {
+  if (!trial.gate().links().empty()) {
+    const trial::LostLink& link = trial.gate().links().front();
+    throw Error(
+        fmt::format("the {} was lost at {:.3f} s of a run, and what that has measured is worth nothing; "
+                    "see to it (encounter devices), and begin anew",
+                    link.role, seconds(link.t.time_since_epoch())),
+        {}, ErrorKind::device);
+  }
+  if (trial.result().interrupted) throw Error("the run was interrupted", {}, ErrorKind::device);
+}
+
+}  // namespace enc::bench

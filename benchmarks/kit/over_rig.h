@@ -1,0 +1,49 @@
+// What a benchmark needs to measure over the devices of a rig in place of the twin: a scene on that rig, what
+// its runs are given, and the fakes that may stand in for the devices.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmarks/kit/bench.h"
+#include "benchmarks/kit/child.h"
+#include "models/setup/scene_file.h"
+#include "trial/trial.h"
+
+namespace enc::bench {
+
+// A scene on the user's rig, and the settings that made it so: `encounter fake` is told the same.
+struct OnRig {
+  std::string scene;  // file
+  std::vector<std::string> set;
+  models::Setup setup;
+};
+// models/scenes/<name>.toml; settings in the order of load_scene(). Throws Error where the rig's machine
+// would be told nothing.
+[[nodiscard]] OnRig on_rig(const BenchContext& context, const std::string& name, std::vector<std::string> own,
+                           const std::vector<std::string>& held = {});
+
+// Of runs over the devices, and of the same in the twin. `context` outlives them.
+[[nodiscard]] trial::TrialOptions rig_options(const BenchContext& context);
+[[nodiscard]] trial::TrialOptions twin_options(const BenchContext& context);
+
+// Somebody stands at the machine: its devices are no fakes of ours.
+[[nodiscard]] bool attended(const BenchContext& context, const models::Setup& setup);
+// A line for who does, on standard error, where the bar of progress is.
+void tell(const std::string& line);
+
+// Until it goes, in place of the devices; null where the user does not want it. `more`: settings of its own.
+[[nodiscard]] std::unique_ptr<Companion> fakes_of(const BenchContext& context, const OnRig& on,
+                                                  std::uint64_t seed,
+                                                  const std::vector<std::string>& more = {});
+
+// "rig models/rigs/fakes.toml, fakes of its devices in lockstep"
+[[nodiscard]] std::string rig_text(const BenchContext& context, const models::Setup& setup);
+
+// Of a run that is over. Throws Error (kind device) where that was not its own end: what it has measured is
+// no measure.
+void check_ended(const trial::Trial& trial);
+
+}  // namespace enc::bench

@@ -1,0 +1,27 @@
+// Ports for the fakes of models/rigs/fakes.toml that nobody has just now, as settings: tests run beside each
+// other.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hw_drivers/net/socket.h"
+
+namespace enc::test {
+
+inline std::vector<std::string> free_ports() {
+  std::vector<std::string> set;
+  const net::Socket machine = net::listen_tcp("127.0.0.1", 0), page = net::listen_tcp("127.0.0.1", 0),
+                    commands = net::listen_tcp("127.0.0.1", 0);
+  const net::Socket records = net::bind_udp("127.0.0.1", 0), tools = net::bind_udp("127.0.0.1", 0);
+  for (const auto& [key, port] : {std::pair{"gcs.port", machine.port()},
+                                  {"netft.http_port", page.port()},
+                                  {"netft.command_port", commands.port()},
+                                  {"netft.port", records.port()},
+                                  {"igtl.port", tools.port()}})
+    set.push_back("rig.driver." + std::string(key) + "=" + std::to_string(port));
+  return set;
+}
+
+}  // namespace enc::test
