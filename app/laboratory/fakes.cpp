@@ -71,7 +71,12 @@ std::vector<std::string> Fakes::describe() const {
 void Fakes::begin() {
   ++begun_;
   world_->restore(first_);
+  std::erase_if(plans_, [](const Planned& plan) { return plan.by_hand && (plan.over || !plan.begun); });
   for (Planned& plan : plans_) {
+    if (plan.by_hand) {  // it lasts, whoever comes
+      if (plan.to != Time::max()) plan.to -= now_.t.time_since_epoch();
+      continue;
+    }
     if (plan.begun && !plan.over) plan.fake->heal(plan.fault.trouble.kind);
     plan.begun = plan.over = false;
   }
@@ -97,6 +102,7 @@ void Fakes::suffer(const Fault& fault, const std::string& where) {
   Fault from_now = fault;
   from_now.at += seconds(now_.t.time_since_epoch());
   plans_.push_back(planned(from_now, where));
+  plans_.back().by_hand = true;
   trouble();
 }
 

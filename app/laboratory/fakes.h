@@ -48,6 +48,7 @@ class Fakes {
     Fake* fake;
     Time from, to;
     bool begun = false, over = false;
+    bool by_hand = false;  // of the world as it is, and not of each run
   };
   [[nodiscard]] Planned planned(const Fault& fault, const std::string& where);
   void trouble();  // what begins and ends now

@@ -350,7 +350,7 @@ std::string run_text(const RunReport& r) {
   else if (r.result.lateness.times > 0)
     text += fmt::format("late        {:.3f} s behind the wall clock; stalls: {}; nothing was lost\n",
                         r.result.lateness.total, r.result.lateness.times);
-  if (r.result.interrupted) text += "stopped     by a signal, before its end\n";
+  if (r.result.interrupted) text += "stopped     by a signal or by q, before its end\n";
   text += weak_text(r.setup, r.scene);
   text += stability_lines(r.certificates);
   for (const trial::Certified& one : r.certificates)

@@ -42,7 +42,10 @@ void BadLine::put(Time now, std::span<const std::byte> message) {
   if (happens(Kind::half_message)) next.bytes.resize(next.bytes.size() / 2);
   if (of(Kind::jitter)) next.due += from_seconds(*of(Kind::jitter) * uniform());
   if (wire_ == Wire::stream) next.due = last_ = std::max(next.due, last_);
-  next.waits = happens(Kind::reorder);
+  // One at a time: where all waited for another, none would come.
+  const bool one_waits =
+      std::any_of(on_the_way_.begin(), on_the_way_.end(), [](const Message& other) { return other.waits; });
+  next.waits = !one_waits && happens(Kind::reorder);
   const int copies = happens(Kind::duplicate) ? 2 : 1;
   for (int i = 0; i < copies; ++i) {
     const auto at = std::find_if(on_the_way_.begin(), on_the_way_.end(),

@@ -59,7 +59,8 @@ void forget_after(int descriptor, Duration time) {
 
 int open_for(const addrinfo& address) {
   const int descriptor = socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (descriptor < 0) throw Error(fmt::format("no socket could be opened: {}", std::strerror(errno)));
+  if (descriptor < 0)
+    throw Error(fmt::format("no socket could be opened: {}", std::strerror(errno)), {}, ErrorKind::device);
   if (address.ai_socktype == SOCK_STREAM) send_at_once(descriptor);
   return descriptor;
 }

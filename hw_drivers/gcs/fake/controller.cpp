@@ -105,6 +105,11 @@ bool Controller::is_none(std::string_view word, std::string_view names) noexcept
   return wrong(word.size() != 1 || names.find(word[0]) == std::string_view::npos, kNoSuchAxis);
 }
 
+void Controller::mend() noexcept {
+  error_ = kNoError;
+  servo_ = same(true);
+}
+
 void Controller::fail(int error) noexcept {
   error_ = error;
   servo_ = {};

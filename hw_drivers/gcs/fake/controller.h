@@ -50,6 +50,7 @@ class Controller {
   [[nodiscard]] std::int64_t told() const noexcept { return told_; }
   // For tests: something fails, as a strut may. The servos are off then.
   void fail(int error) noexcept;
+  void mend() noexcept;  // and somebody has switched them on again
 
  private:
   friend struct Commands;  // the lines: commands.h

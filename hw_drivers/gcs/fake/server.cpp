@@ -36,6 +36,7 @@ void Server::serve(Time now) {
 }
 
 void Server::wait_on(std::vector<int>& descriptors) const {
+  if (line_.suffers(Trouble::Kind::stall)) return;  // what is not taken would wake us for ever
   descriptors.push_back(listener_.descriptor());
   if (client_.is_open()) descriptors.push_back(client_.descriptor());
 }
@@ -86,6 +87,11 @@ void Server::suffer(const Trouble& trouble) {
   if (trouble.kind == Trouble::Kind::error_code) return controller_.fail(static_cast<int>(trouble.value));
   line_.suffer(trouble);
   if (trouble.kind == Trouble::Kind::disconnect && client_.is_open()) leave();
+}
+
+void Server::heal(Trouble::Kind kind) {
+  if (kind == Trouble::Kind::error_code) return controller_.mend();
+  line_.heal(kind);
 }
 
 std::unique_ptr<Fake> served(const FakeOffer& offer) {

@@ -27,7 +27,7 @@ class Server final : public Fake {
   void wait_on(std::vector<int>& descriptors) const override;
   [[nodiscard]] bool knows(Trouble::Kind kind) const override;
   void suffer(const Trouble& trouble) override;
-  void heal(Trouble::Kind kind) override { line_.heal(kind); }
+  void heal(Trouble::Kind kind) override;
 
  private:
   void accept(Time now);

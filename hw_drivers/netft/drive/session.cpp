@@ -4,6 +4,39 @@
 #include <cmath>
 
 namespace enc::netft {
+namespace {
+
+constexpr std::int32_t kMost = 70'000;  // samples from one record to the next: ten seconds
+
+// The counter of samples goes round.
+std::int32_t ahead(std::uint32_t sample, std::uint32_t of) noexcept {
+  return static_cast<std::int32_t>(sample - of);
+}
+
+}  // namespace
+
+bool Session::believed(const Record& record) noexcept {
+  const std::int32_t by = ahead(record.sample, sample_);
+  if (!begun_ || (by > 0 && by <= kMost)) {
+    samples_ += begun_ ? by : 0;
+    return true;
+  }
+  if (by <= 0 && by > -kMost) {
+    ++counts_.old;
+    return false;
+  }
+  const std::int32_t on = ahead(record.sample, far_sample_);
+  const bool goes_on = was_far_ && on > 0 && on <= kMost;
+  was_far_ = true;
+  far_sample_ = record.sample;
+  if (!goes_on) {
+    ++counts_.wrong;
+    return false;
+  }
+  tie_.forget();  // another box, or this one began anew
+  number_ = record.number;
+  return true;
+}
 
 void Session::take(std::span<const std::byte> datagram, Time now) noexcept {
   Record record;
@@ -11,14 +44,9 @@ void Session::take(std::span<const std::byte> datagram, Time now) noexcept {
     ++counts_.wrong;
     return;
   }
-  // The counter of samples goes round: what is less than half a round ahead is newer.
-  const std::uint32_t ahead = record.sample - sample_;
-  if (begun_ && (ahead == 0 || ahead >= 0x80000000U)) {
-    ++counts_.old;
-    return;
-  }
+  if (!believed(record)) return;
+  was_far_ = false;
   if (begun_) {
-    samples_ += ahead;
     if (record.number > number_) counts_.missing += record.number - number_ - 1;
     counts_.longest_gap = std::max(counts_.longest_gap, age(now, last_));
   }

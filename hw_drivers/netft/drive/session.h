@@ -28,6 +28,8 @@ class Session {
   Session(const Configuration& of, Duration least_delay, bool lockstep)
       : of_(of), tie_(least_delay), lockstep_(lockstep) {}
 
+  // A record has no checksum: one whose counter is far from what was expected is believed when the next goes
+  // on from there, as after a box was switched off and on.
   void take(std::span<const std::byte> datagram, Time now) noexcept;
   // absent before the first record.
   [[nodiscard]] const Stamped<Wrench>& newest() const noexcept { return newest_; }
@@ -39,7 +41,11 @@ class Session {
   net::ClockTie tie_;
   bool lockstep_, begun_ = false;
   Counts counts_;
+  [[nodiscard]] bool believed(const Record& record) noexcept;  // counts it where not
+
   std::uint32_t number_ = 0, sample_ = 0;
+  std::uint32_t far_sample_ = 0;  // of the last that was far
+  bool was_far_ = false;
   std::int64_t samples_ = 0;  // since the first, as it never goes round
   Stamped<Wrench> newest_;
   Time last_{};

@@ -58,6 +58,32 @@ TEST(NetftSession, OldAndDoubledRecordsChangeNothing) {
   EXPECT_EQ(bench.session.counts().wrong, 1);
 }
 
+// A record has no checksum.
+TEST(NetftSession, NoiseOfTheRightLengthIsNoRecord) {
+  Bench bench;
+  for (std::uint32_t n = 1; n <= 50; ++n) bench.take(record(n, 7 * n, static_cast<std::int32_t>(n)), n);
+  bench.take(record(0x9e3779b9, 0x7f4a7c15, 1'000'000'000), 51);
+  bench.take(record(0x85ebca6b, 0xc2b2ae35, -1'000'000'000), 52);
+  EXPECT_EQ(bench.fx(), 50e-6);
+  EXPECT_EQ(bench.session.counts().wrong, 2);
+  bench.take(record(53, 7 * 53, 53), 53);
+  EXPECT_EQ(bench.fx(), 53e-6);
+  EXPECT_EQ(bench.session.counts().missing, 2);
+  EXPECT_EQ(bench.session.counts().old, 0);
+}
+
+TEST(NetftSession, ABoxThatBeganAnewIsBelievedFromItsSecondRecordOn) {
+  Bench bench;
+  for (std::uint32_t n = 1; n <= 50; ++n) bench.take(record(n, 100'000'000 + 7 * n, 1), n);
+  bench.take(record(1, 7, 2), 1000);
+  EXPECT_EQ(bench.fx(), 1e-6);
+  bench.take(record(2, 14, 3), 1001);
+  EXPECT_EQ(bench.fx(), 3e-6);
+  bench.take(record(3, 21, 4), 1002);
+  EXPECT_EQ(bench.fx(), 4e-6);
+  EXPECT_LT(age(Time(ms(1002)), bench.session.newest().t), 0.002);
+}
+
 TEST(NetftSession, CountersGoRound) {
   Bench bench;
   bench.take(record(0xffffffff, 0xfffffffa, 1), 1);
