@@ -9,5 +9,7 @@ namespace enc::bench::wires {
 void add_cycles(Bench& bench);
 // The safety matrix.
 void add_safety(Bench& bench);
+// The loop on the wall clock, through real sockets, beside a bare one.
+void add_loop(Bench& bench);
 
 }  // namespace enc::bench::wires

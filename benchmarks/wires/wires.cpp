@@ -8,9 +8,12 @@ namespace {
 void run(Bench& bench) {
   add_cycles(bench);
   add_safety(bench);
+  if (!bench.context.quick) add_loop(bench);
   bench.result.note =
-      "In virtual time, through the drivers and their fakes over the wires' own bytes; the truth is the "
-      "twin's.";
+      "Cycles and faults in virtual time, through the drivers and their fakes over the wires' own bytes; the "
+      "truth "
+      "is the twin's." +
+      bench.result.note;
 }
 
 const Entry kEntry{"wires", "tennis_ball", "devices behind their wires: slower cycles, faults", run};

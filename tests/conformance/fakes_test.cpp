@@ -19,8 +19,8 @@
 
 #include "app/modules/modules.h"
 #include "hw_drivers/net/steady.h"
+#include "hw_drivers/wires/free_ports.h"
 #include "tests/support/built.h"
-#include "tests/support/devices/free_ports.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -70,7 +70,7 @@ struct Laboratory {
     const auto& machine = *fakes->world().machine;
     return (machine.state().pose.p() - machine.machine().zero().p()).norm();
   }
-  std::vector<std::string> ports = free_ports();
+  std::vector<std::string> ports = wires::free_ports();
   std::unique_ptr<app::Fakes> fakes;
   std::atomic<bool> end = false;
   std::thread thread;

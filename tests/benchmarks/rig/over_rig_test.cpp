@@ -16,9 +16,9 @@
 #include "benchmarks/stiffness/push_study.h"
 #include "core/error.h"
 #include "hw_drivers/net/socket.h"
+#include "hw_drivers/wires/free_ports.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
-#include "tests/support/devices/free_ports.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -59,7 +59,7 @@ TEST(OverRig, WhatDoesNotFitIsSaidBeforeAnythingRuns) {
 }
 
 TEST(OverRig, FakesThatCannotBeginSayWhy) {
-  const Words ports = test::free_ports();
+  const Words ports = enc::wires::free_ports();
   const std::string port = ports.front().substr(ports.front().find('=') + 1);
   const net::Socket taken = net::listen_tcp("127.0.0.1", static_cast<std::uint16_t>(std::stoi(port)));
   const tests::Result r = tests::run_program(
@@ -99,7 +99,7 @@ void expect_free(const Words& ports) {
 // stiffness to two steps of the machine (3 um) out of the 3 mm that 30 N press 10 N/mm in.
 TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
   const test::TemporaryFolder folder;
-  const Words ports = test::free_ports();
+  const Words ports = enc::wires::free_ports();
   const tests::Result r =
       tests::run_program(bench_words({"tracking", "stiffness", "--rig", "fakes", "--armed", "--lockstep",
                                       "--fakes", "--quick", "--out", folder.file("out")},
@@ -133,7 +133,7 @@ TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
 // The run lets go of its machine and ends the fakes before it ends itself.
 TEST(OverRig, ASignalEndsTheFakesToo) {
   const test::TemporaryFolder folder;
-  const Words ports = test::free_ports();
+  const Words ports = enc::wires::free_ports();
   const Words words = bench_words(
       {"tracking", "--rig", "fakes", "--armed", "--lockstep", "--fakes", "--repeats", "50"}, ports);
   Words all{"bash", "-c", "set -m; \"$@\" & sleep 1.5; kill -TERM $!; wait $!", "bash",
@@ -147,7 +147,7 @@ TEST(OverRig, ASignalEndsTheFakesToo) {
 
 // Killed, it ends nothing itself: the system does.
 TEST(OverRig, FakesDoNotOutliveAKilledBench) {
-  const Words ports = test::free_ports();
+  const Words ports = enc::wires::free_ports();
   const Words words = bench_words(
       {"tracking", "--rig", "fakes", "--armed", "--lockstep", "--fakes", "--repeats", "50"}, ports);
   Words all{"bash", "-c", "set -m; \"$@\" & sleep 1.5; kill -KILL $!; wait $!; sleep 1", "bash",

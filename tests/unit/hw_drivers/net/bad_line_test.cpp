@@ -110,6 +110,17 @@ TEST(BadLine, GarbageAndHalfMessages) {
   EXPECT_EQ(left(line, ms_at(2)), std::vector<std::string>{"123456"});
 }
 
+TEST(BadLine, WhereAllComeBehindTheNextEachStillComes) {
+  BadLine line(Wire::datagrams, 7);
+  line.suffer({Kind::reorder, 1.0});
+  std::vector<std::string> came;
+  for (int i = 0; i < 10; ++i) {
+    line.put(ms_at(i), raw(std::to_string(i)));
+    for (std::string& one : left(line, ms_at(i))) came.push_back(std::move(one));
+  }
+  EXPECT_EQ(came, (std::vector<std::string>{"1", "0", "3", "2", "5", "4", "7", "6", "9", "8"}));
+}
+
 TEST(BadLine, ASlowStartKeepsAStreamAndDropsDatagrams) {
   for (const Wire wire : {Wire::datagrams, Wire::stream}) {
     BadLine line(wire, 7);

@@ -1,5 +1,5 @@
-// Ports for the fakes of models/rigs/fakes.toml that nobody has just now, as settings: tests run beside each
-// other.
+// Ports for the fakes of models/rigs/fakes.toml that nobody has just now, as settings: tests and benchmarks
+// run beside each other.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "hw_drivers/net/socket.h"
 
-namespace enc::test {
+namespace enc::wires {
 
 inline std::vector<std::string> free_ports() {
   std::vector<std::string> set;
@@ -24,4 +24,4 @@ inline std::vector<std::string> free_ports() {
   return set;
 }
 
-}  // namespace enc::test
+}  // namespace enc::wires

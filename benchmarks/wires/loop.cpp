@@ -1,0 +1,93 @@
+// How even the loop's periods are through real sockets on the wall clock, beside a loop of this machine that
+// does nothing but wait. Both share it with whatever else runs here: reported, and never a bound.
+#include <array>
+#include <cstdint>
+#include <ctime>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/kit/child.h"
+#include "benchmarks/wires/parts.h"
+#include "hw_drivers/wires/free_ports.h"
+#include "models/order_statistics.h"
+#include "trial/time/real_time.h"
+
+namespace enc::bench::wires {
+namespace {
+
+constexpr double kTime = 6.0;  // s
+
+// From each waking to the next, us. `real_time`: how it came before other work.
+std::vector<double> bare_periods(std::string& real_time) {
+  constexpr std::int64_t kPeriod = 1'000'000, kSecond = 1'000'000'000;  // ns
+  const trial::RealTime first(true);
+  real_time = first.words();
+  const auto ns = [](const timespec& t) { return t.tv_sec * kSecond + t.tv_nsec; };
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  std::int64_t due = ns(now), before = due;
+  std::vector<double> periods;
+  for (const std::int64_t end = due + std::llround(kTime * 1e9); due < end;) {
+    due += kPeriod;
+    const timespec until{due / kSecond, due % kSecond};
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    periods.push_back(1e-3 * static_cast<double>(ns(now) - before));
+    before = ns(now);
+  }
+  return periods;
+}
+
+nlohmann::json run_through_sockets(const BenchContext& context) {
+  std::error_code none;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe", none).string();
+  std::vector<std::string> fakes{program, "fake", "fakes"};
+  std::vector<std::string> run{program,  "run",     context.models + "/scenes/tennis_ball.toml",
+                               "--rig",  "fakes",   "--armed",
+                               "--json", "--for-s", fmt::format("{:g}", kTime)};
+  for (const std::string& port : enc::wires::free_ports()) {
+    fakes.insert(fakes.end(), {"--set", port});
+    run.insert(run.end(), {"--set", port});
+  }
+  const Companion there(std::move(fakes), "ends with SIGINT or SIGTERM", 60.0);
+  return nlohmann::json::parse(run_child(std::move(run)).out, nullptr, false);
+}
+
+}  // namespace
+
+void add_loop(Bench& bench) {
+  std::string first;
+  const std::vector<double> bare = bare_periods(first);
+  const nlohmann::json ran = run_through_sockets(bench.context);
+  Table table{"loop",
+              "From one period of the loop to the next",
+              {"loop", "p50, us", "p99, us", "p99.9, us", "longest, us", "missed"},
+              {},
+              "On the wall clock, with a thread at: " + first + ".",
+              true};
+  const auto us = [](double x) { return fmt::format("{:.0f}", x); };
+  std::int64_t missed = 0;
+  for (const double period : bare) missed += static_cast<std::int64_t>(period / 1e3) > 1 ? 1 : 0;
+  table.add("waits and nothing else", us(models::percentile(bare, 0.5)), us(models::percentile(bare, 0.99)),
+            us(models::percentile(bare, 0.999)), us(models::percentile(bare, 1.0)), missed);
+  constexpr std::array kShares{"p50", "p99", "p99_9", "max"};
+  if (!ran.is_object() || !ran.contains("period_ns")) {
+    bench.result.note += " The run through sockets did not come to its end: no periods of it.";
+    return bench.table(std::move(table));
+  }
+  std::array<double, kShares.size()> periods{};
+  for (std::size_t i = 0; i < kShares.size(); ++i)
+    periods[i] = 1e-3 * ran["period_ns"].value(kShares[i], kUnset);
+  table.add("runs the ball through sockets, its fakes beside it", us(periods[0]), us(periods[1]),
+            us(periods[2]), us(periods[3]), ran.value("missed_cycles", 0));
+  bench.table(std::move(table));
+  bench.figure("loop.p99.us", periods[1], "us", "through sockets, with the fakes on the same machine");
+  bench.figure("loop.bare.p99.us", models::percentile(bare, 0.99), "us",
+               "a loop that waits and does nothing");
+  bench.figure("loop.missed.count", ran.value("missed_cycles", 0.0), "", fmt::format("in {:g} s", kTime));
+}
+
+}  // namespace enc::bench::wires
