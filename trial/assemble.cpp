@@ -88,10 +88,24 @@ std::vector<std::string> tool_names(const models::Setup& setup) {
   return names;
 }
 
+std::vector<DrivenRole> driven_roles(const models::Setup& setup) {
+  std::vector<DrivenRole> all;
+  each_role([&](const auto& role) {
+    const std::string driver = driver_of(setup, role);
+    if (driver.empty()) return;
+    if (sees(setup, role))
+      all.push_back({driver, "rig.camera.driver", "stereo camera",
+                     [](const DriverModule& module) { return module.camera != nullptr; }});
+    else
+      all.push_back({driver, fmt::format("rig.{}.driver", role.table), role.name,
+                     [make = role.make](const DriverModule& module) { return module.*make != nullptr; }});
+  });
+  return all;
+}
+
 std::set<std::string> drivers_used(const models::Setup& setup) {
   std::set<std::string> used;
-  each_role([&](const auto& role) { used.insert(driver_of(setup, role)); });
-  used.erase("");
+  for (DrivenRole& role : driven_roles(setup)) used.insert(std::move(role.driver));
   return used;
 }
 

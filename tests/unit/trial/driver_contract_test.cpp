@@ -112,6 +112,11 @@ class DriverContract : public testing::Test {
   [[nodiscard]] std::string at(int line, int column) const {
     return rig_ + ":" + std::to_string(lines_ + line) + ":" + std::to_string(column) + ": ";
   }
+  // Where the machine's driver is named.
+  [[nodiscard]] std::string named() const {
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(text_.find("driver = \"box\""));
+    return rig_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n')) + ":1";
+  }
   std::string refusal(const std::string& table, const std::vector<std::string>& set = {}) {
     try {
       models::Setup setup = load(table, set);
@@ -204,10 +209,11 @@ TEST_F(DriverContract, AMissingKeyIsSaidWhereItBelongs) {
 }
 
 TEST_F(DriverContract, ATableOfNobodyIsRefused) {
-  EXPECT_EQ(
-      refusal(replaced(kTable, "driver.box", "driver.bax")),
-      at(1, 1) +
-          "no role of this rig has the driver 'bax'; expected one that a role names; did you mean 'box'?");
+  EXPECT_EQ(refusal(replaced(kTable, "driver.box", "driver.bax")),
+            at(1, 1) +
+                "no role of this rig has the driver 'bax'; expected one that a role names; did you mean "
+                "'box', as " +
+                named() + " says?");
   EXPECT_THAT(refusal(replaced(kTable, "driver.box", "driver.sim")),
               StartsWith(at(1, 1) + "no role of this rig"));
   EXPECT_THAT(refusal(kTable, {"rig.driver.bax.port=1"}), StartsWith("--set rig.driver.bax.port=1: no role"));
