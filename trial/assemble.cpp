@@ -58,8 +58,12 @@ bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers) {
   each_role([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
-    const DriverModule* module = drivers(driver).driver;
-    any = any || module == nullptr || !module->plays;
+    try {
+      const DriverModule* module = drivers(driver).driver;
+      any = any || module == nullptr || !module->plays;
+    } catch (const Error& e) {
+      throw of_role(setup, sees(setup, role) ? "camera" : role.table, e);
+    }
   });
   return any;
 }
@@ -114,8 +118,12 @@ void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Lo
   read_driver_tables(setup,
                      [&](const std::string& name) { return used.contains(name) ? &drivers(name) : nullptr; });
   each_role([&](const auto& role) {
-    if (!driver_of(setup, role).empty() && !sees(setup, role))
+    if (driver_of(setup, role).empty() || sees(setup, role)) return;
+    try {
       rig.*role.slot = make(role, setup, drivers, log, keeping);
+    } catch (const Error& e) {
+      throw of_role(setup, role.table, e);
+    }
   });
 }
 

@@ -42,7 +42,8 @@ using DriverFinder = std::function<const ModuleInfo*(const std::string& driver)>
 // Reads each driver's own table as that declares it, defaults included. Throws Error with the place.
 void read_driver_tables(models::Setup& setup, const DriverFinder& find);
 
-// Puts the drivers' devices in the slots for which the rig names one; before, their tables are read.
+// Puts the drivers' devices in the slots for which the rig names one; before, their tables are read. What is
+// wrong with one is said with its role and the place that names its driver.
 void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, Keeping keeping);
 
 [[nodiscard]] std::vector<std::string> tool_names(const models::Setup& setup);  // by index

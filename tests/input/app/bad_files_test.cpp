@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 #include <string>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -236,6 +237,22 @@ TEST_F(Program, ADriverThatDoesNotFillItsRoleIsNamedWithThoseThatDo) {
   EXPECT_THAT(scene_refused(ball(), {"--set", "rig.tracker.driver=netft"}),
               StartsWith("--set rig.tracker.driver=netft: driver 'netft' is for no tracker; expected one of "
                          "'sim', 'igtl'; name"));
+}
+
+// Nobody listens at port 1. Which of three devices is meant, and where the rig file names it.
+TEST_F(Program, ADeviceThatDoesNotAnswerIsNamedByItsRoleAndItsPlace) {
+  const std::string text = bytes_of(path("models/rigs/fakes.toml"));
+  for (const auto& [role, driver, key] :
+       {std::tuple{"manipulator", "gcs", "port"}, {"force", "netft", "http_port"}}) {
+    Words words{"run",     ball(), "--rig", "fakes",
+                "--for-s", "0.1",  "--set", std::string("rig.driver.") + driver + "." + key + "=1"};
+    if (std::string(role) != "manipulator")
+      words.insert(words.end(), {"--set", "rig.manipulator.driver=sim"});
+    EXPECT_THAT(refused(words, 3),
+                StartsWith(path("models/rigs/fakes.toml") + ":" +
+                           line_and_column(text, std::string("driver = \"") + driver + "\"") + ": " + role +
+                           ": 127.0.0.1:1: nobody listens there; see that the device is on"));
+  }
 }
 
 }  // namespace
