@@ -203,6 +203,34 @@ TEST(GcsPort, AControllerThatGoesAwayIsALostLink) {
   driver->stop();
 }
 
+TEST(GcsPort, AnErrorOfTheFakeWithoutACodeIsThatOfAStrut) {
+  FollowingMachine machine;
+  trial::DeviceLog log;
+  gcs::Server server(machine, {}, "127.0.0.1", 0, log);
+  for (const double none : {0.0, 4294967295.0})
+    EXPECT_FALSE(server.knows({Trouble::Kind::error_code, none})) << none;
+  for (const auto& [code, said] : {std::pair{kUnset, "504\n"}, {1024.0, "1024\n"}}) {
+    ASSERT_TRUE(server.knows({Trouble::Kind::error_code, code}));
+    server.suffer({Trouble::Kind::error_code, code});
+    net::Socket client = net::connect_tcp("127.0.0.1", server.port(), Duration(1'000'000'000));
+    const std::string question = "ERR?\n";
+    EXPECT_EQ(client.send(std::as_bytes(std::span(question))), question.size());
+    std::array<std::byte, 16> bytes{};
+    std::size_t got = 0;
+    EXPECT_TRUE(comes([&] {
+      server.serve(Time{});
+      if (got == 0) got = client.receive(bytes);
+      return got > 0;
+    }));
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), got), said);
+    client = {};
+    EXPECT_TRUE(comes([&] {  // one client at a time
+      server.serve(Time{});
+      return !log.lines().empty();
+    }));
+  }
+}
+
 TEST(GcsPort, NobodyThereIsOneLine) {
   GcsPort there;
   there.table.port = 1;

@@ -102,6 +102,19 @@ TEST(NetftDriver, ReadsWhatTheSensorSays) {
   EXPECT_THAT(driver->remarks().at(0), HasSubstr("transducer saturated"));
 }
 
+// Its codes are status words: without one it is a word that the box may say.
+TEST(NetftDriver, AnErrorOfTheFakeWithoutACodeIsAStatusOfTheBox) {
+  NetftPorts there;
+  EXPECT_TRUE(there.server.knows({Trouble::Kind::error_code, 4294967295.0}));
+  EXPECT_FALSE(there.server.knows({Trouble::Kind::error_code, 4294967296.0}));
+  ASSERT_TRUE(there.server.knows({Trouble::Kind::error_code}));
+  there.server.suffer({Trouble::Kind::error_code});
+  const Served served(there.server);
+  const auto driver = netft::streaming(there.offer());
+  EXPECT_EQ(Loop{}.read_for(*driver, 20).health, Health::fault);
+  EXPECT_THAT(driver->remarks().at(0), HasSubstr("status 0x90000000: analog board"));
+}
+
 TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
   NetftPorts there;
   auto served = std::make_unique<Served>(there.server);
