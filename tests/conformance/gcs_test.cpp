@@ -127,6 +127,19 @@ TEST(GcsDriver, ALostLinkIsSaidAndStaysLost) {
   }
 }
 
+// The first ERR? clears what was there: error 10 is the end of every run, and nothing is said of it.
+TEST(GcsDriver, AnErrorOfBeforeIsSaidAsSuch) {
+  for (const auto& [told, lines] : {std::pair{"", 0U}, {"\x18", 0U}, {"STP\n", 0U}, {"WHAT\n", 1U}}) {
+    SCOPED_TRACE(told);
+    GcsBench bench;
+    EXPECT_EQ(bench.controller.take(told), "");
+    EXPECT_EQ(bench.driver()->read(Time{}).health, Health::ok);
+    ASSERT_EQ(bench.log.lines().size(), lines);
+    EXPECT_THAT(bench.log.lines(),
+                testing::Each(HasSubstr(": an error of before this run: error 2: unknown command")));
+  }
+}
+
 TEST(GcsDriver, AWatchdogOfLessThanThreeCyclesIsRefused) {
   GcsBench bench;
   bench.settings.watchdog = 0.0029;
