@@ -26,7 +26,7 @@ std::string bad_seed(const std::string& text) {
   std::uint64_t value = 0;
   const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (bad == std::errc() && end == text.data() + text.size()) return {};
-  return "--seed: expected a whole number from 0 to 18446744073709551615";
+  return "expected a whole number from 0 to 18446744073709551615";
 }
 
 // "" is what a script gives whose variable is not set.
@@ -112,7 +112,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   fake_command->add_option("--scene", fake_options.scene, "what happens there; default: the tennis ball")
       ->check(unnamed);
   fake_command->add_option("--set", fake_options.set, "override, as for run");
-  fake_command->add_option("--seed", fake_options.seed, "of all noise");
+  fake_command->add_option("--seed", fake_options.seed, "of all noise")->check(bad_seed);
   fake_command->add_flag("--lockstep", fake_options.lockstep,
                          "time goes on by a period with each set-point, and not by itself (run --lockstep)");
   fake_command->add_option("--fault", fake_options.faults,

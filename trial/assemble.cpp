@@ -58,8 +58,12 @@ bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers) {
   each_role([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
-    const DriverModule* module = drivers(driver).driver;
-    any = any || module == nullptr || !module->plays;
+    try {
+      const DriverModule* module = drivers(driver).driver;
+      any = any || module == nullptr || !module->plays;
+    } catch (const Error& e) {
+      throw of_role(setup, sees(setup, role) ? "camera" : role.table, e);
+    }
   });
   return any;
 }
@@ -88,10 +92,24 @@ std::vector<std::string> tool_names(const models::Setup& setup) {
   return names;
 }
 
+std::vector<DrivenRole> driven_roles(const models::Setup& setup) {
+  std::vector<DrivenRole> all;
+  each_role([&](const auto& role) {
+    const std::string driver = driver_of(setup, role);
+    if (driver.empty()) return;
+    if (sees(setup, role))
+      all.push_back({driver, "rig.camera.driver", "stereo camera",
+                     [](const DriverModule& module) { return module.camera != nullptr; }});
+    else
+      all.push_back({driver, fmt::format("rig.{}.driver", role.table), role.name,
+                     [make = role.make](const DriverModule& module) { return module.*make != nullptr; }});
+  });
+  return all;
+}
+
 std::set<std::string> drivers_used(const models::Setup& setup) {
   std::set<std::string> used;
-  each_role([&](const auto& role) { used.insert(driver_of(setup, role)); });
-  used.erase("");
+  for (DrivenRole& role : driven_roles(setup)) used.insert(std::move(role.driver));
   return used;
 }
 
@@ -100,8 +118,12 @@ void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Lo
   read_driver_tables(setup,
                      [&](const std::string& name) { return used.contains(name) ? &drivers(name) : nullptr; });
   each_role([&](const auto& role) {
-    if (!driver_of(setup, role).empty() && !sees(setup, role))
+    if (driver_of(setup, role).empty() || sees(setup, role)) return;
+    try {
       rig.*role.slot = make(role, setup, drivers, log, keeping);
+    } catch (const Error& e) {
+      throw of_role(setup, role.table, e);
+    }
   });
 }
 

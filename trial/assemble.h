@@ -42,12 +42,20 @@ using DriverFinder = std::function<const ModuleInfo*(const std::string& driver)>
 // Reads each driver's own table as that declares it, defaults included. Throws Error with the place.
 void read_driver_tables(models::Setup& setup, const DriverFinder& find);
 
-// Puts the drivers' devices in the slots for which the rig names one; before, their tables are read.
+// Puts the drivers' devices in the slots for which the rig names one; before, their tables are read. What is
+// wrong with one is said with its role and the place that names its driver.
 void put_drivers(Rig& rig, models::Setup& setup, const DriverSource& drivers, Log& log, Keeping keeping);
 
 [[nodiscard]] std::vector<std::string> tool_names(const models::Setup& setup);  // by index
-// The drivers that fill a role which the scene names; the twin is none.
-[[nodiscard]] std::set<std::string> drivers_used(const models::Setup& setup);
+
+// A role that the scene names and a driver fills; of a tracker that is vision, its camera.
+struct DrivenRole {
+  std::string driver, key;  // "netft"; what names it, "rig.force.driver"
+  const char* name;         // for messages, "force sensor"
+  std::function<bool(const DriverModule&)> filled_by;
+};
+[[nodiscard]] std::vector<DrivenRole> driven_roles(const models::Setup& setup);
+[[nodiscard]] std::set<std::string> drivers_used(const models::Setup& setup);  // of these; the twin is none
 
 // What a driver says of its device.
 struct DeviceWords {

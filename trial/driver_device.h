@@ -15,16 +15,21 @@
 
 namespace enc::trial {
 
+// What is wrong with a device of a role, "force", behind the place in the rig file that names its driver.
+[[nodiscard]] inline Error of_role(const models::Setup& setup, const char* table, const Error& e) {
+  const std::string place = models::place_of(setup, fmt::format("rig.{}.driver", table));
+  return Error(fmt::format("{}: {}: {}", place, table, e.what()), {}, e.kind());
+}
+
 // `make` is the module's member for such a device, `name` is for messages: "force sensor", `keeping`
-// is Offer's. Throws Error (kind device).
+// is Offer's. Throws Error (kind device; input where the module has none of them).
 template <class Device>
 std::unique_ptr<Device> driver_device(const std::string& driver, Maker<Device> DriverModule::*make,
                                       const char* name, const models::Setup& setup,
                                       const DriverSource& modules, Log& log, Keeping keeping) {
   const ModuleInfo& module = modules(driver);
   if (module.driver == nullptr || module.driver->*make == nullptr)
-    throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, name),
-                {}, ErrorKind::device);
+    throw Error(fmt::format("module '{}' drives no {}; choose another driver in the rig file", driver, name));
   if (keeping.lockstep && !module.driver->lockstep)
     throw Error(fmt::format("module '{}' cannot keep step with a fake; leave out --lockstep", driver), {},
                 ErrorKind::device);

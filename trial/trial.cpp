@@ -115,7 +115,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (pace > 0.0)
     rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace,
                                               wall ? sim::Late::skip : sim::Late::wait, options_.stop);
-  result_.holds.reserve(16);
+  result_.holds.reserve(TrialResult::kMostHolds);
   if (std::isinf(options_.seconds)) {
     last_tick_ = std::numeric_limits<std::int64_t>::max();
     return;
@@ -141,7 +141,7 @@ void Trial::count() {
   result_.mode_time[static_cast<std::size_t>(mode)] += scene_.dt;
   if (mode != result_.last_mode) {
     ++result_.mode_changes;
-    if (mode == Mode::hold && result_.holds.size() < 16)
+    if (mode == Mode::hold && ++result_.times_held <= TrialResult::kMostHolds)
       result_.holds.emplace_back(now_.t, out_.why & kHoldReasons);
   }
   result_.last_mode = mode;

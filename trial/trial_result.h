@@ -21,7 +21,9 @@ struct TrialResult {
   std::array<double, kModes> mode_time{};
   std::int32_t contacts = 0;
   std::int64_t mode_changes = 0;
-  std::vector<std::pair<Time, std::uint32_t>> holds;  // when each began, and why; the first 16
+  static constexpr std::int64_t kMostHolds = 16;
+  std::vector<std::pair<Time, std::uint32_t>> holds;  // when each began, and why; the first of them
+  std::int64_t times_held = 0;                        // all of them
   Mode last_mode = Mode::away;
   std::uint32_t last_why = 0;
   std::uint64_t hash = 0;

@@ -91,9 +91,10 @@ Fakes::Planned Fakes::planned(const Fault& fault, const std::string& where) {
     throw refuse(
         fmt::format("there is no fake of '{}'; {}", fault.driver, models::advice(fault.driver, names_)));
   Fake* const fake = fakes_[static_cast<std::size_t>(name - names_.begin())].get();
-  if (!fake->knows(fault.trouble.kind))
+  const bool of_wire = fault.trouble.kind != Trouble::Kind::error_code;
+  if (!fake->knows(fault.trouble))
     throw refuse(fmt::format("{} knows no '{}'{}", fake->describe(), text_of(fault.trouble),
-                             options_.lockstep ? "; without --lockstep it may" : ""));
+                             options_.lockstep && of_wire ? "; without --lockstep it may" : ""));
   const Time from(from_seconds(fault.at));
   return {fault, fake, from, std::isnan(fault.lasts) ? Time::max() : from + from_seconds(fault.lasts)};
 }

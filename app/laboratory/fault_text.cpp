@@ -20,7 +20,7 @@ struct Named {
   const char* name;
   Trouble::Kind kind;
   Value value;
-  double usual;         // where none is given
+  double usual;         // where none is given; unset: the fake's own
   const char* example;  // of its value
 };
 
@@ -34,11 +34,12 @@ constexpr std::array<Named, 11> kNames{{
     {"garbage", Trouble::Kind::garbage, Value::share, 1.0, "1%"},
     {"half-message", Trouble::Kind::half_message, Value::share, 1.0, "1%"},
     {"saturate", Trouble::Kind::saturate, Value::none, 0.0, ""},
-    {"error-code", Trouble::Kind::error_code, Value::code, 504.0, "504"},
+    {"error-code", Trouble::Kind::error_code, Value::code, kUnset, "504 or 0x90000000"},
     {"slow-start", Trouble::Kind::slow_start, Value::time, 2.0, "2s"},
 }};
 
 constexpr double kMostTime = 1e6, kMostCode = 4294967295.0;  // s; a status word
+constexpr double kMostDecimal = 65535.0;                     // a greater code is shown as a status word
 
 // "20" and "ms" of "20ms"; what is no number from 0 on is unset.
 double number_of(std::string_view text, std::string_view& unit) {
@@ -61,7 +62,13 @@ double share_of(std::string_view text) {
   return unit == "%" && number <= 100.0 ? 0.01 * number : kUnset;
 }
 
+// Decimal, or hexadecimal as status words are.
 double code_of(std::string_view text) {
+  if (text.starts_with("0x") || text.starts_with("0X")) {
+    std::uint32_t code = 0;
+    const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), code, 16);
+    return error == std::errc{} && end == text.data() + text.size() ? code : kUnset;
+  }
   std::string_view unit;
   const double number = number_of(text, unit);
   return unit.empty() && number <= kMostCode && std::floor(number) == number ? number : kUnset;
@@ -98,7 +105,10 @@ std::string text_of(const Trouble& trouble) {
     case Value::time:
       return fmt::format("{}={:g}ms", one.name, 1e3 * trouble.value);
     case Value::code:
-      return fmt::format("{}={:.0f}", one.name, trouble.value);
+      if (std::isnan(trouble.value)) return one.name;
+      return trouble.value > kMostDecimal
+                 ? fmt::format("{}={:#010x}", one.name, static_cast<std::uint32_t>(trouble.value))
+                 : fmt::format("{}={:.0f}", one.name, trouble.value);
     default:
       return one.name;
   }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/modules/driver_names.h"
 #include "app/modules/module_file.h"
 #include "core/error.h"
 #include "encounter_version.h"
@@ -99,6 +100,7 @@ SceneOptions with_scene(const SceneOptions& options) {
 
 models::Setup load_setup(const SceneOptions& options) {
   models::Setup setup = models::load(options.scene, options.rig, options.set);
+  check_driver_names(setup);
   trial::read_driver_tables(
       setup, [](const std::string& name) { return module_there(name) ? &load_module(name) : nullptr; });
   return setup;

@@ -27,7 +27,8 @@ namespace enc::app {
 [[nodiscard]] std::vector<std::string> drivers_there();
 // With the scene of the tennis ball, where none is named.
 [[nodiscard]] SceneOptions with_scene(const SceneOptions& options);
-// A set-up with the tables of its drivers read, as far as their modules are there.
+// A set-up with the tables of its drivers read, as far as their modules are there. Throws Error (kind input)
+// for a driver that is none, or not for its role.
 [[nodiscard]] models::Setup load_setup(const SceneOptions& options);
 
 }  // namespace enc::app

@@ -12,9 +12,7 @@
 namespace enc::app {
 namespace {
 
-constexpr std::array<int, 2> kSignals{SIGUSR1, SIGUSR2};
 volatile std::sig_atomic_t halts = 0, resumes = 0;
-std::array<struct sigaction, kSignals.size()> before{};
 
 extern "C" void note_hand(int number) { (number == SIGUSR1 ? halts : resumes) = 1; }
 
@@ -27,11 +25,7 @@ struct HandAtTheRun::Terminal {
 HandAtTheRun::HandAtTheRun() {
   halts = 0;
   resumes = 0;
-  for (std::size_t i = 0; i < kSignals.size(); ++i) {
-    struct sigaction action {};
-    action.sa_handler = note_hand;
-    sigaction(kSignals[i], &action, &before[i]);
-  }
+  for (const int signal : {SIGUSR1, SIGUSR2}) actions_.take(signal, note_hand);
   auto terminal = std::make_unique<Terminal>();
   if (!reads_terminal() || tcgetattr(STDIN_FILENO, &terminal->settings) != 0) return;
   termios keys = terminal->settings;
@@ -42,7 +36,6 @@ HandAtTheRun::HandAtTheRun() {
 
 HandAtTheRun::~HandAtTheRun() {
   if (before_) tcsetattr(STDIN_FILENO, TCSANOW, &before_->settings);
-  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before[i], nullptr);
 }
 
 trial::Hand HandAtTheRun::next() noexcept {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "app/run/signal_actions.h"
 #include "trial/trial.h"
 
 namespace enc::app {
@@ -23,6 +24,7 @@ class HandAtTheRun {
 
  private:
   struct Terminal;
+  SignalActions actions_;
   std::unique_ptr<Terminal> before_;
   std::uint32_t calls_ = 0;
   bool quits_ = false;

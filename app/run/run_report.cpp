@@ -279,6 +279,20 @@ std::string counted(std::int64_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+// The first three, and how many more there were.
+std::string hold_lines(const trial::TrialResult& result) {
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  const std::size_t shown = std::min(kShown, result.holds.size());
+  for (std::size_t i = 0; i < shown; ++i)
+    text += fmt::format("hold        at {:.3f} s: {}\n", seconds(result.holds[i].first.time_since_epoch()),
+                        why_text(result.holds[i].second));
+  const std::int64_t more = result.times_held - static_cast<std::int64_t>(shown);
+  if (more <= 0) return text;
+  return text + fmt::format("hold        and {} more; {:.3f} s in all\n", counted(more, "time"),
+                            result.mode_time[static_cast<std::size_t>(Mode::hold)]);
+}
+
 // What pushes from outside has no tool: it cannot miss, and has no speed at the touch.
 std::string pushed_lines(const RunReport& r) {
   if (!r.setup.scene.pusher || !r.measured.felt.truth) return "";
@@ -328,14 +342,7 @@ std::string run_text(const RunReport& r) {
   std::string text =
       r.setup.scene.title + "\n" + made_line(r) + parts_text(r.setup) + devices_text(r.result.devices);
   text += fmt::format("modes       {}; {}\n", modes_line(r.result), counted(r.result.contacts, "contact"));
-  for (const auto& [t, why] : r.result.holds) {
-    text += fmt::format("hold        at {:.3f} s: {}\n", seconds(t.time_since_epoch()), why_text(why));
-    if (&why != &r.result.holds[std::min<std::size_t>(2, r.result.holds.size() - 1)].second) continue;
-    if (r.result.holds.size() > 3)
-      text += fmt::format("hold        and more often; {:.3f} s in all\n",
-                          r.result.mode_time[static_cast<std::size_t>(Mode::hold)]);
-    break;
-  }
+  text += hold_lines(r.result);
   if (r.result.withheld > 0)
     text += fmt::format("dry         {} commands were withheld from the machine; --armed sends them\n",
                         r.result.withheld);

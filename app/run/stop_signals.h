@@ -2,6 +2,8 @@
 // sealed and its devices let go.
 #pragma once
 
+#include "app/run/signal_actions.h"
+
 namespace enc::app {
 
 // While one of these lives, SIGINT, SIGTERM and SIGHUP are only noted, and a pipe that nobody reads (SIGPIPE)
@@ -10,11 +12,11 @@ namespace enc::app {
 class StopSignals {
  public:
   StopSignals();
-  ~StopSignals();
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
 
   [[nodiscard]] static int caught() noexcept;  // number of the first one, 0: none
+
+ private:
+  SignalActions actions_;
 };
 
 }  // namespace enc::app

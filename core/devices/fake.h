@@ -29,7 +29,7 @@ struct Trouble {
     slow_start,    // for so long after somebody came nothing is said
   };
   Kind kind = Kind::loss;
-  double value = 0.0;  // a share from 0 to 1, a time in s, a code
+  double value = kUnset;  // a share from 0 to 1, a time in s; a code, unset: the device's own
 };
 
 class Fake {
@@ -42,8 +42,8 @@ class Fake {
   virtual void publish(Time now) = 0;
   // The file descriptors on which something may come.
   virtual void wait_on(std::vector<int>& descriptors) const = 0;
-  // What its device or its wire may meet; of the others suffer() is not to be called.
-  [[nodiscard]] virtual bool knows(Trouble::Kind kind) const = 0;
+  // What its device or its wire may meet, and a code that it has; with others suffer() is not to be called.
+  [[nodiscard]] virtual bool knows(const Trouble& trouble) const = 0;
   virtual void suffer(const Trouble& trouble) = 0;  // from now on, until it is healed
   virtual void heal(Trouble::Kind kind) = 0;
 };

@@ -17,13 +17,27 @@ std::string path_of(const std::string& driver) { return "rig.driver." + driver; 
 // As --set gives it, "--set ..."; else a place in a file.
 bool is_set(const std::string& place) { return place.starts_with("--set "); }
 
-std::string driverless(const RigSpec& rig, const std::string& name) {
-  const std::set<std::string> there = drivers_of(rig);
+// Which of the two is mistyped, who wrote them knows: the near name, and where a role has it.
+std::string near_driver(const Setup& setup, const std::string& near) {
+  std::string at;
+  const auto look = [&](const char* table, const std::string& driver) {
+    if (at.empty() && driver == near) at = place_of(setup, fmt::format("rig.{}.driver", table));
+  };
+  each_role([&](const auto& role) { look(role.table, (setup.rig.*role.rig).driver); });
+  look("camera", setup.rig.camera.driver);
+  return fmt::format("did you mean {}, as {} says?", quoted(near), at);
+}
+
+std::string driverless(const Setup& setup, const std::string& name) {
+  const std::set<std::string> there = drivers_of(setup.rig);
+  const std::vector<std::string> names(there.begin(), there.end());
+  const std::string near = nearest_name(name, names);
   return fmt::format(
       "no role of this rig has the driver {}; expected one that a role names; {}", quoted(name),
-      there.empty()
+      names.empty()
           ? "write it like 'driver = \"" + printable(name) + "\"' in the role's table, or remove this one"
-          : advice(name, {there.begin(), there.end()}));
+      : near.empty() ? advice(name, names)
+                     : near_driver(setup, near));
 }
 
 }  // namespace
@@ -40,8 +54,7 @@ std::set<std::string> drivers_of(const RigSpec& rig) {
 void refuse_driverless(const Setup& setup) {
   for (const DriverTable& table : setup.rig.drivers)
     if (!drivers_of(setup.rig).contains(table.name))
-      throw Error(
-          fmt::format("{}: {}", place_of(setup, path_of(table.name)), driverless(setup.rig, table.name)));
+      throw Error(fmt::format("{}: {}", place_of(setup, path_of(table.name)), driverless(setup, table.name)));
 }
 
 void settle_drivers(Setup& setup) {
@@ -50,7 +63,7 @@ void settle_drivers(Setup& setup) {
     if (there.contains(table.name)) return false;
     for (const DriverValue& value : table.values) {
       const std::string place = place_of(setup, path_of(table.name) + "." + value.key);
-      if (is_set(place)) throw Error(fmt::format("{}: {}", place, driverless(setup.rig, table.name)));
+      if (is_set(place)) throw Error(fmt::format("{}: {}", place, driverless(setup, table.name)));
     }
     return true;
   });

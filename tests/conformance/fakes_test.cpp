@@ -153,6 +153,24 @@ TEST(Fakes, WhatDoesNotFitIsSaid) {
   EXPECT_THAT(taken.err, HasSubstr("is taken"));
 }
 
+// Of no fake, of another wire, or with a value that is none.
+TEST(Fakes, AFaultThatCannotBeIsRefused) {
+  for (const auto& [fault, why] :
+       {std::pair{"netfd:loss", "there is no fake of 'netfd'; did you mean 'netft'?"},
+        {"gcs:loss", "knows no 'loss=100%'"},
+        {"gcs:error-code=0", "knows no 'error-code=0'"},
+        {"igtl:error-code=0x10000", "knows no 'error-code=0x00010000'"},
+        {"igtl:saturate", "knows no 'saturate'"},
+        {"netft:loss=150%", "'150%' is no value of 'loss'"}}) {
+    std::vector<std::string> words{"fake", "fakes", "--fault", fault};
+    for (const std::string& set : free_ports()) words.insert(words.end(), {"--set", set});
+    const Result result = run_program(words);
+    EXPECT_EQ(result.code, 2) << fault;
+    EXPECT_EQ(result.out, "") << fault;
+    EXPECT_THAT(result.err, testing::AllOf(testing::StartsWith("encounter: --fault: "), HasSubstr(why)));
+  }
+}
+
 // Dry: all is read and computed, and the machine is told nothing.
 TEST(Fakes, WithoutArmedTheMachineHearsNoSetPoint) {
   Laboratory there(false);

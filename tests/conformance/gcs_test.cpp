@@ -127,6 +127,19 @@ TEST(GcsDriver, ALostLinkIsSaidAndStaysLost) {
   }
 }
 
+// The first ERR? clears what was there: error 10 is the end of every run, and nothing is said of it.
+TEST(GcsDriver, AnErrorOfBeforeIsSaidAsSuch) {
+  for (const auto& [told, lines] : {std::pair{"", 0U}, {"\x18", 0U}, {"STP\n", 0U}, {"WHAT\n", 1U}}) {
+    SCOPED_TRACE(told);
+    GcsBench bench;
+    EXPECT_EQ(bench.controller.take(told), "");
+    EXPECT_EQ(bench.driver()->read(Time{}).health, Health::ok);
+    ASSERT_EQ(bench.log.lines().size(), lines);
+    EXPECT_THAT(bench.log.lines(),
+                testing::Each(HasSubstr(": an error of before this run: error 2: unknown command")));
+  }
+}
+
 TEST(GcsDriver, AWatchdogOfLessThanThreeCyclesIsRefused) {
   GcsBench bench;
   bench.settings.watchdog = 0.0029;
@@ -201,6 +214,34 @@ TEST(GcsPort, AControllerThatGoesAwayIsALostLink) {
   EXPECT_TRUE(comes([&] { return !log.lines().empty(); }));
   EXPECT_THAT(log.lines(), ElementsAre(HasSubstr("lost: closed by the controller")));
   driver->stop();
+}
+
+TEST(GcsPort, AnErrorOfTheFakeWithoutACodeIsThatOfAStrut) {
+  FollowingMachine machine;
+  trial::DeviceLog log;
+  gcs::Server server(machine, {}, "127.0.0.1", 0, log);
+  for (const double none : {0.0, 4294967295.0})
+    EXPECT_FALSE(server.knows({Trouble::Kind::error_code, none})) << none;
+  for (const auto& [code, said] : {std::pair{kUnset, "504\n"}, {1024.0, "1024\n"}}) {
+    ASSERT_TRUE(server.knows({Trouble::Kind::error_code, code}));
+    server.suffer({Trouble::Kind::error_code, code});
+    net::Socket client = net::connect_tcp("127.0.0.1", server.port(), Duration(1'000'000'000));
+    const std::string question = "ERR?\n";
+    EXPECT_EQ(client.send(std::as_bytes(std::span(question))), question.size());
+    std::array<std::byte, 16> bytes{};
+    std::size_t got = 0;
+    EXPECT_TRUE(comes([&] {
+      server.serve(Time{});
+      if (got == 0) got = client.receive(bytes);
+      return got > 0;
+    }));
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), got), said);
+    client = {};
+    EXPECT_TRUE(comes([&] {  // one client at a time
+      server.serve(Time{});
+      return !log.lines().empty();
+    }));
+  }
 }
 
 TEST(GcsPort, NobodyThereIsOneLine) {

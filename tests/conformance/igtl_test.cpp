@@ -115,6 +115,17 @@ TEST(IgtlDriver, AfterATickThatWasHeldUpPosesAreAsFreshAsBefore) {
   EXPECT_LT(freshest, 0.3 * kHeldUp);
 }
 
+TEST(IgtlDriver, AnErrorOfTheServerWithoutACodeIsAStatusOfIts) {
+  IgtlPort there;
+  EXPECT_FALSE(there.server.knows({Trouble::Kind::error_code, 65536.0}));
+  ASSERT_TRUE(there.server.knows({Trouble::Kind::error_code}));
+  there.server.suffer({Trouble::Kind::error_code});
+  const Served served(there.server);
+  const auto driver = igtl::subscribed(there.offer());
+  EXPECT_EQ(there.watch(*driver, 100).news, 0);
+  EXPECT_THAT(driver->remarks().at(0), HasSubstr("it reported status 18"));
+}
+
 TEST(IgtlDriver, WhoDoesNotAnswerIsNamed) {
   IgtlPort there;
   try {

@@ -102,6 +102,38 @@ TEST(NetftDriver, ReadsWhatTheSensorSays) {
   EXPECT_THAT(driver->remarks().at(0), HasSubstr("transducer saturated"));
 }
 
+// A run that had to wait for it would begin in hold. No other reading waits.
+TEST(NetftDriver, TheFirstReadingHasARecordAndNoOtherOneWaits) {
+  NetftPorts there;
+  auto served = std::make_unique<Served>(there.server);
+  Offer patient = there.offer();
+  const Offer offer{patient.table, patient.rig, patient.reach, Duration(200'000'000), patient.log};
+  const auto driver = netft::streaming(offer);
+  const Loop loop;
+  const Time begun = loop.now();
+  const Stamped<Wrench> first = driver->read(begun);
+  EXPECT_EQ(first.health, Health::ok) << "within a period, which is long here";
+  EXPECT_LE(first.t, begun);
+  served.reset();
+  constexpr int kReadings = 20;
+  const Duration before = net::steady_now();
+  for (int i = 0; i < kReadings; ++i) static_cast<void>(driver->read(loop.now()));
+  EXPECT_LT(net::steady_now() - before, kReadings * offer.period / 4);
+}
+
+// Its codes are status words: without one it is a word that the box may say.
+TEST(NetftDriver, AnErrorOfTheFakeWithoutACodeIsAStatusOfTheBox) {
+  NetftPorts there;
+  EXPECT_TRUE(there.server.knows({Trouble::Kind::error_code, 4294967295.0}));
+  EXPECT_FALSE(there.server.knows({Trouble::Kind::error_code, 4294967296.0}));
+  ASSERT_TRUE(there.server.knows({Trouble::Kind::error_code}));
+  there.server.suffer({Trouble::Kind::error_code});
+  const Served served(there.server);
+  const auto driver = netft::streaming(there.offer());
+  EXPECT_EQ(Loop{}.read_for(*driver, 20).health, Health::fault);
+  EXPECT_THAT(driver->remarks().at(0), HasSubstr("status 0x90000000: analog board"));
+}
+
 TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
   NetftPorts there;
   auto served = std::make_unique<Served>(there.server);

@@ -92,6 +92,16 @@ std::unique_ptr<StereoCamera> twin_camera(const models::Setup& setup, const Driv
   return module.camera(spec, show(setup, world));
 }
 
+std::unique_ptr<StereoCamera> real_camera(const models::Setup& setup, const DriverSource& modules,
+                                          const VisionOffer& offer) {
+  try {
+    return driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera", setup, modules,
+                         offer.log, Keeping{offer.waits});
+  } catch (const Error& e) {
+    throw of_role(setup, "camera", e);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const DriverSource& modules,
@@ -104,8 +114,7 @@ std::unique_ptr<PoseTracker> make_vision(const models::Setup& setup, const Drive
     std::vector<Time> exposed;
     if (!offer.kept.empty()) exposed = exposures_in(offer.kept);
     auto camera = simulated ? twin_camera(setup, modules, *offer.world, offer.seed)
-                            : driver_device(setup.rig.camera.driver, &DriverModule::camera, "stereo camera",
-                                            setup, modules, offer.log, Keeping{offer.waits});
+                            : real_camera(setup, modules, offer);
     if (!offer.keep.empty())
       camera = std::make_unique<KeepingCamera>(std::move(camera), offer.keep,
                                                *static_cast<const FrameFiles*>(modules("images").frames));

@@ -35,8 +35,9 @@ Controlled::Controlled(const Offer& offer, const GcsSettings& settings, std::uni
              settings_.step, offer.reach.machine.zero().p()) {
   reach_.speed = found_.velocity;
   stand();
-  if (found_.left_over != kNoError)
-    say(fmt::format(": had {}, before anything was told", error_words(found_.left_over)));
+  // Who was stopped, as at the end of each run, has error 10 until somebody asks.
+  if (found_.left_over != kNoError && found_.left_over != kStopped)
+    say(fmt::format(": an error of before this run: {}", error_words(found_.left_over)));
 }
 
 std::string Controlled::describe() const {

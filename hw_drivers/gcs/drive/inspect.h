@@ -21,7 +21,7 @@ struct Found {
   Stand stand;
   Travel travel;
   Coordinates at{};       // where it stands
-  int left_over = 0;      // an error that was there before
+  int left_over = 0;      // an error that was there before: to ask for it clears it
   bool lockstep = false;  // a fake whose time goes on with each set-point, and not by itself
 };
 

@@ -1,6 +1,9 @@
 #include "hw_drivers/gcs/fake/server.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +15,7 @@ namespace enc::gcs {
 namespace {
 
 constexpr std::size_t kMostUnsent = 1U << 20U;  // a client that reads nothing is let go
+constexpr int kUsualError = 504;                // a strut does not follow
 
 }  // namespace
 
@@ -79,12 +83,15 @@ void Server::send(Time now) {
   if (!unsent_.empty()) unsent_.erase(0, client_.send(std::as_bytes(std::span(unsent_))));
 }
 
-bool Server::knows(Trouble::Kind kind) const {
-  return kind == Trouble::Kind::error_code || (!lockstep_ && line_.knows(kind));
+bool Server::knows(const Trouble& trouble) const {
+  constexpr double kMost = std::numeric_limits<int>::max();
+  if (trouble.kind == Trouble::Kind::error_code) return !(trouble.value < 1.0 || trouble.value > kMost);
+  return !lockstep_ && line_.knows(trouble.kind);
 }
 
 void Server::suffer(const Trouble& trouble) {
-  if (trouble.kind == Trouble::Kind::error_code) return controller_.fail(static_cast<int>(trouble.value));
+  if (trouble.kind == Trouble::Kind::error_code)
+    return controller_.fail(std::isnan(trouble.value) ? kUsualError : static_cast<int>(trouble.value));
   line_.suffer(trouble);
   if (trouble.kind == Trouble::Kind::disconnect && client_.is_open()) leave();
 }

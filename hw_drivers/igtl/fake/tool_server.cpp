@@ -1,11 +1,18 @@
 #include "hw_drivers/igtl/fake/tool_server.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/error.h"
 #include "hw_drivers/igtl/drive/settings.h"
 
 namespace enc::igtl {
+namespace {
+
+constexpr std::uint16_t kUsualError = 18;  // of a STATUS: the hardware fails
+
+}  // namespace
 
 ToolServer::ToolServer(PoseTracker& tracker, std::vector<std::string> devices, const std::string& address,
                        std::uint16_t port, Duration alive, std::uint64_t seed)
@@ -64,13 +71,15 @@ void ToolServer::send(Time now, const Written& message) {
   if (asked_) line_.put(now, message.bytes());
 }
 
-bool ToolServer::knows(Trouble::Kind kind) const {
-  return kind == Trouble::Kind::error_code || line_.knows(kind);
+bool ToolServer::knows(const Trouble& trouble) const {
+  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+  if (trouble.kind == Trouble::Kind::error_code) return !(trouble.value < 0.0 || trouble.value > kMost);
+  return line_.knows(trouble.kind);
 }
 
 void ToolServer::suffer(const Trouble& trouble) {
   if (trouble.kind == Trouble::Kind::error_code) {
-    status_ = static_cast<std::uint16_t>(trouble.value);
+    status_ = std::isnan(trouble.value) ? kUsualError : static_cast<std::uint16_t>(trouble.value);
   } else {
     line_.suffer(trouble);
   }

@@ -30,7 +30,7 @@ class ToolServer final : public Fake {
   void serve(Time now) override;
   void publish(Time now) override;
   void wait_on(std::vector<int>& descriptors) const override { descriptors.push_back(socket_.descriptor()); }
-  [[nodiscard]] bool knows(Trouble::Kind kind) const override;
+  [[nodiscard]] bool knows(const Trouble& trouble) const override;
   void suffer(const Trouble& trouble) override;
   void heal(Trouble::Kind kind) override;
 

@@ -21,6 +21,7 @@ NetftSensor::NetftSensor(const Offer& offer, const NetftSettings& settings)
       session_(found_, from_seconds(settings.least_delay), offer.lockstep),
       socket_(net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))),
       arrival_(!offer.waits),
+      period_(offer.period),
       lockstep_(offer.lockstep) {
   if (settings_.command_port != 0)
     if (const std::vector<std::byte> answer = ask_calibration(settings_); !answer.empty()) {
@@ -73,6 +74,10 @@ Stamped<Wrench> NetftSensor::read(Time now) noexcept {
     while (receive()) {  // of before
     }
     ask(Command::start);
+    // Nothing has moved yet, and without a record the first tick would hold: no reading but this one waits.
+    // The clocks are tied before, as a record that was waited for has come later than its tick.
+    static_cast<void>(arrival_.at(now, net::steady_now()));
+    socket_.wait(period_);
   }
   if (!first && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
   for (int i = 0; i < kMostRecords && linked_ && receive(); ++i)

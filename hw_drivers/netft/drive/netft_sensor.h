@@ -38,6 +38,7 @@ class NetftSensor final : public ForceSensor {
   Session session_;
   net::Socket socket_;
   net::Arrival arrival_;
+  Duration period_;                        // of the loop
   std::array<std::byte, 256> datagram_{};  // longer ones are no records
   std::size_t size_ = 0;
   Time begun_{};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/error.h"
@@ -13,6 +15,7 @@ namespace enc::netft {
 namespace {
 
 constexpr std::size_t kMostReaders = 8, kMostAsked = 4096;
+constexpr std::uint32_t kUsualError = 1U << 28U;  // analog board
 
 }  // namespace
 
@@ -60,14 +63,17 @@ void Server::send(Time now) {
   line_.leave(now, [this](std::span<const std::byte> bytes) { static_cast<void>(records_.reply(bytes)); });
 }
 
-bool Server::knows(Trouble::Kind kind) const {
-  return kind == Trouble::Kind::saturate || kind == Trouble::Kind::error_code || line_.knows(kind);
+bool Server::knows(const Trouble& trouble) const {
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();  // its codes are status words
+  if (trouble.kind == Trouble::Kind::error_code) return !(trouble.value < 0.0 || trouble.value > kMost);
+  return trouble.kind == Trouble::Kind::saturate || line_.knows(trouble.kind);
 }
 
 void Server::suffer(const Trouble& trouble) {
   if (trouble.kind == Trouble::Kind::saturate) return box_.fail(kError | kSaturated);
   if (trouble.kind == Trouble::Kind::error_code)
-    return box_.fail(static_cast<std::uint32_t>(trouble.value) | kError);
+    return box_.fail(kError |
+                     (std::isnan(trouble.value) ? kUsualError : static_cast<std::uint32_t>(trouble.value)));
   line_.suffer(trouble);
   if (trouble.kind != Trouble::Kind::disconnect) return;
   readers_.clear();

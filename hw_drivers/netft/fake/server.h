@@ -33,7 +33,7 @@ class Server final : public Fake {
   void serve(Time now) override;
   void publish(Time now) override;
   void wait_on(std::vector<int>& descriptors) const override;
-  [[nodiscard]] bool knows(Trouble::Kind kind) const override;
+  [[nodiscard]] bool knows(const Trouble& trouble) const override;
   void suffer(const Trouble& trouble) override;
   void heal(Trouble::Kind kind) override;
 

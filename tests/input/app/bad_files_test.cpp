@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 #include <string>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -183,15 +184,74 @@ TEST_F(Program, ModelsComeFromTheEnvironmentToo) {
   EXPECT_THAT(r.err, StartsWith("encounter: " + path("elsewhere/behaviours.toml") + ":"));
 }
 
-TEST_F(Program, UnknownDriverModuleIsADevice) {
+// Of each role that the scene names, in a rig file or by --set; `run` and `check` say it in the same words.
+TEST_F(Program, ADriverThatIsNotThereIsNamedWithThoseThatAre) {
   for (const char* role : {"manipulator", "force", "tracker", "display"}) {
     const std::string table = std::string("[") + role + "]\ndriver = ";
-    write("models/rigs/lab.toml",
-          replaced(bytes_of(path("models/rigs/sim.toml")), table + "\"sim\"", table + "\"no_such\""));
+    const std::string text =
+        replaced(bytes_of(path("models/rigs/sim.toml")), table + "\"sim\"", table + "\"no_such\"");
+    write("models/rigs/lab.toml", text);
     EXPECT_THAT(
-        refused({"run", ball(), "--rig", "lab", "--for-s", "0.1", "--record", path("never.encrec")}, 3),
-        AllOf(HasSubstr("there is no module 'no_such'"), HasSubstr("modules there: ")))
+        scene_refused(ball(), {"--rig", "lab"}),
+        AllOf(StartsWith(path("models/rigs/lab.toml") + ":" + line_and_column(text, "driver = \"no_such\"") +
+                         ": there is no driver 'no_such'; expected one of 'sim', 'gcs', "),
+              HasSubstr("correct the name, or build it")))
         << role;
+  }
+  EXPECT_THAT(
+      scene_refused(ball(), {"--set", "rig.manipulator.driver=gsc"}),
+      AllOf(StartsWith("--set rig.manipulator.driver=gsc: there is no driver 'gsc'; expected one of "),
+            HasSubstr("'netft', 'sample'; did you mean 'gcs'?")));
+  for (const char* command : {"fake", "devices", "params"}) {
+    const bool rig = std::string(command) != "params";
+    EXPECT_THAT(refused({command, rig ? "sim" : ball(), "--set", "rig.force.driver=vision"}),
+                StartsWith("--set rig.force.driver=vision: there is no driver 'vision'"))
+        << command;
+  }
+  EXPECT_EQ(run_program({"check", shipped_scene("rig_A"), "--set", "rig.display.driver=gsc"}).code, 0)
+      << "the scene has no display";
+}
+
+// Its table is the right one, and where a role names it the name is mistyped: either place is said.
+TEST_F(Program, ADriverThatIsMistypedBesideItsTableIsNamedToo) {
+  const std::string text =
+      replaced(bytes_of(path("models/rigs/fakes.toml")), "driver = \"gcs\"", "driver = \"gsc\"");
+  write("models/rigs/lab.toml", text);
+  const std::string lab = path("models/rigs/lab.toml") + ":";
+  EXPECT_EQ(scene_refused(ball(), {"--rig", "lab"}),
+            lab + line_and_column(text, "[driver.gcs]") +
+                ": no role of this rig has the driver 'gcs'; expected one that a role names; did you mean "
+                "'gsc', as " +
+                lab + line_and_column(text, "driver = \"gsc\"") + " says?\n");
+}
+
+TEST_F(Program, ADriverThatDoesNotFillItsRoleIsNamedWithThoseThatDo) {
+  const std::string text = replaced(bytes_of(path("models/rigs/sim.toml")), "[force]\ndriver = \"sim\"",
+                                    "[force]\ndriver = \"gcs\"");
+  write("models/rigs/lab.toml", text);
+  EXPECT_EQ(
+      scene_refused(ball(), {"--rig", "lab"}),
+      path("models/rigs/lab.toml") + ":" + line_and_column(text, "driver = \"gcs\"") +
+          ": driver 'gcs' is for no force sensor; expected one of 'sim', 'netft', 'sample'; name one of "
+          "them\n");
+  EXPECT_THAT(scene_refused(ball(), {"--set", "rig.tracker.driver=netft"}),
+              StartsWith("--set rig.tracker.driver=netft: driver 'netft' is for no tracker; expected one of "
+                         "'sim', 'igtl'; name"));
+}
+
+// Nobody listens at port 1. Which of three devices is meant, and where the rig file names it.
+TEST_F(Program, ADeviceThatDoesNotAnswerIsNamedByItsRoleAndItsPlace) {
+  const std::string text = bytes_of(path("models/rigs/fakes.toml"));
+  for (const auto& [role, driver, key] :
+       {std::tuple{"manipulator", "gcs", "port"}, {"force", "netft", "http_port"}}) {
+    Words words{"run",     ball(), "--rig", "fakes",
+                "--for-s", "0.1",  "--set", std::string("rig.driver.") + driver + "." + key + "=1"};
+    if (std::string(role) != "manipulator")
+      words.insert(words.end(), {"--set", "rig.manipulator.driver=sim"});
+    EXPECT_THAT(refused(words, 3),
+                StartsWith(path("models/rigs/fakes.toml") + ":" +
+                           line_and_column(text, std::string("driver = \"") + driver + "\"") + ": " + role +
+                           ": 127.0.0.1:1: nobody listens there; see that the device is on"));
   }
 }
 

@@ -192,7 +192,8 @@ TEST_F(Camera, NeedsATrackerAnArmAndARigThatHasOne) {
 TEST_F(Camera, AFolderThatIsNoSequenceIsOneLine) {
   const std::string rig = images_rig(path("nowhere"));
   EXPECT_THAT(refused({"run", kScene, "--rig", rig, "--for-s", "1"}, 3),
-              HasSubstr("nowhere: is not there; expected a folder of images or a video"));
+              AllOf(testing::StartsWith(rig + ":"), HasSubstr(":1: camera: "),
+                    HasSubstr("nowhere: is not there; expected a folder of images or a video")));
 }
 
 // A sequence that was recorded gives the same every time, however busy the machine is.

@@ -53,10 +53,17 @@ TEST_F(Program, SeedThatIsNoWholeNumber) {
         << seed;
 }
 
+// Of every command that has one.
 TEST_F(Program, SeedThatIsNegativeOrTooLarge) {
   for (const char* seed : {"-1", "99999999999999999999999"})
-    EXPECT_THAT(refused({"run", ball(), "--for-s=0.1", std::string("--seed=") + seed}), HasSubstr("--seed"))
-        << seed;
+    for (const Words& words : {Words{"run", ball(), "--for-s=0.1"}, Words{"fake", "fakes"}, Words{"bench"},
+                               Words{"calibrate", "vishap"}, Words{"view", ball()}}) {
+      Words all = words;
+      all.push_back(std::string("--seed=") + seed);
+      EXPECT_EQ(refused(all),
+                "--seed: expected a whole number from 0 to 18446744073709551615; see encounter --help\n")
+          << words.front();
+    }
 }
 
 TEST_F(Program, OptionsThatDoNotExist) {

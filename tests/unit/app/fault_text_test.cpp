@@ -36,14 +36,17 @@ TEST(FaultText, IsADriverAFaultAValueATimeAndHowLong) {
   EXPECT_TRUE(std::isnan(least.lasts));
   EXPECT_DOUBLE_EQ(fault_of("igtl:jitter=20ms", "").trouble.value, 0.020);
   EXPECT_DOUBLE_EQ(fault_of("gcs:error-code=504", "").trouble.value, 504.0);
+  EXPECT_DOUBLE_EQ(fault_of("netft:error-code=0x90000000", "").trouble.value, 2415919104.0);
+  EXPECT_DOUBLE_EQ(fault_of("netft:error-code=0XffFFffFF+1s", "").trouble.value, 4294967295.0);
+  EXPECT_TRUE(std::isnan(fault_of("netft:error-code", "").trouble.value)) << "the device's own";
   EXPECT_DOUBLE_EQ(fault_of("gcs:slow-start=1.5s", "").trouble.value, 1.5);
   EXPECT_DOUBLE_EQ(fault_of("netft:garbage", "").trouble.value, 1.0);
 }
 
 TEST(FaultText, IsReadBackAsItWasWritten) {
-  for (const char* text :
-       {"loss=5%", "jitter=20ms", "reorder=30%", "duplicate=10%", "stall", "disconnect", "garbage=1%",
-        "half-message=1%", "saturate", "error-code=504", "slow-start=2000ms"})
+  for (const char* text : {"loss=5%", "jitter=20ms", "reorder=30%", "duplicate=10%", "stall", "disconnect",
+                           "garbage=1%", "half-message=1%", "saturate", "error-code=504", "error-code",
+                           "error-code=0x90000000", "slow-start=2000ms"})
     EXPECT_EQ(text_of(fault_of(std::string("gcs:") + text, "").trouble), text);
 }
 
@@ -55,13 +58,22 @@ TEST(FaultText, WhatIsNoneIsRefusedWithWhatWasExpected) {
                                   {"netft:", "there is no fault ''"},
                                   {"netft:loss=5", "'5' is no value of 'loss'"},
                                   {"netft:loss=101%", "no value"},
+                                  {"netft:loss=150 %", "no value"},
                                   {"netft:loss=-1%", "no value"},
                                   {"netft:loss=nan%", "no value"},
                                   {"netft:loss=1e400%", "no value"},
                                   {"igtl:jitter=20", "no value"},
                                   {"igtl:jitter=20us", "no value"},
+                                  {"igtl:jitter=-20ms", "'-20ms' is no value of 'jitter'"},
+                                  {"igtl:jitter=2e6s", "no value"},
                                   {"gcs:error-code=1.5", "no value"},
                                   {"gcs:error-code=1e10", "no value"},
+                                  {"gcs:error-code=-504", "no value"},
+                                  {"gcs:error-code=", "no value"},
+                                  {"netft:error-code=0x", "no value"},
+                                  {"netft:error-code=0x1g", "no value"},
+                                  {"netft:error-code=0x-1", "no value"},
+                                  {"netft:error-code=0x100000000", "no value"},
                                   {"gcs:stall=1", "'stall' has no value"},
                                   {"gcs:stall@3", "'3' is no time"},
                                   {"gcs:stall@-3s", "no time"},

@@ -172,6 +172,7 @@ TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
   const std::vector<std::array<const char*, 3>> contract{
       {"core/devices/settings.h", "bool needed", "int needed"},
       {"core/devices/driver.h", "Duration period;", "double period;"},
+      {"core/devices/fake.h", "std::uint64_t seed", "std::int64_t seed"},
       {"core/devices/device.h", "bool linked()", "int linked()"},
       {"core/devices/manipulator.h", "void stop()", "int stop()"}};
   for (const auto& [header, from, to] : contract) {

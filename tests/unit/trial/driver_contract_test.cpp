@@ -45,6 +45,7 @@ struct Given {
   std::int64_t makers = 0, commands = 0, stops = 0;
   double speed = 0.0, grip = 0.0;
   Duration period{};
+  bool absent = false;  // nobody answers
 };
 Given& given() {
   static Given g;
@@ -55,6 +56,8 @@ class Fake : public Role {
  public:
   explicit Fake(const Offer& offer) {
     given().box.declare(offer.table);
+    if (given().absent)
+      throw Error(given().box.address + ": nobody listens there; switch it on", {}, ErrorKind::device);
     ++given().makers;
     given().speed = offer.reach.speed;
     given().grip = offer.rig.gripper.force;
@@ -111,6 +114,11 @@ class DriverContract : public testing::Test {
   // lab.toml:LINE:COLUMN, the line counted from the table on.
   [[nodiscard]] std::string at(int line, int column) const {
     return rig_ + ":" + std::to_string(lines_ + line) + ":" + std::to_string(column) + ": ";
+  }
+  // Where the machine's driver is named.
+  [[nodiscard]] std::string named() const {
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(text_.find("driver = \"box\""));
+    return rig_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n')) + ":1";
   }
   std::string refusal(const std::string& table, const std::vector<std::string>& set = {}) {
     try {
@@ -204,10 +212,11 @@ TEST_F(DriverContract, AMissingKeyIsSaidWhereItBelongs) {
 }
 
 TEST_F(DriverContract, ATableOfNobodyIsRefused) {
-  EXPECT_EQ(
-      refusal(replaced(kTable, "driver.box", "driver.bax")),
-      at(1, 1) +
-          "no role of this rig has the driver 'bax'; expected one that a role names; did you mean 'box'?");
+  EXPECT_EQ(refusal(replaced(kTable, "driver.box", "driver.bax")),
+            at(1, 1) +
+                "no role of this rig has the driver 'bax'; expected one that a role names; did you mean "
+                "'box', as " +
+                named() + " says?");
   EXPECT_THAT(refusal(replaced(kTable, "driver.box", "driver.sim")),
               StartsWith(at(1, 1) + "no role of this rig"));
   EXPECT_THAT(refusal(kTable, {"rig.driver.bax.port=1"}), StartsWith("--set rig.driver.bax.port=1: no role"));
@@ -297,13 +306,47 @@ TEST_F(DriverContract, ParamsListsIt) {
   EXPECT_EQ(found, 5);
 }
 
-TEST_F(DriverContract, ARoleThatItDoesNotFillIsADevice) {
+TEST_F(DriverContract, ARoleThatItDoesNotFillIsAMistakeInTheFile) {
   try {
     Trial trial(load(kTable, {"rig.force.driver=box"}), options(false));
     FAIL();
   } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::input);
+    EXPECT_STREQ(e.what(),
+                 "--set rig.force.driver=box: force: module 'box' drives no force sensor; choose "
+                 "another driver in the rig file");
+  }
+}
+
+// A run says which of them, and where; a list of devices has the role before its words already.
+TEST_F(DriverContract, ADeviceThatIsNotThereIsNamedByItsRoleAndItsPlaceInTheFile) {
+  given().absent = true;
+  try {
+    Trial trial(load(kTable), options(false));
+    FAIL();
+  } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::device);
-    EXPECT_STREQ(e.what(), "module 'box' drives no force sensor; choose another driver in the rig file");
+    EXPECT_EQ(e.what(), named() + ": manipulator: 10.0.0.7: nobody listens there; switch it on");
+  }
+  const std::vector<DeviceWords> asked = ask_drivers(load(kTable), fake_module);
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[0].role, "manipulator");
+  EXPECT_EQ(asked[0].words, "10.0.0.7: nobody listens there; switch it on");
+  EXPECT_FALSE(asked[0].there);
+}
+
+// Nor does it matter who says it: the module, where it cannot be loaded.
+TEST_F(DriverContract, AModuleThatIsNotThereIsNamedByItsRoleToo) {
+  TrialOptions none = options(false);
+  none.drivers = [](const std::string&) -> const ModuleInfo& {
+    throw Error("there is no such module; build it", {}, ErrorKind::device);
+  };
+  try {
+    Trial trial(load(kTable, {"rig.manipulator.driver=sim"}), none);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::device);
+    EXPECT_THAT(e.what(), AllOf(StartsWith(rig_ + ":"), HasSubstr(":1: gripper: there is no such module")));
   }
 }
 

@@ -127,6 +127,10 @@ TEST(Socket, RefusesInClearWords) {
   const Socket taken = listen_tcp("127.0.0.1", 0);
   EXPECT_THAT(error_of([&] { return listen_tcp("127.0.0.1", taken.port()); }),
               HasSubstr("the port is taken"));
+  for (const auto& listen : {listen_tcp, bind_udp})  // an address of documentation, which nobody has
+    EXPECT_THAT(
+        error_of([&] { return listen("192.0.2.1", 0); }),
+        testing::AllOf(HasSubstr("192.0.2.1:0: "), HasSubstr("an address of this machine is needed")));
   EXPECT_EQ(place("::1", 80), "[::1]:80");
 }
 

@@ -44,6 +44,22 @@ TEST(NetftSession, CountsAreNewtonsAndNewtonMetres) {
   EXPECT_EQ(wrench.torque.xyz, (std::array<double, 3>{0.1, -0.2, 0.3}));
 }
 
+// A page in pounds and inches, as the box has them from an American factory: what comes out is SI.
+TEST(NetftSession, CountsOfPoundsAndInchPoundsAreNewtonsAndNewtonMetres) {
+  Configuration of;
+  ASSERT_EQ(read_xml("<netft><prodname>Net F/T</prodname><cfgcpf>1000000</cfgcpf><cfgcpt>2000000</cfgcpt>"
+                     "<scfgfu>lbf</scfgfu><scfgtu>lbf-in</scfgtu></netft>",
+                     of),
+            "");
+  Session session(of, Duration{}, false);
+  session.take(bytes_of(Record{1, 7, 0, {1000000, -2000000, 0, 2000000, -1000000, 0}}), Time{});
+  const Wrench& wrench = session.newest().value;
+  EXPECT_NEAR(wrench.force.xyz[0], 4.4482216152605, 1e-12);       // a pound
+  EXPECT_NEAR(wrench.force.xyz[1], -2 * 4.4482216152605, 1e-12);  // two
+  EXPECT_NEAR(wrench.torque.xyz[0], 0.1129848290276167, 1e-15);   // an inch pound
+  EXPECT_NEAR(wrench.torque.xyz[1], -0.5 * 0.1129848290276167, 1e-15);
+}
+
 TEST(NetftSession, OldAndDoubledRecordsChangeNothing) {
   Bench bench;
   bench.take(record(1, 70, 1), 10);
