@@ -111,10 +111,10 @@ add_test(NAME hygiene.system_calls COMMAND test_hygiene --gtest_filter=SystemCal
 set_tests_properties(hygiene.system_calls PROPERTIES LABELS hygiene TIMEOUT 60 SKIP_REGULAR_EXPRESSION "SKIPPED")
 enc_test(fuzz 4)
 if(ENCOUNTER_VISION)
-  enc_test(threads 1 enc_trackers enc_vision)
+  enc_test(threads 1 enc_trackers enc_gcs enc_igtl enc_netft enc_vision)
   target_sources(test_threads PRIVATE tests/unit/core/vision/finger/drawn_hand.cpp)
 else()
-  enc_test(threads 1 enc_trackers)
+  enc_test(threads 1 enc_trackers enc_gcs enc_igtl enc_netft)
 endif()
 
 # The targets of tests/fuzz under libFuzzer, which clang alone has: preset `fuzz`, docs/reference/fuzz.md.

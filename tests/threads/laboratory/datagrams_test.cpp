@@ -1,0 +1,132 @@
+// The drivers that read datagrams within the loop, beside a thread that sends them and suffers faults.
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/threads/laboratory/faulty_fakes.h"
+#include "tests/threads/laboratory/loop_thread.h"
+#include "tests/threads/laboratory/watches.h"
+
+namespace enc::test {
+namespace {
+
+using Kind = Trouble::Kind;
+
+struct NetftKit {
+  using Place = FaultyNetft;
+  using Watched = SensorWatch;
+  // A record has no sum that tells noise from what was sent: its number may be taken for one of tomorrow.
+  static constexpr bool kTellsNoise = false;
+};
+struct IgtlKit {
+  using Place = FaultyIgtl;
+  using Watched = TrackerWatch;
+  static constexpr bool kTellsNoise = true;
+};
+
+template <class Kit>
+struct ThreadedDatagrams : testing::Test {
+  using Place = typename Kit::Place;
+  using Watched = typename Kit::Watched;
+
+  // Suffers one after the other, each for some ticks, for half a second.
+  static void suffer(Place& there, FaultyFakes& fakes, const LoopThread<Watched>& loop,
+                     const std::vector<Trouble>& all) {
+    for (std::size_t i = 0; i < 25; ++i) {
+      const Trouble& trouble = all[i % all.size()];
+      if (!there.server->knows(trouble.kind)) continue;
+      fakes.suffer(*there.server, trouble);
+      loop.pass(15);
+      if (i % 4 != 0) fakes.heal(*there.server, trouble.kind);  // else it lasts
+      loop.pass(5);
+    }
+    fakes.heal(*there.server);
+  }
+};
+using Kits = testing::Types<NetftKit, IgtlKit>;
+TYPED_TEST_SUITE(ThreadedDatagrams, Kits);
+
+TYPED_TEST(ThreadedDatagrams, GoForwardThroughWhatHeals) {
+  typename TestFixture::Place there(kPatient);
+  FaultyFakes fakes({there.server.get()});
+  const auto driver = there.driver();
+  typename TestFixture::Watched watch(*driver);
+  LoopThread loop(watch);
+  this->suffer(there, fakes, loop,
+               {{Kind::loss, 0.3},
+                {Kind::reorder, 0.3},
+                {Kind::duplicate, 0.3},
+                {Kind::jitter, 0.004},
+                {Kind::slow_start, 0.05},
+                {Kind::half_message, 0.3},
+                {Kind::stall}});
+  const std::int64_t before = watch.news();
+  EXPECT_TRUE(comes_true([&] { return watch.news() > before + 20; }));
+  loop.end();
+  watch.expect_whole();
+  EXPECT_EQ(watch.smaller, 0);
+  EXPECT_TRUE(driver->linked());
+}
+
+TYPED_TEST(ThreadedDatagrams, WhatIsNoiseIsNotTakenForGood) {
+  typename TestFixture::Place there(kPatient);
+  FaultyFakes fakes({there.server.get()});
+  const auto driver = there.driver();
+  typename TestFixture::Watched watch(*driver);
+  LoopThread loop(watch);
+  this->suffer(there, fakes, loop,
+               {{Kind::garbage, 0.3},
+                {Kind::half_message, 0.3},
+                {Kind::reorder, 0.3},
+                {Kind::error_code, 13},
+                {Kind::saturate}});
+  const std::int64_t before = watch.news();
+  if (TypeParam::kTellsNoise) {
+    EXPECT_TRUE(comes_true([&] { return watch.news() > before + 20; }));
+    EXPECT_TRUE(driver->linked());
+  }
+  loop.end();
+  watch.expect_whole();
+}
+
+TYPED_TEST(ThreadedDatagrams, SilenceIsTheEndOfTheLink) {
+  for (const Trouble& trouble : {Trouble{Kind::stall}, Trouble{Kind::disconnect}, Trouble{Kind::loss, 1.0}}) {
+    typename TestFixture::Place there(kImpatient);
+    FaultyFakes fakes({there.server.get()});
+    const auto driver = there.driver();
+    typename TestFixture::Watched watch(*driver);
+    LoopThread loop(watch);
+    loop.pass(20);
+    fakes.suffer(*there.server, trouble);
+    EXPECT_TRUE(comes_true([&] { return watch.lost(); })) << static_cast<int>(trouble.kind);
+    fakes.heal(*there.server);
+    loop.pass(20);
+    loop.end();
+    watch.expect_whole();
+    EXPECT_FALSE(driver->linked());
+  }
+}
+
+TYPED_TEST(ThreadedDatagrams, EndInEveryState) {
+  enum class At { once, reading, stall, left_alone, gone };
+  for (const At at : {At::once, At::reading, At::stall, At::left_alone, At::gone}) {
+    typename TestFixture::Place there(kPatient);
+    FaultyFakes fakes({there.server.get()});
+    auto driver = there.driver();
+    typename TestFixture::Watched watch(*driver);
+    if (at == At::once) continue;
+    LoopThread loop(watch);
+    loop.pass(15);
+    if (at == At::stall) fakes.suffer(*there.server, {Kind::stall});
+    if (at == At::left_alone || at == At::gone) fakes.end();
+    if (at == At::gone) there.server.reset();
+    loop.pass(5);
+    loop.end();
+    driver.reset();
+    watch.expect_whole();
+  }
+}
+
+}  // namespace
+}  // namespace enc::test

@@ -1,0 +1,118 @@
+// The three devices of the laboratory's rig as they stand behind their fakes, each on a free port of this
+// machine. What each says is a number that says itself twice, and grows: what is torn or goes back shows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hw_drivers/gcs/drive/net_link.h"
+#include "hw_drivers/gcs/fake/server.h"
+#include "hw_drivers/igtl/drive/udp_tracker.h"
+#include "hw_drivers/igtl/fake/tool_server.h"
+#include "hw_drivers/netft/drive/netft_sensor.h"
+#include "hw_drivers/netft/fake/server.h"
+#include "tests/support/default_offer.h"
+#include "tests/support/devices/following_machine.h"
+#include "trial/device_log.h"
+
+namespace enc::test {
+
+inline constexpr double kPatient = 100.0;  // s: longer than any test, on any machine
+inline constexpr double kImpatient = 0.03;
+
+struct FaultyTable final : DefaultOffer::Defaults {
+  using DefaultOffer::Defaults::value;
+  void value(const Setting& key, double& number) override {
+    if (const auto own = numbers.find(key.name); own != numbers.end()) number = own->second;
+  }
+  void value(const Setting& key, std::int64_t& whole) override {
+    if (const auto own = ports.find(key.name); own != ports.end()) whole = own->second;
+  }
+  void value(const Setting& key, std::string& text) override {
+    if (key.name == "address") text = "127.0.0.1";
+  }
+  std::map<std::string_view, double> numbers;  // SI
+  std::map<std::string_view, std::int64_t> ports;
+};
+
+struct FaultyPlace {
+  Offer offer(const Reach& reach) {
+    return {table, defaults.rig, reach, Duration(1'000'000), log, false, false, tools};
+  }
+  DefaultOffer defaults;
+  FaultyTable table;
+  std::vector<std::string> tools{"stylus"};
+  trial::DeviceLog log;  // of the driver
+  trial::DeviceLog log_of_fake;
+};
+
+// A machine that is where it is told to be.
+struct FaultyGcs : FaultyPlace {
+  // Without an answer for so long its link is lost, s.
+  explicit FaultyGcs(double patience, std::uint64_t seed = 1)
+      : server(std::make_unique<gcs::Server>(machine, gcs::ControllerSettings{}, "127.0.0.1",
+                                             std::uint16_t{0}, log_of_fake, std::function<void()>{}, seed)) {
+    table.numbers = {{"timeout_ms", patience}, {"watchdog_ms", kPatient}};
+    table.ports = {{"port", server->port()}};
+  }
+  std::unique_ptr<Manipulator> driver() { return gcs::connected(offer(machine.can)); }
+
+  FollowingMachine machine;
+  std::unique_ptr<gcs::Server> server;
+};
+
+// Force and torque are the same along all axes.
+struct CountingSensor final : ForceSensor {
+  Stamped<Wrench> read(Time now) noexcept override {
+    const double x = kStep * static_cast<double>(++number);
+    return {{Vec<'F'>(x, x, x), Vec<'F'>(x, x, x)}, now, Health::ok};
+  }
+  static constexpr double kStep = 1e-4;  // N, N m
+  std::int64_t number = 0;
+};
+struct FaultyNetft : FaultyPlace {
+  explicit FaultyNetft(double patience, std::uint64_t seed = 1)
+      : server(std::make_unique<netft::Server>(sensor, netft::gamma(), "127.0.0.1", netft::Ports{}, seed)) {
+    table.numbers = {{"timeout_ms", kPatient}, {"silent_ms", patience}};
+    table.ports = {{"port", server->port()},
+                   {"http_port", server->http_port()},
+                   {"command_port", server->command_port()}};
+  }
+  std::unique_ptr<ForceSensor> driver() { return netft::streaming(offer(defaults.reach)); }
+
+  CountingSensor sensor;
+  std::unique_ptr<netft::Server> server;
+};
+
+// A pose each millisecond, as far along x as along y.
+struct CountingTracker final : PoseTracker {
+  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
+    if (now - last < Duration(1'000'000)) return false;
+    last = now;
+    const double x = kStep * static_cast<double>(++number);
+    newest = {{0, Pose<'C', 'T'>::shift(x, x, 0.9)}, now, Health::ok};
+    return true;
+  }
+  static constexpr double kStep = 1e-6;  // m
+  std::int64_t number = 0;
+  Time last{};
+};
+struct FaultyIgtl : FaultyPlace {
+  explicit FaultyIgtl(double patience, std::uint64_t seed = 1)
+      : server(std::make_unique<igtl::ToolServer>(tracker, std::vector<std::string>{"stylusToTracker"},
+                                                  "127.0.0.1", std::uint16_t{0}, igtl::kServerPeriod, seed)) {
+    table.numbers = {{"timeout_ms", kPatient}, {"silent_ms", patience}};
+    table.ports = {{"port", server->port()}};
+  }
+  std::unique_ptr<PoseTracker> driver() { return igtl::subscribed(offer(defaults.reach)); }
+
+  CountingTracker tracker;
+  std::unique_ptr<igtl::ToolServer> server;
+};
+
+}  // namespace enc::test
