@@ -107,7 +107,7 @@ bool Controller::is_none(std::string_view word, std::string_view names) noexcept
 
 void Controller::mend() noexcept {
   error_ = kNoError;
-  servo_ = same(true);
+  servo_.fill(true);
 }
 
 void Controller::fail(int error) noexcept {
