@@ -71,9 +71,10 @@ std::vector<std::string> Fakes::describe() const {
 void Fakes::begin() {
   ++begun_;
   world_->restore(first_);
-  std::erase_if(plans_, [](const Planned& plan) { return plan.by_hand && (plan.over || !plan.begun); });
+  std::erase_if(plans_, [](const Planned& plan) { return plan.by_hand && plan.over; });
   for (Planned& plan : plans_) {
-    if (plan.by_hand) {  // it lasts, whoever comes
+    if (plan.by_hand) {  // it lasts or is still to come, whoever comes
+      plan.from -= now_.t.time_since_epoch();
       if (plan.to != Time::max()) plan.to -= now_.t.time_since_epoch();
       continue;
     }

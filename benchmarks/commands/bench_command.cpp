@@ -72,7 +72,7 @@ void print_table(const Table& table) {
   for (const auto& row : table.rows) line(row);
 }
 
-// SIGINT, SIGTERM and SIGHUP wait until somebody asks; threads and what they start inherit that.
+// SIGINT, SIGTERM, SIGHUP and SIGUSR1 wait until somebody asks; threads and what they start inherit that.
 class Signals {
  public:
   Signals() {
@@ -80,6 +80,7 @@ class Signals {
     sigaddset(&set_, SIGINT);
     sigaddset(&set_, SIGTERM);
     sigaddset(&set_, SIGHUP);
+    sigaddset(&set_, SIGUSR1);  // stops a run over devices
     pthread_sigmask(SIG_BLOCK, &set_, &before_);
   }
   ~Signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }

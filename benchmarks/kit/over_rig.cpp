@@ -8,6 +8,7 @@
 
 #include "benchmarks/kit/load_scene.h"
 #include "core/error.h"
+#include "core/mode.h"
 
 namespace enc::bench {
 
@@ -85,6 +86,14 @@ void check_ended(const trial::Trial& trial) {
                     link.role, seconds(link.t.time_since_epoch())),
         {}, ErrorKind::device);
   }
+  // Before the first samples there is nothing to go by.
+  constexpr Time kBegun{Duration(100'000'000)};
+  for (const auto& [t, why] : trial.result().holds)
+    if (t > kBegun)
+      throw Error(fmt::format("the run held at {:.3f} s: {}; what it has measured is worth nothing; see "
+                              "docs/guide/laboratory.md for what to do, and begin anew",
+                              seconds(t.time_since_epoch()), why_text(why)),
+                  {}, ErrorKind::device);
   if (trial.result().interrupted) throw Error("the run was interrupted", {}, ErrorKind::device);
 }
 

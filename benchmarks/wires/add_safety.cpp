@@ -47,9 +47,11 @@ struct Extremes {
 
 void add_safety(Bench& bench) {
   const models::Setup setup = short_press(bench.context.models);
-  const double acceleration = setup.rig.manipulator.acceleration;
   const std::vector<std::uint64_t> seeds = bench.seeds(bench.context.count(5, 1));
   std::vector<Case> cases;
+  for (const Mode mode : kInjectedIn)  // these first: how far it goes where nothing happens
+    for (const std::uint64_t seed : seeds) cases.push_back({&no_fault(), mode, seed});
+  const std::size_t free = cases.size();
   for (const Fault& fault : faults())
     for (const Mode mode : kInjectedIn)
       for (const std::uint64_t seed : seeds) cases.push_back({&fault, mode, seed});
@@ -58,22 +60,35 @@ void add_safety(Bench& bench) {
 
   Table table{"safety",
               "What a fault of a device comes to",
-              {"device", "fault", "hold, at most", "hold, ms", "rest, ms", "way, mm", "reason", "link"},
+              {"device", "fault", "hold, at most", "hold, ms", "fastest, mm/s", "rest, ms", "way, mm",
+               "reason", "link"},
               {},
               "From the injection on, over four modes and the seeds; rest and way include what the machine "
               "brakes from its speed.",
               true};
   Table wrongs{"safety_wrong", "Cells that do not hold", {"device", "fault", "mode", "seed", "what"}, {}};
   for (std::size_t i = 0; i < cases.size(); ++i)
-    if (const std::string wrong = wrong_with(*cases[i].fault, all[i], acceleration); !wrong.empty())
+    if (const std::string wrong = wrong_with(*cases[i].fault, cases[i].mode, all[i], setup); !wrong.empty())
       wrongs.add(cases[i].fault->device, cases[i].fault->name, mode_name(cases[i].mode), cases[i].seed,
                  wrong);
-  double latest = 0.0;  // over its bound
+  double latest = 0.0;                      // over its bound
+  double moving = 0.0, gone_farther = 0.0;  // cells in which the tip was to move; and than its bound
+  for (std::size_t i = free; i < cases.size(); ++i) {
+    const Case& one = cases[i];
+    if (one.fault->end == End::unharmed || (one.mode != Mode::follow && one.mode != Mode::contact)) continue;
+    const auto same =
+        std::find_if(cases.begin(), cases.begin() + static_cast<std::ptrdiff_t>(free),
+                     [&](const Case& other) { return other.mode == one.mode && other.seed == one.seed; });
+    ++moving;
+    if (all[static_cast<std::size_t>(same - cases.begin())].way > way_bound(*one.fault, all[i], setup))
+      ++gone_farther;
+  }
   for (const Fault& fault : faults()) {
-    Extremes hold, rest, way;
+    Extremes hold, speed, rest, way;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (cases[i].fault != &fault) continue;
       hold.add(all[i].hold);
+      speed.add(1e3 * all[i].speed);
       rest.add(all[i].rest);
       way.add(1e3 * all[i].way);
     }
@@ -81,13 +96,18 @@ void add_safety(Bench& bench) {
     if (!unharmed) latest = std::max(latest, hold.most / fault.hold);
     table.add(fault.device, fault.name, unharmed ? "never" : fmt::format("{:g} ms", fault.hold),
               unharmed ? "" : range(hold.least, hold.most, "{:.0f}"),
+              unharmed ? "" : range(speed.least, speed.most, "{:.1f}"),
               unharmed ? "" : range(rest.least, rest.most, "{:.0f}"),
               unharmed ? "" : range(way.least, way.most, "{:.2f}"), unharmed ? "" : why_text(fault.why),
               words(fault.end));
   }
   bench.table(std::move(table));
   bench.figure("safety.wrong.count", static_cast<double>(wrongs.rows.size()), "", exactly(0),
-               fmt::format("of {} cells: fault x device x mode x seed", cases.size()));
+               fmt::format("of {} cells: fault x device x mode x seed", cases.size() - free));
+  bench.figure(
+      "safety.gone_farther.share", gone_farther / moving, "", at_least(0.5),
+      "of the cells in follow and contact: without the fault the tip would have gone farther than the "
+      "bound of its way");
   bench.figure("safety.hold_over_bound.max", latest, "", at_most(1.0));
   if (!wrongs.rows.empty()) bench.table(std::move(wrongs));
 }

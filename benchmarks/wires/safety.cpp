@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "hw_drivers/gcs/drive/settings.h"
+#include "models/setup/driver_table.h"
 
 namespace enc::bench::wires {
 namespace {
@@ -26,6 +32,8 @@ void heal_tracker(WiredTrial& at) {
 const std::array kFaults{
     Fault{"manipulator", "silent", [](WiredTrial& at) { at.wires().machine.silent = true; },
           [](WiredTrial& at) { at.wires().machine.silent = false; }, End::link_lost, 9, kTipLost},
+    Fault{"manipulator", "cable cut", [](WiredTrial& at) { at.wires().machine.cut = true; },
+          [](WiredTrial& at) { at.wires().machine.cut = false; }, End::link_lost, 9, kTipLost},
     Fault{"manipulator", "closed", [](WiredTrial& at) { at.wires().machine.hung_up = true; },
           [](WiredTrial& at) { at.wires().machine.hung_up = false; }, End::link_lost, 2, kTipInvalid},
     Fault{"manipulator", "garbage", [](WiredTrial& at) { at.wires().machine.instead = "?\x7f what\n"; },
@@ -62,17 +70,17 @@ const std::array kFaults{
           [](WiredTrial& at) {
             at.wires().box().suffer({Kind::loss, 0.05});
           },
-          heal_force<Kind::loss>, End::unharmed},
+          heal_force<Kind::loss>, End::unharmed, 0, 0, "missing"},
     Fault{"force", "30 % behind the next",
           [](WiredTrial& at) {
             at.wires().box().suffer({Kind::reorder, 0.3});
           },
-          heal_force<Kind::reorder>, End::unharmed},
+          heal_force<Kind::reorder>, End::unharmed, 0, 0, "old"},
     Fault{"force", "half come twice",
           [](WiredTrial& at) {
             at.wires().box().suffer({Kind::duplicate, 0.5});
           },
-          heal_force<Kind::duplicate>, End::unharmed},
+          heal_force<Kind::duplicate>, End::unharmed, 0, 0, "old"},
     Fault{"tracker", "silent", [](WiredTrial& at) { at.wires().tracker_silent = true; },
           [](WiredTrial& at) { at.wires().tracker_silent = false; }, End::link_lost, 101, kToolLost},
     Fault{"tracker", "all noise",
@@ -94,12 +102,12 @@ const std::array kFaults{
             at.wires().tools().heal(Kind::loss);
             at.wires().tools().heal(Kind::reorder);
           },
-          End::unharmed},
+          End::unharmed, 0, 0, "datagrams missing"},
     Fault{"tracker", "half come twice",
           [](WiredTrial& at) {
             at.wires().tools().suffer({Kind::duplicate, 0.5});
           },
-          heal_tracker<Kind::duplicate>, End::unharmed},
+          heal_tracker<Kind::duplicate>, End::unharmed, 0, 0, "old"},
     // From when the loop is back: the machine stands already.
     Fault{"program", "its loop stands for 100 ms",
           [](WiredTrial& at) { at.wires().stand(Duration(100'000'000), false); }, nothing, End::holds, 1,
@@ -113,34 +121,64 @@ constexpr int kInjured = 700, kCured = 500;  // ticks
 constexpr double kStands = 1e-4;             // m/s
 constexpr double kSlack = 1e-4;              // m: steps and noise of a tip that stands
 
-// s: until the stop has gone through the points that the controller has, its dead time and its servo.
-constexpr double kBrakes = 0.060;
+// s: the points that the controller still has when it hears nothing more, and the machine's dead time.
+double blind(const models::Setup& setup) {
+  constexpr double kPoints = 3.0;  // two that wait and the one that it goes to
+  gcs::GcsSettings machine;
+  models::DriverTableReader table(setup, "gcs");
+  machine.declare(table);
+  return kPoints * machine.cycle + static_cast<double>(setup.twin.hexapod.delay_cycles) / setup.rig.loop.rate;
+}
+// 1/s, of its servo's decay.
+double decay(const models::Setup& setup) {
+  return setup.twin.hexapod.damping * 2.0 * std::numbers::pi * setup.twin.hexapod.servo;
+}
+
+// The number before the word in what a driver says at the end of a run.
+double number_before(const std::vector<std::string>& remarks, const std::string& word) {
+  for (const std::string& remark : remarks) {
+    const std::size_t at = remark.find(" " + word);
+    if (at == std::string::npos) continue;
+    const std::size_t begin = remark.rfind(' ', at - 1) + 1;
+    return std::stod(remark.substr(begin, at - begin));
+  }
+  return kUnset;
+}
 
 }  // namespace
 
 std::span<const Fault> faults() { return kFaults; }
 
-double rest_bound(const Fault& fault, const Reaction& of, double acceleration) {
-  return fault.hold + 1e3 * (kBrakes + of.speed / acceleration);
+const Fault& no_fault() {
+  static constexpr Fault kNone{"", "", nothing, nothing, End::unharmed};
+  return kNone;
 }
 
-double way_bound(const Fault& fault, const Reaction& of, double acceleration) {
-  return of.speed * (1e-3 * fault.hold + kBrakes) + 0.5 * of.speed * of.speed / acceleration + kSlack;
+double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
+  const double settles = std::log(std::max(1.0, of.speed / kStands)) / decay(setup);
+  return fault.hold + 1e3 * (blind(setup) + of.speed / setup.rig.manipulator.acceleration + settles);
 }
 
-std::string wrong_with(const Fault& fault, const Reaction& of, double acceleration) {
+double way_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
+  const double brakes = 0.5 * of.speed * of.speed / setup.rig.manipulator.acceleration;
+  return of.speed * (1e-3 * fault.hold + blind(setup) + 1.0 / decay(setup)) + brakes + kSlack;
+}
+
+std::string wrong_with(const Fault& fault, Mode mode, const Reaction& of, const models::Setup& setup) {
   std::string wrong;
   const auto say = [&](bool bad, const std::string& what) {
     if (bad) wrong += (wrong.empty() ? "" : "; ") + what;
   };
+  say(of.in != mode, fmt::format("it was in {}", mode_name(of.in)));
   if (fault.end == End::unharmed) {
     say(of.held, "held: " + why_text(of.why));
     say(!of.linked, "a link was lost");
+    say(fault.counted != nullptr && !(of.counted > 0.0), "the driver has counted none");
     return wrong;
   }
   say(!(of.hold <= fault.hold), fmt::format("held after {} ms, at most {}", of.hold, fault.hold));
   say((of.why & fault.why) == 0, "held for another reason: " + why_text(of.why));
-  const double rest = rest_bound(fault, of, acceleration), way = way_bound(fault, of, acceleration);
+  const double rest = rest_bound(fault, of, setup), way = way_bound(fault, of, setup);
   say(!(of.rest <= rest), fmt::format("at rest after {} ms, at most {:.0f}", of.rest, rest));
   say(!(of.way <= way), fmt::format("went {:.2f} mm, at most {:.2f}", 1e3 * of.way, 1e3 * way));
   say(of.linked != (fault.end == End::holds), of.linked ? "the link came back" : "the link is lost");
@@ -164,17 +202,18 @@ Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::u
   const auto in = [&](Mode wanted) { return trial.outputs().mode == wanted; };
   while (wired.tick() && !in(mode)) {
   }
-  // While it lasts: restoring does so for some ten milliseconds.
+  // While it lasts: a tool is far for some ten milliseconds at first, and restoring lasts as long.
   std::mt19937_64 random(seed);
-  const int most = mode == Mode::contact ? 1500 : mode == Mode::restore ? 5 : 100;
+  const int most = mode == Mode::contact ? 1500 : mode == Mode::follow ? 100 : 4;
   const int later = static_cast<int>(random() % static_cast<std::uint64_t>(most));
   for (int i = 0; i < later && in(mode); ++i)
     if (!wired.tick()) break;
   const auto& plant = trial.world().machine->state();
-  of.speed = plant.velocity.norm();
+  of.in = trial.outputs().mode;
   const Vec3 first = plant.pose.p();
   fault.inject(wired);
   for (int i = 1; i <= kInjured; ++i) {
+    if (std::isinf(of.hold)) of.speed = std::max(of.speed, plant.velocity.norm());
     if (!wired.tick()) break;
     of.held = of.held || in(Mode::hold);
     if (in(Mode::hold) && std::isinf(of.hold)) {
@@ -190,6 +229,10 @@ Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::u
   for (int i = 0; i < kCured && wired.tick(); ++i) of.goes_on = of.goes_on || !in(Mode::hold);
   of.end = why_text(trial.outputs().why);
   const Rig& rig = trial.rig();
+  if (fault.counted != nullptr)
+    of.counted = number_before(
+        fault.device == std::string_view("force") ? rig.force->remarks() : rig.tracker->remarks(),
+        fault.counted);
   of.linked = rig.manipulator->linked() && rig.force->linked() && rig.tracker->linked();
   of.simulated = seconds(trial.now().t.time_since_epoch());
   return of;

@@ -27,6 +27,8 @@ struct Fault {
   End end;
   double hold = 0.0;      // ms after it, at most: held by then
   std::uint32_t why = 0;  // among the reasons
+  // Of what does no harm: what the driver has counted says that it was there ("missing", "old").
+  const char* counted = nullptr;
 };
 [[nodiscard]] std::span<const Fault> faults();
 
@@ -36,24 +38,30 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct Reaction {
   double hold = kNever, rest = kNever;  // ms after it; rest: below 0.1 mm/s from then on, for 0.7 s
-  double speed = 0.0;                   // of the tip, m/s, when it was injected
+  Mode in = Mode::hold;                 // when it was injected
+  double speed = 0.0;                   // of the tip, m/s, the greatest from then until it holds
   double way = 0.0;                     // of the tip from then on, m, for 0.7 s
   std::uint32_t why = 0;                // of the first hold
   bool held = false;                    // in the 0.7 s
   bool linked = true;                   // all, 0.5 s after it was cured
   bool goes_on = false;                 // was in another mode than hold in those 0.5 s
   std::string end{};                    // why it holds at the end
+  double counted = kUnset;              // what the driver says that it has counted
   double simulated = 0.0;               // s
 };
-// Bounds that hold for every cell, from the machine's speed and the rig's acceleration.
-[[nodiscard]] double rest_bound(const Fault& fault, const Reaction& of, double acceleration);  // ms
-[[nodiscard]] double way_bound(const Fault& fault, const Reaction& of, double acceleration);   // m
+// Bounds that hold for every cell, from how fast the tip was, the points that the controller still has, the
+// rig's acceleration, and the dead time and servo of the machine.
+[[nodiscard]] double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup);  // ms
+[[nodiscard]] double way_bound(const Fault& fault, const Reaction& of, const models::Setup& setup);   // m
 // What of it does not hold; empty: all does.
-[[nodiscard]] std::string wrong_with(const Fault& fault, const Reaction& of, double acceleration);
+[[nodiscard]] std::string wrong_with(const Fault& fault, Mode mode, const Reaction& of,
+                                     const models::Setup& setup);
 
 // A short press of the tennis ball on the rig `fakes`, with the times of silence that ship for real devices.
 [[nodiscard]] models::Setup short_press(const std::string& models);
 // Injects it in that mode, at a moment of it by the seed.
 [[nodiscard]] Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::uint64_t seed);
+// The same, and nothing happens: how far it would have gone.
+[[nodiscard]] const Fault& no_fault();
 
 }  // namespace enc::bench::wires

@@ -23,6 +23,7 @@ namespace enc::wires {
 // What may happen to the machine's wire. Force and tool data suffer as their fakes do (core/devices/fake.h).
 struct Spoilt {
   bool silent = false;   // nothing comes any more, though it is taken
+  bool cut = false;      // a cable: nothing comes, and nothing is taken
   bool hung_up = false;  // closed by the other side
   std::string instead;   // once, in place of the next answer
   bool half = false;     // of the next answer, and then nothing

@@ -163,7 +163,7 @@ TEST(Fakes, AFaultThatCannotBeIsRefused) {
         {"igtl:saturate", "knows no 'saturate'"},
         {"netft:loss=150%", "'150%' is no value of 'loss'"}}) {
     std::vector<std::string> words{"fake", "fakes", "--fault", fault};
-    for (const std::string& set : free_ports()) words.insert(words.end(), {"--set", set});
+    for (const std::string& set : wires::free_ports()) words.insert(words.end(), {"--set", set});
     const Result result = run_program(words);
     EXPECT_EQ(result.code, 2) << fault;
     EXPECT_EQ(result.out, "") << fault;

@@ -51,6 +51,7 @@ bool UdpTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
   if (polled_ && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
   polled_ = true;
   bool news = false;
+  static_cast<void>(arrival_.at(now, net::steady_now()));  // how far apart the two clocks are
   std::array<std::byte, kMostBytes> bytes{};
   if (first && !lockstep_)  // what came before the run is old
     for (int i = 0; i < kMostWaiting && socket_.receive(bytes) > 0; ++i) {

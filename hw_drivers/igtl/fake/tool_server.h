@@ -29,7 +29,10 @@ class ToolServer final : public Fake {
   [[nodiscard]] std::string describe() const override;
   void serve(Time now) override;
   void publish(Time now) override;
-  void wait_on(std::vector<int>& descriptors) const override { descriptors.push_back(socket_.descriptor()); }
+  void wait_on(std::vector<int>& descriptors) const override {
+    if (!line_.dead())
+      descriptors.push_back(socket_.descriptor());  // what is not taken would wake us for ever
+  }
   [[nodiscard]] bool knows(const Trouble& trouble) const override;
   void suffer(const Trouble& trouble) override;
   void heal(Trouble::Kind kind) override;

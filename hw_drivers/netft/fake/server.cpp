@@ -33,6 +33,7 @@ std::string Server::describe() const {
 }
 
 void Server::wait_on(std::vector<int>& descriptors) const {
+  if (line_.dead()) return;  // what is not taken would wake us for ever
   descriptors.push_back(records_.descriptor());
   descriptors.push_back(listener_.descriptor());
   descriptors.push_back(commands_.descriptor());

@@ -130,13 +130,22 @@ TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
   expect_free(ports);
 }
 
+// Of a shell: waits until the fakes have their ports, by that of a page.
+std::string until_there(const Words& ports) {
+  for (const std::string& one : ports)
+    if (const std::size_t at = one.find("http_port="); at != std::string::npos)
+      return "until (exec 3<>/dev/tcp/127.0.0.1/" + one.substr(at + 10) +
+             ") 2>/dev/null; do sleep 0.05; done; ";
+  return "exit 99; ";
+}
+
 // The run lets go of its machine and ends the fakes before it ends itself.
 TEST(OverRig, ASignalEndsTheFakesToo) {
   const test::TemporaryFolder folder;
   const Words ports = enc::wires::free_ports();
   const Words words = bench_words(
       {"tracking", "--rig", "fakes", "--armed", "--lockstep", "--fakes", "--repeats", "50"}, ports);
-  Words all{"bash", "-c", "set -m; \"$@\" & sleep 1.5; kill -TERM $!; wait $!", "bash",
+  Words all{"bash", "-c", "set -m; \"$@\" & " + until_there(ports) + "kill -TERM $!; wait $!", "bash",
             tests::program_file()};
   all.insert(all.end(), words.begin(), words.end());
   const tests::Result r = tests::run(all);
@@ -150,8 +159,8 @@ TEST(OverRig, FakesDoNotOutliveAKilledBench) {
   const Words ports = enc::wires::free_ports();
   const Words words = bench_words(
       {"tracking", "--rig", "fakes", "--armed", "--lockstep", "--fakes", "--repeats", "50"}, ports);
-  Words all{"bash", "-c", "set -m; \"$@\" & sleep 1.5; kill -KILL $!; wait $!; sleep 1", "bash",
-            tests::program_file()};
+  Words all{"bash", "-c", "set -m; \"$@\" & " + until_there(ports) + "kill -KILL $!; wait $!; sleep 1",
+            "bash", tests::program_file()};
   all.insert(all.end(), words.begin(), words.end());
   EXPECT_EQ(tests::run(all).code, 0);
   expect_free(ports);

@@ -26,7 +26,7 @@ TEST(SafetyMatrix, EachFaultEndsAsStatedWithTheMachineAtRest) {
   for (const Cell& cell : cells) {
     const std::string name =
         fmt::format("{} {}, in {}", cell.fault.device, cell.fault.name, mode_name(cell.mode));
-    EXPECT_EQ(wrong_with(cell.fault, cell.of, setup.rig.manipulator.acceleration), "") << name;
+    EXPECT_EQ(wrong_with(cell.fault, cell.mode, cell.of, setup), "") << name;
     testing::Test::RecordProperty(name, fmt::format("hold {} ms, rest {} ms, {:.2f} mm", cell.of.hold,
                                                     cell.of.rest, 1e3 * cell.of.way));
   }

@@ -39,7 +39,7 @@ class FaultyFakes {
   void heal(Fake& fake) {
     between_turns([&] {
       for (const Trouble::Kind kind : kAllTroubles)
-        if (fake.knows(kind)) fake.heal(kind);
+        if (fake.knows({kind})) fake.heal(kind);
     });
   }
   // From then on nobody serves them, as where the program is stopped.

@@ -64,9 +64,10 @@ void suffer_and_end(const std::array<int, 3>& order, std::uint64_t seed) {
     const Kind kind = kAllTroubles[below(kAllTroubles.size())];
     const double share = 0.01 * static_cast<double>(below(100));
     Fake& fake = *rig.servers[role];
-    if (!fake.knows(kind) || (drawn_at_times(static_cast<int>(role), kind) && below(8) != 0)) continue;
+    const Trouble trouble{kind, drawn_value(kind, share)};
+    if (!fake.knows(trouble) || (drawn_at_times(static_cast<int>(role), kind) && below(8) != 0)) continue;
     ++faults;
-    rig.fakes.suffer(fake, {kind, drawn_value(kind, share)});
+    rig.fakes.suffer(fake, trouble);
     loop.pass(4);
     if (below(4) != 0) rig.fakes.heal(fake, kind);
   }

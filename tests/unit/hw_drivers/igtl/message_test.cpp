@@ -56,6 +56,27 @@ TEST(IgtlMessage, ReadsWhatLibOpenIGTLinkWrote) {
   EXPECT_FALSE(read_transform(message.content, X_CT));
 }
 
+// Columns of the matrix, one after another, then the place in mm, as OpenIGTLink's protocol has them
+// (TRANSFORM: R11 R21 R31 R12 R22 R32 R13 R23 R33 TX TY TZ).
+TEST(IgtlMessage, AMatrixIsWrittenColumnByColumn) {
+  const std::vector<std::byte> body = from_hex(
+      "000000003f80000000000000"
+      "bf8000000000000000000000"
+      "00000000000000003f800000"
+      "4120000041a0000041f00000");
+  Pose<'C', 'T'> X_CT;
+  ASSERT_TRUE(read_transform(body, X_CT));
+  EXPECT_LT((X_CT.q() * Vec3(1, 0, 0) - Vec3(0, 1, 0)).norm(), 1e-7) << "a quarter turn about z";
+  EXPECT_LT((X_CT.q() * Vec3(0, 0, 1) - Vec3(0, 0, 1)).norm(), 1e-7);
+  EXPECT_LT((X_CT.p() - Vec3(0.010, 0.020, 0.030)).norm(), 1e-9);
+  const auto written =
+      transform(Pose<'C', 'T'>(Quat(std::sqrt(0.5), 0, 0, std::sqrt(0.5)), Vec3(0.01, 0.02, 0.03)));
+  Pose<'C', 'T'> again;
+  ASSERT_TRUE(read_transform(written, again));
+  EXPECT_EQ(std::to_integer<int>(written[4]), 0x3f) << "R21 = 1 comes second";
+  EXPECT_EQ(std::to_integer<int>(written[12]), 0xbf) << "R12 = -1 comes fourth";
+}
+
 // The body that is written is the one that libOpenIGTLink writes, behind an extended header.
 TEST(IgtlMessage, WritesTheSameContent) {
   const std::vector<std::byte> theirs = from_hex(kTransformV1);
