@@ -88,13 +88,16 @@ void add_safety(Bench& bench) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (cases[i].fault != &fault) continue;
       hold.add(all[i].hold);
+      if (fault.end != End::unharmed) latest = std::max(latest, all[i].hold / fault.hold_in(cases[i].mode));
       speed.add(1e3 * all[i].speed);
       rest.add(all[i].rest);
       way.add(1e3 * all[i].way);
     }
     const bool unharmed = fault.end == End::unharmed;
-    if (!unharmed) latest = std::max(latest, hold.most / fault.hold);
-    table.add(fault.device, fault.name, unharmed ? "never" : fmt::format("{:g} ms", fault.hold),
+    table.add(fault.device, fault.name,
+              unharmed              ? "never"
+              : fault.hold_away > 0 ? fmt::format("{:g} ms; away {:g} ms", fault.hold, fault.hold_away)
+                                    : fmt::format("{:g} ms", fault.hold),
               unharmed ? "" : range(hold.least, hold.most, "{:.0f}"),
               unharmed ? "" : range(speed.least, speed.most, "{:.1f}"),
               unharmed ? "" : range(rest.least, rest.most, "{:.0f}"),

@@ -82,17 +82,19 @@ const std::array kFaults{
           },
           heal_force<Kind::duplicate>, End::unharmed, 0, 0, "old"},
     Fault{"tracker", "silent", [](WiredTrial& at) { at.wires().tracker_silent = true; },
-          [](WiredTrial& at) { at.wires().tracker_silent = false; }, End::link_lost, 101, kToolLost},
+          [](WiredTrial& at) { at.wires().tracker_silent = false; }, End::link_lost, 101, kToolLost, nullptr,
+          false, 501, kTrackerFault},
     Fault{"tracker", "all noise",
           [](WiredTrial& at) {
             at.wires().tools().suffer({Kind::garbage, 1.0});
           },
-          heal_tracker<Kind::garbage>, End::link_lost, 101, kToolLost},
+          heal_tracker<Kind::garbage>, End::link_lost, 101, kToolLost, nullptr, false, 501, kTrackerFault},
     Fault{"tracker", "half messages",
           [](WiredTrial& at) {
             at.wires().tools().suffer({Kind::half_message, 1.0});
           },
-          heal_tracker<Kind::half_message>, End::link_lost, 101, kToolLost},
+          heal_tracker<Kind::half_message>, End::link_lost, 101, kToolLost, nullptr, false, 501,
+          kTrackerFault},
     Fault{"tracker", "20 % lost and 30 % behind the next",
           [](WiredTrial& at) {
             at.wires().tools().suffer({Kind::loss, 0.2});
@@ -111,10 +113,10 @@ const std::array kFaults{
     // From when the loop is back: the machine stands already.
     Fault{"program", "its loop stands for 100 ms",
           [](WiredTrial& at) { at.wires().stand(Duration(100'000'000), false); }, nothing, End::holds, 1,
-          kClockLate},
+          kClockLate, nullptr, true},
     Fault{"program", "stopped for 2 s (SIGSTOP)",
           [](WiredTrial& at) { at.wires().stand(Duration(2'000'000'000), true); }, nothing, End::holds, 1,
-          kClockLate},
+          kClockLate, nullptr, true},
 };
 
 constexpr int kInjured = 700, kCured = 500;  // ticks
@@ -156,12 +158,13 @@ const Fault& no_fault() {
 
 double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
   const double settles = std::log(std::max(1.0, of.speed / kStands)) / decay(setup);
-  return fault.hold + 1e3 * (blind(setup) + of.speed / setup.rig.manipulator.acceleration + settles);
+  return fault.hold_in(of.in) +
+         1e3 * (blind(setup) + of.speed / setup.rig.manipulator.acceleration + settles);
 }
 
 double way_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
   const double brakes = 0.5 * of.speed * of.speed / setup.rig.manipulator.acceleration;
-  return of.speed * (1e-3 * fault.hold + blind(setup) + 1.0 / decay(setup)) + brakes + kSlack;
+  return of.speed * (1e-3 * fault.hold_in(of.in) + blind(setup) + 1.0 / decay(setup)) + brakes + kSlack;
 }
 
 std::string wrong_with(const Fault& fault, Mode mode, const Reaction& of, const models::Setup& setup) {
@@ -176,8 +179,9 @@ std::string wrong_with(const Fault& fault, Mode mode, const Reaction& of, const 
     say(fault.counted != nullptr && !(of.counted > 0.0), "the driver has counted none");
     return wrong;
   }
-  say(!(of.hold <= fault.hold), fmt::format("held after {} ms, at most {}", of.hold, fault.hold));
-  say((of.why & fault.why) == 0, "held for another reason: " + why_text(of.why));
+  const double hold = fault.hold_in(mode);
+  say(!(of.hold <= hold), fmt::format("held after {} ms, at most {}", of.hold, hold));
+  say((of.why & fault.why_in(mode)) == 0, "held for another reason: " + why_text(of.why));
   const double rest = rest_bound(fault, of, setup), way = way_bound(fault, of, setup);
   say(!(of.rest <= rest), fmt::format("at rest after {} ms, at most {:.0f}", of.rest, rest));
   say(!(of.way <= way), fmt::format("went {:.2f} mm, at most {:.2f}", 1e3 * of.way, 1e3 * way));
@@ -211,16 +215,26 @@ Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::u
   const auto& plant = trial.world().machine->state();
   of.in = trial.outputs().mode;
   const Vec3 first = plant.pose.p();
+  Vec3 told = trial.outputs().tip.p();
   fault.inject(wired);
   for (int i = 1; i <= kInjured; ++i) {
-    if (std::isinf(of.hold)) of.speed = std::max(of.speed, plant.velocity.norm());
+    const bool before = std::isinf(of.hold);
+    if (before) of.speed = std::max(of.speed, plant.velocity.norm());
     if (!wired.tick()) break;
+    if (before) of.speed = std::max(of.speed, (trial.outputs().tip.p() - told).norm() / trial.scene().dt);
+    told = trial.outputs().tip.p();
     of.held = of.held || in(Mode::hold);
     if (in(Mode::hold) && std::isinf(of.hold)) {
       of.hold = i;
       of.why = trial.outputs().why;
     }
     const bool still = plant.velocity.norm() < kStands;
+    if (fault.over) {  // as it is when the loop is back
+      of.goes_on = of.goes_on || (of.held && !in(Mode::hold));
+      if (i == 1 && still) of.rest = i;
+      if (i == 1) of.way = (plant.pose.p() - first).norm();
+      continue;
+    }
     if (!still) of.rest = kNever;
     if (still && std::isinf(of.rest)) of.rest = i;
     of.way = std::max(of.way, (plant.pose.p() - first).norm());

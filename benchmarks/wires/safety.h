@@ -29,6 +29,16 @@ struct Fault {
   std::uint32_t why = 0;  // among the reasons
   // Of what does no harm: what the driver has counted says that it was there ("missing", "old").
   const char* counted = nullptr;
+  bool over = false;  // when the loop is back: the machine stands by then, and it goes on
+  // Where no tool is in view, and the machine waits: another time and reason; 0: the same.
+  double hold_away = 0.0;
+  std::uint32_t why_away = 0;
+  [[nodiscard]] double hold_in(Mode mode) const {
+    return mode == Mode::away && hold_away > 0 ? hold_away : hold;
+  }
+  [[nodiscard]] std::uint32_t why_in(Mode mode) const {
+    return mode == Mode::away && why_away != 0 ? why_away : why;
+  }
 };
 [[nodiscard]] std::span<const Fault> faults();
 
@@ -39,15 +49,16 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 struct Reaction {
   double hold = kNever, rest = kNever;  // ms after it; rest: below 0.1 mm/s from then on, for 0.7 s
   Mode in = Mode::hold;                 // when it was injected
-  double speed = 0.0;                   // of the tip, m/s, the greatest from then until it holds
-  double way = 0.0;                     // of the tip from then on, m, for 0.7 s
-  std::uint32_t why = 0;                // of the first hold
-  bool held = false;                    // in the 0.7 s
-  bool linked = true;                   // all, 0.5 s after it was cured
-  bool goes_on = false;                 // was in another mode than hold in those 0.5 s
-  std::string end{};                    // why it holds at the end
-  double counted = kUnset;              // what the driver says that it has counted
-  double simulated = 0.0;               // s
+  double speed = 0.0;       // of the tip, or of where it is told to be, m/s: the greatest from some
+                            // milliseconds before until it holds
+  double way = 0.0;         // of the tip from then on, m, for 0.7 s
+  std::uint32_t why = 0;    // of the first hold
+  bool held = false;        // in the 0.7 s
+  bool linked = true;       // all, 0.5 s after it was cured
+  bool goes_on = false;     // was in another mode than hold in those 0.5 s
+  std::string end{};        // why it holds at the end
+  double counted = kUnset;  // what the driver says that it has counted
+  double simulated = 0.0;   // s
 };
 // Bounds that hold for every cell, from how fast the tip was, the points that the controller still has, the
 // rig's acceleration, and the dead time and servo of the machine.

@@ -134,8 +134,8 @@ TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
 std::string until_there(const Words& ports) {
   for (const std::string& one : ports)
     if (const std::size_t at = one.find("http_port="); at != std::string::npos)
-      return "until (exec 3<>/dev/tcp/127.0.0.1/" + one.substr(at + 10) +
-             ") 2>/dev/null; do sleep 0.05; done; ";
+      return fmt::format("until grep -q ':{:04X} 00000000:0000 0A' /proc/net/tcp; do sleep 0.05; done; ",
+                         std::stoi(one.substr(at + 10)));
   return "exit 99; ";
 }
 
