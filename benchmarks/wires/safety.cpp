@@ -125,7 +125,7 @@ constexpr double kSlack = 1e-4;              // m: steps and noise of a tip that
 
 // s: the points that the controller still has when it hears nothing more, and the machine's dead time.
 double blind(const models::Setup& setup) {
-  constexpr double kPoints = 3.0;  // two that wait and the one that it goes to
+  constexpr double kPoints = 4.0;  // three that wait (one is added while two do) and the one that it goes to
   gcs::GcsSettings machine;
   models::DriverTableReader table(setup, "gcs");
   machine.declare(table);
@@ -156,10 +156,12 @@ const Fault& no_fault() {
   return kNone;
 }
 
+// It brakes for v / a. By then it may be as far behind its last point as it went in that, v^2 / 2a, and to
+// come back from there takes it twice the root of that way over a.
 double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
+  const double brakes = of.speed / setup.rig.manipulator.acceleration;
   const double settles = std::log(std::max(1.0, of.speed / kStands)) / decay(setup);
-  return fault.hold_in(of.in) +
-         1e3 * (blind(setup) + of.speed / setup.rig.manipulator.acceleration + settles);
+  return fault.hold_in(of.in) + 1e3 * (blind(setup) + (1.0 + std::numbers::sqrt2) * brakes + settles);
 }
 
 double way_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
@@ -208,7 +210,7 @@ Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::u
   }
   // While it lasts: a tool is far for some ten milliseconds at first, and restoring lasts as long.
   std::mt19937_64 random(seed);
-  const int most = mode == Mode::contact ? 1500 : mode == Mode::follow ? 100 : 4;
+  const int most = mode == Mode::contact ? 1500 : mode == Mode::follow ? 100 : mode == Mode::away ? 4 : 1;
   const int later = static_cast<int>(random() % static_cast<std::uint64_t>(most));
   for (int i = 0; i < later && in(mode); ++i)
     if (!wired.tick()) break;

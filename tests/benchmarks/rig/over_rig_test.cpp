@@ -130,12 +130,12 @@ TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
   expect_free(ports);
 }
 
-// Of a shell: waits until the fakes have their ports, by that of a page.
+// Of a shell: waits until the fakes listen, without a connection.
 std::string until_there(const Words& ports) {
   for (const std::string& one : ports)
-    if (const std::size_t at = one.find("http_port="); at != std::string::npos)
+    if (const std::size_t at = one.find("gcs.port="); at != std::string::npos)
       return fmt::format("until grep -q ':{:04X} 00000000:0000 0A' /proc/net/tcp; do sleep 0.05; done; ",
-                         std::stoi(one.substr(at + 10)));
+                         std::stoi(one.substr(at + 9)));
   return "exit 99; ";
 }
 
