@@ -115,11 +115,11 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   fake_command->add_option("--seed", fake_options.seed, "of all noise")->check(bad_seed);
   fake_command->add_flag("--lockstep", fake_options.lockstep,
                          "time goes on by a period with each set-point, and not by itself (run --lockstep)");
-  fake_command->add_option("--fault", fake_options.faults,
-                           "DRIVER:FAULT[@TIME][+TIME], such as gcs:stall@3s+500ms: what goes wrong, when "
-                           "after somebody came, and for how long; again for more. Faults: " +
-                               fault_examples() +
-                               ". The same on a line of standard input: now; 'heal' ends all");
+  fake_command->add_option(
+      "--fault", fake_options.faults,
+      "DRIVER:FAULT[=V][@TIME][+TIME], such as gcs:stall@3s+500ms: what goes wrong, when "
+      "after somebody came, and for how long; again for more. Faults: " +
+          fault_examples() + ". The same on a line of standard input: now; 'heal' ends all");
   fake_command->callback([&] { code = fake(fake_options); });
 
   LaboratoryOptions devices_options;

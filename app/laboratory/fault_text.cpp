@@ -117,7 +117,7 @@ std::string text_of(const Trouble& trouble) {
 Fault fault_of(const std::string& text, const std::string& where) {
   const auto refuse = [&](const std::string& what) {
     return Error(
-        fmt::format("{}: '{}': {}; expected DRIVER:FAULT[@TIME][+TIME], such as "
+        fmt::format("{}: '{}': {}; expected DRIVER:FAULT[=V][@TIME][+TIME], such as "
                     "gcs:stall@3s+500ms, with a fault of {}",
                     where, text, what, fault_examples()));
   };

@@ -82,7 +82,7 @@ TEST(FaultText, WhatIsNoneIsRefusedWithWhatWasExpected) {
                                   {"gcs:stall@infs", "no time"}}) {
     SCOPED_TRACE(text);
     EXPECT_THAT(refused_fault(text), testing::HasSubstr(why));
-    EXPECT_THAT(refused_fault(text), testing::HasSubstr("expected DRIVER:FAULT[@TIME][+TIME]"));
+    EXPECT_THAT(refused_fault(text), testing::HasSubstr("expected DRIVER:FAULT[=V][@TIME][+TIME]"));
     EXPECT_THAT(refused_fault(text), testing::Not(testing::HasSubstr("\n")));
   }
 }
