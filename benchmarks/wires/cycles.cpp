@@ -127,7 +127,10 @@ void add_cycles(Bench& bench) {
   if (bench.context.quick) cycles = {0, 1, 10};
   const std::vector<Cycled> all =
       bench.each(cycles, [&](int cycle) { return with_cycle(bench, cycle, bench.context.seed); });
-  const auto mm = [](double x) { return fmt::format("{:.3f}", 1e3 * x); };
+  const auto shown = [](const char* form, double x) {
+    return std::isnan(x) ? std::string("held") : fmt::format(fmt::runtime(form), x);
+  };
+  const auto mm = [&](double x) { return shown("{:.3f}", 1e3 * x); };
   Table table{
       "cycles",
       "A set-point each so many milliseconds",
@@ -141,9 +144,8 @@ void add_cycles(Bench& bench) {
     const Cycled& of = all[i];
     table.add(cycles[i] == 0 ? "no wires" : fmt::format("{} ms", cycles[i]), of.contacts,
               of.held ? "yes" : "no", fmt::format("{:.2f}", of.peak), mm(of.rmse_40),
-              fmt::format("{:+.2f}", of.felt[0]), fmt::format("{:+.2f}", of.felt[1]),
-              fmt::format("{:+.2f}", of.felt[2]), mm(of.swing[0]), fmt::format("{:.4f}", of.press),
-              fmt::format("{:.4f}", of.release));
+              shown("{:+.2f}", of.felt[0]), shown("{:+.2f}", of.felt[1]), shown("{:+.2f}", of.felt[2]),
+              mm(of.swing[0]), shown("{:.4f}", of.press), shown("{:.4f}", of.release));
   }
   bench.table(std::move(table));
   const auto at = [&](int cycle) {

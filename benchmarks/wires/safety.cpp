@@ -111,8 +111,8 @@ const std::array kFaults{
           },
           heal_tracker<Kind::duplicate>, End::unharmed, 0, 0, "old"},
     // From when the loop is back: the machine stands already.
-    Fault{"program", "its loop stands for 100 ms",
-          [](WiredTrial& at) { at.wires().stand(Duration(100'000'000), false); }, nothing, End::holds, 1,
+    Fault{"program", "its loop stands for 400 ms",
+          [](WiredTrial& at) { at.wires().stand(Duration(400'000'000), false); }, nothing, End::holds, 1,
           kClockLate, nullptr, true},
     Fault{"program", "stopped for 2 s (SIGSTOP)",
           [](WiredTrial& at) { at.wires().stand(Duration(2'000'000'000), true); }, nothing, End::holds, 1,
