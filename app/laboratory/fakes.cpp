@@ -110,8 +110,7 @@ void Fakes::suffer(const Fault& fault, const std::string& where) {
 
 void Fakes::heal() {
   for (Planned& plan : plans_)
-    if (plan.begun && !plan.over) plan.to = now_.t;
-  trouble();
+    if (plan.begun && !plan.over) end(plan);
 }
 
 void Fakes::say(const Planned& plan, const char* what) {
@@ -126,12 +125,14 @@ void Fakes::trouble() {
       plan.fake->suffer(plan.fault.trouble);
       say(plan, "suffers");
     }
-    if (plan.begun && !plan.over && now_.t >= plan.to) {
-      plan.fake->heal(plan.fault.trouble.kind);
-      plan.over = true;
-      say(plan, "is healed of");
-    }
+    if (plan.begun && !plan.over && now_.t >= plan.to) end(plan);
   }
+}
+
+void Fakes::end(Planned& plan) {
+  plan.fake->heal(plan.fault.trouble.kind);
+  plan.over = true;
+  say(plan, "is healed of");
 }
 
 void Fakes::advance() {

@@ -52,6 +52,7 @@ class Fakes {
   };
   [[nodiscard]] Planned planned(const Fault& fault, const std::string& where);
   void trouble();  // what begins and ends now
+  void end(Planned& plan);
   void say(const Planned& plan, const char* what);
   void advance();
   void begin();
