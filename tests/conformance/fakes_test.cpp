@@ -227,6 +227,39 @@ TEST(Fakes, ARunThatWasStoppedHoldsOnItsNextTickAndMakesNothingUp) {
   EXPECT_THAT(text, testing::Not(HasSubstr("error 8")));
 }
 
+// What was typed and is over does not come again with the next client, for whom the world begins anew; what
+// still lasts goes on.
+TEST(Fakes, AFaultThatWasTypedBelongsToNoRun) {
+  Laboratory there(false);
+  const auto times = [&](const std::string& what) {
+    const std::string log = there.log();
+    int n = 0;
+    for (std::size_t at = log.find(what); at != std::string::npos; at = log.find(what, at + 1)) ++n;
+    return n;
+  };
+  const auto devices = [&] {
+    there.serve();
+    std::vector<std::string> words{"devices", "fakes"};
+    for (const std::string& set : there.ports) words.insert(words.end(), {"--set", set});
+    const std::int64_t before = there.fakes->begun();
+    static_cast<void>(run_program(words));
+    there.pause();
+    EXPECT_GT(there.fakes->begun(), before);
+  };
+  there.pause();
+  there.fakes->suffer(app::fault_of("netft:saturate", "the test"), "the test");
+  EXPECT_EQ(times("netft suffers saturate"), 1);
+  there.fakes->heal();
+  EXPECT_EQ(times("netft is healed of saturate"), 1);
+  there.fakes->suffer(app::fault_of("igtl:loss=20%+1000s", "the test"), "the test");
+  devices();
+  EXPECT_EQ(times("netft suffers saturate"), 1);
+  EXPECT_EQ(times("igtl suffers loss"), 1);
+  EXPECT_EQ(times("igtl is healed of loss"), 0);
+  there.fakes->heal();
+  EXPECT_EQ(times("igtl is healed of loss"), 1);
+}
+
 // However it is killed, the machine comes to rest within this, s of its own time (docs/reference/safety.md):
 // 44 ms of points and dead time; from 50 mm/s at 0.41 m/s2 122 ms to brake and 172 ms to come back from
 // behind the last point; 83 ms until its servo is within 0.1 mm/s.
