@@ -272,7 +272,7 @@ void kill_at_random_moments(int times) {
   int moving = 0;
   for (int i = 0; i < times; ++i) {
     Started run(there.words({"--armed"}), "/dev/null");
-    std::this_thread::sleep_for(std::chrono::milliseconds(200 + random() % 4800));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200 + random() % 1800));
     run.send(i % 2 == 0 ? SIGKILL : SIGTERM);
     run.wait();
     there.pause();
