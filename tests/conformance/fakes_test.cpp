@@ -276,6 +276,7 @@ void kill_at_random_moments(int times) {
     run.send(i % 2 == 0 ? SIGKILL : SIGTERM);
     run.wait();
     there.pause();
+    there.fakes->turn();  // what was on its way is there
     const double killed = there.time();
     moving += there.stands() ? 0 : 1;
     there.serve();
