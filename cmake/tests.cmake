@@ -95,7 +95,7 @@ function(enc_test kind shards) # enc_test(folder shards libraries...)
   endforeach()
 endfunction()
 
-enc_test(unit 4)
+enc_test(unit 6)
 enc_test(property 4)
 if(MPFR_INCLUDE_DIR AND MPFR_LIBRARY)
   target_link_libraries(test_property PRIVATE ${MPFR_LIBRARY} ${GMP_LIBRARY})

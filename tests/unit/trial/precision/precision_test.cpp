@@ -122,7 +122,7 @@ TEST(Precision, ASceneWithoutAHandIsRefused) {
 }
 
 // A short press of a plane: what ships errs no more than two converged runs and a count of the sensor.
-TEST(Precision, ThePlaneHoldsAtWhatShips) {
+TEST(PrecisionLong, ThePlaneHoldsAtWhatShips) {
   PrecisionOptions options;
   options.seconds = 5.0;
   options.cpu = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };

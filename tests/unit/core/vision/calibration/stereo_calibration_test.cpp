@@ -78,7 +78,7 @@ TEST(StereoCalibration, FindsAKnownHeadInExactCorners) {
 
 // What 0.2 px of noise leaves: three standard deviations, as the fit has them, and residuals that are the
 // noise itself. A centre that is off by a pixel is made up for by a turn of 1 / focal length.
-TEST(StereoCalibration, SaysHowWellNoisyCornersFit) {
+TEST(StereoCalibrationLong, SaysHowWellNoisyCornersFit) {
   const StereoRig is = known_head(640, 480);
   std::vector<PairCorners> pairs = exact_pairs(is, 13);
   blur(pairs, 0.2);
@@ -110,7 +110,7 @@ TEST(StereoCalibration, APairOfAnotherHeadStandsOut) {
 }
 
 // Left and right of different moments: nothing fits, but without that pair all does.
-TEST(StereoCalibration, APairThatIsNoneIsFound) {
+TEST(StereoCalibrationLong, APairThatIsNoneIsFound) {
   const StereoRig is = known_head(640, 480);
   std::vector<PairCorners> pairs = exact_pairs(is, 8);
   pairs[2].right = pairs[5].right;

@@ -41,7 +41,7 @@ ShiftRange round(double disparity) {
 }
 
 // From all sides, along the rows as well; pointing away from the cameras and towards them.
-TEST(Silhouette, TheShiftIsThatOfTheTip) {
+TEST(SilhouetteLong, TheShiftIsThatOfTheTip) {
   for (int side = 0; side < 16; ++side)
     for (const double away : {-0.5, 0.0, 0.5}) {
       const double angle = M_PI / 8.0 * side;

@@ -71,23 +71,23 @@ void expect_kept(double aside, double radius, bool along) {
   }
 }
 
-TEST(TwoHands, FarApartTheTrackedOneIsKept) {
+TEST(TwoHandsLong, FarApartTheTrackedOneIsKept) {
   for (const double radius : {0.007, 0.008, 0.009}) expect_kept(-0.16, radius, false);
 }
 
-TEST(TwoHands, InPassingTheTrackedOneIsKept) {
+TEST(TwoHandsLong, InPassingTheTrackedOneIsKept) {
   for (const double aside : {-0.08, 0.10}) expect_kept(aside, 0.009, false);
 }
 
 // 28 mm are 22 px: both are in the smallest window.
-TEST(TwoHands, SideBySideTheTrackedOneIsKept) {
+TEST(TwoHandsLong, SideBySideTheTrackedOneIsKept) {
   for (const double aside : {-0.028, 0.028})
     for (const double radius : {0.007, 0.008, 0.009}) expect_kept(aside, radius, true);
 }
 
 // The tracked finger leaves: another one that is farther than it could have come is not taken for it, but
 // found anew once it is lost.
-TEST(TwoHands, TheOtherIsTakenOnlyOnceTheTrackedOneIsLost) {
+TEST(TwoHandsLong, TheOtherIsTakenOnlyOnceTheTrackedOneIsLost) {
   FingerTracker tracker = ready_for_two();
   const drawn::HandAt own = palm_at(0.175, 0.02, 0.45), other = palm_at(-0.09, 0.02, 0.45);
   for (int i = 1; i <= 4; ++i)
@@ -111,7 +111,7 @@ TEST(TwoHands, TheOtherIsTakenOnlyOnceTheTrackedOneIsLost) {
 }
 
 // Two alike: one of them is taken, never a place between them, and the same again and again.
-TEST(TwoHands, AtFirstOneOfThemIsTaken) {
+TEST(TwoHandsLong, AtFirstOneOfThemIsTaken) {
   const drawn::HandAt one = palm_at(0.06, 0.0, 0.45), two = palm_at(-0.04, 0.02, 0.45);
   FingerTracker tracker = ready_for_two(), again = ready_for_two();
   const drawn::Pair pair = pair_of(one, two, 1);
@@ -142,7 +142,7 @@ Fingertip tip_in(const Mask& mask) {
 }
 
 // Of the finder alone: the best score; of equal ones the first pixel in reading order.
-TEST(TwoHands, TheBestScoreIsTakenAndTiesAreInReadingOrder) {
+TEST(TwoHandsLong, TheBestScoreIsTakenAndTiesAreInReadingOrder) {
   Mask level(240, 240), higher(240, 240);
   draw_upright(level, 70, 90);
   draw_upright(level, 170, 90);
@@ -155,7 +155,7 @@ TEST(TwoHands, TheBestScoreIsTakenAndTiesAreInReadingOrder) {
 }
 
 // One passes before the other: one of the two is told, or none.
-TEST(TwoHands, HandsThatTouchOrHideEachOtherAreNoHarm) {
+TEST(TwoHandsLong, HandsThatTouchOrHideEachOtherAreNoHarm) {
   FingerTracker tracker = ready_for_two();
   for (int i = 1; i <= 8; ++i) {
     drawn::HandAt one = palm_at(0.04, 0.02, 0.45), two = palm_at(0.09 - 0.012 * i, 0.02, 0.42);
