@@ -48,8 +48,7 @@ Row measured(const std::string& program, const fs::path& scene, int repeats) {
 }
 
 void run(Bench& bench) {
-  std::error_code none;
-  const std::string program = fs::read_symlink("/proc/self/exe", none).string();
+  const std::string program = this_program();
   std::set<fs::path> scenes;
   for (const auto& entry : fs::directory_iterator(bench.context.models + "/scenes"))
     if (entry.path().extension() == ".toml") scenes.insert(entry.path());

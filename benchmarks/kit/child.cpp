@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <string_view>
 #include <thread>
 
@@ -110,6 +111,11 @@ double seconds_of(const timeval& t) {
 }
 
 }  // namespace
+
+std::string this_program() {
+  std::error_code none;
+  return std::filesystem::read_symlink("/proc/self/exe", none).string();
+}
 
 Child run_child(std::vector<std::string> words, const std::string& input) {
   const MemoryFile in(input), out, err;

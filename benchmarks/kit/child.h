@@ -16,6 +16,8 @@ struct Child {
   double cpu = 0.0, wall = 0.0;  // s
 };
 
+[[nodiscard]] std::string this_program();  // its file
+
 // The first word is looked for in PATH. What it reads and writes goes through memory files: nothing is left
 // behind.
 [[nodiscard]] Child run_child(std::vector<std::string> words, const std::string& input = {});

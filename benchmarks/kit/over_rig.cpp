@@ -1,7 +1,6 @@
 #include "benchmarks/kit/over_rig.h"
 
 #include <cstdio>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -52,22 +51,20 @@ void tell(const std::string& line) {
     fmt::print(stderr, "{}\n", line);
 }
 
+std::unique_ptr<Companion> begun_fakes(std::vector<std::string> words) {
+  constexpr double kLongest = 60.0;  // s: a busy machine, and the checks of a sanitizer
+  words.insert(words.begin(), {this_program(), "fake"});
+  return std::make_unique<Companion>(std::move(words), "ends with SIGINT or SIGTERM", kLongest);
+}
+
 std::unique_ptr<Companion> fakes_of(const BenchContext& context, const OnRig& on, std::uint64_t seed,
                                     const std::vector<std::string>& more) {
-  constexpr double kLongest = 60.0;  // s: a busy machine, and the checks of a sanitizer
   if (!context.fakes) return nullptr;
-  std::error_code none;
-  std::vector<std::string> words{std::filesystem::read_symlink("/proc/self/exe", none).string(),
-                                 "fake",
-                                 context.rig,
-                                 "--scene",
-                                 on.scene,
-                                 "--seed",
-                                 std::to_string(seed)};
+  std::vector<std::string> words{context.rig, "--scene", on.scene, "--seed", std::to_string(seed)};
   if (context.lockstep) words.emplace_back("--lockstep");
   for (const auto* settings : {&on.set, &more})
     for (const std::string& set : *settings) words.insert(words.end(), {"--set", set});
-  return std::make_unique<Companion>(std::move(words), "ends with SIGINT or SIGTERM", kLongest);
+  return begun_fakes(std::move(words));
 }
 
 std::string rig_text(const BenchContext& context, const models::Setup& setup) {
@@ -86,15 +83,24 @@ void check_ended(const trial::Trial& trial) {
                     link.role, seconds(link.t.time_since_epoch())),
         {}, ErrorKind::device);
   }
+  if (trial.result().interrupted) throw Error("the run was interrupted", {}, ErrorKind::device);
+}
+
+std::string held_in(const trial::Trial& trial) {
   // Before the first samples there is nothing to go by.
   constexpr Time kBegun{Duration(100'000'000)};
   for (const auto& [t, why] : trial.result().holds)
     if (t > kBegun)
-      throw Error(fmt::format("the run held at {:.3f} s: {}; what it has measured is worth nothing; see "
-                              "docs/guide/laboratory.md for what to do, and begin anew",
-                              seconds(t.time_since_epoch()), why_text(why)),
-                  {}, ErrorKind::device);
-  if (trial.result().interrupted) throw Error("the run was interrupted", {}, ErrorKind::device);
+      return fmt::format("the run held at {:.3f} s: {}", seconds(t.time_since_epoch()), why_text(why));
+  return {};
+}
+
+void refuse_held(const std::string& held) {
+  if (!held.empty())
+    throw Error(held +
+                    "; what it has measured is worth nothing; see docs/guide/laboratory.md for what to do, "
+                    "and begin anew",
+                {}, ErrorKind::device);
 }
 
 }  // namespace enc::bench

@@ -34,7 +34,9 @@ struct OnRig {
 // A line for who does, on standard error, where the bar of progress is.
 void tell(const std::string& line);
 
-// Until it goes, in place of the devices; null where the user does not want it. `more`: settings of its own.
+// `encounter fake` with these words, until it goes.
+[[nodiscard]] std::unique_ptr<Companion> begun_fakes(std::vector<std::string> words);
+// The same in place of the devices; null where the user does not want it. `more`: settings of its own.
 [[nodiscard]] std::unique_ptr<Companion> fakes_of(const BenchContext& context, const OnRig& on,
                                                   std::uint64_t seed,
                                                   const std::vector<std::string>& more = {});
@@ -45,5 +47,9 @@ void tell(const std::string& line);
 // Of a run that is over. Throws Error (kind device) where that was not its own end: what it has measured is
 // no measure.
 void check_ended(const trial::Trial& trial);
+// When a run first held and why; empty: it did not. Over devices nothing is measured then: refuse_held()
+// throws Error (kind device).
+[[nodiscard]] std::string held_in(const trial::Trial& trial);
+void refuse_held(const std::string& held);
 
 }  // namespace enc::bench

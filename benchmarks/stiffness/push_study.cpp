@@ -193,7 +193,9 @@ Push push_once(const models::Setup& setup, std::uint64_t seed, PushTrace* trace,
     if (observer.held(trial.now().t)) observer.see(trial.inputs(), trial.outputs(), trial.state(), hold);
   }
   check_ended(trial);
-  return judged(hold, setup.scene.behaviours.front().stiffness, trial.scene().dt);
+  Push push = judged(hold, setup.scene.behaviours.front().stiffness, trial.scene().dt);
+  push.held = held_in(trial);
+  return push;
 }
 
 const std::vector<double>& StabilityMap::at(double stiffness) {

@@ -37,6 +37,7 @@ struct Push {
   double way = kUnset;           // m, the same of where the machine says it is
   double force_noise = kUnset;   // N rms, of the measured force, less its mean
   double frequency = kUnset;     // Hz, of the measured force
+  std::string held{};            // the run did: when and why
   [[nodiscard]] bool unstable() const { return !(peak_to_peak <= kWander); }
   [[nodiscard]] double error(double felt) const { return 100.0 * (felt / stiffness - 1.0); }  // %
 };

@@ -129,6 +129,7 @@ void push_levels(Bench& bench, std::vector<RigLevel>& levels, std::size_t repeat
           bench.progress((static_cast<double>(i * repeats + k) + std::min(1.0, share)) / all);
       };
       level.rig.pushes.push_back(push_once(setup, seed_of(i, k), nullptr, options));
+      refuse_held(level.rig.pushes.back().held);
     }
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {

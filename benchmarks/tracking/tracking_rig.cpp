@@ -58,6 +58,7 @@ void run_travels(Bench& bench, std::vector<RigTravel>& travels) {
       {
         const std::unique_ptr<Companion> fakes = fakes_of(context, travel.on, seed);
         travel.rig.add(run_travel(setup, seed, false, options));
+        refuse_held(travel.rig.held);
       }
       travel.twin.add(run_travel(setup, seed, false, twin_options(context)));
       done += travel.length;

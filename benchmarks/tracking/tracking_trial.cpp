@@ -93,6 +93,7 @@ void TravelErrors::add(const TravelErrors& other) {
   }
   largest = std::max(largest, other.largest);
   simulated += other.simulated;
+  if (held.empty()) held = other.held;
   packets.insert(packets.end(), other.packets.begin(), other.packets.end());
 }
 
@@ -105,6 +106,7 @@ TravelErrors run_travel(const models::Setup& setup, std::uint64_t seed, bool kee
   while (trial.tick()) measure.see();
   check_ended(trial);
   TravelErrors errors = measure.take();
+  errors.held = held_in(trial);
   errors.simulated = static_cast<double>(trial.result().ticks) * trial.scene().dt;
   return errors;
 }

@@ -41,6 +41,7 @@ struct TravelErrors {
   double largest = 0.0;                            // m, length of the whole error, any time
   double simulated = 0.0;                          // s
   std::vector<PacketError> packets;                // where asked for
+  std::string held{};                              // a run did: when and why
   void add(const TravelErrors& other);
 };
 

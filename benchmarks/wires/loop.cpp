@@ -3,13 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <ctime>
-#include <filesystem>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/kit/child.h"
+#include "benchmarks/kit/over_rig.h"
 #include "benchmarks/wires/parts.h"
 #include "hw_drivers/wires/free_ports.h"
 #include "models/order_statistics.h"
@@ -52,17 +51,15 @@ struct Periods {
 
 // Both while the fakes keep their time on this machine.
 Periods measured_periods(const BenchContext& context) {
-  std::error_code none;
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe", none).string();
-  std::vector<std::string> fakes{program, "fake", "fakes"};
-  std::vector<std::string> run{program,  "run",     context.models + "/scenes/tennis_ball.toml",
-                               "--rig",  "fakes",   "--armed",
-                               "--json", "--for-s", fmt::format("{:g}", kTime)};
+  std::vector<std::string> fakes{"fakes"};
+  std::vector<std::string> run{this_program(), "run",     context.models + "/scenes/tennis_ball.toml",
+                               "--rig",        "fakes",   "--armed",
+                               "--json",       "--for-s", fmt::format("{:g}", kTime)};
   for (const std::string& port : enc::wires::free_ports()) {
     fakes.insert(fakes.end(), {"--set", port});
     run.insert(run.end(), {"--set", port});
   }
-  const Companion there(std::move(fakes), "ends with SIGINT or SIGTERM", 60.0);
+  const std::unique_ptr<Companion> there = begun_fakes(std::move(fakes));
   Periods periods;
   periods.bare = bare_periods(periods.first, periods.missed);
   periods.ran = nlohmann::json::parse(run_child(std::move(run)).out, nullptr, false);

@@ -20,9 +20,18 @@ using Kind = Trouble::Kind;
 
 void nothing(WiredTrial&) {}
 
+// The sensor's wire, or the tracker's, suffers this from then on; its value in percent.
+template <Kind kind, int percent = 100>
+void spoil_force(WiredTrial& at) {
+  at.wires().box().suffer({kind, 0.01 * percent});
+}
 template <Kind kind>
 void heal_force(WiredTrial& at) {
   at.wires().box().heal(kind);
+}
+template <Kind kind, int percent = 100>
+void spoil_tracker(WiredTrial& at) {
+  at.wires().tools().suffer({kind, 0.01 * percent});
 }
 template <Kind kind>
 void heal_tracker(WiredTrial& at) {
@@ -50,66 +59,40 @@ const std::array kFaults{
     Fault{"manipulator", "stopped by another hand (error 10)",
           [](WiredTrial& at) { static_cast<void>(at.wires().controller().take("STP\n")); }, nothing,
           End::link_lost, 6, kTipInvalid},
-    Fault{"force", "silent", [](WiredTrial& at) { at.wires().force_silent = true; },
-          [](WiredTrial& at) { at.wires().force_silent = false; }, End::link_lost, 6, kForceLost},
+    Fault{"force", "silent", spoil_force<Kind::stall>, heal_force<Kind::stall>, End::link_lost, 6,
+          kForceLost},
     Fault{"force", "saturated", [](WiredTrial& at) { at.wires().box().box().fail(0x80020000); },
           [](WiredTrial& at) { at.wires().box().box().fail(0); }, End::holds, 2, kForceSaturated},
     Fault{"force", "reports an error", [](WiredTrial& at) { at.wires().box().box().fail(0x90000000); },
           [](WiredTrial& at) { at.wires().box().box().fail(0); }, End::holds, 2, kForceInvalid},
-    Fault{"force", "all noise",
-          [](WiredTrial& at) {
-            at.wires().box().suffer({Kind::garbage, 1.0});
-          },
-          heal_force<Kind::garbage>, End::link_lost, 6, kForceLost},
-    Fault{"force", "half messages",
-          [](WiredTrial& at) {
-            at.wires().box().suffer({Kind::half_message, 1.0});
-          },
-          heal_force<Kind::half_message>, End::link_lost, 6, kForceLost},
-    Fault{"force", "5 % lost",
-          [](WiredTrial& at) {
-            at.wires().box().suffer({Kind::loss, 0.05});
-          },
-          heal_force<Kind::loss>, End::unharmed, 0, 0, "missing"},
-    Fault{"force", "30 % behind the next",
-          [](WiredTrial& at) {
-            at.wires().box().suffer({Kind::reorder, 0.3});
-          },
-          heal_force<Kind::reorder>, End::unharmed, 0, 0, "old"},
-    Fault{"force", "half come twice",
-          [](WiredTrial& at) {
-            at.wires().box().suffer({Kind::duplicate, 0.5});
-          },
-          heal_force<Kind::duplicate>, End::unharmed, 0, 0, "old"},
-    Fault{"tracker", "silent", [](WiredTrial& at) { at.wires().tracker_silent = true; },
-          [](WiredTrial& at) { at.wires().tracker_silent = false; }, End::link_lost, 101, kToolLost, nullptr,
-          false, 501, kTrackerFault},
-    Fault{"tracker", "all noise",
-          [](WiredTrial& at) {
-            at.wires().tools().suffer({Kind::garbage, 1.0});
-          },
-          heal_tracker<Kind::garbage>, End::link_lost, 101, kToolLost, nullptr, false, 501, kTrackerFault},
-    Fault{"tracker", "half messages",
-          [](WiredTrial& at) {
-            at.wires().tools().suffer({Kind::half_message, 1.0});
-          },
-          heal_tracker<Kind::half_message>, End::link_lost, 101, kToolLost, nullptr, false, 501,
-          kTrackerFault},
+    Fault{"force", "all noise", spoil_force<Kind::garbage>, heal_force<Kind::garbage>, End::link_lost, 6,
+          kForceLost},
+    Fault{"force", "half messages", spoil_force<Kind::half_message>, heal_force<Kind::half_message>,
+          End::link_lost, 6, kForceLost},
+    Fault{"force", "5 % lost", spoil_force<Kind::loss, 5>, heal_force<Kind::loss>, End::unharmed, 0, 0,
+          "missing"},
+    Fault{"force", "30 % behind the next", spoil_force<Kind::reorder, 30>, heal_force<Kind::reorder>,
+          End::unharmed, 0, 0, "old"},
+    Fault{"force", "half come twice", spoil_force<Kind::duplicate, 50>, heal_force<Kind::duplicate>,
+          End::unharmed, 0, 0, "old"},
+    Fault{"tracker", "silent", spoil_tracker<Kind::stall>, heal_tracker<Kind::stall>, End::link_lost, 101,
+          kToolLost, nullptr, false, 501, kTrackerFault},
+    Fault{"tracker", "all noise", spoil_tracker<Kind::garbage>, heal_tracker<Kind::garbage>, End::link_lost,
+          101, kToolLost, nullptr, false, 501, kTrackerFault},
+    Fault{"tracker", "half messages", spoil_tracker<Kind::half_message>, heal_tracker<Kind::half_message>,
+          End::link_lost, 101, kToolLost, nullptr, false, 501, kTrackerFault},
     Fault{"tracker", "20 % lost and 30 % behind the next",
           [](WiredTrial& at) {
-            at.wires().tools().suffer({Kind::loss, 0.2});
-            at.wires().tools().suffer({Kind::reorder, 0.3});
+            spoil_tracker<Kind::loss, 20>(at);
+            spoil_tracker<Kind::reorder, 30>(at);
           },
           [](WiredTrial& at) {
-            at.wires().tools().heal(Kind::loss);
-            at.wires().tools().heal(Kind::reorder);
+            heal_tracker<Kind::loss>(at);
+            heal_tracker<Kind::reorder>(at);
           },
           End::unharmed, 0, 0, "datagrams missing"},
-    Fault{"tracker", "half come twice",
-          [](WiredTrial& at) {
-            at.wires().tools().suffer({Kind::duplicate, 0.5});
-          },
-          heal_tracker<Kind::duplicate>, End::unharmed, 0, 0, "old"},
+    Fault{"tracker", "half come twice", spoil_tracker<Kind::duplicate, 50>, heal_tracker<Kind::duplicate>,
+          End::unharmed, 0, 0, "old"},
     // From when the loop is back: the machine stands already.
     Fault{"program", "its loop stands for 400 ms",
           [](WiredTrial& at) { at.wires().stand(Duration(400'000'000), false); }, nothing, End::holds, 1,

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -49,9 +48,8 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 struct Reaction {
   double hold = kNever, rest = kNever;  // ms after it; rest: below 0.1 mm/s from then on, for 0.7 s
   Mode in = Mode::hold;                 // when it was injected
-  double speed = 0.0;       // of the tip, or of where it is told to be, m/s: the greatest from some
-                            // milliseconds before until it holds
-  double way = 0.0;         // of the tip from then on, m, for 0.7 s
+  double speed = 0.0;  // of the tip, or of where it is told to be, m/s: the greatest from then until it holds
+  double way = 0.0;    // of the tip from then on, m, for 0.7 s
   std::uint32_t why = 0;    // of the first hold
   bool held = false;        // in the 0.7 s
   bool linked = true;       // all, 0.5 s after it was cured

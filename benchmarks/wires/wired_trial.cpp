@@ -1,5 +1,7 @@
 #include "benchmarks/wires/wired_trial.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +31,21 @@ trial::TrialOptions Laboratory::behind(trial::TrialOptions options) {
     wires_.fit_out(rig, setup_.rig, {gcs, netft, igtl}, tools, log_, which_);
   };
   return options;
+}
+
+Pressed pressed(trial::Trial& trial) {
+  constexpr Time kBegun{Duration(10'000'000)};  // the first record is there
+  Pressed of;
+  while (trial.tick()) {
+    const Mode mode = trial.outputs().mode;
+    of.peak = std::max(of.peak, trial.truth().contact_force.norm());
+    of.height.push_back(trial.truth().tip.xyz[2]);
+    if (std::isnan(of.touched) && mode == Mode::contact)
+      of.touched = seconds(trial.now().t.time_since_epoch());
+    of.held = of.held || (trial.now().t > kBegun && mode == Mode::hold);
+  }
+  of.contacts = trial.outputs().contacts;
+  return of;
 }
 
 }  // namespace enc::bench::wires

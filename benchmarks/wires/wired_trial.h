@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <utility>
+#include <vector>
 
 #include "hw_drivers/wires/wires.h"
 #include "models/setup/scene_file.h"
@@ -45,5 +46,16 @@ class WiredTrial {
   Laboratory laboratory_;
   trial::Trial trial_;
 };
+
+// What a press of the ball comes to: a trial, with wires or without, to its end.
+struct Pressed {
+  int contacts = 0;
+  bool held = false;           // after the first samples
+  double peak = 0.0;           // N, true
+  double touched = kUnset;     // s, when the core has first noticed it
+  std::vector<double> height;  // m, of the true tip, on each tick
+};
+inline constexpr double kOnePress = 20.0;  // s: the first of tennis_ball has ended
+[[nodiscard]] Pressed pressed(trial::Trial& trial);
 
 }  // namespace enc::bench::wires

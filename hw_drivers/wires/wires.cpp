@@ -158,10 +158,11 @@ void Wires::fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::sp
 void Wires::pass(Time now) {
   now_ = now;
   if (controller_) controller_->cycle(now);
-  if (box_) box_->serve(now);
-  if (box_ && !force_silent) box_->publish(now);
-  if (tools_) tools_->serve(now);
-  if (tools_ && !tracker_silent) tools_->publish(now);
+  for (Fake* const fake : {static_cast<Fake*>(box_.get()), static_cast<Fake*>(tools_.get())}) {
+    if (fake == nullptr) continue;
+    fake->serve(now);
+    fake->publish(now);
+  }
 }
 
 }  // namespace enc::wires

@@ -63,7 +63,6 @@ class Wires {
   }
 
   Spoilt machine;
-  bool force_silent = false, tracker_silent = false;
 
  private:
   class Link;

@@ -13,40 +13,21 @@ const std::string kTennisBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball
 
 models::Setup fakes(std::vector<std::string> set = {}) { return models::load(kTennisBall, "fakes", set); }
 
-constexpr Time kBegun{Duration(10'000'000)};  // the first record is there
-
-struct Outcome {
-  int contacts = 0;
-  double peak = 0.0;  // N
-  bool held = false;
-};
-
-Outcome outcome(WiredTrial& wired) {
-  Outcome of;
-  while (wired.tick()) {
-    of.peak = std::max(of.peak, wired.trial().truth().contact_force.norm());
-    of.held = of.held || (wired.wires().now() > kBegun && wired.trial().outputs().mode == Mode::hold);
-  }
-  of.contacts = wired.trial().outputs().contacts;
-  return of;
-}
-
-// One press of the ball: its first ends at 20 s.
 trial::TrialOptions one_press() {
   trial::TrialOptions options;
-  options.seconds = 20.0;
+  options.seconds = kOnePress;
   return options;
 }
 
 TEST(WiredTrial, EachDeviceBehindItsWireGivesTheSamePress) {
   WiredTrial none(fakes(), one_press(), {false, false, false});
-  const Outcome pure = outcome(none);
+  const Pressed pure = pressed(none.trial());
   EXPECT_EQ(pure.contacts, 1);
   for (const Which wires :
        {Which{true, false, false}, {false, true, false}, {false, false, true}, {true, true, true}}) {
     SCOPED_TRACE(testing::Message() << wires.machine << wires.force << wires.tracker);
     WiredTrial wired(fakes({"rig.driver.gcs.cycle_ms=1", "rig.driver.gcs.poll_ms=1"}), one_press(), wires);
-    const Outcome of = outcome(wired);
+    const Pressed of = pressed(wired.trial());
     EXPECT_EQ(of.contacts, 1);
     EXPECT_FALSE(of.held);
     EXPECT_NEAR(of.peak, pure.peak, 0.2);
@@ -60,7 +41,7 @@ TEST(WiredTrial, SlowerCyclesOfSetPoints) {
        {std::tuple{"2", 1, false}, {"5", 1, false}, {"10", 1, false}, {"50", 0, true}}) {
     SCOPED_TRACE(cycle);
     WiredTrial wired(fakes({std::string("rig.driver.gcs.cycle_ms=") + cycle}), one_press());
-    const Outcome of = outcome(wired);
+    const Pressed of = pressed(wired.trial());
     EXPECT_EQ(of.contacts, contacts);
     EXPECT_EQ(of.held, held);
     EXPECT_TRUE(held || std::abs(of.peak - 12.31) < 0.2) << of.peak;
