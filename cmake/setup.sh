@@ -142,33 +142,31 @@ setup_chessboards() {
   else say "pairs of chessboards could not be fetched; their tests are skipped"; fi
 }
 
-# PIPython, PI's own client and server of GCS, for tests, which are skipped without it. Nothing else reads it.
-setup_pipython() {
-  local home=$root/.deps/pipython version=2.11.0.6 work=$root/.deps/unpacked
+# A foreign client or server, for tests, which are skipped without it. Nothing else reads it. It is kept where Python can run
+# the code with it.
+setup_judge() {  # FOLDER NAME==VERSION SHA256 SIZE CODE OPTION...: options of pip
+  local folder=$1 wheel=$2 hash=$3 size=$4 code=$5; shift 5
+  local home=$root/.deps/$folder work=$root/.deps/unpacked
   [[ ! -d $home ]] || return 0
-  doing="fetching PIPython"
-  say "fetching PIPython $version (0.2 MB)"
+  doing="fetching ${wheel%%=*}"
+  say "fetching ${wheel/==/ } ($size)"
   rm -rf "$home.part"
-  if fetch_wheel "PIPython==$version" 3998a10a6318b7a00e43b37a97cffafef6900cc2a7a80acb531329b43b27c3c2 "$work" &&
-    logged /usr/bin/python3 -m zipfile -e "$work"/*.whl "$home.part"; then mv "$home.part" "$home"
-  else say "PIPython could not be fetched; its tests are skipped"; fi
-  rm -rf "$work"
+  if fetch_wheel "$wheel" "$hash" "$work" "$@" && logged /usr/bin/python3 -m zipfile -e "$work"/*.whl "$home.part" &&
+    logged env PYTHONPATH="$home.part" /usr/bin/python3 -B -c "$code"; then mv "$home.part" "$home"
+  else say "${wheel%%=*} could not be fetched or does not load here; its tests are skipped"; fi
+  rm -rf "$work" "$home.part"
 }
 
-# pynetft, a foreign client of the Net F/T, for tests, which are skipped without it. Nothing else reads it. It is a library
-# for one version of Python, Debian's 3.11, and one kind of processor: where it does not load, it is not kept.
+# PIPython is PI's own client and server of GCS.
+setup_pipython() {
+  # Its tests import it without what USB and RS-232 need (tests/conformance/foreign/pipython_parts.py).
+  setup_judge pipython PIPython==2.11.0.6 3998a10a6318b7a00e43b37a97cffafef6900cc2a7a80acb531329b43b27c3c2 "0.2 MB" pass
+}
+
+# pynetft, a client of the Net F/T, is for one version of Python, Debian's 3.11, and one kind of processor.
 setup_pynetft() {
-  local home=$root/.deps/pynetft version=2.1.3 work=$root/.deps/unpacked
-  [[ ! -d $home ]] || return 0
-  doing="fetching pynetft"
-  say "fetching pynetft $version (0.5 MB)"
-  rm -rf "$home.part"
-  if fetch_wheel "pynetft==$version" 8b38a2e9b0dc7fbbbe63c21b9fb29258d4d62e29997fb5dfcaff9f05e61203a9 "$work" \
-    --python-version 3.11 --platform manylinux2014_x86_64 &&
-    logged /usr/bin/python3 -m zipfile -e "$work"/*.whl "$home.part" &&
-    logged env PYTHONPATH="$home.part" /usr/bin/python3 -B -c 'import pynetft'; then mv "$home.part" "$home"
-  else say "pynetft could not be fetched or does not load here; its tests are skipped"; fi
-  rm -rf "$work" "$home.part"
+  setup_judge pynetft pynetft==2.1.3 8b38a2e9b0dc7fbbbe63c21b9fb29258d4d62e29997fb5dfcaff9f05e61203a9 "0.5 MB" "import pynetft" \
+    --python-version 3.11 --platform manylinux2014_x86_64
 }
 
 # CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.

@@ -1,6 +1,5 @@
 #include "hw_drivers/wires/wires.h"
 
-#include <algorithm>
 #include <atomic>
 #include <string_view>
 #include <thread>
@@ -9,6 +8,7 @@
 #include "core/world/scene.h"
 #include "hw_drivers/igtl/drive/udp_tracker.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
+#include "hw_drivers/wires/string_link.h"
 
 namespace enc::wires {
 namespace {
@@ -57,7 +57,7 @@ class Answering {
 
 }  // namespace
 
-class Wires::Link final : public gcs::Link {
+class Wires::Link final : public StringLink {
  public:
   explicit Link(Wires& of) : of_(of) {}
   std::size_t send(std::string_view bytes) noexcept override {
@@ -70,17 +70,11 @@ class Wires::Link final : public gcs::Link {
       answers.resize(answers.size() / 2);
       spoilt.half = false;
       spoilt.silent = true;
-      answers_ += answers;
+      hear(answers);
     } else if (!spoilt.silent) {
-      answers_ += answers;
+      hear(answers);
     }
     return bytes.size();
-  }
-  std::size_t receive(std::span<char> into) noexcept override {
-    const std::size_t size = std::min(into.size(), answers_.size());
-    std::copy_n(answers_.begin(), size, into.begin());
-    answers_.erase(0, size);
-    return size;
   }
   [[nodiscard]] bool closed() const noexcept override { return of_.machine.hung_up; }
   void wait(Duration) noexcept override {}
@@ -88,7 +82,6 @@ class Wires::Link final : public gcs::Link {
 
  private:
   Wires& of_;
-  std::string answers_;
 };
 
 // The rig's own, and what is behind the wires goes on with it.

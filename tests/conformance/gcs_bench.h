@@ -3,7 +3,6 @@
 // waits.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <string>
@@ -13,6 +12,7 @@
 #include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "hw_drivers/net/steady.h"
+#include "hw_drivers/wires/string_link.h"
 #include "tests/support/default_offer.h"
 #include "tests/support/devices/following_machine.h"
 #include "trial/device_log.h"
@@ -32,31 +32,24 @@ struct GcsBench {
     bool at_rest = true;
   };
 
-  class FakeLink final : public gcs::Link {
+  class FakeLink final : public wires::StringLink {
    public:
     explicit FakeLink(GcsBench& bench) : bench_(bench) {}
     std::size_t send(std::string_view bytes) noexcept override {
       if (closed()) return 0;
       const std::string_view answers = bench_.controller.take(bytes);
-      if (!bench_.silent) answers_.append(answers);
+      if (!bench_.silent) hear(answers);
       return bytes.size();
-    }
-    std::size_t receive(std::span<char> into) noexcept override {
-      const std::size_t size = std::min(into.size(), answers_.size());
-      std::copy_n(answers_.begin(), size, into.begin());
-      answers_.erase(0, size);
-      return size;
     }
     [[nodiscard]] bool closed() const noexcept override { return bench_.hung_up; }
     void wait(Duration most) noexcept override {
-      if (answers_.empty()) std::this_thread::sleep_for(most);
+      if (!unread()) std::this_thread::sleep_for(most);
       bench_.pass(now());
     }
     [[nodiscard]] Duration now() const noexcept override { return net::steady_now(); }
 
    private:
     GcsBench& bench_;
-    std::string answers_;
   };
 
   explicit GcsBench(const gcs::ControllerSettings& with = {}) : controller(machine, with) {
