@@ -27,9 +27,26 @@ find_path(MPFR_INCLUDE_DIR mpfr.h)
 find_library(MPFR_LIBRARY mpfr)
 find_library(GMP_LIBRARY gmp)
 
-add_custom_target(tests) # all but those of the benchmarks
-function(enc_test kind shards) # enc_test(folder shards libraries...)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
+# Each test is built and run where it finds most, so that no check builds all twice: what parses, decides and frees, under
+# ASan and UBSan (preset dev); what draws, measures and loads the machine, optimised (release); two kinds in both.
+# `./check --full` runs all of them in both.
+add_custom_target(tests_sanitized) # what `./check` builds in dev
+add_custom_target(tests_optimised) # and in release
+set(sanitized unit input fuzz golden conformance)
+set(optimised drawn property golden conformance benchmarks hygiene shape threads)
+set(draws "/(vision|camera)/|camera_test") # of tests/unit: pictures by the thousand, thirty times as slow under ASan
+
+function(enc_test kind shards) # enc_test(folder shards libraries...); drawn: of tests/unit, what draws
+  set(folder ${kind})
+  if(kind STREQUAL "drawn")
+    set(folder unit)
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
+  if(kind STREQUAL "drawn")
+    list(FILTER sources INCLUDE REGEX "${draws}")
+  elseif(kind STREQUAL "unit")
+    list(FILTER sources EXCLUDE REGEX "${draws}")
+  endif()
   list(FILTER sources EXCLUDE REGEX "fuzz/coverage/") # below
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone
     list(FILTER sources EXCLUDE REGEX mesh_property_test)
@@ -70,12 +87,14 @@ function(enc_test kind shards) # enc_test(folder shards libraries...)
   enc_batches(test_${kind} "${folders}")
   if(kind STREQUAL "benchmarks")
     add_dependencies(test_${kind} program bench)
-  elseif(kind STREQUAL "threads") # starts no program and loads no module
-    add_dependencies(tests test_${kind})
-  else()
+  elseif(NOT kind STREQUAL "threads") # which starts no program and loads no module
     add_dependencies(test_${kind} program fit view vision calibration)
-    add_dependencies(tests test_${kind})
   endif()
+  foreach(group sanitized optimised)
+    if(kind IN_LIST ${group})
+      add_dependencies(tests_${group} test_${kind})
+    endif()
+  endforeach()
   math(EXPR last "${shards} - 1")
   foreach(shard RANGE ${last})
     add_test(NAME ${kind}.${shard} COMMAND test_${kind} --gtest_brief=1 --gtest_filter=-*Long.*)
@@ -95,7 +114,8 @@ function(enc_test kind shards) # enc_test(folder shards libraries...)
   endforeach()
 endfunction()
 
-enc_test(unit 6)
+enc_test(unit 4)
+enc_test(drawn 4)
 enc_test(property 4)
 if(MPFR_INCLUDE_DIR AND MPFR_LIBRARY)
   target_link_libraries(test_property PRIVATE ${MPFR_LIBRARY} ${GMP_LIBRARY})

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "hw_drivers/gcs/drive/settings.h"
+#include "hw_drivers/wires/settling.h"
 #include "models/setup/driver_table.h"
 
 namespace enc::bench::wires {
@@ -139,12 +140,10 @@ const Fault& no_fault() {
   return kNone;
 }
 
-// It brakes for v / a. By then it may be as far behind its last point as it went in that, v^2 / 2a, and to
-// come back from there takes it twice the root of that way over a.
 double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
-  const double brakes = of.speed / setup.rig.manipulator.acceleration;
-  const double settles = std::log(std::max(1.0, of.speed / kStands)) / decay(setup);
-  return fault.hold_in(of.in) + 1e3 * (blind(setup) + (1.0 + std::numbers::sqrt2) * brakes + settles);
+  const auto& machine = setup.twin.hexapod;
+  const ServoLaw law{machine.servo, machine.damping, machine.speed, machine.acceleration};
+  return fault.hold_in(of.in) + 1e3 * (blind(setup) + enc::wires::longest_settling(law, of.speed, kStands));
 }
 
 double way_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {

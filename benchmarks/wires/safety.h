@@ -58,8 +58,8 @@ struct Reaction {
   double counted = kUnset;  // what the driver says that it has counted
   double simulated = 0.0;   // s
 };
-// Bounds that hold for every cell, from how fast the tip was, the points that the controller still has, the
-// rig's acceleration, and the dead time and servo of the machine.
+// Bounds that hold for every cell, from how fast the tip was, the points that the controller still has, and
+// the machine's dead time, servo and acceleration.
 [[nodiscard]] double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup);  // ms
 [[nodiscard]] double way_bound(const Fault& fault, const Reaction& of, const models::Setup& setup);   // m
 // What of it does not hold; empty: all does.

@@ -1,14 +1,18 @@
 // The scene of the tennis ball through the wires of the laboratory, in virtual time.
 #include "benchmarks/wires/wired_trial.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hw_drivers/wires/settling.h"
+
 namespace enc::bench::wires {
 namespace {
 
+constexpr double kStands = 1e-4;  // m/s
 const std::string kTennisBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
 
 models::Setup fakes(std::vector<std::string> set = {}) { return models::load(kTennisBall, "fakes", set); }
@@ -76,6 +80,48 @@ TEST(WiredTrial, AfterAPauseNothingIsMadeUpFor) {
   EXPECT_GT(fastest, 0.001);
   EXPECT_LE(fastest, 0.050 * 1.001);
   EXPECT_EQ(wired.wires().controller().error(), 0) << "no point was farther than a cycle allows";
+}
+
+// Nobody sends anything any more, from any moment of the way on which the machine goes fastest: it stands
+// within its dead time, four points of its cycle, and what its servo takes to settle.
+TEST(WiredTrial, WhenItIsKilledTheMachineStandsInTime) {
+  double longest = 0.0, slowest = 1.0, fastest = 0.0;
+  for (int killed = 60; killed <= 340; killed += 10) {
+    SCOPED_TRACE(killed);
+    WiredTrial wired(fakes(), one_press());
+    const auto& plant = wired.trial().world().machine->state();
+    for (int i = 0; i < killed; ++i) ASSERT_TRUE(wired.tick());
+    const double speed = plant.velocity.norm();
+    slowest = std::min(slowest, speed);
+    fastest = std::max(fastest, speed);
+    wired.wires().machine.cut = true;
+    double moved = 0.0;
+    for (int i = 1; i <= 1000; ++i) {
+      wired.tick();
+      if (plant.velocity.norm() >= kStands) moved = 1e-3 * i;
+    }
+    const auto& of = wired.trial().setup().twin.hexapod;
+    EXPECT_LE(moved, 0.044 + enc::wires::longest_settling({of.servo, of.damping, of.speed, of.acceleration},
+                                                          of.speed, kStands));
+    longest = std::max(longest, moved);
+  }
+  EXPECT_LT(slowest, 0.005);
+  EXPECT_GT(fastest, 0.049);
+  EXPECT_GT(longest, 0.45) << "it swings back after it has braked";
+}
+
+// From 50 mm/s it needs 122 ms to brake; with what it then swings back it takes five times as long. A servo
+// that brakes in time would not swing; a slow machine hardly does.
+TEST(WiredTrial, HowLongAMachineSettles) {
+  const ServoLaw law;
+  EXPECT_NEAR(enc::wires::longest_settling(law, law.speed, kStands), 0.604, 0.01);
+  EXPECT_LT(enc::wires::longest_settling({15.0, 0.8, 0.05, 41.0}, law.speed, kStands), 0.1);
+  double before = 0.0;
+  for (double speed = 0.005; speed < 0.0501; speed += 0.005) {
+    const double time = enc::wires::longest_settling(law, speed, kStands);
+    EXPECT_GT(time, before) << speed;
+    before = time;
+  }
 }
 
 }  // namespace

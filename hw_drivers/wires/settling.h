@@ -1,0 +1,35 @@
+// How long a machine moves on after its last set-point: what is stated of a killed run, a cut cable and every
+// other fault (docs/reference/safety.md).
+#pragma once
+
+#include <algorithm>
+
+#include "core/machine/servo.h"
+
+namespace enc::wires {
+
+// s until it stays slower than `stands` (m/s). At first it has this speed, and its last point is ahead, no
+// farther than it needs to brake. Found by following the law for every such point: a servo whose acceleration
+// is clipped passes its point, comes back too fast as well, and does so more than once.
+[[nodiscard]] inline double longest_settling(const ServoLaw& law, double speed, double stands) noexcept {
+  constexpr int kPoints = 100;
+  constexpr double kStep = 1e-3, kLongest = 5.0;  // s
+  const double brakes = 0.5 * speed * speed / law.acceleration;
+  double longest = 0.0;
+  for (int i = 0; i <= kPoints; ++i) {
+    const Vec3 last(brakes * i / kPoints, 0.0, 0.0);
+    ServoMotion motion;
+    motion.velocity.x() = speed;
+    double moved = 0.0;
+    // Once slow, and so near that it can become no faster, it stays slow.
+    for (double t = kStep; t < kLongest; t += kStep) {
+      follow(law, last, kStep, motion);
+      if (motion.velocity.norm() >= stands) moved = t;
+      if (t - moved > 1.0 / law.frequency) break;
+    }
+    longest = std::max(longest, moved);
+  }
+  return longest;
+}
+
+}  // namespace enc::wires
