@@ -13,7 +13,8 @@ namespace enc::wires {
 // is clipped passes its point, comes back too fast as well, and does so more than once.
 [[nodiscard]] inline double longest_settling(const ServoLaw& law, double speed, double stands) noexcept {
   constexpr int kPoints = 100;
-  constexpr double kStep = 1e-3, kLongest = 5.0;  // s
+  constexpr double kStep = 1e-3;  // s
+  constexpr int kSteps = 5000;
   const double brakes = 0.5 * speed * speed / law.acceleration;
   double longest = 0.0;
   for (int i = 0; i <= kPoints; ++i) {
@@ -22,10 +23,10 @@ namespace enc::wires {
     motion.velocity.x() = speed;
     double moved = 0.0;
     // Once slow, and so near that it can become no faster, it stays slow.
-    for (double t = kStep; t < kLongest; t += kStep) {
+    for (int step = 1; step <= kSteps; ++step) {
       follow(law, last, kStep, motion);
-      if (motion.velocity.norm() >= stands) moved = t;
-      if (t - moved > 1.0 / law.frequency) break;
+      if (motion.velocity.norm() >= stands) moved = kStep * step;
+      if (kStep * step - moved > 1.0 / law.frequency) break;
     }
     longest = std::max(longest, moved);
   }
