@@ -90,15 +90,17 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); drawn: of
   elseif(NOT kind STREQUAL "threads") # which starts no program and loads no module
     add_dependencies(test_${kind} program fit view vision calibration)
   endif()
+  set(labels ${kind})
   foreach(group sanitized optimised)
     if(kind IN_LIST ${group})
       add_dependencies(tests_${group} test_${kind})
+      list(APPEND labels ${group})
     endif()
   endforeach()
   math(EXPR last "${shards} - 1")
   foreach(shard RANGE ${last})
     add_test(NAME ${kind}.${shard} COMMAND test_${kind} --gtest_brief=1 --gtest_filter=-*Long.*)
-    set_tests_properties(${kind}.${shard} PROPERTIES LABELS ${kind} TIMEOUT 600 ENVIRONMENT
+    set_tests_properties(${kind}.${shard} PROPERTIES LABELS "${labels}" TIMEOUT 600 ENVIRONMENT
                          "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
     if(kind MATCHES "shape|threads") # these look at the clock
       set_tests_properties(${kind}.${shard} PROPERTIES RUN_SERIAL TRUE)
@@ -128,7 +130,7 @@ enc_test(shape 1)
 enc_test(hygiene 2)
 # Where the kernel lets nobody count system calls, the list of tests says so.
 add_test(NAME hygiene.system_calls COMMAND test_hygiene --gtest_filter=SystemCalls.*)
-set_tests_properties(hygiene.system_calls PROPERTIES LABELS hygiene TIMEOUT 60 SKIP_REGULAR_EXPRESSION "SKIPPED")
+set_tests_properties(hygiene.system_calls PROPERTIES LABELS "hygiene;optimised" TIMEOUT 60 SKIP_REGULAR_EXPRESSION "SKIPPED")
 enc_test(fuzz 4)
 if(ENCOUNTER_VISION)
   enc_test(threads 1 enc_trackers enc_gcs enc_igtl enc_netft enc_vision)
