@@ -41,7 +41,8 @@ std::vector<Part> parts_of(const models::Setup& setup) {
                    setup.rig.camera.rate, driver(setup.rig.camera.driver)));
   part("display", scene.display.has_value(),
        fmt::format("{:g} Hz, {}", setup.twin.display.rate, driver(setup.rig.display.driver)));
-  part("user", scene.user.has_value(), "simulated hand");
+  part("user", scene.user.has_value(),
+       setup.rig.force.driver == "sim" ? "simulated hand" : "whoever touches the force sensor");
   const auto millimetres = [](double metres) { return std::round(metres * 1e6) * 1e-3; };
   part("probe", scene.probe.has_value(),
        !scene.probe ? ""

@@ -13,11 +13,13 @@ namespace {
 
 using certificate::Class;
 
-// How quickly the scene's own hand pushes; a real one pushes as quickly as it likes.
+// How quickly the scene's own hand pushes. Whoever comes near a real sensor pushes as quickly as they like.
 double ramp_of(const models::Setup& setup) {
+  const bool real = setup.rig.force.driver != "sim" || setup.rig.tracker.driver != "sim";
+  const double slowest = real ? Steadiness::kQuick : Steadiness::kSlow;
   const std::optional<UserSpec>& user = setup.scene.user;
-  if (setup.scene.pusher) return std::min(Steadiness::kSlow, setup.scene.pusher->ramp_time);
-  if (user && !user->session && !user->reaches) return std::min(Steadiness::kSlow, user->press_time);
+  if (setup.scene.pusher) return std::min(slowest, setup.scene.pusher->ramp_time);
+  if (user && !user->session && !user->reaches) return std::min(slowest, user->press_time);
   return Steadiness::kQuick;
 }
 

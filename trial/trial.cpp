@@ -65,6 +65,16 @@ void refuse_limits(const models::Setup& setup, const Scene& scene) {
                   "; a real machine is not armed for it");
 }
 
+// Frames and sensors that nobody measured put the tip where nobody expects it.
+void refuse_uncalibrated(const models::Setup& setup) {
+  if (!setup.rig.calibration.date.empty()) return;
+  throw Error(
+      models::place_of(setup, setup.scene.arm ? "rig.arm" : "rig.manipulator") +
+      ": nobody has measured this rig; expected the day on which its frames, machine and force sensor were: "
+      "[calibration], date = \"2026-11-27\"; measure them (docs/guide/laboratory.md) and write it; a real "
+      "machine is not armed for it");
+}
+
 }  // namespace
 
 Trial::Trial(models::Setup setup, TrialOptions options)
@@ -73,7 +83,10 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (options_.lockstep) refuse_lockstep(slots, options_);
   const bool wall = slots.real && !options_.lockstep && keeps_wall_time(setup_, options_.drivers);
   const double pace = pace_of(options_, wall);
-  if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
+  if (slots.machine && options_.armed) {
+    refuse_limits(setup_, scene_);
+    refuse_uncalibrated(setup_);
+  }
   // What keeps no wall clock works within the loop, so that it is the same in every run.
   const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
   if (slots.machine && options_.armed && setup_.scene.camera && !threaded)

@@ -13,6 +13,7 @@
 #include "hw_drivers/gcs/drive/settings.h"
 #include "hw_drivers/wires/settling.h"
 #include "models/setup/driver_table.h"
+#include "sim/plants/hexapod_plant.h"
 
 namespace enc::bench::wires {
 namespace {
@@ -141,8 +142,7 @@ const Fault& no_fault() {
 }
 
 double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
-  const auto& machine = setup.twin.hexapod;
-  const ServoLaw law{machine.servo, machine.damping, machine.speed, machine.acceleration};
+  const ServoLaw law = sim::servo_of(setup.twin.hexapod);
   return fault.hold_in(of.in) + 1e3 * (blind(setup) + enc::wires::longest_settling(law, of.speed, kStands));
 }
 

@@ -41,6 +41,12 @@ struct FramesRig {
   PoseSpec H_F{{0.0, 0.0, -0.127}, {0, 0, 0}};
 };
 
+// When somebody last measured, on this machine, what its rig file says of it and of where its devices stand.
+// A real machine is not armed without it.
+struct CalibrationRig {
+  std::string date;  // ISO 8601, "2026-11-27"; empty: nobody did
+};
+
 struct ManipulatorRig {
   std::string driver = "sim";
   HexapodGeometry geometry;
@@ -96,6 +102,7 @@ struct RigSpec {
   std::int64_t format = 1;
   std::string title;
   LoopRig loop;
+  CalibrationRig calibration;
   FramesRig frames;
   ManipulatorRig manipulator;
   ArmRig arm;

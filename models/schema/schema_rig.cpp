@@ -265,6 +265,13 @@ void describe(Visitor& v, RigSpec& r) {
     v.value({"late_cycles", "missed cycles that mean hold", "sources/twin 2", assumed, {1.0, 1e6}},
             &r.loop.late_cycles);
   });
+  table_if(v, "calibration", !r.calibration.date.empty(), [&] {
+    v.value(
+        {"date",
+         "day on which frames, machine and sensor were measured, as 2026-11-27; else nothing real is armed",
+         "the lab's calibration", chosen, kAny, needed},
+        &r.calibration.date);
+  });
   table(v, "frames", [&] {
     describe(v, "W_S", r.frames.W_S);
     describe(v, "W_C", r.frames.W_C);

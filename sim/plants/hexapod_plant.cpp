@@ -81,7 +81,7 @@ void HexapodPlant::lead(const TipSample& seen) noexcept {
 
 void HexapodPlant::move(double timestep) noexcept {
   if (state_.led) return;
-  const ServoLaw law{truth_.servo, truth_.damping, truth_.speed, truth_.acceleration};
+  const ServoLaw law = servo_of(truth_);
   ServoMotion motion{state_.pose.p(), state_.velocity.e()};
   follow(law, state_.wanted.p(), timestep, motion);
   std::copy_n(motion.p.data(), 3, state_.pose.xyz.begin());

@@ -7,11 +7,16 @@
 #include <cstdint>
 
 #include "core/machine/reach.h"
+#include "core/machine/servo.h"
 #include "core/sample.h"
 #include "sim/random.h"
 #include "sim/twin_spec.h"
 
 namespace enc::sim {
+
+[[nodiscard]] inline ServoLaw servo_of(const HexapodTruth& truth) noexcept {
+  return {truth.servo, truth.damping, truth.speed, truth.acceleration};
+}
 
 class HexapodPlant {
  public:

@@ -86,8 +86,7 @@ TEST(WiredTrial, AfterAPauseNothingIsMadeUpFor) {
 // within its dead time, four points of its cycle, and what its servo takes to settle.
 TEST(WiredTrial, WhenItIsKilledTheMachineStandsInTime) {
   const auto of = fakes().twin.hexapod;
-  const double bound = 0.044 + enc::wires::longest_settling({of.servo, of.damping, of.speed, of.acceleration},
-                                                            of.speed, kStands);
+  const double bound = 0.044 + enc::wires::longest_settling(sim::servo_of(of), of.speed, kStands);
   double longest = 0.0, slowest = 1.0, fastest = 0.0;
   for (int killed = 60; killed <= 340; killed += 10) {
     SCOPED_TRACE(killed);

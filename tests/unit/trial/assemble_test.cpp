@@ -15,7 +15,10 @@
 namespace enc::trial {
 namespace {
 
-const std::vector<std::string> kSample{"rig.manipulator.driver=\"sample\"", "rig.force.driver=\"sample\""};
+const std::vector<std::string> kUncalibrated{"rig.manipulator.driver=\"sample\"",
+                                             "rig.force.driver=\"sample\""};
+const std::vector<std::string> kSample{kUncalibrated[0], kUncalibrated[1],
+                                       "rig.calibration.date=\"2026-11-27\""};
 
 models::Setup scene(const std::string& name, const std::vector<std::string>& set = {}) {
   return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", {}, set);
@@ -62,6 +65,23 @@ TEST_F(Assemble, AnArmedMachineIsNotGivenWhatItCannotHoldStill) {
                 testing::AllOf(testing::HasSubstr("object 'wall'"), testing::HasSubstr("not armed")));
     EXPECT_EQ(e.kind(), ErrorKind::input);
   }
+}
+
+// Frames that nobody measured put the tip where nobody expects it. A dry run is how they are looked at.
+TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
+  TrialOptions made = options();
+  EXPECT_EQ(Trial(scene("rig_A", kUncalibrated), made).run().withheld, 51);
+  made.armed = true;
+  try {
+    Trial(scene("rig_A", kUncalibrated), made);
+    FAIL() << "armed";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(),
+                testing::AllOf(testing::ContainsRegex("sim.toml:[0-9]+:[0-9]+: nobody has measured this rig"),
+                               testing::HasSubstr("date = \"2026-"), testing::HasSubstr("not armed")));
+    EXPECT_EQ(e.kind(), ErrorKind::input);
+  }
+  EXPECT_NO_THROW(Trial(scene("rig_A", kSample), made));
 }
 
 TEST_F(Assemble, AnArmIsNotArmedForWhatItDoesNotHoldOrMayNot) {

@@ -55,6 +55,16 @@ TEST(Certificates, WhatIsTooStiffOrTooSoftIsBeyond) {
   EXPECT_GT(soft[0].swing, 1e-3);
 }
 
+// The hand of the scene presses within two seconds; a person whom a real device sees does as they like.
+TEST(Certificates, APersonAtARealDevicePushesQuickly) {
+  const auto ramp = [](const std::vector<std::string>& set) { return of("tennis_ball", set).back().ramp; };
+  EXPECT_EQ(ramp({}), 2.0);
+  for (const char* role : {"force", "tracker"})
+    EXPECT_EQ(ramp({std::string("rig.") + role + ".driver=\"sample\""}), 0.5) << role;
+  EXPECT_EQ(ramp({"rig.manipulator.driver=\"sample\""}), 2.0);
+  EXPECT_EQ(ramp({"rig.force.driver=\"sample\"", "user.press_s=0.2"}), 0.2);
+}
+
 // A search that ended at its last step has no bound, and says so; what swings itself neither.
 TEST(Certificates, ALargeSignalBoundIsOneSidedWhereTheSearchEnds) {
   using Side = certificate::Row::Side;

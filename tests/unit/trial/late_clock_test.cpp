@@ -113,7 +113,8 @@ TEST(LateClock, AnArmedRunHoldsAfterAStallAndSendsNoBurst) {
       EXPECT_NE(glance.out.why & kClockLate, 0U);
     };
     trial::Trial trial(models::load(std::string(ENCOUNTER_SOURCE_DIR "/models/scenes/") + scene + ".toml", {},
-                                    {"rig.manipulator.driver=\"sample\"", "rig.force.driver=\"sample\""}),
+                                    {"rig.manipulator.driver=\"sample\"", "rig.force.driver=\"sample\"",
+                                     "rig.calibration.date=\"2026-11-27\""}),
                        options);
     const trial::TrialResult result = trial.run();
     EXPECT_GE(late_holds, 1) << scene;
