@@ -28,24 +28,26 @@ find_library(MPFR_LIBRARY mpfr)
 find_library(GMP_LIBRARY gmp)
 
 # Each test is built and run where it finds most, so that no check builds all twice: what parses, decides and frees, under
-# ASan and UBSan (preset dev); what draws, measures and loads the machine, optimised (release); two kinds in both.
+# ASan and UBSan (preset dev); what draws, runs whole scenes, measures and loads the machine, optimised (release); one
+# kind in both.
 # `./check --full` runs all of them in both.
 add_custom_target(tests_sanitized) # what `./check` builds in dev
 add_custom_target(tests_optimised) # and in release
 set(sanitized unit input fuzz golden conformance)
-set(optimised drawn property golden conformance benchmarks hygiene shape threads)
-set(draws "/(vision|camera)/|camera_test") # of tests/unit: pictures by the thousand, thirty times as slow under ASan
+set(optimised heavy property golden benchmarks hygiene shape threads)
+# Of tests/unit and tests/input: what draws pictures by the thousand, or runs whole scenes. Under ASan it takes 10 to 30
+# times as long, and it is four fifths of their time.
+set(draws "/(vision|camera)/|camera_test|/calibrate_(through_)?images_test|drawing_threads_test")
+set(runs_scenes "/trial/(ledger|measure|precision)/|/(jitter|limits_input|seen_measure|shipped|touch_measure|verdict_input)_test")
 
-function(enc_test kind shards) # enc_test(folder shards libraries...); drawn: of tests/unit, what draws
-  set(folder ${kind})
-  if(kind STREQUAL "drawn")
-    set(folder unit)
-  endif()
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
-  if(kind STREQUAL "drawn")
-    list(FILTER sources INCLUDE REGEX "${draws}")
-  elseif(kind STREQUAL "unit")
-    list(FILTER sources EXCLUDE REGEX "${draws}")
+function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of unit and input, as above
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
+  if(kind STREQUAL "heavy")
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/input/*.cpp tests/unit/*.cpp)
+    list(FILTER sources INCLUDE REGEX "${draws}|${runs_scenes}")
+    list(APPEND sources ${PROJECT_SOURCE_DIR}/tests/input/app/program.cpp ${PROJECT_SOURCE_DIR}/tests/unit/trial/runs.cpp)
+  elseif(kind MATCHES "unit|input")
+    list(FILTER sources EXCLUDE REGEX "${draws}|${runs_scenes}")
   endif()
   list(FILTER sources EXCLUDE REGEX "fuzz/coverage/") # below
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone
@@ -117,7 +119,7 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); drawn: of
 endfunction()
 
 enc_test(unit 4)
-enc_test(drawn 4)
+enc_test(heavy 6)
 enc_test(property 4)
 if(MPFR_INCLUDE_DIR AND MPFR_LIBRARY)
   target_link_libraries(test_property PRIVATE ${MPFR_LIBRARY} ${GMP_LIBRARY})
