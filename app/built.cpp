@@ -42,7 +42,7 @@ std::vector<Part> parts_of(const models::Setup& setup) {
   part("display", scene.display.has_value(),
        fmt::format("{:g} Hz, {}", setup.twin.display.rate, driver(setup.rig.display.driver)));
   part("user", scene.user.has_value(),
-       setup.rig.force.driver == "sim" ? "simulated hand" : "whoever touches the force sensor");
+       trial::meets_person(setup) ? "whoever is at the real devices" : "simulated hand");
   const auto millimetres = [](double metres) { return std::round(metres * 1e6) * 1e-3; };
   part("probe", scene.probe.has_value(),
        !scene.probe ? ""

@@ -1,4 +1,4 @@
-# Tests: one program per folder, linked with the libraries that it tests. ctest runs a program as a few shards, each one
+# Tests: one program per folder, and `heavy`, the slow part of unit and input; linked with the libraries that it tests. ctest runs a program as a few shards, each one
 # process: hundreds of processes would spend their time in starting. What takes minutes is in suites called *Long.
 # The support library always has a source, because it owns the precompiled header that all test programs share.
 file(CONFIGURE OUTPUT ${generated}/pch.cpp CONTENT "// Here the precompiled header is made.\n")
@@ -28,15 +28,14 @@ find_library(MPFR_LIBRARY mpfr)
 find_library(GMP_LIBRARY gmp)
 
 # Each test is built and run where it finds most, so that no check builds all twice: what parses, decides and frees, under
-# ASan and UBSan (preset dev); what draws, runs whole scenes, measures and loads the machine, optimised (release); one
-# kind in both.
-# `./check --full` runs all of them in both.
+# ASan and UBSan (preset dev); what draws, runs whole scenes, measures or keeps both cores busy, optimised (release);
+# golden in both. `./check --full` runs all of them in both.
 add_custom_target(tests_sanitized) # what `./check` builds in dev
 add_custom_target(tests_optimised) # and in release
 set(sanitized unit input fuzz golden conformance)
 set(optimised heavy property golden benchmarks hygiene shape threads)
-# Of tests/unit and tests/input: what draws pictures by the thousand, or runs whole scenes. Under ASan it takes 10 to 30
-# times as long, and it is four fifths of their time.
+# Of tests/unit and tests/input: what draws pictures by the thousand, or runs whole scenes. Under ASan they take 10 to 30
+# times as long, four fifths of all the time there. A new test that takes a second in release belongs here.
 set(draws "/(vision|camera)/|camera_test|/calibrate_(through_)?images_test|drawing_threads_test")
 set(runs_scenes "/trial/(ledger|measure|precision)/|/(jitter|limits_input|seen_measure|shipped|touch_measure|verdict_input)_test")
 

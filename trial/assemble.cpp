@@ -53,6 +53,13 @@ Slots slots_of(const models::Setup& setup) {
   return slots;
 }
 
+bool meets_person(const models::Setup& setup) {
+  const SceneSpec& scene = setup.scene;
+  const RigSpec& rig = setup.rig;
+  return (scene.force && rig.force.driver != "sim") ||
+         (scene.tracker && (scene.camera ? rig.camera.driver : rig.tracker.driver) != "sim");
+}
+
 bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers) {
   bool any = false;
   each_role([&](const auto& role) {

@@ -30,6 +30,9 @@ struct Slots {
   bool machine = false;  // the manipulator or the arm is real
 };
 [[nodiscard]] Slots slots_of(const models::Setup& setup);
+// A force sensor, tracker or camera of the scene is real: so is who touches or comes, as far as the core can
+// tell.
+[[nodiscard]] bool meets_person(const models::Setup& setup);
 // Some device that is not simulated lives in wall time: it does not only play what was recorded.
 [[nodiscard]] bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers);
 

@@ -7,16 +7,16 @@
 #include <fmt/format.h>
 
 #include "core/machine/steadiness.h"
+#include "trial/assemble.h"
 
 namespace enc::trial {
 namespace {
 
 using certificate::Class;
 
-// How quickly the scene's own hand pushes. Whoever comes near a real sensor pushes as quickly as they like.
+// How quickly the scene's own hand pushes; a person pushes as quickly as they like.
 double ramp_of(const models::Setup& setup) {
-  const bool real = setup.rig.force.driver != "sim" || setup.rig.tracker.driver != "sim";
-  const double slowest = real ? Steadiness::kQuick : Steadiness::kSlow;
+  const double slowest = meets_person(setup) ? Steadiness::kQuick : Steadiness::kSlow;
   const std::optional<UserSpec>& user = setup.scene.user;
   if (setup.scene.pusher) return std::min(slowest, setup.scene.pusher->ramp_time);
   if (user && !user->session && !user->reaches) return std::min(slowest, user->press_time);

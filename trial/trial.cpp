@@ -65,14 +65,13 @@ void refuse_limits(const models::Setup& setup, const Scene& scene) {
                   "; a real machine is not armed for it");
 }
 
-// Frames and sensors that nobody measured put the tip where nobody expects it.
+// With frames that nobody measured its tip is not where anybody expects it.
 void refuse_uncalibrated(const models::Setup& setup) {
   if (!setup.rig.calibration.date.empty()) return;
   throw Error(
       models::place_of(setup, setup.scene.arm ? "rig.arm" : "rig.manipulator") +
-      ": nobody has measured this rig; expected the day on which its frames, machine and force sensor were: "
-      "[calibration], date = \"2026-11-27\"; measure them (docs/guide/laboratory.md) and write it; a real "
-      "machine is not armed for it");
+      ": this rig has no day of calibration; expected a [calibration] with date = \"2026-11-27\", the day on "
+      "which it was measured (docs/guide/laboratory.md); a real machine is not armed without it");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/wires/settling.h"
 #include "hw_drivers/gcs/drive/settings.h"
-#include "hw_drivers/wires/settling.h"
 #include "models/setup/driver_table.h"
 #include "sim/plants/hexapod_plant.h"
 
@@ -143,7 +143,7 @@ const Fault& no_fault() {
 
 double rest_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {
   const ServoLaw law = sim::servo_of(setup.twin.hexapod);
-  return fault.hold_in(of.in) + 1e3 * (blind(setup) + enc::wires::longest_settling(law, of.speed, kStands));
+  return fault.hold_in(of.in) + 1e3 * (blind(setup) + longest_settling(law, of.speed, kStands));
 }
 
 double way_bound(const Fault& fault, const Reaction& of, const models::Setup& setup) {

@@ -41,10 +41,9 @@ struct FramesRig {
   PoseSpec H_F{{0.0, 0.0, -0.127}, {0, 0, 0}};
 };
 
-// When somebody last measured, on this machine, what its rig file says of it and of where its devices stand.
 // A real machine is not armed without it.
 struct CalibrationRig {
-  std::string date;  // ISO 8601, "2026-11-27"; empty: nobody did
+  std::string date;  // on which frames, geometry and force sensor were measured, "2026-11-27"; empty: never
 };
 
 struct ManipulatorRig {

@@ -266,11 +266,11 @@ void describe(Visitor& v, RigSpec& r) {
             &r.loop.late_cycles);
   });
   table_if(v, "calibration", !r.calibration.date.empty(), [&] {
-    v.value(
-        {"date",
-         "day on which frames, machine and sensor were measured, as 2026-11-27; else nothing real is armed",
-         "the lab's calibration", chosen, kAny, needed},
-        &r.calibration.date);
+    v.value({"date",
+             "day on which frames, geometry and force sensor were measured; a real machine is not armed "
+             "without it",
+             "the lab's calibration", chosen, kAny, needed},
+            &r.calibration.date);
   });
   table(v, "frames", [&] {
     describe(v, "W_S", r.frames.W_S);

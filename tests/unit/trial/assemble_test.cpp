@@ -76,9 +76,10 @@ TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
     Trial(scene("rig_A", kUncalibrated), made);
     FAIL() << "armed";
   } catch (const Error& e) {
-    EXPECT_THAT(e.what(),
-                testing::AllOf(testing::ContainsRegex("sim.toml:[0-9]+:[0-9]+: nobody has measured this rig"),
-                               testing::HasSubstr("date = \"2026-"), testing::HasSubstr("not armed")));
+    EXPECT_THAT(
+        e.what(),
+        testing::AllOf(testing::ContainsRegex("sim.toml:[0-9]+:[0-9]+: this rig has no day of calibration"),
+                       testing::HasSubstr("date = \"2026-"), testing::HasSubstr("not armed")));
     EXPECT_EQ(e.kind(), ErrorKind::input);
   }
   EXPECT_NO_THROW(Trial(scene("rig_A", kSample), made));

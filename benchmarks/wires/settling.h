@@ -6,7 +6,7 @@
 
 #include "core/machine/servo.h"
 
-namespace enc::wires {
+namespace enc::bench::wires {
 
 // s until it stays slower than `stands` (m/s). At first it has this speed, and its last point is ahead, no
 // farther than it needs to brake. Found by following the law for every such point: a servo whose acceleration
@@ -33,4 +33,4 @@ namespace enc::wires {
   return longest;
 }
 
-}  // namespace enc::wires
+}  // namespace enc::bench::wires
