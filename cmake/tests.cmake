@@ -36,8 +36,11 @@ set(sanitized unit input fuzz golden conformance)
 set(optimised heavy property golden benchmarks hygiene shape threads)
 # Of tests/unit and tests/input: what draws pictures by the thousand, or runs whole scenes. Under ASan they take 10 to 30
 # times as long, four fifths of all the time there. A new test that takes a second in release belongs here.
-set(draws "/(vision|camera)/|camera_test|/calibrate_(through_)?images_test|drawing_threads_test")
-set(runs_scenes "/trial/(ledger|measure|precision)/|/(jitter|limits_input|seen_measure|shipped|touch_measure|verdict_input)_test")
+string(CONCAT draws "/tests/(unit/core/vision/(augment|ball|calibration|finger|segmentation/[a-z_]*_test|stereo/match|vision_tracker)|"
+       "unit/sim/camera/|unit/trial/guided/tip_eyes|input/app/(calibration/|camera/|camera_test))")
+string(CONCAT runs_scenes "/tests/(unit/trial/((ledger|measure|precision)/|(jitter|seen_measure|shipped|touch_measure)_test)|"
+       "input/app/(limits|verdict)_input_test)")
+set(needs_vision "/tests/.*(/(vision|camera|images)/|camera_test)") # what is not built without it
 
 function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of unit and input, as above
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
@@ -56,13 +59,13 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
     list(FILTER sources EXCLUDE REGEX math_test)
   endif()
   if(NOT ENCOUNTER_VISION)
-    list(FILTER sources EXCLUDE REGEX "/(vision|camera|images)/|camera_test")
+    list(FILTER sources EXCLUDE REGEX "${needs_vision}")
   endif()
   if(NOT TARGET enc_calibration)
-    list(FILTER sources EXCLUDE REGEX "/calibration/")
+    list(FILTER sources EXCLUDE REGEX "/tests/.*/calibration/")
   endif()
   if(NOT TARGET enc_camera)
-    list(FILTER sources EXCLUDE REGEX "/camera/|faulty_camera_test")
+    list(FILTER sources EXCLUDE REGEX "/tests/.*(/camera/|faulty_camera_test)")
   endif()
   if(NOT sources)
     return()
@@ -98,10 +101,14 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
       list(APPEND labels ${group})
     endif()
   endforeach()
+  set(timeout 600)
+  if(kind STREQUAL "heavy" AND ENCOUNTER_SANITIZE)
+    set(timeout 7200)
+  endif()
   math(EXPR last "${shards} - 1")
   foreach(shard RANGE ${last})
     add_test(NAME ${kind}.${shard} COMMAND test_${kind} --gtest_brief=1 --gtest_filter=-*Long.*)
-    set_tests_properties(${kind}.${shard} PROPERTIES LABELS "${labels}" TIMEOUT 600 ENVIRONMENT
+    set_tests_properties(${kind}.${shard} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout} ENVIRONMENT
                          "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
     if(kind MATCHES "shape|threads") # these look at the clock
       set_tests_properties(${kind}.${shard} PROPERTIES RUN_SERIAL TRUE)

@@ -54,10 +54,12 @@ Slots slots_of(const models::Setup& setup) {
 }
 
 bool meets_person(const models::Setup& setup) {
-  const SceneSpec& scene = setup.scene;
-  const RigSpec& rig = setup.rig;
-  return (scene.force && rig.force.driver != "sim") ||
-         (scene.tracker && (scene.camera ? rig.camera.driver : rig.tracker.driver) != "sim");
+  bool real = false;
+  each_role([&](const auto& role) {
+    if (role.id == RoleId::force || role.id == RoleId::tracker)
+      real = real || !driver_of(setup, role).empty();
+  });
+  return real;
 }
 
 bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers) {
@@ -109,9 +111,12 @@ std::vector<DrivenRole> driven_roles(const models::Setup& setup) {
                      [](const DriverModule& module) { return module.camera != nullptr; }});
     else
       all.push_back({driver, fmt::format("rig.{}.driver", role.table), role.name,
-                     [make = role.make](const DriverModule& module) { return module.*make != nullptr; }});
-  });
-  return all;
+                     [make = role.make](const DriverModule& module) {
+        return module.*make != nullptr; },
+                     requires(Rig& rig) { (rig.*role.slot)->stop(); }
+});
+});
+return all;
 }
 
 std::set<std::string> drivers_used(const models::Setup& setup) {

@@ -56,6 +56,7 @@ struct DrivenRole {
   std::string driver, key;  // "netft"; what names it, "rig.force.driver"
   const char* name;         // for messages, "force sensor"
   std::function<bool(const DriverModule&)> filled_by;
+  bool moves = false;  // is told to
 };
 [[nodiscard]] std::vector<DrivenRole> driven_roles(const models::Setup& setup);
 [[nodiscard]] std::set<std::string> drivers_used(const models::Setup& setup);  // of these; the twin is none

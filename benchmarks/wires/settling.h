@@ -3,14 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "core/machine/servo.h"
 
 namespace enc::bench::wires {
 
 // s until it stays slower than `stands` (m/s). At first it has this speed, and its last point is ahead, no
-// farther than it needs to brake. Found by following the law for every such point: a servo whose acceleration
-// is clipped passes its point, comes back too fast as well, and does so more than once.
+// farther than it needs to brake: set-points that a machine can follow leave no other. Infinite: after 5 s it
+// still moves. Found by following the law for every such point: a servo whose acceleration is clipped passes
+// its point, comes back too fast as well, and does so more than once.
 [[nodiscard]] inline double longest_settling(const ServoLaw& law, double speed, double stands) noexcept {
   constexpr int kPoints = 100;
   constexpr double kStep = 1e-3;  // s
@@ -28,6 +30,7 @@ namespace enc::bench::wires {
       if (motion.velocity.norm() >= stands) moved = kStep * step;
       if (kStep * step - moved > 1.0 / law.frequency) break;
     }
+    if (moved >= kStep * kSteps) return std::numeric_limits<double>::infinity();
     longest = std::max(longest, moved);
   }
   return longest;

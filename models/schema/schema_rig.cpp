@@ -265,11 +265,11 @@ void describe(Visitor& v, RigSpec& r) {
     v.value({"late_cycles", "missed cycles that mean hold", "sources/twin 2", assumed, {1.0, 1e6}},
             &r.loop.late_cycles);
   });
-  table_if(v, "calibration", !r.calibration.date.empty(), [&] {
+  table(v, "calibration", [&] {
     v.value({"date",
              "day on which frames, geometry and force sensor were measured; a real machine is not armed "
              "without it",
-             "the lab's calibration", chosen, kAny, needed},
+             "the lab's calibration", chosen},
             &r.calibration.date);
   });
   table(v, "frames", [&] {

@@ -70,19 +70,45 @@ TEST_F(Assemble, AnArmedMachineIsNotGivenWhatItCannotHoldStill) {
 // Frames that nobody measured put the tip where nobody expects it. A dry run is how they are looked at.
 TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
   TrialOptions made = options();
-  EXPECT_EQ(Trial(scene("rig_A", kUncalibrated), made).run().withheld, 51);
+  const TrialResult dry = Trial(scene("rig_A", kUncalibrated), made).run();
+  EXPECT_EQ(dry.withheld, dry.ticks);
   made.armed = true;
-  try {
-    Trial(scene("rig_A", kUncalibrated), made);
-    FAIL() << "armed";
-  } catch (const Error& e) {
-    EXPECT_THAT(
-        e.what(),
-        testing::AllOf(testing::ContainsRegex("sim.toml:[0-9]+:[0-9]+: this rig has no day of calibration"),
-                       testing::HasSubstr("date = \"2026-"), testing::HasSubstr("not armed")));
-    EXPECT_EQ(e.kind(), ErrorKind::input);
-  }
-  EXPECT_NO_THROW(Trial(scene("rig_A", kSample), made));
+  const auto refused = [&](const models::Setup& setup) -> std::string {
+    try {
+      Trial(setup, made);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::input);
+      return e.what();
+    }
+    return "armed";
+  };
+  EXPECT_THAT(
+      refused(scene("rig_A", kUncalibrated)),
+      testing::AllOf(testing::ContainsRegex("sim.toml:[0-9]+:[0-9]+: this rig has no day of calibration"),
+                     testing::HasSubstr("[calibration]"), testing::HasSubstr("not armed")));
+  EXPECT_EQ(refused(scene("rig_A", kSample)), "armed");
+  // A gripper has force, too; a sensor that is real moves nothing.
+  EXPECT_THAT(refused(scene("clamped_tool", {"rig.gripper.driver=\"sample\""})),
+              testing::HasSubstr("no day"));
+  EXPECT_EQ(refused(scene("rig_A", {"rig.force.driver=\"sample\""})), "armed");
+}
+
+// What answers on this PC is a fake.
+TEST_F(Assemble, AFakeOnThisPcNeedsNoCalibration) {
+  TrialOptions made = options();
+  made.armed = true;
+  const auto armed = [&](const std::string& address) {
+    std::vector<std::string> set = kUncalibrated;
+    set.push_back("rig.driver.sample.address=\"" + address + "\"");
+    try {
+      Trial(scene("rig_A", set), made);
+    } catch (const Error& e) {
+      return std::string(e.what()).find("no day of calibration") == std::string::npos;
+    }
+    return true;
+  };
+  for (const char* here : {"127.0.0.1", "127.0.1.1", "localhost"}) EXPECT_TRUE(armed(here)) << here;
+  for (const char* there : {"192.168.0.20", "127", "hexapod"}) EXPECT_FALSE(armed(there)) << there;
 }
 
 TEST_F(Assemble, AnArmIsNotArmedForWhatItDoesNotHoldOrMayNot) {
