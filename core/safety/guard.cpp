@@ -57,7 +57,10 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
   if (change.norm() > rest * (1.0 + 1e-9) || std::abs(wanted - v) > 1e-9) walk.why |= kLimited;
   if (change.norm() > rest) change *= rest / change.norm();
   Vec3 side = side_before + change;
-  if (side.norm() > fastest) side = slowed(side_before, rest);
+  if (side.norm() > fastest) {
+    const Vec3 kept = side * (fastest / side.norm());
+    side = (kept - side_before).norm() <= rest * (1.0 + 1e-9) ? kept : slowed(side_before, rest);
+  }
   return side + v * walls.normal;
 }
 

@@ -1,6 +1,7 @@
 // The laboratory in two programs: `encounter fake` on one side of real sockets, `encounter run` on the other.
 #include "app/laboratory/fakes.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -18,6 +19,7 @@
 #include <unistd.h>
 
 #include "app/modules/modules.h"
+#include "core/record/record.h"
 #include "hw_drivers/net/steady.h"
 #include "hw_drivers/wires/free_ports.h"
 #include "tests/support/built.h"
@@ -124,14 +126,33 @@ nlohmann::json json_of(const Result& result) {
   return nlohmann::json::parse(result.out, nullptr, false);
 }
 
+// Each command of one run beside that of the same tick of the other.
+void expect_same_commands(const std::string& one, const std::string& other) {
+  RecordReader a(one), b(other);
+  EXPECT_EQ(a.ticks(), b.ticks());
+  double farthest = 0.0;
+  RecordedTick x, y;
+  while (a.next(x) && b.next(y)) {
+    ASSERT_EQ(x.out.mode, y.out.mode) << x.tick.index;
+    farthest = std::max(farthest, (x.out.tip.p() - y.out.tip.p()).norm());
+  }
+  EXPECT_LT(farthest, 1e-12) << "the wire carries twelve digits of a millimetre";
+}
+
 // One press, whose deepest is at 13 s.
-TEST(Fakes, InLockstepARunThroughSocketsIsTheSameEachTimeAndPressesAsWithout) {
+TEST(Fakes, InLockstepARunThroughSocketsIsTheSameEachTimeAndAsWithout) {
   const Laboratory there(true);
+  const TemporaryFolder folder;
+  const std::string wires = folder.file("wires.encrec"), none = folder.file("none.encrec");
   const std::vector<std::string> words = there.words({"--armed", "--lockstep", "--for-s", "14", "--json"});
-  const nlohmann::json first = json_of(run_program(words, {}, 400)),
+  std::vector<std::string> recorded = words;
+  recorded.insert(recorded.end(), {"--record", wires});
+  const nlohmann::json first = json_of(run_program(recorded, {}, 400)),
                        again = json_of(run_program(words, {}, 400));
   EXPECT_EQ(first["state_hash"], again["state_hash"]);
-  const nlohmann::json pure = json_of(run_program({"run", kBall, "--for-s", "14", "--json"}));
+  const nlohmann::json pure =
+      json_of(run_program({"run", kBall, "--for-s", "14", "--json", "--record", none}));
+  expect_same_commands(wires, none);
   EXPECT_EQ(first["contacts"], 1);
   EXPECT_EQ(pure["contacts"], 1);
   ASSERT_TRUE(first["felt_peak_N"].is_number()) << first.dump();

@@ -54,5 +54,37 @@ TEST(Guard, ATipAtTheEdgeOfTheReachComesBack) {
   }
 }
 
+// At the machine's greatest speed rounding is no reason to brake: the tip goes on evenly, whichever way the
+// target goes.
+TEST(Guard, AtItsGreatestSpeedTheTipDoesNotStutter) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> turn(0.0, 2.0 * M_PI), up(-0.2, 0.4);
+  int seen = 0;
+  for (int seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Loop loop(prepare(test::plane_scene(), test::exact_rig()));
+    loop.tool_tip = Point<'W'>(0, 0, 0.08);
+    loop.tick(1000);
+    const double a = turn(random);
+    const Vec3 step =
+        0.08e-3 * Vec3(std::cos(a), std::sin(a), up(random)).normalized();  // 80 mm/s, and the tip 50
+    const double most = loop.scene.reach.speed;
+    double before = 0.0;
+    for (int i = 0; i < 400; ++i) {
+      loop.tool_tip = Point<'W'>(Vec3(loop.tool_tip.e() + step));
+      loop.tick();
+      const double speed = recall<Commanded>(loop.state).command_velocity.norm();
+      if (before > most * (1.0 - 1e-6)) {
+        ++seen;
+        ASSERT_GT(speed, most * (1.0 - 1e-6)) << i;
+      }
+      before = speed;
+    }
+    EXPECT_LE(loop.worst_speed, 1.0 + 1e-9);
+    EXPECT_LE(loop.worst_acceleration, 1.0 + 1e-9);
+  }
+  EXPECT_GT(seen, 1000);
+}
+
 }  // namespace
 }  // namespace enc
