@@ -85,9 +85,7 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
     list(APPEND folders ${folder})
   endforeach()
   list(REMOVE_DUPLICATES folders)
-  # A third of the time: the templates of gtest and Eigen are made once a folder. The helpers of its files need names of
-  # their own: where two share one, the call in the one may silently take the other; where the parameters are the same, too,
-  # nothing is built (tests/shape/helpers_test.cpp).
+  # Where two helpers of a folder share a name, the call in the one may silently take the other.
   enc_batches(test_${kind} "${folders}")
   if(kind STREQUAL "benchmarks")
     add_dependencies(test_${kind} program bench)

@@ -13,7 +13,7 @@
 namespace enc {
 
 inline constexpr std::size_t kMostJoints = 3;
-inline constexpr double kStandardGravity = 9.80665;  // m/s^2, along -z of R
+inline constexpr double kStandardGravity = 9.80665;  // m/s^2, along -z of R and W
 // A number for each joint: rad or m, N m or N. Joints that a machine does not have are 0.
 using PerJoint = std::array<double, kMostJoints>;
 

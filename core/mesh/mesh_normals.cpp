@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "core/frames.h"
+#include "core/mesh/triangle.h"
 
 namespace enc {
 namespace {
 
-Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace

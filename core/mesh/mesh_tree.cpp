@@ -20,8 +20,6 @@ double coarse(double square, double least) {
   return square < least ? 0.0 : std::bit_cast<double>(std::bit_cast<std::uint64_t>(square) & kKept);
 }
 
-Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
-
 Lanes square(Lanes x) { return x * x; }
 
 using Point3f = std::array<float, 3>;

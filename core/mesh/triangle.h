@@ -10,6 +10,8 @@
 
 namespace enc {
 
+[[nodiscard]] inline Vec3 vec(const std::array<double, 3>& a) noexcept { return {a[0], a[1], a[2]}; }
+
 // Which part of a triangle: its corner i, its edge from corner i to corner i + 1, or its inside.
 struct Part {
   enum Kind : std::uint8_t { face, edge, corner };

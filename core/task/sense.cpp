@@ -2,12 +2,12 @@
 // low-passed. [VHMR 3.4]
 #include <algorithm>
 
+#include "core/machine/arm.h"
 #include "core/task/walk.h"
 
 namespace enc::stages {
 namespace {
 
-constexpr double kGravity = 9.80665;   // m/s^2, along -z of W
 constexpr double kAbsurd = 1e4;        // N, N m: no sensor of this kind reads more
 constexpr double kFreeTareTime = 2.0;  // s: how slowly the zero follows while the tool is clear
 
@@ -62,7 +62,7 @@ void sense(Walk& walk, State& state, Commanded& now, bool clear) noexcept {
   // measured = contact + m g - m a + zero
   const Pose<'W', 'F'> X_WF = walk.X_WH * walk.scene.X_HF;
   const Vec<'W'> acceleration = walk.scene.X_WR * walk.in.tip.value.acceleration;
-  const Vec<'W'> dead_load = walk.scene.force.mass * (Vec<'W'>(0, 0, -kGravity) - acceleration);
+  const Vec<'W'> dead_load = walk.scene.force.mass * (Vec<'W'>(0, 0, -kStandardGravity) - acceleration);
   const Vec<'F'> unloaded = sample.value.force - X_WF.inverse() * dead_load;
   tare(walk, unloaded, clear && !holding(walk) && !state.held, now);
   if (now.tared < walk.scene.force.tare_time) {

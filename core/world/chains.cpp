@@ -5,14 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/machine/arm.h"
 #include "core/task/walk.h"
 
 namespace enc {
 namespace {
 
 using Mat4 = Eigen::Matrix4d;
-
-constexpr double kGravity = 9.80665;  // m/s^2, along -z of W
 
 Mat4 matrix(const Mat3& turn, const Vec3& place) {
   Mat4 M = Mat4::Identity();
@@ -124,7 +123,7 @@ class Chains {
     in.tip = {{pose<'R', 'H'>(R_W * W_H_), Vec<'R'>::zero(), Vec<'R'>(Vec3(turn_of(R_W) * acceleration))},
               {},
               Health::ok};
-    const Vec3 load = scene_.force.mass * (Vec3(0, 0, -kGravity) - acceleration);
+    const Vec3 load = scene_.force.mass * (Vec3(0, 0, -kStandardGravity) - acceleration);
     const Mat4 F_W = back(W_H_ * matrix(rig_.frames.H_F));
     in.wrench = {{Vec<'F'>(Vec3(turn_of(F_W) * (kForce + load))), Vec<'F'>::zero()}, {}, Health::ok};
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/machine/arm.h"
 #include "core/safety/room.h"
 #include "core/task/meet/arm_scene.h"
 #include "core/task/walk.h"
@@ -13,8 +14,6 @@
 
 namespace enc {
 namespace {
-
-constexpr double kGravity = 9.80665;  // m/s^2
 
 Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, double lowest_slope) {
   try {
@@ -327,7 +326,7 @@ Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
     throw Error("a scene needs [manipulator]: something has to carry the surface", "manipulator");
   scene.lowest_slope =
       std::isnan(rig.contact.softest) ? lowest_stable_stiffness(loop_of(rig)) : rig.contact.softest;
-  scene.strength = rig.manipulator.payload - scene.force.mass * kGravity;
+  scene.strength = rig.manipulator.payload - scene.force.mass * kStandardGravity;
   if (!(scene.strength > 0.0))
     throw Error("the machine does not even carry what is mounted on it (force.mass)",
                 "rig.manipulator.payload");

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kEarliest = -0.1, kLatest = 0.6;  // s: ages looked for
 constexpr double kStill = 1e-3;                    // m/s, and m of travel: less is no motion
-constexpr double kFewest = 10;                     // packets for anything
+constexpr double kFewestPackets = 10;              // packets for anything
 constexpr double kOutlier = 6.0;                   // standard deviations
 
 using Vec4 = Eigen::Vector4d;
@@ -120,8 +120,8 @@ class Fit {
     for (const Seen& s : axes_[a]) ahead += s.speed > limit_[a], back += s.speed < -limit_[a];
     moving_[a] = ahead + back;
     backwards_[a] = std::min(ahead, back);
-    moved_[a] = travel_(static_cast<Eigen::Index>(a)) > kStill && moving_[a] >= kFewest;
-    both_[a] = moved_[a] && backwards_[a] >= kFewest;
+    moved_[a] = travel_(static_cast<Eigen::Index>(a)) > kStill && moving_[a] >= kFewestPackets;
+    both_[a] = moved_[a] && backwards_[a] >= kFewestPackets;
   }
 
   [[nodiscard]] bool moves(std::size_t a, const Seen& s) const {
@@ -185,7 +185,7 @@ class Fit {
         ++count;
       }
       rest_[a] = static_cast<std::size_t>(count);
-      if (count >= kFewest) noise_[a] = std::max(1e-7, std::sqrt(sum / (count - 1.0)));
+      if (count >= kFewestPackets) noise_[a] = std::max(1e-7, std::sqrt(sum / (count - 1.0)));
       if (moved_[a]) add_scatter(a, top, bottom);
     }
     if (bottom > 0.0) scatter_ = std::sqrt(std::max(0.0, top / bottom));
@@ -290,9 +290,10 @@ class Fit {
     const Solved& s = solved_[a];
     out.latency = s.interval(kAge);
     out.latency.value += age_;
-    out.bias =
-        rest_[a] >= kFewest || both_[a] ? s.interval(rest_[a] >= kFewest ? kRest : kMoving) : Interval{};
-    if (rest_[a] >= kFewest) out.noise = noise_[a];
+    out.bias = rest_[a] >= kFewestPackets || both_[a]
+                   ? s.interval(rest_[a] >= kFewestPackets ? kRest : kMoving)
+                   : Interval{};
+    if (rest_[a] >= kFewestPackets) out.noise = noise_[a];
     out.travel = travel_(static_cast<Eigen::Index>(a));
     out.fastest = fastest_[a];
     out.moving = moved_[a] ? moving_[a] : 0;
@@ -306,7 +307,7 @@ class Fit {
     out.adrift = !moved_[a] && tool.wander > std::max(kStill, 6.0 * tool.noise);
     if (out.adrift) out.bias = {}, out.noise = kUnset;
     if (moved_[a]) out.scale = tool.scale, out.unexplained = tool.unexplained;
-    if (both_[a] && rest_[a] >= kFewest) {
+    if (both_[a] && rest_[a] >= kFewestPackets) {
       Blocks change = s.blocks[kMoving];
       for (std::size_t b = 0; b < blocks_; ++b) {
         change.influence[b] -= s.blocks[kRest].influence[b];
@@ -327,7 +328,7 @@ class Fit {
       if (std::abs(s.speed) > 0.85 * fastest_[a]) ++fast;
       if (std::abs(s.speed) > 0.2 * fastest_[a] && std::abs(s.speed) < 0.6 * fastest_[a]) ++slow;
     }
-    return fast >= kFewest && slow >= 0.2 * fast;
+    return fast >= kFewestPackets && slow >= 0.2 * fast;
   }
 
   [[nodiscard]] LatencyFit result() const {

@@ -12,7 +12,7 @@ namespace {
 // ones never reverse fully within the limit, and one loop cannot tell them from the curve.
 constexpr int kStops = 12;
 constexpr int kCurve = static_cast<int>(kMaxCurve);
-constexpr int kUnknowns = kCurve + kStops;
+constexpr int kStopUnknowns = kCurve + kStops;
 
 std::vector<double> radii_for(double limit) {
   std::vector<double> radii;
@@ -24,7 +24,7 @@ std::vector<double> radii_for(double limit) {
   return radii;
 }
 
-using Row = Eigen::Matrix<double, kUnknowns, 1>;
+using Row = Eigen::Matrix<double, kStopUnknowns, 1>;
 
 // Force per unit of each unknown, along one press from rest. `see` is called with (row, point).
 template <class F>
@@ -50,7 +50,7 @@ void walk(std::span<const LoopPoint> press, const std::vector<double>& radii, do
 
 // Weights >= 0.
 Constraints weights_only() {
-  Constraints all{Eigen::MatrixXd::Zero(kStops, kUnknowns), Eigen::VectorXd::Zero(kStops)};
+  Constraints all{Eigen::MatrixXd::Zero(kStops, kStopUnknowns), Eigen::VectorXd::Zero(kStops)};
   all.normals.rightCols<kStops>().setIdentity();
   return all;
 }
@@ -61,7 +61,7 @@ Constraints with_slopes(const std::vector<double>& radii, double limit, double l
                         double margin) {
   constexpr int kSteps = 500;
   const Constraints weights = weights_only();
-  Constraints all{Eigen::MatrixXd::Zero(kStops + 2 * (kSteps + 1), kUnknowns),
+  Constraints all{Eigen::MatrixXd::Zero(kStops + 2 * (kSteps + 1), kStopUnknowns),
                   Eigen::VectorXd::Zero(kStops + 2 * (kSteps + 1))};
   all.normals.topRows<kStops>() = weights.normals;
   for (int i = 0; i <= kSteps; ++i) {
@@ -99,7 +99,7 @@ double rmse(std::span<const std::vector<LoopPoint>> presses, const std::vector<d
 StopsFit fit_stops(std::span<const std::vector<LoopPoint>> presses, double limit, double lowest_slope,
                    double stiffest) {
   const std::vector<double> radii = radii_for(limit);
-  Quadratic q{Eigen::MatrixXd::Zero(kUnknowns, kUnknowns), Eigen::VectorXd::Zero(kUnknowns)};
+  Quadratic q{Eigen::MatrixXd::Zero(kStopUnknowns, kStopUnknowns), Eigen::VectorXd::Zero(kStopUnknowns)};
   double largest = lowest_slope * limit;
   for (const auto& press : presses)
     walk(press, radii, limit, [&](const Row& row, const LoopPoint& point) {
@@ -114,10 +114,10 @@ StopsFit fit_stops(std::span<const std::vector<LoopPoint>> presses, double limit
   const Eigen::VectorXd free = constrained_minimum(q, weights_only(), 1e-9 * largest / limit);
   Eigen::VectorXd x =
       constrained_minimum(q, with_slopes(radii, limit, lowest_slope, stiffest, margin), 0.01 * margin);
-  for (Eigen::Index i = kCurve; i < kUnknowns; ++i)
+  for (Eigen::Index i = kCurve; i < kStopUnknowns; ++i)
     if (x[i] < 1e-6 * largest / limit) x[i] = 0.0;  // what the tolerance leaves of a weight of zero
   StopsFit fit;
-  fit.spec = {{x.data(), x.data() + kCurve}, radii, {x.data() + kCurve, x.data() + kUnknowns}};
+  fit.spec = {{x.data(), x.data() + kCurve}, radii, {x.data() + kCurve, x.data() + kStopUnknowns}};
   fit.rmse = rmse(presses, radii, limit, x);
   fit.rmse_free = rmse(presses, radii, limit, free);
   return fit;

@@ -11,15 +11,15 @@
 namespace enc::models {
 namespace {
 
-constexpr std::size_t kFewest = 10;     // rows, and packets
-constexpr double kFarthest = 10.0;      // m: nothing of this kind is larger
-constexpr double kLongestPeriod = 0.1;  // s, of the rows: between them the tip is interpolated
-constexpr double kUneven = 0.5;         // of a period: a step that differs by more is not of this rate
-constexpr double kSilence = 0.5;        // s without a packet: a gap, and not a lost packet
-constexpr double kWindow = 2.0;         // s over which packets are counted
-constexpr double kRateChange = 0.3;     // a window's count may differ by this share
+constexpr std::size_t kFewestRows = 10;  // rows, and packets
+constexpr double kFarthest = 10.0;       // m: nothing of this kind is larger
+constexpr double kLongestPeriod = 0.1;   // s, of the rows: between them the tip is interpolated
+constexpr double kUneven = 0.5;          // of a period: a step that differs by more is not of this rate
+constexpr double kSilence = 0.5;         // s without a packet: a gap, and not a lost packet
+constexpr double kWindow = 2.0;          // s over which packets are counted
+constexpr double kRateChange = 0.3;      // a window's count may differ by this share
 
-enum : std::size_t { kTime, kTip, kTool = kTip + 3, kStamp = kTool + 3 };
+enum : std::size_t { kRowTime, kTip, kTool = kTip + 3, kStamp = kTool + 3 };
 
 class LogReader {
  public:
@@ -54,11 +54,12 @@ class LogReader {
   }
 
   void take_time() {
-    const double time = row_.number(kTime);
+    const double time = row_.number(kRowTime);
     if (!log_.time.empty() && !(time > log_.time.back()))
-      row_.fail(kTime, fmt::format("the time {} s {} {} s; expected increasing times; {}", row_.text(kTime),
-                                   time == log_.time.back() ? "repeats" : "does not come after",
-                                   log_.time.back(), "sort the rows, or keep one of each time"));
+      row_.fail(kRowTime,
+                fmt::format("the time {} s {} {} s; expected increasing times; {}", row_.text(kRowTime),
+                            time == log_.time.back() ? "repeats" : "does not come after", log_.time.back(),
+                            "sort the rows, or keep one of each time"));
     log_.time.push_back(time);
   }
 
@@ -88,9 +89,9 @@ class LogReader {
   }
 
   void check_rows(double rate) {
-    if (log_.time.size() < kFewest)
-      row_.fail_line(
-          fmt::format("there are {} rows; expected at least {}; record longer", log_.time.size(), kFewest));
+    if (log_.time.size() < kFewestRows)
+      row_.fail_line(fmt::format("there are {} rows; expected at least {}; record longer", log_.time.size(),
+                                 kFewestRows));
     log_.period = median_step(log_.time);
     if (!std::isnan(rate) && std::abs(log_.period * rate - 1.0) > 0.01)
       row_.fail_line(lines_[1], fmt::format("the rows come at {:.4g} Hz; expected {:.4g} Hz; give the log's "
@@ -128,11 +129,11 @@ class LogReader {
   void check_packets() {
     std::vector<double> times;
     for (const TrackerPacket& packet : log_.packets) times.push_back(packet.time);
-    if (times.size() < kFewest)
+    if (times.size() < kFewestRows)
       row_.fail_line(
           fmt::format("there are {} packets of the tool; expected at least {}; see that the "
                       "tracker sees the tool",
-                      times.size(), kFewest));
+                      times.size(), kFewestRows));
     log_.packet_period = median_step(times);
     std::size_t late = 0;
     for (std::size_t k = 1; k < times.size(); ++k) {

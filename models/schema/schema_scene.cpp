@@ -7,8 +7,6 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::string_view kAuthor = "scene";  // whoever writes it
-
 Key name_key(std::string_view meaning) { return {"name", meaning, kAuthor, chosen, kAny, needed, {}, true}; }
 
 void describe_mesh(Visitor& v, ObjectSpec& o) {

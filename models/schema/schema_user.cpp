@@ -7,8 +7,6 @@ namespace {
 using enum Confidence;
 using enum Presence;
 
-constexpr std::string_view kAuthor = "scene";  // whoever writes it
-
 void describe_presses(Visitor& v, UserSpec& u) {
   v.value({"depth_mm", "deflection that the user wants to see", "[VHMR 4.2]", chosen, kPositive}, &u.depth);
   v.value({"depths_mm", "instead: of the first, second, ... press; the last stays; unset: all alike",

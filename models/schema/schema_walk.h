@@ -9,6 +9,8 @@
 
 namespace enc::models {
 
+inline constexpr std::string_view kAuthor = "scene";  // source of a value: whoever writes the scene
+
 template <class Walk>
 void table(Visitor& visitor, std::string_view name, Walk walk) {
   if (!visitor.open(name, true)) return;

@@ -16,7 +16,6 @@ constexpr Rgba kProp{0.90F, 0.55F, 0.20F, 1};
 const char* const kJoints[kMostJoints] = {"arm_1", "arm_2", "arm_3"};
 const char* const kElbow = "arm_elbow";  // of a PHANToM, in place of arm_3: q3 - q2
 
-void set3(double* to, const Vec3& v) { std::copy_n(v.data(), 3, to); }
 void name(mjsElement* element, const char* text) {
   if (mjs_setName(element, text) != 0)
     throw Error(std::string("two parts of the simulated world are called '") + text + "'");

@@ -12,7 +12,6 @@
 namespace enc::sim {
 namespace {
 
-void set3(double* to, const Vec3& v) { std::copy_n(v.data(), 3, to); }
 void set4(double* to, const Quat& q) {  // MuJoCo writes w first
   to[0] = q.w();
   to[1] = q.x();

@@ -1,12 +1,15 @@
 // MuJoCo behind RAII. The only file that includes <mujoco/mujoco.h>.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <mujoco/mujoco.h>
+
+#include "core/frames.h"
 
 namespace enc::sim {
 
@@ -65,6 +68,9 @@ class Physics {
   DataPtr data_;
   std::int64_t steps_ = 0, unsolved_ = 0;
 };
+
+// Three numbers of one of its arrays.
+inline void set3(double* to, const Vec3& v) noexcept { std::copy_n(v.data(), 3, to); }
 
 // Process-wide: mju_error would end the program with code 1, which reads as "the answer is no"
 // (sources/twin 4).

@@ -9,9 +9,9 @@
 namespace enc::sim {
 namespace {
 
-constexpr double kWait = 0.8;     // s before the first reach, at least: the force zero is found meanwhile
-constexpr double kAfter = 0.5;    // s after the last reach
-constexpr double kClear = 0.002;  // m above the surface where a release ends
+constexpr double kSessionWait = 0.8;  // s before the first reach, at least: the force zero is found meanwhile
+constexpr double kAfter = 0.5;        // s after the last reach
+constexpr double kSessionClear = 0.002;  // m above the surface where a release ends
 constexpr double kTakeUp = 0.15;  // s until the person has answered the touch with force [sources/hand 2]
 constexpr double kCarry = 1.2;    // s, of a tool to the tray or from it
 constexpr double kSwap = 0.8;     // s with an empty hand
@@ -121,7 +121,7 @@ void SessionPlan::draw_press(State& state, std::int32_t which) const {
   press.depth = std::fmax(draw(draws, ranges_.depth), press.reached);
   press.press_time = press.depth / draw(draws, ranges_.press_speed);
   press.hold_time = draw(draws, ranges_.hold);
-  press.release_time = (press.depth + kClear) / draw(draws, ranges_.press_speed);
+  press.release_time = (press.depth + kSessionClear) / draw(draws, ranges_.press_speed);
   press.transit = std::max(0.3, 1.875 * (press.start - state.from).norm() / press.primary.peak_speed());
   press.rest = draw(draws, ranges_.rest);
 }
@@ -134,7 +134,7 @@ SessionPlan::State SessionPlan::begin(std::uint64_t seed) const {
   state.from = state.press.start;
   state.from_normal = state.press.at.normal;
   state.press.transit = 0.0;
-  state.press.rest = std::max(kWait, state.press.rest);
+  state.press.rest = std::max(kSessionWait, state.press.rest);
   return state;
 }
 
@@ -247,9 +247,9 @@ HandPlan SessionPlan::at(double t, const State& state) const {
     case Phase::hold:
       return along_normal(press.depth, press.depth, 0.0);
     case Phase::release:
-      return along_normal(press.depth, -kClear, press.release_time);
+      return along_normal(press.depth, -kSessionClear, press.release_time);
     case Phase::retreat:
-      return moved(press.touch + kClear * press.at.normal, press.start, 0.0, press.primary.time);
+      return moved(press.touch + kSessionClear * press.at.normal, press.start, 0.0, press.primary.time);
     case Phase::change:
       if (since < kCarry) return moved(state.from, spot(0), 0.0, kCarry);
       if (since < kCarry + kSwap) return moved(spot(0), spot(1), kCarry, 0.7 * kSwap);

@@ -9,7 +9,7 @@ namespace enc {
 namespace {
 
 using segmentation::kHues;
-constexpr int kClipped = 254;
+constexpr int kFullScale = 254;
 constexpr std::uint8_t kOpen = 255, kCounted = 1;
 
 int of_circle(double angle) {
@@ -59,7 +59,7 @@ Blob BlobFinder::flood(const ImageView& image, int at) {
     waiting_.pop_back();
     const std::uint8_t* p = image.at(x, y);
     sum += Vec3(p[0], p[1], p[2]);
-    clipped += p[0] >= kClipped || p[1] >= kClipped || p[2] >= kClipped ? 1 : 0;
+    clipped += p[0] >= kFullScale || p[1] >= kFullScale || p[2] >= kFullScale ? 1 : 0;
     columns += x;
     rows += y;
     ++blob.pixels;

@@ -6,9 +6,9 @@
 namespace enc {
 namespace {
 
-constexpr double kStep = 0.25;                               // px, along a direction
-constexpr double kOn = 0.6;                                  // px: an edge that is on the outline
-constexpr std::size_t kThird = kBallRays / 3, kFewest = 12;  // edges
+constexpr double kStep = 0.25;                                    // px, along a direction
+constexpr double kOn = 0.6;                                       // px: an edge that is on the outline
+constexpr std::size_t kThird = kBallRays / 3, kFewestEdges = 12;  // edges
 
 // Between pixels; zero outside.
 Vec3 colour_at(const ImageView& image, double x, double y) {
@@ -158,7 +158,7 @@ BallOutline ball_outline(const BallEdges& edges, const Rectifier& rectifier, Sid
       squares += distance(rays.ray[i]) * distance(rays.ray[i]);
       ++count;
     }
-    if (count < kFewest) return outline;
+    if (count < kFewestEdges) return outline;
     m = normal.inverse() * right;
   }
   const double n = m.norm();

@@ -14,7 +14,7 @@ namespace {
 using calibration::camera_matrix;
 using calibration::distortion_of;
 
-const cv::TermCriteria kUntil(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 1e-10);
+const cv::TermCriteria kUndistortUntil(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 1e-10);
 
 struct Rectification {
   std::array<cv::Mat, 2> turn, projection;
@@ -42,7 +42,8 @@ std::vector<cv::Point2d> undistorted(const Lens& lens, const Corners& corners, c
   std::vector<cv::Point2d> points, out;
   points.reserve(corners.size());
   for (const Eigen::Vector2d& c : corners) points.emplace_back(c.x(), c.y());
-  cv::undistortPoints(points, out, camera_matrix(lens), distortion_of(lens), turn, projection, kUntil);
+  cv::undistortPoints(points, out, camera_matrix(lens), distortion_of(lens), turn, projection,
+                      kUndistortUntil);
   return out;
 }
 std::vector<cv::Point2d> rectified(const StereoRig& rig, const PairCorners& pair, std::size_t side,

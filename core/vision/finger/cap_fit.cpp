@@ -10,7 +10,7 @@ namespace enc {
 namespace {
 
 constexpr std::size_t kRays = 48;
-constexpr int kRounds = 6;
+constexpr int kFitRounds = 6;
 
 struct Direction {
   double x, y;
@@ -146,7 +146,7 @@ Round look(const Around& skin, const Grey* image, const Tangent& tangent, const 
   return round;
 }
 
-constexpr int kFewest = 12;  // edges
+constexpr int kFewestEdges = 12;  // edges
 
 Around around(const Mask& mask, const Pixel& start, double radius) {
   const int x = static_cast<int>(start.column), y = static_cast<int>(start.row);
@@ -163,7 +163,7 @@ bool improve(const Around& skin, const Grey* image, const RectifiedPair& pair, d
   fit.along_x = along.x;
   fit.along_y = along.y;
   const Round round = look(skin, image, tangent, fit, most);
-  if (round.edges < kFewest) return false;
+  if (round.edges < kFewestEdges) return false;
   const Vec3 step = Mat3(round.normal + 1e-6 * Mat3::Identity()).inverse() * round.right;
   fit.centre = tangent.image({step.x(), step.y()});
   fit.radius += step.z();
@@ -176,7 +176,7 @@ bool improve(const Around& skin, const Grey* image, const RectifiedPair& pair, d
 CapFit fit_cap(const Mask& mask, const RectifiedPair& pair, const Pixel& start, double radius) {
   const Around skin = around(mask, start, radius);
   CapFit fit{false, start, radius};
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < kFitRounds; ++i) {
     // At first beyond the square's corner, through which a finger may be seen from far behind its tip; not
     // where the image ends before that.
     const double most = (i < 2 ? 1.5 : 0.35) * fit.radius;

@@ -10,7 +10,7 @@
 namespace enc {
 namespace {
 
-constexpr double kSteps = 4.0;  // discs per px of radius
+constexpr double kDiscsPerPixel = 4.0;  // discs per px of radius
 
 std::size_t at(int width, int y, int x) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
@@ -27,8 +27,8 @@ FingertipFinder::FingertipFinder(const FingertipSpec& spec, const RectifiedPair&
       width_(width),
       height_(height) {
   check(spec, per_disparity_, r_most_);
-  for (int i = 0; i <= static_cast<int>(std::ceil(r_most_ * kSteps)) + 1; ++i) {
-    const double r2 = (i / kSteps) * (i / kSteps);
+  for (int i = 0; i <= static_cast<int>(std::ceil(r_most_ * kDiscsPerPixel)) + 1; ++i) {
+    const double r2 = (i / kDiscsPerPixel) * (i / kDiscsPerPixel);
     Disc disc;
     for (int dy = 0; dy * dy <= r2; ++dy) {
       disc.half.push_back(static_cast<std::int16_t>(std::sqrt(r2 - dy * dy)));
@@ -43,7 +43,7 @@ FingertipFinder::FingertipFinder(const FingertipSpec& spec, const RectifiedPair&
 }
 
 const FingertipFinder::Disc& FingertipFinder::disc(double radius) const {
-  return discs_[std::min(discs_.size() - 1, static_cast<std::size_t>(radius * kSteps + 0.5))];
+  return discs_[std::min(discs_.size() - 1, static_cast<std::size_t>(radius * kDiscsPerPixel + 0.5))];
 }
 
 int FingertipFinder::half_side(double radius) const {

@@ -8,7 +8,7 @@ namespace enc {
 namespace {
 
 constexpr double kRound = 1.8;         // radii of the cap round its middle that are laid over
-constexpr int kMost = 1024;            // pixels of it, evenly spread
+constexpr int kMostPixels = 1024;      // pixels of it, evenly spread
 constexpr double kAboutAsGood = 0.04;  // share of pixels
 constexpr double kTells = 0.1;         // share: where all shifts are alike nothing is told
 constexpr int kApart = 4;              // px
@@ -21,7 +21,8 @@ struct Lay {
                               static_cast<int>(tip.column + far) + 1, static_cast<int>(tip.row + far) + 1}
                            .cut(image);
     x0 = box.x0, x1 = box.x1, y0 = box.y0, y1 = box.y1;
-    step = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(box.pixels()) / kMost))));
+    step =
+        std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(box.pixels()) / kMostPixels))));
   }
 };
 

@@ -14,7 +14,7 @@ namespace enc::gcs {
 namespace {
 
 constexpr Duration kAnswer{1'000'000'000};  // to a question before the run: some take the controller longer
-constexpr Duration kTurn{1'000'000};
+constexpr Duration kPause{1'000'000};
 
 ServoLaw law_of(const ManipulatorRig& rig) {
   return {rig.servo, rig.servo_damping, rig.speed, rig.acceleration};
@@ -70,7 +70,7 @@ std::string ask(Link& link, const GcsSettings& settings, std::string_view line) 
   std::string_view unsent = text.view();
   AnswerReader reader;
   std::array<char, kMostText> bytes{};
-  for (const Duration until = link.now() + kAnswer; !reader.complete(); link.wait(kTurn)) {
+  for (const Duration until = link.now() + kAnswer; !reader.complete(); link.wait(kPause)) {
     unsent.remove_prefix(link.send(unsent));
     const std::string_view more(bytes.data(), link.receive(bytes));
     if (reader.take(more) != more.size() || reader.overflown())

@@ -8,7 +8,7 @@ namespace {
 using net::put;
 using net::take;
 
-constexpr std::uint16_t kMark = 0x1234;
+constexpr std::uint16_t kCommandMark = 0x1234;
 constexpr std::uint16_t kBias = 1U << 0U, kClear = 1U << 1U;
 
 }  // namespace
@@ -39,14 +39,14 @@ bool read(std::span<const std::byte> bytes, Ask& ask) noexcept {
 
 std::array<std::byte, kReadingSize> bytes_of(const Reading& reading) noexcept {
   std::array<std::byte, kReadingSize> bytes{};
-  put(bytes, 0, kMark);
+  put(bytes, 0, kCommandMark);
   put(bytes, 2, reading.status);
   for (std::size_t i = 0; i < kAxes; ++i) put(bytes, 4 + 2 * i, reading.coarse[i]);
   return bytes;
 }
 
 bool read(std::span<const std::byte> bytes, Reading& reading) noexcept {
-  if (bytes.size() != kReadingSize || take<std::uint16_t>(bytes, 0) != kMark) return false;
+  if (bytes.size() != kReadingSize || take<std::uint16_t>(bytes, 0) != kCommandMark) return false;
   reading.status = take<std::uint16_t>(bytes, 2);
   for (std::size_t i = 0; i < kAxes; ++i) reading.coarse[i] = take<std::int16_t>(bytes, 4 + 2 * i);
   return true;
@@ -54,7 +54,7 @@ bool read(std::span<const std::byte> bytes, Reading& reading) noexcept {
 
 std::array<std::byte, kCalibrationSize> bytes_of(const Calibration& calibration) noexcept {
   std::array<std::byte, kCalibrationSize> bytes{};
-  put(bytes, 0, kMark);
+  put(bytes, 0, kCommandMark);
   put(bytes, 2, calibration.force_unit);
   put(bytes, 3, calibration.torque_unit);
   put(bytes, 4, calibration.per_force);
@@ -64,7 +64,7 @@ std::array<std::byte, kCalibrationSize> bytes_of(const Calibration& calibration)
 }
 
 bool read(std::span<const std::byte> bytes, Calibration& calibration) noexcept {
-  if (bytes.size() != kCalibrationSize || take<std::uint16_t>(bytes, 0) != kMark) return false;
+  if (bytes.size() != kCalibrationSize || take<std::uint16_t>(bytes, 0) != kCommandMark) return false;
   calibration.force_unit = take<std::uint8_t>(bytes, 2);
   calibration.torque_unit = take<std::uint8_t>(bytes, 3);
   calibration.per_force = take<std::uint32_t>(bytes, 4);
