@@ -69,8 +69,11 @@ void refuse_limits(const models::Setup& setup, const Scene& scene) {
 bool is_fake(const models::Setup& setup, const std::string& driver) {
   for (const DriverTable& table : setup.rig.drivers)
     for (const DriverValue& value : table.values)
-      if (table.name == driver && value.key == "address")
-        return value.text.starts_with("127.") || value.text == "localhost" || value.text == "::1";
+      if (table.name == driver && value.key == "address") {
+        std::string_view at = value.text;  // as in the file, with its quotes
+        if (at.size() > 1 && (at.front() == '"' || at.front() == '\'')) at = at.substr(1, at.size() - 2);
+        return at.starts_with("127.") || at == "localhost" || at == "::1";
+      }
   return false;
 }
 
