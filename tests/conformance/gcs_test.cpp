@@ -73,9 +73,9 @@ TEST(GcsDriver, EveryEndLeavesTheMachineAtRest) {
     const auto way = beside(*driver, 0.03);
     EXPECT_TRUE(comes([&] {
       tell(*driver, way);
-      return bench.seen().x > 0.005;
-    }));
-    EXPECT_FALSE(bench.seen().at_rest) << end;
+      const auto seen = bench.seen();  // on a busy machine it is stopped as soon as nobody looks
+      return seen.x > 0.005 && !seen.at_rest;
+    })) << end;
     if (end == 0) driver->stop();
     if (end == 1) {
       driver.reset();
