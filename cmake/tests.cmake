@@ -1,5 +1,6 @@
-# Tests: one program per folder, and `heavy`, the slow part of unit and input; linked with the libraries that it tests. ctest runs a program as a few shards, each one
-# process: hundreds of processes would spend their time in starting. What takes minutes is in suites called *Long.
+# Tests: one program per folder, and `heavy`, the slow part of unit and input; linked with the libraries that it tests.
+# ctest runs a program as a few shards, each one process: hundreds of processes would spend their time in starting. What
+# takes minutes is in suites called *Long.
 # The support library always has a source, because it owns the precompiled header that all test programs share.
 file(CONFIGURE OUTPUT ${generated}/pch.cpp CONTENT "// Here the precompiled header is made.\n")
 file(GLOB sources CONFIGURE_DEPENDS tests/support/*.cpp)

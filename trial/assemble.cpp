@@ -106,17 +106,17 @@ std::vector<DrivenRole> driven_roles(const models::Setup& setup) {
   each_role([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
-    if (sees(setup, role))
+    if (sees(setup, role)) {
       all.push_back({driver, "rig.camera.driver", "stereo camera",
                      [](const DriverModule& module) { return module.camera != nullptr; }});
-    else
-      all.push_back({driver, fmt::format("rig.{}.driver", role.table), role.name,
-                     [make = role.make](const DriverModule& module) {
-        return module.*make != nullptr; },
-                     requires(Rig& rig) { (rig.*role.slot)->stop(); }
-});
-});
-return all;
+      return;
+    }
+    constexpr bool kMoves = requires { (Rig{}.*role.slot)->stop(); };
+    all.push_back({driver, fmt::format("rig.{}.driver", role.table), role.name,
+                   [make = role.make](const DriverModule& module) { return module.*make != nullptr; },
+                   kMoves});
+  });
+  return all;
 }
 
 std::set<std::string> drivers_used(const models::Setup& setup) {

@@ -82,11 +82,10 @@ void refuse_uncalibrated(const models::Setup& setup) {
   if (!setup.rig.calibration.date.empty()) return;
   for (const DrivenRole& role : driven_roles(setup))
     if (role.moves && !is_fake(setup, role.driver))
-      throw Error(
-          models::place_of(setup, role.key) +
-          ": this rig has no day of calibration; expected a [calibration] with date = \"YYYY-MM-DD\", the "
-          "day "
-          "on which it was measured (docs/guide/laboratory.md); a real machine is not armed without it");
+      throw Error(models::place_of(setup, role.key) +
+                  ": this rig has no day of calibration; expected a [calibration] with date = "
+                  "\"YYYY-MM-DD\", the day on which it was measured (docs/guide/laboratory.md); a real "
+                  "machine is not armed without it");
 }
 
 }  // namespace
