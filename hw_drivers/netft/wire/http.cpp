@@ -41,8 +41,10 @@ void HttpAnswer::take(std::string_view bytes) {
     wrong_ = fmt::format("answered with more than {} bytes", kMostHttp);
     return;
   }
+  // What was looked through is not looked through again: a flood in small pieces would cost its length squared.
+  const std::size_t from = all_.size() - std::min(all_.size(), kEnd.size() - 1);
   all_.append(bytes);
-  if (head_ == 0) read_head();
+  if (head_ == 0) read_head(from);
   if (head_ != 0 && length_ != std::string::npos && all_.size() - head_ >= length_) {
     all_.resize(head_ + length_);
     complete_ = wrong_.empty();
@@ -56,8 +58,8 @@ void HttpAnswer::closed() {
   complete_ = wrong_.empty();
 }
 
-void HttpAnswer::read_head() {
-  const std::size_t end = all_.find(kEnd);
+void HttpAnswer::read_head(std::size_t from) {
+  const std::size_t end = all_.find(kEnd, from);
   if (end == std::string::npos) return;
   head_ = end + kEnd.size();
   std::string_view lines = std::string_view(all_).substr(0, end + 2);

@@ -22,7 +22,7 @@ class HttpAnswer {
   [[nodiscard]] std::string_view body() const { return std::string_view(all_).substr(head_); }
 
  private:
-  void read_head();
+  void read_head(std::size_t from);  // its end is at `from` or later, or has not come
 
   std::string all_, wrong_;
   std::size_t head_ = 0;                    // bytes before the body; 0: it has not come whole
