@@ -35,22 +35,24 @@ add_custom_target(tests_sanitized) # what `./check` builds in dev
 add_custom_target(tests_optimised) # and in release
 set(sanitized unit input fuzz golden conformance)
 set(optimised heavy property golden benchmarks hygiene shape)
-# Of tests/unit and tests/input: what draws pictures by the thousand, or runs whole scenes. Under ASan they take 10 to 30
-# times as long, four fifths of all the time there. A new test that takes a second in release belongs here.
+# Of tests/unit and tests/input: what draws pictures by the thousand, runs whole scenes, or follows a mass through 10^8
+# periods. Under ASan they take 10 to 30 times as long, four fifths of all the time there. A new test that takes a second
+# in release belongs here.
 string(CONCAT draws "/tests/(unit/core/vision/(augment|ball|calibration|finger|segmentation/[a-z_]*_test|stereo/match|vision_tracker)|"
        "unit/sim/camera/|unit/trial/guided/tip_eyes|input/app/(calibration/|camera/|camera_test))")
 string(CONCAT runs_scenes "/tests/(unit/trial/((ledger|measure|precision)/|(jitter|seen_measure|shipped|touch_measure)_test)|"
        "input/app/(limits|verdict)_input_test)")
+set(long_loops "/tests/unit/core/safety/certificate/certificate_test")
 set(needs_vision "/tests/.*(/(vision|camera|images)/|camera_test)") # what is not built without it
 
 function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of unit and input, as above
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
   if(kind STREQUAL "heavy")
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/input/*.cpp tests/unit/*.cpp)
-    list(FILTER sources INCLUDE REGEX "${draws}|${runs_scenes}")
+    list(FILTER sources INCLUDE REGEX "${draws}|${runs_scenes}|${long_loops}")
     list(APPEND sources ${PROJECT_SOURCE_DIR}/tests/input/app/program.cpp ${PROJECT_SOURCE_DIR}/tests/unit/trial/runs.cpp)
   elseif(kind MATCHES "unit|input")
-    list(FILTER sources EXCLUDE REGEX "${draws}|${runs_scenes}")
+    list(FILTER sources EXCLUDE REGEX "${draws}|${runs_scenes}|${long_loops}")
   endif()
   list(FILTER sources EXCLUDE REGEX "fuzz/coverage/") # below
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone

@@ -61,10 +61,10 @@ Target page() {
 
 Target http() {
   Target target;
-  target.seeds = {netft::http_answer(200, "text/xml", "<netft/>"),
-                  netft::http_request("[::1]:80", "/netftapi2.xml"), "HTTP/1.0 200 OK\r\n\r\n<netft/>",
-                  netft::http_answer(404, "text/plain", ""),
-                  std::string(79'000, '\r')};  // a reader that looks through all of it at each piece is caught
+  target.seeds = {
+      netft::http_answer(200, "text/xml", "<netft/>"), netft::http_request("[::1]:80", "/netftapi2.xml"),
+      "HTTP/1.0 200 OK\r\n\r\n<netft/>", netft::http_answer(404, "text/plain", ""),
+      std::string(79'000, '\r')};  // a reader that looks through all of it at each piece is caught
   target.tokens = {"\r\n",
                    "\r\n\r\n",
                    "HTTP/1.1 ",
