@@ -30,11 +30,12 @@ find_library(GMP_LIBRARY gmp)
 
 # Each test is built and run where it finds most, so that no check builds all twice: what parses, decides and frees, under
 # ASan and UBSan (preset dev); what draws, runs whole scenes, measures or keeps both cores busy, optimised (release);
-# golden in both; threads under ThreadSanitizer (tsan). `./check --full` runs all of them in both.
+# golden and fuzz in both, as heap is counted where no sanitizer does it; threads under ThreadSanitizer (tsan).
+# `./check --full` runs all of them in both.
 add_custom_target(tests_sanitized) # what `./check` builds in dev
 add_custom_target(tests_optimised) # and in release
 set(sanitized unit input fuzz golden conformance)
-set(optimised heavy property golden benchmarks hygiene shape)
+set(optimised heavy property golden fuzz benchmarks hygiene shape)
 # Of tests/unit and tests/input: what draws pictures by the thousand, runs whole scenes, or follows a mass through 10^8
 # periods. Under ASan they take 10 to 30 times as long, four fifths of all the time there. A new test that takes a second
 # in release belongs here.
