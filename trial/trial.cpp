@@ -65,14 +65,17 @@ void refuse_limits(const models::Setup& setup, const Scene& scene) {
                   "; a real machine is not armed for it");
 }
 
-// What its rig file names as on this PC is a fake, and so is what keeps step.
+// What its rig file or --set names as on this PC is a fake, and so is what keeps step. An address that a
+// driver has by itself says nothing: it may have none on its wire.
 bool is_fake(const models::Setup& setup, const std::string& driver) {
+  if (!setup.places.contains("rig.driver." + driver + ".address")) return false;
   for (const DriverTable& table : setup.rig.drivers)
     for (const DriverValue& value : table.values)
       if (table.name == driver && value.key == "address") {
         std::string_view at = value.text;  // as in the file, with its quotes
         if (at.size() > 1 && (at.front() == '"' || at.front() == '\'')) at = at.substr(1, at.size() - 2);
-        return at.starts_with("127.") || at == "localhost" || at == "::1";
+        const bool number = at.find_first_not_of("0123456789.") == std::string_view::npos;
+        return (number && at.starts_with("127.")) || at == "localhost" || at == "::1";
       }
   return false;
 }

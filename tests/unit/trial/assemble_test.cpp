@@ -96,8 +96,19 @@ TEST_F(Assemble, AFakeOnThisPcNeedsNoCalibration) {
   };
   for (const char* here : {"127.0.0.1", "127.0.1.1", "localhost"})
     EXPECT_THAT(refused(here), testing::Not(testing::HasSubstr("no day of calibration"))) << here;
-  for (const char* there : {"192.168.0.20", "127", "hexapod"})
+  for (const char* there : {"192.168.0.20", "127", "127.laboratory.example", "hexapod"})
     EXPECT_THAT(refused(there), testing::HasSubstr("no day of calibration")) << there;
+}
+
+// An address that the driver has by itself was named by nobody: the machine may hang on another wire.
+TEST_F(Assemble, AnAddressThatNobodyNamedMakesNoFake) {
+  models::Setup setup = scene("rig_A", kUncalibrated);
+  DriverTable& own = setup.rig.drivers.emplace_back();
+  own.name = "sample";
+  DriverValue& address = own.values.emplace_back();
+  address.key = "address";
+  address.text = "\"127.0.0.1\"";
+  EXPECT_THAT(said_when_armed(setup), testing::HasSubstr("no day of calibration"));
 }
 
 TEST_F(Assemble, AnArmIsNotArmedForWhatItDoesNotHoldOrMayNot) {
