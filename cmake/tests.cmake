@@ -44,16 +44,17 @@ string(CONCAT draws "/tests/(unit/core/vision/(augment|ball|calibration|finger|s
 string(CONCAT runs_scenes "/tests/(unit/trial/((ledger|measure|precision)/|(jitter|seen_measure|shipped|touch_measure)_test)|"
        "input/app/(limits|verdict)_input_test)")
 set(long_loops "/tests/unit/core/safety/certificate/certificate_test")
+set(slow "${draws}|${runs_scenes}|${long_loops}")
 set(needs_vision "/tests/.*(/(vision|camera|images)/|camera_test)") # what is not built without it
 
 function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of unit and input, as above
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${kind}/*.cpp)
   if(kind STREQUAL "heavy")
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/input/*.cpp tests/unit/*.cpp)
-    list(FILTER sources INCLUDE REGEX "${draws}|${runs_scenes}|${long_loops}")
+    list(FILTER sources INCLUDE REGEX "${slow}")
     list(APPEND sources ${PROJECT_SOURCE_DIR}/tests/input/app/program.cpp ${PROJECT_SOURCE_DIR}/tests/unit/trial/runs.cpp)
   elseif(kind MATCHES "unit|input")
-    list(FILTER sources EXCLUDE REGEX "${draws}|${runs_scenes}|${long_loops}")
+    list(FILTER sources EXCLUDE REGEX "${slow}")
   endif()
   list(FILTER sources EXCLUDE REGEX "fuzz/coverage/") # below
   if(NOT CGAL_INCLUDE_DIR) # headers only, of the tests alone

@@ -1,8 +1,5 @@
 // The program that is built without vision (preset lean) runs what needs none, and says of the rest that it
 // is not there.
-#include <filesystem>
-#include <string>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,13 +12,12 @@ namespace {
 using testing::HasSubstr;
 
 TEST(LeftOut, WithoutVisionTheProgramRunsWhatNeedsNoneAndRefusesTheRestInALine) {
-  if (std::filesystem::exists(module_folder() + "/encounter_vision.so"))
-    GTEST_SKIP() << "vision is built here";
+  if (is_built("vision")) GTEST_SKIP() << "vision is built here";
   const Result ball = run_program({"run", shipped_scene("tennis_ball")}, kShipped);
   EXPECT_EQ(ball.code, 0) << ball.err;
   EXPECT_THAT(ball.out, HasSubstr("state hash"));
-  const std::string asked = "rig.tracker.driver=vision";
-  const Result seen = run_program({"run", shipped_scene("plane"), "--set", asked}, kShipped);
+  const Result seen =
+      run_program({"run", shipped_scene("plane"), "--set", "rig.tracker.driver=vision"}, kShipped);
   EXPECT_EQ(seen.code, 2);
   EXPECT_THAT(seen.err,
               HasSubstr("--set rig.tracker.driver=vision: there is no driver 'vision'; expected one of"));

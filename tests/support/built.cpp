@@ -1,8 +1,13 @@
 #include "tests/support/built.h"
 
+#include <filesystem>
+
 namespace enc::tests {
 
 std::string program_file() { return ENCOUNTER_BINARY; }
 std::string module_folder() { return ENCOUNTER_MODULE_DIR; }
+bool is_built(const std::string& module) {
+  return std::filesystem::exists(module_folder() + "/encounter_" + module + ".so");
+}
 
 }  // namespace enc::tests

@@ -8,5 +8,6 @@ namespace enc::tests {
 
 [[nodiscard]] std::string program_file();
 [[nodiscard]] std::string module_folder();
+[[nodiscard]] bool is_built(const std::string& module);  // "vision"
 
 }  // namespace enc::tests

@@ -41,8 +41,7 @@ void HttpAnswer::take(std::string_view bytes) {
     wrong_ = fmt::format("answered with more than {} bytes", kMostHttp);
     return;
   }
-  // What was looked through is not looked through again: a flood in small pieces would cost its length
-  // squared.
+  // What was looked through is not looked through again, or small pieces cost the square of their sum.
   const std::size_t from = all_.size() - std::min(all_.size(), kEnd.size() - 1);
   all_.append(bytes);
   if (head_ == 0) read_head(from);

@@ -211,18 +211,16 @@ TEST_P(StoppedBench, LeavesWhatIsCompleteAndSaysWhatIsMissing) {
 TEST(Bench, ARunWithoutABenchmarkLeavesTheReportThatIsThere) {
   const test::TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
-  ASSERT_LE(run_program({"bench", "dent", "--out", out}).code,
-            1);  // its ratios of time hang on the processor
-  const std::string results = bytes_of(folder.path() / "out" / "results.json");
-  const std::string report = bytes_of(folder.path() / "out" / "REPORT.md");
-  ASSERT_THAT(report, HasSubstr("dent.update.ours.median"));
+  // None of its figures hangs on the processor's speed.
+  ASSERT_EQ(run_program({"bench", "response", "--quick", "--out", out}).code, 0);
+  const std::string before = bytes_of(folder.path() / "out" / "results.json");
   const Result r = run({"bash", "-c",
                         "set -m; \"$1\" bench press --repeats 1000000 --out \"$2\" & sleep 1; "
                         "kill -INT $!; wait $!",
                         "bash", program_file(), out});
   EXPECT_EQ(r.code, 130) << r.err;
-  EXPECT_EQ(bytes_of(folder.path() / "out" / "results.json"), results);
-  EXPECT_EQ(bytes_of(folder.path() / "out" / "REPORT.md"), report);
+  EXPECT_EQ(bytes_of(folder.path() / "out" / "results.json"), before);
+  EXPECT_THAT(bytes_of(folder.path() / "out" / "REPORT.md"), HasSubstr("all hold"));
 }
 
 INSTANTIATE_TEST_SUITE_P(By, StoppedBench, ::testing::Values(SIGINT, SIGTERM, SIGKILL));

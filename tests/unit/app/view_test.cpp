@@ -24,8 +24,6 @@ const char* const kScene = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml
 // stays checked.
 const tests::Environment kNotOurLeaks{{"ASAN_OPTIONS", "detect_leaks=0"}};
 
-bool view_is_built() { return fs::exists(tests::module_folder() + "/encounter_view.so"); }
-
 unsigned big_endian(const std::string& bytes, std::size_t at) {
   unsigned value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = value << 8U | static_cast<unsigned char>(bytes.at(at + i));
@@ -33,7 +31,7 @@ unsigned big_endian(const std::string& bytes, std::size_t at) {
 }
 
 TEST(View, ShotIsAPngOfTheRightSizeWithAPictureInIt) {
-  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const fs::path shot = fs::path(testing::TempDir()) / ("shot_" + std::to_string(getpid()) + ".png");
   const tests::Result result =
       tests::run_program({"view", kScene, "--shot", shot.string(), "--at-s", "0.5"}, kNotOurLeaks);
@@ -53,7 +51,7 @@ TEST(View, ShotIsAPngOfTheRightSizeWithAPictureInIt) {
 
 // What cannot take the picture stays: a pipe whose reader has gone.
 TEST(View, ADeviceThatCannotTakeThePictureStays) {
-  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const TemporaryFolder folder;
   const std::string pipe = folder.file("pipe");
   const tests::Result result = tests::run({"bash", "-c",
@@ -68,7 +66,7 @@ TEST(View, ADeviceThatCannotTakeThePictureStays) {
 
 // A ball that is hit is not held: what is shown is the blow, not the finger before it sets out.
 TEST(View, ABlowIsShownAtItsTouch) {
-  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const fs::path shot = fs::path(testing::TempDir()) / ("blow_" + std::to_string(getpid()) + ".png");
   const tests::Result result = tests::run_program(
       {"view", ENCOUNTER_SOURCE_DIR "/models/scenes/hit_ball.toml", "--shot", shot.string()}, kNotOurLeaks);
@@ -78,7 +76,7 @@ TEST(View, ABlowIsShownAtItsTouch) {
 }
 
 TEST(View, WhatIsRefusedIsSaidWithItsPlace) {
-  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const std::string far = "object.wall.position_mm=[0, 0, -900]";
   const tests::Result result = tests::run_program(
       {"view", ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "--shot", "a.png", "--set", far},
@@ -94,7 +92,7 @@ TEST(View, WithoutShotSaysSo) {
 }
 
 TEST(View, AFolderThatIsNotThereIsSaid) {
-  if (!view_is_built()) GTEST_SKIP() << "built without the view";
+  if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const tests::Result result =
       tests::run_program({"view", kScene, "--shot", "/nowhere/a.png", "--at-s", "0.1"}, kNotOurLeaks);
   EXPECT_EQ(result.code, 2);
