@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <encounter_version.h>
 #include <fmt/format.h>
@@ -21,6 +22,7 @@
 #include "core/error.h"
 #include "models/files.h"
 #include "trial/run_measures.h"
+#include "trial/time/record_thread.h"
 #include "trial/trial.h"
 
 namespace enc::app {
@@ -50,20 +52,25 @@ void refuse_output(const std::string& path) {
 struct Recording {
   models::OutFile file;
   RecordWriter writer;
+  std::optional<trial::RecordThread> thread;
 
-  Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene)
+  // paced: by the wall clock.
+  Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene, bool paced)
       : file(options.record, models::existing(options.force)),
-        writer(file.aside(), texts, layout_hash(scene)) {
+        writer(file.aside(), texts, layout_hash(scene), paced ? RecordWriter::kManyChunks : 1) {
     file.spare();  // what a run that does not end has recorded is readable
+    if (paced) thread.emplace(writer);
   }
   void end() {
+    thread.reset();
     writer.close();
     if (!writer.full()) file.keep();
   }
 };
 
 std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup,
-                                      const Scene& scene, const std::vector<trial::Certified>& certificates) {
+                                      const trial::Trial& trial,
+                                      const std::vector<trial::Certified>& certificates) {
   if (options.record.empty()) return nullptr;
   for (const std::string& path : {options.record, options.record + ".part"}) refuse_output(path);
   RecordTexts texts = models::record_texts(setup);
@@ -72,7 +79,7 @@ std::unique_ptr<Recording> record_for(const RunOptions& options, const models::S
   texts["seed"] = std::to_string(options.seed);
   texts["version"] = ENCOUNTER_VERSION;
   texts["stability"] = stability_lines(certificates);
-  return std::make_unique<Recording>(options, texts, scene);
+  return std::make_unique<Recording>(options, texts, trial.scene(), trial.result().paced);
 }
 
 // Said before anything moves.
@@ -115,7 +122,7 @@ int run(const RunOptions& options) {
   trial::Trial trial(
       setup, trial_options);  // everything that can be refused is refused here, before a record is begun
   const std::vector<trial::Certified> certificates = trial::certificates_of(setup, trial.scene());
-  const std::unique_ptr<Recording> record = record_for(options, setup, trial.scene(), certificates);
+  const std::unique_ptr<Recording> record = record_for(options, setup, trial, certificates);
   print_notes(setup.notes);  // of a scene that is not refused
   print_notes(beyond(setup, certificates));
   trial.record_to(record ? &record->writer : nullptr);

@@ -167,8 +167,10 @@ std::uint64_t layout_hash(const Scene& scene) { return layouts()[scene.task.inde
 // ---- writing
 // ---------------------------------------------------------------------------------------------------------
 
-RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout)
-    : path_(path), chunk_(kChunkBytes / kWord) {
+RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
+                           std::size_t chunks)
+    : path_(path), chunks_(chunks) {
+  for (Chunk& one : chunks_) one.words.resize(kChunkBytes / kWord);
   const std::vector<std::uint64_t> packed = pack(texts);
   if (packed.size() * kWord > kHeaderBytes)
     throw Error("the record '" + path +
@@ -197,33 +199,49 @@ RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, st
 RecordWriter::~RecordWriter() {
   if (file_ == nullptr) return;
   flush_chunk();
+  drain();
   std::fclose(file_);
 }
 
 void RecordWriter::put(const void* bytes, std::size_t size) noexcept {
-  if (full()) return;
+  if (errno_ != 0) return;
   errno = 0;
   if (std::fwrite(bytes, 1, size, file_) != size) errno_ = errno != 0 ? errno : EIO;
 }
 
+void RecordWriter::drain() noexcept {
+  for (std::size_t i = in_file_; i < whole_.load(std::memory_order_acquire); ++i) {
+    const Chunk& one = chunk(i);
+    put(one.words.data(), (one.used + 1) * kWord);
+    in_file_.store(i + 1, std::memory_order_release);
+  }
+}
+
 void RecordWriter::flush_chunk() noexcept {
-  if (used_ == 1) return;
-  chunk_[0] = head(kChunk, (used_ - 1) * kWord);
-  chain_.add(chunk_[0]);
-  chunk_[used_] = chain_.value;
-  put(chunk_.data(), (used_ + 1) * kWord);
-  used_ = 1;
+  const std::size_t number = whole_;
+  Chunk& one = chunk(number);
+  if (behind_ || one.used == 1) return;
+  one.words[0] = head(kChunk, (one.used - 1) * kWord);
+  chain_.add(one.words[0]);
+  one.words[one.used] = chain_.value;
+  whole_.store(number + 1, std::memory_order_release);
+  if (chunks_.size() == 1) drain();
+  if (number + 1 - in_file_.load(std::memory_order_acquire) < chunks_.size())
+    chunk(number + 1).used = 1;
+  else
+    behind_ = true;
 }
 
 void RecordWriter::write(const Tick& tick, const Inputs& in, const Outputs& out,
                          std::uint64_t state_hash) noexcept {
   if (file_ == nullptr || full()) return;
   RecordedTick frame{tick, in, out, state_hash};
-  PutLeaves put_leaves{chunk_.data() + used_, chain_};
+  Chunk& one = chunk(whole_);
+  PutLeaves put_leaves{one.words.data() + one.used, chain_};
   all_fields(put_leaves, frame);
-  used_ += frame_words();
+  one.used += frame_words();
   ++ticks_;
-  if (used_ + frame_words() + 1 > chunk_.size()) flush_chunk();
+  if (one.used + frame_words() + 1 > one.words.size()) flush_chunk();
 }
 
 void RecordWriter::end_with(const RecordTexts& texts) {
@@ -237,6 +255,7 @@ void RecordWriter::end_with(const RecordTexts& texts) {
 void RecordWriter::close() noexcept {
   if (file_ == nullptr) return;
   flush_chunk();
+  drain();
   if (!end_.empty()) {
     for (std::size_t i = 1; i + 1 < end_.size(); ++i) chain_.add(end_[i]);
     chain_.add(end_.front());
@@ -248,12 +267,13 @@ void RecordWriter::close() noexcept {
   chain_.add(seal[0]);
   seal[2] = chain_.value;
   put(seal.data(), sizeof(seal));
-  if (std::fclose(file_) != 0 && errno_ == 0) errno_ = errno;
+  if (std::fclose(file_) != 0 && !full()) errno_ = errno;
   file_ = nullptr;
 }
 
 std::string RecordWriter::error() const {
   if (!full()) return {};
+  if (errno_ == 0) return "cannot write the record '" + path_ + "': the disk has not kept up with the run";
   return "cannot write the record '" + path_ + "': " + std::generic_category().message(errno_);
 }
 

@@ -2,6 +2,8 @@
 // them again. Format: docs/reference/record.md.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -29,37 +31,52 @@ struct RecordedTick {
 
 class RecordWriter {
  public:
-  // Throws Error where the file cannot be made or its header not be written.
-  RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout);
+  // 16 MiB: at 1 kHz, and 1 kB a tick, a disk may stand still for 16 s.
+  static constexpr std::size_t kManyChunks = 256;
+  static constexpr std::chrono::milliseconds kLook{
+      10};  // between two drains: two chunks at most come meanwhile
+
+  // Throws Error where the file cannot be made or its header not be written. `chunks`: with 1 each goes to
+  // the file when it is full, by whoever calls write(); with more another thread calls drain(), and write()
+  // never waits.
+  RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
+               std::size_t chunks = 1);
   ~RecordWriter();  // without close() the record stays unsealed: the run did not end as it should
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  // Into memory, no heap; every hundredth tick or so a whole chunk goes to the file. After a failed write it
-  // does nothing.
+  // Into memory, no heap; every 65th tick or so a chunk is whole. After a failed write, and where the
+  // file is behind by all chunks, it does nothing: a record has no gap.
   void write(const Tick& tick, const Inputs& in, const Outputs& out, std::uint64_t state_hash) noexcept;
+  // What is whole goes to the file. From one thread at a time; the writer goes when no other calls it.
+  void drain() noexcept;
   // What is known only when the run has ended: close() puts it before the seal.
   void end_with(const RecordTexts& texts);
   void close() noexcept;  // the rest, how it ended, and the seal
 
-  [[nodiscard]] bool full() const noexcept { return errno_ != 0; }
-  [[nodiscard]] std::string error() const;  // one line; empty while all is well
-  [[nodiscard]] std::int64_t ticks() const noexcept {
-    return ticks_;
-  }  // taken, of which all but the last chunk are in the file
+  [[nodiscard]] bool full() const noexcept { return errno_ != 0 || behind_; }
+  [[nodiscard]] std::string error() const;                              // one line; empty while all is well
+  [[nodiscard]] std::int64_t ticks() const noexcept { return ticks_; }  // taken
 
  private:
+  // Head, leaves, checksum.
+  struct Chunk {
+    std::vector<std::uint64_t> words;
+    std::size_t used = 1;
+  };
   void put(const void* bytes, std::size_t size) noexcept;
   void flush_chunk() noexcept;
+  [[nodiscard]] Chunk& chunk(std::size_t number) noexcept { return chunks_[number % chunks_.size()]; }
 
   std::string path_;
   std::FILE* file_ = nullptr;
-  std::vector<std::uint64_t> chunk_;  // head, leaves, checksum
-  std::vector<std::uint64_t> end_;    // the same of what is said at the end; empty: nothing
-  std::size_t used_ = 1;
+  std::vector<Chunk> chunks_;
+  std::atomic<std::size_t> whole_ = 0, in_file_ = 0;  // chunks; the one that is filled is number whole_
+  std::vector<std::uint64_t> end_;  // as a chunk, of what is said at the end; empty: nothing
   StateHash chain_;
   std::int64_t ticks_ = 0;
-  int errno_ = 0;
+  std::atomic<int> errno_ = 0;
+  bool behind_ = false;  // the file, by all chunks
 };
 
 // yes: reads the whole chunks of a record that is cut off or was never sealed.

@@ -1,0 +1,21 @@
+// Puts a record into its file beside a run that keeps to the wall clock, so that no tick waits for a disk.
+#pragma once
+
+#include <thread>
+
+#include "core/record/record.h"
+
+namespace enc::trial {
+
+class RecordThread {
+ public:
+  // `writer` stays until this is gone, and is closed after that.
+  explicit RecordThread(RecordWriter& writer);
+  RecordThread(const RecordThread&) = delete;
+  RecordThread& operator=(const RecordThread&) = delete;
+
+ private:
+  std::jthread thread_;
+};
+
+}  // namespace enc::trial
