@@ -20,6 +20,13 @@ const ToolSpec* held_tool(const SceneSpec& scene) {
   return named == scene.tools.end() ? &scene.tools.front() : &*named;
 }
 
+std::vector<std::vector<Vec3>> markers_of(const std::vector<ToolSpec>& tools) {
+  std::vector<std::vector<Vec3>> all;
+  all.reserve(tools.size());
+  for (const ToolSpec& tool : tools) all.push_back(tool.markers);
+  return all;
+}
+
 // From the tool's tip to the middle of its markers, in T.
 Vec3 shaft_of(const ToolSpec& tool) {
   Vec3 middle = Vec3::Zero();
@@ -100,7 +107,8 @@ World::World(const WorldSpec& spec)
       physics_(model_of(spec, held_tool(spec.scene), user_, q_WT_, X_WR_)) {
   if (spec.scene.force) force.emplace(spec.twin.force, spec.seed);
   if (spec.scene.tracker && !spec.scene.camera)
-    tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed);
+    tracker.emplace(spec.twin.tracker, pose_of<'W', 'C'>(spec.twin.frames.W_C), spec.seed,
+                    markers_of(spec.scene.tools));
   if (spec.scene.display) display.emplace(spec.twin.display, spec.prepared, spec.seed);
   if (user_) programme_time_ = user_->duration();
   if (spec.scene.gripper) gripper.emplace(spec.twin.gripper, spec.seed);

@@ -12,6 +12,7 @@
 #include "core/devices/roles.h"
 #include "core/error.h"
 #include "core/task/measure/probe.h"
+#include "core/track/markers.h"
 #include "core/world/contact_limits.h"
 #include "core/world/object.h"
 #include "models/schema/units.h"
@@ -20,10 +21,6 @@
 
 namespace enc::models {
 namespace {
-
-// Tools whose marker distances all agree within this are not told apart: the tracker's accuracy is 0.09 mm
-// [VHMR 2], and markers are not mounted to the tenth of a millimetre.
-constexpr double kSameDistance = 1e-3;  // m
 
 // `table` names an entry of [[list]].
 template <class T>
@@ -138,15 +135,6 @@ void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
   }
 }
 
-std::vector<double> distances(const ToolSpec& tool) {
-  std::vector<double> all;
-  for (std::size_t i = 0; i < tool.markers.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) all.push_back((tool.markers[i] - tool.markers[j]).norm());
-  }
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
 bool on_a_line(const std::vector<Vec3>& markers) {
   double largest = 0.0;  // area of a triangle of markers, m^2
   for (const Vec3& a : markers) {
@@ -174,16 +162,23 @@ void check_tool(const Setup& setup, const ToolSpec& tool) {
                      "of 'markers_mm'",
                      quoted(tool.name)));
   }
-  const std::vector<double> own = distances(tool);
+  if (tool.markers.size() > kMostMarkers)
+    fail(setup, key,
+         fmt::format("tool {} has {} markers; expected at most {}; leave some out", quoted(tool.name),
+                     tool.markers.size(), kMostMarkers));
+  if (has_two_poses(tool.markers))
+    fail(setup, key,
+         fmt::format(
+             "the markers of tool {} look the same in another order, so that it has two poses; expected "
+             "distances that differ by {} mm; move one of 'markers_mm'",
+             quoted(tool.name), mm(kMarkersApart)));
   for (const ToolSpec& other : setup.scene.tools) {
     if (&other == &tool) return;
-    const auto near = [](double a, double b) { return std::abs(a - b) < kSameDistance; };
-    const std::vector<double> theirs = distances(other);
-    if (!std::equal(own.begin(), own.end(), theirs.begin(), theirs.end(), near)) continue;
+    if (!alike(tool.markers, other.markers)) continue;
     fail(setup, key,
          fmt::format("tools {} and {} have the same marker geometry; expected distances that differ by {} "
                      "mm; move one of 'markers_mm'",
-                     quoted(other.name), quoted(tool.name), mm(kSameDistance)));
+                     quoted(other.name), quoted(tool.name), mm(kMarkersApart)));
   }
 }
 

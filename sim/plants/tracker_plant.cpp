@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "core/error.h"
 #include "core/rotation.h"
+#include "core/track/markers.h"
 
 namespace enc::sim {
 namespace {
@@ -24,8 +27,9 @@ void put(std::array<TrackerPlant::Packet, N>& line, const Stamped<TrackedTool>& 
 
 }  // namespace
 
-TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed)
-    : truth_(truth), X_CW_(X_WC.inverse()) {
+TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed,
+                           std::vector<std::vector<Vec3>> markers)
+    : truth_(truth), X_CW_(X_WC.inverse()), markers_(std::move(markers)) {
   if (truth.latency * truth.rate > 60.0)
     throw Error("at most 60 frames can be on their way at once", "truth.tracker.latency");
   state_.noise = Stream(seed, "tracker");
@@ -36,17 +40,38 @@ TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC
   state_.server = {truth.server_rate, 0, from_seconds(phase * state_.noise.uniform() / truth.server_rate)};
 }
 
+// What a tracker makes of the markers of one tool.
+TrackedTool TrackerPlant::by_markers(std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
+  const std::vector<Vec3>& markers = markers_.at(static_cast<std::size_t>(tool));
+  std::array<Vec3, kMostMarkers> seen;
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    const Vec3 noise = truth_.marker_noise * state_.noise.normal3();
+    const Point<'W'> at(Vec3((X_WT * Point<'T'>(markers[i])).e() + truth_.bias + noise));
+    seen[i] = (X_CW_ * at).e();
+  }
+  const RecognisedTool found = recognise(std::span(seen).first(markers.size()), markers_);
+  return {found.tool, found.X_CT};
+}
+
 void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
   const double t = seconds(at.time_since_epoch());
   const bool blind = t >= truth_.blackout_at && t < truth_.blackout_at + truth_.blackout_for;
+  const auto put_exposed = [&](const TrackedTool& seen) {
+    put(state_.exposed, {seen, at + from_seconds(truth_.stamp_error), Health::ok},
+        at + from_seconds(truth_.latency));
+  };
+  if (!std::isnan(truth_.marker_noise)) {
+    if (blind || tool < 0) return;
+    if (const TrackedTool seen = by_markers(tool, X_WT); seen.tool >= 0) put_exposed(seen);
+    return;
+  }
   const Vec3 error = truth_.bias + truth_.noise.cwiseProduct(state_.noise.normal3());
   if (blind || tool < 0) return;  // none in view: a hand covers the markers, or none is held
   Quat turned(X_WT.q());
   if (truth_.turn_noise > 0.0)  // else nothing is drawn, and other noise stays what it is
     turned = rotation_xyz(truth_.turn_noise * state_.noise.normal3()) * turned;
   const Pose<'W', 'T'> measured(turned, Vec3(X_WT.p() + error));
-  put(state_.exposed, {{tool, X_CW_ * measured}, at + from_seconds(truth_.stamp_error), Health::ok},
-      at + from_seconds(truth_.latency));
+  put_exposed({tool, X_CW_ * measured});
 }
 
 void TrackerPlant::transmit(const Stamped<TrackedTool>& sample, Time at) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/sample.h"
 #include "core/time.h"
@@ -32,7 +33,9 @@ class TrackerPlant {
     bool news = false;
     std::int64_t dropped = 0;  // packets lost
   };
-  TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed);
+  // `markers`: of each tool in T; needed where the truth has noise of markers.
+  TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed,
+               std::vector<std::vector<Vec3>> markers = {});
 
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
@@ -40,6 +43,7 @@ class TrackerPlant {
   bool poll(Stamped<TrackedTool>& newest) noexcept;
 
  private:
+  [[nodiscard]] TrackedTool by_markers(std::int32_t tool, const Pose<'W', 'T'>& X_WT);
   void expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT);
   void poll_exposed(Time now);
   void send_ready(Time now);
@@ -48,6 +52,7 @@ class TrackerPlant {
 
   TrackerTruth truth_;
   Pose<'C', 'W'> X_CW_;
+  std::vector<std::vector<Vec3>> markers_;
   State state_;
 };
 

@@ -72,6 +72,10 @@ TEST_F(SceneFile, things_that_do_not_fit_together) {
               StartsWith("scenes/ball.toml:11:1: tool 'stylus' has 2 markers; expected at least 3"));
   EXPECT_THAT(scene_said("[0, 41, 0]", "[20, 0, 0]"),
               StartsWith("scenes/ball.toml:11:1: the markers of tool 'stylus' are on a line"));
+  EXPECT_THAT(
+      scene_said("[0, 41, 0]", "[0, 50, 0]"),
+      StartsWith("scenes/ball.toml:11:1: the markers of tool 'stylus' look the same in another order, so "
+                 "that it has two poses; expected distances that differ by 4 mm; move one"));
   // The same triangle, turned and with its markers in another order.
   const std::string twin =
       "[[tool]]\nname = \"pen\"\nmarkers_mm = [[0, 0, 41], [52, 0, 0], [0, 0, 0]]\ntip_mm = [0, 0, 0]\n";
