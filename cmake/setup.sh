@@ -169,6 +169,11 @@ setup_pynetft() {
     --python-version 3.11 --platform manylinux2014_x86_64
 }
 
+# pyigtl is a client and a server of OpenIGTLink.
+setup_pyigtl() {
+  setup_judge pyigtl pyigtl==0.3.4 80cdefca7f98ee93c4c42ff1560a914244963df45495dde1784720ac9f28fe29 "0.1 MB" "import pyigtl"
+}
+
 # CPU seconds that this machine needs for a piece of work that all know: a header of the standard library, compiled.
 yardstick() {
   local LC_ALL=C TIMEFORMAT='%U %S' user system

@@ -99,7 +99,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (options_.lockstep) refuse_lockstep(slots, options_);
   const bool wall = slots.real && !options_.lockstep && keeps_wall_time(setup_, options_.drivers);
   const double pace = pace_of(options_, wall);
-  result_.paced = pace > 0.0;
+  result_.keeps_wall_time = wall && pace > 0.0;
   if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
   if (slots.real && options_.armed && !options_.lockstep) refuse_uncalibrated(setup_);
   // What keeps no wall clock works within the loop, so that it is the same in every run.
@@ -140,7 +140,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   in_.withheld = slots.machine && !options_.armed;
   if (options_.fit_out) options_.fit_out(rig_);
   check_devices(rig_, setup_.rig);
-  if (result_.paced)
+  if (pace > 0.0)
     rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace,
                                               wall ? sim::Late::skip : sim::Late::wait, options_.stop);
   result_.holds.reserve(TrialResult::kMostHolds);

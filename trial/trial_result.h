@@ -41,7 +41,7 @@ struct TrialResult {
   Lateness lateness;                 // against the wall clock
   std::vector<DeviceWords> devices;  // real ones, as they describe themselves
   std::string real_time;             // how the loop comes before other work; empty: not asked for
-  bool paced = false;                // kept to the wall clock
+  bool keeps_wall_time = false;      // nobody may make it wait
   std::vector<LostLink> links;       // the first 16 that were lost
   std::vector<std::string> log;      // what drivers said
 };

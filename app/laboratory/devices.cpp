@@ -20,6 +20,10 @@ std::string line_of(const Probed& device) {
   std::string text = fmt::format("{:12} {}\n", device.role, device.words);
   if (device.samples == 0) return text + fmt::format("{:12} said nothing\n", "");
   if (!device.last.empty()) text += fmt::format("{:12} {}\n", "", device.last);
+  for (std::string remark : device.remarks) {
+    if (remark.starts_with(device.words + ": ")) remark.erase(0, device.words.size() + 2);
+    text += fmt::format("{:12} {}\n", "", remark);
+  }
   if (device.samples == 1) return text + fmt::format("{:12} 1 sample\n", "");
   return text + fmt::format(
                     "{:12} {:.1f} samples a second, {:.2f} ms apart, {:.2f} at most; old when they come: "

@@ -84,7 +84,9 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
   }
   each_role([&](const auto& role) {
     const std::size_t at = place[static_cast<std::size_t>(role.id)];
-    if (at < all.size()) all[at].last = words_of(in.*role.said);
+    if (at >= all.size()) return;
+    all[at].last = words_of(in.*role.said);
+    all[at].remarks = (rig.*role.slot)->remarks();
   });
   for (std::size_t i = 0; i < kRoles; ++i) {
     Series& of = series[i];

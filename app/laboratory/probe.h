@@ -18,6 +18,7 @@ struct Probed {
   double interval_p50 = kUnset, interval_max = kUnset;  // between the times that samples were true, s
   double age_p50 = kUnset, age_p99 = kUnset;            // of a sample when it came, s
   std::string last{};                                   // the last sample, in words
+  std::vector<std::string> remarks{};                   // what the device says at the end, its clock among it
 };
 
 // Makes every device that is not simulated, reads each for so long at the loop's rate, and lets it go.

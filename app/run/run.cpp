@@ -54,12 +54,12 @@ struct Recording {
   RecordWriter writer;
   std::optional<trial::RecordThread> thread;
 
-  // paced: by the wall clock.
-  Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene, bool paced)
+  // beside: the run keeps the wall clock, and no tick may wait for a disk.
+  Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene, bool beside)
       : file(options.record, models::existing(options.force)),
-        writer(file.aside(), texts, layout_hash(scene), paced ? RecordWriter::kManyChunks : 1) {
+        writer(file.aside(), texts, layout_hash(scene), beside ? RecordWriter::kManyChunks : 1) {
     file.spare();  // what a run that does not end has recorded is readable
-    if (paced) thread.emplace(writer);
+    if (beside) thread.emplace(writer);
   }
   void end() {
     thread.reset();
@@ -79,7 +79,7 @@ std::unique_ptr<Recording> record_for(const RunOptions& options, const models::S
   texts["seed"] = std::to_string(options.seed);
   texts["version"] = ENCOUNTER_VERSION;
   texts["stability"] = stability_lines(certificates);
-  return std::make_unique<Recording>(options, texts, trial.scene(), trial.result().paced);
+  return std::make_unique<Recording>(options, texts, trial.scene(), trial.result().keeps_wall_time);
 }
 
 // Said before anything moves.

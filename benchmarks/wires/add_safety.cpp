@@ -46,7 +46,8 @@ struct Extremes {
 }  // namespace
 
 void add_safety(Bench& bench) {
-  const models::Setup setup = short_press(bench.context.models);
+  const ShortPress press(bench.context.models);
+  const models::Setup& setup = press.datagrams;
   const std::vector<std::uint64_t> seeds = bench.seeds(bench.context.count(5, 1));
   std::vector<Case> cases;
   // Those first in which nothing happens: how far it goes. Each fault has the same modes and seeds again.
@@ -56,8 +57,8 @@ void add_safety(Bench& bench) {
   for (const Fault& fault : faults())
     for (const Mode mode : kInjectedIn)
       for (const std::uint64_t seed : seeds) cases.push_back({&fault, mode, seed});
-  const std::vector<Reaction> all =
-      bench.each(cases, [&](const Case& one) { return react(setup, *one.fault, one.mode, one.seed); });
+  const std::vector<Reaction> all = bench.each(
+      cases, [&](const Case& one) { return react(press.of(*one.fault), *one.fault, one.mode, one.seed); });
 
   Table table{"safety",
               "What a fault of a device comes to",

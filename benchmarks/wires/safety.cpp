@@ -40,6 +40,12 @@ void heal_tracker(WiredTrial& at) {
   at.wires().tools().heal(kind);
 }
 
+constexpr const char* kStream = "tracker (TCP)";
+constexpr Fault over_tcp(Fault fault) {
+  fault.streams = true;
+  return fault;
+}
+
 const std::array kFaults{
     Fault{"manipulator", "silent", [](WiredTrial& at) { at.wires().machine.silent = true; },
           [](WiredTrial& at) { at.wires().machine.silent = false; }, End::link_lost, 9, kTipLost},
@@ -95,6 +101,16 @@ const std::array kFaults{
           End::unharmed, 0, 0, "datagrams missing"},
     Fault{"tracker", "half come twice", spoil_tracker<Kind::duplicate, 50>, heal_tracker<Kind::duplicate>,
           End::unharmed, 0, 0, "old"},
+    over_tcp({kStream, "silent", spoil_tracker<Kind::stall>, heal_tracker<Kind::stall>, End::link_lost, 101,
+              kToolLost, nullptr, false, 501, kTrackerFault}),
+    over_tcp({kStream, "closed", spoil_tracker<Kind::disconnect>, heal_tracker<Kind::disconnect>,
+              End::link_lost, 2, kTrackerFault}),
+    // The first noise ends it: a pose comes each 10 ms and what it waits; while none is in view, an answer
+    // each 125.
+    over_tcp({kStream, "all noise", spoil_tracker<Kind::garbage>, heal_tracker<Kind::garbage>, End::link_lost,
+              16, kTrackerFault, nullptr, false, 127, kTrackerFault}),
+    over_tcp({kStream, "half messages", spoil_tracker<Kind::half_message>, heal_tracker<Kind::half_message>,
+              End::link_lost, 101, kToolLost | kTrackerFault, nullptr, false, 501, kTrackerFault}),
     // From when the loop is back: the machine stands already.
     Fault{"program", "its loop stands for 400 ms",
           [](WiredTrial& at) { at.wires().stand(Duration(400'000'000), false); }, nothing, End::holds, 1,
@@ -119,6 +135,13 @@ double blind(const models::Setup& setup) {
 // 1/s, of its servo's decay.
 double decay(const models::Setup& setup) {
   return setup.twin.hexapod.damping * 2.0 * std::numbers::pi * setup.twin.hexapod.servo;
+}
+
+models::Setup loaded(const std::string& models, const std::string& transport) {
+  return models::load(models + "/scenes/tennis_ball.toml", "fakes",
+                      {"rig.driver.gcs.watchdog_ms=5", "rig.driver.netft.silent_ms=5",
+                       "rig.driver.igtl.transport=\"" + transport + "\"", "user.press_s=1", "user.hold_s=0.2",
+                       "user.release_s=1", "user.rest_s=0.5", "user.approach_mm_s=[50]"});
 }
 
 // The number before the word in what a driver says at the end of a run.
@@ -175,11 +198,8 @@ std::string wrong_with(const Fault& fault, Mode mode, const Reaction& of, const 
   return wrong;
 }
 
-models::Setup short_press(const std::string& models) {
-  return models::load(models + "/scenes/tennis_ball.toml", "fakes",
-                      {"rig.driver.gcs.watchdog_ms=5", "rig.driver.netft.silent_ms=5", "user.press_s=1",
-                       "user.hold_s=0.2", "user.release_s=1", "user.rest_s=0.5", "user.approach_mm_s=[50]"});
-}
+ShortPress::ShortPress(const std::string& models)
+    : datagrams(loaded(models, "udp")), stream(loaded(models, "tcp")) {}
 
 Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::uint64_t seed) {
   trial::TrialOptions options;

@@ -32,6 +32,7 @@ struct Fault {
   // Where no tool is in view, and the machine waits: another time and reason; 0: the same.
   double hold_away = 0.0;
   std::uint32_t why_away = 0;
+  bool streams = false;  // the tracker's own server over TCP, in place of datagrams
   [[nodiscard]] double hold_in(Mode mode) const {
     return mode == Mode::away && hold_away > 0 ? hold_away : hold;
   }
@@ -67,7 +68,13 @@ struct Reaction {
                                      const models::Setup& setup);
 
 // A short press of the tennis ball on the rig `fakes`, with the times of silence that ship for real devices.
-[[nodiscard]] models::Setup short_press(const std::string& models);
+struct ShortPress {
+  models::Setup datagrams, stream;  // as tool data come
+  explicit ShortPress(const std::string& models);
+  [[nodiscard]] const models::Setup& of(const Fault& fault) const {
+    return fault.streams ? stream : datagrams;
+  }
+};
 // Injects it in that mode, at a moment of it by the seed.
 [[nodiscard]] Reaction react(const models::Setup& setup, const Fault& fault, Mode mode, std::uint64_t seed);
 // The same, and nothing happens: how far it would have gone.

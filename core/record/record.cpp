@@ -256,7 +256,7 @@ void RecordWriter::close() noexcept {
   if (file_ == nullptr) return;
   flush_chunk();
   drain();
-  if (!end_.empty()) {
+  if (!end_.empty() && !full()) {
     for (std::size_t i = 1; i + 1 < end_.size(); ++i) chain_.add(end_[i]);
     chain_.add(end_.front());
     end_.back() = chain_.value;
@@ -266,7 +266,7 @@ void RecordWriter::close() noexcept {
   chain_.add(seal[1]);
   chain_.add(seal[0]);
   seal[2] = chain_.value;
-  put(seal.data(), sizeof(seal));
+  if (!full()) put(seal.data(), sizeof(seal));
   if (std::fclose(file_) != 0 && !full()) errno_ = errno;
   file_ = nullptr;
 }

@@ -52,6 +52,7 @@ class Orders {
  private:
   bool go_on(std::size_t i) {
     if (i == seen_.size()) return judge_(order_);
+    if (++ways_ > kMostWays) return false;
     for (std::size_t marker = 0; marker < markers_.size(); ++marker) {
       if (taken_[marker] || !agrees(i, marker)) continue;
       taken_[marker] = true;
@@ -63,13 +64,16 @@ class Orders {
     return true;
   }
   [[nodiscard]] bool agrees(std::size_t i, std::size_t marker) const {
-    for (std::size_t j = 0; j < i; ++j)
-      if (std::abs((seen_[i] - seen_[j]).norm() - (markers_[marker] - markers_[order_[j]]).norm()) >=
-          kMarkersApart)
-        return false;
+    for (std::size_t j = 0; j < i; ++j) {
+      const double seen = (seen_[i] - seen_[j]).norm(), own = (markers_[marker] - markers_[order_[j]]).norm();
+      if (!(std::abs(seen - own) < kMarkersApart)) return false;
+    }
     return true;
   }
 
+  // Of ways that are begun. Markers of a tool whose distances all differ need some hundred.
+  static constexpr int kMostWays = 100'000;
+  int ways_ = 0;
   std::span<const Vec3> seen_, markers_;
   Judge judge_;
   Order order_{};

@@ -1,6 +1,6 @@
 // Tool data over OpenIGTLink (docs/guide/laboratory.md).
 #include "core/module.h"
-#include "hw_drivers/igtl/drive/udp_tracker.h"
+#include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/igtl/fake/tool_server.h"
 
 namespace enc::igtl {

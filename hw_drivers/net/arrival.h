@@ -15,12 +15,13 @@ class Arrival {
   // keeps_wall_time: the loop's clock does. Else nothing comes later than its tick.
   explicit Arrival(bool keeps_wall_time) : follows_(keeps_wall_time) {}
 
-  // now: of the tick; steady: of steady_now(), when something is read.
-  [[nodiscard]] Time at(Time now, Duration steady) noexcept {
-    if (!follows_) return now;
-    const std::int64_t ahead = steady.count() - now.time_since_epoch().count();
-    least_ = std::min(least_, ahead);
-    return now + Duration(ahead - least_);
+  // In each tick, before of(). now: of the tick; steady: steady_now().
+  void begin(Time now, Duration steady) noexcept {
+    least_ = std::min(least_, steady.count() - now.time_since_epoch().count());
+  }
+  // By the loop's clock, when it was that by steady_now().
+  [[nodiscard]] Time of(Time now, Duration steady) const noexcept {
+    return follows_ ? Time(Duration(steady.count() - least_)) : now;
   }
 
  private:

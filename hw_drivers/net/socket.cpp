@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <memory>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -62,7 +64,24 @@ int open_for(const addrinfo& address) {
   if (descriptor < 0)
     throw Error(fmt::format("no socket could be opened: {}", std::strerror(errno)), {}, ErrorKind::device);
   if (address.ai_socktype == SOCK_STREAM) send_at_once(descriptor);
+  switch_on(descriptor, SOL_SOCKET, SO_TIMESTAMPNS);
   return descriptor;
+}
+
+// How long it has been here, by the clock that the kernel stamps with; wrong where that was set meanwhile
+// (take()).
+Duration waited(const msghdr& message) {
+  constexpr std::int64_t kSecond = 1'000'000'000, kMost = 60 * kSecond;
+  for (cmsghdr* word = CMSG_FIRSTHDR(&message); word != nullptr;
+       word = CMSG_NXTHDR(const_cast<msghdr*>(&message), word)) {
+    if (word->cmsg_level != SOL_SOCKET || word->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec came{}, now{};
+    std::memcpy(&came, CMSG_DATA(word), sizeof came);
+    clock_gettime(CLOCK_REALTIME, &now);
+    const std::int64_t ns = (now.tv_sec - came.tv_sec) * kSecond + now.tv_nsec - came.tv_nsec;
+    return ns > 0 && ns < kMost ? Duration(ns) : Duration{};
+  }
+  return {};
 }
 
 bool waits(int error) { return error == EAGAIN || error == EINTR; }
@@ -142,6 +161,8 @@ Socket& Socket::operator=(Socket&& other) noexcept {
   close();
   descriptor_ = std::exchange(other.descriptor_, -1);
   datagrams_ = other.datagrams_;
+  came_ = other.came_;
+  empty_ = other.empty_;
   closed_ = other.closed_;
   peer_size_ = other.peer_size_;
   sender_size_ = other.sender_size_;
@@ -173,10 +194,33 @@ std::size_t Socket::send(std::span<const std::byte> bytes) noexcept {
   return 0;
 }
 
+// As recvfrom(), and when it came.
+std::ptrdiff_t Socket::take(std::span<std::byte> into, void* sender, std::uint32_t& sender_size) noexcept {
+  iovec place{into.data(), into.size()};
+  alignas(cmsghdr) std::array<char, 128> words{};
+  msghdr message{};
+  message.msg_name = sender;
+  message.msg_namelen = sender_size;
+  message.msg_iov = &place;
+  message.msg_iovlen = 1;
+  message.msg_control = words.data();
+  message.msg_controllen = words.size();
+  const ssize_t came = recvmsg(descriptor_, &message, 0);
+  if (came <= 0) {
+    if (came < 0 && waits(errno)) empty_ = steady_now();
+    return came;
+  }
+  sender_size = message.msg_namelen;
+  const Duration here = waited(message);
+  came_ = std::max(steady_now() - here, empty_);
+  return came;
+}
+
 std::size_t Socket::receive(std::span<std::byte> into) noexcept {
   if (closed() || into.empty()) return 0;
   if (datagrams_) return receive_datagram(into);
-  const ssize_t came = recv(descriptor_, into.data(), into.size(), 0);
+  std::uint32_t none = 0;
+  const std::ptrdiff_t came = take(into, nullptr, none);
   if (came > 0) return static_cast<std::size_t>(came);
   closed_ = came == 0 || !waits(errno);
   return 0;
@@ -187,9 +231,8 @@ std::size_t Socket::receive_datagram(std::span<std::byte> into) noexcept {
   static_assert(sizeof sender_ >= sizeof(sockaddr_storage));
   constexpr int kMostEmpty = 64;
   for (int i = 0; i < kMostEmpty; ++i) {
-    socklen_t size = sizeof sender_;
-    const ssize_t came =
-        recvfrom(descriptor_, into.data(), into.size(), 0, reinterpret_cast<sockaddr*>(sender_), &size);
+    std::uint32_t size = sizeof sender_;
+    const std::ptrdiff_t came = take(into, sender_, size);
     if (came > 0) {
       sender_size_ = size;
       return static_cast<std::size_t>(came);

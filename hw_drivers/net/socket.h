@@ -30,6 +30,9 @@ class Socket {
   std::size_t send(std::span<const std::byte> bytes) noexcept;
   // How many came; 0: none yet, or closed(). Of UDP one datagram; what is longer than `into` is cut there.
   std::size_t receive(std::span<std::byte> into) noexcept;
+  // When the last of what receive() gave came to this machine, by steady_now(): as its kernel stamped it, or
+  // else when it was read.
+  [[nodiscard]] Duration came() const noexcept { return came_; }
   // Of UDP, to and from whoever asks: reply() sends to who had sent what was received before answer_sender().
   void answer_sender() noexcept;
   std::size_t reply(std::span<const std::byte> bytes) noexcept;
@@ -46,9 +49,11 @@ class Socket {
   explicit Socket(int descriptor, bool datagrams) : descriptor_(descriptor), datagrams_(datagrams) {}
   void close() noexcept;
   std::size_t receive_datagram(std::span<std::byte> into) noexcept;
+  std::ptrdiff_t take(std::span<std::byte> into, void* sender, std::uint32_t& sender_size) noexcept;
 
   int descriptor_ = -1;
   bool datagrams_ = false, closed_ = false;
+  Duration came_{}, empty_{};  // empty_: when nothing was there, after which what comes next has come
   // Who is answered, and who sent the last datagram: each a sockaddr, kept as bytes so that this header needs
   // none of the system's.
   alignas(8) std::byte peer_[128]{}, sender_[128]{};

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/world/scene.h"
-#include "hw_drivers/igtl/drive/udp_tracker.h"
+#include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/wires/string_link.h"
 
@@ -137,10 +137,14 @@ void Wires::fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::sp
   }
   if (which.tracker && rig.tracker) {
     twin_.tracker = std::move(rig.tracker);
+    igtl::IgtlSettings settings;
+    settings.declare(tables.igtl);
     std::vector<std::string> devices;
-    for (const std::string& tool : tools) devices.push_back(tool + "ToTracker");
-    tools_ = std::make_unique<igtl::ToolServer>(*twin_.tracker, devices, "127.0.0.1", std::uint16_t{0},
-                                                igtl::kServerPeriod, seed_ + 1);
+    for (const std::string& tool : tools) devices.push_back(tool + settings.suffix);
+    igtl::ToolServerSettings server;
+    server.transport = settings.streams() ? igtl::Transport::tcp : igtl::Transport::udp;
+    server.seed = seed_ + 1;
+    tools_ = std::make_unique<igtl::ToolServer>(*twin_.tracker, devices, server);
     const Answering answering(*tools_);
     Ported table(tables.igtl, tools_->port());
     rig.tracker = igtl::subscribed(offer(table));

@@ -156,16 +156,16 @@ void check_tool(const Setup& setup, const ToolSpec& tool) {
             "tool {} has {} markers; expected at least 3, or its pose is not known; add some to 'markers_mm'",
             quoted(tool.name), tool.markers.size()));
   }
+  if (tool.markers.size() > kMostMarkers)
+    fail(setup, key,
+         fmt::format("tool {} has {} markers; expected at most {}; leave some out", quoted(tool.name),
+                     tool.markers.size(), kMostMarkers));
   if (on_a_line(tool.markers)) {
     fail(setup, key,
          fmt::format("the markers of tool {} are on a line; expected a triangle of at least 1 mm^2; move one "
                      "of 'markers_mm'",
                      quoted(tool.name)));
   }
-  if (tool.markers.size() > kMostMarkers)
-    fail(setup, key,
-         fmt::format("tool {} has {} markers; expected at most {}; leave some out", quoted(tool.name),
-                     tool.markers.size(), kMostMarkers));
   if (has_two_poses(tool.markers))
     fail(setup, key,
          fmt::format(

@@ -1,6 +1,4 @@
 // The laboratory in two programs: `encounter fake` on one side of real sockets, `encounter run` on the other.
-#include "app/laboratory/fakes.h"
-
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -14,14 +12,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "app/modules/modules.h"
-#include "core/record/record.h"
 #include "hw_drivers/net/steady.h"
-#include "hw_drivers/wires/free_ports.h"
+#include "tests/conformance/laboratory.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -32,60 +27,6 @@ namespace {
 using testing::HasSubstr;
 using tests::Result;
 using tests::run_program;
-
-const std::string kBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
-
-// The fakes in this process, where their machine can be seen.
-struct Laboratory {
-  explicit Laboratory(bool lockstep) {
-    setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
-    fakes = std::make_unique<app::Fakes>(models::load(kBall, "fakes", ports),
-                                         app::FakesOptions{app::load_module, 1, lockstep});
-    serve();
-  }
-  ~Laboratory() { pause(); }
-  void serve() {
-    end = false;
-    thread = std::thread([this] {
-      while (!end) {
-        fakes->turn();
-        if (stands()) continue;
-        moved = time();
-        moves = true;
-      }
-    });
-  }
-  void pause() {
-    end = true;
-    if (thread.joinable()) thread.join();
-  }
-  [[nodiscard]] std::vector<std::string> words(std::vector<std::string> more) const {
-    std::vector<std::string> all{"run", kBall, "--rig", "fakes"};
-    for (const std::string& set : ports) all.insert(all.end(), {"--set", set});
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }
-  [[nodiscard]] std::string log() {
-    pause();
-    std::string all;
-    for (const std::string& line : fakes->log()) all.append(line).push_back('\n');
-    return all;
-  }
-  // Of the machine, while nobody serves it.
-  [[nodiscard]] bool stands() const { return fakes->world().machine->state().velocity.norm() < 1e-4; }
-  [[nodiscard]] double time() const {  // s, of the world
-    return seconds(fakes->world().truth().t.time_since_epoch());
-  }
-  [[nodiscard]] double away() const {  // m, from its zero
-    const auto& machine = *fakes->world().machine;
-    return (machine.state().pose.p() - machine.machine().zero().p()).norm();
-  }
-  std::vector<std::string> ports = wires::free_ports();
-  std::unique_ptr<app::Fakes> fakes;
-  std::atomic<bool> end = false, moves = false;  // it did, since somebody last said that it does not
-  std::thread thread;
-  double moved = 0.0;  // s of the world: when the machine last did
-};
 
 // The program, until it ends or this goes; what it prints goes into a file.
 class Started {
@@ -120,24 +61,6 @@ class Started {
  private:
   pid_t child_ = -1;
 };
-
-nlohmann::json json_of(const Result& result) {
-  EXPECT_EQ(result.code, 0) << result.out << result.err;
-  return nlohmann::json::parse(result.out, nullptr, false);
-}
-
-// Each command of one run beside that of the same tick of the other.
-void expect_same_commands(const std::string& one, const std::string& other) {
-  RecordReader a(one), b(other);
-  EXPECT_EQ(a.ticks(), b.ticks());
-  double farthest = 0.0;
-  RecordedTick x, y;
-  while (a.next(x) && b.next(y)) {
-    ASSERT_EQ(x.out.mode, y.out.mode) << x.tick.index;
-    farthest = std::max(farthest, (x.out.tip.p() - y.out.tip.p()).norm());
-  }
-  EXPECT_LT(farthest, 1e-12) << "the wire carries twelve digits of a millimetre";
-}
 
 // One press, whose deepest is at 13 s.
 TEST(Fakes, InLockstepARunThroughSocketsIsTheSameEachTimeAndAsWithout) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace enc::netft {
+namespace enc::tests {
 
 inline std::string hex(std::span<const std::byte> bytes) {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -19,7 +19,7 @@ inline std::string hex(std::span<const std::byte> bytes) {
   return text;
 }
 
-inline std::vector<std::byte> bytes(std::string_view text) {
+inline std::vector<std::byte> from_hex(std::string_view text) {
   std::vector<std::byte> all;
   unsigned value = 0;
   bool half = false;
@@ -33,4 +33,4 @@ inline std::vector<std::byte> bytes(std::string_view text) {
   return all;
 }
 
-}  // namespace enc::netft
+}  // namespace enc::tests

@@ -1,7 +1,6 @@
-#include "hw_drivers/igtl/drive/udp_tracker.h"
+#include "hw_drivers/igtl/drive/igtl_tracker.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -11,76 +10,145 @@
 namespace enc::igtl {
 namespace {
 
-constexpr int kMostDatagrams = 64;  // of a poll: a flood does not hold up the loop
-constexpr int kMostWaiting = 4096;  // before the first: more than a socket holds
+constexpr int kMostMessages = 64;      // of a poll: a flood does not hold up the loop
+constexpr int kMostWaiting = 4096;     // before the first: more than a socket holds
+constexpr int kFew = 8;                // messages of a poll in which nothing old is left,
+constexpr int kSettled = 3;            // so many times running
+constexpr std::int32_t kEachPose = 1;  // ms, the shortest interval that can be asked for: every pose
+
+// As a terminal may show it.
+std::string shown(const Name<20>& name) {
+  std::string text(name.view());
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
+Error no_answer(const IgtlSettings& settings, const Line& line) {
+  const char* const what =
+      line.lost()
+          ? "what answers does not speak OpenIGTLink; see that this is the port of the tracker's server"
+      : line.closed()      ? "let us in and hung up; see that it takes another client"
+      : settings.streams() ? "let us in and said nothing within {:.0f} ms; see that the server runs, and "
+                             "that a tool is in view"
+                           : "no tool data within {:.0f} ms; see that its server runs, and sends OpenIGTLink "
+                             "over UDP to who asks";
+  return Error(settings.place() + ": " + fmt::format(fmt::runtime(what), 1e3 * settings.timeout), {},
+               ErrorKind::device);
+}
 
 }  // namespace
 
-UdpTracker::UdpTracker(const Offer& offer, const IgtlSettings& settings)
+IgtlTracker::IgtlTracker(const Offer& offer, const IgtlSettings& settings)
     : settings_(settings),
       reception_(settings, offer.tools, offer.lockstep),
-      socket_(net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))),
+      line_(settings),
       arrival_(!offer.waits),
       lockstep_(offer.lockstep) {
   constexpr Duration kAgain{50'000'000};  // a datagram may be lost
   const Duration until = net::steady_now() + from_seconds(settings.timeout);
-  std::array<std::byte, kMostBytes> bytes{};
-  Message answer;
-  do {
-    if (net::steady_now() > until)
-      throw Error(fmt::format("{}: no tool data within {:.0f} ms; see that its server runs, and sends "
-                              "OpenIGTLink over UDP to who asks",
-                              settings_.place(), 1e3 * settings.timeout),
-                  {}, ErrorKind::device);
-    ask("STT_TRANS");
-    socket_.wait(kAgain);
-  } while (read({bytes.data(), socket_.receive(bytes)}, answer) != Wrong::nothing);
-}
-
-UdpTracker::~UdpTracker() { ask("STP_TRANS"); }
-
-void UdpTracker::ask(const char* what) noexcept {
-  static_cast<void>(socket_.send(Written(what, "Encounter", 0, 0, {}).bytes()));
-}
-
-std::string UdpTracker::describe() const { return "tool data of " + settings_.place() + ", answered"; }
-
-bool UdpTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
-  const bool first = !polled_;
-  if (first) begun_ = now;
-  if (polled_ && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
-  polled_ = true;
-  bool news = false;
-  static_cast<void>(arrival_.at(now, net::steady_now()));  // how far apart the two clocks are
-  std::array<std::byte, kMostBytes> bytes{};
-  if (first && !lockstep_)  // what came before the run is old
-    for (int i = 0; i < kMostWaiting && socket_.receive(bytes) > 0; ++i) {
-    }
-  for (int i = 0; i < kMostDatagrams && linked_; ++i) {
-    const std::size_t got = socket_.receive(bytes);
-    if (got == 0) break;
-    news = reception_.take({bytes.data(), got}, arrival_.at(now, net::steady_now()), newest_) || news;
+  if (settings_.streams()) ask();
+  for (Message answer; read(line_.next(), answer) != Wrong::nothing;) {
+    if (line_.lost() || line_.closed() || net::steady_now() > until) throw no_answer(settings_, line_);
+    if (!settings_.streams()) ask();
+    line_.wait(kAgain);
   }
-  const Time last = reception_.heard() ? reception_.last() : begun_;
-  if (!lockstep_ && age(now, last) > settings_.silent) linked_ = false;
-  if (news) newest = newest_;
-  if (news)
-    newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
-  return news;
 }
 
-std::vector<std::string> UdpTracker::remarks() const {
+IgtlTracker::~IgtlTracker() {
+  if (!settings_.streams()) say("STP_TRANS");
+  if (settings_.streams() && settings_.asks_for_tdata()) say("STP_TDATA");
+}
+
+void IgtlTracker::say(const char* what, std::span<const std::byte> content) noexcept {
+  line_.say(Written(what, "Encounter", 0, 0, content));
+}
+
+void IgtlTracker::ask() noexcept {
+  if (!settings_.streams()) return say("STT_TRANS");
+  if (settings_.asks_for_tdata()) say("STT_TDATA", ask_for_tdata(kEachPose));
+  say("GET_STATUS");
+}
+
+std::string IgtlTracker::describe() const {
+  return (settings_.streams() ? "tracker's server at " : "tool data of ") + settings_.place() + ", answered";
+}
+
+bool IgtlTracker::take_next(Time now) noexcept {
+  const std::span<const std::byte> message = line_.next();
+  if (message.empty()) return false;
+  news_ = reception_.take(message, arrival_.of(now, line_.came()), newest_) || news_;
+  return true;
+}
+
+// What came before the run is old. In lockstep nothing did: time goes on with the run's.
+void IgtlTracker::begin_run(Time now) noexcept {
+  if (!polled_) begun_ = asked_ = now;
+  polled_ = true;
+  int count = 0;
+  while (!lockstep_ && count < kMostWaiting && !line_.next().empty()) ++count;
+  // Of a stream what the server could not send before comes behind what waited here.
+  settled_ = count <= kFew ? settled_ + 1 : 0;
+  begun_run_ = lockstep_ || !settings_.streams() || settled_ >= kSettled;
+}
+
+void IgtlTracker::keep_awake(Time now) noexcept {
+  const Time last = std::max(asked_, reception_.heard() ? reception_.last() : begun_);
+  if (!settings_.streams() || age(now, last) < 0.25 * settings_.silent) return;
+  asked_ = now;
+  say("GET_STATUS");
+}
+
+bool IgtlTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
+  news_ = false;
+  const bool first = !polled_;
+  arrival_.begin(now, net::steady_now());
+  if (!begun_run_) begin_run(now);
+  bool came = linked_ && begun_run_ && take_next(now);
+  if (!first && lockstep_) {  // one for each period, in however many pieces
+    const Duration until = net::steady_now() + from_seconds(settings_.timeout);
+    while (!came && linked_ && !line_.closed() && !line_.lost() && net::steady_now() < until) {
+      line_.wait(until - net::steady_now());
+      came = take_next(now);
+    }
+    linked_ = linked_ && came;
+  }
+  for (int i = 1; i < kMostMessages && came; ++i) came = take_next(now);
+  const Time last = reception_.heard() ? reception_.last() : begun_;
+  if (line_.closed() || line_.lost() || (!lockstep_ && age(now, last) > settings_.silent)) linked_ = false;
+  if (linked_ && !lockstep_) keep_awake(now);
+  if (!news_) return false;
+  newest = newest_;
+  newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
+  return true;
+}
+
+std::vector<std::string> IgtlTracker::remarks() const {
   const Counts& counts = reception_.counts();
-  return {fmt::format("{}: {} poses, {} datagrams missing, {} old or twice, {} wrong{}{}", describe(),
-                      counts.poses, counts.missing, counts.old, counts.wrong,
-                      counts.steps > 0 ? fmt::format("; its clock was set back {} times", counts.steps) : "",
-                      counts.status > 1 ? fmt::format("; it reported status {}", counts.status) : "")};
+  std::string text = fmt::format("{}: {} poses, ", describe(), counts.poses);
+  if (!settings_.streams()) text += fmt::format("{} datagrams missing, ", counts.missing);
+  text += fmt::format("{} old or twice, {} wrong", counts.old, counts.wrong);
+  const auto add = [&text](std::int64_t count, const char* what, const auto&... more) {
+    if (count > 0) text += fmt::format(fmt::runtime(what), count, more...);
+  };
+  add(counts.unknown, "; {} of tools that the scene does not name, such as '{}'", shown(counts.stranger));
+  add(counts.unseen, "; {} of tools out of view");
+  add(counts.aside, "; {} of tools in view that nobody moved");
+  add(line_.skipped(), "; {} too long for tool data");
+  add(counts.steps, "; its clock was set back {} times");
+  if (line_.lost())
+    text += "; then what came was no OpenIGTLink";
+  else if (line_.closed())
+    text += "; then it hung up";
+  if (counts.status > 1) text += fmt::format("; it reported status {}", counts.status);
+  if (const std::string clock = net::words(reception_.clock()); !clock.empty()) text += "; " + clock;
+  return {text};
 }
 
 std::unique_ptr<PoseTracker> subscribed(const Offer& offer) {
   IgtlSettings settings;
   settings.declare(offer.table);
-  return std::make_unique<UdpTracker>(offer, settings);
+  return std::make_unique<IgtlTracker>(offer, settings);
 }
 
 }  // namespace enc::igtl

@@ -1,25 +1,26 @@
-// Tool data from a server, in datagrams: the PoseTracker of [VHMR 2]. Read within the loop: what has come is
-// in the socket, and nothing waits.
+// Tool data from a server, in datagrams as [VHMR 2] sends them, or as a stream from the tracker's own server,
+// such as PLUS: a PoseTracker. Read within the loop: what has come is in the socket, and nothing waits.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/devices/driver.h"
+#include "hw_drivers/igtl/drive/line.h"
 #include "hw_drivers/igtl/drive/reception.h"
 #include "hw_drivers/net/arrival.h"
-#include "hw_drivers/net/socket.h"
 
 namespace enc::igtl {
 
-class UdpTracker final : public PoseTracker {
+class IgtlTracker final : public PoseTracker {
  public:
-  // Asks the server to send, and waits for its first datagram. Throws Error (kind device) where none comes.
-  UdpTracker(const Offer& offer, const IgtlSettings& settings);
-  UdpTracker(const UdpTracker&) = delete;
-  UdpTracker& operator=(const UdpTracker&) = delete;
-  ~UdpTracker() override;  // asks it to send no more
+  // Asks the server to send, and waits for its first message. Throws Error (kind device) where none comes.
+  IgtlTracker(const Offer& offer, const IgtlSettings& settings);
+  IgtlTracker(const IgtlTracker&) = delete;
+  IgtlTracker& operator=(const IgtlTracker&) = delete;
+  ~IgtlTracker() override;  // asks it to send no more
 
   [[nodiscard]] std::string describe() const override;
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
@@ -27,15 +28,21 @@ class UdpTracker final : public PoseTracker {
   bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
 
  private:
-  void ask(const char* what) noexcept;
+  void ask() noexcept;  // the server, to send
+  void keep_awake(
+      Time now) noexcept;  // of a stream: a server whose tools are out of view says that it is there
+  void say(const char* what, std::span<const std::byte> content = {}) noexcept;
+  [[nodiscard]] bool take_next(Time now) noexcept;  // true: a message has come
+  void begin_run(Time now) noexcept;                // until nothing is there that came before
 
   IgtlSettings settings_;
   Reception reception_;
-  net::Socket socket_;
+  Line line_;
   net::Arrival arrival_;
   Stamped<TrackedTool> newest_;
-  Time begun_{};
-  bool polled_ = false, linked_ = true, lockstep_;
+  Time begun_{}, asked_{};
+  bool polled_ = false, begun_run_ = false, linked_ = true, lockstep_, news_ = false;
+  int settled_ = 0;
 };
 
 [[nodiscard]] std::unique_ptr<PoseTracker> subscribed(const Offer& offer);

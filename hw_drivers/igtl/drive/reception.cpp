@@ -7,6 +7,15 @@ namespace enc::igtl {
 namespace {
 
 constexpr std::int64_t kNoStamp = std::numeric_limits<std::int64_t>::min();
+// ns: a stamp that is earlier by more is of a clock that was set back. Two sources of a tool may differ by a
+// frame; a datagram without a number may be late.
+constexpr std::int64_t kTwoSources = 50'000'000, kOvertaken = 1'000'000'000;
+
+// PLUS writes the first letter large.
+bool same_name(std::string_view a, std::string_view b) noexcept {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return a.size() == b.size() && !a.empty() && small(a[0]) == small(b[0]) && a.substr(1) == b.substr(1);
+}
 
 // What is said twice, once in single precision.
 bool same(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
@@ -14,65 +23,122 @@ bool same(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
   return (a.p() - b.p()).norm() <= kShare * (1.0 + a.p().norm()) && a.q().angularDistance(b.q()) <= kAngle;
 }
 
+// To the last bit, where the metadata have it. False where they say something else.
+bool sharpen(const Message& message, Pose<'C', 'T'>& X_CT) noexcept {
+  const std::string_view text = value_of(message.metadata, kPoseKey);
+  if (text.empty()) return true;
+  Pose<'C', 'T'> exact;
+  if (!read_pose(text, exact) || !same(exact, X_CT)) return false;
+  X_CT = exact;
+  return true;
+}
+
 }  // namespace
 
 Reception::Reception(const IgtlSettings& settings, std::span<const std::string> tools, bool lockstep)
-    : lockstep_(lockstep), tie_(from_seconds(settings.least_delay)) {
-  for (const std::string& tool : tools) devices_.emplace_back(tool + settings.suffix);
+    : lockstep_(lockstep),
+      ordered_(settings.streams()),
+      tie_(from_seconds(settings.least_delay)),
+      in_hand_(tools.size()) {
+  for (const std::string& tool : tools) {
+    devices_.emplace_back(tool + settings.suffix);
+    tools_.emplace_back(tool);
+  }
   stamps_ns_.assign(devices_.size(), kNoStamp);
 }
 
 void Reception::set_back() noexcept {
   ++counts_.steps;
   tie_.forget();
+  in_hand_.forget();
   std::fill(stamps_ns_.begin(), stamps_ns_.end(), kNoStamp);
+  newest_ns_ = kNoStamp;
 }
 
-bool Reception::take(std::span<const std::byte> datagram, Time now, Stamped<TrackedTool>& newest) noexcept {
+bool Reception::is_newer(const Message& message) noexcept {
+  if (!message.numbered) return true;
+  // Numbers go round: what is less than half a round ahead is newer.
+  const std::uint32_t ahead = message.number - number_;
+  if (numbered_ && (ahead == 0 || ahead >= 0x80000000U)) {
+    ++counts_.old;
+    return false;
+  }
+  if (numbered_) counts_.missing += ahead - 1;
+  numbered_ = true;
+  number_ = message.number;
+  return true;
+}
+
+bool Reception::take(std::span<const std::byte> bytes, Time now, Stamped<TrackedTool>& newest) noexcept {
   Message message;
-  if (read(datagram, message) != Wrong::nothing) {
+  if (read(bytes, message) != Wrong::nothing) {
     ++counts_.wrong;
     return false;
   }
   heard_ = true;
   last_ = now;
-  if (message.numbered) {
-    // Numbers go round: what is less than half a round ahead is newer.
-    const std::uint32_t ahead = message.number - number_;
-    if (numbered_ && (ahead == 0 || ahead >= 0x80000000U)) {
-      ++counts_.old;
-      return false;
-    }
-    if (numbered_) counts_.missing += ahead - 1;
-    numbered_ = true;
-    number_ = message.number;
-  }
+  // Of a stream nothing is lost or overtaken; servers number its messages as they please.
+  if (!ordered_ && !is_newer(message)) return false;
   if (int code = 0; message.type.view() == "STATUS" && read_status(message.content, code) && code != 1)
     counts_.status = code;
-  if (message.type.view() != "TRANSFORM") return false;
-  const auto tool = std::find_if(devices_.begin(), devices_.end(), [&](const Name<20>& device) {
-    return device.view() == message.device.view();
-  });
-  TrackedTool seen;
-  Pose<'C', 'T'> exact;
-  bool wrong = tool == devices_.end() || !read_transform(message.content, seen.X_CT);
-  if (const std::string_view pose = value_of(message.metadata, kPoseKey); !wrong && !pose.empty()) {
-    wrong = !read_pose(pose, exact) || !same(exact, seen.X_CT);
-    seen.X_CT = exact;
+  if (message.type.view() == "TDATA") return take_all(message, now, newest);
+  const bool position = message.type.view() == "POSITION";
+  if (!position && message.type.view() != "TRANSFORM") return false;
+  if (!says_valid(message.metadata)) {
+    ++counts_.unseen;
+    return false;
   }
-  if (wrong) {
+  Told told{message.device, {}, message.stamp_ns};
+  if (!(position ? read_position(message.content, told.X_CT) : read_transform(message.content, told.X_CT)) ||
+      !sharpen(message, told.X_CT)) {
     ++counts_.wrong;
     return false;
   }
-  std::int64_t& last_stamp = stamps_ns_[static_cast<std::size_t>(tool - devices_.begin())];
-  if (numbered_ && message.stamp_ns < last_stamp) set_back();  // a newer number
-  if (message.stamp_ns <= last_stamp) {
+  return take_one(told, now, newest);
+}
+
+// Of a frame: one at most is in the hand.
+bool Reception::take_all(const Message& message, Time now, Stamped<TrackedTool>& newest) noexcept {
+  const std::size_t count = elements_of(message.content);
+  if (count == 0 && !message.content.empty()) ++counts_.wrong;
+  bool news = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    Element element;
+    if (read_element(message.content, i, element) && (count > 1 || sharpen(message, element.X_CT)))
+      news = take_one({element.name, element.X_CT, message.stamp_ns}, now, newest) || news;
+    else
+      ++counts_.wrong;
+  }
+  return news;
+}
+
+bool Reception::take_one(const Told& told, Time now, Stamped<TrackedTool>& newest) noexcept {
+  const auto named = [&](const Name<20>& name) { return same_name(name.view(), told.device.view()); };
+  auto name = std::find_if(devices_.begin(), devices_.end(), named);
+  auto tool = static_cast<std::size_t>(name - devices_.begin());
+  if (name == devices_.end())
+    tool = static_cast<std::size_t>(std::find_if(tools_.begin(), tools_.end(), named) - tools_.begin());
+  if (tool == tools_.size()) {
+    if (counts_.unknown++ == 0) counts_.stranger = told.device;
+    return false;
+  }
+  std::int64_t& last = stamps_ns_[tool];
+  const std::int64_t least = numbered_ || ordered_ ? kTwoSources : kOvertaken;
+  if (newest_ns_ != kNoStamp && newest_ns_ - told.stamp_ns > least) set_back();
+  if (told.stamp_ns <= last) {
     ++counts_.old;
     return false;
   }
-  last_stamp = message.stamp_ns;
-  seen.tool = static_cast<std::int32_t>(tool - devices_.begin());
-  const Time t = lockstep_ ? Time(Duration(message.stamp_ns)) : tie_.here(message.stamp_ns, now);
+  last = told.stamp_ns;
+  newest_ns_ = std::max(newest_ns_, last);
+  const Time t = lockstep_ ? Time(Duration(told.stamp_ns)) : tie_.here(told.stamp_ns, now);
+  if (!in_hand_.is(tool, told.stamp_ns, told.X_CT.p())) {
+    ++counts_.aside;
+    return false;
+  }
+  TrackedTool seen;
+  seen.X_CT = told.X_CT;
+  seen.tool = static_cast<std::int32_t>(tool);
   newest = {seen, std::max(t, newest.t), Health::ok};
   ++counts_.poses;
   return true;

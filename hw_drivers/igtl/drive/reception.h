@@ -1,13 +1,17 @@
-// What is made of datagrams: which are news, and what time it was. It knows neither sockets nor clocks.
+// What is made of messages: which are news, of which tool, and what time it was. It knows neither sockets nor
+// clocks.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/sample.h"
+#include "hw_drivers/igtl/drive/in_hand.h"
 #include "hw_drivers/igtl/drive/settings.h"
+#include "hw_drivers/igtl/wire/content.h"
 #include "hw_drivers/igtl/wire/message.h"
 #include "hw_drivers/net/clock_tie.h"
 
@@ -17,9 +21,13 @@ struct Counts {
   std::int64_t poses = 0;
   std::int64_t missing = 0;  // numbers that never came, or came too late
   std::int64_t old = 0;      // came behind a newer one, or twice
-  std::int64_t wrong = 0;    // no message, or of a tool that the scene does not know
+  std::int64_t wrong = 0;    // no message, or no pose in it
+  std::int64_t unknown = 0;  // of a tool that the scene does not name
+  std::int64_t unseen = 0;   // of a tool that is out of view, as the server itself says
+  std::int64_t aside = 0;    // of a tool that is in view, and not in the hand
   std::int64_t steps = 0;    // of the other clock, back
   int status = 0;            // the last that the server reported and that is not 1, all is well
+  Name<20> stranger;         // the first device that the scene does not name
 };
 
 class Reception {
@@ -28,21 +36,33 @@ class Reception {
   Reception(const IgtlSettings& settings, std::span<const std::string> tools, bool lockstep);
 
   // True where `newest` is new.
-  bool take(std::span<const std::byte> datagram, Time now, Stamped<TrackedTool>& newest) noexcept;
+  bool take(std::span<const std::byte> message, Time now, Stamped<TrackedTool>& newest) noexcept;
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
+  [[nodiscard]] net::ClockEstimate clock() const noexcept { return tie_.estimate(); }
   [[nodiscard]] bool heard() const noexcept { return heard_; }  // anything that is a message
   [[nodiscard]] Time last() const noexcept { return last_; }    // when
 
  private:
+  // What a message says of one tool.
+  struct Told {
+    Name<20> device;
+    Pose<'C', 'T'> X_CT;
+    std::int64_t stamp_ns = 0;
+  };
+  [[nodiscard]] bool is_newer(const Message& message) noexcept;  // by its number
+  [[nodiscard]] bool take_one(const Told& told, Time now, Stamped<TrackedTool>& newest) noexcept;
+  bool take_all(const Message& message, Time now, Stamped<TrackedTool>& newest) noexcept;
   void set_back() noexcept;  // the other clock was
 
-  std::vector<Name<20>> devices_;
-  bool lockstep_;
+  std::vector<Name<20>> devices_, tools_;
+  bool lockstep_, ordered_;
   net::ClockTie tie_;
+  InHand in_hand_;
   Counts counts_;
   bool heard_ = false, numbered_ = false;
   std::uint32_t number_ = 0;
-  std::vector<std::int64_t> stamps_ns_;  // of each tool, the last
+  std::vector<std::int64_t> stamps_ns_;                                // of each tool, the last
+  std::int64_t newest_ns_ = std::numeric_limits<std::int64_t>::min();  // of all
   Time last_{};
 };
 

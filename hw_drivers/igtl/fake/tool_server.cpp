@@ -1,94 +1,124 @@
 #include "hw_drivers/igtl/fake/tool_server.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/error.h"
 #include "hw_drivers/igtl/drive/settings.h"
+#include "hw_drivers/net/big_endian.h"
 
 namespace enc::igtl {
 namespace {
 
-constexpr std::uint16_t kUsualError = 18;  // of a STATUS: the hardware fails
+constexpr std::uint16_t kUsualError = 18;                 // of a STATUS: the hardware fails
+constexpr std::array<std::byte, 1> kTaken{std::byte{0}};  // RTS_TDATA
+
+Duration resolution(std::span<const std::byte> content) {
+  if (content.size() < 4) return {};
+  return std::max<std::int32_t>(net::take<std::int32_t>(content, 0), 0) * Duration(1'000'000);
+}
 
 }  // namespace
 
-ToolServer::ToolServer(PoseTracker& tracker, std::vector<std::string> devices, const std::string& address,
-                       std::uint16_t port, Duration alive, std::uint64_t seed)
+ToolServer::ToolServer(PoseTracker& tracker, std::vector<std::string> devices,
+                       const ToolServerSettings& settings)
     : tracker_(tracker),
       devices_(std::move(devices)),
-      address_(address),
-      socket_(net::bind_udp(address, port)),
-      alive_(alive),
-      line_(net::BadLine::Wire::datagrams, seed) {}
+      settings_(settings),
+      door_(settings.transport, settings.address, settings.port, settings.seed) {}
 
-std::string ToolServer::describe() const { return "tool data at " + net::place(address_, port()); }
+std::string ToolServer::describe() const {
+  return (streams() ? "tracker's server at " : "tool data at ") + net::place(settings_.address, port());
+}
 
-// One client: who asks later takes its place.
 void ToolServer::serve(Time now) {
-  if (line_.dead()) return;
-  std::array<std::byte, kMostBytes> bytes{};
-  for (std::size_t got = socket_.receive(bytes); got > 0; got = socket_.receive(bytes)) {
-    Message message;
-    if (read({bytes.data(), got}, message) != Wrong::nothing) continue;
-    socket_.answer_sender();
-    if (message.type.view() == "STT_TRANS" && !asked_) line_.begin(now);
-    if (message.type.view() == "STT_TRANS") asked_ = true;
-    if (message.type.view() == "STP_TRANS") asked_ = false;
-    if (asked_) say_status(now);
+  if (door_.open(now)) {  // as a server does that streams to whoever is there, in words that all know
+    asked_ = true;
+    tdata_ = knows_two_ = false;
+    apart_ = {};
   }
-  leave(now);
+  for (auto bytes = door_.next(); !bytes.empty(); bytes = door_.next())
+    if (Message message; read(bytes, message) == Wrong::nothing) answer(now, message);
+  door_.leave(now);
+}
+
+void ToolServer::answer(Time now, const Message& message) {
+  const std::string_view type = message.type.view();
+  knows_two_ = knows_two_ || message.numbered;
+  if (type == "STT_TDATA" || type == "STP_TDATA") {
+    tdata_ = type == "STT_TDATA";
+    apart_ = tdata_ ? resolution(message.content) : Duration{};
+    say(now, "RTS_TDATA", "Tracker", 0, kTaken);
+  }
+  if (!streams()) {
+    door_.answer_sender();
+    if (type == "STT_TRANS" && !asked_) door_.begin(now);
+  }
+  if (type == "STT_TRANS") asked_ = true;
+  if (type == "STP_TRANS") asked_ = false;
+  if (asked_ && (!streams() || type == "GET_STATUS")) say_status(now);
 }
 
 void ToolServer::publish(Time now) {
-  if (now < sent_) sent_ = now;  // its world has begun anew
+  if (now < sent_) sent_ = posed_ = now;  // its world has begun anew
   Stamped<TrackedTool> newest;
-  if (tracker_.poll(now, newest) && status_ == 1) {
-    const std::int64_t stamp = newest.t.time_since_epoch().count();
-    const auto tool = static_cast<std::size_t>(newest.value.tool);
-    if (newest.health == Health::ok && newest.value.tool >= 0 && tool < devices_.size()) {
-      sent_ = now;
-      send(now, Written("TRANSFORM", devices_[tool], stamp, ++number_, transform(newest.value.X_CT), kPoseKey,
-                        pose_text(newest.value.X_CT)));
-    }
-  } else if (now - sent_ >= alive_) {
+  const bool seen = tracker_.poll(now, newest) && newest.health == Health::ok && newest.value.tool >= 0 &&
+                    static_cast<std::size_t>(newest.value.tool) < devices_.size();
+  if (seen && status_ == 1 && now - posed_ >= apart_) {
+    say_pose(now, newest);
+  } else if (now - sent_ >= settings_.alive && (!streams() || settings_.alive == Duration{})) {
     sent_ = now;
     say_status(now);
   }
-  leave(now);
+  door_.leave(now);
 }
 
-void ToolServer::leave(Time now) {
-  line_.leave(now, [this](std::span<const std::byte> bytes) { static_cast<void>(socket_.reply(bytes)); });
+void ToolServer::say_pose(Time now, const Stamped<TrackedTool>& newest) {
+  sent_ = posed_ = now;
+  const std::string& device = devices_[static_cast<std::size_t>(newest.value.tool)];
+  const std::int64_t stamp = newest.t.time_since_epoch().count();
+  const std::string exact = pose_text(newest.value.X_CT);
+  if (tdata_)
+    say(now, "TDATA", "Tracker", stamp, element(device, newest.value.X_CT), kPoseKey, exact);
+  else
+    say(now, "TRANSFORM", device, stamp, transform(newest.value.X_CT), kPoseKey, exact);
 }
 
 void ToolServer::say_status(Time now) {
-  send(now, Written("STATUS", "Server", now.time_since_epoch().count(), ++number_, status(status_)));
+  say(now, "STATUS", "Server", now.time_since_epoch().count(), status(status_));
 }
 
-void ToolServer::send(Time now, const Written& message) {
-  if (asked_) line_.put(now, message.bytes());
+void ToolServer::say(Time now, const char* type, std::string_view device, std::int64_t stamp_ns,
+                     std::span<const std::byte> content, std::string_view key, std::string_view value) {
+  ++number_;
+  if (!asked_) return;
+  if (!streams() || knows_two_)
+    door_.put(now, Written(type, device, stamp_ns, number_, content, key, value).bytes());
+  else
+    door_.put(now, Written(type, device, stamp_ns, content).bytes());
 }
 
 bool ToolServer::knows(const Trouble& trouble) const {
   constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
   if (trouble.kind == Trouble::Kind::error_code) return !(trouble.value < 0.0 || trouble.value > kMost);
-  return line_.knows(trouble.kind);
+  return door_.knows(trouble.kind);
 }
 
 void ToolServer::suffer(const Trouble& trouble) {
   if (trouble.kind == Trouble::Kind::error_code) {
     status_ = std::isnan(trouble.value) ? kUsualError : static_cast<std::uint16_t>(trouble.value);
   } else {
-    line_.suffer(trouble);
+    door_.suffer(trouble);
   }
   if (trouble.kind == Trouble::Kind::disconnect) asked_ = false;
 }
 
 void ToolServer::heal(Trouble::Kind kind) {
   if (kind == Trouble::Kind::error_code) status_ = 1;
-  line_.heal(kind);
+  door_.heal(kind);
 }
 
 std::unique_ptr<Fake> served(const FakeOffer& offer) {
@@ -99,9 +129,11 @@ std::unique_ptr<Fake> served(const FakeOffer& offer) {
         "the scene names no [tracker], whose poses a server of tool data sends; choose another scene");
   std::vector<std::string> devices;
   for (const std::string& tool : offer.tools) devices.push_back(tool + settings.suffix);
-  return std::make_unique<ToolServer>(*offer.rig.tracker, std::move(devices), settings.address,
-                                      static_cast<std::uint16_t>(settings.port),
-                                      offer.advance ? Duration{} : kServerPeriod, offer.seed);
+  return std::make_unique<ToolServer>(
+      *offer.rig.tracker, std::move(devices),
+      ToolServerSettings{settings.streams() ? Transport::tcp : Transport::udp, settings.address,
+                         static_cast<std::uint16_t>(settings.port),
+                         offer.advance ? Duration{} : kServerPeriod, offer.seed});
 }
 
 }  // namespace enc::igtl

@@ -1,11 +1,6 @@
 #include "hw_drivers/igtl/wire/message.h"
 
 #include <algorithm>
-#include <bit>
-#include <charconv>
-#include <cmath>
-
-#include <fmt/format.h>
 
 #include "hw_drivers/net/big_endian.h"
 
@@ -16,19 +11,6 @@ constexpr std::uint64_t kBillion = 1'000'000'000;
 
 using net::put;
 using net::take;
-
-template <std::size_t kLength>
-Name<kLength> take_name(std::span<const std::byte> bytes, std::size_t at) noexcept {
-  Name<kLength> name;
-  for (std::size_t i = 0; i < kLength; ++i) name.letters[i] = static_cast<char>(bytes[at + i]);
-  return name;
-}
-
-template <std::size_t kLength>
-void put_name(std::span<std::byte> bytes, std::size_t at, std::string_view text) noexcept {
-  const Name<kLength> name(text);
-  for (std::size_t i = 0; i < kLength; ++i) bytes[at + i] = static_cast<std::byte>(name.letters[i]);
-}
 
 constexpr std::array<std::uint64_t, 256> crc_table() noexcept {
   std::array<std::uint64_t, 256> table{};
@@ -105,44 +87,28 @@ Written::Written(std::string_view type, std::string_view device, std::int64_t st
     std::copy(words.begin(), words.end(), behind.begin() + static_cast<std::ptrdiff_t>(header + key.size()));
   }
   std::copy_n(content.begin(), fits, body.begin() + kExtendedHeader);
+  finish(2, type, device, stamp_ns);
+}
+
+Written::Written(std::string_view type, std::string_view device, std::int64_t stamp_ns,
+                 std::span<const std::byte> content) noexcept {
+  size_ = std::min(bytes_.size(), kHeader + content.size());
+  std::copy_n(content.begin(), size_ - kHeader, bytes_.begin() + kHeader);
+  finish(1, type, device, stamp_ns);
+}
+
+// The header, in front of a body that stands.
+void Written::finish(std::uint16_t version, std::string_view type, std::string_view device,
+                     std::int64_t stamp_ns) noexcept {
+  const std::span<std::byte> all(bytes_.data(), size_), body = all.subspan(kHeader);
   const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(stamp_ns, 0));
-  put(all, 0, std::uint16_t{2});
+  put(all, 0, version);
   put_name<12>(all, 2, type);
   put_name<20>(all, 14, device);
   put(all, 34, static_cast<std::uint32_t>(ns / kBillion));
   put(all, 38, static_cast<std::uint32_t>(((ns % kBillion) << 32U) / kBillion));
   put(all, 42, static_cast<std::uint64_t>(body.size()));
   put(all, 50, crc64(body));
-}
-
-bool read_transform(std::span<const std::byte> content, Pose<'C', 'T'>& X_CT) noexcept {
-  if (content.size() != kTransform) return false;
-  std::array<double, 12> numbers{};
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = std::bit_cast<float>(take<std::uint32_t>(content, 4 * i));
-    if (!std::isfinite(numbers[i])) return false;
-  }
-  const Eigen::Matrix3d turn = Eigen::Map<const Eigen::Matrix3d>(numbers.data());
-  constexpr double kRounding = 1e-5;  // of single precision, and of who computed the matrix with it
-  if (!(turn.transpose() * turn).isIdentity(kRounding) || !(turn.determinant() > 0.0)) return false;
-  X_CT = Pose<'C', 'T'>(Quat(turn).normalized(), 1e-3 * Vec3(numbers[9], numbers[10], numbers[11]));
-  return true;
-}
-
-std::array<std::byte, kTransform> transform(const Pose<'C', 'T'>& X_CT) noexcept {
-  std::array<double, 12> numbers{};
-  Eigen::Map<Eigen::Matrix3d>(numbers.data()) = X_CT.q().toRotationMatrix();
-  Eigen::Map<Vec3>(numbers.data() + 9) = 1e3 * X_CT.p();
-  std::array<std::byte, kTransform> content{};
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    put(content, 4 * i, std::bit_cast<std::uint32_t>(static_cast<float>(numbers[i])));
-  return content;
-}
-
-std::string pose_text(const Pose<'C', 'T'>& X_CT) {
-  const auto& q = X_CT.xyzw;
-  const Vec3 p = 1e3 * X_CT.p();
-  return fmt::format("{} {} {} {} {} {} {}", p.x(), p.y(), p.z(), q[0], q[1], q[2], q[3]);
 }
 
 std::string_view value_of(std::span<const std::byte> metadata, std::string_view key) noexcept {
@@ -159,33 +125,6 @@ std::string_view value_of(std::span<const std::byte> metadata, std::string_view 
     text.remove_prefix(letters + words);
   }
   return {};
-}
-
-bool read_pose(std::string_view text, Pose<'C', 'T'>& X_CT) noexcept {
-  std::array<double, 7> numbers{};
-  for (double& number : numbers) {
-    while (text.starts_with(' ')) text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || !std::isfinite(number)) return false;
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  }
-  const Quat q(numbers[6], numbers[3], numbers[4], numbers[5]);
-  constexpr double kUnit = 1e-9;
-  if (!text.empty() || !(std::abs(q.norm() - 1.0) < kUnit)) return false;
-  X_CT = Pose<'C', 'T'>(q, 1e-3 * Vec3(numbers[0], numbers[1], numbers[2]));
-  return true;
-}
-
-bool read_status(std::span<const std::byte> content, int& code) noexcept {
-  if (content.size() < 30) return false;
-  code = net::take<std::uint16_t>(content, 0);
-  return true;
-}
-
-std::array<std::byte, 31> status(std::uint16_t code) noexcept {
-  std::array<std::byte, 31> content{};
-  put(content, 0, code);
-  return content;
 }
 
 }  // namespace enc::igtl

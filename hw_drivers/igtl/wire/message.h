@@ -1,20 +1,17 @@
-// Messages of OpenIGTLink, protocol 3 (header of version 2), of which each is a datagram here: 58 bytes of
-// header, then 12 of extended header with the message's number, then what it says. All big-endian. Version 1
-// is read, too; its messages have no number.
+// Messages of OpenIGTLink: 58 bytes of header, then what it says, all big-endian. With a header of version 2
+// (protocol 3) 12 bytes of extended header with the message's number come first, and metadata last. Each is a
+// datagram, or one follows the other in a stream (stream.h).
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
-
-#include "core/frames.h"
 
 namespace enc::igtl {
 
-inline constexpr std::size_t kHeader = 58, kExtendedHeader = 12, kTransform = 48;
+inline constexpr std::size_t kHeader = 58, kExtendedHeader = 12;
 inline constexpr std::size_t kMostBytes = 1472;  // of a message: what a datagram of Ethernet holds
 
 // Of a body, as the header has it: polynomial 0x42F0E1EBA9EA3693, from 0, not reflected.
@@ -26,11 +23,26 @@ struct Name {
   std::array<char, kLength> letters{};
   Name() = default;
   explicit Name(std::string_view text) noexcept { text.copy(letters.data(), kLength); }
-  [[nodiscard]] std::string_view view() const noexcept {
+  std::string_view view() const&& = delete;  // it would outlive the letters
+  [[nodiscard]] std::string_view view() const& noexcept {
     const std::string_view all(letters.data(), kLength);
     return all.substr(0, all.find('\0'));
   }
 };
+
+// Of bytes[at] and those behind it, which must be there.
+template <std::size_t kLength>
+[[nodiscard]] Name<kLength> take_name(std::span<const std::byte> bytes, std::size_t at) noexcept {
+  Name<kLength> name;
+  for (std::size_t i = 0; i < kLength; ++i) name.letters[i] = static_cast<char>(bytes[at + i]);
+  return name;
+}
+
+template <std::size_t kLength>
+void put_name(std::span<std::byte> bytes, std::size_t at, std::string_view text) noexcept {
+  const Name<kLength> name(text);
+  for (std::size_t i = 0; i < kLength; ++i) bytes[at + i] = static_cast<std::byte>(name.letters[i]);
+}
 
 struct Message {
   Name<12> type;    // "TRANSFORM", "STATUS", "STT_TRANS"
@@ -46,32 +58,27 @@ enum class Wrong : std::uint8_t { nothing, cut, version, size, checksum };
 // Why a message is none; `message` is set where it is one.
 [[nodiscard]] Wrong read(std::span<const std::byte> bytes, Message& message) noexcept;
 
-// A numbered message, in a buffer that never grows.
+// A message, in a buffer that never grows.
 class Written {
  public:
+  // Of version 2, numbered, with a pair of words.
   Written(std::string_view type, std::string_view device, std::int64_t stamp_ns, std::uint32_t number,
           std::span<const std::byte> content, std::string_view key = {},
           std::string_view value = {}) noexcept;
+  // Of version 1, for who knows no other.
+  Written(std::string_view type, std::string_view device, std::int64_t stamp_ns,
+          std::span<const std::byte> content) noexcept;
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return {bytes_.data(), size_}; }
 
  private:
+  void finish(std::uint16_t version, std::string_view type, std::string_view device,
+              std::int64_t stamp_ns) noexcept;
+
   std::array<std::byte, 512> bytes_{};
   std::size_t size_ = 0;
 };
 
-// The content of a TRANSFORM: the columns of the rotation, then the place in mm, single precision. False
-// where it is not of that size, holds what is no number, or turns by what is no rotation.
-[[nodiscard]] bool read_transform(std::span<const std::byte> content, Pose<'C', 'T'>& X_CT) noexcept;
-[[nodiscard]] std::array<std::byte, kTransform> transform(const Pose<'C', 'T'>& X_CT) noexcept;
-// The same to the last bit, as metadata: "x y z qx qy qz qw", mm, in decimal. A TRANSFORM is 30 nm coarse at
-// half a metre.
-inline constexpr std::string_view kPoseKey = "pose";
-[[nodiscard]] std::string pose_text(const Pose<'C', 'T'>& X_CT);
 // The value of a key in metadata; empty: there is none.
 [[nodiscard]] std::string_view value_of(std::span<const std::byte> metadata, std::string_view key) noexcept;
-[[nodiscard]] bool read_pose(std::string_view text, Pose<'C', 'T'>& X_CT) noexcept;
-// The content of a STATUS that all is well.
-[[nodiscard]] bool read_status(std::span<const std::byte> content, int& code) noexcept;  // false: it is none
-[[nodiscard]] std::array<std::byte, 31> status(std::uint16_t code) noexcept;             // 1: all is well
 
 }  // namespace enc::igtl

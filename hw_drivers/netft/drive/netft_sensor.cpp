@@ -68,6 +68,7 @@ std::string NetftSensor::describe() const {
 Stamped<Wrench> NetftSensor::read(Time now) noexcept {
   const bool first = !reading_;
   reading_ = true;
+  arrival_.begin(now, net::steady_now());
   if (first) begun_ = now;
   if (first && lockstep_) session_.take(std::span(datagram_).first(size_), now);
   if (first && !lockstep_) {
@@ -75,13 +76,11 @@ Stamped<Wrench> NetftSensor::read(Time now) noexcept {
     }
     ask(Command::start);
     // Nothing has moved yet, and without a record the first tick would hold: no reading but this one waits.
-    // The clocks are tied before, as a record that was waited for has come later than its tick.
-    static_cast<void>(arrival_.at(now, net::steady_now()));
     socket_.wait(period_);
   }
   if (!first && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
   for (int i = 0; i < kMostRecords && linked_ && receive(); ++i)
-    session_.take(std::span(datagram_).first(size_), arrival_.at(now, net::steady_now()));
+    session_.take(std::span(datagram_).first(size_), arrival_.of(now, socket_.came()));
   Stamped<Wrench> newest = session_.newest();
   newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
   const Time last = newest.health == Health::absent ? begun_ : session_.last();
@@ -96,6 +95,7 @@ std::vector<std::string> NetftSensor::remarks() const {
       "{}: {} records, {} missing, {} old or twice, {} wrong; longest without one {:.1f} ms", describe(),
       counts.records, counts.missing, counts.old, counts.wrong, 1e3 * counts.longest_gap);
   if (counts.status != 0) line += "; " + status_words(counts.status);
+  if (const std::string clock = net::words(session_.clock()); !clock.empty()) line += "; " + clock;
   return {line};
 }
 

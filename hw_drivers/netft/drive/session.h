@@ -34,6 +34,9 @@ class Session {
   // absent before the first record.
   [[nodiscard]] const Stamped<Wrench>& newest() const noexcept { return newest_; }
   [[nodiscard]] Time last() const noexcept { return last_; }  // when it came
+  [[nodiscard]] net::ClockEstimate clock() const noexcept {
+    return tie_.estimate();
+  }  // 0 at its first record
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
 
  private:

@@ -12,7 +12,8 @@ namespace enc::bench::wires {
 namespace {
 
 TEST(SafetyMatrix, EachFaultEndsAsStatedWithTheMachineAtRest) {
-  const models::Setup setup = short_press(ENCOUNTER_SOURCE_DIR "/models");
+  const ShortPress press(ENCOUNTER_SOURCE_DIR "/models");
+  const models::Setup& setup = press.datagrams;
   struct Cell {
     const Fault& fault;
     Mode mode;
@@ -21,8 +22,9 @@ TEST(SafetyMatrix, EachFaultEndsAsStatedWithTheMachineAtRest) {
   std::vector<Cell> cells;
   for (const Fault& fault : faults())
     for (const Mode mode : kInjectedIn) cells.push_back({fault, mode});
-  in_parallel(cells.size(),
-              [&](std::size_t i) { cells[i].of = react(setup, cells[i].fault, cells[i].mode, 1 + i); });
+  in_parallel(cells.size(), [&](std::size_t i) {
+    cells[i].of = react(press.of(cells[i].fault), cells[i].fault, cells[i].mode, 1 + i);
+  });
   for (const Cell& cell : cells) {
     const std::string name =
         fmt::format("{} {}, in {}", cell.fault.device, cell.fault.name, mode_name(cell.mode));

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/session/session_measure.h"
 #include "benchmarks/wires/settling.h"
 
 namespace enc::bench::wires {
@@ -127,6 +128,34 @@ TEST(WiredTrial, HowLongAMachineSettles) {
     const double time = longest_settling(law, speed, kStands);
     EXPECT_GT(time, before) << speed;
     before = time;
+  }
+}
+
+// The user lays one tool down and takes up the other: the overlay shows it from its first pose on, and
+// nothing is felt of it, whichever way the poses come.
+TEST(WiredTrial, AChangeOfTheToolIsSeenWithinAPeriodOfTheTracker) {
+  for (const std::string transport : {"udp", "tcp"}) {
+    SCOPED_TRACE(transport);
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const models::Setup setup =
+          models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/session.toml", "fakes",
+                       {"user.session.duration_s=20", "rig.driver.igtl.transport=" + transport,
+                        "truth.tracker.marker_noise_mm=0.02"});
+      session::SessionMeasure measure(setup);
+      trial::TrialOptions options;
+      options.seed = seed;
+      options.watch = [&measure](const trial::Glance& glance) { measure.see(glance); };
+      WiredTrial wired(setup, options);
+      while (wired.tick()) {
+      }
+      const session::ToolChange& change = measure.change();
+      EXPECT_LE((change.switched_at - change.seen_at) * setup.twin.tracker.server_rate, 1.0) << seed;
+      EXPECT_LE(change.switched_at - change.exposed_at, setup.rig.tracker.usual_age)
+          << seed << ": no wire holds it";
+      EXPECT_LE(change.force, 0.2) << seed;
+      EXPECT_LE(change.given, 1e-6) << seed;
+      EXPECT_EQ(change.contacts, 0) << seed;
+    }
   }
 }
 

@@ -1,5 +1,4 @@
 // Tool data over loopback: the driver and the server that stands in for the laboratory's.
-#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -7,70 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "hw_drivers/igtl/drive/udp_tracker.h"
-#include "hw_drivers/igtl/fake/tool_server.h"
-#include "tests/support/default_offer.h"
-#include "tests/support/devices/served.h"
+#include "tests/conformance/tracker/igtl_bench.h"
 
 namespace enc::test {
 namespace {
 
 using testing::HasSubstr;
-
-// A pose each 10 ms while a tool is in view.
-struct Seen final : PoseTracker {
-  bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override {
-    if (!in_view || now - last < Duration(10'000'000)) return false;
-    last = now;
-    newest = {{0, Pose<'C', 'T'>::shift(0.1, 0.2, 0.9)}, now - Duration(3'000'000), Health::ok};
-    return true;
-  }
-  Time last{};
-  std::atomic<bool> in_view = true;
-};
-
-struct IgtlPort {
-  struct Table final : DefaultOffer::Defaults {
-    using DefaultOffer::Defaults::value;
-    void value(const Setting& key, double& number) override {
-      if (key.name == "least_delay_ms") number = 0.003;  // s
-      if (key.name == "silent_ms") number = 0.2;
-      if (key.name == "timeout_ms") number = 0.3;
-    }
-    void value(const Setting& key, std::int64_t& whole) override {
-      if (key.name == "port") whole = port;
-    }
-    std::int64_t port = 0;
-  };
-  IgtlPort() { table.port = server.port(); }
-  Offer offer() {
-    return {table, defaults.rig, defaults.reach, Duration(1'000'000), defaults.log, false, false, tools};
-  }
-  struct Watched {
-    int news = 0;
-    double oldest = 0.0;  // s
-  };
-  Watched watch(PoseTracker& driver, int cycles) {
-    Watched watched;
-    for (int i = 0; i < cycles; ++i) {
-      const Time now(net::steady_now() - begun);
-      if (driver.poll(now, newest)) {
-        ++watched.news;
-        watched.oldest = std::max(watched.oldest, age(now, newest.t));
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return watched;
-  }
-
-  DefaultOffer defaults;
-  Table table;
-  std::vector<std::string> tools{"stylus"};
-  Seen tracker;
-  igtl::ToolServer server{tracker, {"stylusToTracker"}, "127.0.0.1", 0};
-  Stamped<TrackedTool> newest;
-  Duration begun = net::steady_now();
-};
 
 TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
   IgtlPort there;

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "hw_drivers/gcs/drive/net_link.h"
 #include "hw_drivers/gcs/fake/server.h"
-#include "hw_drivers/igtl/drive/udp_tracker.h"
+#include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/igtl/fake/tool_server.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
@@ -61,7 +61,7 @@ struct ThreeWires {
       : address(at),
         machine_server(machine, {}, at, 0, log),
         box(force, netft::gamma(), at, netft::Ports{}),
-        tool_server(tracker, {"stylusToTracker"}, at, 0) {}
+        tool_server(tracker, {"stylusToTracker"}, {.address = at}) {}
   [[nodiscard]] Whereabouts to_machine() const { return table({{"port", machine_server.port()}}); }
   [[nodiscard]] Whereabouts to_force() const {
     return table(

@@ -12,7 +12,7 @@
 
 #include "hw_drivers/gcs/drive/net_link.h"
 #include "hw_drivers/gcs/fake/server.h"
-#include "hw_drivers/igtl/drive/udp_tracker.h"
+#include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/igtl/fake/tool_server.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
@@ -35,7 +35,9 @@ struct FaultyTable final : DefaultOffer::Defaults {
   }
   void value(const Setting& key, std::string& text) override {
     if (key.name == "address") text = "127.0.0.1";
+    if (key.name == "transport") text = transport;
   }
+  std::string transport = "udp";               // of tool data
   std::map<std::string_view, double> numbers;  // SI
   std::map<std::string_view, std::int64_t> ports;
 };
@@ -102,10 +104,14 @@ struct CountingTracker final : PoseTracker {
   std::int64_t number = 0;
   Time last{};
 };
+// By datagrams or by a stream, as the seed has it.
 struct FaultyIgtl : FaultyPlace {
   explicit FaultyIgtl(double patience, std::uint64_t seed = 1)
-      : server(std::make_unique<igtl::ToolServer>(tracker, std::vector<std::string>{"stylusToTracker"},
-                                                  "127.0.0.1", std::uint16_t{0}, igtl::kServerPeriod, seed)) {
+      : server(std::make_unique<igtl::ToolServer>(
+            tracker, std::vector<std::string>{"stylusToTracker"},
+            igtl::ToolServerSettings{.transport = seed % 2 == 0 ? igtl::Transport::udp : igtl::Transport::tcp,
+                                     .seed = seed})) {
+    table.transport = seed % 2 == 0 ? "udp" : "tcp";
     table.numbers = {{"timeout_ms", kPatient}, {"silent_ms", patience}};
     table.ports = {{"port", server->port()}};
   }

@@ -7,15 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "hw_drivers/igtl/wire/content.h"
+#include "tests/support/hex.h"
+
 namespace enc::igtl {
 namespace {
 
-std::vector<std::byte> from_hex(const std::string& hex) {
-  std::vector<std::byte> bytes;
-  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
-    bytes.push_back(static_cast<std::byte>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  return bytes;
-}
+using tests::from_hex;
 
 // ToolToTracker at 1, 2, 3 mm, stamped 1.5 s; header of version 1.
 const std::string kTransformV1 =
@@ -87,6 +85,17 @@ TEST(IgtlMessage, WritesTheSameContent) {
   const std::vector<std::byte> extended = from_hex("000c00020000000001020304");
   EXPECT_TRUE(std::equal(extended.begin(), extended.end(), ours.bytes().begin() + kHeader));
   EXPECT_TRUE(std::equal(theirs.begin() + 2, theirs.begin() + 38, ours.bytes().begin() + 2));
+}
+
+// Whole: header and body are those that libOpenIGTLink writes, but for its rounding of half a second.
+TEST(IgtlMessage, WritesVersionOneToTheByte) {
+  std::vector<std::byte> theirs = from_hex(kTransformV1);
+  const Written ours("TRANSFORM", "ToolToTracker", 1'500'000'000,
+                     transform(Pose<'C', 'T'>::shift(0.001, 0.002, 0.003)));
+  const std::vector<std::byte> half = from_hex("80000000");
+  std::copy(half.begin(), half.end(), theirs.begin() + 38);
+  ASSERT_EQ(ours.bytes().size(), theirs.size());
+  EXPECT_TRUE(std::equal(theirs.begin(), theirs.end(), ours.bytes().begin()));
 }
 
 TEST(IgtlMessage, WhatIsWrittenIsReadAgain) {

@@ -2,11 +2,15 @@
 #include "hw_drivers/igtl/drive/reception.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "hw_drivers/net/big_endian.h"
 
 namespace enc::igtl {
 namespace {
@@ -24,8 +28,10 @@ struct Bench {
   Stamped<TrackedTool> newest;
   explicit Bench(bool lockstep = true, double least_delay = 0.0)
       : reception(with(least_delay), kTools, lockstep) {}
-  IgtlSettings with(double least_delay) {
+  explicit Bench(const std::string& transport) : reception(with(0.0, transport), kTools, false) {}
+  IgtlSettings with(double least_delay, const std::string& transport = "udp") {
     settings.least_delay = least_delay;
+    settings.transport = transport;
     return settings;
   }
   bool take(const Written& message, double now_ms = 0.0) {
@@ -42,12 +48,14 @@ TEST(IgtlReception, TakesEachPoseOnceWithItsToolAndTime) {
   EXPECT_EQ(bench.newest.value.X_CT.p().x(), 0.25);
   EXPECT_FALSE(bench.take(pose(0.5, 6'000'000, 1))) << "a number twice";
   EXPECT_FALSE(bench.take(pose(0.5, 5'000'000, 2))) << "a stamp twice";
-  EXPECT_TRUE(bench.take(pose(0.5, 7'000'000, 3, "a_tool_with_a_long_nameToTracker"))) << "cut to 20 letters";
+  EXPECT_TRUE(bench.take(pose(0.5, 700'000'000, 3, "a_tool_with_a_long_nameToTracker")))
+      << "cut to 20 letters";
   EXPECT_EQ(bench.newest.value.tool, 1);
-  EXPECT_FALSE(bench.take(pose(0.5, 8'000'000, 4, "hammerToTracker")));
+  EXPECT_FALSE(bench.take(pose(0.5, 800'000'000, 4, "hammerToTracker")));
   EXPECT_EQ(bench.reception.counts().poses, 2);
   EXPECT_EQ(bench.reception.counts().old, 2);
-  EXPECT_EQ(bench.reception.counts().wrong, 1);
+  EXPECT_EQ(bench.reception.counts().unknown, 1);
+  EXPECT_EQ(bench.reception.counts().stranger.view(), "hammerToTracker");
 }
 
 TEST(IgtlReception, NumbersGoRound) {
@@ -88,18 +96,94 @@ TEST(IgtlReception, AnyWayOfDatagramsGivesTimesThatOnlyGrow) {
   }
 }
 
-// Of a frame in which two tools are seen both count; a clock that is set back is a clock that is new.
-TEST(IgtlReception, ToolsShareAStampAndAClockThatIsSetBackIsNew) {
+// Of a frame in which two tools are seen the one in the hand counts.
+TEST(IgtlReception, OfTwoToolsInViewTheOneInTheHandCounts) {
+  Bench bench(false);
+  for (std::uint32_t n = 1; n <= 50; ++n) {
+    const std::int64_t stamp = 10'000'000LL * n;
+    EXPECT_TRUE(bench.take(pose(1e-3 * n, stamp, 2 * n), 10.0 * n));
+    EXPECT_FALSE(bench.take(pose(0.3, stamp, 2 * n + 1, "a_tool_with_a_long_nameToTracker"), 10.0 * n));
+    EXPECT_EQ(bench.newest.value.tool, 0);
+  }
+  EXPECT_EQ(bench.reception.counts().aside, 50);
+}
+
+// A clock that is set back is a clock that is new.
+TEST(IgtlReception, AClockThatIsSetBackIsNew) {
   Bench bench(false);
   EXPECT_TRUE(bench.take(pose(0.1, 1'000'000'000, 1), 100.0));
-  EXPECT_TRUE(bench.take(pose(0.2, 1'000'000'000, 2, "a_tool_with_a_long_nameToTracker"), 100.0));
-  EXPECT_EQ(bench.newest.value.tool, 1);
   EXPECT_TRUE(bench.take(pose(0.3, 500'000'000, 3), 110.0)) << "half a second earlier";
   EXPECT_EQ(bench.newest.t, Time(ms(110)));
   EXPECT_EQ(bench.reception.counts().steps, 1);
   EXPECT_FALSE(bench.take(pose(0.3, 1'010'000'000, 2), 111.0)) << "an older number";
   EXPECT_TRUE(bench.take(pose(0.4, 510'000'000, 4), 120.0));
   EXPECT_EQ(bench.newest.t, Time(ms(120)));
+}
+
+// Without numbers a stamp that is earlier by more than any datagram is late is of a clock that was set back.
+TEST(IgtlReception, WithoutNumbersAClockThatIsSetBackByMoreThanASecondIsNew) {
+  Bench bench(false);
+  const auto plain = [](std::int64_t stamp_ns) {
+    return Written("TRANSFORM", "stylusToTracker", stamp_ns, transform(Pose<'C', 'T'>::shift(0.1, 0, 1)));
+  };
+  EXPECT_TRUE(bench.take(plain(100'000'000'000), 100.0));
+  EXPECT_FALSE(bench.take(plain(99'500'000'000), 101.0)) << "half a second: overtaken";
+  EXPECT_TRUE(bench.take(plain(90'000'000'000), 110.0));
+  EXPECT_EQ(bench.newest.t, Time(ms(110)));
+  EXPECT_EQ(bench.reception.counts().steps, 1);
+}
+
+// As PLUS has it, whose transforms begin with a large letter.
+TEST(IgtlReception, TheFirstLetterOfADeviceMayBeLarge) {
+  Bench bench(std::string("tcp"));
+  EXPECT_TRUE(bench.take(pose(0.25, 10'000'000, 1, "StylusToTracker")));
+  EXPECT_FALSE(bench.take(pose(0.25, 20'000'000, 2, "stYlusToTracker")));
+  EXPECT_EQ(bench.reception.counts().unknown, 1);
+}
+
+// In a stream nothing is overtaken: its messages need no number, and an earlier stamp is another clock.
+TEST(IgtlReception, OfAStreamTheOrderIsThatOfItsMessages) {
+  Bench bench(std::string("tcp"));
+  const auto plain = [](double x, std::int64_t stamp_ns) {
+    return Written("TRANSFORM", "stylusToTracker", stamp_ns, transform(Pose<'C', 'T'>::shift(x, 0, 1)));
+  };
+  EXPECT_TRUE(bench.take(plain(0.1, 1'000'000'000), 100.0));
+  EXPECT_FALSE(bench.take(plain(0.1, 1'000'000'000), 101.0)) << "the same pose again";
+  EXPECT_TRUE(bench.take(plain(0.2, 1'010'000'000), 110.0));
+  EXPECT_TRUE(bench.take(plain(0.3, 500'000'000), 120.0));
+  EXPECT_EQ(bench.newest.t, Time(ms(120)));
+  EXPECT_EQ(bench.reception.counts().steps, 1);
+  EXPECT_TRUE(bench.take(pose(0.4, 510'000'000, 5), 130.0));
+  EXPECT_TRUE(bench.take(pose(0.5, 520'000'000, 5), 140.0)) << "a server may give each the same number";
+  EXPECT_EQ(bench.reception.counts().old, 1);
+}
+
+// The same pose in each of its forms; a TDATA of several tools, of which the scene names one.
+TEST(IgtlReception, TakesPosesInEachForm) {
+  Bench bench(std::string("tcp"));
+  const Pose<'C', 'T'> X_CT = Pose<'C', 'T'>::shift(0.25, 0.5, 1);
+  std::vector<std::byte> all;
+  for (const char* name : {"hammerToTracker", "stylus"}) {  // by the tool's name alone, too
+    const auto one = element(name, X_CT);
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  EXPECT_TRUE(bench.take({"TDATA", "Tracker", 10'000'000, all}));
+  EXPECT_EQ(bench.newest.value.tool, 0);
+  EXPECT_LT((bench.newest.value.X_CT.p() - X_CT.p()).norm(), 1e-15);
+  EXPECT_EQ(bench.reception.counts().unknown, 1);
+  EXPECT_EQ(bench.reception.counts().stranger.view(), "hammerToTracker");
+  std::array<std::byte, 28> position{};
+  const std::array<float, 7> numbers{250, 500, 1000, 0, 0, 0, 1};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    net::put(std::span<std::byte>(position), 4 * i, std::bit_cast<std::uint32_t>(numbers[i]));
+  EXPECT_TRUE(bench.take({"POSITION", "stylusToTracker", 20'000'000, position}));
+  EXPECT_LT((bench.newest.value.X_CT.p() - X_CT.p()).norm(), 1e-15);
+  EXPECT_FALSE(bench.take({"TDATA", "Tracker", 30'000'000, std::span(all).first(71)}));
+  EXPECT_FALSE(bench.take({"POSITION", "stylusToTracker", 30'000'000, std::span(position).first(12)}));
+  EXPECT_EQ(bench.reception.counts().wrong, 2);
+  EXPECT_FALSE(bench.take({"TRANSFORM", "stylusToTracker", 30'000'000, 1, transform(X_CT), "TransformStatus",
+                           "TOOL_OUT_OF_VIEW"}));
+  EXPECT_EQ(bench.reception.counts().unseen, 1);
 }
 
 TEST(IgtlReception, WhatTheServerReportsIsKept) {

@@ -1,8 +1,11 @@
 #include "hw_drivers/net/socket.h"
 
 #include <array>
+#include <chrono>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,6 +47,23 @@ std::string error_of(Call call) {
     return e.what();
   }
   return "no error";
+}
+
+// Whoever reads late is told when it came, by datagrams and in a stream.
+TEST(Socket, SaysWhenWhatItGaveHadCome) {
+  Socket there = bind_udp("127.0.0.1", 0);
+  Socket here = connect_udp("127.0.0.1", there.port());
+  Socket server = listen_tcp("127.0.0.1", 0);
+  Socket caller = connect_tcp("127.0.0.1", server.port(), kSoon);
+  Socket called = accepted(server);
+  for (const auto& [from, to] : {std::pair{&here, &there}, {&called, &caller}}) {
+    const Duration sent = steady_now();
+    from->send(bytes_of("x"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(received(*to), "x");
+    EXPECT_GE(to->came(), sent - Duration(1'000'000));
+    EXPECT_LE(to->came(), steady_now() - Duration(40'000'000)) << "the kernel's word, not when it was read";
+  }
 }
 
 TEST(Socket, CarriesBytesBothWays) {

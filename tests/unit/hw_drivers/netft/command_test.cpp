@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "hw_drivers/netft/wire/configuration.h"
-#include "tests/unit/hw_drivers/netft/hex.h"
+#include "tests/support/hex.h"
 
 namespace enc::netft {
 namespace {
+
+using tests::from_hex, tests::hex;
 
 TEST(NetftCommand, QuestionsAreTwentyBytes) {
   const std::string zeros(30, '0');
@@ -19,13 +21,13 @@ TEST(NetftCommand, QuestionsAreTwentyBytes) {
   EXPECT_EQ(hex(bytes_of(Ask{.monitor = 0x1234, .bias = true, .clear_latch = true})),
             "00" + zeros + "12340003");
   Ask ask;
-  ASSERT_TRUE(read(bytes("00" + zeros + "00010002"), ask));
+  ASSERT_TRUE(read(from_hex("00" + zeros + "00010002"), ask));
   EXPECT_EQ(ask.question, Question::reading);
   EXPECT_EQ(ask.monitor, 1);
   EXPECT_FALSE(ask.bias);
   EXPECT_TRUE(ask.clear_latch);
-  EXPECT_FALSE(read(bytes("02" + zeros + "00000000"), ask));  // WRITETRANSFORM
-  EXPECT_FALSE(read(bytes("01" + zeros + "000000"), ask));
+  EXPECT_FALSE(read(from_hex("02" + zeros + "00000000"), ask));  // WRITETRANSFORM
+  EXPECT_FALSE(read(from_hex("01" + zeros + "000000"), ask));
 }
 
 TEST(NetftCommand, AnswersAreTheBytesOfTheManual) {
@@ -44,7 +46,7 @@ TEST(NetftCommand, AnswersAreTheBytesOfTheManual) {
       "0190";
   EXPECT_EQ(hex(bytes_of(calibration)), wire);
   Calibration back;
-  ASSERT_TRUE(read(bytes(wire), back));
+  ASSERT_TRUE(read(from_hex(wire), back));
   EXPECT_EQ(back.per_force, 1'000'000U);
   EXPECT_EQ(back.scale, calibration.scale);
   const Reading reading{0x8001, {1, -1, 32'767, -32'768, 0, 256}};
@@ -58,17 +60,17 @@ TEST(NetftCommand, AnswersAreTheBytesOfTheManual) {
             "0000"
             "0100");
   Reading again;
-  EXPECT_FALSE(read(bytes("1235"
-                          "8001"
-                          "0001"
-                          "ffff"
-                          "7fff"
-                          "8000"
-                          "0000"
-                          "0100"),
+  EXPECT_FALSE(read(from_hex("1235"
+                             "8001"
+                             "0001"
+                             "ffff"
+                             "7fff"
+                             "8000"
+                             "0000"
+                             "0100"),
                     again));
-  EXPECT_FALSE(read(bytes(wire), again));
-  EXPECT_FALSE(read(bytes("1234"), back));
+  EXPECT_FALSE(read(from_hex(wire), again));
+  EXPECT_FALSE(read(from_hex("1234"), back));
 }
 
 TEST(NetftCommand, WhatIsWrittenIsRead) {

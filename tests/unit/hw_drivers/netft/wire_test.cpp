@@ -11,17 +11,12 @@
 #include "hw_drivers/netft/wire/configuration.h"
 #include "hw_drivers/netft/wire/http.h"
 #include "hw_drivers/netft/wire/record.h"
+#include "tests/support/hex.h"
 
 namespace enc::netft {
 namespace {
 
-std::string hex(std::span<const std::byte> bytes) {
-  std::string text;
-  for (const std::byte byte : bytes)
-    for (const unsigned half : {static_cast<unsigned>(byte) >> 4U, static_cast<unsigned>(byte) & 15U})
-      text.push_back("0123456789abcdef"[half]);
-  return text;
-}
+using tests::hex;
 
 TEST(NetftWire, RequestsAreThoseOfTheManual) {
   EXPECT_EQ(hex(bytes_of(Request{Command::start, 0})), "1234000200000000");

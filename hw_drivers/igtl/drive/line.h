@@ -1,0 +1,37 @@
+// The way to a server of tool data: datagrams, or a stream. Messages go one by one, and nothing waits.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "hw_drivers/igtl/drive/settings.h"
+#include "hw_drivers/igtl/wire/message.h"
+#include "hw_drivers/igtl/wire/stream.h"
+#include "hw_drivers/net/socket.h"
+
+namespace enc::igtl {
+
+class Line {
+ public:
+  // Throws Error (kind device) where nobody listens there.
+  explicit Line(const IgtlSettings& settings);
+
+  void say(const Written& message) noexcept;
+  // The next message; empty: none yet. Stays until it is called again.
+  [[nodiscard]] std::span<const std::byte> next() noexcept;
+  [[nodiscard]] Duration came() const noexcept { return socket_.came(); }  // of it, by net::steady_now()
+  void wait(Duration most) noexcept { socket_.wait(most); }
+  // Of a stream: the other side has hung up, or what it sends is no OpenIGTLink.
+  [[nodiscard]] bool closed() const noexcept { return streams_ && (socket_.closed() || stuck_); }
+  [[nodiscard]] bool lost() const noexcept { return stream_.lost(); }
+  [[nodiscard]] std::int64_t skipped() const noexcept { return stream_.skipped(); }
+
+ private:
+  bool streams_, stuck_ = false;  // stuck_: it took half of what was said
+  net::Socket socket_;
+  Stream stream_;
+  std::array<std::byte, kMostBytes> datagram_{};
+};
+
+}  // namespace enc::igtl

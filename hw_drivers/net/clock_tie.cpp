@@ -1,0 +1,128 @@
+#include "hw_drivers/net/clock_tie.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace enc::net {
+namespace {
+
+constexpr double kBin = 0.5e9;  // ns of a bin
+constexpr double kSpan = 32e9;  // ns that count
+constexpr double kSteepest =
+    200e-6;  // s/s, of two crystals, each wrong by 100 ppm; slewing (500 ppm) is not for a run
+constexpr double kSet = 20e6;        // ns: no delay is so much shorter than the shortest before
+constexpr std::size_t kFewest = 10;  // bins, for a drift: after five seconds 1 ms of jitter leaves some 6 ppm
+
+}  // namespace
+
+void ClockTie::forget() noexcept {
+  const std::int64_t forward = forward_;
+  *this = ClockTie(least_);
+  forward_ = forward;
+}
+
+Time ClockTie::here(std::int64_t stamp_ns, Time now) noexcept {
+  const std::int64_t gap_ns = now.time_since_epoch().count() - stamp_ns;
+  if (any_) {
+    const auto since = static_cast<double>(stamp_ns - first_stamp_) - from_;
+    const bool forward = end_ - begin_ > 1 && static_cast<double>(gap_ns - first_gap_) <
+                                                  lowest_ - kSteepest * std::max(since, 0.0) - kSet;
+    if (forward) {
+      ++forward_;
+      forget();
+    }
+  }
+  if (!any_) {
+    any_ = true;
+    first_stamp_ = stamp_ns;
+    first_gap_ = gap_ns;
+    open_ = {0.0, std::numeric_limits<double>::infinity()};
+  }
+  const auto stamp = static_cast<double>(stamp_ns - first_stamp_),
+             gap = static_cast<double>(gap_ns - first_gap_);
+  last_ = std::max(last_, stamp);
+  if (stamp - opened_ >= kBin) {
+    close_bin();
+    opened_ = stamp;
+    open_ = {stamp, gap};
+  }
+  if (gap < open_.gap) open_ = {stamp, gap};
+  const double above = gap - line(stamp);
+  if (above < 0.0) level_ += above;  // nothing lies under it
+  return Time(Duration(stamp_ns + first_gap_ + static_cast<std::int64_t>(line(stamp)))) - least_;
+}
+
+void ClockTie::close_bin() noexcept {
+  bins_[end_++ % kBins] = open_;
+  while (end_ - begin_ > kBins || open_.stamp - bin(begin_).stamp > kSpan) ++begin_;
+  fit();
+}
+
+// Of all lines under the points the one that lies closest, which is highest above their mean: an edge of
+// their lower hull, where it is no steeper than clocks are.
+double ClockTie::steepness(double mean) const noexcept {
+  std::array<Quickest, kBins> hull{};
+  std::size_t size = 0;
+  for (std::size_t i = begin_; i < end_; ++i) {
+    const Quickest& next = bin(i);
+    if (size > 0 && next.stamp <= hull[size - 1].stamp) continue;
+    const auto over = [&](const Quickest& a, const Quickest& b) {  // b is, of the way from a to the next
+      return (b.gap - a.gap) * (next.stamp - a.stamp) >= (next.gap - a.gap) * (b.stamp - a.stamp);
+    };
+    while (size > 1 && over(hull[size - 2], hull[size - 1])) --size;
+    hull[size++] = next;
+  }
+  std::size_t edge = 0;
+  while (edge + 2 < size && hull[edge + 1].stamp < mean) ++edge;
+  if (size < 2) return 0.0;
+  const Quickest &a = hull[edge], &b = hull[edge + 1];
+  return std::clamp((b.gap - a.gap) / (b.stamp - a.stamp), -kSteepest, kSteepest);
+}
+
+void ClockTie::fit() noexcept {
+  const std::size_t count = end_ - begin_;
+  double mean = 0.0;
+  for (std::size_t i = begin_; i < end_; ++i) mean += bin(i).stamp / static_cast<double>(count);
+  const double slope = count < kFewest ? 0.0 : steepness(mean);
+  const double now = open_.stamp;
+  double level = std::numeric_limits<double>::infinity();
+  for (std::size_t i = begin_; i < end_; ++i)
+    level = std::min(level, bin(i).gap - slope * (bin(i).stamp - now));
+  const double parted = level_ + kSteepest * (now - from_);  // as high as clocks may have
+  level_ = std::min(level, parted);
+  slope_ = slope;
+  lowest_ = end_ > 1 ? std::min(lowest_ - kSteepest * (now - from_), level_) : level_;
+  from_ = now;
+}
+
+ClockEstimate ClockTie::estimate() const noexcept {
+  ClockEstimate of;
+  of.forward = forward_;
+  if (!any_) return of;
+  of.ahead = -1e-9 * (static_cast<double>(first_gap_) + line(last_)) + seconds(least_);
+  const std::size_t count = end_ - begin_;
+  if (count < kFewest) return of;
+  of.drift = -slope_;
+  std::array<double, kBins> above{};
+  for (std::size_t i = begin_; i < end_; ++i) above[i - begin_] = 1e-9 * (bin(i).gap - line(bin(i).stamp));
+  const auto middle = above.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(above.begin(), middle, above.begin() + static_cast<std::ptrdiff_t>(count));
+  of.spread = *middle;
+  return of;
+}
+
+std::string words(const ClockEstimate& clock) {
+  if (std::isnan(clock.ahead)) return {};
+  std::string text = fmt::format("its clock is {:.4f} s {} the run's", std::abs(clock.ahead),
+                                 clock.ahead < 0.0 ? "behind" : "ahead of");
+  if (!std::isnan(clock.drift))
+    text += fmt::format(", {:.1f} ppm {}; its quickest messages lie within {:.3f} ms of that",
+                        1e6 * std::abs(clock.drift), clock.drift < 0.0 ? "slow" : "fast", 1e3 * clock.spread);
+  if (clock.forward > 0) text += fmt::format("; it was set forward {} times", clock.forward);
+  return text;
+}
+
+}  // namespace enc::net

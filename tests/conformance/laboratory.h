@@ -1,0 +1,102 @@
+// The laboratory in two programs: the fakes on one side of real sockets, in this process, where their machine
+// can be seen; `encounter run` on the other.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/laboratory/fakes.h"
+#include "app/modules/modules.h"
+#include "core/record/record.h"
+#include "hw_drivers/wires/free_ports.h"
+#include "tests/support/built.h"
+#include "tests/support/run_program.h"
+
+namespace enc::test {
+
+inline const std::string kBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
+
+// The fakes in this process, where their machine can be seen.
+struct Laboratory {
+  // `set` is for both sides; `faults` as for --fault.
+  explicit Laboratory(bool lockstep, const std::vector<std::string>& set = {},
+                      const std::vector<std::string>& faults = {}) {
+    app::FakesOptions options{app::load_module, 1, lockstep};
+    for (const std::string& fault : faults) options.faults.push_back(app::fault_of(fault, "the test"));
+    ports.insert(ports.end(), set.begin(), set.end());
+    setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
+    fakes = std::make_unique<app::Fakes>(models::load(kBall, "fakes", ports), std::move(options));
+    serve();
+  }
+  ~Laboratory() { pause(); }
+  void serve() {
+    end = false;
+    thread = std::thread([this] {
+      while (!end) {
+        fakes->turn();
+        if (stands()) continue;
+        moved = time();
+        moves = true;
+      }
+    });
+  }
+  void pause() {
+    end = true;
+    if (thread.joinable()) thread.join();
+  }
+  [[nodiscard]] std::vector<std::string> words(std::vector<std::string> more) const {
+    std::vector<std::string> all{"run", kBall, "--rig", "fakes"};
+    for (const std::string& set : ports) all.insert(all.end(), {"--set", set});
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  [[nodiscard]] std::string log() {
+    pause();
+    std::string all;
+    for (const std::string& line : fakes->log()) all.append(line).push_back('\n');
+    return all;
+  }
+  // Of the machine, while nobody serves it.
+  [[nodiscard]] bool stands() const { return fakes->world().machine->state().velocity.norm() < 1e-4; }
+  [[nodiscard]] double time() const {  // s, of the world
+    return seconds(fakes->world().truth().t.time_since_epoch());
+  }
+  [[nodiscard]] double away() const {  // m, from its zero
+    const auto& machine = *fakes->world().machine;
+    return (machine.state().pose.p() - machine.machine().zero().p()).norm();
+  }
+  std::vector<std::string> ports = wires::free_ports();
+  std::unique_ptr<app::Fakes> fakes;
+  std::atomic<bool> end = false, moves = false;  // it did, since somebody last said that it does not
+  std::thread thread;
+  double moved = 0.0;  // s of the world: when the machine last did
+};
+
+inline nlohmann::json json_of(const tests::Result& result) {
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+  return nlohmann::json::parse(result.out, nullptr, false);
+}
+
+// Each command of one run beside that of the same tick of the other.
+inline void expect_same_commands(const std::string& one, const std::string& other) {
+  RecordReader a(one), b(other);
+  EXPECT_EQ(a.ticks(), b.ticks());
+  double farthest = 0.0;
+  RecordedTick x, y;
+  while (a.next(x) && b.next(y)) {
+    ASSERT_EQ(x.out.mode, y.out.mode) << x.tick.index;
+    farthest = std::max(farthest, (x.out.tip.p() - y.out.tip.p()).norm());
+  }
+  EXPECT_LT(farthest, 1e-12) << "the wire carries twelve digits of a millimetre";
+}
+
+}  // namespace enc::test

@@ -1,0 +1,252 @@
+// The driver of a tracker's own server: OpenIGTLink over TCP, against our fake and against bytes that no
+// server should send.
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/conformance/tracker/igtl_bench.h"
+
+namespace enc::test {
+namespace {
+
+using igtl::Written;
+using testing::HasSubstr;
+
+// A server that sends what it is told to, to one client.
+struct RawServer {
+  explicit RawServer(IgtlTable& table) { table.port = listener.port(); }
+  void accept() {
+    listener.wait(Duration(1'000'000'000));
+    client = listener.accept();
+  }
+  void send(std::span<const std::byte> bytes) { EXPECT_EQ(client.send(bytes), bytes.size()); }
+  // The types of all that the driver has said by now.
+  std::vector<std::string> heard() {
+    std::vector<std::string> types;
+    igtl::Message message;
+    client.wait(Duration(100'000'000));
+    stream.came(client.receive(stream.room()));
+    for (auto bytes = stream.next(); !bytes.empty(); bytes = stream.next()) {
+      EXPECT_EQ(igtl::read(bytes, message), igtl::Wrong::nothing);
+      types.emplace_back(message.type.view());
+    }
+    return types;
+  }
+  net::Socket listener = net::listen_tcp("127.0.0.1", 0);
+  net::Socket client;
+  igtl::Stream stream;
+};
+
+Written pose(std::int64_t ms, double x = 0.1, const char* device = "stylusToTracker") {
+  return {"TRANSFORM", device, ms * 1'000'000, igtl::transform(Pose<'C', 'T'>::shift(x, 0, 1))};
+}
+
+// What the driver makes of messages, each in a poll of its own.
+struct RawBench : IgtlBench {
+  explicit RawBench(const std::string& message = "TRANSFORM") {
+    table.transport = "tcp";
+    table.message = message;
+    std::thread accepting([&] {
+      server.accept();
+      server.send(Written("STATUS", "Server", 0, igtl::status(1)).bytes());
+    });
+    driver = igtl::subscribed(offer());
+    accepting.join();
+    settle(*driver, now);
+  }
+  bool takes(std::span<const std::byte> bytes) {
+    server.send(bytes);
+    now += Duration(1'000'000);
+    return driver->poll(now, newest);
+  }
+  std::string remark() { return driver->remarks().at(0); }
+  RawServer server{table};
+  std::unique_ptr<PoseTracker> driver;
+  Time now{Duration(1'000'000'000)};
+};
+
+TEST(IgtlStreamDriver, TakesThePosesOfAServerUntilItIsSilent) {
+  for (const char* message : {"TRANSFORM", "TDATA"}) {
+    IgtlPort there(igtl::Transport::tcp);
+    there.table.message = message;
+    auto served = std::make_unique<Served>(there.server);
+    const auto driver = igtl::subscribed(there.offer());
+    EXPECT_THAT(driver->describe(), HasSubstr("tracker's server at 127.0.0.1:"));
+    const IgtlBench::Watched seen = there.watch(*driver, 300);
+    EXPECT_GT(seen.news, 10);
+    EXPECT_EQ(there.newest.value.tool, 0);
+    EXPECT_LT((there.newest.value.X_CT.p() - Vec3(0.1, 0.2, 0.9)).norm(), 1e-12)
+        << "the pose to the last bit";
+    EXPECT_GE(seen.oldest, 0.003);
+    there.tracker.in_view = false;
+    there.watch(*driver, 30);
+    EXPECT_EQ(there.watch(*driver, 400).news, 0);
+    EXPECT_TRUE(driver->linked()) << "it says that it is there";
+    served.reset();
+    there.watch(*driver, 300);
+    EXPECT_FALSE(driver->linked());
+    there.tracker.in_view = true;
+    served = std::make_unique<Served>(there.server);
+    EXPECT_EQ(there.watch(*driver, 100).news, 0);
+    EXPECT_FALSE(driver->linked()) << "only another run connects again";
+  }
+}
+
+// What it asks for, in which words, and that it asks no more when it goes.
+TEST(IgtlStreamDriver, AsksForTdataWhereItIsToldToAndForNothingElse) {
+  RawBench bench("TDATA");
+  EXPECT_THAT(bench.server.heard(), testing::ElementsAre("STT_TDATA", "GET_STATUS"));
+  const auto element = igtl::element("stylusToTracker", Pose<'C', 'T'>::shift(0.1, 0, 1));
+  EXPECT_TRUE(bench.takes(Written("TDATA", "Tracker", 1'000'000, element).bytes()));
+  EXPECT_NEAR(bench.newest.value.X_CT.p().x(), 0.1, 1e-8);
+  bench.driver.reset();
+  EXPECT_THAT(bench.server.heard(), testing::ElementsAre("STP_TDATA"));
+  RawBench plain;
+  EXPECT_THAT(plain.server.heard(), testing::ElementsAre("GET_STATUS"));
+  plain.driver.reset();
+  EXPECT_THAT(plain.server.heard(), testing::IsEmpty());
+}
+
+// Between the driver's beginning and the run's the server has gone on: what it sent then is old, and no tick
+// takes it for the pose of now.
+TEST(IgtlStreamDriver, WhatCameBeforeTheRunIsPassedOver) {
+  IgtlBench bench;
+  bench.table.transport = "tcp";
+  RawServer server(bench.table);
+  std::thread accepting([&] {
+    server.accept();
+    server.send(Written("STATUS", "Server", 0, igtl::status(1)).bytes());
+  });
+  const auto driver = igtl::subscribed(bench.offer());
+  accepting.join();
+  std::int64_t stamp = 0;  // ms
+  for (int i = 0; i < 1000; ++i) server.send(pose(++stamp).bytes());
+  Time now{Duration(1'000'000'000)};
+  for (int tick = 0; tick < 20; ++tick) {
+    for (int i = 0; tick < 5 && i < 100; ++i)
+      server.send(pose(++stamp).bytes());  // what it could not send before
+    now += Duration(1'000'000);
+    EXPECT_FALSE(driver->poll(now, bench.newest)) << tick;
+  }
+  server.send(pose(++stamp, 0.7).bytes());
+  now += Duration(1'000'000);
+  EXPECT_TRUE(driver->poll(now, bench.newest));
+  EXPECT_NEAR(bench.newest.value.X_CT.p().x(), 0.7, 1e-6);
+}
+
+// A server that says nothing while no tool is in view is asked whether it is there, four times in silent_ms.
+TEST(IgtlStreamDriver, AsksAServerThatSaysNothingWhetherItIsThere) {
+  RawBench bench;
+  EXPECT_THAT(bench.server.heard(), testing::ElementsAre("GET_STATUS"));
+  for (int i = 0; i < 190; ++i) {
+    bench.now += Duration(1'000'000);
+    EXPECT_FALSE(bench.driver->poll(bench.now, bench.newest));
+  }
+  EXPECT_TRUE(bench.driver->linked());
+  EXPECT_THAT(bench.server.heard(), testing::ElementsAre("GET_STATUS", "GET_STATUS", "GET_STATUS"));
+  bench.now += Duration(20'000'000);
+  static_cast<void>(bench.driver->poll(bench.now, bench.newest));
+  EXPECT_FALSE(bench.driver->linked()) << "no answer for 0.2 s";
+}
+
+TEST(IgtlStreamDriver, WhatTheServerClosesIsLostAtOnce) {
+  RawBench bench;
+  EXPECT_TRUE(bench.takes(pose(1).bytes()));
+  bench.server.client = {};
+  bench.now += Duration(1'000'000);
+  EXPECT_FALSE(bench.driver->poll(bench.now, bench.newest));
+  EXPECT_FALSE(bench.driver->linked());
+  EXPECT_THAT(bench.remark(), HasSubstr("then it hung up"));
+}
+
+TEST(IgtlStreamDriver, AMessageWithAWrongSumIsNotTakenAndTheNextIs) {
+  RawBench bench;
+  const Written good = pose(1);
+  std::vector<std::byte> wrong(good.bytes().begin(), good.bytes().end());
+  wrong.back() ^= std::byte{1};
+  EXPECT_FALSE(bench.takes(wrong));
+  EXPECT_TRUE(bench.takes(pose(2).bytes()));
+  EXPECT_TRUE(bench.driver->linked());
+  EXPECT_THAT(bench.remark(), HasSubstr("1 poses"));
+  EXPECT_THAT(bench.remark(), HasSubstr("1 wrong"));
+}
+
+TEST(IgtlStreamDriver, HalfAMessageIsTakenWhenTheOtherHalfIsThere) {
+  RawBench bench;
+  for (const std::size_t cut : {1U, 57U, 58U, 59U, 105U}) {
+    const Written one = pose(static_cast<std::int64_t>(cut));
+    EXPECT_FALSE(bench.takes(one.bytes().first(cut))) << cut;
+    EXPECT_TRUE(bench.takes(one.bytes().subspan(cut))) << cut;
+  }
+}
+
+TEST(IgtlStreamDriver, WhatIsNoOpenIGTLinkEndsTheLink) {
+  RawBench bench;
+  EXPECT_TRUE(bench.takes(pose(1).bytes()));
+  const std::string page = "HTTP/1.1 400 Bad Request\r\nContent-Type: text/html\r\nConnection: close\r\n\r\n";
+  EXPECT_FALSE(bench.takes(std::as_bytes(std::span(page))));
+  EXPECT_FALSE(bench.driver->linked());
+  EXPECT_THAT(bench.remark(), HasSubstr("then what came was no OpenIGTLink"));
+}
+
+TEST(IgtlStreamDriver, AToolThatNobodyNamedIsNamedInTheReport) {
+  RawBench bench;
+  EXPECT_FALSE(bench.takes(pose(1, 0.1, "hammerToTracker").bytes()));
+  EXPECT_TRUE(bench.takes(pose(1).bytes()));
+  EXPECT_THAT(bench.remark(),
+              HasSubstr("1 of tools that the scene does not name, such as 'hammerToTracker'"));
+}
+
+TEST(IgtlStreamDriver, VersionTwoWithMetadataIsReadAndWhatItCallsInvalidIsNot) {
+  RawBench bench;
+  const auto content = igtl::transform(Pose<'C', 'T'>::shift(0.2, 0, 1));
+  EXPECT_TRUE(bench.takes(
+      Written("TRANSFORM", "stylusToTracker", 1'000'000, 1, content, "TransformStatus", "OK").bytes()));
+  EXPECT_NEAR(bench.newest.value.X_CT.p().x(), 0.2, 1e-8);
+  EXPECT_FALSE(bench.takes(
+      Written("TRANSFORM", "stylusToTracker", 2'000'000, 1, content, "TransformStatus", "OUT_OF_VIEW")
+          .bytes()));
+  EXPECT_THAT(bench.remark(), HasSubstr("1 of tools out of view"));
+}
+
+// What each of them did wrong, in a line that says what to do.
+TEST(IgtlStreamDriver, WhoIsNoTrackerIsNamed) {
+  IgtlBench bench;
+  bench.table.transport = "tcp";
+  const auto refused = [&] {
+    try {
+      static_cast<void>(igtl::subscribed(bench.offer()));
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::device);
+      EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+      return std::string(e.what());
+    }
+    return std::string("taken");
+  };
+  RawServer silent(bench.table);
+  EXPECT_THAT(refused(), HasSubstr("let us in and said nothing within 300 ms; see that the server runs"));
+  silent.listener = {};
+  EXPECT_THAT(refused(), HasSubstr("nobody listens there"));
+  RawServer other(bench.table);
+  std::thread web([&] {
+    other.accept();
+    const std::string page(100, 'x');
+    other.send(std::as_bytes(std::span(page)));
+  });
+  EXPECT_THAT(refused(), HasSubstr("does not speak OpenIGTLink; see that this is the port"));
+  web.join();
+  IgtlPort there(igtl::Transport::tcp);
+  const Served served(there.server);
+  const auto first = igtl::subscribed(there.offer());
+  bench.table.port = there.table.port;
+  EXPECT_THAT(refused(), HasSubstr("let us in and hung up; see that it takes another client"));
+  EXPECT_GT(there.watch(*first, 100).news, 3) << "the first stays";
+}
+
+}  // namespace
+}  // namespace enc::test
