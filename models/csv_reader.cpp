@@ -112,6 +112,15 @@ void CsvReader::fail_at(std::size_t line, std::size_t place, const std::string& 
   throw Error(fmt::format("{}:{}:{}: {}", name_, std::max<std::size_t>(line, 1), place, what));
 }
 
+std::string_view csv_header(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    if (!line.empty() && line.front() != '#' && line != "\r") return line;
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+  return text;
+}
+
 std::string csv_text(const std::string& path, const std::string& kind, const std::string& wanted) {
   constexpr std::size_t kLongest = 1U << 30U;         // bytes
   constexpr std::string_view kMark = "\xEF\xBB\xBF";  // that some programs put before UTF-8

@@ -49,6 +49,9 @@ class CsvReader {
   std::size_t line_ = 0, columns_ = 0;
 };
 
+// The line that header() would read; empty where there is none.
+[[nodiscard]] std::string_view csv_header(std::string_view text);
+
 // The whole file. Throws Error "path:1:1: cannot read this <kind>; expected <wanted>; check the name".
 [[nodiscard]] std::string csv_text(const std::string& path, const std::string& kind,
                                    const std::string& wanted);

@@ -130,16 +130,9 @@ std::vector<models::PointPair> averages(const PointSet& places, std::size_t fram
 }
 
 bool is_point_set(const std::string& text) {
-  for (std::string_view rest = text; !rest.empty();) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = rest.substr(0, end);
-    if (!line.empty() && line.front() != '#' && line != "\r") {
-      const auto has = [&](std::string_view part) { return line.find(part) != std::string_view::npos; };
-      return has("camera_") || has("device_");  // one of them misspelt is still meant to be one
-    }
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return false;
+  const std::string_view header = models::csv_header(text);
+  const auto has = [&](std::string_view part) { return header.find(part) != std::string_view::npos; };
+  return has("camera_") || has("device_");  // one of them misspelt is still meant to be one
 }
 
 PointSet parse_points(const std::string& text, const std::string& name) {
