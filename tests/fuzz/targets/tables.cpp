@@ -1,9 +1,11 @@
 // Tables: loops of `fit`, points of `calibrate`, logs of a tracker. What is accepted holds finite numbers.
 #include <cmath>
+#include <regex>
 
 #include <fmt/format.h>
 
 #include "models/fit/loop_csv.h"
+#include "models/fit/pivot/pivot_log.h"
 #include "models/fit/tracker_log.h"
 #include "models/mesh_files/mesh_places.h"
 #include "tests/fuzz/machine/target.h"
@@ -102,6 +104,35 @@ Target tracker_log() {
   return target;
 }
 
+// 6 s of a pen that swings about its tip.
+Target pivot_log() {
+  Target target;
+  const std::string columns = "time_s,tool,P_x_mm,P_y_mm,P_z_mm,P_qx,P_qy,P_qz,P_qw";
+  for (const char* prefix : {"tool", "markers"}) {
+    std::string text = std::regex_replace(columns, std::regex("P"), prefix) + "\n";
+    for (int n = 0; n < 60; ++n) {
+      const double x = 0.3 * std::sin(0.4 * n), y = 0.3 * std::sin(0.3 * n + 1.0);
+      const double w = std::sqrt(1.0 - x * x - y * y);
+      text += fmt::format("{:.1f},pen,{:.3f},{:.3f},{:.3f},{:.6f},{:.6f},0,{:.6f}\n", 0.1 * n, 200 * w * y,
+                          -200 * w * x, 200 * w * w, x, y, w);
+    }
+    target.seeds.push_back(text);
+  }
+  target.tokens = csv_tokens();
+  target.run = [](const std::string& input) {
+    static_cast<void>(models::is_pivot_log(input));
+    const models::PivotLog log = models::parse_pivot_log(input, "fuzz.csv");
+    for (const models::PivotPose& pose : log.poses)
+      expect(pose.X_CT.valid() && std::isfinite(pose.time), "a pose is none");
+    const models::PivotFit fit = models::fit_pivot(log.poses);
+    expect(fit.point().finite() && fit.dimple.finite() && std::isfinite(fit.rms), "the tip is not finite");
+    for (const models::Interval& axis : fit.tip)
+      expect(std::isfinite(axis.half), "an interval is not finite");
+    return true;
+  };
+  return target;
+}
+
 Target places() {
   Target target;
   target.seeds = {"x_m,y_m,z_m\n0,0,0\n1,-2.5,3e-2\r\n+4,5,6\n\n"};
@@ -116,6 +147,7 @@ Target places() {
 
 const Offer kPlaces("places", &places);
 const Offer kLoop("loop", &loop), kPoints("points", &points), kTrackerLog("tracker_log", &tracker_log);
+const Offer kPivotLog("pivot_log", &pivot_log);
 
 }  // namespace
 }  // namespace enc::fuzz
