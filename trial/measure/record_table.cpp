@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,8 @@ void add(std::string& row, double x) {
   if (std::isfinite(x)) row += fmt::format("{}", x);
 }
 
+void add_empty(std::string& row, std::size_t cells) { row.append(cells, ','); }
+
 // How hard the object is pressed, N. By a probe: as measured in this tick, not filtered. In a contact: what
 // the object was made to answer to, which is filtered.
 double pressing(const Scene& scene, const Outputs& out) {
@@ -27,6 +30,11 @@ double pressing(const Scene& scene, const Outputs& out) {
 std::int32_t repeat(const Outputs& out) {
   const bool pressed = out.mode == Mode::contact || (out.mode == Mode::probe && out.deflection > 0.0);
   return pressed ? out.contacts : 0;
+}
+
+std::string as_cell(std::string text) {
+  std::erase_if(text, [](char c) { return c == ',' || c == '"' || c == '\n'; });
+  return text;
 }
 
 // "SIMULATED ball 'nominal'": what a probe presses. No comma: it is a cell.
@@ -41,32 +49,41 @@ std::string source_of(const models::Setup& setup) {
   }
   text += fmt::format(" pressed {:g} mm at {:g} mm/s", setup.scene.probe->depth * 1e3,
                       setup.scene.probe->speed * 1e3);
-  std::erase_if(text, [](char c) { return c == ',' || c == '"' || c == '\n'; });
-  return text;
+  return as_cell(std::move(text));
 }
 
 }  // namespace
 
 RecordTable::RecordTable(const models::Setup& setup, const Scene& scene)
-    : scene_(scene), source_(source_of(setup)) {}
+    : scene_(scene), source_(source_of(setup)) {
+  for (const ToolSpec& tool : setup.scene.tools) tools_.push_back(as_cell(tool.name));
+}
 
 // Only in the row in which it came: a log must not count one packet twice.
-void RecordTable::add_tool(std::string& row, const Stamped<TrackedTool>& tool) {
+bool RecordTable::news(const Stamped<TrackedTool>& tool) {
   const bool known = tool.health == Health::ok && tool.value.tool >= 0 &&
                      tool.value.tool < static_cast<std::int32_t>(scene_.tools.size());
-  if (!known || tool.t == tool_t_) {
-    row += ",,,,";
-    return;
-  }
+  if (!known || tool.t == tool_t_) return false;
   tool_t_ = tool.t;
+  return true;
+}
+
+void RecordTable::add_tip(std::string& row, const Stamped<TrackedTool>& tool) const {
   const Point<'T'>& centre = scene_.tools[static_cast<std::size_t>(tool.value.tool)].tip.centre;
   for (const double x : (scene_.X_WC * (tool.value.X_CT * centre)).xyz) add(row, 1e3 * x);
   add(row, seconds(tool.t.time_since_epoch()));
 }
 
+void RecordTable::add_markers(std::string& row, const TrackedTool& tool) const {
+  row += ',' + tools_[static_cast<std::size_t>(tool.tool)];
+  for (const double x : tool.X_CT.xyz) add(row, 1e3 * x);
+  for (const double x : tool.X_CT.xyzw) add(row, x);
+}
+
 std::string_view RecordTable::header() {
   return "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
-         "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source\n";
+         "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source,tool,markers_x_mm,markers_y_mm,markers_z_mm,"
+         "markers_qx,markers_qy,markers_qz,markers_qw\n";
 }
 
 std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
@@ -80,8 +97,11 @@ std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& 
   add(row, pressing(scene_, out));
   const std::int32_t number = repeat(out);
   row += fmt::format(",{}", number);
-  add_tool(row, in.tool);
-  return row + ',' + (number > 0 ? source_ : "") + '\n';
+  const bool seen = news(in.tool);
+  seen ? add_tip(row, in.tool) : add_empty(row, 4);
+  row += ',' + (number > 0 ? source_ : "");
+  seen ? add_markers(row, in.tool.value) : add_empty(row, 8);
+  return row + '\n';
 }
 
 std::string table_of_run(const models::Setup& setup, std::uint64_t seed) {

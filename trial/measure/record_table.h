@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/record/record.h"
 #include "models/setup/scene_file.h"
@@ -20,11 +21,14 @@ class RecordTable {
   [[nodiscard]] std::string row(const Tick& tick, const Inputs& in, const Outputs& out);  // in order
 
  private:
-  void add_tool(std::string& row, const Stamped<TrackedTool>& tool);
+  bool news(const Stamped<TrackedTool>& tool);  // of the tracker, since the last row
+  void add_tip(std::string& row, const Stamped<TrackedTool>& tool) const;
+  void add_markers(std::string& row, const TrackedTool& tool) const;
 
   const Scene& scene_;
-  std::string source_;         // of a push: what was pressed
-  Time tool_t_ = Time::min();  // stamp of the newest packet of the tracker so far
+  std::string source_;              // of a push: what was pressed
+  std::vector<std::string> tools_;  // their names
+  Time tool_t_ = Time::min();       // stamp of the newest packet of the tracker so far
 };
 
 // The whole run of a set-up, as `run --record` and `export` give it.

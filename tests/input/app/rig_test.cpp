@@ -69,8 +69,9 @@ class RigProgram : public testing::Test {
 
 struct Row {
   std::string mode;
-  std::vector<double> numbers;  // of all other columns but the last; NaN where the cell is empty
+  std::vector<double> numbers;  // of all other columns before the source; NaN where the cell is empty
   std::string source;
+  std::vector<std::string> markers;  // and the tool that they are of; no empty last cell
 };
 std::vector<Row> rows_of(const std::string& csv) {
   std::istringstream in(csv);
@@ -80,15 +81,19 @@ std::vector<Row> rows_of(const std::string& csv) {
   EXPECT_EQ(
       text,
       "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
-      "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source");
+      "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source,tool,markers_x_mm,markers_y_mm,markers_z_mm,"
+      "markers_qx,markers_qy,markers_qz,markers_qw");
   while (std::getline(in, text)) {
     Row row;
     std::istringstream cells(text);
+    bool past = false;
     for (std::string cell; std::getline(cells, cell, ',');) {
       if (row.numbers.size() == 1 && row.mode.empty())
         row.mode = cell;
+      else if (past)
+        row.markers.push_back(cell);
       else if (row.numbers.size() == 14)
-        row.source = cell;
+        row.source = cell, past = true;
       else
         row.numbers.push_back(cell.empty() ? kUnset : std::strtod(cell.c_str(), nullptr));
     }
