@@ -247,19 +247,21 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CalibrateOptions calibrate_options;
   CLI::App* calibrate_command = app.add_subcommand(
       "calibrate",
-      "a tracker's bias, noise and latency out of a log; the camera's pose out of pairs "
-      "of points, or guided: the rig's simulated arm is driven through the camera's view; a "
-      "stereo head out of pictures of a chessboard; the colour of skin out of pictures of hands");
+      "a tracker's bias, noise and latency out of a log; the tip of a tool out of its swinging about it; the "
+      "camera's pose out of pairs of points, or guided: the rig's simulated arm is driven through its view; "
+      "a stereo head out of pictures of a chessboard; the colour of skin out of pictures of hands");
   calibrate_command
       ->add_option(
           "what", calibrate_options.log,
-          "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; CSV with camera_x_m.., device_x_m.., "
-          "pair; a rig with a simulated arm, such as vishap; a folder with left01.png, right01.png, ...; or, "
-          "with "
-          "--skin, a folder with images of hands")
+          "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; or with time_s, tool_x_mm.., "
+          "tool_qx..; or with camera_x_m.., device_x_m.., pair; a rig with a simulated arm, such as vishap; "
+          "a folder with left01.png, right01.png, ...; or, with --skin, a folder with images of hands")
       ->required();
   calibrate_command->add_option("--rate-Hz", calibrate_options.rate,
                                 "of a log: rows a second that it shall have; default: any");
+  calibrate_command->add_flag(
+      "--pivot", calibrate_options.pivot,
+      "of a log with tip and markers, as export writes: where the swung tool's tip is");
   calibrate_command->add_flag("--json", calibrate_options.json, "one JSON object instead of text");
   calibrate_command
       ->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to; of a folder: TOML")

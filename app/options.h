@@ -70,8 +70,9 @@ struct FitOptions {
   std::vector<std::string> hold, free;  // "wall_mm=3.4", "wall_mm"
 };
 struct CalibrateOptions {
-  std::string log;             // a tracker's log, a set of points, a rig with an arm, or a folder of images
+  std::string log;  // a tracker's log, a swung tool's poses, points, a rig with an arm, or a folder of images
   std::optional<double> rate;  // Hz, of the rows, as expected
+  bool pivot = false;          // of a table that is a tracker's log and has poses, too: these are meant
   bool json = false;
   // Of a rig: the guided procedure.
   std::string out;

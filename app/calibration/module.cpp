@@ -147,6 +147,7 @@ int calibrate_head(const CalibrateOptions& options) {
 
 int calibrate_images(const CalibrateOptions& options) {
   refuse(options.rate.has_value(), "--rate-Hz", "a log");
+  refuse(options.pivot, "--pivot", "a log");
   refuse(options.pairs.has_value(), "--pairs", "a rig");
   refuse(options.frames.has_value(), "--frames", "a rig");
   refuse(options.seed.has_value(), "--seed", "a rig or of points");

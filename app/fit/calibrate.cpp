@@ -1,5 +1,6 @@
 // `encounter calibrate LOG.csv`: how far off, how noisy and how late a tracker is, out of any log of a tool
-// that the machine carries past it. Points and rigs go to calibrate_points.cpp.
+// that the machine carries past it. Points and rigs go to calibrate_points.cpp, poses of a swung tool to
+// calibrate_pivot.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "models/csv_reader.h"
 #include "models/fit/latency_fit.h"
+#include "models/fit/pivot/pivot_log.h"
 #include "models/schema/wording.h"
 #include "trial/fit/point_set.h"
 
@@ -235,6 +237,7 @@ int calibrate_command(const CalibrateOptions& options, const trial::DriverSource
   // Names of rigs have neither dot nor slash, and their files are TOML; all else is a table.
   if (options.log.find_first_of("./") == std::string::npos || options.log.ends_with(".toml")) {
     refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
+    refuse(options.pivot, "--pivot", "a log", options);
     return calibrate_rig(options, modules);
   }
   refuse_rig_options(options);
@@ -243,9 +246,14 @@ int calibrate_command(const CalibrateOptions& options, const trial::DriverSource
                        "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes");
   if (trial::is_point_set(csv)) {
     refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
+    refuse(options.pivot, "--pivot", "a log", options);
     return calibrate_points(csv, options);
   }
   refuse(options.seed.has_value(), "--seed", "a rig or of points", options);
+  if (options.pivot || models::is_pivot_log(csv)) {
+    refuse(options.rate.has_value(), "--rate-Hz", "a log with a tip", options);
+    return calibrate_pivot(csv, options);
+  }
   const TrackerLog log = models::parse_tracker_log(csv, options.log, options.rate.value_or(kUnset));
   const LatencyFit fit = models::fit_latency(log);
   check_carried(fit, options.log);

@@ -10,9 +10,10 @@ namespace enc::app {
 
 int fit_loop(const FitOptions& options);  // a response out of a measured loop
 int fit_ball(const FitOptions& options);  // the ball behind the loops
-// A tracker's log, a set of points or a rig: it looks which of them it is.
+// A tracker's log, a tool that is swung, a set of points or a rig: it looks which of them it is.
 int calibrate_command(const CalibrateOptions& options, const trial::DriverSource& modules);
 int calibrate_points(const std::string& csv, const CalibrateOptions& options);
+int calibrate_pivot(const std::string& csv, const CalibrateOptions& options);
 int calibrate_rig(const CalibrateOptions& options, const trial::DriverSource& modules);
 
 }  // namespace enc::app

@@ -1,0 +1,203 @@
+// `encounter calibrate POSES.csv` as a person uses it: a tool that is swung about its tip; and mistakes in
+// its log, one line each.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/rotation.h"
+#include "tests/support/replaced.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+using test::replaced;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CalibratePivot : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (temporary_.path() / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+  // What one line on stderr says, with exit code 2.
+  static std::string line(const std::vector<std::string>& args) {
+    const Result r = run_program(args, kShipped);
+    EXPECT_EQ(r.code, 2) << r.out;
+    EXPECT_EQ(r.out, "");
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    return r.err;
+  }
+  test::TemporaryFolder temporary_;
+};
+
+const std::string kHead = "time_s,tool,tool_x_mm,tool_y_mm,tool_z_mm,tool_qx,tool_qy,tool_qz,tool_qw\n";
+const Vec3 kTip(3, -2, -120), kDimple(100, -900, 600);  // in T and in C, mm
+
+// 10 s at 50 Hz of a pen whose tip is at [3, -2, -120] mm, turned by these angles, deg. What it slips by: mm.
+std::string rows(
+    const std::function<Vec3(double)>& angles,
+    const std::function<double(double)>& slip = [](double) { return 0.0; }) {
+  std::string text;
+  for (int i = 0; i < 500; ++i) {
+    const double t = 0.02 * i;
+    const Quat q = rotation_xyz(M_PI / 180.0 * angles(t));
+    const Vec3 p = kDimple - q * kTip + Vec3(slip(t), 0, 0.05 * std::sin(77.0 * i));
+    text += fmt::format("{:.2f},pen,{:.4f},{:.4f},{:.4f},{:.7f},{:.7f},{:.7f},{:.7f}\n", t, p.x(), p.y(),
+                        p.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  return text;
+}
+Vec3 about_two_axes(double t) { return {30 * std::sin(3.0 * t), 30 * std::sin(2.0 * t + 1.0), 0}; }
+
+TEST_F(CalibratePivot, TellsTheTip) {
+  const std::string log = write("p.csv", kHead + rows(about_two_axes));
+  const Result r = run_program({"calibrate", log});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("500 poses of pen in 10.0 s\n"), HasSubstr("\nx       "),
+                           testing::ContainsRegex("z +-(120.00|119.99)[0-9]+ \\+- 0.0[0-9]+\n"),
+                           testing::ContainsRegex("\\[\\[tool\\]\\]\ntip_mm = \\[[23]\\.[09]"),
+                           HasSubstr("the centre of its sphere"), HasSubstr("deg rms; the first is [")));
+  const Result json = run_program({"calibrate", log, "--json"});
+  const auto told = nlohmann::json::parse(json.out);
+  for (std::size_t a = 0; a < 3; ++a) {
+    EXPECT_NEAR(told["tip_mm"][a].get<double>(), kTip(static_cast<Eigen::Index>(a)), 0.01);
+    EXPECT_NEAR(told["dimple_mm"][a].get<double>(), kDimple(static_cast<Eigen::Index>(a)), 0.02);
+    EXPECT_LT(told["tip_half_mm"][a].get<double>(), 0.02);
+    EXPECT_GT(told["swing_deg"][a].get<double>(), 15.0);
+  }
+  EXPECT_EQ(told["poses"], 500);
+  EXPECT_EQ(told["outliers"], 0);
+  EXPECT_EQ(told["tool"], "pen");
+  EXPECT_NEAR(told["residual_rms_mm"].get<double>(), 0.05 / std::sqrt(2.0), 0.002);
+  EXPECT_NEAR(told["residual_max_mm"].get<double>(), 0.05, 0.01);
+}
+
+TEST_F(CalibratePivot, ASlipIsLeftOutAndCounted) {
+  const auto slip = [](double t) { return t > 4.0 && t < 4.5 ? 8.0 : 0.0; };
+  const Result r = run_program({"calibrate", write("s.csv", kHead + rows(about_two_axes, slip))});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("; 24 left out, farther than 6 standard deviations"),
+                           testing::ContainsRegex("medians of 0.25 s wander by up to [78]\\.")));
+}
+
+TEST_F(CalibratePivot, RefusesMotionThatDoesNotTellTheTip) {
+  const auto refused = [&](const std::string& text) {
+    return line({"calibrate", write("m.csv", kHead + text)});
+  };
+  const std::string good = rows(about_two_axes);
+  EXPECT_THAT(refused(rows([](double) { return Vec3(10, 20, 30); })),
+              AllOf(HasSubstr("m.csv:1:1: the tool hardly turned: no direction of it by more than"),
+                    HasSubstr("expected at least 5 deg of each; swing it about its tip")));
+  EXPECT_THAT(refused(rows([](double t) { return Vec3(0, 0, 60 * std::sin(t)); })),
+              AllOf(HasSubstr("m.csv:1:1: the tool turned about one axis alone, [0.00, 0.00, 1.00] in T"),
+                    HasSubstr("by 0.0 deg rms, so the tip's place along it is not known"),
+                    HasSubstr("swing the tool about a second axis")));
+  EXPECT_THAT(refused(rows(about_two_axes, [](double t) { return 3.0 * t; })),
+              AllOf(HasSubstr("m.csv:1:1: the tip did not stay: it wandered by up to 1"),
+                    HasSubstr("expected at most 2 mm rms and 20 %; hold the tip in its dimple")));
+  EXPECT_THAT(refused(rows(about_two_axes, [](double t) { return t < 4.0 ? 30.0 : 0.0; })),
+              AllOf(HasSubstr("it wandered by up to 30 mm"), HasSubstr("40 % more lie apart")));
+  EXPECT_THAT(refused(good.substr(0, good.find("0.58,pen"))),
+              HasSubstr("m.csv:1:1: there are 29 poses of the tool; expected at least 30; record longer"));
+  EXPECT_THAT(refused(good.substr(0, good.find("2.00,pen"))),
+              HasSubstr("m.csv:1:1: the poses of the tool are of 1.98 s; expected at least 4 s"));
+}
+
+TEST_F(CalibratePivot, RefusesBadRowsInOneLine) {
+  const std::string good = kHead + rows(about_two_axes);
+  const auto refused = [&](const std::string& row) {
+    return line({"calibrate", write("r.csv", good + row)});
+  };
+  EXPECT_THAT(refused("10,pen,nan,0,0,0,0,0,1\n"),
+              HasSubstr("r.csv:502:8: 'tool_x_mm' is 'nan'; expected a finite number"));
+  EXPECT_THAT(refused("10,pen,0,0,0,0,inf,0,1\n"), HasSubstr("r.csv:502:16: 'tool_qy' is 'inf'"));
+  EXPECT_THAT(refused("10,pen,0,0,0,0,0,0,\n"), HasSubstr("r.csv:502:20: 'tool_qw' is ''"));
+  EXPECT_THAT(refused("10,pen,0,0,0,0,0,0.1,1\n"),
+              HasSubstr("r.csv:502:14: the quaternion 0, 0, 0.1, 1 has the length 1.005; expected 1"));
+  EXPECT_THAT(refused("10,pen,0,0,0,0,0,0,0\n"), HasSubstr("has the length 0; expected 1"));
+  EXPECT_THAT(refused("1,pen,0,0,0,0,0,0,1\n"),
+              HasSubstr("r.csv:502:1: the time 1 s does not come after 9.98 s; expected increasing times"));
+  EXPECT_THAT(refused("9.98,pen,0,0,0,0,0,0,1\n"), HasSubstr("the time 9.98 s repeats 9.98 s"));
+  EXPECT_THAT(
+      refused("10,stylus,0,0,0,0,0,0,1\n"),
+      HasSubstr("r.csv:502:4: this row is of the tool 'stylus' and those before are of 'pen'; expected "
+                "one tool in a log"));
+  EXPECT_THAT(refused("10,pen,20000,0,0,0,0,0,1\n"), HasSubstr("r.csv:502:8: 20000 mm is farther than 10 m"));
+  EXPECT_THAT(refused("10,pen,0,0,0,0,0,1\n"), HasSubstr("this row has 8 columns; expected 9"));
+  EXPECT_THAT(line({"calibrate", write("h.csv", replaced(good, "tool_qw", "tool_w"))}),
+              HasSubstr("h.csv:1:1: there is no column 'tool_qw'"));
+}
+
+TEST_F(CalibratePivot, OptionsOfAnotherInputAreRefused) {
+  const std::string log = write("p.csv", kHead + rows(about_two_axes));
+  const std::string points = write("c.csv", "camera_x_m,camera_y_m,camera_z_m\n0,0,0\n");
+  for (const std::vector<std::string>& args :
+       std::vector<std::vector<std::string>>{{log, "--out", path("o.csv")},
+                                             {log, "--seed", "1"},
+                                             {log, "--rate-Hz", "50"},
+                                             {log, "--pairs", "8"},
+                                             {points, "--pivot"},
+                                             {"vishap", "--pivot"}}) {
+    std::vector<std::string> words{"calibrate"};
+    words.insert(words.end(), args.begin(), args.end());
+    EXPECT_THAT(line(words), HasSubstr(args[1] + " is of a "));
+  }
+  EXPECT_THAT(run_program({"calibrate", "--help"}).out, AllOf(HasSubstr("--pivot"), HasSubstr("tool_qx")));
+}
+
+// A table that has a tip is a tracker's log, until it is said that its poses are meant.
+TEST_F(CalibratePivot, ATableWithTipAndMarkersIsAskedForItsPoses) {
+  const std::string head = replaced(kHead, "tool_x_mm,tool_y_mm,tool_z_mm,tool_qx,tool_qy,tool_qz,tool_qw",
+                                    "markers_x_mm,markers_y_mm,markers_z_mm,markers_qx,markers_qy,markers_qz,"
+                                    "markers_qw,tip_x_mm,tip_y_mm,tip_z_mm,tool_x_mm,tool_y_mm,tool_z_mm");
+  std::string text = rows(about_two_axes);
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 13))
+    text.insert(at, ",1,2,3,4,5,6");
+  const std::string log = write("b.csv", head + text);
+  const Result r = run_program({"calibrate", log, "--pivot"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("500 poses of pen"));
+  EXPECT_THAT(line({"calibrate", log}), HasSubstr("b.csv:"));
+}
+
+// What a record of the laboratory holds: here W has the axes of C, and the tip is at [0, 0, -120] mm in T.
+TEST_F(CalibratePivot, ReadsWhatExportWrites) {
+  ASSERT_EQ(run_program({"run", shipped_scene("clamped_tool"), "--for-s", "5", "--record", path("r.encrec")},
+                        kShipped)
+                .code,
+            0);
+  ASSERT_EQ(run_program({"export", path("r.encrec"), "--csv", path("r.csv")}).code, 0);
+  std::ifstream in(path("r.csv"));
+  int seen = 0;
+  for (std::string row; std::getline(in, row);) {
+    std::vector<std::string> cells;
+    std::istringstream parts(row + ",");
+    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells.size(), 24U) << row;
+    ASSERT_EQ(cells[16].empty(), cells[11].empty()) << row;
+    if (cells[16] != "stylus") continue;
+    ++seen;
+    const auto number = [&](std::size_t k) { return std::stod(cells[k]); };
+    const Vec3 tip_W(number(11), number(12), number(13)), p(number(17), number(18), number(19));
+    const Quat q(number(23), number(20), number(21), number(22));
+    ASSERT_LT((Vec3(0, -900, 600) + p + q * Vec3(0, 0, -120) - tip_W).norm(), 1e-9) << row;
+  }
+  EXPECT_NEAR(seen, 500, 20);
+  EXPECT_THAT(line({"calibrate", path("r.csv"), "--pivot"}), HasSubstr("r.csv:1:1: the tool hardly turned"));
+}
+
+}  // namespace
+}  // namespace enc::tests
