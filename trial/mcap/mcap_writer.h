@@ -1,0 +1,71 @@
+// An MCAP file (https://mcap.dev/spec), written from front to back: the container, and nothing of what is in
+// it. Chunks are not compressed; only the chunk that is being filled is in memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace enc::trial {
+
+// CRC-32 as zip has it, of bytes that follow those of which `before` is.
+[[nodiscard]] std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
+
+class McapWriter {
+ public:
+  using Sink = std::function<void(std::string_view)>;  // takes the bytes of the file, in order
+
+  static constexpr std::size_t kChunk = std::size_t{1} << 20U;
+  // library: who writes it, "encounter 0.1.0". A chunk is closed once it has so many bytes.
+  McapWriter(Sink sink, std::string_view library, std::size_t chunk = kChunk);
+
+  // Numbers of schema and channel, which others name them by.
+  [[nodiscard]] std::uint16_t add_schema(std::string_view name, std::string_view encoding,
+                                         std::string_view data);
+  [[nodiscard]] std::uint16_t add_channel(std::string_view topic, std::uint16_t schema,
+                                          std::string_view message_encoding);
+  // Times in ns.
+  void message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time,
+               std::string_view data);
+  void attach(std::string_view name, std::string_view media_type, std::string_view data);
+  void metadata(std::string_view name, const std::map<std::string, std::string>& texts);
+  void close();  // the rest and the summary; without it the file is none
+
+ private:
+  struct Entry {
+    std::uint64_t time = 0, offset = 0;  // of a message, in the chunk before it is compressed
+  };
+  struct Channel {
+    std::vector<Entry> entries;  // of the chunk that is being filled
+    std::uint64_t messages = 0;  // since the start
+  };
+  struct Times {  // of messages; 0 and 0 of none
+    bool any = false;
+    std::uint64_t first = 0, last = 0;
+    void add(std::uint64_t time);
+  };
+
+  void put(std::string_view bytes);
+  void flush_chunk();
+  void write_summary();
+  [[nodiscard]] std::string statistics() const;
+
+  Sink sink_;
+  std::size_t chunk_size_;
+  std::uint64_t at_ = 0;   // bytes so far
+  std::uint32_t crc_ = 0;  // of them
+  std::string chunk_;      // records
+  Times chunk_times_, times_;
+  std::vector<Channel> channels_;
+  std::uint64_t messages_ = 0;
+  std::uint16_t schemas_ = 0;
+  std::uint32_t chunks_ = 0, attachments_ = 0, metadatas_ = 0;
+  // What the summary says again, or where it stands: records.
+  std::string schema_records_, channel_records_, chunk_indexes_, attachment_indexes_, metadata_indexes_;
+};
+
+}  // namespace enc::trial
