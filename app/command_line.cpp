@@ -148,7 +148,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   ExportOptions export_options;
   CLI::App* export_command = app.add_subcommand(
       "export",
-      "a record as a table: tip, force, deflection of every tick (CSV); or a scene as MuJoCo has it");
+      "a record as a table (CSV) or, with --mcap, as a file for viewers; or a scene as MuJoCo has it");
   export_command->add_option("record", export_options.record, "file written by run --record, or a scene")
       ->required();
   export_command
@@ -157,6 +157,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       ->check(unnamed);
   export_command
       ->add_option("--csv", export_options.csv, "of a record: file to write; default: -, standard output")
+      ->check(unnamed);
+  export_command->add_option("--mcap", export_options.mcap, "of a record: MCAP file to write, for Foxglove")
       ->check(unnamed);
   export_command->add_option("--rig", export_options.rig, "of a scene: rig, as for run")->check(unnamed);
   export_command->add_option("--set", export_options.set, "of a scene: override, as for run");

@@ -1,10 +1,11 @@
-// A record as a table, for programs that know nothing of Encounter (docs/guide/rig.md). Row by row: a long
-// record is never in memory as a whole.
+// A record as a table or as MCAP, for programs that know nothing of Encounter (docs/guide/rig.md). Tick by
+// tick: a long record is never in memory as a whole.
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string_view>
 
+#include <encounter_version.h>
 #include <fmt/format.h>
 
 #include "app/built.h"
@@ -14,6 +15,7 @@
 #include "core/error.h"
 #include "models/files.h"
 #include "trial/assemble.h"
+#include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"
 #include "trial/prepare.h"
 
@@ -61,10 +63,18 @@ void refuse_others(const ExportOptions& options) {
           options.record +
           ": is a scene, and nothing says where its world shall go; expected a record, or a scene and "
           "a file; name one, such as world.xml");
+    if (options.mcap.empty()) return;
+    constexpr const char* kAlone = "one of them at a time";
+    refuse(!options.csv.empty(), "--csv", "a table, and --mcap is given", kAlone);
+    refuse(options.ledger, "--ledger", "a table, and --mcap is given, which has the ledger, too", kAlone);
+    if (options.mcap == "-")
+      throw Error(
+          "--mcap -: MCAP is not written to standard output; expected a file; name one, such as r.mcap");
     return;
   }
   constexpr const char* kInstead = "a scene and the file that its world is written to";
   refuse(!options.csv.empty(), "--csv", "a record that is written as a table", kInstead);
+  refuse(!options.mcap.empty(), "--mcap", "a record that is written as MCAP", kInstead);
   refuse(options.partial, "--partial", "a record that is written as a table", kInstead);
   refuse(options.ledger, "--ledger", "a record: a scene has no ledger before it has run", kInstead);
   if (options.xml == "-")
@@ -101,12 +111,59 @@ std::string ledger_of(const RecordReader& record, const std::string& path) {
               ", or leave out --ledger");
 }
 
+// What of a record is not there, as a person is told it.
+std::string lack_of(const RecordReader& record, const char* in) {
+  if (!record.damage().empty())
+    return fmt::format("{}; only the {} ticks before it are in the {}", record.damage(), record.ticks(), in);
+  if (!record.sealed())
+    return fmt::format(
+        "is not sealed: it was cut off, or its run was killed; the {} ticks that it holds are in the {}",
+        record.ticks(), in);
+  return {};
+}
+
+// Gives all ticks away; false where a signal came before the last: half a file is none.
+template <class Take>
+bool take_all(RecordReader& record, bool stoppable, const Take& take) {
+  for (RecordedTick frame; record.next(frame);) {
+    take(frame);
+    if (stoppable && StopSignals::caught() != 0) return false;
+  }
+  return true;
+}
+
+bool write_mcap(const ExportOptions& options, RecordReader& record, const models::Setup& setup,
+                const Scene& scene) {
+  models::OutFile out(options.mcap, models::existing(options.force));
+  trial::McapWriter file([&](std::string_view bytes) { out.write(bytes); }, "encounter " ENCOUNTER_VERSION);
+  trial::RecordMcap mcap(file, setup, scene, record.texts());
+  if (!take_all(record, true, [&](const RecordedTick& frame) { mcap.add(frame); })) return false;
+  const std::string lack = lack_of(record, "file");
+  mcap.end(record.end_texts(), lack.empty() ? "whole" : lack);
+  out.keep();
+  return true;
+}
+
+bool write_table(const ExportOptions& options, const std::string& csv, bool stoppable, RecordReader& record,
+                 const models::Setup& setup, const Scene& scene) {
+  Output output(csv, models::existing(options.force));
+  trial::RecordTable table(setup, scene);
+  output.write(trial::RecordTable::header());
+  const auto row = [&](const RecordedTick& frame) {
+    output.write(table.row(frame.tick, frame.in, frame.out));
+  };
+  if (!take_all(record, stoppable, row)) return false;
+  output.end();
+  return true;
+}
+
 }  // namespace
 
 int export_record(const ExportOptions& options) {
   refuse_others(options);
   if (!options.xml.empty()) return export_world(options);
   const std::string csv = options.csv.empty() ? "-" : options.csv;
+  const bool mcap = !options.mcap.empty();
   models::note_input(options.record);
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup setup = models::setup_of(record.texts(), options.record);
@@ -114,31 +171,20 @@ int export_record(const ExportOptions& options) {
   const std::string ledger = options.ledger ? ledger_of(record, options.record) : "";
   // A pipe without a reader ends this as it ends others.
   std::optional<StopSignals> signals;
-  if (csv != "-") signals.emplace();
-  Output output(csv, models::existing(options.force));
+  if (mcap || csv != "-") signals.emplace();
+  std::string lack;
   if (options.ledger) {
+    Output output(csv, models::existing(options.force));
     output.write(ledger);
     output.end();
-    if (!record.damage().empty())
-      fmt::print(stderr, "encounter: {}: {}; the ledger is as it was read\n", options.record,
-                 record.damage());
-    return record.damage().empty() ? 0 : 1;
+    if (!record.damage().empty()) lack = record.damage() + "; the ledger is as it was read";
+  } else {
+    const bool whole = mcap ? write_mcap(options, record, setup, scene)
+                            : write_table(options, csv, signals.has_value(), record, setup, scene);
+    if (!whole) return 128 + StopSignals::caught();
+    lack = lack_of(record, mcap ? "file" : "table");
   }
-  trial::RecordTable table(setup, scene);
-  output.write(trial::RecordTable::header());
-  for (RecordedTick frame; record.next(frame);) {
-    output.write(table.row(frame.tick, frame.in, frame.out));
-    if (signals && StopSignals::caught() != 0) return 128 + StopSignals::caught();  // half a table is none
-  }
-  output.end();
-  if (!record.damage().empty())
-    fmt::print(stderr, "encounter: {}: {}; only the {} ticks before it are in the table\n", options.record,
-               record.damage(), record.ticks());
-  else if (!record.sealed())
-    fmt::print(stderr,
-               "encounter: {}: is not sealed: it was cut off, or its run was killed; the {} ticks that it "
-               "holds are in the table\n",
-               options.record, record.ticks());
+  if (!lack.empty()) fmt::print(stderr, "encounter: {}: {}\n", options.record, lack);
   return record.damage().empty() ? 0 : 1;
 }
 

@@ -49,6 +49,7 @@ struct ExportOptions {
   std::string record;            // or a scene, whose simulated world `xml` shall be
   std::string xml;               // file; empty: a record is exported
   std::string csv;               // file; "-" or empty: standard output
+  std::string mcap;              // file; empty: a table
   std::string rig;               // of a scene; empty: its own
   std::vector<std::string> set;  // likewise, "name=value"
   bool partial = false, force = false;

@@ -6,12 +6,16 @@
 
 #include "core/frames.h"
 #include "core/machine/arm.h"
+#include "core/text/words.h"
 #include "core/time.h"
 #include "core/world/tip.h"
 
 namespace enc {
 
 enum class Health : std::uint8_t { absent, ok, stale, saturated, out_of_range, fault };
+constexpr auto words(Health) {
+  return enum_words("absent", "ok", "stale", "saturated", "out of range", "fault");
+}
 
 template <class V>
 struct Stamped {
@@ -51,6 +55,7 @@ struct Grip {
   double force = kUnset;
 };
 enum class GripPhase : std::uint8_t { open, closing, closed, opening };
+constexpr auto words(GripPhase) { return enum_words("open", "closing", "closed", "opening"); }
 
 struct GripSample {
   GripPhase phase = GripPhase::open;

@@ -91,17 +91,19 @@ TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
   }
 }
 
-// Half a table is worth nothing.
+// Half a table is worth nothing, and half of an MCAP file has no end that its readers look for.
 TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
   const test::TemporaryFolder folder;
-  const std::string record = folder.file("r.encrec"), csv = folder.file("t.csv");
+  const std::string record = folder.file("r.encrec");
   ASSERT_EQ(run_program({"run", shipped_scene("tennis_ball"), "--for-s", "60", "--record", record}).code, 0);
-  const Started table({"export", record, "--csv", csv});
-  while (!std::filesystem::exists(csv + ".part") || std::filesystem::file_size(csv + ".part") == 0)
-    after_ms(1);
-  table.send(SIGINT);
-  EXPECT_EQ(table.wait(), 130);
-  EXPECT_FALSE(std::filesystem::exists(csv) || std::filesystem::exists(csv + ".part"));
+  for (const char* option : {"--csv", "--mcap"}) {
+    const std::string out = folder.file("out"), aside = out + ".part";
+    const Started table({"export", record, option, out});
+    while (!std::filesystem::exists(aside) || std::filesystem::file_size(aside) == 0) after_ms(1);
+    table.send(SIGINT);
+    EXPECT_EQ(table.wait(), 130) << option;
+    EXPECT_FALSE(std::filesystem::exists(out) || std::filesystem::exists(aside)) << option;
+  }
 }
 
 // Also where the clock waits for hours, and where devices are real and armed.
