@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -31,22 +30,18 @@ struct RecordedTick {
 
 class RecordWriter {
  public:
-  // 16 MiB: at 1 kHz, and 1 kB a tick, a disk may stand still for 16 s.
-  static constexpr std::size_t kManyChunks = 256;
-  static constexpr std::chrono::milliseconds kLook{
-      10};  // between two drains: two chunks at most come meanwhile
+  static constexpr std::size_t kManyChunks = 256;  // 16 MiB: 16 s at 1 kHz
 
-  // Throws Error where the file cannot be made or its header not be written. `chunks`: with 1 each goes to
-  // the file when it is full, by whoever calls write(); with more another thread calls drain(), and write()
-  // never waits.
+  // Throws Error where the file cannot be made or its header not be written. With one chunk write() puts it
+  // into the file when it is whole; with more another thread calls drain(), and write() never waits.
   RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
                std::size_t chunks = 1);
   ~RecordWriter();  // without close() the record stays unsealed: the run did not end as it should
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  // Into memory, no heap; every 65th tick or so a chunk is whole. After a failed write, and where the
-  // file is behind by all chunks, it does nothing: a record has no gap.
+  // Into memory, no heap; every 65th tick or so a chunk is whole. After a failed write, and where the file is
+  // behind by all chunks, it does nothing: a record has no gap.
   void write(const Tick& tick, const Inputs& in, const Outputs& out, std::uint64_t state_hash) noexcept;
   // What is whole goes to the file. From one thread at a time; the writer goes when no other calls it.
   void drain() noexcept;
@@ -59,8 +54,7 @@ class RecordWriter {
   [[nodiscard]] std::int64_t ticks() const noexcept { return ticks_; }  // taken
 
  private:
-  // Head, leaves, checksum.
-  struct Chunk {
+  struct Chunk {  // head, leaves, checksum
     std::vector<std::uint64_t> words;
     std::size_t used = 1;
   };

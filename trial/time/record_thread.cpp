@@ -1,6 +1,5 @@
 #include "trial/time/record_thread.h"
 
-#include <chrono>
 #include <csignal>
 #include <stop_token>
 
@@ -19,7 +18,7 @@ RecordThread::RecordThread(RecordWriter& writer) {
     pthread_setschedparam(pthread_self(), SCHED_OTHER, &kNone);  // behind the loop, wherever it began
     while (!stop.stop_requested()) {
       writer.drain();
-      std::this_thread::sleep_for(RecordWriter::kLook);
+      std::this_thread::sleep_for(kLook);
     }
   });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);

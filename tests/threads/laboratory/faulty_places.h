@@ -4,10 +4,8 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "hw_drivers/gcs/drive/net_link.h"
@@ -16,42 +14,10 @@
 #include "hw_drivers/igtl/fake/tool_server.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
-#include "tests/support/default_offer.h"
 #include "tests/support/devices/following_machine.h"
-#include "trial/device_log.h"
+#include "tests/threads/laboratory/faulty_table.h"
 
 namespace enc::test {
-
-inline constexpr double kPatient = 100.0;  // s: longer than any test, on any machine
-inline constexpr double kImpatient = 0.03;
-
-struct FaultyTable final : DefaultOffer::Defaults {
-  using DefaultOffer::Defaults::value;
-  void value(const Setting& key, double& number) override {
-    if (const auto own = numbers.find(key.name); own != numbers.end()) number = own->second;
-  }
-  void value(const Setting& key, std::int64_t& whole) override {
-    if (const auto own = ports.find(key.name); own != ports.end()) whole = own->second;
-  }
-  void value(const Setting& key, std::string& text) override {
-    if (key.name == "address") text = "127.0.0.1";
-    if (key.name == "transport") text = transport;
-  }
-  std::string transport = "udp";               // of tool data
-  std::map<std::string_view, double> numbers;  // SI
-  std::map<std::string_view, std::int64_t> ports;
-};
-
-struct FaultyPlace {
-  Offer offer(const Reach& reach) {
-    return {table, defaults.rig, reach, Duration(1'000'000), log, false, false, tools};
-  }
-  DefaultOffer defaults;
-  FaultyTable table;
-  std::vector<std::string> tools{"stylus"};
-  trial::DeviceLog log;  // of the driver
-  trial::DeviceLog log_of_fake;
-};
 
 // A machine that is where it is told to be.
 struct FaultyGcs : FaultyPlace {
@@ -109,8 +75,7 @@ struct FaultyIgtl : FaultyPlace {
   explicit FaultyIgtl(double patience, std::uint64_t seed = 1)
       : server(std::make_unique<igtl::ToolServer>(
             tracker, std::vector<std::string>{"stylusToTracker"},
-            igtl::ToolServerSettings{.transport = seed % 2 == 0 ? igtl::Transport::udp : igtl::Transport::tcp,
-                                     .seed = seed})) {
+            igtl::ToolServerSettings{.transport = igtl::Transport{seed % 2 != 0}, .seed = seed})) {
     table.transport = seed % 2 == 0 ? "udp" : "tcp";
     table.numbers = {{"timeout_ms", kPatient}, {"silent_ms", patience}};
     table.ports = {{"port", server->port()}};

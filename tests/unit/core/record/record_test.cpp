@@ -328,49 +328,6 @@ TEST_F(RecordTest, ADiskThatFillsUpLeavesReadableChunks) {
   EXPECT_GE(read, 190);  // two chunks of about 99 ticks; the third does not fit
 }
 
-// Another puts it into the file, or nobody does until the end: the bytes are the same.
-TEST_F(RecordTest, WhoeverDrainsTheBytesAreTheSame) {
-  record_press(file("one"), 600, {});
-  const std::string one = bytes_of(file("one"));
-  RecordReader reader(file("one"));
-  for (const int every : {1, 150, 1000}) {
-    RecordWriter record(file("many"), reader.texts(), reader.layout(), RecordWriter::kManyChunks);
-    reader.rewind();
-    int i = 0;
-    for (RecordedTick frame; reader.next(frame); ++i) {
-      record.write(frame.tick, frame.in, frame.out, frame.hash);
-      if (i % every == every - 1) record.drain();
-    }
-    record.close();
-    EXPECT_EQ(record.error(), "");
-    EXPECT_EQ(bytes_of(file("many")), one) << every;
-  }
-}
-
-// Nobody drains: it ends when all chunks are whole, says so, and what it took is in the file to the last
-// tick.
-TEST_F(RecordTest, ADiskThatDoesNotKeepUpEndsTheRecordAndLeavesNoGap) {
-  constexpr std::size_t kChunks = 3;
-  RecordWriter record(file("slow"), {}, layout_hash(Scene()), kChunks);
-  std::int64_t tick = 0;
-  for (; tick < 2000 && !record.full(); ++tick)
-    record.write({tick, Time(Duration(tick)), Duration(1)}, {}, {}, 0);
-  EXPECT_EQ(tick, record.ticks());
-  EXPECT_EQ(tick % static_cast<std::int64_t>(kChunks), 0) << "whole chunks";
-  EXPECT_GE(tick, 150);
-  EXPECT_NE(record.error().find("the disk has not kept up with the run"), std::string::npos)
-      << record.error();
-  record.write({tick, Time(Duration(tick)), Duration(1)}, {}, {}, 0);
-  EXPECT_EQ(record.ticks(), tick) << "nothing more is taken";
-  record.close();
-  EXPECT_NE(refusal(file("slow")).find("no seal"), std::string::npos) << "it is not the whole run";
-  RecordReader reader(file("slow"), Partial::yes);
-  RecordedTick got;
-  std::int64_t read = 0;
-  for (; reader.next(got); ++read) ASSERT_EQ(got.tick.index, read);
-  EXPECT_EQ(read, tick);
-}
-
 TEST_F(RecordTest, AReplayGivesTheSameBits) {
   record_press(file("run"));
   RecordReader reader(file("run"));

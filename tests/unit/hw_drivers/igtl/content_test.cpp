@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "hw_drivers/net/big_endian.h"
-#include "tests/support/hex.h"
+#include "tests/unit/hw_drivers/hex.h"
 
 namespace enc::igtl {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hw_drivers/igtl/wire/content.h"
-#include "tests/support/hex.h"
+#include "tests/unit/hw_drivers/hex.h"
 
 namespace enc::igtl {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "hw_drivers/netft/wire/configuration.h"
-#include "tests/support/hex.h"
+#include "tests/unit/hw_drivers/hex.h"
 
 namespace enc::netft {
 namespace {

@@ -11,7 +11,7 @@
 #include "hw_drivers/netft/wire/configuration.h"
 #include "hw_drivers/netft/wire/http.h"
 #include "hw_drivers/netft/wire/record.h"
-#include "tests/support/hex.h"
+#include "tests/unit/hw_drivers/hex.h"
 
 namespace enc::netft {
 namespace {
