@@ -77,7 +77,10 @@ std::string IgtlTracker::describe() const {
 bool IgtlTracker::take_next(Time now) noexcept {
   const std::span<const std::byte> message = line_.next();
   if (message.empty()) return false;
-  news_ = reception_.take(message, arrival_.of(now, line_.came()), newest_) || news_;
+  const Time came = arrival_.of(now, line_.came());
+  news_ = reception_.take(message, came, newest_) || news_;
+  // When it was read, not when it came: a tick that was held up is no silence of the server.
+  if (reception_.heard() && reception_.last() == came) heard_ = arrival_.of(now, net::steady_now());
   return true;
 }
 
@@ -93,7 +96,7 @@ void IgtlTracker::begin_run(Time now) noexcept {
 }
 
 void IgtlTracker::keep_awake(Time now) noexcept {
-  const Time last = std::max(asked_, reception_.heard() ? reception_.last() : begun_);
+  const Time last = std::max(asked_, reception_.heard() ? heard_ : begun_);
   if (!settings_.streams() || age(now, last) < 0.25 * settings_.silent) return;
   asked_ = now;
   say("GET_STATUS");
@@ -114,7 +117,7 @@ bool IgtlTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
     linked_ = linked_ && came;
   }
   for (int i = 1; i < kMostMessages && came; ++i) came = take_next(now);
-  const Time last = reception_.heard() ? reception_.last() : begun_;
+  const Time last = reception_.heard() ? heard_ : begun_;
   if (line_.closed() || line_.lost() || (!lockstep_ && age(now, last) > settings_.silent)) linked_ = false;
   if (linked_ && !lockstep_) keep_awake(now);
   if (!news_) return false;

@@ -40,7 +40,7 @@ class IgtlTracker final : public PoseTracker {
   Line line_;
   net::Arrival arrival_;
   Stamped<TrackedTool> newest_;
-  Time begun_{}, asked_{};
+  Time begun_{}, asked_{}, heard_{};
   bool polled_ = false, begun_run_ = false, linked_ = true, lockstep_, news_ = false;
   int settled_ = 0;
 };

@@ -79,11 +79,14 @@ Stamped<Wrench> NetftSensor::read(Time now) noexcept {
     socket_.wait(period_);
   }
   if (!first && lockstep_) socket_.wait(from_seconds(settings_.timeout));  // one for each period
+  const std::int64_t before = session_.counts().records;
   for (int i = 0; i < kMostRecords && linked_ && receive(); ++i)
     session_.take(std::span(datagram_).first(size_), arrival_.of(now, socket_.came()));
+  // When it was read, not when it came: what a tick that was held up has lost in a full socket is no silence.
+  if (session_.counts().records > before) heard_ = arrival_.of(now, net::steady_now());
   Stamped<Wrench> newest = session_.newest();
   newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
-  const Time last = newest.health == Health::absent ? begun_ : session_.last();
+  const Time last = newest.health == Health::absent ? begun_ : heard_;
   if (!lockstep_ && age(now, last) > settings_.silent + 1e-9) linked_ = false;
   if (!linked_) newest.health = Health::fault;
   return newest;

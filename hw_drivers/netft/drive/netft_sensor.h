@@ -41,7 +41,7 @@ class NetftSensor final : public ForceSensor {
   Duration period_;                        // of the loop
   std::array<std::byte, 256> datagram_{};  // longer ones are no records
   std::size_t size_ = 0;
-  Time begun_{};
+  Time begun_{}, heard_{};
   bool lockstep_, reading_ = false, linked_ = true;
   bool agreed_ = false;  // the command interface was asked, too
 };
