@@ -70,13 +70,13 @@ struct CountingTracker final : PoseTracker {
   std::int64_t number = 0;
   Time last{};
 };
-// By datagrams or by a stream, as the seed has it.
 struct FaultyIgtl : FaultyPlace {
-  explicit FaultyIgtl(double patience, std::uint64_t seed = 1)
+  explicit FaultyIgtl(double patience, std::uint64_t seed = 1,
+                      igtl::Transport transport = igtl::Transport::udp)
       : server(std::make_unique<igtl::ToolServer>(
             tracker, std::vector<std::string>{"stylusToTracker"},
-            igtl::ToolServerSettings{.transport = igtl::Transport{seed % 2 != 0}, .seed = seed})) {
-    table.transport = seed % 2 == 0 ? "udp" : "tcp";
+            igtl::ToolServerSettings{.transport = transport, .seed = seed})) {
+    table.transport = transport == igtl::Transport::udp ? "udp" : "tcp";
     table.numbers = {{"timeout_ms", kPatient}, {"silent_ms", patience}};
     table.ports = {{"port", server->port()}};
   }

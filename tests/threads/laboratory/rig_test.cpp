@@ -18,7 +18,9 @@ using Kind = Trouble::Kind;
 
 struct ThreadedRigs {
   ThreadedRigs(double patience, std::uint64_t seed)
-      : there_gcs(patience, seed), there_netft(patience, seed + 1), there_igtl(patience, seed + 2) {}
+      : there_gcs(patience, seed),
+        there_netft(patience, seed + 1),
+        there_igtl(patience, seed + 2, igtl::Transport{seed % 2 != 0}) {}
   void tick(Time now) {  // in the loop's order: all are read, then one is told
     sensor_watch.tick(now);
     tracker_watch.tick(now);
