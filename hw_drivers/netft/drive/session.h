@@ -33,7 +33,6 @@ class Session {
   void take(std::span<const std::byte> datagram, Time now) noexcept;
   // absent before the first record.
   [[nodiscard]] const Stamped<Wrench>& newest() const noexcept { return newest_; }
-  [[nodiscard]] Time last() const noexcept { return last_; }  // when it came
   [[nodiscard]] net::ClockEstimate clock() const noexcept {
     return tie_.estimate();
   }  // 0 at its first record
@@ -51,7 +50,7 @@ class Session {
   bool was_far_ = false;
   std::int64_t samples_ = 0;  // since the first, as it never goes round
   Stamped<Wrench> newest_;
-  Time last_{};
+  Time last_{};  // when a record came
 };
 
 }  // namespace enc::netft

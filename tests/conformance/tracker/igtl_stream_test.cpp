@@ -70,33 +70,6 @@ struct RawBench : IgtlBench {
   Time now{Duration(1'000'000'000)};
 };
 
-TEST(IgtlStreamDriver, TakesThePosesOfAServerUntilItIsSilent) {
-  for (const char* message : {"TRANSFORM", "TDATA"}) {
-    IgtlPort there(igtl::Transport::tcp);
-    there.table.message = message;
-    auto served = std::make_unique<Served>(there.server);
-    const auto driver = igtl::subscribed(there.offer());
-    EXPECT_THAT(driver->describe(), HasSubstr("tracker's server at 127.0.0.1:"));
-    const IgtlBench::Watched seen = there.watch(*driver, 300);
-    EXPECT_GT(seen.news, 10);
-    EXPECT_EQ(there.newest.value.tool, 0);
-    EXPECT_LT((there.newest.value.X_CT.p() - Vec3(0.1, 0.2, 0.9)).norm(), 1e-12)
-        << "the pose to the last bit";
-    EXPECT_GE(seen.oldest, 0.003);
-    there.tracker.in_view = false;
-    there.watch(*driver, 30);
-    EXPECT_EQ(there.watch(*driver, 400).news, 0);
-    EXPECT_TRUE(driver->linked()) << "it says that it is there";
-    served.reset();
-    there.watch(*driver, 300);
-    EXPECT_FALSE(driver->linked());
-    there.tracker.in_view = true;
-    served = std::make_unique<Served>(there.server);
-    EXPECT_EQ(there.watch(*driver, 100).news, 0);
-    EXPECT_FALSE(driver->linked()) << "only another run connects again";
-  }
-}
-
 // What it asks for, in which words, and that it asks no more when it goes.
 TEST(IgtlStreamDriver, AsksForTdataWhereItIsToldToAndForNothingElse) {
   RawBench bench("TDATA");

@@ -1,6 +1,7 @@
 // Tool data over loopback: the driver and the server that stands in for the laboratory's.
 #include <chrono>
 #include <thread>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,28 +14,38 @@ namespace {
 
 using testing::HasSubstr;
 
+// By datagrams, and by a stream in each form that is asked for.
 TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
-  IgtlPort there;
-  auto served = std::make_unique<Served>(there.server);
-  const auto driver = igtl::subscribed(there.offer());
-  EXPECT_THAT(driver->describe(), HasSubstr("tool data of 127.0.0.1:"));
-  const IgtlPort::Watched seen = there.watch(*driver, 300);
-  EXPECT_GT(seen.news, 10);
-  EXPECT_EQ(there.newest.health, Health::ok);
-  EXPECT_EQ(there.newest.value.tool, 0);
-  EXPECT_LT((there.newest.value.X_CT.p() - Vec3(0.1, 0.2, 0.9)).norm(), 1e-12) << "the pose to the last bit";
-  EXPECT_GE(seen.oldest, 0.003);
-  there.tracker.in_view = false;
-  there.watch(*driver, 30);
-  EXPECT_EQ(there.watch(*driver, 400).news, 0);
-  EXPECT_TRUE(driver->linked()) << "it says that it is there";
-  served.reset();
-  there.watch(*driver, 300);
-  EXPECT_FALSE(driver->linked());
-  there.tracker.in_view = true;
-  served = std::make_unique<Served>(there.server);
-  EXPECT_EQ(there.watch(*driver, 100).news, 0);
-  EXPECT_FALSE(driver->linked());
+  using igtl::Transport;
+  for (const auto& [transport, message, words] :
+       {std::tuple{Transport::udp, "TRANSFORM", "tool data of 127.0.0.1:"},
+        {Transport::tcp, "TRANSFORM", "tracker's server at 127.0.0.1:"},
+        {Transport::tcp, "TDATA", "tracker's server at 127.0.0.1:"}}) {
+    SCOPED_TRACE(testing::Message() << words << message);
+    IgtlPort there(transport);
+    there.table.message = message;
+    auto served = std::make_unique<Served>(there.server);
+    const auto driver = igtl::subscribed(there.offer());
+    EXPECT_THAT(driver->describe(), HasSubstr(words));
+    const IgtlBench::Watched seen = there.watch(*driver, 300);
+    EXPECT_GT(seen.news, 10);
+    EXPECT_EQ(there.newest.health, Health::ok);
+    EXPECT_EQ(there.newest.value.tool, 0);
+    EXPECT_LT((there.newest.value.X_CT.p() - Vec3(0.1, 0.2, 0.9)).norm(), 1e-12)
+        << "the pose to the last bit";
+    EXPECT_GE(seen.oldest, 0.003);
+    there.tracker.in_view = false;
+    there.watch(*driver, 30);
+    EXPECT_EQ(there.watch(*driver, 400).news, 0);
+    EXPECT_TRUE(driver->linked()) << "it says that it is there";
+    served.reset();
+    there.watch(*driver, 300);
+    EXPECT_FALSE(driver->linked());
+    there.tracker.in_view = true;
+    served = std::make_unique<Served>(there.server);
+    EXPECT_EQ(there.watch(*driver, 100).news, 0);
+    EXPECT_FALSE(driver->linked()) << "only another run connects again";
+  }
 }
 
 // The process is stopped within a tick: what it reads then came later than the tick began.

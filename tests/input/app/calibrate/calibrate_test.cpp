@@ -12,8 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/input/app/calibrate/calibrate_files.h"
 
 namespace enc::tests {
 namespace {
@@ -22,23 +21,7 @@ using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
 
-class Calibrate : public testing::Test {
- protected:
-  std::string path(const std::string& name) const { return (temporary_.path() / name).string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-  // What one line on stderr says, with exit code 2.
-  static std::string line(const std::vector<std::string>& args) {
-    const Result r = run_program(args, kShipped);
-    EXPECT_EQ(r.code, 2) << r.out;
-    EXPECT_EQ(r.out, "");
-    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
-    return r.err;
-  }
-  test::TemporaryFolder temporary_;
-};
+class Calibrate : public CalibrateFiles {};
 
 // 20 ms late, there and back along x at two speeds.
 std::string log_text() {

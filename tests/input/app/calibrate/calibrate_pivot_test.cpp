@@ -14,9 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/rotation.h"
+#include "tests/input/app/calibrate/calibrate_files.h"
 #include "tests/support/replaced.h"
-#include "tests/support/run_program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace enc::tests {
 namespace {
@@ -25,23 +24,7 @@ using test::replaced;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class CalibratePivot : public testing::Test {
- protected:
-  std::string path(const std::string& name) const { return (temporary_.path() / name).string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-  // What one line on stderr says, with exit code 2.
-  static std::string line(const std::vector<std::string>& args) {
-    const Result r = run_program(args, kShipped);
-    EXPECT_EQ(r.code, 2) << r.out;
-    EXPECT_EQ(r.out, "");
-    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
-    return r.err;
-  }
-  test::TemporaryFolder temporary_;
-};
+class CalibratePivot : public CalibrateFiles {};
 
 const std::string kHead = "time_s,tool,tool_x_mm,tool_y_mm,tool_z_mm,tool_qx,tool_qy,tool_qz,tool_qw\n";
 const Vec3 kTip(3, -2, -120), kDimple(100, -900, 600);  // in T and in C, mm
