@@ -2,7 +2,6 @@
 // the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold or diverged; 129, 130 and 143
 // after a clean end by SIGHUP, SIGINT and SIGTERM.
 #include <algorithm>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -11,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <encounter_version.h>
 
+#include "app/command_line/parts.h"
 #include "app/laboratory/fault_text.h"
 #include "app/laboratory/laboratory.h"
 #include "app/options.h"
@@ -21,23 +21,6 @@
 namespace enc::app {
 namespace {
 
-// CLI11 reads "-1" and numbers of 30 digits as some other number.
-std::string bad_seed(const std::string& text) {
-  std::uint64_t value = 0;
-  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (bad == std::errc() && end == text.data() + text.size()) return {};
-  return "expected a whole number from 0 to 18446744073709551615";
-}
-
-// "" is what a script gives whose variable is not set.
-std::string unnamed(const std::string& text) {
-  return text.empty() ? "expected a name, and this one is empty" : std::string();
-}
-
-void force_option(CLI::App* command, bool& force) {
-  command->add_flag("--force", force, "replace files that are there");
-}
-
 void scene_options(CLI::App* command, SceneOptions& options) {
   command->add_option("scene", options.scene, "scene file (models/scenes/*.toml)")->required();
   command->add_option("--rig", options.rig, "rig: sim, a name in models/rigs, or a file")
@@ -47,14 +30,6 @@ void scene_options(CLI::App* command, SceneOptions& options) {
   command->add_option("--seed", options.seed, "seed of all random streams")
       ->capture_default_str()
       ->check(bad_seed);
-}
-
-void device_options(CLI::App* command, bool& armed, bool& lockstep) {
-  command->add_flag("--armed", armed,
-                    "send commands to real devices; without it they are only computed and recorded");
-  command->add_flag("--lockstep", lockstep,
-                    "the devices are those of `encounter fake --lockstep`, whose time goes on with each "
-                    "set-point: as fast as it goes, and the same in every run");
 }
 
 int dispatch(CLI::App& app, int argc, char** argv) {
@@ -247,54 +222,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   fit_command->callback([&] { code = fit(fit_options); });
 
   CalibrateOptions calibrate_options;
-  CLI::App* calibrate_command = app.add_subcommand(
-      "calibrate",
-      "a tracker's bias, noise and latency out of a log; the tip of a tool out of its swinging about it; the "
-      "camera's pose out of pairs of points, or guided: the rig's simulated arm is driven through its view; "
-      "a stereo head out of pictures of a chessboard; the colour of skin out of pictures of hands");
-  calibrate_command
-      ->add_option(
-          "what", calibrate_options.log,
-          "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; or with time_s, tool_x_mm.., "
-          "tool_qx..; or with camera_x_m.., device_x_m.., pair; a rig with a simulated arm, such as vishap; "
-          "a folder with left01.png, right01.png, ...; or, with --skin, a folder with images of hands")
-      ->required();
-  calibrate_command->add_option("--rate-Hz", calibrate_options.rate,
-                                "of a log: rows a second that it shall have; default: any");
-  calibrate_command->add_flag(
-      "--pivot", calibrate_options.pivot,
-      "of a log with tip and markers, as export writes: where the swung tool's tip is");
-  calibrate_command->add_flag("--json", calibrate_options.json, "one JSON object instead of text");
-  calibrate_command
-      ->add_option("--out", calibrate_options.out, "of a rig: CSV to write the points to; of a folder: TOML")
-      ->check(unnamed);
-  calibrate_command->add_option("--pairs", calibrate_options.pairs, "of a rig: places of the tip; default: 8")
-      ->check(CLI::Range(4, 1000));
-  calibrate_command
-      ->add_option("--frames", calibrate_options.frames, "of a rig: averaged at each place; default: 20")
-      ->check(CLI::Range(1, 1000));
-  calibrate_command
-      ->add_option("--seed", calibrate_options.seed,
-                   "of a rig: of the camera's noise; of points: of what is drawn from them; default: 1")
-      ->check(bad_seed);
-  calibrate_command->add_option("--set", calibrate_options.set, "of a rig: override, as for run");
-  calibrate_command->add_flag(
-      "--through-images", calibrate_options.through_images,
-      "of a rig: a ball at the tip is found in pictures of the twin's camera; without "
-      "it the camera sees points");
-  calibrate_command->add_option("--square-mm", calibrate_options.square_mm,
-                                "of a chessboard: side of the board's squares");
-  calibrate_command->add_option("--corners", calibrate_options.corners,
-                                "of a chessboard: inner corners of the board; default: 9x6");
-  calibrate_command
-      ->add_option("--picture", calibrate_options.picture, "of a chessboard: PNG of rectified pairs to write")
-      ->check(unnamed);
-  calibrate_command
-      ->add_option("--skin", calibrate_options.skin,
-                   "of hands: folder with a mask for each image, of the same name, white where the hand is")
-      ->check(unnamed);
-  force_option(calibrate_command, calibrate_options.force);
-  calibrate_command->callback([&] { code = calibrate(calibrate_options); });
+  add_calibrate(app, calibrate_options)->callback([&] { code = calibrate(calibrate_options); });
 
   NearestOptions nearest_options;
   CLI::App* nearest_command = app.add_subcommand(

@@ -1,0 +1,77 @@
+#include "app/command_line/parts.h"
+
+#include <charconv>
+#include <string>
+
+namespace enc::app {
+
+// CLI11 reads "-1" and numbers of 30 digits as some other number.
+std::string bad_seed(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (bad == std::errc() && end == text.data() + text.size()) return {};
+  return "expected a whole number from 0 to 18446744073709551615";
+}
+
+// "" is what a script gives whose variable is not set.
+std::string unnamed(const std::string& text) {
+  return text.empty() ? "expected a name, and this one is empty" : std::string();
+}
+
+void force_option(CLI::App* command, bool& force) {
+  command->add_flag("--force", force, "replace files that are there");
+}
+
+void device_options(CLI::App* command, bool& armed, bool& lockstep) {
+  command->add_flag("--armed", armed,
+                    "send commands to real devices; without it they are only computed and recorded");
+  command->add_flag("--lockstep", lockstep,
+                    "the devices are those of `encounter fake --lockstep`, whose time goes on with each "
+                    "set-point: as fast as it goes, and the same in every run");
+}
+
+CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate",
+      "a tracker's bias, noise and latency out of a log; the tip of a tool out of its swinging about it; the "
+      "camera's pose out of pairs of points, or guided: the rig's simulated arm is driven through its view; "
+      "a stereo head out of pictures of a chessboard; the colour of skin out of pictures of hands");
+  command
+      ->add_option(
+          "what", options.log,
+          "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; or with time_s, tool_x_mm.., "
+          "tool_qx..; or with camera_x_m.., device_x_m.., pair; a rig with a simulated arm, such as vishap; "
+          "a folder with left01.png, right01.png, ...; or, with --skin, a folder with images of hands")
+      ->required();
+  command->add_option("--rate-Hz", options.rate, "of a log: rows a second that it shall have; default: any");
+  command->add_flag("--pivot", options.pivot,
+                    "of a log with tip and markers, as export writes: where the swung tool's tip is");
+  command->add_flag("--json", options.json, "one JSON object instead of text");
+  command->add_option("--out", options.out, "of a rig: CSV to write the points to; of a folder: TOML")
+      ->check(unnamed);
+  command->add_option("--pairs", options.pairs, "of a rig: places of the tip; default: 8")
+      ->check(CLI::Range(4, 1000));
+  command->add_option("--frames", options.frames, "of a rig: averaged at each place; default: 20")
+      ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--seed", options.seed,
+                   "of a rig: of the camera's noise; of points: of what is drawn from them; default: 1")
+      ->check(bad_seed);
+  command->add_option("--set", options.set, "of a rig: override, as for run");
+  command->add_flag("--through-images", options.through_images,
+                    "of a rig: a ball at the tip is found in pictures of the twin's camera; without "
+                    "it the camera sees points");
+  command->add_option("--square-mm", options.square_mm, "of a chessboard: side of the board's squares");
+  command->add_option("--corners", options.corners,
+                      "of a chessboard: inner corners of the board; default: 9x6");
+  command->add_option("--picture", options.picture, "of a chessboard: PNG of rectified pairs to write")
+      ->check(unnamed);
+  command
+      ->add_option("--skin", options.skin,
+                   "of hands: folder with a mask for each image, of the same name, white where the hand is")
+      ->check(unnamed);
+  force_option(command, options.force);
+  return command;
+}
+
+}  // namespace enc::app
