@@ -61,13 +61,29 @@ void ClockTie::close_bin() noexcept {
   fit();
 }
 
+// Without those that lie so far above a later one that no clock has come down from there: they were late, or
+// the clock has been set forward since. No line that counts touches them.
+ClockTie::Kept ClockTie::kept() const noexcept {
+  Kept of;
+  double ceiling = std::numeric_limits<double>::infinity();  // of gap + kSteepest * stamp
+  for (std::size_t i = end_; i > begin_; --i) {
+    const Quickest& one = bin(i - 1);
+    const double height = one.gap + kSteepest * one.stamp;
+    if (height > ceiling) continue;
+    ceiling = height;
+    of.bins[of.count++] = one;
+  }
+  std::reverse(of.bins.begin(), of.bins.begin() + static_cast<std::ptrdiff_t>(of.count));
+  return of;
+}
+
 // Of all lines under the points the one that lies closest, which is highest above their mean: an edge of
 // their lower hull, where it is no steeper than clocks are.
-double ClockTie::steepness(double mean) const noexcept {
+double ClockTie::steepness(const Kept& bins, double mean) noexcept {
   std::array<Quickest, kBins> hull{};
   std::size_t size = 0;
-  for (std::size_t i = begin_; i < end_; ++i) {
-    const Quickest& next = bin(i);
+  for (std::size_t i = 0; i < bins.count; ++i) {
+    const Quickest& next = bins.bins[i];
     if (size > 0 && next.stamp <= hull[size - 1].stamp) continue;
     const auto over = [&](const Quickest& a, const Quickest& b) {  // b is, of the way from a to the next
       return (b.gap - a.gap) * (next.stamp - a.stamp) >= (next.gap - a.gap) * (b.stamp - a.stamp);
@@ -82,15 +98,16 @@ double ClockTie::steepness(double mean) const noexcept {
   return std::clamp((b.gap - a.gap) / (b.stamp - a.stamp), -kSteepest, kSteepest);
 }
 
+// A drift that is known stays while there is too little for another.
 void ClockTie::fit() noexcept {
-  const std::size_t count = end_ - begin_;
+  const Kept of = kept();
   double mean = 0.0;
-  for (std::size_t i = begin_; i < end_; ++i) mean += bin(i).stamp / static_cast<double>(count);
-  const double slope = count < kFewest ? 0.0 : steepness(mean);
+  for (std::size_t i = 0; i < of.count; ++i) mean += of.bins[i].stamp / static_cast<double>(of.count);
+  const double slope = of.count < kFewest ? slope_ : steepness(of, mean);
   const double now = open_.stamp;
   double level = std::numeric_limits<double>::infinity();
-  for (std::size_t i = begin_; i < end_; ++i)
-    level = std::min(level, bin(i).gap - slope * (bin(i).stamp - now));
+  for (std::size_t i = 0; i < of.count; ++i)
+    level = std::min(level, of.bins[i].gap - slope * (of.bins[i].stamp - now));
   const double parted = level_ + kSteepest * (now - from_);  // as high as clocks may have
   level_ = std::min(level, parted);
   slope_ = slope;
@@ -103,13 +120,14 @@ ClockEstimate ClockTie::estimate() const noexcept {
   of.forward = forward_;
   if (!any_) return of;
   of.ahead = -1e-9 * (static_cast<double>(first_gap_) + line(last_)) + seconds(least_);
-  const std::size_t count = end_ - begin_;
-  if (count < kFewest) return of;
+  const Kept bins = kept();
+  if (bins.count < kFewest) return of;
   of.drift = -slope_;
   std::array<double, kBins> above{};
-  for (std::size_t i = begin_; i < end_; ++i) above[i - begin_] = 1e-9 * (bin(i).gap - line(bin(i).stamp));
-  const auto middle = above.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(above.begin(), middle, above.begin() + static_cast<std::ptrdiff_t>(count));
+  for (std::size_t i = 0; i < bins.count; ++i)
+    above[i] = 1e-9 * (bins.bins[i].gap - line(bins.bins[i].stamp));
+  const auto middle = above.begin() + static_cast<std::ptrdiff_t>(bins.count / 2);
+  std::nth_element(above.begin(), middle, above.begin() + static_cast<std::ptrdiff_t>(bins.count));
   of.spread = *middle;
   return of;
 }
@@ -119,7 +137,7 @@ std::string words(const ClockEstimate& clock) {
   std::string text = fmt::format("its clock is {:.4f} s {} the run's", std::abs(clock.ahead),
                                  clock.ahead < 0.0 ? "behind" : "ahead of");
   if (!std::isnan(clock.drift))
-    text += fmt::format(", {:.1f} ppm {}; its quickest messages lie within {:.3f} ms of that",
+    text += fmt::format(", {:.1f} ppm {}; half of its quickest messages lie within {:.3f} ms of that",
                         1e6 * std::abs(clock.drift), clock.drift < 0.0 ? "slow" : "fast", 1e3 * clock.spread);
   if (clock.forward > 0) text += fmt::format("; it was set forward {} times", clock.forward);
   return text;

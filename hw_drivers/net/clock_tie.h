@@ -4,8 +4,9 @@
 // late.
 //
 // A delay that lasts is no clock: the line rises by 200 ppm at most, as two poor crystals drift apart. A
-// clock that is set forward is seen at once, as nothing comes before it is sent. One that is set back looks
-// like a delay, and what it stamps too old: whoever sees stamps go back says so (forget()).
+// clock that is set forward is followed at once, as nothing comes before it is sent; by more than 20 ms, and
+// 200 ppm of the time that it was watched for, it is called so. One that is set back looks like a delay, and
+// what it stamps too old: whoever sees stamps go back says so (forget()).
 #pragma once
 
 #include <array>
@@ -27,8 +28,8 @@ struct ClockEstimate {
   std::int64_t forward = 0;  // how often it was set forward
 };
 
-// "its clock is 3.0000 s ahead of the run's, 50.0 ppm fast; its quickest messages lie within 0.020 ms of
-// that"; empty: nothing is known.
+// "its clock is 3.0000 s ahead of the run's, 50.0 ppm fast; half of its quickest messages lie within
+// 0.020 ms of that"; empty: nothing is known.
 [[nodiscard]] std::string words(const ClockEstimate& clock);
 
 class ClockTie {
@@ -48,7 +49,12 @@ class ClockTie {
   // The line at a stamp, ns since the first.
   [[nodiscard]] double line(double stamp) const noexcept { return level_ + slope_ * (stamp - from_); }
   void close_bin() noexcept;
-  [[nodiscard]] double steepness(double mean) const noexcept;
+  struct Kept {
+    std::array<Quickest, kBins> bins{};
+    std::size_t count = 0;
+  };
+  [[nodiscard]] Kept kept() const noexcept;
+  [[nodiscard]] static double steepness(const Kept& bins, double mean) noexcept;
   void fit() noexcept;
   [[nodiscard]] const Quickest& bin(std::size_t i) const noexcept { return bins_[i % kBins]; }
 

@@ -45,6 +45,7 @@ Reception::Reception(const IgtlSettings& settings, std::span<const std::string> 
     tools_.emplace_back(tool);
   }
   stamps_ns_.assign(devices_.size(), kNoStamp);
+  behind_ns_ = stamps_ns_;
 }
 
 void Reception::set_back() noexcept {
@@ -52,7 +53,18 @@ void Reception::set_back() noexcept {
   tie_.forget();
   in_hand_.forget();
   std::fill(stamps_ns_.begin(), stamps_ns_.end(), kNoStamp);
+  std::fill(behind_ns_.begin(), behind_ns_.end(), kNoStamp);
   newest_ns_ = kNoStamp;
+}
+
+// A stamp that is not newer than the last of its tool. A message that was overtaken, or came from a second
+// source that is a little behind, is followed by a newer one; where they are known to be in order and two go
+// forward from an earlier time on, the clock does.
+bool Reception::goes_back(std::size_t tool, std::int64_t stamp_ns) noexcept {
+  std::int64_t& behind = behind_ns_[tool];
+  const bool again = behind != kNoStamp && stamp_ns > behind && stamp_ns < stamps_ns_[tool];
+  behind = stamp_ns;
+  return again && (numbered_ || ordered_);
 }
 
 bool Reception::is_newer(const Message& message) noexcept {
@@ -126,10 +138,14 @@ bool Reception::take_one(const Told& told, Time now, Stamped<TrackedTool>& newes
   const std::int64_t least = numbered_ || ordered_ ? kTwoSources : kOvertaken;
   if (newest_ns_ != kNoStamp && newest_ns_ - told.stamp_ns > least) set_back();
   if (told.stamp_ns <= last) {
-    ++counts_.old;
-    return false;
+    if (!goes_back(tool, told.stamp_ns)) {
+      ++counts_.old;
+      return false;
+    }
+    set_back();
   }
   last = told.stamp_ns;
+  behind_ns_[tool] = kNoStamp;
   newest_ns_ = std::max(newest_ns_, last);
   const Time t = lockstep_ ? Time(Duration(told.stamp_ns)) : tie_.here(told.stamp_ns, now);
   if (!in_hand_.is(tool, told.stamp_ns, told.X_CT.p())) {

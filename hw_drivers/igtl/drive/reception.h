@@ -52,6 +52,7 @@ class Reception {
   [[nodiscard]] bool is_newer(const Message& message) noexcept;  // by its number
   [[nodiscard]] bool take_one(const Told& told, Time now, Stamped<TrackedTool>& newest) noexcept;
   bool take_all(const Message& message, Time now, Stamped<TrackedTool>& newest) noexcept;
+  [[nodiscard]] bool goes_back(std::size_t tool, std::int64_t stamp_ns) noexcept;
   void set_back() noexcept;  // the other clock was
 
   std::vector<Name<20>> devices_, tools_;
@@ -61,7 +62,8 @@ class Reception {
   Counts counts_;
   bool heard_ = false, numbered_ = false;
   std::uint32_t number_ = 0;
-  std::vector<std::int64_t> stamps_ns_;                                // of each tool, the last
+  std::vector<std::int64_t> stamps_ns_;  // of each tool, the last
+  std::vector<std::int64_t> behind_ns_;  // and the last that was not newer, unless a newer one came since
   std::int64_t newest_ns_ = std::numeric_limits<std::int64_t>::min();  // of all
   Time last_{};
 };

@@ -120,6 +120,30 @@ TEST(IgtlReception, AClockThatIsSetBackIsNew) {
   EXPECT_EQ(bench.newest.t, Time(ms(120)));
 }
 
+// By less than two sources may differ, too: but those are never behind twice running.
+TEST(IgtlReception, AClockThatIsSetBackByLittleIsNewFromItsSecondMessageOn) {
+  for (const char* transport : {"udp", "tcp"}) {
+    Bench bench{std::string(transport)};
+    std::uint32_t number = 0;
+    const auto take = [&](std::int64_t stamp_ms, double now_ms) {
+      return bench.take(pose(1e-3 * now_ms, stamp_ms * 1'000'000, ++number), now_ms);
+    };
+    for (int n = 0; n < 100; ++n) EXPECT_TRUE(take(1000 + 10 * n, 10.0 * n + (n % 3)));
+    EXPECT_FALSE(take(1960, 1000.0)) << "40 ms earlier than it would be";
+    EXPECT_TRUE(take(1970, 1010.0));
+    EXPECT_EQ(bench.newest.t, Time(ms(1010)));
+    EXPECT_TRUE(take(1980, 1020.0));
+    EXPECT_EQ(bench.newest.t, Time(ms(1020)));
+    EXPECT_EQ(bench.reception.counts().steps, 1);
+    Bench two{std::string(transport)};
+    for (int n = 0; n < 100; ++n) {
+      EXPECT_TRUE(two.take(pose(0.1, (1000 + 10 * n) * 1'000'000LL, ++number), 10.0 * n));
+      EXPECT_EQ(two.take(pose(0.1, (995 + 10 * n) * 1'000'000LL, ++number), 10.0 * n + 1.0), false);
+    }
+    EXPECT_EQ(two.reception.counts().steps, 0);
+  }
+}
+
 // Without numbers a stamp that is earlier by more than any datagram is late is of a clock that was set back.
 TEST(IgtlReception, WithoutNumbersAClockThatIsSetBackByMoreThanASecondIsNew) {
   Bench bench(false);
