@@ -113,8 +113,7 @@ std::string listed(const std::vector<std::uint64_t>& numbers) {
 
 RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
                            std::size_t chunks)
-    : path_(path), chunks_(chunks) {
-  for (Chunk& one : chunks_) one.words.resize(kChunkBytes / kWord);
+    : path_(path), chunks_(chunks, kChunkBytes / kWord) {
   const std::vector<std::uint64_t> packed = pack(texts);
   if (packed.size() * kWord > kHeaderBytes)
     throw Error("the record '" + path +
@@ -154,33 +153,29 @@ void RecordWriter::put(const void* bytes, std::size_t size) noexcept {
 }
 
 void RecordWriter::drain() noexcept {
-  for (std::size_t i = in_file_; i < whole_.load(std::memory_order_acquire); ++i) {
-    const Chunk& one = chunk(i);
-    put(one.words.data(), (one.used + 1) * kWord);
-    in_file_.store(i + 1, std::memory_order_release);
-  }
+  chunks_.drain([this](const ChunkRing::Chunk& one) { put(one.words.data(), (one.used + 1) * kWord); });
 }
 
 void RecordWriter::flush_chunk() noexcept {
-  const std::size_t number = whole_;
-  Chunk& one = chunk(number);
+  ChunkRing::Chunk& one = chunks_.filling();
   if (behind_ || one.used == 1) return;
   one.words[0] = head(kChunk, (one.used - 1) * kWord);
   chain_.add(one.words[0]);
   one.words[one.used] = chain_.value;
-  whole_.store(number + 1, std::memory_order_release);
-  if (chunks_.size() == 1) drain();
-  if (number + 1 - in_file_.load(std::memory_order_acquire) < chunks_.size())
-    chunk(number + 1).used = 1;
-  else
-    behind_ = true;
+  // With one chunk it goes into the file before it is filled again.
+  if (chunks_.size() > 1) {
+    behind_ = !chunks_.next();
+  } else {
+    put(one.words.data(), (one.used + 1) * kWord);
+    one.used = 1;
+  }
 }
 
 void RecordWriter::write(const Tick& tick, const Inputs& in, const Outputs& out,
                          std::uint64_t state_hash) noexcept {
   if (file_ == nullptr || full()) return;
   RecordedTick frame{tick, in, out, state_hash};
-  Chunk& one = chunk(whole_);
+  ChunkRing::Chunk& one = chunks_.filling();
   PutLeaves put_leaves{one.words.data() + one.used, chain_};
   all_fields(put_leaves, frame);
   one.used += frame_words();
