@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/fit_options.h"
 #include "core/frames.h"
 #include "trial/bench_module.h"
 
@@ -59,35 +60,6 @@ struct ParamsOptions : SceneOptions {
   bool json = false;
 };
 using trial::BenchOptions;
-struct FitOptions {
-  std::vector<std::string> loops;
-  std::string out;
-  std::string rig = "sim";
-  double limit_mm = 6.0;
-  std::optional<double> ceiling;  // N/mm
-  bool force = false;
-  // The ball behind the loops instead of a response.
-  bool ball = false, json = false;
-  std::vector<std::string> hold, free;  // "wall_mm=3.4", "wall_mm"
-};
-struct CalibrateOptions {
-  std::string log;  // a tracker's log, a swung tool's poses, points, a rig with an arm, or a folder of images
-  std::optional<double> rate;  // Hz, of the rows, as expected
-  bool pivot = false;          // of a table that is a tracker's log and has poses, too: these are meant
-  bool json = false;
-  // Of a rig: the guided procedure.
-  std::string out;
-  bool force = false;
-  std::optional<std::size_t> pairs, frames;
-  std::optional<std::uint64_t> seed;
-  std::vector<std::string> set;
-  bool through_images = false;  // the tip is found in pictures; else it is seen as a point
-  // Of a folder of images, with `out`, `force` and `json`.
-  std::optional<double> square_mm;
-  std::optional<std::string> corners;  // "9x6"
-  std::string picture;
-  std::string skin;  // a folder of masks of hands: the images are of hands, not of a board
-};
 struct NearestOptions {
   std::string what;  // a mesh file, or SCENE#object
   std::string points;

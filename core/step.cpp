@@ -1,5 +1,6 @@
 #include "core/step.h"
 
+#include "core/task/carry/carry.h"
 #include "core/task/meet/guide.h"
 #include "core/task/walk.h"
 
@@ -41,6 +42,13 @@ void guide(const Scene& scene, const Tick& tick, const Inputs& in, const Point<'
            Outputs& out) noexcept {
   stages::Walk walk(scene, tick, in);
   walk.sent = to;
+  walk_through(walk, state, out);
+}
+
+void carry(const Scene& scene, const Tick& tick, const Inputs& in, const Pose<'W', 'H'>& to, State& state,
+           Outputs& out) noexcept {
+  stages::Walk walk(scene, tick, in);
+  walk.carried = &to;
   walk_through(walk, state, out);
 }
 

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/task/carry/travel.h"
 #include "core/task/measure/probe.h"
+#include "models/setup/rig_calibration.h"
 #include "sim/clock.h"
 #include "trial/camera/vision.h"
 #include "trial/certificates.h"
@@ -80,15 +81,36 @@ bool is_fake(const models::Setup& setup, const std::string& driver) {
   return false;
 }
 
-// With frames that nobody measured its tip is not where anybody expects it.
+// What is wrong with the day on which a rig was measured; empty: nothing. The day may be tomorrow's where the
+// rig was measured east of here.
+std::string doubt_of(const CalibrationRig& calibration) {
+  const auto day = models::day_of(calibration.date);
+  if (!day)
+    return "this rig has no day of calibration; expected a [calibration] with date = \"YYYY-MM-DD\", the day "
+           "on which it was measured, or the file of `encounter calibrate RIG` (docs/guide/laboratory.md)";
+  const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  const std::int64_t age = (today - *day).count();
+  if (age < -1)
+    return fmt::format(
+        "this rig was calibrated on {}, which is {} days from now; expected a day that has been; "
+        "see to the date, and to the clock of this PC",
+        calibration.date, -age);
+  if (age > calibration.valid)
+    return fmt::format(
+        "this rig was calibrated on {}, {} days ago; expected {} at most; calibrate it again "
+        "(docs/guide/laboratory.md), or raise rig.calibration.valid_days if nothing was moved",
+        calibration.date, age, calibration.valid);
+  return {};
+}
+
+// With frames that nobody measured, or that may have changed, its tip is not where anybody expects it.
 void refuse_uncalibrated(const models::Setup& setup) {
-  if (!setup.rig.calibration.date.empty()) return;
+  const std::string doubt = doubt_of(setup.rig.calibration);
+  if (doubt.empty()) return;
   for (const DrivenRole& role : driven_roles(setup))
     if (role.moves && !is_fake(setup, role.driver))
-      throw Error(models::place_of(setup, role.key) +
-                  ": this rig has no day of calibration; expected a [calibration] with date = "
-                  "\"YYYY-MM-DD\", the day on which it was measured (docs/guide/laboratory.md); a real "
-                  "machine is not armed without it");
+      throw Error(fmt::format("{}: {}; a real machine is not armed without it",
+                              models::place_of(setup, role.key), doubt));
 }
 
 }  // namespace
@@ -101,7 +123,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   const double pace = pace_of(options_, wall);
   result_.keeps_wall_time = wall && pace > 0.0;
   if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
-  if (slots.real && options_.armed && !options_.lockstep) refuse_uncalibrated(setup_);
+  if (slots.real && options_.armed && !options_.lockstep && !options_.calibrates) refuse_uncalibrated(setup_);
   // What keeps no wall clock works within the loop, so that it is the same in every run.
   const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
   if (slots.machine && options_.armed && setup_.scene.camera && !threaded)

@@ -1,5 +1,4 @@
-// One run of a scene: the loop of the product, with what every run counts. `run`, `view`, `calibrate`,
-// benchmarks and tests share it.
+// One run of a scene: the loop of the product, with what every run counts. All that runs scenes shares it.
 //
 //   clock -> devices -> (disturb) -> step() -> devices -> count, record, watch
 #pragma once
@@ -50,6 +49,7 @@ struct TrialOptions {
   bool armed = false;       // commands are sent to real devices; else they are only computed
   bool real_time = false;   // a run that keeps the wall clock comes before other work (real_time.h)
   bool lockstep = false;    // what answers is a fake whose time goes on with this loop's; needs `armed`
+  bool calibrates = false;  // a real machine is armed, though nobody has measured its rig of late
   std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
   std::function<Hand()> hand{};  // asked before each tick
   // Hooks, in the order of a tick; an empty one is not called.

@@ -35,32 +35,45 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options) {
       "calibrate",
       "a tracker's bias, noise and latency out of a log; the tip of a tool out of its swinging about it; the "
       "camera's pose out of pairs of points, or guided: the rig's simulated arm is driven through its view; "
+      "a rig's tracker, force sensor and the weight on it, by a tool that its machine carries from pose to "
+      "pose; "
       "a stereo head out of pictures of a chessboard; the colour of skin out of pictures of hands");
   command
       ->add_option(
           "what", options.log,
           "CSV with time_s, tip_x_mm.., tool_x_mm.. as export writes; or with time_s, tool_x_mm.., "
-          "tool_qx..; or with camera_x_m.., device_x_m.., pair; a rig with a simulated arm, such as vishap; "
+          "tool_qx..; or with camera_x_m.., device_x_m.., pair; a rig; "
           "a folder with left01.png, right01.png, ...; or, with --skin, a folder with images of hands")
       ->required();
   command->add_option("--rate-Hz", options.rate, "of a log: rows a second that it shall have; default: any");
   command->add_flag("--pivot", options.pivot,
                     "of a log with tip and markers, as export writes: where the swung tool's tip is");
   command->add_flag("--json", options.json, "one JSON object instead of text");
-  command->add_option("--out", options.out, "of a rig: CSV to write the points to; of a folder: TOML")
+  command
+      ->add_option(
+          "--out", options.out,
+          "of a rig: TOML that its [calibration] reads, or, with an arm, CSV to write the points to; of "
+          "a folder: TOML")
       ->check(unnamed);
-  command->add_option("--pairs", options.pairs, "of a rig: places of the tip; default: 8")
+  command->add_option("--pairs", options.pairs, "of an arm: places of the tip; default: 8")
       ->check(CLI::Range(4, 1000));
-  command->add_option("--frames", options.frames, "of a rig: averaged at each place; default: 20")
+  command->add_option("--frames", options.frames, "of an arm: averaged at each place; default: 20")
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--seed", options.seed,
-                   "of a rig: of the camera's noise; of points: of what is drawn from them; default: 1")
+                   "of a rig: of the twin's noise; of points: of what is drawn from them; default: 1")
       ->check(bad_seed);
   command->add_option("--set", options.set, "of a rig: override, as for run");
   command->add_flag("--through-images", options.through_images,
-                    "of a rig: a ball at the tip is found in pictures of the twin's camera; without "
+                    "of an arm: a ball at the tip is found in pictures of the twin's camera; without "
                     "it the camera sees points");
+  command
+      ->add_option("--scene", options.scene,
+                   "of a rig: whose clamped tool its machine carries; default: clamped_tool")
+      ->check(unnamed);
+  command->add_option("--poses", options.poses, "of a rig: in which the machine stands still; default: 24")
+      ->check(CLI::Range(8, 500));
+  device_options(command, options.armed, options.lockstep);
   command->add_option("--square-mm", options.square_mm, "of a chessboard: side of the board's squares");
   command->add_option("--corners", options.corners,
                       "of a chessboard: inner corners of the board; default: 9x6");

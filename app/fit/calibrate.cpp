@@ -1,6 +1,6 @@
 // `encounter calibrate LOG.csv`: how far off, how noisy and how late a tracker is, out of any log of a tool
-// that the machine carries past it. Points and rigs go to calibrate_points.cpp, poses of a swung tool to
-// calibrate_pivot.cpp.
+// that the machine carries past it. Points and arms go to calibrate_points.cpp, machines that carry a tool to
+// calibrate_machine.cpp, poses of a swung tool to calibrate_pivot.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +13,7 @@
 #include "models/fit/latency_fit.h"
 #include "models/fit/pivot/pivot_log.h"
 #include "models/schema/wording.h"
+#include "models/setup/scene_file.h"
 #include "trial/fit/point_set.h"
 
 namespace enc::app {
@@ -222,6 +223,26 @@ void refuse_rig_options(const CalibrateOptions& o) {
   refuse(o.frames.has_value(), "--frames", "a rig", o);
   refuse(!o.set.empty(), "--set", "a rig", o);
   refuse(o.through_images, "--through-images", "a rig", o);
+  refuse(!o.scene.empty(), "--scene", "a rig", o);
+  refuse(o.poses.has_value(), "--poses", "a rig", o);
+  refuse(o.armed, "--armed", "a rig", o);
+  refuse(o.lockstep, "--lockstep", "a rig", o);
+}
+
+int calibrate_rig(const CalibrateOptions& o, const trial::DriverSource& modules) {
+  if (models::load_rig(o.log).arm.driver != "none") {
+    const std::string of = "a rig with a hexapod";
+    refuse(!o.scene.empty(), "--scene", of, o);
+    refuse(o.poses.has_value(), "--poses", of, o);
+    refuse(o.armed, "--armed", of, o);
+    refuse(o.lockstep, "--lockstep", of, o);
+    return calibrate_arm(o, modules);
+  }
+  const std::string of = "a rig with an arm";
+  refuse(o.pairs.has_value(), "--pairs", of, o);
+  refuse(o.frames.has_value(), "--frames", of, o);
+  refuse(o.through_images, "--through-images", of, o);
+  return calibrate_machine(o, modules);
 }
 
 }  // namespace

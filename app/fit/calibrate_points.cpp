@@ -219,7 +219,7 @@ int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
   return 0;
 }
 
-int calibrate_rig(const CalibrateOptions& options, const trial::DriverSource& modules) {
+int calibrate_arm(const CalibrateOptions& options, const trial::DriverSource& modules) {
   const std::size_t pairs = options.pairs.value_or(8), frames = options.frames.value_or(20);
   const std::uint64_t seed = options.seed.value_or(1);
   const models::Setup setup = models::load_rig_setup(options.log, options.set);

@@ -14,6 +14,7 @@ int fit_ball(const FitOptions& options);  // the ball behind the loops
 int calibrate_command(const CalibrateOptions& options, const trial::DriverSource& modules);
 int calibrate_points(const std::string& csv, const CalibrateOptions& options);
 int calibrate_pivot(const std::string& csv, const CalibrateOptions& options);
-int calibrate_rig(const CalibrateOptions& options, const trial::DriverSource& modules);
+int calibrate_arm(const CalibrateOptions& options, const trial::DriverSource& modules);
+int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource& modules);
 
 }  // namespace enc::app

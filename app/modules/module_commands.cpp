@@ -1,6 +1,7 @@
 // The subcommands that live in modules, because few need what they need.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "app/fit/fit_module.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
+#include "app/run/stop_signals.h"
 #include "core/error.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
@@ -39,7 +41,9 @@ const ModuleInfo* module_if_there(const std::string& name) {
   return module_there(name) ? &load_module(name) : nullptr;
 }
 
+// Vision and its camera are built when asked for; all else is a driver.
 const ModuleInfo& module_for_calibration(const std::string& name) {
+  if (name != "vision" && name != "camera") return load_module(name);
   return own_module(name, "calibrate RIG --through-images");
 }
 
@@ -76,7 +80,13 @@ int calibrate(const CalibrateOptions& options) {
   std::error_code none;
   const bool folder = !rig && std::filesystem::is_directory(options.log, none);
   if (!rig && !folder) refuse_what_it_is_not(options, rigs);
-  return folder ? calibrations().calibrate(options) : fits().calibrate(options, module_for_calibration);
+  if (folder) return calibrations().calibrate(options);
+  std::optional<StopSignals> signals;  // of a machine that moves: it is stopped, whenever one comes
+  CalibrateOptions stoppable = options;
+  stoppable.catch_signals = [&] { signals.emplace(); };
+  stoppable.stop = [] { return StopSignals::caught() != 0; };
+  const int code = fits().calibrate(stoppable, module_for_calibration);
+  return signals && StopSignals::caught() != 0 ? 128 + StopSignals::caught() : code;
 }
 
 int questionnaire(const QuestionnaireOptions& options) { return benchmarks().questionnaire(options); }

@@ -16,6 +16,7 @@ struct Walk {
   const Inputs& in;
   std::uint32_t why = 0;
   Point<'W'> sent;  // guide: where an arm goes while it follows nobody; unset: it waits
+  const Pose<'W', 'H'>* carried = nullptr;  // carry: where the machine goes with its tool
 
   bool tool_known = false;  // track
   bool tool_fresh = false;

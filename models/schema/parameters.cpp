@@ -7,6 +7,7 @@
 #include "models/schema/toml_writer.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
+#include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
 #include "models/setup/stereo_file.h"
 
@@ -146,12 +147,19 @@ class RoundToText final : public Named {
 std::vector<Parameter> parameters(const Setup& setup) {
   Setup copy = setup;  // visitors may write, this one does not
   if (!setup.calibration.empty()) copy.rig.camera.calibration = setup.calibration;
+  if (!setup.measured.empty()) copy.rig.calibration.file = setup.measured;
   List list;
   walk(list, copy);
   if (!setup.calibration.empty())
     for (Parameter& p : list.found)
       if (of_calibration(p.name)) {
         p.source = setup.calibration;
+        p.confidence = word_of(Confidence::derived);
+      }
+  if (!setup.measured.empty())
+    for (Parameter& p : list.found)
+      if (of_rig_calibration(p.name) && !place_of(setup, p.name).starts_with("--set")) {
+        p.source = setup.measured;
         p.confidence = word_of(Confidence::derived);
       }
   return list.found;

@@ -111,4 +111,9 @@ std::string text_of(const Unit& unit, double si, int k) {
   return text.empty() ? fmt::format("{}", value) : text;
 }
 
+double round_to(double value, double per_unit) {
+  const double near = std::round(value * per_unit) / per_unit;
+  return std::isfinite(near) ? near : value;
+}
+
 }  // namespace enc::models

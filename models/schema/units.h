@@ -24,4 +24,8 @@ double to_si(const Unit& unit, double value, int k = 1);
 // by its neighbour.)
 std::string text_of(const Unit& unit, double si, int k = 1);
 
+// To the nearest whole number of 1 / per_unit, as a file shall have it; what is too large for that, or unset,
+// stays.
+[[nodiscard]] double round_to(double value, double per_unit);
+
 }  // namespace enc::models

@@ -17,6 +17,7 @@
 #include "core/world/object.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
+#include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::models {
@@ -273,23 +274,9 @@ void check_driver(const Setup& setup, bool named, const std::string& table, cons
                    table, quoted(setup.rig_path), table, setup.scene.arm ? "vishap" : "sim"));
 }
 
-bool is_day(std::string_view text) {
-  int year = 0;
-  unsigned month = 0, day = 0;
-  const auto part = [&](std::size_t from, std::size_t length, auto& value) {
-    const char* end = text.data() + from + length;
-    return std::from_chars(text.data() + from, end, value).ptr == end;
-  };
-  return text.size() == 10 && text[4] == '-' && text[7] == '-' && part(0, 4, year) && part(5, 2, month) &&
-         part(8, 2, day) && year > 0 &&
-         std::chrono::year_month_day{std::chrono::year(year), std::chrono::month(month),
-                                     std::chrono::day(day)}
-             .ok();
-}
-
 void check_calibration(const Setup& setup) {
   const std::string& date = setup.rig.calibration.date;
-  if (date.empty() || is_day(date)) return;
+  if (date.empty() || day_of(date)) return;
   fail(setup, "rig.calibration.date",
        fmt::format(
            "'date' is {}; expected a day, as \"2026-11-27\"; write the day on which the rig was measured",

@@ -320,6 +320,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
     if (of_behaviour(text)) set(setup, text);
   }
   fill_camera(setup);
+  fill_measured(setup);
   mend_normals(setup);
   check(setup);
   note_stops(setup);

@@ -32,6 +32,7 @@ struct Setup {
   Places places;                   // of each key that a file or --set gives, under the name that --set takes
   std::vector<std::string> notes;  // what was repaired, and what is doubtful, one line each
   std::string calibration;         // file that the camera's numbers are of; empty: the rig's own
+  std::string measured;            // file that tracker's pose and sensor's weight are of; likewise
 };
 
 // rig: "sim", or another file in models/rigs without ".toml", or a path; empty: the one in the scene file, or
@@ -85,6 +86,9 @@ void fill_meshes(Setup& setup, const std::string& models_dir);
 // The calibration that the rig's [camera] names, beside the rig's file. Throws Error where there are numbers
 // beside it, too: which are meant?
 void fill_camera(Setup& setup);
+// The file that the rig's [calibration] names, beside the rig's: what --set names stays. Throws Error where
+// it is of another rig.
+void fill_measured(Setup& setup);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_stops(Setup& setup);    // time constants that MuJoCo takes for two time steps
 void note_props(Setup& setup);    // objects that want another prop than is mounted

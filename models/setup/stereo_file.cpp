@@ -38,22 +38,17 @@ void describe_file(Visitor& v, StereoFile& file) {
   describe_lenses(v, file.rig, kKeys);
 }
 
-double rounded(double value, double per_unit) {
-  const double near = std::round(value * per_unit) / per_unit;
-  return std::isfinite(near) ? near : value;  // which is too large for that, or unset
-}
-
 StereoFile rounded(StereoFile file) {
-  file.reprojection = rounded(file.reprojection, 1e4);
-  file.epipolar = rounded(file.epipolar, 1e4);
+  file.reprojection = round_to(file.reprojection, 1e4);
+  file.epipolar = round_to(file.epipolar, 1e4);
   for (Lens* lens : {&file.rig.left, &file.rig.right}) {
     for (double* px : {&lens->focal_x, &lens->focal_y, &lens->centre_x, &lens->centre_y})
-      *px = rounded(*px, 1e4);
-    for (double& k : lens->distortion) k = rounded(k, 1e6);
+      *px = round_to(*px, 1e4);
+    for (double& k : lens->distortion) k = round_to(k, 1e6);
   }
   Vec3 position = file.rig.X_CD.p(), turn = angles_xyz(Quat(file.rig.X_CD.q()));
-  for (double& x : position) x = to_si(unit_of("position_mm"), rounded(x * 1e3, 1e4));
-  for (double& x : turn) x = to_si(unit_of("rotation_deg"), rounded(x * (180.0 / M_PI), 1e5));
+  for (double& x : position) x = to_si(unit_of("position_mm"), round_to(x * 1e3, 1e4));
+  for (double& x : turn) x = to_si(unit_of("rotation_deg"), round_to(x * (180.0 / M_PI), 1e5));
   file.rig.X_CD = {rotation_xyz(turn), position};
   return file;
 }

@@ -29,12 +29,12 @@ inline const std::string kBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_bal
 struct Laboratory {
   // `set` is for both sides; `faults` as for --fault.
   explicit Laboratory(bool lockstep, const std::vector<std::string>& set = {},
-                      const std::vector<std::string>& faults = {}) {
+                      const std::vector<std::string>& faults = {}, const std::string& scene = kBall) {
     app::FakesOptions options{app::load_module, 1, lockstep};
     for (const std::string& fault : faults) options.faults.push_back(app::fault_of(fault, "the test"));
     ports.insert(ports.end(), set.begin(), set.end());
     setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
-    fakes = std::make_unique<app::Fakes>(models::load(kBall, "fakes", ports), std::move(options));
+    fakes = std::make_unique<app::Fakes>(models::load(scene, "fakes", ports), std::move(options));
     serve();
   }
   ~Laboratory() { pause(); }

@@ -117,6 +117,14 @@ void go_on(Walk& walk, const Travel& travel, State& state, Travelling& now) {
   walk.target = going ? leg().to : command;
 }
 
+// Where a procedure sends it. The phase is that of what moves, so that no zero is learnt on the way.
+void go_where_sent(Walk& walk, const Travel& travel, State& state, Travelling& now) {
+  state.mode = Mode::travel;
+  const bool may = walk.carried->valid() && (!travel.tool_held || walk.in.grip.value.holding);
+  now.phase = may ? TravelPhase::move : TravelPhase::wait;
+  walk.target = may ? walk.carried->origin() : walk.scene.X_WR * now.command;
+}
+
 // Nothing is sideways of a straight leg: so each is a trapezoid of the leg's speed and the machine's whole
 // acceleration.
 Walls walls_around(const Travel& travel, const Travelling& now) {
@@ -136,16 +144,20 @@ void act(Walk& walk, const Travel& travel, State& state, Travelling& now) noexce
   grip(walk);
   sense(walk, state, now, now.phase != TravelPhase::move);
   hold_lost(walk, state, now);
-  if (!holding(walk)) go_on(walk, travel, state, now);
+  if (holding(walk)) return;
+  walk.carried != nullptr ? go_where_sent(walk, travel, state, now) : go_on(walk, travel, state, now);
 }
 
 void guard(Walk& walk, const Travel& travel, State& state, Travelling& now) noexcept {
-  if (state.started) limit_command(walk, state, now, walls_around(travel, now));
+  if (state.started)
+    limit_command(walk, state, now, walk.carried != nullptr ? Walls{} : walls_around(travel, now));
 }
 
 void report(const Walk& walk, const Travel&, State& state, const Travelling& now, Outputs& out) noexcept {
   report_common(walk, state, rotation_z_to(walk.normal.e()), nullptr, out);
   report_displaced(walk, now, out);
+  if (walk.carried != nullptr && walk.carried->valid())
+    out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate() * walk.carried->q(), now.command);
 }
 
 }  // namespace stages

@@ -1,10 +1,11 @@
-// The calibration of a stereo head, a record, and what a record holds.
+// The calibrations of a stereo head and of a rig, a record, and what a record holds.
 #include <cstring>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/record/record.h"
+#include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
 #include "models/setup/stereo_file.h"
 #include "tests/fuzz/machine/target.h"
@@ -15,22 +16,18 @@
 namespace enc::fuzz {
 namespace {
 
-Target stereo() {
+// A file that is written and read again is the same.
+template <class File>
+Target written(const File& file, std::string (*text_of)(const File&),
+               File (*parsed)(const std::string&, const std::string&)) {
   Target target;
-  models::StereoFile file;
-  file.title = "13 pairs";
-  file.rig.left = {533.7123, 533.7, 342.2, 235.1, {-0.2891, 0.096, 0.0011, -0.0001, 0.0}};
-  file.rig.right = {536.8, 536.4, 327.1, 249.9, {-0.2892, 0.1051, -0.0005, 0.0002, 0.0}};
-  file.rig.X_CD = Pose<'C', 'D'>(Quat::Identity(), Vec3(0.08316, -0.00064, 0.00055));
-  file.reprojection = 0.194;
-  target.seeds = {models::stereo_text(file)};
+  target.seeds = {text_of(file)};
   target.tokens = toml_tokens();
-  target.run = [](const std::string& input) {
-    const models::StereoFile read = models::parse_stereo(input, "fuzz.toml");
-    const std::string text = models::stereo_text(read);
+  target.run = [=](const std::string& input) {
+    const std::string text = text_of(parsed(input, "fuzz.toml"));
     std::string again;
     try {
-      again = models::stereo_text(models::parse_stereo(text, "again.toml"));
+      again = text_of(parsed(text, "again.toml"));
     } catch (const Error& e) {
       throw Broken(fmt::format("what is written of it is refused: {}", e.what()));
     }
@@ -38,6 +35,26 @@ Target stereo() {
     return true;
   };
   return target;
+}
+
+Target stereo() {
+  models::StereoFile file;
+  file.title = "13 pairs";
+  file.rig.left = {533.7123, 533.7, 342.2, 235.1, {-0.2891, 0.096, 0.0011, -0.0001, 0.0}};
+  file.rig.right = {536.8, 536.4, 327.1, 249.9, {-0.2892, 0.1051, -0.0005, 0.0002, 0.0}};
+  file.rig.X_CD = Pose<'C', 'D'>(Quat::Identity(), Vec3(0.08316, -0.00064, 0.00055));
+  file.reprojection = 0.194;
+  return written<models::StereoFile>(file, models::stereo_text, models::parse_stereo);
+}
+
+Target rig_calibration() {
+  const models::RigCalibration file{"a rig",
+                                    "2026-11-28",
+                                    {"gcs 192.168.0.20", "netft 192.168.1.1", "igtl", HexapodGeometry{}},
+                                    PoseSpec{{0.0031234, -0.8961, 0.6}, {0.01, -0.02, 0.03}},
+                                    Vec3(0.011, 0.0, -0.02),
+                                    1.1099};
+  return written<models::RigCalibration>(file, models::rig_calibration_text, models::parse_rig_calibration);
 }
 
 // ---- records
@@ -146,7 +163,8 @@ Target recorded_mesh() {
   return target;
 }
 
-const Offer kStereo("stereo", &stereo), kRecord("record", &record), kMesh("recorded_mesh", &recorded_mesh);
+const Offer kStereo("stereo", &stereo), kRig("rig_calibration", &rig_calibration), kRecord("record", &record),
+    kMesh("recorded_mesh", &recorded_mesh);
 
 }  // namespace
 }  // namespace enc::fuzz

@@ -113,8 +113,8 @@ TEST(Stop, AlsoWhileTheClockWaits) {
   slow.send(SIGTERM);
   EXPECT_EQ(slow.wait(), 143);
   const Started armed({"run", shipped_scene("rig_A"), "--set", "rig.manipulator.driver=\"sample\"", "--set",
-                       "rig.force.driver=\"sample\"", "--set", "rig.calibration.date=\"2026-11-27\"",
-                       "--armed"});
+                       "rig.force.driver=\"sample\"", "--set", "rig.calibration.date=\"2026-11-27\"", "--set",
+                       "rig.calibration.valid_days=36500", "--armed"});
   armed.ready();
   armed.send(SIGINT);
   EXPECT_EQ(armed.wait(), 130);
@@ -147,8 +147,9 @@ TEST(Stop, WhatIsIgnoredStaysIgnored) {
 // A process that was stopped for a second: armed, the cycles are lost and said; simulated, nothing is lost.
 TEST(Stop, AStoppedProcessMakesNothingUp) {
   const std::vector<std::string> sample{
-      "--set", "rig.manipulator.driver=\"sample\"",   "--set",  "rig.force.driver=\"sample\"",
-      "--set", "rig.calibration.date=\"2026-11-27\"", "--armed"};
+      "--set",  "rig.manipulator.driver=\"sample\"",   "--set", "rig.force.driver=\"sample\"",
+      "--set",  "rig.calibration.date=\"2026-11-27\"", "--set", "rig.calibration.valid_days=36500",
+      "--armed"};
   std::vector<std::string> args{"run", shipped_scene("rig_A"), "--for-s", "2.5", "--json"};
   args.insert(args.end(), sample.begin(), sample.end());
   const Started armed(args);

@@ -18,7 +18,8 @@ namespace {
 const std::vector<std::string> kUncalibrated{"rig.manipulator.driver=\"sample\"",
                                              "rig.force.driver=\"sample\""};
 const std::vector<std::string> kSample{kUncalibrated[0], kUncalibrated[1],
-                                       "rig.calibration.date=\"2026-11-27\""};
+                                       "rig.calibration.date=\"2026-11-27\"",
+                                       "rig.calibration.valid_days=36500"};
 
 models::Setup scene(const std::string& name, const std::vector<std::string>& set = {}) {
   return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", {}, set);
@@ -85,6 +86,26 @@ TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
   EXPECT_THAT(said_when_armed(scene("clamped_tool", {"rig.gripper.driver=\"sample\""})),
               testing::HasSubstr("no day"));
   EXPECT_EQ(said_when_armed(scene("rig_A", {"rig.force.driver=\"sample\""})), "armed");
+}
+
+// What was measured once may have been moved since; a day to come is a clock that is wrong.
+TEST_F(Assemble, ACalibrationThatIsTooOldOrYetToComeIsRefused) {
+  const auto dated = [](const std::string& date, const std::string& days) {
+    std::vector<std::string> set = kUncalibrated;
+    set.push_back("rig.calibration.date=\"" + date + "\"");
+    set.push_back("rig.calibration.valid_days=" + days);
+    return said_when_armed(scene("rig_A", set));
+  };
+  EXPECT_THAT(dated("2020-01-31", "30"),
+              testing::AllOf(testing::HasSubstr("calibrated on 2020-01-31"), testing::HasSubstr("days ago"),
+                             testing::HasSubstr("expected 30 at most"), testing::HasSubstr("not armed")));
+  EXPECT_EQ(dated("2020-01-31", "36500"), "armed");
+  EXPECT_THAT(dated("9999-01-01", "30"),
+              testing::AllOf(testing::HasSubstr("days from now"), testing::HasSubstr("clock of this PC")));
+  // A calibration itself needs none.
+  TrialOptions calibrating = options();
+  calibrating.armed = calibrating.calibrates = true;
+  EXPECT_NO_THROW(Trial(scene("rig_A", kUncalibrated), calibrating));
 }
 
 // What answers on this PC is a fake.

@@ -105,7 +105,8 @@ class DriverContract : public testing::Test {
     text_ = test::bytes_of(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml");
     for (const std::string role : {"[manipulator]\n", "[gripper]\n"})
       text_ = replaced(text_, role + "driver = \"sim\"", role + "driver = \"box\"");
-    text_ = replaced(text_, "[loop]\n", "[calibration]\ndate = \"2026-11-27\"\n\n[loop]\n");
+    text_ =
+        replaced(text_, "[loop]\n", "[calibration]\ndate = \"2026-11-27\"\nvalid_days = 36500\n\n[loop]\n");
     lines_ = static_cast<int>(std::count(text_.begin(), text_.end(), '\n'));
   }
   models::Setup load(const std::string& table, const std::vector<std::string>& set = {}) {

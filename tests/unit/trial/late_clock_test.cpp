@@ -112,10 +112,11 @@ TEST(LateClock, AnArmedRunHoldsAfterAStallAndSendsNoBurst) {
       EXPECT_EQ(glance.out.mode, Mode::hold);
       EXPECT_NE(glance.out.why & kClockLate, 0U);
     };
-    trial::Trial trial(models::load(std::string(ENCOUNTER_SOURCE_DIR "/models/scenes/") + scene + ".toml", {},
-                                    {"rig.manipulator.driver=\"sample\"", "rig.force.driver=\"sample\"",
-                                     "rig.calibration.date=\"2026-11-27\""}),
-                       options);
+    trial::Trial trial(
+        models::load(std::string(ENCOUNTER_SOURCE_DIR "/models/scenes/") + scene + ".toml", {},
+                     {"rig.manipulator.driver=\"sample\"", "rig.force.driver=\"sample\"",
+                      "rig.calibration.date=\"2026-11-27\"", "rig.calibration.valid_days=36500"}),
+        options);
     const trial::TrialResult result = trial.run();
     EXPECT_GE(late_holds, 1) << scene;
     EXPECT_TRUE(contiguous) << scene;

@@ -65,10 +65,11 @@ class RealCamera : public testing::Test {
   RealCamera() { setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1); }
   ~RealCamera() override { unsetenv("ENCOUNTER_MODULES"); }
   static models::Setup wall(const std::string& arm, const std::string& camera) {
-    return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/camera/wall.toml",
-                        ENCOUNTER_SOURCE_DIR "/models/rigs/vishap.toml",
-                        {"user.depth_mm=2", "rig.arm.driver=\"" + arm + "\"",
-                         "rig.camera.driver=\"" + camera + "\"", "rig.calibration.date=\"2026-11-27\""});
+    return models::load(
+        ENCOUNTER_SOURCE_DIR "/models/scenes/camera/wall.toml",
+        ENCOUNTER_SOURCE_DIR "/models/rigs/vishap.toml",
+        {"user.depth_mm=2", "rig.arm.driver=\"" + arm + "\"", "rig.camera.driver=\"" + camera + "\"",
+         "rig.calibration.date=\"2026-11-27\"", "rig.calibration.valid_days=36500"});
   }
   static TrialOptions options(bool armed) {
     TrialOptions options;

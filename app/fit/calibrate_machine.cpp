@@ -1,0 +1,231 @@
+// `encounter calibrate RIG` of a rig with a hexapod: where its tracker and its force sensor are and what that
+// carries, out of a tool that the machine carries from pose to pose, in the twin or over real devices.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <encounter_version.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "app/fit/commands.h"
+#include "core/error.h"
+#include "core/rotation.h"
+#include "core/time.h"
+#include "models/files.h"
+#include "models/fit/machine/turn.h"
+#include "models/setup/rig_calibration.h"
+#include "models/setup/scene_file.h"
+#include "trial/carried/machine_calibration.h"
+
+namespace enc::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using models::RigCalibration;
+using trial::MachineCalibration;
+
+constexpr double kMm = 1e3, kDeg = 180.0 / M_PI;
+
+// What was found, as the rig will believe it.
+struct Found {
+  const models::Setup& setup;
+  const MachineCalibration& made;
+  RigCalibration file;
+};
+
+std::string today() {
+  const auto day = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  const std::chrono::year_month_day date{day};
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                     static_cast<unsigned>(date.day()));
+}
+
+RigCalibration file_of(const models::Setup& setup, const MachineCalibration& made) {
+  RigCalibration file{setup.rig.title, today(), models::identity_of(setup.rig), {}, {}, {}};
+  if (made.hand_eye) file.W_C = PoseSpec{made.hand_eye->X_WC.p(), angles_xyz(Quat(made.hand_eye->X_WC.q()))};
+  if (made.weight) {
+    file.H_F = angles_xyz(made.weight->R_HF);
+    file.mass = made.weight->mass.value - made.tool_mass;
+  }
+  return file;
+}
+
+// As many digits as the interval has to say, and two of that.
+int digits_of(double half) {
+  if (!(half > 0.0) || !std::isfinite(half)) return 6;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6);
+}
+std::string with(double value, double half) {
+  const int digits = digits_of(half);
+  return fmt::format("{:.{}f} +- {:.{}f}", value, digits, half, digits);
+}
+std::string list(const Vec3& v, int digits) {
+  return fmt::format("[{:.{}f}, {:.{}f}, {:.{}f}]", v.x(), digits, v.y(), digits, v.z(), digits);
+}
+std::string with(const Vec3& value, const Vec3& half) {
+  const int digits = digits_of(half.minCoeff());
+  return list(value, digits) + " +- " + list(half, digits);
+}
+
+// By how much what is found differs from what the rig believes, about the parent's axes.
+double turned(const Quat& found, const Vec3& believed) {
+  return found.angularDistance(rotation_xyz(believed)) * kDeg;
+}
+
+std::string weight_text(const Found& found) {
+  const models::WeightFit& fit = *found.made.weight;
+  const RigSpec& rig = found.setup.rig;
+  return fmt::format(
+      "force       mass_kg = {}, without the tool's {:g} kg; the rig believes {:g}\n"
+      "            sensor turned by [{}] deg about x, then y, then z of H, known to {} deg about its own "
+      "axes; that is {:.2f} deg from what the rig believes\n"
+      "            zero {} N at the end; it walks by {:.4f} N in a second\n"
+      "            middle of the weight at {} mm in F; {:.4f} N rms left over, {:.4f} at most\n",
+      with(*found.file.mass, fit.mass.half), found.made.tool_mass, rig.force.mass,
+      fmt::format("{:.3f}, {:.3f}, {:.3f}", kDeg * found.file.H_F->x(), kDeg * found.file.H_F->y(),
+                  kDeg * found.file.H_F->z()),
+      list(kDeg * fit.turn_half, digits_of(kDeg * fit.turn_half.minCoeff())),
+      turned(fit.R_HF, rig.frames.H_F.rotation), with(fit.zero.value, fit.zero.half), fit.walk,
+      list(kMm * fit.middle.e(), 1), fit.rms, fit.most);
+}
+
+std::string tracker_text(const Found& found) {
+  const models::HandEyeFit& fit = *found.made.hand_eye;
+  const RigSpec& rig = found.setup.rig;
+  const PoseSpec& W_C = *found.file.W_C;
+  std::string text = fmt::format(
+      "tracker     position_mm = {} of C in W; {:.3f} mm from what the rig believes\n"
+      "            rotation_deg = {} about x, then y, then z of W; {:.3f} deg from what the rig believes\n"
+      "            so that what is seen at W's origin is known to {} mm\n"
+      "            {:.4f} mm and {:.4f} deg rms left over, {:.4f} mm at most\n",
+      with(kMm * W_C.position, kMm * fit.place_half), kMm * (W_C.position - rig.frames.W_C.position).norm(),
+      with(kDeg * W_C.rotation, kDeg * fit.turn_half), turned(Quat(fit.X_WC.q()), rig.frames.W_C.rotation),
+      list(kMm * fit.origin_half, digits_of(kMm * fit.origin_half.minCoeff())), kMm * fit.rms,
+      kDeg * fit.rms_turn, kMm * fit.most);
+  const ToolSpec& tool = found.setup.scene.tools[static_cast<std::size_t>(found.made.clamped_tool)];
+  return text + fmt::format(
+                    "tool        tip_mm = {} of {} in T, if it stands at the haptic-tip's middle; the "
+                    "scene has {}\n",
+                    with(kMm * fit.tip.value, kMm * fit.tip.half), tool.name, list(kMm * tool.tip, 3));
+}
+
+std::string found_text(const Found& found) {
+  const MachineCalibration& made = found.made;
+  std::string text =
+      fmt::format("{} poses in {:.1f} s of experiment{}\n", made.stands.size(), made.time,
+                  made.unseen > 0 ? fmt::format("; the tracker did not see {} of them", made.unseen) : "");
+  if (made.weight) text += weight_text(found);
+  if (made.hand_eye) text += tracker_text(found);
+  return text +
+         "note        weight is taken for straight down in W: see that the machine's base is level\n"
+         "note        a constant error of the tracker's places is in its position, so that it sees the tip "
+         "where the machine has it\n"
+         "intervals   99 % for each number\n";
+}
+
+Json list_of(const Vec3& v, double unit) { return {v.x() * unit, v.y() * unit, v.z() * unit}; }
+
+Json found_json(const Found& found) {
+  const MachineCalibration& made = found.made;
+  Json json;
+  json["poses"] = made.stands.size();
+  json["time_s"] = made.time;
+  json["unseen"] = made.unseen;
+  json["date"] = found.file.date;
+  if (made.weight) {
+    const models::WeightFit& fit = *made.weight;
+    json["force"] = {{"mass_kg", *found.file.mass},
+                     {"mass_half_kg", fit.mass.half},
+                     {"tool_mass_kg", made.tool_mass},
+                     {"zero_N", list_of(fit.zero.value, 1.0)},
+                     {"zero_half_N", list_of(fit.zero.half, 1.0)},
+                     {"rotation_deg", list_of(*found.file.H_F, kDeg)},
+                     {"turn_half_deg", list_of(fit.turn_half, kDeg)},
+                     {"middle_mm", list_of(fit.middle.e(), kMm)},
+                     {"walk_N_per_sqrt_s", fit.walk},
+                     {"residual_rms_N", fit.rms},
+                     {"residual_max_N", fit.most}};
+  }
+  if (made.hand_eye) {
+    const models::HandEyeFit& fit = *made.hand_eye;
+    json["tracker"] = {{"position_mm", list_of(found.file.W_C->position, kMm)},
+                       {"position_half_mm", list_of(fit.place_half, kMm)},
+                       {"rotation_deg", list_of(found.file.W_C->rotation, kDeg)},
+                       {"turn_half_deg", list_of(fit.turn_half, kDeg)},
+                       {"origin_half_mm", list_of(fit.origin_half, kMm)},
+                       {"residual_rms_mm", kMm * fit.rms},
+                       {"residual_rms_deg", kDeg * fit.rms_turn},
+                       {"residual_max_mm", kMm * fit.most},
+                       {"tip_mm", list_of(fit.tip.value, kMm)},
+                       {"tip_half_mm", list_of(fit.tip.half, kMm)}};
+  }
+  return json;
+}
+
+models::Setup setup_for(const CalibrateOptions& options) {
+  const std::string scene =
+      options.scene.empty() ? models::models_dir("") + "/scenes/clamped_tool.toml" : options.scene;
+  // What an earlier calibration says is not asked: it may be what is wrong.
+  std::vector<std::string> set = options.set;
+  set.emplace_back("rig.calibration.file=\"\"");
+  models::Setup setup = models::load(scene, options.log, set);
+  if (trial::slots_of(setup).machine && !options.armed)
+    throw Error(
+        fmt::format("{}: a machine that is not armed does not move, and only a machine that moves can be "
+                    "calibrated; expected --armed; clear its way, clamp the tool and add it",
+                    models::place_of(setup, "rig.manipulator.driver")));
+  return setup;
+}
+
+trial::TrialOptions trial_options(const CalibrateOptions& options, const trial::DriverSource& modules) {
+  trial::TrialOptions how;
+  how.seed = options.seed.value_or(1);
+  how.drivers = modules;
+  how.armed = options.armed;
+  how.lockstep = options.lockstep;
+  how.calibrates = true;
+  how.real_time = true;
+  how.stop = options.stop;
+  return how;
+}
+
+}  // namespace
+
+int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource& modules) {
+  const models::Setup setup = setup_for(options);
+  std::optional<models::OutFile> file;  // refused before anything moves
+  if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
+  if (options.catch_signals) options.catch_signals();
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const auto progress = [terminal](double share) {
+    if (terminal) fmt::print(stderr, "\r{:3.0f} %", 100.0 * share);
+  };
+  MachineCalibration made;
+  try {
+    trial::CarriedTool tool(setup, trial_options(options, modules));
+    made = trial::calibrate_machine(tool, options.poses.value_or(trial::kUsualPoses), progress);
+  } catch (const trial::CarryingEnded&) {
+    return 0;  // by a signal, which makes the exit code
+  }
+  if (terminal) fmt::print(stderr, "\r        \r");
+  const Found found{setup, made, file_of(setup, made)};
+  const std::string text = found_text(found);
+  if (file) {
+    std::string remarks = fmt::format("# Encounter {}: encounter calibrate\n", ENCOUNTER_VERSION);
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = text.find('\n', at);
+      remarks += "# " + text.substr(at, end - at) + "\n";
+      at = end + 1;
+    }
+    file->write(remarks + "\n" + models::rig_calibration_text(found.file));
+    file->keep();
+  }
+  fmt::print("{}", options.json ? found_json(found).dump(2) + "\n" : text);
+  return 0;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,212 @@
+#include "models/setup/rig_calibration.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "models/files.h"
+#include "models/schema/schema_walk.h"
+#include "models/schema/toml_reader.h"
+#include "models/schema/toml_writer.h"
+#include "models/schema/units.h"
+#include "models/schema/wording.h"
+#include "models/setup/scene_check.h"
+
+namespace enc::models {
+namespace {
+
+constexpr std::string_view kMadeBy = "encounter calibrate";
+constexpr auto kSaid = Confidence::chosen;
+constexpr auto kMust = Presence::needed;
+constexpr Range kTurns{-360.0, 360.0};
+
+void describe_file(Visitor& v, RigCalibration& file) {
+  std::int64_t format = 1;
+  v.value({"format", "this program reads version 1", kMadeBy, kSaid, {1.0, 1.0}, kMust}, &format);
+  v.value({"title", "of the rig", kMadeBy, kSaid}, &file.title);
+  v.value({"date", "day on which it was measured", kMadeBy, kSaid, kAny, kMust}, &file.date);
+  table(v, "of", [&] {
+    v.value({"manipulator", "driver, and address where it has one", kMadeBy, kSaid, kAny, kMust},
+            &file.of.manipulator);
+    v.value({"force", "likewise", kMadeBy, kSaid, kAny, kMust}, &file.of.force);
+    v.value({"tracker", "likewise", kMadeBy, kSaid, kAny, kMust}, &file.of.tracker);
+    table(v, "geometry", [&] { describe(v, file.of.geometry); });
+  });
+  table_if(v, "frames", file.W_C || file.H_F, [&] {
+    part(v, "W_C", file.W_C, [&](PoseSpec& p) {
+      v.value({"position_mm", "of the tracker in the world", kMadeBy, kSaid, kAny, kMust}, &p.position);
+      v.value({"rotation_deg", "about the fixed x, then y, then z axis", kMadeBy, kSaid, kTurns, kMust},
+              &p.rotation);
+    });
+    part(v, "H_F", file.H_F, [&](Vec3& rotation) {
+      v.value({"rotation_deg", "of the force sensor under the tip", kMadeBy, kSaid, kTurns, kMust},
+              &rotation);
+    });
+  });
+  part(v, "force", file.mass, [&](double& mass) {
+    v.value({"mass_kg", "behind the sensor, without the tool", kMadeBy, kSaid, kNotNegative, kMust}, &mass);
+  });
+}
+
+Vec3 rounded_turn(const Vec3& turn) {
+  Vec3 near;
+  for (Eigen::Index a = 0; a < 3; ++a)
+    near(a) = to_si(unit_of("rotation_deg"), round_to(turn(a) * (180.0 / M_PI), 1e5));
+  return near;
+}
+RigCalibration rounded(RigCalibration file) {
+  if (file.W_C) {
+    for (double& x : file.W_C->position) x = to_si(unit_of("position_mm"), round_to(x * 1e3, 1e4));
+    file.W_C->rotation = rounded_turn(file.W_C->rotation);
+  }
+  if (file.H_F) file.H_F = rounded_turn(*file.H_F);
+  if (file.mass) file.mass = round_to(*file.mass, 1e4);
+  return file;
+}
+
+// "gcs 192.168.0.10"; of a driver that has no address, its name.
+std::string device_of(const RigSpec& rig, const std::string& driver) {
+  for (const DriverTable& table : rig.drivers)
+    for (const DriverValue& value : table.values)
+      if (table.name == driver && value.key == "address") {
+        std::string_view address = value.text;  // as in the file, with its quotes
+        if (address.size() > 1 && (address.front() == '"' || address.front() == '\''))
+          address = address.substr(1, address.size() - 2);
+        return fmt::format("{} {}", driver, address);
+      }
+  return driver;
+}
+
+// Empty where it is the same rig.
+std::string other_rig(const RigIdentity& was, const RigIdentity& is) {
+  const auto differs = [](const char* what, const std::string& before, const std::string& now) {
+    return before == now
+               ? ""
+               : fmt::format("its {} was {} and is {}", what, models::quoted(before), models::quoted(now));
+  };
+  for (const std::string& text :
+       {differs("manipulator", was.manipulator, is.manipulator), differs("force sensor", was.force, is.force),
+        differs("tracker", was.tracker, is.tracker)})
+    if (!text.empty()) return text;
+  constexpr double kLength = 1e-6, kAngle = 1e-6;  // m, rad
+  const auto apart = [&](double HexapodGeometry::*side) {
+    return std::abs(was.geometry.*side - is.geometry.*side);
+  };
+  for (const auto& [side, name] : {std::pair{&HexapodGeometry::base_radius, "base_radius_mm"},
+                                   {&HexapodGeometry::platform_radius, "platform_radius_mm"},
+                                   {&HexapodGeometry::height, "height_mm"},
+                                   {&HexapodGeometry::tip_height, "tip_height_mm"},
+                                   {&HexapodGeometry::stroke, "stroke_mm"}})
+    if (!(apart(side) <= kLength))
+      return fmt::format("rig.manipulator.geometry.{} was {:g} and is {:g}", name, 1e3 * was.geometry.*side,
+                         1e3 * is.geometry.*side);
+  for (const auto& [angle, name] : {std::pair{&HexapodGeometry::base_half_angle, "base_half_angle_deg"},
+                                    {&HexapodGeometry::platform_half_angle, "platform_half_angle_deg"}})
+    if (!(apart(angle) <= kAngle))
+      return fmt::format("rig.manipulator.geometry.{} was {:g} and is {:g}", name,
+                         180.0 / M_PI * was.geometry.*angle, 180.0 / M_PI * is.geometry.*angle);
+  return "";
+}
+
+constexpr std::string_view kTrackerPlace = "rig.frames.W_C.position_mm",
+                           kTrackerTurn = "rig.frames.W_C.rotation_deg",
+                           kSensorTurn = "rig.frames.H_F.rotation_deg", kWeight = "rig.force.mass_kg";
+
+}  // namespace
+
+std::optional<std::chrono::sys_days> day_of(std::string_view text) {
+  int year = 0;
+  unsigned month = 0, day = 0;
+  const auto number = [&](std::size_t from, std::size_t length, auto& value) {
+    const char* end = text.data() + from + length;
+    return std::from_chars(text.data() + from, end, value).ptr == end;
+  };
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-' || !number(0, 4, year) || !number(5, 2, month) ||
+      !number(8, 2, day) || year <= 0)
+    return {};
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month),
+                                         std::chrono::day(day)};
+  return date.ok() ? std::optional(std::chrono::sys_days(date)) : std::nullopt;
+}
+
+RigIdentity identity_of(const RigSpec& rig) {
+  return {device_of(rig, rig.manipulator.driver), device_of(rig, rig.force.driver),
+          device_of(rig, rig.tracker.driver), rig.manipulator.geometry};
+}
+
+std::string rig_calibration_text(const RigCalibration& calibration) {
+  RigCalibration file = rounded(calibration);
+  return write_toml([&](Visitor& visitor) { describe_file(visitor, file); });
+}
+
+RigCalibration parse_rig_calibration(const std::string& text, const std::string& name) {
+  RigCalibration file;
+  const Places places = read_toml(text, name, [&](Visitor& visitor) { describe_file(visitor, file); });
+  if (!day_of(file.date)) {
+    const auto place = places.find("date");
+    throw Error(fmt::format("{}: 'date' is {}; expected a day, as \"2026-11-28\"; calibrate again",
+                            place == places.end() ? name + ":1:1" : place->second,
+                            models::quoted(file.date)));
+  }
+  if (!places.contains("of") || !places.contains("of.geometry"))
+    throw Error(
+        fmt::format("{}:1:1: does not say which rig it is of; expected [of] and [of.geometry]; "
+                    "calibrate again",
+                    name));
+  return file;
+}
+
+bool of_rig_calibration(std::string_view name) {
+  return name == kTrackerPlace || name == kTrackerTurn || name == kSensorTurn || name == kWeight;
+}
+
+void fill_measured(Setup& setup) {
+  RigSpec& rig = setup.rig;
+  if (rig.calibration.file.empty()) return;
+  const std::string named = place_of(setup, "rig.calibration.file");
+  const std::string path = (std::filesystem::path(setup.rig_path).parent_path() / rig.calibration.file)
+                               .lexically_normal()
+                               .string();
+  constexpr std::size_t kLongest = 1U << 20U;
+  std::string why;
+  const std::string text = read_file(path, kLongest, why);
+  if (!why.empty())
+    throw Error(fmt::format(
+        "{}: cannot read the calibration {}: {}; expected a file as `encounter calibrate RIG --out "
+        "FILE` writes, beside the rig's; see to its name",
+        named, models::quoted(path), why));
+  const RigCalibration file = parse_rig_calibration(text, path);
+  if (const std::string other = other_rig(file.of, identity_of(rig)); !other.empty())
+    throw Error(
+        fmt::format("{}: the calibration {} is of another rig: {}; expected one of this rig; calibrate "
+                    "it, or name its own file",
+                    named, models::quoted(path), other));
+  if (!rig.calibration.date.empty() && rig.calibration.date != file.date)
+    throw Error(
+        fmt::format("{}: 'date' is {} and that of the calibration {} is {}; expected one of the two; remove "
+                    "this one",
+                    place_of(setup, "rig.calibration.date"), models::quoted(rig.calibration.date),
+                    models::quoted(path), models::quoted(file.date)));
+  const auto by_hand = [&](std::string_view name) { return place_of(setup, name).starts_with("--set"); };
+  const auto take = [&](std::string_view name, auto& to, const auto& from) {
+    if (by_hand(name)) return;
+    to = from;
+    setup.places[std::string(name)] = path + ":1:1";
+  };
+  if (file.W_C) {
+    take(kTrackerPlace, rig.frames.W_C.position, file.W_C->position);
+    take(kTrackerTurn, rig.frames.W_C.rotation, file.W_C->rotation);
+  }
+  if (file.H_F) take(kSensorTurn, rig.frames.H_F.rotation, *file.H_F);
+  if (file.mass) take(kWeight, rig.force.mass, *file.mass);
+  rig.calibration.date = file.date;
+  setup.measured = path;
+  rig.calibration.file.clear();  // a resolved scene needs no other file
+}
+
+}  // namespace enc::models

@@ -1,0 +1,160 @@
+// The file of `encounter calibrate RIG`: a rig reads it, its numbers take the place of the rig file's, and
+// one that is of another rig, or wrong, is refused in a line.
+#include "models/setup/rig_calibration.h"
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "models/setup/scene_file.h"
+#include "tests/support/replaced.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+using models::day_of;
+using models::identity_of;
+using models::parse_rig_calibration;
+using models::rig_calibration_text;
+using models::RigCalibration;
+using test::replaced;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string kShippedModels = ENCOUNTER_SOURCE_DIR "/models/";
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class RigCalibrationFile : public testing::Test {
+ protected:
+  RigCalibrationFile() {
+    write("rig.toml", replaced(read_text(kShippedModels + "rigs/sim.toml"), "\n[loop]\n",
+                               "\n[calibration]\nfile = \"measured.toml\"\n\n[loop]\n"));
+    write("measured.toml", rig_calibration_text(measured()));
+  }
+  static RigCalibration measured() {
+    return {"sim",
+            "2026-11-28",
+            identity_of(models::load_rig(kShippedModels + "rigs/sim.toml")),
+            PoseSpec{{0.0031234, -0.8961, 0.6}, {0.01, -0.02, 0.03}},
+            Vec3(0.011, 0.0, -0.02),
+            1.1099};
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+  void change(const std::string& from, const std::string& to) const {
+    write("measured.toml", replaced(rig_calibration_text(measured()), from, to));
+  }
+  [[nodiscard]] models::Setup loaded(const std::vector<std::string>& set = {}) const {
+    return models::load(kShippedModels + "scenes/tracking.toml", path("rig.toml"), set);
+  }
+  [[nodiscard]] std::string refusal(const std::vector<std::string>& set = {}) const {
+    try {
+      (void)loaded(set);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::input);
+      const std::string line = e.what();
+      EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 0) << line;
+      return line;
+    }
+    return "taken";
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(RigCalibrationFile, ReadsWhatItWrites) {
+  const std::string text = rig_calibration_text(measured());
+  const RigCalibration read = parse_rig_calibration(text, "here");
+  EXPECT_EQ(rig_calibration_text(read), text);
+  EXPECT_EQ(read.W_C->position, measured().W_C->position);
+  EXPECT_NEAR(read.H_F->x(), 0.011, 1e-7);
+  EXPECT_EQ(*read.mass, 1.1099);
+  RigCalibration part = measured();
+  part.W_C.reset();
+  part.mass.reset();
+  const RigCalibration less = parse_rig_calibration(rig_calibration_text(part), "here");
+  EXPECT_FALSE(less.W_C);
+  EXPECT_FALSE(less.mass);
+  EXPECT_TRUE(less.H_F);
+}
+
+TEST_F(RigCalibrationFile, ItsNumbersTakeThePlaceOfTheRigs) {
+  const models::Setup setup = loaded();
+  EXPECT_EQ(setup.rig.frames.W_C.position, measured().W_C->position);
+  EXPECT_NEAR(setup.rig.frames.W_C.rotation.z(), 0.03, 1e-7);
+  EXPECT_NEAR(setup.rig.frames.H_F.rotation.x(), 0.011, 1e-7);
+  EXPECT_EQ(setup.rig.frames.H_F.position, Vec3(0, 0, -0.127)) << "the file does not say it";
+  EXPECT_EQ(setup.rig.force.mass, 1.1099);
+  EXPECT_EQ(setup.rig.calibration.date, "2026-11-28");
+  // A record of it needs no other file, and has the same numbers.
+  const models::Setup again = models::parse_resolved(models::resolved(setup), "record");
+  EXPECT_EQ(again.rig.frames.W_C.position, measured().W_C->position);
+  EXPECT_EQ(again.rig.calibration.file, "");
+  EXPECT_EQ(again.rig.calibration.date, "2026-11-28");
+  const auto source = [&](const models::Setup& of, const std::string& name) {
+    const std::vector<models::Parameter> all = models::parameters(of);
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const models::Parameter& p) { return p.name == name; });
+    return found == all.end() ? std::string() : found->source;
+  };
+  EXPECT_THAT(source(setup, "rig.force.mass_kg"), HasSubstr("measured.toml"));
+  EXPECT_THAT(source(setup, "rig.force.filter_hz"), Not(HasSubstr("measured.toml")));
+  // What is set by hand stays so.
+  const models::Setup set = loaded({"rig.force.mass_kg=0.5"});
+  EXPECT_EQ(set.rig.force.mass, 0.5);
+  EXPECT_EQ(set.rig.frames.W_C.position, measured().W_C->position);
+}
+
+TEST_F(RigCalibrationFile, OfAnotherRigIsRefused) {
+  change("manipulator = \"sim\"", "manipulator = \"gcs 192.168.0.10\"");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("rig.toml:"), HasSubstr("of another rig"),
+                               HasSubstr("its manipulator was 'gcs 192.168.0.10' and is 'sim'")));
+  change("height_mm = 154.5", "height_mm = 154.6");
+  EXPECT_THAT(refusal(), HasSubstr("rig.manipulator.geometry.height_mm was 154.6 and is 154.5"));
+  change("base_half_angle_deg = 22.6", "base_half_angle_deg = 22.7");
+  EXPECT_THAT(refusal(), HasSubstr("base_half_angle_deg was 22.7 and is 22.6"));
+  write("measured.toml", rig_calibration_text(measured()));
+  EXPECT_EQ(refusal(), "taken");
+  EXPECT_THAT(refusal({"rig.manipulator.geometry.stroke_mm=20"}), HasSubstr("stroke_mm was 23.6 and is 20"));
+}
+
+TEST_F(RigCalibrationFile, WhatIsWrongWithItIsSaidWithItsPlace) {
+  change("date = \"2026-11-28\"", "date = \"yesterday\"");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("measured.toml:"), HasSubstr("expected a day")));
+  change("mass_kg = 1.1099", "mass_kg = -1");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("measured.toml:"), HasSubstr("mass_kg")));
+  change("mass_kg", "mass_g");
+  EXPECT_THAT(refusal(), HasSubstr("measured.toml:"));
+  change("[of.geometry]", "[geometry]");
+  EXPECT_THAT(refusal(), HasSubstr("measured.toml:"));
+  write("measured.toml", "format = 1\ndate = \"2026-11-28\"\n");
+  EXPECT_THAT(refusal(), HasSubstr("does not say which rig it is of"));
+  std::filesystem::remove(path("measured.toml"));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("rig.toml:"), HasSubstr("cannot read the calibration")));
+  write("measured.toml", rig_calibration_text(measured()));
+  EXPECT_THAT(refusal({"rig.calibration.date=\"2026-11-27\""}), HasSubstr("expected one of the two"));
+  EXPECT_THAT(refusal({"rig.calibration.valid_days=0"}), HasSubstr("valid_days"));
+}
+
+TEST(Days, AreThoseOfTheCalendar) {
+  EXPECT_TRUE(day_of("2024-02-29"));
+  EXPECT_FALSE(day_of("2026-02-29"));
+  EXPECT_FALSE(day_of(""));
+  EXPECT_EQ((*day_of("2026-03-01") - *day_of("2026-02-28")).count(), 1);
+}
+
+}  // namespace
+}  // namespace enc::tests

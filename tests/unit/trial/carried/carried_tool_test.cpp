@@ -1,0 +1,168 @@
+// A machine that carries a clamped tool through the poses of a calibration, in the twin: it gets there, it
+// rests, and what is found is what was put in.
+#include "trial/carried/carried_tool.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/rotation.h"
+#include "models/fit/machine/turn.h"
+#include "trial/carried/machine_calibration.h"
+
+namespace enc::trial {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+models::Setup clamped(const std::vector<std::string>& set = {}) {
+  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml", "", set);
+}
+const Pose<'W', 'H'> kAside(rotation_xyz(Vec3(0.10, -0.05, 0.2)), Vec3(0.008, -0.004, 0.003));
+
+TEST(CarriedTool, GoesThereRestsAndMeasures) {
+  CarriedTool tool(clamped(), {});
+  tool.go(kAside);
+  const CarriedStand stand = tool.stand();
+  EXPECT_LT((stand.X_WH.p() - kAside.p()).norm(), 5e-6);
+  EXPECT_LT(stand.X_WH.q().angularDistance(kAside.q()), 1e-4);
+  EXPECT_NEAR(static_cast<double>(stand.readings), 1000.0, 2.0);
+  EXPECT_NEAR(static_cast<double>(stand.packets), 100.0, 3.0);
+  const Mat3 R_FW = (stand.X_WH.q() * pose_of<'H', 'F'>(tool.trial().setup().rig.frames.H_F).q())
+                        .toRotationMatrix()
+                        .transpose();
+  const double mass = tool.trial().scene().force.mass;
+  const Vec3 weight = R_FW * Vec3(0, 0, -mass * kStandardGravity);
+  const Vec3 zero = tool.trial().world().force->zero().e();
+  EXPECT_LT((stand.wrench.force.e() - weight - zero).norm(), 0.005);
+}
+
+TEST(CarriedTool, SaysWhatKeepsItFromGoing) {
+  const auto said = [](const auto& act) -> std::string {
+    try {
+      act();
+    } catch (const Error& e) {
+      EXPECT_EQ(std::count(e.what(), e.what() + std::string(e.what()).size(), '\n'), 0);
+      return e.what();
+    }
+    return "done";
+  };
+  EXPECT_THAT(said([] {
+                CarriedTool tool(clamped(), {});
+                tool.go(Pose<'W', 'H'>::shift(0, 0, 0.080));
+              }),
+              HasSubstr("out of the machine's reach"));
+  EXPECT_THAT(said([] {
+                CarriedTool tool(clamped({"truth.gripper.width_mm=0"}), {});
+                tool.go(kAside);
+              }),
+              AllOf(HasSubstr("hold"), HasSubstr("calibrate again")));
+  EXPECT_THAT(said([] {
+                CarriedTool tool(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml", "", {}), {});
+              }),
+              HasSubstr("no tool is clamped in this scene"));
+  // A machine that does not do as it is told.
+  EXPECT_THAT(said([] {
+                CarriedTool tool(clamped({"truth.hexapod.speed_mm_s=0.5"}), {});
+                tool.go(kAside);
+              }),
+              HasSubstr("in hold"));
+}
+
+TEST(CarriedTool, StopsWhereItIsWhenItIsToldTo) {
+  int asked = 0;
+  TrialOptions options;
+  options.stop = [&] { return ++asked > 700; };
+  CarriedTool tool(clamped(), options);
+  EXPECT_THROW(tool.go(kAside), CarryingEnded);
+}
+
+TEST(CalibrationPoses, AreInReachAndSoAreTheWaysBetween) {
+  const Hexapod machine{HexapodGeometry{}};
+  const Reach reach{0.05, 0.41, machine, {}};
+  const Pose<'W', 'R'> X_WR = Pose<'W', 'H'>::identity() * machine.zero().inverse();
+  for (const std::size_t count : {std::size_t{8}, kUsualPoses, std::size_t{200}}) {
+    const auto poses = calibration_poses(reach, X_WR, count);
+    ASSERT_EQ(poses.size(), count);
+    Pose<'W', 'H'> from = Pose<'W', 'H'>::identity();
+    Vec3 sides = Vec3::Zero();
+    double most = 0.0;
+    for (const Pose<'W', 'H'>& to : poses) {
+      for (int i = 0; i <= 30; ++i) {
+        const double share = i / 30.0;
+        const Pose<'W', 'H'> at(from.q().slerp(share, to.q()), Vec3(from.p() + share * (to.p() - from.p())));
+        ASSERT_TRUE(reach.contains(X_WR.inverse() * at));
+      }
+      const Vec3 up = to.q() * Vec3::UnitZ();
+      sides += Vec3(up.x(), up.y(), 0.0) / static_cast<double>(count);
+      most = std::max(most, std::acos(up.z()));
+      from = to;
+    }
+    EXPECT_GT(most, 8.0 * M_PI / 180.0);
+    EXPECT_LT(sides.norm(), 0.05) << "tilts lean to one side";
+  }
+}
+
+// Of a machine with half the stroke the poses are smaller, and still in reach.
+TEST(CalibrationPoses, FitASmallerMachine) {
+  HexapodGeometry small;
+  small.stroke = 0.008;
+  const Hexapod machine{small};
+  const Reach reach{0.05, 0.41, machine, {}};
+  const Pose<'W', 'R'> X_WR = Pose<'W', 'H'>::identity() * machine.zero().inverse();
+  double most = 0.0;
+  for (const Pose<'W', 'H'>& pose : calibration_poses(reach, X_WR)) {
+    EXPECT_TRUE(reach.contains(X_WR.inverse() * pose));
+    most = std::max(most, std::acos((pose.q() * Vec3::UnitZ()).z()));
+  }
+  EXPECT_GT(most, 1.5 * M_PI / 180.0);
+}
+
+// The rest is the benchmark's: bench calibration.
+TEST(MachineCalibration, FindsWhatTheRigDoesNotKnow) {
+  models::Setup setup =
+      clamped({"truth.frames.W_C.position_mm=[3, -896, 599]", "truth.force.turned_deg=[1, 1, -1.4]",
+               "truth.frames.W_C.rotation_deg=[1, -1, 1.4]", "truth.hexapod.mass_kg=1.11",
+               "truth.tracker.bias_mm=[0, 0, 0]"});
+  CarriedTool tool(setup, {});
+  std::vector<double> told;
+  const MachineCalibration made = calibrate_machine(tool, 12, [&](double share) { told.push_back(share); });
+  EXPECT_EQ(made.stands.size(), 12U);
+  EXPECT_EQ(made.unseen, 0U);
+  EXPECT_EQ(told.size(), 12U);
+  ASSERT_TRUE(made.weight && made.hand_eye);
+  EXPECT_NEAR(made.weight->mass.value, 1.11 + made.tool_mass, 3.0 * made.weight->mass.half);
+  EXPECT_LT(made.weight->mass.half, 0.02);
+  const Quat turned = rotation_xyz(M_PI / 180.0 * Vec3(1, 1, -1.4));
+  EXPECT_LT(made.weight->R_HF.angularDistance(turned), 0.01);
+  EXPECT_LT((made.weight->zero.value - tool.trial().world().force->zero().e()).norm(), 0.1);
+  const Pose<'W', 'C'> X_WC = pose_of<'W', 'C'>(setup.twin.frames.W_C);
+  const Point<'W'> seen = made.hand_eye->X_WC * (X_WC.inverse() * Point<'W'>(0, 0, 0));
+  EXPECT_LT(seen.e().norm(), 0.02e-3);
+  EXPECT_LT(made.hand_eye->X_WC.q().angularDistance(X_WC.q()), 5e-4);
+  // At its zero again.
+  const Pose<'W', 'H'> end = tool.trial().scene().X_WR * tool.trial().inputs().tip.value.X_RH;
+  EXPECT_LT(end.p().norm(), 0.2e-3);
+}
+
+TEST(MachineCalibration, WeighsWhatTheSceneDoesNotAskForAndMissesAToolThatNobodySees) {
+  const auto found = [](const std::vector<std::string>& set) {
+    CarriedTool tool(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml", "", set), {});
+    return calibrate_machine(tool, 8);
+  };
+  EXPECT_TRUE(found({}).weight) << "the scene names no force sensor, and the rig has one";
+  try {
+    (void)found({"truth.tracker.loss=1"});
+    FAIL() << "taken";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("the tool was seen in 0 stands"));
+  }
+}
+
+}  // namespace
+}  // namespace enc::trial
