@@ -1,0 +1,106 @@
+// What the machine was told, and where it says that it was.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "trial/shadow/block_fit.h"
+#include "trial/shadow/bounds.h"
+#include "trial/shadow/channels.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr double kMachineBlock = 0.25;  // s
+constexpr int kRounds = 6;
+constexpr std::size_t kMostRows = 100'000;  // of ticks that are compared
+
+// Where the twin's machine was, tick by tick from the first; NaN where nobody knows.
+struct TwinWay {
+  double begin, dt;
+  std::vector<Vec3> at{};
+
+  [[nodiscard]] Vec3 place(double t) const {
+    const double i = (t - begin) / dt;
+    if (!(i >= 0.0) || i > static_cast<double>(at.size() - 1)) return Vec3::Constant(kUnset);
+    const auto low = std::min(static_cast<std::size_t>(i), at.size() - 1);
+    const std::size_t high = std::min(low + 1, at.size() - 1);
+    return at[low] + (i - static_cast<double>(low)) * (at[high] - at[low]);
+  }
+  [[nodiscard]] Vec3 speed(double t) const { return (place(t + dt) - place(t - dt)) / (2.0 * dt); }
+};
+
+struct Said {
+  double t;  // s, stamp
+  Vec3 at;   // m, in R
+};
+
+BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& said, double late) {
+  BlockFit fit(4, kMachineBlock);
+  const std::size_t stride = 1 + said.size() / kMostRows;
+  for (std::size_t k = 0; k < said.size(); k += stride) {
+    const Vec3 place = way.place(said[k].t - late), speed = way.speed(said[k].t - late);
+    if (!place.allFinite() || !speed.allFinite()) continue;
+    for (Eigen::Index a = 0; a < 3; ++a) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(4);
+      row(a) = 1.0;
+      row(3) = -speed(a);
+      fit.add(said[k].t, row, said[k].at(a) - place(a));
+    }
+  }
+  return fit.solve();
+}
+
+}  // namespace
+
+void see_machine(const Tape& tape, Shadow& shadow) {
+  if (!tape.sent)
+    return cannot_judge(shadow, Channel::machine, "nothing was sent to it: this was a dry run");
+  ToldMachine twin(tape);
+  TwinWay way{in_seconds(tape.begin), tape.scene.dt};
+  way.at.reserve(static_cast<std::size_t>(tape.last - tape.first + 1));
+  std::vector<Said> said;
+  Time newest = Time::min();
+  double travel = 0.0;
+  tape.play([&](const RecordedTick& frame) {
+    twin.advance(frame);
+    const Vec3 place = twin.known() ? Vec3(twin.said().X_RH.p()) : Vec3(Vec3::Constant(kUnset));
+    way.at.resize(static_cast<std::size_t>(frame.tick.index - tape.first), Vec3::Constant(kUnset));
+    way.at.push_back(place);
+    if (was_sent(frame)) twin.command(frame.out.tip);
+    if (is_well(frame.in.tip) && frame.in.tip.t > newest) {
+      newest = frame.in.tip.t;
+      said.push_back({in_seconds(newest), frame.in.tip.value.X_RH.p()});
+      travel = std::max(travel, (said.back().at - said.front().at).norm());
+    }
+  });
+  double late = 0.0;
+  BlockFit::Result found;
+  for (int round = 0; round < kRounds; ++round) {
+    found = fit_way(way, said, late);
+    const double more = found.values[3].value;
+    if (!std::isfinite(more)) break;
+    late = std::clamp(late + more, -0.5, 0.5);
+    if (std::abs(more) < 1e-6) break;
+  }
+  constexpr double kMoved = 0.1e-3;  // m
+  if (travel > kMoved)
+    add(shadow, Channel::machine, Quantity::machine_time, {late, found.values[3].half}, bounds::kMachineTime);
+  else
+    cannot_judge(shadow, Channel::machine, "it stood still: when it answers is not in this record");
+  const Mat3 axes = tape.scene.X_WR.q().toRotationMatrix();
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    models::Interval off{0.0, 0.0};
+    for (Eigen::Index b = 0; b < 3; ++b) {
+      const models::Interval& one = found.values[static_cast<std::size_t>(b)];
+      off.value += axes(a, b) * one.value;
+      off.half = std::hypot(off.half, axes(a, b) * one.half);
+    }
+    add(shadow, Channel::machine, Quantity::machine_place, off, bounds::kMachinePlace,
+        std::string(1, "xyz"[a]));
+  }
+  add(shadow, Channel::machine, Quantity::machine_rest, {found.rms * std::sqrt(3.0), 0.0},
+      bounds::kMachineRest);
+}
+
+}  // namespace enc::trial

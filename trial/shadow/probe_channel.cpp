@@ -1,0 +1,198 @@
+// A real object that the machine presses with its probe: where the probe was says what the twin's object
+// would have pushed back with.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "trial/shadow/block_fit.h"
+#include "trial/shadow/bounds.h"
+#include "trial/shadow/channels.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr double kForceBlock = 0.25;   // s
+constexpr double kBefore = 1e-3;       // m before the touch, from where on a push is looked at
+constexpr double kStep = 20e-6;        // m, of the difference that stands for a slope
+constexpr double kSlopeTime = 4e-3;    // s, likewise
+constexpr double kTouch = 0.2;         // N: less is no push
+constexpr int kMostRounds = 10;
+constexpr double kSettled = 2e-6;      // m
+constexpr Eigen::Index kAlike = 0, kNearer = 1, kLate = 2, kZeros = 3;
+
+using Forces = std::vector<double>;  // N, along the push, tick by tick
+
+// What is compared: the ticks of all pushes, and how each is numbered.
+struct Rows {
+  std::vector<std::ptrdiff_t> push;  // of each tick; -1: none
+  std::ptrdiff_t pushes = 0;
+  double begin = 0.0, dt = kUnset;
+};
+
+// A sensor without any error, in its true axes: errors are put on it again, of each seed.
+models::Setup faultless(models::Setup twin) {
+  sim::ForceTruth& force = twin.twin.force;
+  force.quantum = force.torque_quantum = force.noise = force.torque_noise = 0.0;
+  force.zero = force.drift = force.push_drift = 0.0;
+  force.turned = Vec3::Zero();
+  return twin;
+}
+
+// The twin's sensor at each tick, in its true axes, its probe `nearer` further along the push.
+std::vector<Wrench> felt_by_twin(const Tape& tape, const models::Setup& twin, double nearer) {
+  const Vec3 along = -(tape.scene.probe()->X_WN * Vec<'N'>(0, 0, 1)).e();
+  const Vec3 shift = nearer * (tape.scene.X_WR.q().conjugate() * along);
+  std::vector<Wrench> felt;
+  felt.reserve(static_cast<std::size_t>(tape.last - tape.first + 1));
+  lead_world(tape, twin, shift, [&](Time, const sim::World& world, const TipSample&) {
+    felt.push_back(world.force->sample().value);
+  });
+  return felt;
+}
+
+// Against the push, as the rig believes that the sensor stands.
+class Along {
+ public:
+  explicit Along(const Tape& tape) : tape_(tape) {}
+  double operator()(std::size_t i, const Vec<'F'>& force) const {
+    const Time t =
+        tape_.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape_.scene.dt).count());
+    const Pose<'W', 'F'> X_WF = tape_.scene.X_WR * tape_.tip.at(t).X_RH * tape_.scene.X_HF;
+    return dot(X_WF * force, tape_.scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
+  }
+
+ private:
+  const Tape& tape_;
+};
+
+Forces along_push(const Along& along, const std::vector<Wrench>& felt) {
+  Forces out;
+  out.reserve(felt.size());
+  for (std::size_t i = 0; i < felt.size(); ++i) out.push_back(along(i, felt[i].force));
+  return out;
+}
+
+// A quiet line: force at a time between ticks, and how fast it changes.
+double force_at(const Forces& forces, double i) {
+  const double last = static_cast<double>(forces.size() - 1);
+  const double at = std::clamp(i, 0.0, last);
+  const auto low = static_cast<std::size_t>(at), high = std::min(low + 1, forces.size() - 1);
+  return forces[low] + (at - static_cast<double>(low)) * (forces[high] - forces[low]);
+}
+
+Rows rows_of(const Tape& tape, const Forces& recorded) {
+  const Probe& probe = *tape.scene.probe();
+  Rows rows{std::vector<std::ptrdiff_t>(recorded.size(), -1), 0, in_seconds(tape.begin), tape.scene.dt};
+  const double from = -std::min(kBefore, 0.5 * probe.clear);
+  bool in = false;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    const Time t = tape.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count());
+    const bool now = probe.deflection(tape.scene.X_WR * tape.tip.at(t).X_RH.origin()) > from;
+    if (now && !in) ++rows.pushes;
+    if (now && std::isfinite(recorded[i])) rows.push[i] = rows.pushes - 1;
+    in = now;
+  }
+  return rows;
+}
+
+struct Compared {
+  models::Interval alike, nearer, late;
+  double rms = kUnset;
+};
+
+// measured(t) = alike * twin(t - late), its object nearer: all of them at once, and each push's own zero.
+Compared compare(const Rows& rows, const Forces& measured, const Forces& twin, const Forces& stepped,
+                 double late) {
+  BlockFit fit(static_cast<std::size_t>(kZeros + rows.pushes), kForceBlock);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    if (rows.push[i] < 0) continue;
+    const double at = static_cast<double>(i) - late / rows.dt, reach = kSlopeTime / rows.dt;
+    const double force = force_at(twin, at);
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(kZeros + rows.pushes);
+    row(kAlike) = force;
+    row(kNearer) = (force_at(stepped, at) - force) / kStep;
+    row(kLate) = -(force_at(twin, at + reach) - force_at(twin, at - reach)) / (2.0 * kSlopeTime);
+    row(kZeros + rows.push[i]) = 1.0;
+    fit.add(rows.begin + static_cast<double>(i) * rows.dt, row, measured[i]);
+  }
+  const BlockFit::Result found = fit.solve();
+  const double size = found.values[kAlike].value;
+  const auto scaled = [&](Eigen::Index c) {
+    const models::Interval& one = found.values[static_cast<std::size_t>(c)];
+    return models::Interval{one.value / size, one.half / std::abs(size)};
+  };
+  return {found.values[kAlike], scaled(kNearer), scaled(kLate), found.rms};
+}
+
+// What the record's sensor said, tick by tick; NaN where it is not to be believed.
+Forces recorded_forces(const Tape& tape, const Along& along) {
+  Forces out;
+  tape.play([&](const RecordedTick& frame) {
+    out.resize(static_cast<std::size_t>(frame.tick.index - tape.first), kUnset);
+    const Stamped<Wrench>& said = frame.in.wrench;
+    const bool well = said.health == Health::ok && said.value.force.finite() && is_well(frame.in.tip);
+    out.push_back(well ? along(out.size(), said.value.force) : kUnset);
+  });
+  return out;
+}
+
+}  // namespace
+
+void see_probed(const Tape& tape, Shadow& shadow) {
+  if (tape.scene.probe() == nullptr || !tape.scene.has_force) return;
+  const Along along(tape);
+  const Forces recorded = recorded_forces(tape, along);
+  const Rows rows = rows_of(tape, recorded);
+  const models::Setup quiet = faultless(tape.twin);
+  double nearer = 0.0, late = 0.0;
+  std::vector<Wrench> felt;
+  Forces twin, stepped;
+  Compared found;
+  for (int round = 0; round < kMostRounds; ++round) {
+    felt = felt_by_twin(tape, quiet, nearer);
+    twin = along_push(along, felt);
+    stepped = along_push(along, felt_by_twin(tape, quiet, nearer + kStep));
+    if (rows.pushes == 0 || *std::max_element(twin.begin(), twin.end()) -
+                                    *std::min_element(twin.begin(), twin.end()) <
+                                kTouch)
+      return cannot_judge(shadow, Channel::force, "the probe pressed nothing that the twin has there");
+    found = compare(rows, recorded, twin, stepped, late);
+    if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
+    if (std::abs(found.nearer.value) < kSettled) break;
+    // The twin presses as far as it must to feel what was felt; no farther at once than its law bends.
+    nearer += std::clamp(found.nearer.value, -0.5e-3, 0.5e-3);
+    if (std::isfinite(found.late.value)) late = std::clamp(late + found.late.value, -0.02, 0.02);
+  }
+  if (!found.alike.known())
+    return cannot_judge(shadow, Channel::force, "the probe pressed for too short a time");
+  std::vector<double> alike, place, time;
+  for (std::size_t k = 0; k < kTwins; ++k) {
+    sim::ForcePlant sensor(tape.twin.twin.force, twin_seed(k));
+    Forces said;
+    said.reserve(felt.size());
+    for (std::size_t i = 0; i < felt.size(); ++i) {
+      const Time t(Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count()));
+      sensor.measure(t, tape.scene.dt, felt[i], Vec<'F'>::zero());
+      said.push_back(along(i, sensor.sample().value.force));
+    }
+    const Compared one = compare(rows, said, twin, stepped, 0.0);
+    alike.push_back(one.alike.value);
+    place.push_back(one.nearer.value);
+    time.push_back(one.late.value);
+  }
+  models::Interval stiffer = beside_twins(found.alike, alike);
+  add(shadow, Channel::force, Quantity::stiffness, stiffer, bounds::kStiffness);
+  models::Interval off = beside_twins(found.nearer, place);
+  off.value += nearer;
+  add(shadow, Channel::force, Quantity::object_place, off, bounds::kObjectPlace);
+  models::Interval delay = beside_twins(found.late, time);
+  delay.value += late;
+  add(shadow, Channel::force, Quantity::force_time, delay, bounds::kForceTime);
+  shadow.facts.push_back(
+      {Channel::force, fmt::format("{} pushes; what is left of the force is {:.3f} N rms, the twin's sensor "
+                                   "scatters by about {:.3f} N",
+                                   rows.pushes, found.rms, tape.twin.twin.force.noise)});
+}
+
+}  // namespace enc::trial

@@ -1,0 +1,137 @@
+// Where a tool that the machine carries was, and where and when it was seen; how old packets are.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "models/fit/latency_fit.h"
+#include "models/order_statistics.h"
+#include "trial/shadow/block_fit.h"
+#include "trial/shadow/bounds.h"
+#include "trial/shadow/channels.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr std::size_t kFewestPackets = 30;
+constexpr double kAgeBlock = 0.25;  // s
+
+double median_pause(const std::vector<SeenPacket>& packets) {
+  std::vector<double> pauses;
+  pauses.reserve(packets.size());
+  for (std::size_t i = 1; i < packets.size(); ++i) pauses.push_back(age(packets[i].t, packets[i - 1].t));
+  return models::median(pauses);
+}
+
+// The log that `encounter calibrate` reads, of the same ticks for the record and its twins.
+models::TrackerLog with_packets(models::TrackerLog rows, const Scene& scene,
+                                const std::vector<SeenPacket>& packets) {
+  rows.packets.reserve(packets.size());
+  for (const SeenPacket& one : packets)
+    rows.packets.push_back({in_seconds(one.t), in_seconds(one.stamp), Vec3(tip_of(scene, one.tool).e())});
+  rows.packet_period = median_pause(packets);
+  return rows;
+}
+
+// s by which packets are older than their stamps' time when they come: mean, and what blocks of time say.
+models::Interval mean_age(const std::vector<SeenPacket>& packets) {
+  BlockFit fit(1, kAgeBlock);
+  for (const SeenPacket& one : packets)
+    fit.add(in_seconds(one.t), Eigen::VectorXd::Ones(1), age(one.t, one.stamp));
+  return fit.solve().values[0];
+}
+
+struct Pauses {
+  double rate = kUnset, longest = 0.0;  // packets a second; s
+};
+Pauses pauses_of(const std::vector<SeenPacket>& packets) {
+  Pauses out;
+  for (std::size_t i = 1; i < packets.size(); ++i)
+    out.longest = std::max(out.longest, age(packets[i].t, packets[i - 1].t));
+  if (packets.size() > 1)
+    out.rate =
+        static_cast<double>(packets.size() - 1) / std::max(1e-9, age(packets.back().t, packets.front().t));
+  return out;
+}
+
+}  // namespace
+
+void see_ages(const Tape&, const std::vector<SeenPacket>& recorded,
+              const std::vector<std::vector<SeenPacket>>& twins, bool judge, Shadow& shadow) {
+  std::vector<double> ages, rates;
+  double longest = 0.0;
+  for (const std::vector<SeenPacket>& packets : twins) {
+    ages.push_back(mean_age(packets).value);
+    const Pauses pauses = pauses_of(packets);
+    rates.push_back(pauses.rate);
+    longest = std::max(longest, pauses.longest);
+  }
+  if (judge)
+    add(shadow, Channel::tool, Quantity::tool_latency, beside_twins(mean_age(recorded), ages),
+        bounds::kToolLatency);
+  const Pauses pauses = pauses_of(recorded);
+  shadow.facts.push_back(
+      {Channel::clock,
+       fmt::format("{:.1f} packets of the tool a second, the twin's {:.1f}; longest pause {:.0f} ms, the "
+                   "twin's {:.0f} ms",
+                   pauses.rate, of_twins(rates).value, 1e3 * pauses.longest, 1e3 * longest)});
+}
+
+void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow) {
+  models::TrackerLog rows;
+  rows.period = tape.scene.dt;
+  TwinTrackers trackers(tape);
+  lead_world(tape, tape.twin, Vec3::Zero(), [&](Time t, const sim::World& world, const TipSample& led) {
+    rows.time.push_back(in_seconds(t));
+    rows.tip.emplace_back((tape.scene.X_WR * led.X_RH.origin()).e());
+    const sim::TrackerPlant::State& seen = world.tracker->state();  // what its own tracker was shown
+    trackers.advance(t, seen.tool_before, seen.before);
+  });
+  const models::LatencyFit found = models::fit_latency(with_packets(rows, tape.scene, recorded));
+  constexpr double kMost = 0.5;  // of the tool's motion, that the machine's does not explain
+  const bool carried = found.carried && found.in_range && !(found.unexplained > kMost);
+  see_ages(tape, recorded, trackers.packets(), !carried || !found.latency.known(), shadow);
+  if (!carried)
+    return cannot_judge(shadow, Channel::tool,
+                        "the machine did not carry it: where it should be seen is not known");
+  std::vector<models::LatencyFit> twins;
+  twins.reserve(kTwins);
+  for (const std::vector<SeenPacket>& packets : trackers.packets())
+    if (packets.size() >= kFewestPackets)
+      twins.push_back(models::fit_latency(with_packets(rows, tape.scene, packets)));
+  const auto beside = [&](const auto& part) {
+    std::vector<double> values;
+    values.reserve(twins.size());
+    for (const models::LatencyFit& twin : twins) values.push_back(part(twin).value);
+    return beside_twins(part(found), values);
+  };
+  for (std::size_t a = 0; a < 3; ++a)
+    add(shadow, Channel::tool, Quantity::registration,
+        beside([a](const models::LatencyFit& fit) { return fit.axes[a].bias; }), bounds::kRegistration,
+        std::string(1, "xyz"[a]));
+  if (!found.latency.known()) return;
+  add(shadow, Channel::tool, Quantity::tool_latency,
+      beside([](const models::LatencyFit& fit) { return fit.latency; }), bounds::kToolLatency);
+  add(shadow, Channel::tool, Quantity::tool_stamps,
+      [&] {
+        // Packets that are older than their stamps say have stamps that are so much too late.
+        return beside([](const models::LatencyFit& fit) { return fit.stamp_error; });
+      }(),
+      bounds::kToolStamps);
+}
+
+void see_tool(const Tape& tape, Shadow& shadow) {
+  if (!tape.scene.has_tracker) return;
+  if (tape.twin.scene.camera)
+    return cannot_judge(shadow, Channel::tool,
+                        "it is seen by a camera: see `encounter replay --frames` for vision");
+  const std::vector<SeenPacket> recorded = recorded_packets(tape);
+  if (recorded.size() < kFewestPackets)
+    return cannot_judge(shadow, Channel::tool,
+                        fmt::format("it was seen {} times; expected at least {}", recorded.size(),
+                                    kFewestPackets));
+  if (tape.scene.clamped_tool >= 0 && !tape.twin.scene.user) return see_carried(tape, recorded, shadow);
+  see_pressing(tape, recorded, shadow);
+}
+
+}  // namespace enc::trial
