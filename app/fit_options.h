@@ -1,4 +1,4 @@
-// What the command line said to `fit` and `calibrate`: a part of options.h.
+// What the command line said to `fit`, `calibrate` and `shadow`: a part of options.h.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +43,11 @@ struct CalibrateOptions {
   std::optional<std::string> corners;  // "9x6"
   std::string picture;
   std::string skin;  // a folder of masks of hands: the images are of hands, not of a board
+};
+struct ShadowOptions {
+  std::string record;
+  std::vector<std::string> set;  // of the twin, "name=value"
+  bool partial = false, json = false;
 };
 
 }  // namespace enc::app

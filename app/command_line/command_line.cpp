@@ -224,6 +224,9 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CalibrateOptions calibrate_options;
   add_calibrate(app, calibrate_options)->callback([&] { code = calibrate(calibrate_options); });
 
+  ShadowOptions shadow_options;
+  add_shadow(app, shadow_options)->callback([&] { code = shadow(shadow_options); });
+
   NearestOptions nearest_options;
   CLI::App* nearest_command = app.add_subcommand(
       "nearest",

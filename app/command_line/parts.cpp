@@ -87,4 +87,17 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options) {
   return command;
 }
 
+CLI::App* add_shadow(CLI::App& app, ShadowOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "shadow",
+      "feed a record to the twin: how far each channel is from what the twin says, with intervals and "
+      "bounds; exit 1 where one diverges");
+  command->add_option("record", options.record, "file written by run --record")->required();
+  command->add_option("--set", options.set,
+                      "override of the record's own set-up: the twin, e.g. truth.tracker.latency_ms=3.5");
+  command->add_flag("--partial", options.partial, "what a cut-off record still holds");
+  command->add_flag("--json", options.json, "one JSON object instead of text");
+  return command;
+}
+
 }  // namespace enc::app

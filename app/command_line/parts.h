@@ -17,5 +17,6 @@ std::string unnamed(const std::string& text);
 void force_option(CLI::App* command, bool& force);
 void device_options(CLI::App* command, bool& armed, bool& lockstep);
 CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options);
+CLI::App* add_shadow(CLI::App& app, ShadowOptions& options);
 
 }  // namespace enc::app

@@ -263,8 +263,8 @@ int calibrate_command(const CalibrateOptions& options, const trial::DriverSource
   }
   refuse_rig_options(options);
   const std::string csv =
-      models::csv_text(options.log, "log",
-                       "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes");
+      read_table(options.log, "log",
+                 "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes");
   if (trial::is_point_set(csv)) {
     refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
     refuse(options.pivot, "--pivot", "a log", options);

@@ -16,5 +16,9 @@ int calibrate_points(const std::string& csv, const CalibrateOptions& options);
 int calibrate_pivot(const std::string& csv, const CalibrateOptions& options);
 int calibrate_arm(const CalibrateOptions& options, const trial::DriverSource& modules);
 int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource& modules);
+// A record beside its twin.
+int shadow_command(const ShadowOptions& options);
+// A table for all of these: the file, or of a record what `encounter export` makes of it.
+std::string read_table(const std::string& path, const std::string& what, const std::string& expected);
 
 }  // namespace enc::app

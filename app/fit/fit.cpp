@@ -116,8 +116,8 @@ int fit_loop(const FitOptions& options) {
                       how.floor * 1e-3));
   }
   const models::LoopData loop = models::parse_loop(
-      models::csv_text(file_name, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
-      file_name, how.limit);
+      read_table(file_name, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"), file_name,
+      how.limit);
   std::optional<models::OutFile> file;  // refused before the work, not after it
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   LoopFit fit;

@@ -65,9 +65,8 @@ BallFitOptions asked(const FitOptions& options) {
 trial::Pushes read(const std::string& file, double limit) {
   constexpr double kDeepest = 8e-3;  // m, of the law's table
   trial::Pushes pushes =
-      models::parse_loop(
-          models::csv_text(file, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"), file,
-          limit)
+      models::parse_loop(read_table(file, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
+                         file, limit)
           .presses;
   for (const auto& push : pushes)
     for (const models::LoopPoint& p : push)

@@ -1,4 +1,5 @@
-// What the program asks of the module of fits. It is built and loaded when `fit` or `calibrate` is called.
+// What the program asks of the module of fits. It is built and loaded when `fit`, `calibrate` or `shadow`
+// is called.
 #pragma once
 
 #include "app/options.h"
@@ -11,6 +12,7 @@ struct FitModule {
   int (*fit)(const FitOptions& options) = nullptr;
   // modules: where vision and the twin's camera come from, which only pictures need.
   int (*calibrate)(const CalibrateOptions& options, const trial::DriverSource& modules) = nullptr;
+  int (*shadow)(const ShadowOptions& options) = nullptr;
 };
 
 }  // namespace enc::app

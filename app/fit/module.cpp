@@ -9,7 +9,7 @@ namespace {
 
 int fit_command(const FitOptions& options) { return options.ball ? fit_ball(options) : fit_loop(options); }
 
-constexpr FitModule kFit{fit_command, calibrate_command};
+constexpr FitModule kFit{fit_command, calibrate_command, shadow_command};
 
 }  // namespace
 }  // namespace enc::app

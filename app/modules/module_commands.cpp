@@ -89,6 +89,8 @@ int calibrate(const CalibrateOptions& options) {
   return signals && StopSignals::caught() != 0 ? 128 + StopSignals::caught() : code;
 }
 
+int shadow(const ShadowOptions& options) { return fits().shadow(options); }
+
 int questionnaire(const QuestionnaireOptions& options) { return benchmarks().questionnaire(options); }
 
 }  // namespace enc::app

@@ -11,10 +11,10 @@
 
 namespace enc::trial {
 
-void see_machine(const Tape& tape, Shadow& shadow);    // what it was told -> where it says it was
-void see_tool(const Tape& tape, Shadow& shadow);       // where the machine was -> where the tool was seen
-void see_probed(const Tape& tape, Shadow& shadow);     // where a probe was -> what the sensor felt
-void see_rendered(const Tape& tape, Shadow& shadow);   // what the sensor felt -> how far the tip gave way
+void see_machine(const Tape& tape, Shadow& shadow);   // what it was told -> where it says it was
+void see_tool(const Tape& tape, Shadow& shadow);      // where the machine was -> where the tool was seen
+void see_probed(const Tape& tape, Shadow& shadow);    // where a probe was -> what the sensor felt
+void see_rendered(const Tape& tape, Shadow& shadow);  // what the sensor felt -> how far the tip gave way
 
 // ---- what they share -------------------------------------------------------------------------------------
 

@@ -67,9 +67,10 @@ void lead_world(const Tape& tape, const models::Setup& twin, const Vec3& shift, 
     world->machine->lead(led);
     world->advance();
     if (world->diverged_at() >= 0)
-      throw Error(fmt::format("the twin's physics diverged at {:.3f} s: {}; expected a motion that it can "
-                              "follow; see to --set",
-                              in_seconds(t), world->divergence()));
+      throw Error(
+          fmt::format("the twin's physics diverged at {:.3f} s: {}; expected a motion that it can "
+                      "follow; see to --set",
+                      in_seconds(t), world->divergence()));
     see(t, *world, led);
   }
 }

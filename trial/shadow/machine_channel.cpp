@@ -54,8 +54,7 @@ BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& said, doub
 }  // namespace
 
 void see_machine(const Tape& tape, Shadow& shadow) {
-  if (!tape.sent)
-    return cannot_judge(shadow, Channel::machine, "nothing was sent to it: this was a dry run");
+  if (!tape.sent) return cannot_judge(shadow, Channel::machine, "nothing was sent to it: this was a dry run");
   ToldMachine twin(tape);
   TwinWay way{in_seconds(tape.begin), tape.scene.dt};
   way.at.reserve(static_cast<std::size_t>(tape.last - tape.first + 1));

@@ -23,7 +23,7 @@ constexpr std::size_t kFewest = 30;   // packets
 struct Pressed {
   std::vector<Vec3> felt;  // N, in W, on the tip; NaN: it is not pressed
   double begin, dt;
-  std::vector<Vec3> away{};          // unit, of each tick
+  std::vector<Vec3> away{};           // unit, of each tick
   std::vector<TrackedTool> newest{};  // likewise
 
   [[nodiscard]] std::ptrdiff_t tick(double t) const { return std::lround((t - begin) / dt); }
@@ -101,9 +101,11 @@ struct Held {
   std::int32_t tool = -1;
   Pose<'W', 'T'> X_WT = Pose<'W', 'T'>::identity();
 };
-Held held_by_twin(const Tape& tape, const Pressed& pressed, const Pose<'W', 'R'>& X_WR, std::size_t i, Time t) {
+Held held_by_twin(const Tape& tape, const Pressed& pressed, const Pose<'W', 'R'>& X_WR, std::size_t i,
+                  Time t) {
   const TrackedTool& seen = pressed.newest[i];
-  if (!pressed.firm(static_cast<std::ptrdiff_t>(i)) || seen.tool < 0 || !pressed.away[i].allFinite()) return {};
+  if (!pressed.firm(static_cast<std::ptrdiff_t>(i)) || seen.tool < 0 || !pressed.away[i].allFinite())
+    return {};
   const sim::ContactTruth& gives = tape.twin.twin.contact;
   const Vec3 tip = (X_WR * tape.tip.at(t).X_RH.origin()).e() +
                    length_between(tape.scene, seen) * pressed.away[i] +
@@ -159,7 +161,8 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
   add(shadow, Channel::tool, Quantity::registration, beside_twins(found.away, away), bounds::kRegistration,
       "away");
   if (found.stamps.known())
-    add(shadow, Channel::tool, Quantity::tool_stamps, beside_twins(found.stamps, stamps), bounds::kToolStamps);
+    add(shadow, Channel::tool, Quantity::tool_stamps, beside_twins(found.stamps, stamps),
+        bounds::kToolStamps);
   const models::Interval more = beside_twins(found.gives, gives);
   if (more.known())
     shadow.facts.push_back(

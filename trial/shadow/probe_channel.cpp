@@ -12,13 +12,13 @@
 namespace enc::trial {
 namespace {
 
-constexpr double kForceBlock = 0.25;   // s
-constexpr double kBefore = 1e-3;       // m before the touch, from where on a push is looked at
-constexpr double kStep = 20e-6;        // m, of the difference that stands for a slope
-constexpr double kSlopeTime = 4e-3;    // s, likewise
-constexpr double kTouch = 0.2;         // N: less is no push
+constexpr double kForceBlock = 0.25;  // s
+constexpr double kBefore = 1e-3;      // m before the touch, from where on a push is looked at
+constexpr double kStep = 20e-6;       // m, of the difference that stands for a slope
+constexpr double kSlopeTime = 4e-3;   // s, likewise
+constexpr double kTouch = 0.2;        // N: less is no push
 constexpr int kMostRounds = 10;
-constexpr double kSettled = 2e-6;      // m
+constexpr double kSettled = 2e-6;  // m
 constexpr Eigen::Index kAlike = 0, kNearer = 1, kLate = 2, kZeros = 3;
 
 using Forces = std::vector<double>;  // N, along the push, tick by tick
@@ -153,9 +153,8 @@ void see_probed(const Tape& tape, Shadow& shadow) {
     felt = felt_by_twin(tape, quiet, nearer);
     twin = along_push(along, felt);
     stepped = along_push(along, felt_by_twin(tape, quiet, nearer + kStep));
-    if (rows.pushes == 0 || *std::max_element(twin.begin(), twin.end()) -
-                                    *std::min_element(twin.begin(), twin.end()) <
-                                kTouch)
+    if (rows.pushes == 0 ||
+        *std::max_element(twin.begin(), twin.end()) - *std::min_element(twin.begin(), twin.end()) < kTouch)
       return cannot_judge(shadow, Channel::force, "the probe pressed nothing that the twin has there");
     found = compare(rows, recorded, twin, stepped, late);
     if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;

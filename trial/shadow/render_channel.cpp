@@ -13,9 +13,9 @@
 namespace enc::trial {
 namespace {
 
-constexpr double kDepthBlock = 0.25;   // s
-constexpr double kDeep = 0.1e-3;       // m: less is no press that tells a slope
-constexpr std::int32_t kMost = 64;     // contacts, each of which has its own beginning
+constexpr double kDepthBlock = 0.25;  // s
+constexpr double kDeep = 0.1e-3;      // m: less is no press that tells a slope
+constexpr std::int32_t kMost = 64;    // contacts, each of which has its own beginning
 constexpr Eigen::Index kDeeper = 0, kAfter = 1, kBegins = 2;
 
 struct Depth {
@@ -65,10 +65,11 @@ void see_rendered(const Tape& tape, Shadow& shadow) {
     deepest = std::max(deepest, one.twin);
   }
   if (deepest < kDeep)
-    return cannot_judge(shadow, Channel::rendering,
-                        fmt::format("where the record has a contact the twin's gave way by {:.3f} mm; expected "
-                                    "more than {:.1f} mm",
-                                    1e3 * deepest, 1e3 * kDeep));
+    return cannot_judge(
+        shadow, Channel::rendering,
+        fmt::format("where the record has a contact the twin's gave way by {:.3f} mm; expected "
+                    "more than {:.1f} mm",
+                    1e3 * deepest, 1e3 * kDeep));
   BlockFit fit(static_cast<std::size_t>(kBegins + contacts), kDepthBlock);
   for (const Depth& one : all) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(kBegins + contacts);

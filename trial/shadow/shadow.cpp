@@ -16,9 +16,7 @@ namespace {
 // Share of a bound that an interval of 95 % may fill. Of normal errors 1 % are then beyond it.
 constexpr double kTold = 0.75;
 
-bool known_to(const models::Interval& off, double bound) {
-  return off.known() && off.half <= kTold * bound;
-}
+bool known_to(const models::Interval& off, double bound) { return off.known() && off.half <= kTold * bound; }
 
 }  // namespace
 
@@ -48,25 +46,27 @@ models::Setup twin_of(const RecordReader& record, const std::string& path,
 
 Shadow shadow(RecordReader& record, const std::string& path, const models::Setup& twin) {
   if (record.ticks() == 0)
-    throw Error(
-        fmt::format("{}: holds no whole tick; expected a record of a run; record it again", path));
+    throw Error(fmt::format("{}: holds no whole tick; expected a record of a run; record it again", path));
   const Scene scene = prepare_setup(twin);
   if (record.layout() != layout_hash(scene))
-    throw Error(fmt::format("{}: is of another version, whose frames have other fields; expected a record of "
-                            "this one; use the version that wrote it",
-                            path));
+    throw Error(
+        fmt::format("{}: is of another version, whose frames have other fields; expected a record of "
+                    "this one; use the version that wrote it",
+                    path));
   Shadow result;
   if (!twin.scene.manipulator)
-    throw Error(fmt::format("{}: is of a scene without [manipulator]; expected a machine that is sent to "
-                            "places, whose twin shadow mode has; record a run of another scene",
-                            path));
+    throw Error(
+        fmt::format("{}: is of a scene without [manipulator]; expected a machine that is sent to "
+                    "places, whose twin shadow mode has; record a run of another scene",
+                    path));
   const Tape tape(record, twin, scene);
   result.ticks = record.ticks();
   result.seconds = tape.seconds();
   if (tape.tip.empty())
-    throw Error(fmt::format("{}: its machine never said where it was; expected a record of a machine that "
-                            "answers; see `encounter devices`",
-                            path));
+    throw Error(
+        fmt::format("{}: its machine never said where it was; expected a record of a machine that "
+                    "answers; see `encounter devices`",
+                    path));
   see_machine(tape, result);
   see_tool(tape, result);
   see_probed(tape, result);

@@ -21,16 +21,16 @@ constexpr auto words(Channel) { return enum_words("machine", "tool", "force", "r
 
 // What may be apart: the record less the twin.
 enum class Quantity : std::uint8_t {
-  machine_time,  // s: the machine answers its commands so much later
+  machine_time,   // s: the machine answers its commands so much later
   machine_place,  // m, an axis of W: it says that it is so much farther than it was told
-  machine_rest,  // m rms: what neither explains
-  registration,  // m, an axis of W, or away from the tip: the tool is seen so much farther
-  tool_latency,  // s: what is seen of the tool comes so much later
-  tool_stamps,   // s: its stamps are so much later than what they are of
-  stiffness,     // share: the object that is pressed is so much stiffer
-  object_place,  // m: that object stands so much nearer to what presses it
-  force_time,    // s: what the sensor feels comes so much later
-  rendered       // share: the rendered object is so much stiffer
+  machine_rest,   // m rms: what neither explains
+  registration,   // m, an axis of W, or away from the tip: the tool is seen so much farther
+  tool_latency,   // s: what is seen of the tool comes so much later
+  tool_stamps,    // s: its stamps are so much later than what they are of
+  stiffness,      // share: the object that is pressed is so much stiffer
+  object_place,   // m: that object stands so much nearer to what presses it
+  force_time,     // s: what the sensor feels comes so much later
+  rendered        // share: the rendered object is so much stiffer
 };
 constexpr auto words(Quantity) {
   return enum_words("machine_time", "machine_place", "machine_rest", "registration", "tool_latency",
@@ -40,8 +40,8 @@ constexpr auto words(Quantity) {
 struct Divergence {
   Channel channel{};
   Quantity quantity{};
-  std::string axis;      // "x"; "away" from the tip; empty: it has none
-  models::Interval off;  // SI
+  std::string axis;       // "x"; "away" from the tip; empty: it has none
+  models::Interval off;   // SI
   double bound = kUnset;  // SI, of bounds.h: what a twin that is right stays below
   // Farther off than the bound, and than chance.
   [[nodiscard]] bool diverges() const;

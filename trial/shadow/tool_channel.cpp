@@ -112,7 +112,8 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
   if (!found.latency.known()) return;
   add(shadow, Channel::tool, Quantity::tool_latency,
       beside([](const models::LatencyFit& fit) { return fit.latency; }), bounds::kToolLatency);
-  add(shadow, Channel::tool, Quantity::tool_stamps,
+  add(
+      shadow, Channel::tool, Quantity::tool_stamps,
       [&] {
         // Packets that are older than their stamps say have stamps that are so much too late.
         return beside([](const models::LatencyFit& fit) { return fit.stamp_error; });
@@ -127,9 +128,9 @@ void see_tool(const Tape& tape, Shadow& shadow) {
                         "it is seen by a camera: see `encounter replay --frames` for vision");
   const std::vector<SeenPacket> recorded = recorded_packets(tape);
   if (recorded.size() < kFewestPackets)
-    return cannot_judge(shadow, Channel::tool,
-                        fmt::format("it was seen {} times; expected at least {}", recorded.size(),
-                                    kFewestPackets));
+    return cannot_judge(
+        shadow, Channel::tool,
+        fmt::format("it was seen {} times; expected at least {}", recorded.size(), kFewestPackets));
   if (tape.scene.clamped_tool >= 0 && !tape.twin.scene.user) return see_carried(tape, recorded, shadow);
   see_pressing(tape, recorded, shadow);
 }

@@ -1,0 +1,22 @@
+// What `fit` and `calibrate` read: a table, or a record, which is made one as `encounter export` makes it.
+#include "app/fit/commands.h"
+#include "core/record/record.h"
+#include "models/csv_reader.h"
+#include "trial/measure/record_table.h"
+#include "trial/prepare.h"
+
+namespace enc::app {
+
+std::string read_table(const std::string& path, const std::string& what, const std::string& expected) {
+  if (!is_record(path)) return models::csv_text(path, what, expected);
+  RecordReader record(path);
+  const models::Setup setup = models::setup_of(record.texts(), path);
+  const Scene scene = trial::prepare_setup(setup);
+  trial::RecordTable table(setup, scene);
+  std::string text(trial::RecordTable::header());
+  RecordedTick frame;
+  while (record.next(frame)) text += table.row(frame.tick, frame.in, frame.out);
+  return text;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,227 @@
+// `encounter shadow RECORD`: a record of the laboratory beside its twin, channel by channel, and in words
+// what is off.
+#include "trial/shadow/shadow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/fit/commands.h"
+#include "core/error.h"
+#include "models/schema/wording.h"
+
+namespace enc::app {
+namespace {
+
+using trial::Divergence;
+using trial::Quantity;
+using trial::Shadow;
+using OrderedJson = nlohmann::ordered_json;
+
+// How a quantity is shown, and what it means where the record is ahead of the twin, and behind it.
+struct Meaning {
+  const char* name;
+  const char* unit;
+  const char* key;  // in JSON
+  double scale;     // of SI
+  int digits;
+  const char* more;  // {}: by how much
+  const char* less;
+};
+
+Meaning meaning_of(const Divergence& one) {
+  switch (one.quantity) {
+    case Quantity::machine_time:
+      return {"time",
+              "ms",
+              "ms",
+              1e3,
+              2,
+              "the machine answers {} later than the twin's",
+              "the machine answers {} earlier than the twin's"};
+    case Quantity::machine_place:
+      return {"place",
+              "mm",
+              "mm",
+              1e3,
+              4,
+              "the machine stands {} farther than the twin's, towards +",
+              "the machine stands {} farther than the twin's, towards -"};
+    case Quantity::machine_rest:
+      return {"rest",
+              "mm rms",
+              "mm",
+              1e3,
+              4,
+              "the machine moves otherwise than the twin's by {}, which neither a time nor a place explains",
+              ""};
+    case Quantity::registration:
+      if (one.axis == "away")
+        return {"registration",
+                "mm",
+                "mm",
+                1e3,
+                4,
+                "registration: the tool is seen {} farther from the tip that it presses than by the twin's "
+                "tracker",
+                "registration: the tool is seen {} nearer to the tip that it presses than by the twin's "
+                "tracker"};
+      return {"registration",
+              "mm",
+              "mm",
+              1e3,
+              4,
+              "registration: the tool is seen {} farther than by the twin's tracker, towards +",
+              "registration: the tool is seen {} farther than by the twin's tracker, towards -"};
+    case Quantity::tool_latency:
+      return {"latency",
+              "ms",
+              "ms",
+              1e3,
+              2,
+              "latency: what is seen of the tool comes {} later than from the twin's tracker",
+              "latency: what is seen of the tool comes {} earlier than from the twin's tracker"};
+    case Quantity::tool_stamps:
+      return {"stamps",
+              "ms",
+              "ms",
+              1e3,
+              2,
+              "the tracker's stamps are {} later than the twin's, beside what they are of",
+              "the tracker's stamps are {} earlier than the twin's, beside what they are of"};
+    case Quantity::stiffness:
+      return {"stiffness",
+              "%",
+              "percent",
+              1e2,
+              2,
+              "stiffness: the object is {} stiffer than the twin's",
+              "stiffness: the object is {} softer than the twin's"};
+    case Quantity::object_place:
+      return {"place",
+              "mm",
+              "mm",
+              1e3,
+              4,
+              "the object stands {} nearer to the probe than the twin's",
+              "the object stands {} farther from the probe than the twin's"};
+    case Quantity::force_time:
+      return {"time",
+              "ms",
+              "ms",
+              1e3,
+              2,
+              "the force comes {} later than the twin's",
+              "the force comes {} earlier than the twin's"};
+    case Quantity::rendered:
+      break;
+  }
+  return {"stiffness",
+          "%",
+          "percent",
+          1e2,
+          2,
+          "stiffness: the rendered object is {} stiffer than the twin's",
+          "stiffness: the rendered object is {} softer than the twin's"};
+}
+
+std::string size_text(const models::Interval& off, const Meaning& as, double sign) {
+  const double value = sign * off.value * as.scale;
+  if (std::isnan(value)) return "not known";
+  const std::string half =
+      std::isnan(off.half) ? "?" : fmt::format("{:.{}f}", off.half * as.scale, as.digits);
+  return fmt::format("{:.{}f} +- {}", value, as.digits, half);
+}
+
+// "stiffness: the object is 5.00 +- 0.27 % stiffer than the twin's"
+std::string sentence(const Divergence& one) {
+  const Meaning as = meaning_of(one);
+  const bool more = one.off.value >= 0.0;
+  const std::string size = fmt::format("{} {}", size_text(one.off, as, more ? 1.0 : -1.0), as.unit);
+  const std::string text = fmt::format(fmt::runtime(more ? as.more : as.less), size);
+  return text + (one.axis == "away" ? "" : one.axis);
+}
+
+const char* verdict_of(const Divergence& one) {
+  if (one.diverges()) return "DIVERGES";
+  return one.vague() ? "not told" : "agrees";
+}
+
+std::string row(const Divergence& one) {
+  const Meaning as = meaning_of(one);
+  const std::string name = one.axis.empty() ? as.name : fmt::format("{} {}", as.name, one.axis);
+  return fmt::format("{:<12}{:<20}{:>22} {:<7}{:>8.3g} {:<7} {}\n", word_of(one.channel), name,
+                     size_text(one.off, as, 1.0), as.unit, one.bound * as.scale, as.unit, verdict_of(one));
+}
+
+std::string report(const std::string& record, const std::vector<std::string>& set, const std::string& title,
+                   const Shadow& shadow) {
+  std::string text = fmt::format("record      {}: {:.2f} s, {} ticks of '{}'\n", record, shadow.seconds,
+                                 shadow.ticks, title);
+  text += "twin        the set-up of the record";
+  for (const std::string& one : set) text += (&one == &set.front() ? ", with " : ", ") + one;
+  text +=
+      fmt::format("\n{:<12}{:<20}{:>22} {:<7}{:>8}\n", "channel", "record less twin", "95 %", "", "bound");
+  for (const Divergence& one : shadow.found) text += row(one);
+  for (const trial::Remark& one : shadow.unjudged)
+    text += fmt::format("not judged  {}: {}\n", word_of(one.channel), one.text);
+  for (const trial::Remark& one : shadow.facts)
+    text += fmt::format("note        {}: {}\n", word_of(one.channel), one.text);
+  if (std::any_of(shadow.found.begin(), shadow.found.end(), [](const Divergence& x) { return x.vague(); }))
+    text +=
+        "note        not told: this record knows it less well than its bound is; a longer or faster one "
+        "may\n";
+  for (const Divergence& one : shadow.found)
+    if (one.diverges()) text += fmt::format("diverges    {}: {}\n", word_of(one.channel), sentence(one));
+  if (shadow.diverges()) return text;
+  return text + (shadow.found.empty() ? "verdict     nothing in this record can be held against a twin\n"
+                                      : "verdict     no channel diverges\n");
+}
+
+OrderedJson number_or_none(double x) { return std::isfinite(x) ? OrderedJson(x) : OrderedJson(nullptr); }
+
+std::string json_of(const Shadow& shadow) {
+  OrderedJson json;
+  json["ticks"] = shadow.ticks;
+  json["seconds_s"] = shadow.seconds;
+  json["diverges"] = shadow.diverges();
+  json["channels"] = OrderedJson::array();
+  for (const Divergence& one : shadow.found) {
+    const Meaning as = meaning_of(one);
+    OrderedJson entry;
+    entry["channel"] = word_of(one.channel);
+    entry["quantity"] = word_of(one.quantity);
+    if (!one.axis.empty()) entry["axis"] = one.axis;
+    entry[fmt::format("off_{}", as.key)] = number_or_none(one.off.value * as.scale);
+    entry[fmt::format("half_{}", as.key)] = number_or_none(one.off.half * as.scale);
+    entry[fmt::format("bound_{}", as.key)] = one.bound * as.scale;
+    entry["verdict"] = one.diverges() ? "diverges" : one.vague() ? "not told" : "agrees";
+    if (one.diverges()) entry["words"] = sentence(one);
+    json["channels"].push_back(entry);
+  }
+  const auto remarks = [](const std::vector<trial::Remark>& all) {
+    OrderedJson list = OrderedJson::array();
+    for (const trial::Remark& one : all)
+      list.push_back({{"channel", word_of(one.channel)}, {"text", one.text}});
+    return list;
+  };
+  json["not_judged"] = remarks(shadow.unjudged);
+  json["notes"] = remarks(shadow.facts);
+  return json.dump(2);
+}
+
+}  // namespace
+
+int shadow_command(const ShadowOptions& options) {
+  RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
+  const models::Setup twin = trial::twin_of(record, options.record, options.set);
+  for (const std::string& note : twin.notes) fmt::print(stderr, "{}\n", note);
+  const Shadow shadow = trial::shadow(record, options.record, twin);
+  fmt::print("{}", options.json ? json_of(shadow) + "\n"
+                                : report(options.record, options.set, twin.scene.title, shadow));
+  return shadow.diverges() ? 1 : 0;
+}
+
+}  // namespace enc::app
