@@ -1,0 +1,156 @@
+// Each injected error is found, is as large as it was made, and is named by its own channel and by no other.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/trial/shadow/shadow_runs.h"
+
+namespace enc::test {
+namespace {
+
+using testing::ElementsAre;
+using trial::Quantity;
+
+struct Injected {
+  const char* what;
+  const ShadowedScene& scene;
+  std::vector<std::string> altered, twin;
+  std::string name;  // of the channel that has to say it
+  Quantity quantity;
+  std::string axis;
+  double size;  // SI
+};
+
+std::vector<std::string> ball_of(double rubber_MPa, double pressure_kPa, double felt_MPa) {
+  return {"truth.ball.rubber_modulus_MPa=" + std::to_string(rubber_MPa),
+          "truth.ball.pressure_kPa=" + std::to_string(pressure_kPa),
+          "truth.ball.felt_modulus_MPa=" + std::to_string(felt_MPa)};
+}
+
+const std::vector<Injected>& injections() {
+  const std::vector<std::string> four{"truth.hexapod.delay_cycles=4"}, seven{"truth.hexapod.delay_cycles=7"};
+  const std::vector<std::string> camera{"truth.frames.W_C.position_mm=[0,-900,600]"};
+  static const std::vector<Injected> kAll{
+      // All moduli of the ball and its pressure: its force is as much more at each depth.
+      {"5 % of stiffness", probing(), ball_of(2.73, 10.5, 0.21), ball_of(2.6, 10, 0.2), "force stiffness",
+       Quantity::stiffness, "", 0.05},
+      {"5 % of stiffness, softer", probing(), ball_of(2.47, 9.5, 0.19), ball_of(2.6, 10, 0.2),
+       "force stiffness", Quantity::stiffness, "", -0.05},
+      {"1 mm of the object's place",
+       probing(),
+       {"truth.ball.misplaced_mm=[0,0,-1]"},
+       {"truth.ball.misplaced_mm=[0,0,0]"},
+       "force object_place",
+       Quantity::object_place,
+       "",
+       1e-3},
+      {"3 ms of the machine", probing(), seven, four, "machine machine_time", Quantity::machine_time, "",
+       3e-3},
+      {"3 ms of the tracker",
+       carrying(),
+       {"truth.tracker.latency_ms=6.5"},
+       {"truth.tracker.latency_ms=3.5"},
+       "tool tool_latency",
+       Quantity::tool_latency,
+       "",
+       3e-3},
+      {"3 ms of its server",
+       carrying(),
+       {"truth.tracker.process_ms=12.2"},
+       {"truth.tracker.process_ms=9.2"},
+       "tool tool_latency",
+       Quantity::tool_latency,
+       "",
+       3e-3},
+      {"3 ms of its stamps",
+       carrying(),
+       {"truth.tracker.stamp_error_ms=3"},
+       {"truth.tracker.stamp_error_ms=0"},
+       "tool tool_stamps",
+       Quantity::tool_stamps,
+       "",
+       3e-3},
+      // A camera that stands farther sees all nearer to it.
+      {"1 mm of registration along x",
+       carrying(),
+       {"truth.frames.W_C.position_mm=[1,-900,600]"},
+       camera,
+       "tool registration x",
+       Quantity::registration,
+       "x",
+       -1e-3},
+      {"1 mm of registration along y",
+       carrying(),
+       {"truth.frames.W_C.position_mm=[0,-899,600]"},
+       camera,
+       "tool registration y",
+       Quantity::registration,
+       "y",
+       -1e-3},
+      {"3 ms of the machine", carrying(), seven, four, "machine machine_time", Quantity::machine_time, "",
+       3e-3},
+      {"5 % of stiffness, rendered",
+       pressing(),
+       {"behaviour.wall.stiffness_N_per_mm=2.1"},
+       {"behaviour.wall.stiffness_N_per_mm=2"},
+       "rendering rendered_stiffness",
+       Quantity::rendered,
+       "",
+       0.05},
+      {"3 ms of the tracker",
+       pressing(),
+       {"truth.tracker.process_ms=12.2"},
+       {"truth.tracker.process_ms=9.2"},
+       "tool tool_latency",
+       Quantity::tool_latency,
+       "",
+       3e-3},
+      {"1 mm of registration",
+       pressing(),
+       {"truth.frames.W_C.position_mm=[0,-900,601]"},
+       camera,
+       "tool registration away",
+       Quantity::registration,
+       "away",
+       -1e-3},
+      {"3 ms of the machine", pressing(), seven, four, "machine machine_time", Quantity::machine_time, "",
+       3e-3},
+  };
+  return kAll;
+}
+
+TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
+  for (const Injected& one : injections()) {
+    const std::string row = std::string(one.what) + " in " + one.scene.name;
+    const trial::Shadow shadow = shadowed(one.scene, 7, one.altered, one.twin);
+    EXPECT_THAT(named(shadow), ElementsAre(one.name)) << row;
+    const trial::Divergence* size = found(shadow, one.quantity, one.axis);
+    ASSERT_NE(size, nullptr) << row;
+    // Nobody sees better than the machine's steps, 3 um, and 0.2 % of what is felt in each of them.
+    const double least = one.quantity == Quantity::stiffness || one.quantity == Quantity::rendered ? 2e-3
+                         : one.quantity == Quantity::registration                                  ? 5e-6
+                                                                                                   : 2e-6;
+    EXPECT_NEAR(size->off.value, one.size, std::max(size->off.half, least)) << row;
+    EXPECT_LT(size->off.half, 0.5 * std::abs(one.size)) << row;
+  }
+}
+
+// Twenty other seeds of the very set-up: none reaches a bound.
+void expect_below_bounds(const ShadowedScene& scene) {
+  for (std::uint64_t seed = 101; seed <= 120; ++seed) {
+    const trial::Shadow shadow = shadowed(scene, seed);
+    EXPECT_FALSE(shadow.found.empty());
+    for (const trial::Divergence& one : shadow.found) {
+      EXPECT_FALSE(one.diverges()) << scene.name << " " << seed << " " << word_of(one.quantity) << one.axis;
+      EXPECT_LT(std::abs(one.off.value), one.bound)
+          << scene.name << " " << seed << " " << word_of(one.quantity) << one.axis;
+    }
+  }
+}
+TEST(ShadowTable, WhereNothingWasAlteredAProbeStaysBelowItsBounds) { expect_below_bounds(probing()); }
+TEST(ShadowTable, WhereNothingWasAlteredACarriedToolStaysBelowItsBounds) { expect_below_bounds(carrying()); }
+TEST(ShadowTable, WhereNothingWasAlteredAPressStaysBelowItsBounds) { expect_below_bounds(pressing()); }
+
+}  // namespace
+}  // namespace enc::test
