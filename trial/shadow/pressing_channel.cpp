@@ -152,6 +152,7 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
                         "no tool pressed the tip, and the machine carried none: where it should be seen is "
                         "not known");
   std::vector<double> away, stamps, gives;
+  for (std::vector<double>* one : {&away, &stamps, &gives}) one->reserve(kTwins);
   for (const std::vector<SeenPacket>& packets : trackers.packets()) {
     const Seen twin = seen_pressing(tape, pressed, packets);
     away.push_back(twin.away.value);

@@ -23,6 +23,12 @@ constexpr Eigen::Index kAlike = 0, kNearer = 1, kLate = 2, kZeros = 3;
 
 using Forces = std::vector<double>;  // N, along the push, tick by tick
 
+// What the sensor said, with its own stamp.
+struct Reading {
+  double at;     // ticks after the first
+  double force;  // N, along the push
+};
+
 // What is compared: the ticks of all pushes, and how each is numbered.
 struct Rows {
   std::vector<std::ptrdiff_t> push;  // of each tick; -1: none
@@ -73,7 +79,7 @@ Forces along_push(const Along& along, const std::vector<Wrench>& felt) {
   return out;
 }
 
-// A quiet line: force at a time between ticks, and how fast it changes.
+// Force at a time between ticks.
 double force_at(const Forces& forces, double i) {
   const double last = static_cast<double>(forces.size() - 1);
   const double at = std::clamp(i, 0.0, last);
@@ -81,16 +87,17 @@ double force_at(const Forces& forces, double i) {
   return forces[low] + (at - static_cast<double>(low)) * (forces[high] - forces[low]);
 }
 
-Rows rows_of(const Tape& tape, const Forces& recorded) {
+Rows rows_of(const Tape& tape) {
   const Probe& probe = *tape.scene.probe();
-  Rows rows{std::vector<std::ptrdiff_t>(recorded.size(), -1), 0, in_seconds(tape.begin), tape.scene.dt};
+  const auto ticks = static_cast<std::size_t>(tape.last - tape.first + 1);
+  Rows rows{std::vector<std::ptrdiff_t>(ticks, -1), 0, in_seconds(tape.begin), tape.scene.dt};
   const double from = -std::min(kBefore, 0.5 * probe.clear);
   bool in = false;
-  for (std::size_t i = 0; i < recorded.size(); ++i) {
+  for (std::size_t i = 0; i < ticks; ++i) {
     const Time t = tape.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count());
     const bool now = probe.deflection(tape.scene.X_WR * tape.tip.at(t).X_RH.origin()) > from;
     if (now && !in) ++rows.pushes;
-    if (now && std::isfinite(recorded[i])) rows.push[i] = rows.pushes - 1;
+    if (now) rows.push[i] = rows.pushes - 1;
     in = now;
   }
   return rows;
@@ -102,19 +109,21 @@ struct Compared {
 };
 
 // measured(t) = alike * twin(t - late), its object nearer: all of them at once, and each push's own zero.
-Compared compare(const Rows& rows, const Forces& measured, const Forces& twin, const Forces& stepped,
-                 double late) {
+Compared compare(const Rows& rows, const std::vector<Reading>& measured, const Forces& twin,
+                 const Forces& stepped, double late) {
   BlockFit fit(static_cast<std::size_t>(kZeros + rows.pushes), kForceBlock);
-  for (std::size_t i = 0; i < measured.size(); ++i) {
-    if (rows.push[i] < 0) continue;
-    const double at = static_cast<double>(i) - late / rows.dt, reach = kSlopeTime / rows.dt;
+  const double reach = kSlopeTime / rows.dt;
+  for (const Reading& one : measured) {
+    const auto tick = static_cast<std::size_t>(std::max(0.0, std::round(one.at)));
+    if (tick >= rows.push.size() || rows.push[tick] < 0) continue;
+    const double at = one.at - late / rows.dt;
     const double force = force_at(twin, at);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(kZeros + rows.pushes);
     row(kAlike) = force;
     row(kNearer) = (force_at(stepped, at) - force) / kStep;
     row(kLate) = -(force_at(twin, at + reach) - force_at(twin, at - reach)) / (2.0 * kSlopeTime);
-    row(kZeros + rows.push[i]) = 1.0;
-    fit.add(rows.begin + static_cast<double>(i) * rows.dt, row, measured[i]);
+    row(kZeros + rows.push[tick]) = 1.0;
+    fit.add(rows.begin + one.at * rows.dt, row, one.force);
   }
   const BlockFit::Result found = fit.solve();
   const double size = found.values[kAlike].value;
@@ -125,15 +134,31 @@ Compared compare(const Rows& rows, const Forces& measured, const Forces& twin, c
   return {found.values[kAlike], scaled(kNearer), scaled(kLate), found.rms};
 }
 
-// What the record's sensor said, tick by tick; NaN where it is not to be believed.
-Forces recorded_forces(const Tape& tape, const Along& along) {
-  Forces out;
+// What the record's sensor said; what is said twice, or not to be believed, is no reading.
+std::vector<Reading> recorded_forces(const Tape& tape, const Along& along) {
+  std::vector<Reading> out;
+  Time newest = Time::min();
   tape.play([&](const RecordedTick& frame) {
-    out.resize(static_cast<std::size_t>(frame.tick.index - tape.first), kUnset);
     const Stamped<Wrench>& said = frame.in.wrench;
-    const bool well = said.health == Health::ok && said.value.force.finite() && is_well(frame.in.tip);
-    out.push_back(well ? along(out.size(), said.value.force) : kUnset);
+    if (said.health != Health::ok || !said.value.force.finite() || said.t <= newest) return;
+    newest = said.t;
+    const auto tick = static_cast<std::size_t>(frame.tick.index - tape.first);
+    out.push_back({age(said.t, tape.begin) / tape.scene.dt, along(tick, said.value.force)});
   });
+  return out;
+}
+
+// And what the twin's would have said with this seed.
+std::vector<Reading> twin_forces(const Tape& tape, const Along& along, const std::vector<Wrench>& felt,
+                                 std::uint64_t seed) {
+  std::vector<Reading> out;
+  out.reserve(felt.size());
+  sim::ForcePlant sensor(tape.twin.twin.force, seed);
+  for (std::size_t i = 0; i < felt.size(); ++i) {
+    const Time t(Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count()));
+    sensor.measure(t, tape.scene.dt, felt[i], Vec<'F'>::zero());
+    out.push_back({static_cast<double>(i), along(i, sensor.sample().value.force)});
+  }
   return out;
 }
 
@@ -142,8 +167,8 @@ Forces recorded_forces(const Tape& tape, const Along& along) {
 void see_probed(const Tape& tape, Shadow& shadow) {
   if (tape.scene.probe() == nullptr || !tape.scene.has_force) return;
   const Along along(tape);
-  const Forces recorded = recorded_forces(tape, along);
-  const Rows rows = rows_of(tape, recorded);
+  const std::vector<Reading> recorded = recorded_forces(tape, along);
+  const Rows rows = rows_of(tape);
   const models::Setup quiet = faultless(tape.twin);
   double nearer = 0.0, late = 0.0;
   std::vector<Wrench> felt;
@@ -158,7 +183,7 @@ void see_probed(const Tape& tape, Shadow& shadow) {
       return cannot_judge(shadow, Channel::force, "the probe pressed nothing that the twin has there");
     found = compare(rows, recorded, twin, stepped, late);
     if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
-    if (std::abs(found.nearer.value) < kSettled) break;
+    if (std::abs(found.nearer.value) < kSettled || round + 1 == kMostRounds) break;
     // The twin presses as far as it must to feel what was felt; no farther at once than its law bends.
     nearer += std::clamp(found.nearer.value, -0.5e-3, 0.5e-3);
     if (std::isfinite(found.late.value)) late = std::clamp(late + found.late.value, -0.02, 0.02);
@@ -166,16 +191,9 @@ void see_probed(const Tape& tape, Shadow& shadow) {
   if (!found.alike.known())
     return cannot_judge(shadow, Channel::force, "the probe pressed for too short a time");
   std::vector<double> alike, place, time;
+  for (std::vector<double>* one : {&alike, &place, &time}) one->reserve(kTwins);
   for (std::size_t k = 0; k < kTwins; ++k) {
-    sim::ForcePlant sensor(tape.twin.twin.force, twin_seed(k));
-    Forces said;
-    said.reserve(felt.size());
-    for (std::size_t i = 0; i < felt.size(); ++i) {
-      const Time t(Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count()));
-      sensor.measure(t, tape.scene.dt, felt[i], Vec<'F'>::zero());
-      said.push_back(along(i, sensor.sample().value.force));
-    }
-    const Compared one = compare(rows, said, twin, stepped, 0.0);
+    const Compared one = compare(rows, twin_forces(tape, along, felt, twin_seed(k)), twin, stepped, 0.0);
     alike.push_back(one.alike.value);
     place.push_back(one.nearer.value);
     time.push_back(one.late.value);

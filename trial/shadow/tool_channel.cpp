@@ -59,6 +59,8 @@ Pauses pauses_of(const std::vector<SeenPacket>& packets) {
 void see_ages(const Tape&, const std::vector<SeenPacket>& recorded,
               const std::vector<std::vector<SeenPacket>>& twins, bool judge, Shadow& shadow) {
   std::vector<double> ages, rates;
+  ages.reserve(twins.size());
+  rates.reserve(twins.size());
   double longest = 0.0;
   for (const std::vector<SeenPacket>& packets : twins) {
     ages.push_back(mean_age(packets).value);
