@@ -23,15 +23,16 @@ inline constexpr double kRegistration = 0.2e-3;  // m
 // less, the same in all of a run: 0.83 ms to either side of the mean; a packet is noticed at the next cycle,
 // 0.5 ms to either side. Together 1.33 ms.
 inline constexpr double kToolLatency = 1.5e-3;  // s
-// Stamps are of the exposure itself: a cycle.
-inline constexpr double kToolStamps = 1.0e-3;  // s
+// They are held against the machine's pose, which is asked for and answered: it may be a cycle older than its
+// own stamp, and so may the clock be by which a wire's stamps are read.
+inline constexpr double kToolStamps = 2.0e-3;  // s
 // The zero walks by 0.002 N/sqrt(s), 0.01 N in the 20 s of a slow push, and steps are 0.025 N: of the 2 N
 // with which half of a press is felt, some 1 %. As much for 10 um of place in 1 mm of depth.
 inline constexpr double kStiffness = 0.02;  // share
 // Force steps of 0.025 N are 0.02 mm on an object of 1 N/mm; where it begins to give way is known to several
 // of them.
 inline constexpr double kObjectPlace = 0.1e-3;  // m
-// Force and pose of one cycle may be read a cycle apart, on either side of each.
+// Likewise: force and pose of one cycle may be read a cycle apart, on either side of each.
 inline constexpr double kForceTime = 2.0e-3;  // s
 // As kStiffness, with the machine's 3 um steps and its lag in place of the place.
 inline constexpr double kRendered = 0.02;  // share

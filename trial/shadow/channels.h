@@ -83,7 +83,7 @@ class TwinTrackers {
 void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow);
 void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow);
 // Of what is neither: how old packets are by their stamps; and how many come.
-void see_ages(const Tape& tape, const std::vector<SeenPacket>& recorded,
-              const std::vector<std::vector<SeenPacket>>& twins, bool judge, Shadow& shadow);
+void see_ages(const std::vector<SeenPacket>& recorded, const std::vector<std::vector<SeenPacket>>& twins,
+              bool judge, Shadow& shadow);
 
 }  // namespace enc::trial

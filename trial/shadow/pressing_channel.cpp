@@ -146,7 +146,7 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
     const Held held = held_by_twin(tape, pressed, X_WR, i, t);
     trackers.advance(t, held.tool, held.X_WT);
   }
-  see_ages(tape, recorded, ages.packets(), true, shadow);
+  see_ages(recorded, ages.packets(), true, shadow);
   if (!told)
     return cannot_judge(shadow, Channel::tool,
                         "no tool pressed the tip, and the machine carried none: where it should be seen is "

@@ -56,8 +56,8 @@ Pauses pauses_of(const std::vector<SeenPacket>& packets) {
 
 }  // namespace
 
-void see_ages(const Tape&, const std::vector<SeenPacket>& recorded,
-              const std::vector<std::vector<SeenPacket>>& twins, bool judge, Shadow& shadow) {
+void see_ages(const std::vector<SeenPacket>& recorded, const std::vector<std::vector<SeenPacket>>& twins,
+              bool judge, Shadow& shadow) {
   std::vector<double> ages, rates;
   ages.reserve(twins.size());
   rates.reserve(twins.size());
@@ -92,7 +92,7 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
   const models::LatencyFit found = models::fit_latency(with_packets(rows, tape.scene, recorded));
   constexpr double kMost = 0.5;  // of the tool's motion, that the machine's does not explain
   const bool carried = found.carried && found.in_range && !(found.unexplained > kMost);
-  see_ages(tape, recorded, trackers.packets(), !carried || !found.latency.known(), shadow);
+  see_ages(recorded, trackers.packets(), !carried || !found.latency.known(), shadow);
   if (!carried)
     return cannot_judge(shadow, Channel::tool,
                         "the machine did not carry it: where it should be seen is not known");
@@ -114,13 +114,9 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
   if (!found.latency.known()) return;
   add(shadow, Channel::tool, Quantity::tool_latency,
       beside([](const models::LatencyFit& fit) { return fit.latency; }), bounds::kToolLatency);
-  add(
-      shadow, Channel::tool, Quantity::tool_stamps,
-      [&] {
-        // Packets that are older than their stamps say have stamps that are so much too late.
-        return beside([](const models::LatencyFit& fit) { return fit.stamp_error; });
-      }(),
-      bounds::kToolStamps);
+  // Packets that are older than their stamps say have stamps that are so much too late.
+  add(shadow, Channel::tool, Quantity::tool_stamps,
+      beside([](const models::LatencyFit& fit) { return fit.stamp_error; }), bounds::kToolStamps);
 }
 
 void see_tool(const Tape& tape, Shadow& shadow) {

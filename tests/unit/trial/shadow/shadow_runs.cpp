@@ -25,7 +25,7 @@ const ShadowedScene& probing() {
 }
 const ShadowedScene& carrying() {
   static const ShadowedScene kScene{
-      "tracking", {"travel.dwell_s=0.5", "travel.ways=both_ways", "travel.stops_mm=[0,10,40]"}};
+      "tracking", {"travel.dwell_s=0.5", "travel.ways=both_ways", "travel.stops_mm=[0,20]"}};
   return kScene;
 }
 const ShadowedScene& pressing() {
