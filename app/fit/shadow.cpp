@@ -128,7 +128,8 @@ Meaning meaning_of(const Divergence& one) {
 }
 
 std::string size_text(const models::Interval& off, const Meaning& as, double sign) {
-  const double value = sign * off.value * as.scale;
+  double value = sign * off.value * as.scale;
+  if (std::abs(value) < 0.5 * std::pow(10.0, -as.digits)) value = 0.0;  // and not -0.00
   if (std::isnan(value)) return "not known";
   const std::string half =
       std::isnan(off.half) ? "?" : fmt::format("{:.{}f}", off.half * as.scale, as.digits);

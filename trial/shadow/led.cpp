@@ -59,7 +59,11 @@ TipSample ToldMachine::said() const {
 }
 
 void lead_world(const Tape& tape, const models::Setup& twin, const Vec3& shift, const SeeWorld& see) {
-  const std::unique_ptr<sim::World> world = make_world(twin, tape.scene, twin_seed(0));
+  // Legs that bend would be shaken by a machine that is put from place to place; what it says is where its
+  // servo is, and that is what stands.
+  models::Setup placed = twin;
+  placed.twin.hexapod.form = sim::HexapodForm::control;
+  const std::unique_ptr<sim::World> world = make_world(placed, tape.scene, twin_seed(0));
   for (std::int64_t i = tape.first; i <= tape.last; ++i) {
     const Time t = tape.begin + Duration((i - tape.first) * from_seconds(tape.scene.dt).count());
     TipSample led = tape.tip.at(t);
