@@ -1,4 +1,6 @@
 // What `fit` and `calibrate` read: a table, or a record, which is made one as `encounter export` makes it.
+#include <filesystem>
+
 #include "app/fit/commands.h"
 #include "core/record/record.h"
 #include "models/csv_reader.h"
@@ -8,7 +10,9 @@
 namespace enc::app {
 
 std::string read_table(const std::string& path, const std::string& what, const std::string& expected) {
-  if (!is_record(path)) return models::csv_text(path, what, expected);
+  std::error_code none;  // a pipe is a table: what is read of it to see what it is would be gone
+  if (!std::filesystem::is_regular_file(path, none) || !is_record(path))
+    return models::csv_text(path, what, expected);
   RecordReader record(path);
   const models::Setup setup = models::setup_of(record.texts(), path);
   const Scene scene = trial::prepare_setup(setup);

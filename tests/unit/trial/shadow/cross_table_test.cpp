@@ -136,6 +136,15 @@ TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
   }
 }
 
+// A platform on legs that bend is not shaken by being led: it is placed where it said that it was.
+TEST(ShadowTable, AMachineOnElasticLegsIsJudgedAsAnyOther) {
+  const trial::Shadow shadow = shadowed(probing(), 3, {"truth.hexapod.form=structural"});
+  EXPECT_THAT(named(shadow), ElementsAre());
+  const trial::Divergence* stiffness = found(shadow, Quantity::stiffness);
+  ASSERT_NE(stiffness, nullptr);
+  EXPECT_LT(stiffness->off.half, 0.5 * stiffness->bound);
+}
+
 // Twenty other seeds of the very set-up: none reaches a bound.
 void expect_below_bounds(const ShadowedScene& scene) {
   for (std::uint64_t seed = 101; seed <= 120; ++seed) {
