@@ -56,8 +56,8 @@ RigCalibration file_of(const models::Setup& setup, const MachineCalibration& mad
 
 // As many digits as the interval has to say, and two of that.
 int digits_of(double half) {
-  if (!(half > 0.0) || !std::isfinite(half)) return 6;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6);
+  if (!(half > 0.0) || !std::isfinite(half)) return 4;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 4);
 }
 std::string with(double value, double half) {
   const int digits = digits_of(half);

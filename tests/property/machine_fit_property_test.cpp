@@ -94,7 +94,7 @@ TEST(WeightFit, FindsWeightZeroAndTurnWithinItsIntervals) {
         EXPECT_LT((fit.middle.e() - sensor.middle).norm(), 2e-3);
       }
       EXPECT_THAT(held, testing::Each(testing::Ge(95))) << mounting.name << ", walk " << walk;
-      if (walk <= 0.002) EXPECT_LT(widest, 0.02) << "an interval that holds everything tells nothing";
+      EXPECT_LT(widest, walk <= 0.002 ? 0.02 : 0.05) << "an interval that holds everything tells nothing";
     }
 }
 

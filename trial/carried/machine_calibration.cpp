@@ -92,7 +92,7 @@ MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count,
         fmt::format("the force sensor said nothing usable in {} of {} stands; see `encounter devices`",
                     found.stands.size() - weighed.size(), found.stands.size()),
         {}, ErrorKind::device);
-  if (scene.has_force) found.weight = models::fit_weight(weighed);
+  if (scene.has_force) found.weight = models::fit_weight(weighed, found.time);
   if (scene.has_tracker) found.hand_eye = models::fit_hand_eye(seen);
   return found;
 }

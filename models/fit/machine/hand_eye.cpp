@@ -110,21 +110,32 @@ MatrixXd slopes(std::span<const EyeStand> stands, const Both& at) {
   return by;
 }
 
+// m and rad, along and about each axis of C: a tracker sees worse along its view.
 struct Scatter {
-  double place = kUnset, turn = kUnset;  // m and rad, of one number of a stand
+  Vec3 place, turn;
 };
+double freedom_of(Eigen::Index stands) { return static_cast<double>(stands) - kPoseUnknowns / 6.0; }
 Scatter scatter_of(const VectorXd& left) {
-  const Eigen::Index half = left.size() / 2;
-  const double freedom = static_cast<double>(half) - 0.5 * static_cast<double>(kPoseUnknowns);
-  return {std::max(kExactPlace, std::sqrt(left.head(half).squaredNorm() / freedom)),
-          std::max(kExactTurn, std::sqrt(left.tail(half).squaredNorm() / freedom))};
+  const Eigen::Index n = left.size() / 6;
+  const auto rms = [&](Eigen::Index from, double least) {
+    Vec3 squares = Vec3::Zero();
+    for (Eigen::Index i = 0; i < n; ++i) squares += left.segment<3>(from + 3 * i).cwiseAbs2();
+    return Vec3((squares / freedom_of(n)).cwiseSqrt().cwiseMax(least));
+  };
+  return {rms(0, kExactPlace), rms(3 * n, kExactTurn)};
 }
 
 VectorXd weights_of(const Scatter& scatter, Eigen::Index rows) {
   VectorXd weights(rows);
-  weights.head(rows / 2).setConstant(1.0 / scatter.place);
-  weights.tail(rows / 2).setConstant(1.0 / scatter.turn);
+  weights.head(rows / 2) = scatter.place.cwiseInverse().replicate(rows / 6, 1);
+  weights.tail(rows / 2) = scatter.turn.cwiseInverse().replicate(rows / 6, 1);
   return weights;
+}
+
+bool settled(const Scatter& now, const Scatter& before) {
+  constexpr double kShare = 1e-9;
+  return ((now.place - before.place).array().abs() <= kShare * before.place.array()).all() &&
+         ((now.turn - before.turn).array().abs() <= kShare * before.turn.array()).all();
 }
 
 }  // namespace
@@ -146,15 +157,12 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
     at = moved(at, step);
     const Scatter before = scatter;
     scatter = scatter_of(left_over(stands, at));
-    if (step.norm() < 1e-12 && std::abs(scatter.place / before.place - 1.0) < 1e-9 &&
-        std::abs(scatter.turn / before.turn - 1.0) < 1e-9)
-      break;
+    if (step.norm() < 1e-12 && settled(scatter, before)) break;
   }
   const VectorXd left = left_over(stands, at);
   const MatrixXd by = weights_of(scatter, left.size()).asDiagonal() * slopes(stands, at);
   const MatrixXd inverse = (by.transpose() * by).inverse();
-  const double reach =
-      student(3.0 * static_cast<double>(stands.size()) - 0.5 * static_cast<double>(kPoseUnknowns), kNormal99);
+  const double reach = student(freedom_of(static_cast<Eigen::Index>(stands.size())), kNormal99);
 
   HandEyeFit fit;
   fit.X_WC = at.X_WC;

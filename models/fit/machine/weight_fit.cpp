@@ -82,11 +82,17 @@ Vec3 left_over(const WeightStand& stand, const Estimate& at) {
   return stand.wrench.force.e() - at.mass * at.R_FH * weight_per_kg(stand) - at.zero;
 }
 
-// One axis of all stands: independent errors and a walk of the zero, which is nought at the last stand.
-// ratio: variance of the walk a second, over that of a stand's mean.
-MatrixXd covariance(std::span<const WeightStand> stands, double ratio) {
+// What is fitted: stands, and the time at which the zero is told.
+struct Log {
+  std::span<const WeightStand> stands;
+  double end;
+};
+
+// One axis of all stands: independent errors and a walk of the zero, which is nought at the end. ratio:
+// variance of the walk a second, over that of a stand's mean.
+MatrixXd covariance(const Log& log, double ratio) {
+  const auto& [stands, last] = log;
   const auto n = static_cast<Eigen::Index>(stands.size());
-  const double last = stands.back().time;
   MatrixXd all = MatrixXd::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
@@ -129,8 +135,9 @@ Whitened whitened(std::span<const WeightStand> stands, const Estimate& at, const
   return w;
 }
 
-Solved solved(std::span<const WeightStand> stands, Estimate at, double ratio) {
-  const Eigen::LLT<MatrixXd> root(covariance(stands, ratio));
+Solved solved(const Log& log, Estimate at, double ratio) {
+  const std::span<const WeightStand> stands = log.stands;
+  const Eigen::LLT<MatrixXd> root(covariance(log, ratio));
   Solved result;
   result.ratio = ratio;
   constexpr int kRounds = 20;
@@ -155,10 +162,10 @@ Solved solved(std::span<const WeightStand> stands, Estimate at, double ratio) {
   return result;
 }
 
-Solved best_of(std::span<const WeightStand> stands, const Estimate& guess) {
-  Solved best = solved(stands, guess, 0.0);
+Solved best_of(const Log& log, const Estimate& guess) {
+  Solved best = solved(log, guess, 0.0);
   for (int i = -16; i <= 16; ++i) {
-    const Solved one = solved(stands, guess, std::pow(10.0, 0.25 * i));
+    const Solved one = solved(log, guess, std::pow(10.0, 0.25 * i));
     if (one.likelihood > best.likelihood) best = one;
   }
   return best;
@@ -181,11 +188,12 @@ Vec<'F'> middle_of(std::span<const WeightStand> stands, const Estimate& at) {
 
 }  // namespace
 
-WeightFit fit_weight(std::span<const WeightStand> stands) {
+WeightFit fit_weight(std::span<const WeightStand> stands, double end) {
   if (stands.size() < kFewestWeighed)
     throw Error(fmt::format("{} stands of the machine; expected {} or more; visit more poses", stands.size(),
                             kFewestWeighed));
-  const Solved found = best_of(stands, first_guess(stands));
+  const double last = stands.back().time;
+  const Solved found = best_of({stands, end > last ? end : last}, first_guess(stands));
   const double freedom = 3.0 * static_cast<double>(stands.size()) - static_cast<double>(kWeightUnknowns);
   const double reach = student(freedom, kNormal99) * std::sqrt(found.variance);
   const VectorXd half = reach * found.inverse.diagonal().cwiseSqrt();

@@ -25,7 +25,7 @@ struct WeightStand {
 
 struct WeightFit {
   Uncertain mass;        // kg, all that is behind the sensor
-  UncertainVec zero;     // N in F, at the last stand
+  UncertainVec zero;     // N in F, at `end`
   Quat R_HF;             // the sensor's turn under the tip
   Vec3 turn_half;        // rad, 99 %, about F's axes
   Vec<'F'> middle;       // of what is behind the sensor, from F's origin, m
@@ -35,7 +35,7 @@ struct WeightFit {
 };
 
 // Throws Error where the poses turn too little to tell weight from zero, and where what is measured does not
-// turn as a weight does: something touches.
-[[nodiscard]] WeightFit fit_weight(std::span<const WeightStand> stands);
+// turn as a weight does: something touches. end: s, not before the last stand; unset: of that.
+[[nodiscard]] WeightFit fit_weight(std::span<const WeightStand> stands, double end = kUnset);
 
 }  // namespace enc::models
