@@ -52,7 +52,7 @@ void surface_fields(F& f, const std::vector<std::string>& objects, const Stamped
   f.number("depth_m", "of the tip's lowest point below the undeformed surface", dent.value.depth);
   vector_field(f, "tip_m", "centre of the tip that dents it, in O", dent.value.tip.centre);
   f.text("health", "what the display says of itself", word_if_any(dent.health));
-  stamp_field(f, dent.t);
+  stamp_field(f, dent);
 }
 
 template <class F>
@@ -64,7 +64,7 @@ void gripper_fields(F& f, const Stamped<GripSample>& grip, const Grip& told) {
   f.number("force_N", "on what is clamped", grip.value.force);
   f.flag("holding", "something is between the jaws", grip.value.holding);
   f.text("health", "what the gripper says of itself", word_if_any(grip.health));
-  stamp_field(f, grip.t);
+  stamp_field(f, grip);
 }
 
 }  // namespace enc::trial

@@ -1,5 +1,4 @@
-// What is said of a tick on each channel: fields with their unit and their meaning, for JsonMessage and
-// JsonSchema.
+// What is said of a tick on each channel: fields with unit and meaning, for JsonMessage and JsonSchema.
 #pragma once
 
 #include <algorithm>
@@ -38,9 +37,11 @@ void moment_fields(F& f, Time t) {
   f.integer("sec", "", nanoseconds(t) / kSecond);
   f.integer("nsec", "", nanoseconds(t) % kSecond);
 }
-template <class F>
-void stamp_field(F& f, Time t) {
-  f.number("stamp_s", "when it was true", seconds(t.time_since_epoch()));
+// A device that has said nothing yet has none.
+template <class F, class T>
+void stamp_field(F& f, const Stamped<T>& said) {
+  const bool none = said.health == Health::absent;
+  f.number("stamp_s", "when it was true", none ? kUnset : seconds(said.t.time_since_epoch()));
 }
 template <class F>
 void three_fields(F& f, const std::array<double, 3>& xyz) {
@@ -96,7 +97,7 @@ void wrench_fields(F& f, const Stamped<Wrench>& wrench) {
                wrench.value.force);
   vector_field(f, "torque_Nm", "about the origin of F", wrench.value.torque);
   f.text("health", "what the sensor says of itself", word_if_any(wrench.health));
-  stamp_field(f, wrench.t);
+  stamp_field(f, wrench);
 }
 
 template <class F>
@@ -113,7 +114,7 @@ void arm_fields(F& f, const std::vector<std::string>& joints, const std::vector<
   f.number("prop_speed_m_per_s", "of a driven prop's surface against the prop", out.prop_speed);
   vector_field(f, "prop_facing", "that the prop's front shall face, unit, in R", out.prop_facing);
   f.text("health", "what the arm says of itself", word_if_any(in.arm.health));
-  stamp_field(f, in.arm.t);
+  stamp_field(f, in.arm);
 }
 
 }  // namespace enc::trial

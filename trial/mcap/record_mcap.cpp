@@ -1,5 +1,7 @@
 #include "trial/mcap/record_mcap.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "models/schema/wording.h"
@@ -11,6 +13,8 @@ namespace enc::trial {
 namespace {
 
 constexpr std::string_view kMesh = "mesh:";
+// What is said of every file. A text of the record that is named so gets another name.
+constexpr const char *kTicks = "ticks", *kMissed = "missed_cycles", *kState = "state";
 
 template <class Spec>
 std::vector<std::string> names_of(const std::vector<Spec>& specs) {
@@ -36,21 +40,76 @@ bool is_known(const Pose<A, B>& X) {
   return X.q().coeffs().allFinite() && X.p().allFinite();
 }
 
+// Bytes of the UTF-8 letter that a text begins with. 0: it begins with none.
+std::size_t utf8_letter(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const std::size_t size = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if (text.size() < size) return 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xC0U) != 0x80) return 0;
+  // Longer than it need be, half of a pair of UTF-16, or beyond the last letter.
+  const bool none = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
+                    (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F);
+  return none ? 0 : size;
+}
+
+// On one line. Texts of an MCAP file are UTF-8, and readers refuse the file for one that is not: U+FFFD is in
+// the place of each byte that is no letter's.
+std::string line_for_mcap(std::string_view text) {
+  const std::string from = models::printable(std::string(text));
+  std::string line;
+  for (std::string_view rest = from; !rest.empty();) {
+    const std::size_t size = utf8_letter(rest);
+    line += size == 0 ? "\xEF\xBF\xBD" : rest.substr(0, size);
+    rest.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return line;
+}
+
+// The same with the lines that it has.
+std::string lines_for_mcap(std::string_view text) {
+  std::string lines;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    lines += line_for_mcap(text.substr(0, end));
+    if (end == std::string_view::npos) return lines;
+    lines += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
+// A name that is there already gets a mark behind it, so that no text is lost.
+void put_about(RecordTexts& about, std::string_view name, std::string_view text) {
+  std::string key = line_for_mcap(name);
+  while (about.contains(key)) key += '\'';
+  about[key] = lines_for_mcap(text);
+}
+
+// When what a device says was true. One that has said nothing has no such time.
+template <class T>
+Time stamp_or(const Stamped<T>& said, Time now) {
+  return said.health == Health::absent ? now : said.t;
+}
+
 }  // namespace
 
 RecordMcap::RecordMcap(McapWriter& file, const models::Setup& setup, const Scene& scene,
                        const RecordTexts& texts)
     : file_(file),
       scene_(scene),
+      about_{{kTicks, ""}, {kMissed, ""}, {kState, ""}},
       objects_(names_of(setup.scene.objects)),
       tools_(names_of(setup.scene.tools)) {
   for (const auto& [name, text] : texts) {
     if (name == "resolved")
       file_.attach("resolved.toml", "application/toml", text);
     else if (name.starts_with(kMesh))
-      file_.attach(models::printable(name), "application/octet-stream", text);
+      file_.attach(line_for_mcap(name), "application/octet-stream", text);
     else
-      about_[models::printable(name)] = models::printable(text);
+      put_about(about_, name, text);
   }
   if (const Impedance* law = scene.impedance()) {
     joints_ = joint_names(law->arm, "");
@@ -127,9 +186,11 @@ void RecordMcap::add(const RecordedTick& frame) {
   if (tip_ && is_known(in.tip.value.X_RH))
     say(*tip_, now, in.tip.t, [&](auto& f) { pose_fields(f, in.tip.t, in.tip.value.X_RH); });
   if (command_ && is_known(out.tip)) say(*command_, now, now, [&](auto& f) { pose_fields(f, now, out.tip); });
-  if (wrench_) say(*wrench_, now, in.wrench.t, [&](auto& f) { wrench_fields(f, in.wrench); });
-  if (arm_) say(*arm_, now, in.arm.t, [&](auto& f) { arm_fields(f, joints_, joint_speeds_, in, out); });
-  if (gripper_) say(*gripper_, now, in.grip.t, [&](auto& f) { gripper_fields(f, in.grip, out.grip); });
+  if (wrench_) say(*wrench_, now, stamp_or(in.wrench, now), [&](auto& f) { wrench_fields(f, in.wrench); });
+  if (arm_)
+    say(*arm_, now, stamp_or(in.arm, now), [&](auto& f) { arm_fields(f, joints_, joint_speeds_, in, out); });
+  if (gripper_)
+    say(*gripper_, now, stamp_or(in.grip, now), [&](auto& f) { gripper_fields(f, in.grip, out.grip); });
   if (surface_ && in.dent.health != Health::absent && in.dent.t != surface_t_) {
     surface_t_ = in.dent.t;
     say(*surface_, now, in.dent.t, [&](auto& f) { surface_fields(f, objects_, in.dent); });
@@ -139,10 +200,13 @@ void RecordMcap::add(const RecordedTick& frame) {
 
 void RecordMcap::end(const RecordTexts& end_texts, std::string_view state) {
   for (const auto& [name, text] : end_texts)
-    if (name == "ledger") file_.attach("ledger.csv", "text/csv", text);
-  about_["ticks"] = std::to_string(ticks_);
-  about_["missed_cycles"] = std::to_string(missed_);
-  about_["state"] = state;
+    if (name == "ledger")
+      file_.attach("ledger.csv", "text/csv", text);
+    else
+      put_about(about_, name, text);
+  about_[kTicks] = std::to_string(ticks_);
+  about_[kMissed] = std::to_string(missed_);
+  about_[kState] = lines_for_mcap(state);
   file_.metadata("encounter", about_);
   file_.close();
 }

@@ -1,9 +1,12 @@
 // What of a record is said on which channel of an MCAP file, and what is left out.
 #include "trial/mcap/record_mcap.h"
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -78,13 +81,14 @@ models::Setup ball_setup() {
 
 // Exports the ticks of a scene; what a test changes is in `ticks`.
 ReadMcap exported(const models::Setup& setup, const std::vector<RecordedTick>& ticks,
-                  const RecordTexts& texts = {}, const RecordTexts& ends = {}) {
+                  const RecordTexts& texts = {}, const RecordTexts& ends = {},
+                  std::string_view state = "whole") {
   std::string file;
   McapWriter writer([&](std::string_view bytes) { file += bytes; }, "L");
   const Scene scene = prepare(setup.scene, setup.rig);
   RecordMcap mcap(writer, setup, scene, texts);
   for (const RecordedTick& tick : ticks) mcap.add(tick);
-  mcap.end(ends, "whole");
+  mcap.end(ends, state);
   return read_back(file);
 }
 
@@ -116,10 +120,25 @@ TEST(RecordMcap, OnlyWhatTheSceneHasIsAChannel) {
               ElementsAre("/command", "/core", "/frames", "/tip", "/wrench"));
 }
 
+using Xyz = std::array<double, 3>;
+using Xyzw = std::array<double, 4>;
+Xyz xyz_of(const Json& json) { return {json.at("x"), json.at("y"), json.at("z")}; }
+Xyzw xyzw_of(const Json& json) { return {json.at("x"), json.at("y"), json.at("z"), json.at("w")}; }
+
+template <char A, char B>
+void expect_pose(const Json& said, const char* frame, const Pose<A, B>& X) {
+  EXPECT_EQ(said.at("frame_id"), frame);
+  EXPECT_EQ(xyz_of(said.at("pose").at("position")), X.xyz);
+  EXPECT_EQ(xyzw_of(said.at("pose").at("orientation")), X.xyzw);
+}
+// No two of its seven numbers are alike.
+const Pose<'R', 'H'> kTurned(Quat(0.4, 0.2, -0.4, 0.8), Vec3(0.011, -0.023, 0.047));
+
 TEST(RecordMcap, EachTickIsSaidWithItsTimeAndItsNumbers) {
   const models::Setup setup = ball_setup();
   std::vector<RecordedTick> ticks = ticks_of(setup, 40);
   ticks[7].in.wrench.value.force = Vec<'F'>(0.1, -2e-17, 1e300);
+  ticks[12].in.tip.value.X_RH = ticks[13].out.tip = kTurned;
   const ReadMcap read = exported(setup, ticks);
   for (const char* topic : {"/core", "/tip", "/command", "/wrench"}) {
     const std::vector<ReadMessage>& messages = read.topics.at(topic);
@@ -132,15 +151,67 @@ TEST(RecordMcap, EachTickIsSaidWithItsTimeAndItsNumbers) {
   EXPECT_EQ(force.at("x").get<double>(), 0.1);
   EXPECT_EQ(force.at("y").get<double>(), -2e-17);
   EXPECT_EQ(force.at("z").get<double>(), 1e300);
-  const Json& tip = read.topics.at("/tip")[9].json;
-  EXPECT_EQ(tip.at("frame_id"), "R");
-  EXPECT_EQ(tip.at("pose").at("position").at("z").get<double>(), ticks[9].in.tip.value.X_RH.xyz[2]);
-  EXPECT_EQ(tip.at("pose").at("orientation").at("w").get<double>(), ticks[9].in.tip.value.X_RH.xyzw[3]);
+  expect_pose(read.topics.at("/tip")[9].json, "R", ticks[9].in.tip.value.X_RH);
+  expect_pose(read.topics.at("/tip")[12].json, "R", kTurned);
+  expect_pose(read.topics.at("/command")[9].json, "R", ticks[9].out.tip);
+  expect_pose(read.topics.at("/command")[13].json, "R", kTurned);
+  expect_pose(read.topics.at("/tool")[0].json, "C", ticks[0].in.tool.value.X_CT);
   const Json& core = read.topics.at("/core")[9].json;
   EXPECT_EQ(core.at("tick"), ticks[9].tick.index);
   EXPECT_EQ(core.at("mode"), mode_name(ticks[9].out.mode));
   EXPECT_EQ(core.at("why"), why_text(ticks[9].out.why));
   EXPECT_EQ(core.at("gap_m").get<double>(), ticks[9].out.gap);
+}
+
+// A camera that stands anywhere, turned: parent and child taken for each other, or one way for the other, are
+// seen.
+TEST(RecordMcap, FramesAreWhereTheRigHasThem) {
+  models::Setup setup = ball_setup();
+  setup.rig.frames.W_C = {{0.3, -0.9, 0.6}, {-1.9, 0.2, 0.4}};
+  const ReadMcap read = exported(setup, ticks_of(setup, 1));
+  const Json& frames = read.topics.at("/frames").at(0).json.at("transforms");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].at("parent_frame_id"), "W");
+  EXPECT_EQ(frames[0].at("child_frame_id"), "R");
+  const Scene scene = prepare(setup.scene, setup.rig);
+  EXPECT_NE(scene.X_WR.xyz[2], 0.0);
+  EXPECT_EQ(xyz_of(frames[0].at("translation")), scene.X_WR.xyz);
+  EXPECT_EQ(xyzw_of(frames[0].at("rotation")), scene.X_WR.xyzw);
+  EXPECT_EQ(frames[1].at("parent_frame_id"), "W");
+  EXPECT_EQ(frames[1].at("child_frame_id"), "C");
+  // About the fixed x, then y, then z, written out.
+  const Quat q_WC = Quat(std::cos(0.2), 0, 0, std::sin(0.2)) * Quat(std::cos(0.1), 0, std::sin(0.1), 0) *
+                    Quat(std::cos(-0.95), std::sin(-0.95), 0, 0);
+  const Xyzw said = xyzw_of(frames[1].at("rotation"));
+  const double sign = said[3] * q_WC.w() < 0.0 ? -1.0 : 1.0;
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(sign * said[i], q_WC.coeffs()[static_cast<Eigen::Index>(i)], 1e-15) << i;
+  EXPECT_EQ(xyz_of(frames[1].at("translation")), (Xyz{0.3, -0.9, 0.6}));
+}
+
+// Before its first reading a device has no time of its own, and 0 would be one.
+TEST(RecordMcap, WhatADeviceHasNotSaidYetHasNoStamp) {
+  models::Setup gripper = ball_setup();
+  gripper.scene.tools.push_back(gripper.scene.tools.front());
+  gripper.scene.tools.back().name = "clamped";
+  gripper.scene.gripper.emplace().tool = "clamped";
+  const models::Setup arm = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "vishap", {});
+  const auto check = [](const models::Setup& setup, const char* topic, auto device) {
+    std::vector<RecordedTick> ticks(2);
+    for (std::int64_t i = 0; i < 2; ++i) ticks[static_cast<std::size_t>(i)].tick.t = Time(Duration(5 + i));
+    (ticks[1].in.*device).health = Health::ok;
+    (ticks[1].in.*device).t = Time(Duration(3));
+    const std::vector<ReadMessage> said = exported(setup, ticks).topics.at(topic);
+    ASSERT_EQ(said.size(), 2U) << topic;
+    EXPECT_EQ(said[0].json.at("health"), "absent") << topic;
+    EXPECT_FALSE(said[0].json.contains("stamp_s")) << topic;
+    EXPECT_EQ(said[0].publish, 5U) << topic;
+    EXPECT_EQ(said[1].json.at("stamp_s").get<double>(), 3e-9) << topic;
+    EXPECT_EQ(said[1].publish, 3U) << topic;
+  };
+  check(gripper, "/wrench", &Inputs::wrench);
+  check(gripper, "/gripper", &Inputs::grip);
+  check(arm, "/arm", &Inputs::arm);
 }
 
 // A log must not count one packet twice; a packet that names no tool, or is at fault, tells no pose.
@@ -235,12 +306,51 @@ TEST(RecordMcap, TheFileSaysWhatTheRunWas) {
   const std::string mesh("\0\xFF\x80", 3);
   const ReadMcap read =
       exported(setup, ticks, {{"resolved", "format = 1\n"}, {"mesh:a.glb", mesh}, {"seed", "7"}},
-               {{"ledger", "contact\n"}});
+               {{"ledger", "contact\n"}, {"weather", "rain"}});
   EXPECT_EQ(read.attachments,
             (std::map<std::string, std::string>{
                 {"ledger.csv", "contact\n"}, {"mesh:a.glb", mesh}, {"resolved.toml", "format = 1\n"}}));
-  EXPECT_EQ(read.about, (std::map<std::string, std::string>{
-                            {"missed_cycles", "4"}, {"seed", "7"}, {"state", "whole"}, {"ticks", "5"}}));
+  EXPECT_EQ(
+      read.about,
+      (std::map<std::string, std::string>{
+          {"missed_cycles", "4"}, {"seed", "7"}, {"state", "whole"}, {"ticks", "5"}, {"weather", "rain"}}));
+}
+
+// Texts that have one name, or that of something else that is said.
+TEST(RecordMcap, NoTextTakesThePlaceOfAnother) {
+  const ReadMcap read = exported(ball_setup(), {}, {{"seed", "7"}, {"state", "wet"}, {"a\xE8", "1"}},
+                                 {{"seed", "8"}, {"a\xE9", "2"}});
+  EXPECT_EQ(read.about, (std::map<std::string, std::string>{{"a\uFFFD", "1"},
+                                                            {"a\uFFFD'", "2"},
+                                                            {"missed_cycles", "0"},
+                                                            {"seed", "7"},
+                                                            {"seed'", "8"},
+                                                            {"state", "whole"},
+                                                            {"state'", "wet"},
+                                                            {"ticks", "0"}}));
+}
+
+// Readers take a file with a text that is not UTF-8 for no MCAP file.
+TEST(RecordMcap, TextsAreUtf8AndKeepTheirLines) {
+  const std::vector<std::array<std::string, 2>> texts{
+      {"models/caf\xE9.toml", "models/caf\uFFFD.toml"},  // Latin-1
+      {"caf\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8E\xBE", "caf\u00E9 \u20AC \U0001F3BE"},
+      {"cut \xE2\x82", "cut \uFFFD\uFFFD"},
+      {"\x80\xC3(\xFF", "\uFFFD\uFFFD(\uFFFD"},
+      {"\xC0\xAF \xE0\x9F\xBF \xF0\x8F\xBF\xBF",  // longer than need be
+       "\uFFFD\uFFFD \uFFFD\uFFFD\uFFFD \uFFFD\uFFFD\uFFFD\uFFFD"},
+      {"\xED\xA0\x80 \xF4\x90\x80\x80 \xF5",  // half of a pair; beyond the last letter
+       "\uFFFD\uFFFD\uFFFD \uFFFD\uFFFD\uFFFD\uFFFD \uFFFD"},
+      {"\xED\x9F\xBF \xEE\x80\x80 \xF4\x8F\xBF\xBF", "\uD7FF \uE000 \U0010FFFF"},
+      {"wall stable\n ball\tstable\r\n", "wall stable\n ball stable \n"},
+      {"\n\n", "\n\n"},
+  };
+  for (const auto& [text, said] : texts) {
+    EXPECT_EQ(exported(ball_setup(), {}, {{"stability", text}}).about.at("stability"), said) << said;
+    EXPECT_EQ(exported(ball_setup(), {}, {}, {}, text).about.at("state"), said) << said;
+  }
+  EXPECT_EQ(exported(ball_setup(), {}, {{"mesh:caf\xE9\n.glb", "m"}}).attachments,
+            (std::map<std::string, std::string>{{"mesh:caf\uFFFD .glb", "m"}}));
 }
 
 }  // namespace
