@@ -88,7 +88,7 @@ RecognisedTool recognise(std::span<const Vec3> seen, std::span<const std::vector
   for (std::size_t i = 0; i < tools.size(); ++i)
     Orders(seen, tools[i], [&](const Order& order) {
       const RigidFit fit = fitted_motion(seen, tools[i], order);
-      if (fit.rms < closest.rms) {
+      if (fit.rms <= kWorstFit && fit.rms < closest.rms) {
         closest = fit;
         best = {static_cast<std::int32_t>(i), fit.X_CT, fit.rms};
       }

@@ -12,11 +12,20 @@ namespace enc {
 
 inline constexpr std::size_t kMostMarkers = 16;
 
-// Two distances that differ by less may be taken for each other. A marker is known to 0.3 mm at worst (rms,
-// each axis), a distance of two to 0.42 mm. The nearer of two distances 4 mm apart is the wrong one where the
-// error is above 2 mm, 4.7 times that: about once in a million looks, and only for tools that are just told
-// apart.
+// What a marker is known to at worst: rms, each axis. A distance of two is known to 0.42 mm.
+inline constexpr double kMarkerNoise = 0.3e-3;  // m
+
+// Two distances that differ by less may be taken for each other. The nearer of two distances 4 mm apart is
+// the wrong one where the error is above 2 mm, 4.7 times that of a distance: about once in a million looks,
+// and only for tools that are just told apart.
 inline constexpr double kMarkersApart = 4e-3;  // m
+// What is seen is none of the tools where the one that fits best fits worse: rms of all markers. Distances
+// alone do not tell: a mirror image has the same, and of another tool all may be off by almost 4 mm. Noise
+// leaves 3n - 6 of the 3n numbers of n markers to differ, an rms of sqrt(3 - 6 / n) of itself. This is 5
+// times the noise: of three markers it refuses fewer than one look in 10^15, of more yet fewer. One distance
+// that is off by 4 mm costs 4 mm / sqrt(2 n), so that of three markers it is refused. Noise of 1 mm loses a
+// sixth of the looks at four markers by it, noise of 2 mm nine of ten.
+inline constexpr double kWorstFit = 5.0 * kMarkerNoise;  // m
 
 struct RecognisedTool {
   std::int32_t tool = -1;  // index; -1: none of them
