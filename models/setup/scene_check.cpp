@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "core/devices/roles.h"
@@ -136,14 +137,18 @@ void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
   }
 }
 
-bool on_a_line(const std::vector<Vec3>& markers) {
-  double largest = 0.0;  // area of a triangle of markers, m^2
-  for (const Vec3& a : markers) {
-    for (const Vec3& b : markers)
-      largest = std::max(largest, 0.5 * (a - markers[0]).cross(b - markers[0]).norm());
-  }
-  return largest < 1e-6;
+// Of the line that the markers are nearest to: root of the sum of the squares of their distances from it, m.
+double off_the_line(const std::vector<Vec3>& markers) {
+  Eigen::Matrix3Xd centred(3, static_cast<Eigen::Index>(markers.size()));
+  for (std::size_t i = 0; i < markers.size(); ++i) centred.col(static_cast<Eigen::Index>(i)) = markers[i];
+  centred.colwise() -= Vec3(centred.rowwise().mean());
+  const Vec3 spread = Eigen::JacobiSVD<Eigen::Matrix3Xd>(centred).singularValues();
+  return std::hypot(spread[1], spread[2]);
 }
+// Noise of the markers turns the tool about that line by noise / (rms distance from it * sqrt(n)), rad, which
+// is noise / off_the_line(). At 0.3 mm noise and 6 mm that is 0.05, or 3 deg.
+constexpr double kMostTurn = 0.05;
+constexpr double kLeastOffLine = kMarkerNoise / kMostTurn;  // m
 
 void check_tool(const Setup& setup, const ToolSpec& tool) {
   if (setup.scene.arm) return check_finger(setup, tool);
@@ -161,11 +166,14 @@ void check_tool(const Setup& setup, const ToolSpec& tool) {
     fail(setup, key,
          fmt::format("tool {} has {} markers; expected at most {}; leave some out", quoted(tool.name),
                      tool.markers.size(), kMostMarkers));
-  if (on_a_line(tool.markers)) {
+  if (const double off = off_the_line(tool.markers); !(off >= kLeastOffLine)) {
+    const double share = 1.0 / std::sqrt(static_cast<double>(tool.markers.size()));
     fail(setup, key,
-         fmt::format("the markers of tool {} are on a line; expected a triangle of at least 1 mm^2; move one "
-                     "of 'markers_mm'",
-                     quoted(tool.name)));
+         fmt::format(
+             "the markers of tool {} are on a line, or almost: they are {:.2f} mm rms off it; expected "
+             "at least {:.2f} mm, or nobody knows how it is turned about the line; move one of "
+             "'markers_mm'",
+             quoted(tool.name), 1e3 * share * off, 1e3 * share * kLeastOffLine));
   }
   if (has_two_poses(tool.markers))
     fail(setup, key,

@@ -50,6 +50,25 @@ TEST(ToolInput, AToolThatTheHandCannotHoldIsRefusedByName) {
   }
 }
 
+// A tracker cannot tell how a tool is turned about the line that its markers are on. With 0.3 mm noise the
+// first of these is turned by almost anything, the second by 3 deg (rms).
+TEST(ToolInput, MarkersThatAreAlmostOnALineAreRefused) {
+  const auto said = [](const std::string& markers) {
+    return said_tool("tennis_ball", "sim", {"tool.stylus.markers_mm=" + markers});
+  };
+  EXPECT_THAT(
+      said("[[0, 0, 0], [60, 0, 0], [130, 0.031, 0]]"),
+      AllOf(HasSubstr("the markers of tool 'stylus' are on a line, or almost: they are 0.01 mm rms off "
+                      "it; expected at least 3.46 mm, or"),
+            HasSubstr("move one of 'markers_mm'"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(said("[[0, 0, 0], [60, 7, 0], [130, 0, 0]]"), HasSubstr("are on a line, or almost: they are"));
+  EXPECT_EQ(said("[[0, 0, 0], [60, 8, 0], [130, 0, 0]]"), "");
+  // Of more markers each may be nearer to the line, and off it in whatever direction.
+  EXPECT_THAT(said("[[0, 0, 0], [20, 4, 0], [60, 0, 3], [130, 0, 0]]"), HasSubstr("at least 3.00 mm, or"));
+  EXPECT_EQ(said("[[0, 0, 0], [20, 6, 0], [60, 0, 6], [130, 0, 0]]"), "");
+  EXPECT_THAT(said("[[0, 0, 0], [0, 0, 0], [0, 0, 0]]"), HasSubstr("they are 0.00 mm rms off"));
+}
+
 // 2 b h + k h^2 = 8.7 g at 1 ms: a quarter of that is where the grip diverges. A shorter step holds less.
 TEST(ToolInput, WhatIsNotRefusedRuns) {
   EXPECT_EQ(said_tool("wall", "vishap", {"tool.finger.mass_kg=0.0022"}), "");
