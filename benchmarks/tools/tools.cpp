@@ -1,8 +1,11 @@
-// Which tool is it? All tools that scenes name, seen by their markers with a tracker's noise: how often one
-// is taken for another [VHMR 3.2]. The tools that ship are two.
+// Which tool is it, and how does it stand? All tools that scenes name, seen by their markers with a tracker's
+// noise: how often one is taken for another, or its markers for each other [VHMR 3.2]. The tools that ship
+// are two.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -18,9 +21,10 @@ namespace {
 
 using Markers = std::vector<Vec3>;
 
-constexpr double kWorst =
-    0.3e-3;  // m rms of a marker, each axis; the paper's tracker: 0.09 mm of all three [VHMR 2]
-constexpr std::array kNoises{0.1e-3, kWorst, 1e-3, 2e-3};
+// m rms of a marker, each axis. The paper's tracker: 0.09 mm of all three [VHMR 2].
+constexpr std::array kNoises{0.1e-3, kMarkerNoise, 1e-3, 2e-3};
+// A pose that is farther off is that of another order of the markers, and not of their noise.
+constexpr double kTurned = 10.0;  // deg
 
 struct Stored {
   std::vector<std::string> names;
@@ -49,14 +53,17 @@ Stored stored_tools(const std::string& models) {
 class Tracker {
  public:
   Tracker(std::uint64_t seed, double noise) : random_(seed), noise_(noise) {}
-  Markers see(const Markers& tool) {
-    const Quat q = Quat(normal(), normal(), normal(), normal()).normalized();
-    const Pose<'C', 'T'> X_CT(q, Vec3(0.2 * normal(), 0.2 * normal(), 1.0 + 0.1 * normal()));
+  struct Look {
     Markers seen;
+    Pose<'C', 'T'> X_CT;  // the truth
+  };
+  Look see(const Markers& tool) {
+    const Quat q = Quat(normal(), normal(), normal(), normal()).normalized();
+    Look look{{}, {q, Vec3(0.2 * normal(), 0.2 * normal(), 1.0 + 0.1 * normal())}};
     for (const Vec3& marker : tool)
-      seen.push_back((X_CT * Point<'T'>(marker)).e() + noise_ * Vec3(normal(), normal(), normal()));
-    std::shuffle(seen.begin(), seen.end(), random_);
-    return seen;
+      look.seen.push_back((look.X_CT * Point<'T'>(marker)).e() + noise_ * Vec3(normal(), normal(), normal()));
+    std::shuffle(look.seen.begin(), look.seen.end(), random_);
+    return look;
   }
 
  private:
@@ -67,7 +74,8 @@ class Tracker {
 };
 
 struct Confusion {
-  std::vector<std::vector<std::int64_t>> taken;  // [tool][taken for]; the last: for none
+  // [tool][taken for]. The last but one: for itself, but turned. The last: for none.
+  std::vector<std::vector<std::int64_t>> taken;
   [[nodiscard]] std::int64_t wrong() const {
     std::int64_t sum = 0;
     for (std::size_t i = 0; i < taken.size(); ++i)
@@ -79,11 +87,16 @@ struct Confusion {
 Confusion confusion(const std::vector<Markers>& tools, double noise, std::uint64_t seed, int looks) {
   Confusion of;
   Tracker tracker(seed, noise);
-  for (const Markers& tool : tools) {
-    std::vector<std::int64_t>& row = of.taken.emplace_back(tools.size() + 1, 0);
+  const std::size_t turned = tools.size(), none = turned + 1;
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    std::vector<std::int64_t>& row = of.taken.emplace_back(none + 1, 0);
     for (int i = 0; i < looks; ++i) {
-      const std::int32_t found = recognise(tracker.see(tool), tools).tool;
-      ++row[found < 0 ? tools.size() : static_cast<std::size_t>(found)];
+      const Tracker::Look look = tracker.see(tools[tool]);
+      const RecognisedTool found = recognise(look.seen, tools);
+      const auto as = found.tool < 0 ? none : static_cast<std::size_t>(found.tool);
+      const bool off =
+          as == tool && found.X_CT.q().angularDistance(look.X_CT.q()) > kTurned * std::numbers::pi / 180.0;
+      ++row[off ? turned : as];
     }
   }
   return of;
@@ -101,6 +114,33 @@ std::vector<Markers> just_apart() {
   return tools;
 }
 
+// How often a distance that is known so well is nearer to one that is kMarkersApart away: the normal tail.
+double tail(double noise) {
+  return 0.5 * std::erfc(0.5 * kMarkersApart / (std::sqrt(2.0) * noise) / std::sqrt(2.0));
+}
+
+// Once in a million looks (markers.h) is too seldom to be counted here. With twice the noise the same law
+// says once in a hundred, which is counted.
+void judge_just_apart(Bench& bench) {
+  constexpr int kLooks = 50'000;  // at each of the two
+  const std::vector<Markers> two = just_apart();
+  const auto share_of = [&](std::int64_t count) { return static_cast<double>(count) / (2.0 * kLooks); };
+  const Confusion closest = confusion(two, kMarkerNoise, bench.context.seed, kLooks);
+  bench.figure(
+      "just_apart.wrong.share", share_of(closest.wrong()), "", at_most(2.5e-5),
+      fmt::format("of {} looks at two tools that a scene may just name together: one distance {:g} mm "
+                  "longer; once in 40000 is the most, and the normal tail says {:.1e}",
+                  2 * kLooks, 1e3 * kMarkersApart, tail(kMarkerNoise)));
+  constexpr double kLoud = 2.0 * kMarkerNoise;
+  const Confusion loud = confusion(two, kLoud, bench.context.seed, kLooks);
+  bench.figure(
+      "just_apart.tail.ratio", share_of(loud.taken[0][1] + loud.taken[1][0]) / tail(kLoud), "",
+      between(0.85, 1.15),
+      fmt::format("how often these two are taken for each other at {:g} mm noise, of what the normal "
+                  "tail says, {:.4f}; 3 sigma of the count are 0.1",
+                  1e3 * kLoud, tail(kLoud)));
+}
+
 void run(Bench& bench) {
   const Stored stored = stored_tools(bench.context.models);
   const int looks = bench.context.quick ? 500 : 20'000;
@@ -111,6 +151,7 @@ void run(Bench& bench) {
               fmt::format("Of {} looks at each, in any pose, markers in any order.", looks),
               true};
   for (const std::string& name : stored.names) table.columns.push_back(name);
+  table.columns.push_back(fmt::format("itself, more than {:g} deg off", kTurned));
   table.columns.emplace_back("none");
   std::vector<double> noises(kNoises.begin(), kNoises.end());
   const std::vector<Confusion> all = bench.each(
@@ -121,16 +162,15 @@ void run(Bench& bench) {
       for (const std::int64_t count : all[n].taken[tool]) row.push_back(fmt::format("{}", count));
       table.rows.push_back(std::move(row));
     }
-    if (noises[n] == kWorst)
-      bench.figure("wrong.count", static_cast<double>(all[n].wrong()), "", exactly(0),
-                   fmt::format("of {} looks at each of {} tools, markers known to {:g} mm", looks,
-                               stored.names.size(), 1e3 * kWorst));
+    if (noises[n] == kMarkerNoise)
+      bench.figure(
+          "wrong.count", static_cast<double>(all[n].wrong()), "", exactly(0),
+          fmt::format("of {} looks at each of {} tools, markers known to {:g} mm: another tool, none, "
+                      "or a pose more than {:g} deg off",
+                      looks, stored.names.size(), 1e3 * kMarkerNoise, kTurned));
   }
   bench.table(std::move(table));
-  const std::int64_t closest = confusion(just_apart(), kWorst, bench.context.seed, looks).wrong();
-  bench.figure("just_apart.wrong.share", static_cast<double>(closest) / (2.0 * looks), "", at_most(1e-4),
-               fmt::format("of two tools that a scene may just name together: one distance {:g} mm longer",
-                           1e3 * kMarkersApart));
+  judge_just_apart(bench);
 }
 
 const Entry kEntry{"tools", "session", "tools told apart by their markers: a confusion matrix", run};
