@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -216,6 +217,12 @@ std::string json_of(const Shadow& shadow) {
 }  // namespace
 
 int shadow_command(const ShadowOptions& options) {
+  std::error_code none;
+  if (std::filesystem::is_regular_file(options.record, none) && !is_record(options.record))
+    throw Error(fmt::format(
+        "{}:1:1: is no record; expected a file that `encounter run SCENE --record FILE` has written; {}",
+        options.record,
+        options.record.ends_with(".toml") ? "run that scene with --record" : "give the name of one"));
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup twin = trial::twin_of(record, options.record, options.set);
   for (const std::string& note : twin.notes) fmt::print(stderr, "{}\n", note);

@@ -67,10 +67,12 @@ Shadow shadow(RecordReader& record, const std::string& path, const models::Setup
         fmt::format("{}: its machine never said where it was; expected a record of a machine that "
                     "answers; see `encounter devices`",
                     path));
-  see_machine(tape, result);
-  see_tool(tape, result);
-  see_probed(tape, result);
-  see_rendered(tape, result);
+  try {
+    for (const auto see : {see_machine, see_tool, see_probed, see_rendered}) see(tape, result);
+  } catch (const Error& e) {  // of a number that no plant takes
+    if (e.key().empty()) throw;
+    throw Error(models::place_of(twin, e.key()) + ": " + e.what());
+  }
   if (tape.missed > 0)
     result.facts.push_back({Channel::clock, fmt::format("{} cycles were lost", tape.missed)});
   return result;

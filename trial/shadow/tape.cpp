@@ -37,10 +37,6 @@ bool is_news(const Stamped<TrackedTool>& tool, const Scene& scene, Time& newest)
   return true;
 }
 
-models::Interval apart(const models::Interval& one, const models::Interval& other) {
-  return {one.value - other.value, std::hypot(one.half, other.half)};
-}
-
 void TipTrace::see(const Stamped<TipSample>& tip) {
   if (is_well(tip) && (said_.empty() || tip.t > said_.back().t)) said_.push_back(tip);
 }

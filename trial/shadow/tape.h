@@ -7,7 +7,6 @@
 
 #include "core/record/record.h"
 #include "core/world/scene.h"
-#include "models/fit/block_error.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::trial {
@@ -54,7 +53,5 @@ struct Tape {
 [[nodiscard]] bool is_news(const Stamped<TrackedTool>& tool, const Scene& scene, Time& newest);
 
 inline double in_seconds(Time t) { return seconds(t.time_since_epoch()); }
-// Value and interval of `one` less those of `other`.
-[[nodiscard]] models::Interval apart(const models::Interval& one, const models::Interval& other);
 
 }  // namespace enc::trial

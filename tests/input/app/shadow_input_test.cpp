@@ -74,9 +74,12 @@ TEST_F(ShadowInput, RefusesInOneLine) {
   const std::string record = run_of("plane", {"--for-s", "0.5"});
   EXPECT_THAT(one_line(run_program({"shadow", path("none.encrec")})), HasSubstr("none.encrec"));
   write("text.csv", "time_s\n1\n");
-  EXPECT_THAT(one_line(run_program({"shadow", path("text.csv")})), HasSubstr("text.csv"));
+  EXPECT_THAT(one_line(run_program({"shadow", path("text.csv")})), HasSubstr("text.csv:1:1: is no record"));
+  EXPECT_THAT(one_line(run_program({"shadow", plane()})), HasSubstr("run that scene with --record"));
   EXPECT_THAT(one_line(run_program({"shadow", record, "--set", "truth.hexapod.delay=4"})),
               HasSubstr("delay_cycles"));
+  EXPECT_THAT(one_line(run_program({"shadow", record, "--set", "truth.hexapod.delay_cycles=99"})),
+              HasSubstr("--set truth.hexapod.delay_cycles=99: "));
   EXPECT_THAT(one_line(run_program({"shadow", record, "--set", "truth.hexapod.servo_hz=-1"})),
               HasSubstr("expected"));
   const std::string bytes = test::bytes_of(record);
