@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,7 +21,10 @@ namespace {
 constexpr double kDeg = M_PI / 180.0;
 constexpr double kShort = 0.25;                                   // s
 constexpr std::array<double, 4> kLengths{kShort, 0.5, 1.0, 2.0};  // s, of blocks: the widest interval counts
-constexpr std::size_t kFewestBlocks = 8;                          // of a length that counts
+constexpr double kFewestBlocks = 2.0;    // of a length that counts: freedom of Student's t
+constexpr double kGap = 0.5;             // s, and 4 usual steps: with more between them, poses have a gap
+constexpr double kSame = 2.0 * kDeg;     // the tool rests while it stays so near to how it stood at first,
+constexpr double kLongStand = 1.0;       // s, for so long
 constexpr double kApart = 0.05;          // s: neighbours so far apart have errors of their own
 constexpr double kStrong = 0.5;          // neighbours have to turn by so much of what the poses do
 constexpr double kMedianLength = 1.538;  // of three normal numbers, over their standard deviation
@@ -47,10 +52,14 @@ class PivotSolver {
 
   PivotFit fit() {
     check_poses();
+    find_rests();
+    check_time();
     check_swing();
     leave_out();
     check_stay();
+    check_swing();  // of what is left: it may have turned about one axis alone
     take_neighbours();
+    check_swing();
     solve();
     tell();
     return fit_;
@@ -97,10 +106,52 @@ class PivotSolver {
             fmt::format("pose {} is none, or not later than the one before; expected finite numbers, a "
                         "unit quaternion and increasing times; leave it out",
                         i + 1));
-    if (blocks(kLengths[1]).size() < kFewestBlocks)
+  }
+
+  void find_rests() {
+    rests_.assign(size(), false);
+    for (std::size_t from = 0, i = 1; i <= size(); ++i) {
+      if (i < size() && poses_[i].X_CT.q().angularDistance(poses_[from].X_CT.q()) <= kSame) continue;
+      if (poses_[i - 1].time - poses_[from].time >= kLongStand) {
+        std::fill(rests_.begin() + static_cast<std::ptrdiff_t>(from),
+                  rests_.begin() + static_cast<std::ptrdiff_t>(i), true);
+        ++stands_;
+      }
+      from = i;
+    }
+  }
+
+  // Neither a gap nor a rest tells anything of the tip, however long it is. A rest is worth one short block.
+  void check_time() {
+    const double gap = std::max(kGap, 4.0 * usual_step());
+    double gaps = 0.0;
+    for (std::size_t i = 1; i < size(); ++i) {
+      const double step = poses_[i].time - poses_[i - 1].time;
+      (step > gap ? gaps : rests_[i] && rests_[i - 1] ? fit_.rested : fit_.turned) += step;
+    }
+    const double all = fit_.turned + fit_.rested;
+    if (all < kLeastPivotTime && gaps > 0.0)
       throw Error(fmt::format(
-          "the poses of the tool are of {:.3g} s; expected at least {:g} s; record longer",
-          poses_.back().time - poses_.front().time, static_cast<double>(kFewestBlocks) * kLengths[1]));
+          "the poses of the tool are of {:.3g} s, without the gaps in them, which are {:.3g} s; expected at "
+          "least {:g} s of poses; record longer, with the markers in view",
+          all, gaps, kLeastPivotTime));
+    if (all < kLeastPivotTime)
+      throw Error(
+          fmt::format("the poses of the tool are of {:.3g} s; expected at least {:g} s; record longer", all,
+                      kLeastPivotTime));
+    // What never turned is not told here, but by its swing.
+    if (fit_.turned >= kLongStand && fit_.turned + static_cast<double>(stands_) * kShort < kLeastPivotTime)
+      throw Error(
+          fmt::format("the tool rested for most of the log: it turned for {:.3g} s of {:.3g} s; expected at "
+                      "least {:g} s; "
+                      "swing it about its tip for longer",
+                      fit_.turned, all, kLeastPivotTime));
+  }
+
+  double usual_step() const {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < size(); ++i) steps.push_back(poses_[i].time - poses_[i - 1].time);
+    return median(steps);
   }
 
   // A direction v of T turns by the root of v' moment v: for a rotation about one axis, this axis does not.
@@ -115,24 +166,39 @@ class PivotSolver {
     if (least(largest) < 0.0) least = -least;
     fit_.least_turned = Vec<'T'>(least);
     if (fit_.swing[0] >= kLeastSwing) return;
+    const std::string without =
+        fit_.outliers > 0
+            ? fmt::format(", without the {} poses that lie apart and are left out", fit_.outliers)
+            : "";
     if (fit_.swing[1] < kLeastSwing)
       throw Error(fmt::format(
-          "the tool hardly turned: no direction of it by more than {:.2g} deg rms; expected at "
+          "the tool hardly turned{}: no direction of it by more than {:.2g} deg rms; expected at "
           "least {:g} deg of each; swing it about its tip by 20 deg or more to either side, about "
-          "two axes",
-          fit_.swing[2] / kDeg, kLeastSwing / kDeg));
+          "two axes{}",
+          without, fit_.swing[2] / kDeg, kLeastSwing / kDeg, kept_in(without)));
     throw Error(fmt::format(
-        "the tool turned about one axis alone, [{:.2f}, {:.2f}, {:.2f}] in T: this direction turned by "
+        "the tool turned about one axis alone, [{:.2f}, {:.2f}, {:.2f}] in T{}: this direction turned by "
         "{:.1f} deg rms, so the tip's place along it is not known; expected at least {:g} deg; swing the "
-        "tool "
-        "about a second axis as well, by 20 deg or more to either side",
-        least.x(), least.y(), least.z(), fit_.swing[0] / kDeg, kLeastSwing / kDeg));
+        "tool about a second axis as well, by 20 deg or more to either side{}",
+        least.x(), least.y(), least.z(), without, fit_.swing[0] / kDeg, kLeastSwing / kDeg,
+        kept_in(without)));
+  }
+  static std::string_view kept_in(const std::string& without) {
+    return without.empty() ? "" : ", with the tip in its dimple";
   }
 
   std::vector<double> distances() const {
     std::vector<double> all(size());
     for (std::size_t i = 0; i < size(); ++i) all[i] = left_over(i).norm();
     return all;
+  }
+
+  // By what the tip of poses that turn lies apart: a tool at rest may be much quieter than one that is swung.
+  double scale() const {
+    std::vector<double> all = distances(), turn;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (!rests_[i]) turn.push_back(all[i]);
+    return median(turn.size() < kFewestPoses ? all : turn) / kMedianLength;
   }
 
   // First the least sum of distances, which a slip does not rule; then least squares of what is near.
@@ -148,7 +214,7 @@ class PivotSolver {
     }
     for (int k = 0; k < 20; ++k) {
       const std::vector<double> far = distances();
-      const double limit = kFarthest * median(far) / kMedianLength;
+      const double limit = kFarthest * scale();
       std::vector<double> near;
       near.reserve(far.size());
       for (const double x : far) near.push_back(x <= std::max(limit, kNearest) ? 1.0 : 0.0);
@@ -184,7 +250,14 @@ class PivotSolver {
 
   void check_stay() {
     measure();
-    const double share = static_cast<double>(fit_.outliers) / static_cast<double>(size());
+    double apart = 0.0, turning = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (rests_[i]) continue;
+      turning += 1.0;
+      apart += weights_[i] > 0.0 ? 0.0 : 1.0;
+    }
+    const double share = std::fmax(static_cast<double>(fit_.outliers) / static_cast<double>(size()),
+                                   turning > 0.0 ? apart / turning : 0.0);  // rests do not hide a slip
     if (fit_.rms <= kMostPivotRms && share <= kMostPivotOutliers) return;
     throw Error(fmt::format(
         "the tip did not stay: it wandered by up to {:.3g} mm, poses differ by {:.3g} mm rms, and {:.0f} % "
@@ -209,9 +282,7 @@ class PivotSolver {
 
   // The mean of a pose a little before and of one a little after; a pose that has neither does not count.
   void take_neighbours() {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < size(); ++i) steps.push_back(poses_[i].time - poses_[i - 1].time);
-    const double wanted = std::ceil(kApart / std::max(median(steps), 1e-6));
+    const double wanted = std::ceil(kApart / std::max(usual_step(), 1e-6));
     const std::size_t most = size() / 4;
     const auto lag = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(most)));
     std::vector<Mat3> by(size(), Mat3::Zero());
@@ -228,35 +299,53 @@ class PivotSolver {
     if (!(least(sums(by, weights)) >= kStrong * least(sums(turns_, weights_)))) return;
     by_ = std::move(by);
     weights_ = std::move(weights);
+    fit_.neighbours = true;
   }
 
-  // What each block of time did to the tip is known from what it left over.
-  std::array<Interval, 3> intervals(const Sums& s, double length) const {
-    const Mat3 inverse = s.moment.inverse() / s.weight;
+  // What each block of time did to the tip: that of all, against that of all other blocks (the jackknife).
+  // What a block leaves over in a fit of which it is a part is less than its error, if blocks are few.
+  std::array<Blocks, 3> influences(const Sums& s, double length) const {
+    const Mat3 all = s.weight * s.moment, inverse = all.inverse();
     std::array<Blocks, 3> sides;
     for (const auto& [from, to] : blocks(length)) {
-      Vec3 influence = Vec3::Zero(), weight = Vec3::Zero();
+      Sums own;  // of the block, not divided by its weight, about the means of all
+      Vec3 left = Vec3::Zero(), knows = Vec3::Zero();
       for (std::size_t i = from; i < to; ++i) {
-        const Mat3 arm = weights_[i] * inverse * (by_[i] - s.by).transpose();
-        influence += arm * left_over(i);
-        weight += arm.rowwise().squaredNorm();
+        const Mat3 off = by_[i] - s.by, arm = weights_[i] * off.transpose();
+        own.weight += weights_[i];
+        own.by += weights_[i] * off;
+        own.moment += arm * (turns_[i] - s.turn);
+        own.turn += weights_[i] * (turns_[i] - s.turn);
+        own.right += arm * left_over(i);
+        left += weights_[i] * left_over(i);
+        knows += (inverse * arm).rowwise().squaredNorm();
       }
+      const Mat3 mean = own.by.transpose() / (s.weight - own.weight);
+      const Mat3 others = all - own.moment - mean * own.turn;
+      const Vec3 moved = others.fullPivLu().solve(own.right + mean * left);
       for (std::size_t a = 0; a < 3; ++a) {
-        sides[a].influence.push_back(influence(static_cast<Eigen::Index>(a)));
-        sides[a].weight.push_back(weight(static_cast<Eigen::Index>(a)));
+        sides[a].influence.push_back(moved(static_cast<Eigen::Index>(a)));
+        sides[a].weight.push_back(knows(static_cast<Eigen::Index>(a)));
       }
     }
-    return {sides[0].around(tip_.x()), sides[1].around(tip_.y()), sides[2].around(tip_.z())};
+    return sides;
   }
 
   void tell() {
     const Sums s = sums(by_, weights_);
+    for (std::size_t a = 0; a < 3; ++a) fit_.tip[a].value = tip_(static_cast<Eigen::Index>(a));
     for (const double length : kLengths) {
-      if (blocks(length).size() < kFewestBlocks) continue;
-      const std::array<Interval, 3> found = intervals(s, length);
+      const std::array<Blocks, 3> found = influences(s, length);
       for (std::size_t a = 0; a < 3; ++a)
-        fit_.tip[a] = {found[a].value, std::fmax(fit_.tip[a].half, found[a].half)};
+        if (found[a].freedom() >= kFewestBlocks)
+          fit_.tip[a].half = std::fmax(fit_.tip[a].half, found[a].around(0.0).half);
     }
+    for (std::size_t a = 0; a < 3; ++a)
+      if (!std::isfinite(fit_.tip[a].value) || !std::isfinite(fit_.tip[a].half))
+        throw Error(fmt::format(
+            "how well the log tells the tip along {} is not known, because one short turn tells it alone; "
+            "expected turns that last; swing the tool about two axes, for 10 s each",
+            "xyz"[a]));
     fit_.dimple = Point<'C'>(dimple_);
     measure();
   }
@@ -264,6 +353,8 @@ class PivotSolver {
   std::span<const PivotPose> poses_;
   std::vector<Mat3> turns_, by_;
   std::vector<double> weights_;
+  std::vector<bool> rests_;
+  std::size_t stands_ = 0;  // rests
   Vec3 tip_ = Vec3::Zero(), dimple_ = Vec3::Zero();
   PivotFit fit_;
 };

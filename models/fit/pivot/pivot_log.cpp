@@ -1,5 +1,6 @@
 #include "models/fit/pivot/pivot_log.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,6 +15,24 @@ namespace {
 
 constexpr double kFarthestMarkers = 10.0;  // m: no tracker sees farther; what is farther is in another unit
 constexpr double kUnit = 1e-3;             // of a quaternion: numbers of four digits are as good
+
+constexpr double kNearTip = 5e-3, kNearPlaces = 20e-3;  // m: what looks like metres that were taken for mm
+
+// Well-formed as Unicode's table 3-7 says: nothing that is longer than it need be, and no surrogates.
+bool is_utf8(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  for (std::size_t i = 0; i < text.size();) {
+    const unsigned first = byte(i);
+    const std::size_t more = first < 0x80 ? 0 : first < 0xC2 ? 4 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
+    if (more == 4 || first > 0xF4) return false;
+    const unsigned low = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+    const unsigned high = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+    for (std::size_t k = 1; k <= more; ++k)
+      if (byte(i + k) < (k == 1 ? low : 0x80U) || byte(i + k) > (k == 1 ? high : 0xBFU)) return false;
+    i += more + 1;
+  }
+  return true;
+}
 
 enum : std::size_t { kPoseTime, kPlace, kTurn = kPlace + 3, kToolName = kTurn + 4 };
 
@@ -63,6 +82,9 @@ class PivotReader {
 
   void take_name() {
     const std::string tool(row_.text(kToolName));
+    if (!is_utf8(tool))
+      row_.fail(kToolName,
+                "the tool's name is not UTF-8; expected UTF-8; save the log as UTF-8, or rename it");
     if (!log_.poses.empty() && tool != log_.tool)
       row_.fail(
           kToolName,
@@ -113,6 +135,11 @@ bool is_pivot_log(std::string_view text) {
 
 PivotLog parse_pivot_log(const std::string& text, const std::string& name) {
   return PivotReader(text, name).read();
+}
+
+bool looks_like_metres(const PivotLog& log, const PivotFit& fit) {
+  const auto near = [](const PivotPose& pose) { return pose.X_CT.p().norm() <= kNearPlaces; };
+  return fit.point().e().norm() < kNearTip && std::all_of(log.poses.begin(), log.poses.end(), near);
 }
 
 }  // namespace enc::models

@@ -24,7 +24,13 @@ struct PivotLog {
 [[nodiscard]] bool is_pivot_log(std::string_view text);
 
 // name: of the file, for messages "name:line:column: ...". Throws Error: no such column, no number, a place
-// beyond 10 m, a quaternion whose length is not 1 within 1e-3, time that does not go forwards, a second tool.
+// beyond 10 m, a quaternion whose length is not 1 within 1e-3, time that does not go forwards, a second tool,
+// a name of the tool that is not UTF-8.
 [[nodiscard]] PivotLog parse_pivot_log(const std::string& text, const std::string& name);
+
+// Are these metres in columns of mm? Then the tip is within 5 mm of the markers' origin and all places are
+// within 20 mm of the tracker's, where it sees nothing. A tool that has its origin at its tip, seen in a
+// frame that has its origin at the dimple, looks alike, so this is a doubt and no mistake.
+[[nodiscard]] bool looks_like_metres(const PivotLog& log, const PivotFit& fit);
 
 }  // namespace enc::models

@@ -1,6 +1,7 @@
 // Pivot calibration by hand: exact poses, a constant bias, a slip, what is refused; and its log as a file.
 #include "models/fit/pivot/pivot_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -83,6 +84,53 @@ TEST(PivotFit, AConstantBiasMovesTheDimpleAndNotTheTip) {
   EXPECT_LT((fit.dimple.e() - kDimple - bias).norm(), 1e-12);
 }
 
+// 16.5 s about x and 3.5 s about y, in which the tip is out of its dimple: too few to be refused as a slip.
+TEST(PivotFit, TheSwingOfWhatIsLeftHasToTellTheTip) {
+  std::vector<PivotPose> poses;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.02 * i, angle = 30 * kDeg * std::sin(3.0 * t);
+    const bool out = t >= 16.5;
+    const Quat q = rotation_xyz(out ? Vec3(0, angle, 0) : Vec3(angle, 0, 0));
+    const Vec3 noise = 0.05e-3 * Vec3(i % 7 - 3, i % 5 - 2, i % 11 - 5);
+    poses.push_back({t, {q, Vec3(kDimple - q * kTip + noise + (out ? Vec3(0, 0, 0.03) : Vec3::Zero()))}});
+  }
+  EXPECT_THAT(
+      refusal_of(poses),
+      AllOf(testing::ContainsRegex("one axis alone, \\[1.00, -?0.00, -?0.00\\] in T, without the 17[0-9] "
+                                   "poses that lie apart and are left out: this direction"),
+            HasSubstr("turned by 0.0 deg rms"), HasSubstr("with the tip in its dimple")));
+}
+
+// Half of the turning about y is in poses that are left out.
+TEST(PivotFit, TellsTheSwingOfWhatIsLeft) {
+  std::vector<PivotPose> poses;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.02 * i, angle = 25 * kDeg * std::sin(3.0 * t);
+    const bool out = t >= 17.0;
+    const Quat q = rotation_xyz(t >= 13.5 ? Vec3(0, angle, 0) : Vec3(angle, 0, 0));
+    poses.push_back({t, {q, Vec3(kDimple - q * kTip + (out ? Vec3(0, 0, 0.03) : Vec3::Zero()))}});
+  }
+  const PivotFit fit = models::fit_pivot(poses);
+  EXPECT_EQ(fit.outliers, 150U);
+  poses.resize(850);
+  const PivotFit left = models::fit_pivot(poses);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(fit.swing[k], left.swing[k], 0.1 * kDeg);
+  EXPECT_LT((fit.point().e() - kTip).norm(), 1e-9);
+}
+
+// One turn about y, of 0.4 s, in 20 s about x: nothing says how wrong it is.
+TEST(PivotFit, OneShortTurnHasNoInterval) {
+  std::vector<PivotPose> poses;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.02 * i;
+    const bool aside = t >= 10.0 && t < 10.4;
+    const Quat q = rotation_xyz(kDeg * Vec3(30 * std::sin(3.0 * t), aside ? 60 : 0, 0));
+    poses.push_back({t, {q, Vec3(kDimple - q * kTip)}});
+  }
+  EXPECT_THAT(refusal_of(poses), AllOf(HasSubstr("how well the log tells the tip along x is not known"),
+                                       HasSubstr("expected turns that last; swing the tool")));
+}
+
 // A tip that slips out for a tenth of the time by 5 mm, and poses that are nowhere.
 TEST(PivotFit, ASlipIsLeftOutAndCounted) {
   std::vector<PivotPose> poses = swung(kDeg * Vec3(30, 30, 0));
@@ -106,6 +154,61 @@ TEST(PivotFit, PosesThatAreFarApartDo) {
     poses.push_back({static_cast<double>(i), {q, Vec3(kDimple - q * kTip)}});
   }
   EXPECT_LT((models::fit_pivot(poses).point().e() - kTip).norm(), 1e-12);
+}
+
+TEST(PivotFit, TellsWhatItWeighedPosesWith) {
+  std::vector<PivotPose> poses;
+  for (int i = 0; i < 100; ++i) {
+    const double phase = 0.7 * i * i;  // unlike the one before and the one after
+    const Quat q = rotation_xyz(25 * kDeg * Vec3(std::sin(phase), std::cos(1.9 * phase), 0));
+    poses.push_back({static_cast<double>(i), {q, Vec3(kDimple - q * kTip)}});
+  }
+  const PivotFit fit = models::fit_pivot(poses);
+  EXPECT_LT((fit.point().e() - kTip).norm(), 1e-12);
+  EXPECT_FALSE(fit.neighbours);
+  EXPECT_TRUE(models::fit_pivot(swung(kDeg * Vec3(30, 30, 0))).neighbours);
+}
+
+// At rest for so long, with a tenth of the noise, and then swung; and 30 mm off for the last `slip` seconds.
+std::vector<PivotPose> rested(double rest, double slip = 0.0) {
+  std::vector<PivotPose> poses;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.02 * i, moved = std::max(0.0, t - rest);
+    const Quat q = rotation_xyz(30 * kDeg * Vec3(std::sin(3.0 * moved), std::sin(2.0 * moved), 0));
+    const Vec3 noise = (t < rest ? 1e-5 : 1e-4) * Vec3(i % 7 - 3, i % 5 - 2, i % 11 - 5);
+    const Vec3 off(0, 0, t >= 20.0 - slip ? 0.03 : 0.0);
+    poses.push_back({t, {q, Vec3(kDimple - q * kTip + noise + off)}});
+  }
+  return poses;
+}
+
+TEST(PivotFit, AToolAtRestDoesNotThrowOutItsSwing) {
+  const PivotFit fit = models::fit_pivot(rested(15.0));
+  EXPECT_EQ(fit.outliers, 0U);
+  EXPECT_LT((fit.point().e() - kTip).norm(), 0.2e-3);
+  EXPECT_NEAR(fit.rested, 15.0, 0.1);
+  EXPECT_NEAR(fit.turned, 5.0, 0.1);
+}
+
+TEST(PivotFit, RefusesALogThatIsMostlyRest) {
+  EXPECT_THAT(
+      refusal_of(rested(17.0)),
+      AllOf(testing::ContainsRegex("rested for most of the log: it turned for (2.9|3)[0-9]* s of 20 s"),
+            HasSubstr("expected at least 4 s; swing it about its tip for longer")));
+  // 3 s are 15 % of the log, and 30 % of what turns.
+  EXPECT_THAT(refusal_of(rested(10.0, 3.0)),
+              AllOf(HasSubstr("the tip did not stay"), HasSubstr("30 % more")));
+}
+
+TEST(PivotFit, CountsTheTimeOfPosesAlone) {
+  const Vec3 both = kDeg * Vec3(30, 30, 0);
+  EXPECT_THAT(refusal_of(swung(both, 196)), HasSubstr("are of 3.9 s; expected at least 4 s; record longer"));
+  EXPECT_EQ(refusal_of(swung(both, 206)), "accepted");
+  std::vector<PivotPose> poses = swung(both, 102);
+  for (std::size_t i = 51; i < poses.size(); ++i) poses[i].time += 100.0;
+  EXPECT_THAT(refusal_of(poses),
+              HasSubstr("are of 2 s, without the gaps in them, which are 100 s; expected at "
+                        "least 4 s of poses; record longer, with the markers in view"));
 }
 
 TEST(PivotFit, RefusesWhatDoesNotTellTheTip) {
@@ -166,6 +269,41 @@ TEST(PivotLog, TakesTheMarkersWhereTheToolIsItsTip) {
   ASSERT_EQ(log.poses.size(), 1U);
   EXPECT_EQ(log.tool, "");
   EXPECT_EQ(log.poses[0].X_CT.xyz, (std::array<double, 3>{0.001, 0.002, 0.003}));
+}
+
+TEST(PivotLog, RefusesANameThatIsNotUtf8) {
+  const auto read = [](const std::string& tool) -> std::string {
+    try {
+      return models::parse_pivot_log(kPoseHead + "0.0," + tool + ",1,2,3,0,0,0,1\n", "p.csv").tool;
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  for (const char* good : {"pen",
+                           "Pr\xC3\xBC"
+                           "fspitze",
+                           "\xE2\x82\xAC", "\xF0\x9F\x96\x8A", "\xED\x9F\xBF"})
+    EXPECT_EQ(read(good), good);
+  // Latin-1, one that is cut, too long, a surrogate, beyond the last: one that no text has.
+  for (const char* bad : {"Pr\xFC"
+                          "fspitze",
+                          "\xE2\x82", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\x80",
+                          "\xF0\x8F\xBF\xBF"})
+    EXPECT_EQ(read(bad),
+              "p.csv:2:5: the tool's name is not UTF-8; expected UTF-8; save the log as UTF-8, or "
+              "rename it");
+}
+
+TEST(PivotLog, DoubtsMetresInColumnsOfMillimetres) {
+  models::PivotLog log;
+  log.poses = swung(kDeg * Vec3(30, 30, 0));
+  EXPECT_FALSE(models::looks_like_metres(log, models::fit_pivot(log.poses)));
+  for (PivotPose& pose : log.poses)
+    for (double& x : pose.X_CT.xyz) x *= 1e-3;
+  EXPECT_TRUE(models::looks_like_metres(log, models::fit_pivot(log.poses)));
+  // A tool whose markers' origin is at its tip, a metre from the tracker.
+  for (PivotPose& pose : log.poses) pose.X_CT.xyz[2] += 1.0;
+  EXPECT_FALSE(models::looks_like_metres(log, models::fit_pivot(log.poses)));
 }
 
 TEST(PivotLog, IsToldByItsHeader) {
