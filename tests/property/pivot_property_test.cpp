@@ -1,5 +1,6 @@
 // Pivot calibration of drawn poses: the tip is as near as it is told, and inside of its intervals as often as
 // these say.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -25,16 +26,25 @@ const std::vector<Vec3> kMarkers{{0, 0, 0}, {0.052, 0, 0}, {0, 0.041, 0}, {-0.01
 
 using Tracker = std::function<Pose<'C', 'T'>(const Pose<'C', 'T'>&)>;
 
-// 20 s at 100 Hz, first about x and then about y, or both at once.
-std::vector<PivotPose> swung(bool one_after_the_other, const Tracker& tracker) {
+// How a person swings the tool, s. At rest it stands as it does when it begins to turn.
+struct Swing {
+  bool one_after_the_other = false;  // about x and then about y, or both at once
+  double lasts = 20.0;
+  double rests = 0.0;  // before it, with a tracker of its own
+};
+
+// At 100 Hz.
+std::vector<PivotPose> swung(const Swing& swing, const Tracker& tracker, const Tracker& at_rest = {}) {
   std::vector<PivotPose> poses;
-  for (int i = 0; i < 2000; ++i) {
-    const double t = 0.01 * i;
+  const int rest = static_cast<int>(std::lround(100.0 * swing.rests));
+  for (int i = -rest; i <= static_cast<int>(std::lround(100.0 * swing.lasts)); ++i) {
+    const double t = std::max(0.0, 0.01 * i);
     const double x = kSide * std::sin(M_PI * t), y = kSide * std::sin(0.74 * M_PI * t + 1.0);
-    const bool first = t < 10.0 || !one_after_the_other, second = t >= 10.0 || !one_after_the_other;
+    const bool first = t < 0.5 * swing.lasts || !swing.one_after_the_other;
+    const bool second = t >= 0.5 * swing.lasts || !swing.one_after_the_other;
     const Quat q(Eigen::AngleAxisd(first ? x : 0.0, Vec3::UnitX()) *
                  Eigen::AngleAxisd(second ? y : 0.0, Vec3::UnitY()));
-    poses.push_back({t, tracker({q, Vec3(kDimple - q * kTip)})});
+    poses.push_back({0.01 * (i + rest), (i < 0 ? at_rest : tracker)({q, Vec3(kDimple - q * kTip)})});
   }
   return poses;
 }
@@ -65,11 +75,11 @@ Tracker of_markers(Stream& random, double noise) {
   };
 }
 
-// Errors that last for some 0.1 s, as those of a tracker that filters.
-Tracker slow(Stream& random, double place, double turn) {
+// Errors that last for some 0.1 s, as those of a tracker that filters, or for longer.
+Tracker slow(Stream& random, double place, double turn, double lasts = 0.1) {
   std::array<Vec3, 2> off{random.normal3(), random.normal3()};
-  return [&random, place, turn, off ](const Pose<'C', 'T'>& X) mutable -> Pose<'C', 'T'> {
-    const double stays = std::exp(-0.1);
+  return [&random, place, turn, lasts, off ](const Pose<'C', 'T'>& X) mutable -> Pose<'C', 'T'> {
+    const double stays = std::exp(-0.01 / lasts);
     for (Vec3& x : off) x = stays * x + std::sqrt(1.0 - stays * stays) * random.normal3();
     return {(X.q() * turned(turn * off[1])).normalized(), Vec3(X.p() + place * off[0])};
   };
@@ -81,12 +91,14 @@ struct Tally {
   int near = 0;                      // within 0.1 mm
   Vec3 mean = Vec3::Zero();          // error, m
 };
-Tally tally(const std::string& name, bool one_after_the_other, const std::function<Tracker(Stream&)>& tracker,
-            int draws = 300) {
+using Trackers = std::function<Tracker(Stream&)>;
+Tally tally(const std::string& name, const Swing& swing, const Trackers& tracker, int draws = 300,
+            const Trackers& at_rest = {}) {
   Tally all;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(draws); ++seed) {
     Stream random(seed, name);
-    const PivotFit fit = models::fit_pivot(swung(one_after_the_other, tracker(random)));
+    const PivotFit fit =
+        models::fit_pivot(swung(swing, tracker(random), at_rest ? at_rest(random) : Tracker{}));
     const Vec3 error = fit.point().e() - kTip;
     for (std::size_t a = 0; a < 3; ++a)
       all.held[a] += fit.tip[a].holds(kTip(static_cast<Eigen::Index>(a))) ? 1 : 0;
@@ -104,14 +116,14 @@ void expect_held(const Tally& all) {
 // [truth.tracker] of models/rigs/sim.toml: its noise, and its bias, which is constant.
 TEST(PivotProperty, TheShippedTrackerTellsTheTip) {
   const Vec3 noise = 1e-3 * Vec3(0.0191, 0.0115, 0.0109), bias = 1e-3 * Vec3(0.0779, 0.0659, 0.1192);
-  const Tally all = tally("shipped", false, [&](Stream& r) { return noisy(r, noise, 0.0, bias); });
+  const Tally all = tally("shipped", {}, [&](Stream& r) { return noisy(r, noise, 0.0, bias); });
   EXPECT_EQ(all.near, all.draws);
   expect_held(all);
 }
 
 TEST(PivotProperty, ATrackerThatTurnsALittleTellsTheTip) {
   const Tally all =
-      tally("fine", false, [](Stream& r) { return noisy(r, Vec3::Constant(0.015e-3), 0.02 * M_PI / 180.0); });
+      tally("fine", {}, [](Stream& r) { return noisy(r, Vec3::Constant(0.015e-3), 0.02 * M_PI / 180.0); });
   EXPECT_EQ(all.near, all.draws);
   expect_held(all);
 }
@@ -120,7 +132,7 @@ TEST(PivotProperty, ATrackerThatTurnsALittleTellsTheTip) {
 TEST(PivotProperty, RoughMarkersTellTheTipToATenthOfAMillimetre) {
   for (const bool one_after_the_other : {false, true}) {
     const Tally all = tally(
-        "markers", one_after_the_other, [](Stream& r) { return of_markers(r, 0.3e-3); }, 100);
+        "markers", {one_after_the_other}, [](Stream& r) { return of_markers(r, 0.3e-3); }, 100);
     EXPECT_GE(all.near, 95 * all.draws / 100);
     expect_held(all);
   }
@@ -129,7 +141,7 @@ TEST(PivotProperty, RoughMarkersTellTheTipToATenthOfAMillimetre) {
 // Plain least squares put it 0.02 mm too near to the markers, and the intervals beside it.
 TEST(PivotProperty, NoiseOfTheRotationDrawsNoTipToTheMarkers) {
   const Tally all =
-      tally("rough", true, [](Stream& r) { return noisy(r, Vec3::Constant(0.15e-3), 0.2 * M_PI / 180.0); });
+      tally("rough", {true}, [](Stream& r) { return noisy(r, Vec3::Constant(0.15e-3), 0.2 * M_PI / 180.0); });
   EXPECT_LE(std::abs(all.mean.z()), 0.01e-3);  // of a mean that scatters by 0.0015 mm
   expect_held(all);
 }
@@ -137,7 +149,39 @@ TEST(PivotProperty, NoiseOfTheRotationDrawsNoTipToTheMarkers) {
 TEST(PivotProperty, NeighbouringErrorsThatAreAlikeMakeTheIntervalsWider) {
   for (const bool one_after_the_other : {false, true})
     expect_held(
-        tally("slow", one_after_the_other, [](Stream& r) { return slow(r, 0.15e-3, 0.2 * M_PI / 180.0); }));
+        tally("slow", {one_after_the_other}, [](Stream& r) { return slow(r, 0.15e-3, 0.2 * M_PI / 180.0); }));
+}
+
+// Few blocks tell little of how unlike they are.
+TEST(PivotProperty, ShortLogsHaveWiderIntervals) {
+  for (const double lasts : {4.0, 5.0, 6.0, 8.0})
+    for (const bool one_after_the_other : {false, true}) {
+      SCOPED_TRACE(lasts);
+      expect_held(tally("short", {one_after_the_other, lasts},
+                        [](Stream& r) { return slow(r, 0.15e-3, 0.2 * M_PI / 180.0); }));
+    }
+}
+
+// What `intervals` of `encounter calibrate` promises.
+TEST(PivotProperty, ErrorsMayLastForAThirdOfASecond) {
+  for (const double lasts : {8.0, 20.0})
+    for (const bool one_after_the_other : {false, true}) {
+      SCOPED_TRACE(lasts);
+      expect_held(tally("long", {one_after_the_other, lasts},
+                        [](Stream& r) { return slow(r, 0.15e-3, 0.2 * M_PI / 180.0, 0.3); }));
+    }
+}
+
+// A tracker is quieter while the tool rests, which is no reason to leave its swing out.
+TEST(PivotProperty, ARestBeforeTheSwingDoesNoHarm) {
+  for (const double rests : {15.0, 12.0})
+    for (const bool one_after_the_other : {false, true}) {
+      SCOPED_TRACE(rests);
+      expect_held(tally(
+          "rest", {one_after_the_other, 20.0 - rests, rests},
+          [](Stream& r) { return noisy(r, Vec3::Constant(0.1e-3), 0.05 * M_PI / 180.0); }, 200,
+          [](Stream& r) { return noisy(r, Vec3::Constant(0.015e-3), 0.01 * M_PI / 180.0); }));
+    }
 }
 
 }  // namespace
