@@ -1,6 +1,8 @@
 // `encounter calibrate POSES.csv`: where the tip of a tool is in its markers, out of a tool that is swung
 // about its tip.
 #include <array>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 #include "app/fit/commands.h"
 #include "core/error.h"
 #include "models/fit/pivot/pivot_log.h"
+#include "models/schema/wording.h"
 
 namespace enc::app {
 namespace {
@@ -28,12 +31,26 @@ std::array<double, 3> halves_of(const PivotFit& fit) {
   return {fit.tip[0].half, fit.tip[1].half, fit.tip[2].half};
 }
 
+constexpr std::string_view kMetres =
+    "the tip is within 5 mm of the markers' origin, and all poses within 20 mm of the tracker's: if the log "
+    "is in metres, multiply its places by 1000";
+
+// What the reader should know before the numbers.
+std::string pivot_notes(const PivotLog& log, const PivotFit& fit) {
+  std::string out;
+  if (fit.rested > fit.turned)
+    out += fmt::format("note        the tool rested for {:.1f} s, most of the log: {:.1f} s tell the tip\n",
+                       fit.rested, fit.turned);
+  if (models::looks_like_metres(log, fit)) out += fmt::format("note        {}\n", kMetres);
+  return out;
+}
+
 std::string pivot_text(const PivotLog& log, const PivotFit& fit) {
   std::string out = fmt::format(
-      "{} poses{} in {:.1f} s{}\n{:6}{:>24}\n", log.poses.size(), log.tool.empty() ? "" : " of " + log.tool,
-      length_of(log),
+      "{} poses{} in {:.1f} s{}\n{}{:6}{:>24}\n", log.poses.size(),
+      log.tool.empty() ? "" : " of " + models::printable(log.tool), length_of(log),
       fit.outliers > 0 ? fmt::format("; {} left out, farther than 6 standard deviations", fit.outliers) : "",
-      "axis", "tip in T, mm");
+      pivot_notes(log, fit), "axis", "tip in T, mm");
   for (std::size_t a = 0; a < 3; ++a)
     out += fmt::format("{:<6}{:>24}\n", "xyz"[a],
                        fmt::format("{:.4f} +- {:.4f}", fit.tip[a].value * kMm, fit.tip[a].half * kMm));
@@ -44,11 +61,13 @@ std::string pivot_text(const PivotLog& log, const PivotFit& fit) {
              "dimple      [{}] mm in C; a constant bias of the tracker is in it, and not in the tip\n\n"
              "[[tool]]\ntip_mm = [{}]  # +- {}\n\n"
              "note        of a round tip this is the centre of its sphere, as tip_mm wants it\n"
-             "intervals   95 % for each axis, from blocks of 0.25 to 2 s, the widest one: neighbouring "
-             "errors are alike\n",
+             "intervals   95 % for each axis, of errors that last up to some 0.3 s, from blocks of 0.25 to "
+             "2 s, the widest one; by {}\n",
              fit.rms * kMm, fit.most * kMm, fit.wander * kMm, three(fit.swing, kDeg, 1),
              three(fit.least_turned.xyz, 1.0, 2), three(fit.dimple.xyz, kMm, 3),
-             three(fit.point().xyz, kMm, 4), three(halves_of(fit), kMm, 4));
+             three(fit.point().xyz, kMm, 4), three(halves_of(fit), kMm, 4),
+             fit.neighbours ? "the rotations of neighbours"
+                            : "plain least squares, as neighbours turn too unlike");
 }
 
 Json list_of(const std::array<double, 3>& x, double unit) { return {x[0] * unit, x[1] * unit, x[2] * unit}; }
@@ -67,6 +86,10 @@ Json pivot_json(const PivotLog& log, const PivotFit& fit) {
   json["wander_mm"] = fit.wander * kMm;
   json["swing_deg"] = list_of(fit.swing, kDeg);
   json["least_turned"] = list_of(fit.least_turned.xyz, 1.0);
+  json["turned_s"] = fit.turned;
+  json["rested_s"] = fit.rested;
+  json["method"] = fit.neighbours ? "neighbours" : "least_squares";
+  if (models::looks_like_metres(log, fit)) json["note"] = kMetres;
   return json;
 }
 
@@ -83,7 +106,8 @@ PivotFit fit_of(const PivotLog& log, const std::string& name) {
 int calibrate_pivot(const std::string& csv, const CalibrateOptions& options) {
   const PivotLog log = models::parse_pivot_log(csv, options.log);
   const PivotFit fit = fit_of(log, options.log);
-  fmt::print("{}", options.json ? pivot_json(log, fit).dump(2) + "\n" : pivot_text(log, fit));
+  // In ASCII: a name may hold what a terminal obeys.
+  fmt::print("{}", options.json ? pivot_json(log, fit).dump(2, ' ', true) + "\n" : pivot_text(log, fit));
   return 0;
 }
 
