@@ -52,7 +52,10 @@ TEST_F(CalibratePivot, TellsTheTip) {
   EXPECT_THAT(r.out, AllOf(HasSubstr("500 poses of pen in 10.0 s\n"), HasSubstr("\nx       "),
                            testing::ContainsRegex("z +-(120.00|119.99)[0-9]+ \\+- 0.0[0-9]+\n"),
                            testing::ContainsRegex("\\[\\[tool\\]\\]\ntip_mm = \\[[23]\\.[09]"),
-                           HasSubstr("the centre of its sphere"), HasSubstr("deg rms; the first is [")));
+                           HasSubstr("the centre of its sphere"), HasSubstr("deg rms; the first is ["),
+                           HasSubstr("of errors that last up to some 0.3 s"),
+                           HasSubstr("; by the rotations of neighbours\n"), testing::Not(HasSubstr("rested")),
+                           testing::Not(HasSubstr("metres"))));
   const Result json = run_program({"calibrate", log, "--json"});
   const auto told = nlohmann::json::parse(json.out);
   for (std::size_t a = 0; a < 3; ++a) {
@@ -64,6 +67,10 @@ TEST_F(CalibratePivot, TellsTheTip) {
   EXPECT_EQ(told["poses"], 500);
   EXPECT_EQ(told["outliers"], 0);
   EXPECT_EQ(told["tool"], "pen");
+  EXPECT_EQ(told["method"], "neighbours");
+  EXPECT_NEAR(told["turned_s"].get<double>(), 9.98, 1e-9);
+  EXPECT_EQ(told["rested_s"], 0.0);
+  EXPECT_FALSE(told.contains("note"));
   EXPECT_NEAR(told["residual_rms_mm"].get<double>(), 0.05 / std::sqrt(2.0), 0.002);
   EXPECT_NEAR(told["residual_max_mm"].get<double>(), 0.05, 0.01);
 }
@@ -74,6 +81,85 @@ TEST_F(CalibratePivot, ASlipIsLeftOutAndCounted) {
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out, AllOf(HasSubstr("; 24 left out, farther than 6 standard deviations"),
                            testing::ContainsRegex("medians of 0.25 s wander by up to [78]\\.")));
+}
+
+// The second axis is turned about with the tip out of its dimple, in 17 % of the log.
+TEST_F(CalibratePivot, TheSwingOfWhatIsLeftIsChecked) {
+  const auto out = [](double t) { return t > 8.29; };
+  const std::string log = write("o.csv", kHead + rows(
+                                                     [&](double t) {
+                                                       const double angle = 30 * std::sin(3.0 * t);
+                                                       return out(t) ? Vec3(0, angle, 0) : Vec3(angle, 0, 0);
+                                                     },
+                                                     [&](double t) { return out(t) ? 30.0 : 0.0; }));
+  EXPECT_THAT(
+      line({"calibrate", log}),
+      AllOf(HasSubstr("o.csv:1:1: the tool turned about one axis alone, [1.00, "),
+            testing::ContainsRegex("in T, without the 8[0-9] poses that lie apart and are left out: "),
+            HasSubstr("by 0.0 deg rms"), HasSubstr("either side, with the tip in its dimple")));
+}
+
+TEST_F(CalibratePivot, SaysThatTheToolRested) {
+  const auto late = [](double from) {
+    return [from](double t) { return about_two_axes(std::max(0.0, t - from)); };
+  };
+  const std::string log = write("l.csv", kHead + rows(late(5.5)));
+  const Result r = run_program({"calibrate", log});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out,
+              testing::ContainsRegex(
+                  "\nnote        the tool rested for 5.[56] s, most of the log: 4.[45] s tell the tip\n"));
+  const auto told = nlohmann::json::parse(run_program({"calibrate", log, "--json"}).out);
+  EXPECT_NEAR(told["rested_s"].get<double>(), 5.5, 0.1);
+  EXPECT_EQ(told["outliers"], 0);
+  EXPECT_THAT(
+      line({"calibrate", write("r.csv", kHead + rows(late(7.0)))}),
+      testing::ContainsRegex("r.csv:1:1: the tool rested for most of the log: it turned for (3|2.9)[0-9]* s "
+                             "of 9.98 s; expected at least 4 s; swing it"));
+}
+
+// What a terminal obeys is not printed, and what is no text has no name.
+TEST_F(CalibratePivot, AToolsNameIsTextAndNothingElse) {
+  const auto named = [&](const std::string& name) {
+    std::string text = kHead + rows(about_two_axes);
+    for (std::size_t at = text.find(",pen,"); at != std::string::npos; at = text.find(",pen,", at + 1))
+      text.replace(at + 1, 3, name);
+    return write("n.csv", text);
+  };
+  const std::string red =
+      "p\x1b[31mn\xC2\x9B"
+      "2J";
+  const Result r = run_program({"calibrate", named(red)});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, testing::StartsWith("500 poses of p [31mn  2J in 10.0 s\n"));
+  const Result json = run_program({"calibrate", named(red), "--json"});
+  EXPECT_EQ(nlohmann::json::parse(json.out)["tool"], red);
+  for (const char c : json.out) ASSERT_TRUE(c == '\n' || (c >= ' ' && c < 127)) << json.out;
+  for (const std::string how : {"", "--json"}) {
+    std::vector<std::string> words{"calibrate", named("p\xFCn")};
+    if (!how.empty()) words.push_back(how);
+    EXPECT_THAT(line(words), HasSubstr("n.csv:2:6: the tool's name is not UTF-8; expected UTF-8; save"));
+  }
+}
+
+TEST_F(CalibratePivot, DoubtsMetresInColumnsOfMillimetres) {
+  std::istringstream in(rows(about_two_axes));
+  std::string text = kHead;
+  for (std::string row; std::getline(in, row);) {
+    std::vector<std::string> cells;
+    std::istringstream parts(row);
+    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+    for (std::size_t k = 2; k < 5; ++k) cells[k] = fmt::format("{:.7f}", 1e-3 * std::stod(cells[k]));
+    text += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  const std::string log = write("m.csv", text);
+  const Result r = run_program({"calibrate", log});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out,
+              HasSubstr("\nnote        the tip is within 5 mm of the markers' origin, and all poses within "
+                        "20 mm of the tracker's: if the log is in metres, multiply its places by 1000\n"));
+  const auto told = nlohmann::json::parse(run_program({"calibrate", log, "--json"}).out);
+  EXPECT_THAT(told["note"].get<std::string>(), HasSubstr("if the log is in metres"));
 }
 
 TEST_F(CalibratePivot, RefusesMotionThatDoesNotTellTheTip) {
@@ -97,6 +183,14 @@ TEST_F(CalibratePivot, RefusesMotionThatDoesNotTellTheTip) {
               HasSubstr("m.csv:1:1: there are 29 poses of the tool; expected at least 30; record longer"));
   EXPECT_THAT(refused(good.substr(0, good.find("2.00,pen"))),
               HasSubstr("m.csv:1:1: the poses of the tool are of 1.98 s; expected at least 4 s"));
+  EXPECT_THAT(refused(good.substr(0, good.find("3.92,pen"))),
+              HasSubstr("tool are of 3.9 s; expected at least 4 s"));
+  EXPECT_EQ(run_program({"calibrate", write("e.csv", kHead + good.substr(0, good.find("4.12,pen")))}).code,
+            0);
+  EXPECT_THAT(
+      refused(good.substr(0, good.find("1.00,pen")) + good.substr(good.find("9.00,pen"))),
+      HasSubstr("m.csv:1:1: the poses of the tool are of 1.96 s, without the gaps in them, which are 8.02 s; "
+                "expected at least 4 s of poses; record longer, with the markers in view"));
 }
 
 TEST_F(CalibratePivot, RefusesBadRowsInOneLine) {
@@ -156,13 +250,18 @@ TEST_F(CalibratePivot, ATableWithTipAndMarkersIsAskedForItsPoses) {
   EXPECT_THAT(line({"calibrate", log}), HasSubstr("b.csv:"));
 }
 
-// What a record of the laboratory holds: here W has the axes of C, and the tip is at [0, 0, -120] mm in T.
+// What a record of the laboratory holds: C is turned in W, and the tip is at [0, 0, -120] mm in T. The tool
+// stands upright, so T has the axes of W.
 TEST_F(CalibratePivot, ReadsWhatExportWrites) {
-  ASSERT_EQ(run_program({"run", shipped_scene("clamped_tool"), "--for-s", "5", "--record", path("r.encrec")},
+  const Quat turn = rotation_xyz(M_PI / 180.0 * Vec3(20, -30, 50));  // of C in W, unlike its inverse
+  const std::string set = "frames.W_C.rotation_deg=[20, -30, 50]";
+  ASSERT_EQ(run_program({"run", shipped_scene("clamped_tool"), "--for-s", "5", "--record", path("r.encrec"),
+                         "--set", "rig." + set, "--set", "truth." + set},
                         kShipped)
                 .code,
             0);
   ASSERT_EQ(run_program({"export", path("r.encrec"), "--csv", path("r.csv")}).code, 0);
+  const Quat upright = turn.conjugate();  // of T in C
   std::ifstream in(path("r.csv"));
   int seen = 0;
   for (std::string row; std::getline(in, row);) {
@@ -176,7 +275,10 @@ TEST_F(CalibratePivot, ReadsWhatExportWrites) {
     const auto number = [&](std::size_t k) { return std::stod(cells[k]); };
     const Vec3 tip_W(number(11), number(12), number(13)), p(number(17), number(18), number(19));
     const Quat q(number(23), number(20), number(21), number(22));
-    ASSERT_LT((Vec3(0, -900, 600) + p + q * Vec3(0, 0, -120) - tip_W).norm(), 1e-9) << row;
+    // q and -q are one rotation.
+    ASSERT_LT(std::min((q.coeffs() - upright.coeffs()).norm(), (q.coeffs() + upright.coeffs()).norm()), 1e-9)
+        << row;
+    ASSERT_LT((Vec3(0, -900, 600) + turn * (p + q * Vec3(0, 0, -120)) - tip_W).norm(), 1e-9) << row;
   }
   EXPECT_NEAR(seen, 500, 20);
   EXPECT_THAT(line({"calibrate", path("r.csv"), "--pivot"}), HasSubstr("r.csv:1:1: the tool hardly turned"));
