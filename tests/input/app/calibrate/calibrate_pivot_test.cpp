@@ -250,8 +250,8 @@ TEST_F(CalibratePivot, ATableWithTipAndMarkersIsAskedForItsPoses) {
   EXPECT_THAT(line({"calibrate", log}), HasSubstr("b.csv:"));
 }
 
-// What a record of the laboratory holds: C is turned in W, and the tip is at [0, 0, -120] mm in T. The tool
-// stands upright, so T has the axes of W.
+// What a record of the laboratory holds: C is turned in W, and the tip is at [0, 0, -120] mm in T. A tool
+// that stands upright has the mean of its markers, [8.75, 2.75, 3] mm in T, above its tip.
 TEST_F(CalibratePivot, ReadsWhatExportWrites) {
   const Quat turn = rotation_xyz(M_PI / 180.0 * Vec3(20, -30, 50));  // of C in W, unlike its inverse
   const std::string set = "frames.W_C.rotation_deg=[20, -30, 50]";
@@ -261,7 +261,7 @@ TEST_F(CalibratePivot, ReadsWhatExportWrites) {
                 .code,
             0);
   ASSERT_EQ(run_program({"export", path("r.encrec"), "--csv", path("r.csv")}).code, 0);
-  const Quat upright = turn.conjugate();  // of T in C
+  const Quat upright = turn.conjugate() * rotation_z_to(Vec3(8.75, 2.75, 123)).conjugate();  // of T in C
   std::ifstream in(path("r.csv"));
   int seen = 0;
   for (std::string row; std::getline(in, row);) {
