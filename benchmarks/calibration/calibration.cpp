@@ -49,6 +49,8 @@ Wrong spoilt(models::Setup setup, std::uint64_t seed) {
   twin.frames.H_F.rotation = angles_xyz(wrong.R_HF);
   wrong.mass = wrong.setup.rig.force.mass + (random.uniform() < 0.5 ? -kMass : kMass);
   twin.hexapod.mass = wrong.mass;
+  // The shipped twin sees turns exactly; markers that are 50 mm apart and off by 0.09 mm do not.
+  twin.tracker.turn_noise = 0.1 * M_PI / 180.0;
   // What a calibration leaves over is in it: the paper's is that of its own (sources/tracking 2).
   twin.tracker.bias = Vec3::Zero();
   return wrong;

@@ -41,11 +41,10 @@ struct FramesRig {
   PoseSpec H_F{{0.0, 0.0, -0.127}, {0, 0, 0}};
 };
 
-// A real machine is not armed without its day, and not when that is too long ago.
 struct CalibrationRig {
   std::string file;  // of `encounter calibrate RIG`, beside the rig's; empty: what the rig file says is so
   std::string date;  // on which frames, geometry and force sensor were measured, "2026-11-27"; empty: never
-  std::int64_t valid = 30;  // days from then on
+  std::int64_t valid = 30;  // days from then on, in which a real machine is armed
 };
 
 struct ManipulatorRig {
