@@ -106,8 +106,8 @@ Meaning meaning_of(const Divergence& one) {
               "mm",
               1e3,
               4,
-              "the object stands {} nearer to the probe than the twin's",
-              "the object stands {} farther from the probe than the twin's"};
+              "the object, or the machine, stands elsewhere: {} nearer to each other than the twin's",
+              "the object, or the machine, stands elsewhere: {} farther from each other than the twin's"};
     case Quantity::force_time:
       return {"time",
               "ms",
@@ -116,6 +116,16 @@ Meaning meaning_of(const Divergence& one) {
               2,
               "the force comes {} later than the twin's",
               "the force comes {} earlier than the twin's"};
+    case Quantity::force_rest:
+      return {
+          "rest",
+          "N rms",
+          "N",
+          1.0,
+          4,
+          "the force differs from the twin's by {} that no stiffness, place or time explains: the object has "
+          "another law, or the sensor is worse, and what else is said of the force is to be doubted",
+          "the force differs from the twin's by {} less than expected: the sensor is better"};
     case Quantity::rendered:
       break;
   }
@@ -173,13 +183,18 @@ std::string report(const std::string& record, const std::vector<std::string>& se
     text += fmt::format("note        {}: {}\n", word_of(one.channel), one.text);
   if (std::any_of(shadow.found.begin(), shadow.found.end(), [](const Divergence& x) { return x.vague(); }))
     text +=
-        "note        not told: this record knows it less well than its bound is; a longer or faster one "
-        "may\n";
+        "note        not told: this record, or the phase of the tracker's clocks that nobody knows, leaves "
+        "it "
+        "less well known than its bound is\n";
   for (const Divergence& one : shadow.found)
     if (one.diverges()) text += fmt::format("diverges    {}: {}\n", word_of(one.channel), sentence(one));
   if (shadow.diverges()) return text;
-  return text + (shadow.found.empty() ? "verdict     nothing in this record can be held against a twin\n"
-                                      : "verdict     no channel diverges\n");
+  if (shadow.found.empty()) return text + "verdict     nothing in this record can be held against a twin\n";
+  const auto vague =
+      std::count_if(shadow.found.begin(), shadow.found.end(), [](const Divergence& x) { return x.vague(); });
+  return text + fmt::format("verdict     no channel diverges; {} agree, {} not told, {} not judged\n",
+                            shadow.found.size() - static_cast<std::size_t>(vague), vague,
+                            shadow.unjudged.size());
 }
 
 OrderedJson number_or_none(double x) { return std::isfinite(x) ? OrderedJson(x) : OrderedJson(nullptr); }

@@ -48,12 +48,25 @@ void BlockFit::add(double t, const Eigen::VectorXd& row, double y) {
   x_.insert(x_.end(), row.data(), row.data() + row.size());
 }
 
+void BlockFit::add(double t, const Eigen::VectorXd& row, double y, std::ptrdiff_t group) {
+  if (group != group_) groups_.push_back(y_.size());
+  group_ = group;
+  add(t, row, y);
+}
+
 BlockFit::Result BlockFit::solve() const {
   Result result{std::vector<models::Interval>(columns_), kUnset};
   if (y_.empty()) return result;
   const auto n = static_cast<Eigen::Index>(columns_), rows = static_cast<Eigen::Index>(y_.size());
-  const Eigen::Map<const Eigen::MatrixXd> x(x_.data(), n, rows);
-  const Eigen::Map<const Eigen::VectorXd> y(y_.data(), rows);
+  Eigen::MatrixXd x = Eigen::Map<const Eigen::MatrixXd>(x_.data(), n, rows);
+  Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(y_.data(), rows);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const auto from = static_cast<Eigen::Index>(groups_[g]);
+    const Eigen::Index to = g + 1 < groups_.size() ? static_cast<Eigen::Index>(groups_[g + 1]) : rows;
+    const Eigen::VectorXd mean = x.middleCols(from, to - from).rowwise().mean();
+    x.middleCols(from, to - from).colwise() -= mean;
+    y.segment(from, to - from).array() -= y.segment(from, to - from).mean();
+  }
   const Columns columns = told_apart(x * x.transpose());
   const auto m = static_cast<Eigen::Index>(columns.kept.size());
   if (m == 0 || rows <= m) return result;

@@ -18,6 +18,9 @@ class BlockFit {
 
   // row: as many numbers as there are columns.
   void add(double t, const Eigen::VectorXd& row, double y);
+  // The same, of a group that has an offset of its own, which nobody asks for: the mean of the group is taken
+  // off its rows, which is the same least squares [Frisch and Waugh 1933]. The rows of a group together.
+  void add(double t, const Eigen::VectorXd& row, double y, std::ptrdiff_t group);
   [[nodiscard]] std::size_t rows() const { return y_.size(); }
 
   struct Result {
@@ -31,6 +34,8 @@ class BlockFit {
   std::size_t columns_;
   double block_;
   std::vector<double> t_, y_, x_;
+  std::vector<std::size_t> groups_;  // first row of each
+  std::ptrdiff_t group_ = -1;        // of the last row; -1: none
 };
 
 }  // namespace enc::trial

@@ -9,6 +9,9 @@ namespace enc::trial::bounds {
 
 // Commands go out and poses come in once a cycle of 1 kHz: nobody sees less than that.
 inline constexpr double kMachineTime = 1.0e-3;  // s
+// The twin has no wire. Where the driver sends set-points in cycles of its own, one waits for up to a cycle,
+// and the answer is asked for up to half a cycle later. Of each cycle:
+inline constexpr double kMachineCycles = 1.5;
 // Commands are rounded to 3 um, a move ends within some 0.5 um rms, and a wire's numbers to 0.1 um: 10 um on
 // each axis holds all of them at their worst, and as much for a machine that was told to be elsewhere in
 // between.
@@ -34,6 +37,9 @@ inline constexpr double kStiffness = 0.02;  // share
 inline constexpr double kObjectPlace = 0.1e-3;  // m
 // Likewise: force and pose of one cycle may be read a cycle apart, on either side of each.
 inline constexpr double kForceTime = 2.0e-3;  // s
+// What neither size nor place nor time explains, beside what the twin's own sensor leaves: 2 % of the 2 N
+// that half of a press is felt with. Another law of the object is above it, and so is a sensor of 0.05 N rms.
+inline constexpr double kForceRest = 0.04;  // N rms
 // As kStiffness, with the machine's 3 um steps and its lag in place of the place.
 inline constexpr double kRendered = 0.02;  // share
 

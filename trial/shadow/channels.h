@@ -79,6 +79,8 @@ class TwinTrackers {
   return scene.X_WC * (tool.X_CT * scene.tools[static_cast<std::size_t>(tool.tool)].tip.centre);
 }
 
+// s by which packets are older than their stamps say when they come: mean, and what blocks of time say.
+[[nodiscard]] models::Interval mean_age(const std::vector<SeenPacket>& packets);
 // A tool that the machine carries, and one that presses its tip.
 void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow);
 void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow);

@@ -1,5 +1,6 @@
 // What the machine was told, and where it says that it was.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -51,6 +52,19 @@ BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& said, doub
   return fit.solve();
 }
 
+// s between two set-points of the machine's driver, [driver.NAME] cycle_ms; 0 where it has none.
+double wire_cycle(const RigSpec& rig) {
+  for (const DriverTable& table : rig.drivers)
+    for (const DriverValue& value : table.values) {
+      double ms = 0.0;
+      const char* end = value.text.data() + value.text.size();
+      if (table.name == rig.manipulator.driver && value.key == "cycle_ms" &&
+          std::from_chars(value.text.data(), end, ms).ptr == end)
+        return 1e-3 * ms;
+    }
+  return 0.0;
+}
+
 }  // namespace
 
 void see_machine(const Tape& tape, Shadow& shadow) {
@@ -84,7 +98,8 @@ void see_machine(const Tape& tape, Shadow& shadow) {
   }
   constexpr double kMoved = 0.1e-3;  // m
   if (travel > kMoved)
-    add(shadow, Channel::machine, Quantity::machine_time, {late, found.values[3].half}, bounds::kMachineTime);
+    add(shadow, Channel::machine, Quantity::machine_time, {late, found.values[3].half},
+        bounds::kMachineTime + bounds::kMachineCycles * wire_cycle(tape.twin.rig));
   else
     cannot_judge(shadow, Channel::machine, "it stood still: when it answers is not in this record");
   const Mat3 axes = tape.scene.X_WR.q().toRotationMatrix();

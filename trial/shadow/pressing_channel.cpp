@@ -146,11 +146,12 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
     const Held held = held_by_twin(tape, pressed, X_WR, i, t);
     trackers.advance(t, held.tool, held.X_WT);
   }
-  see_ages(recorded, ages.packets(), true, shadow);
+  see_ages(recorded, ages.packets(), !told || !found.stamps.known(), shadow);
   if (!told)
     return cannot_judge(shadow, Channel::tool,
-                        "no tool pressed the tip, and the machine carried none: where it should be seen is "
-                        "not known");
+                        fmt::format("{} packets came of a tool that pressed the tip, and the machine carried "
+                                    "none; expected {}: where it should be seen is not known",
+                                    found.packets, kFewest));
   std::vector<double> away, stamps, gives;
   for (std::vector<double>* one : {&away, &stamps, &gives}) one->reserve(kTwins);
   for (const std::vector<SeenPacket>& packets : trackers.packets()) {
@@ -161,9 +162,21 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
   }
   add(shadow, Channel::tool, Quantity::registration, beside_twins(found.away, away), bounds::kRegistration,
       "away");
-  if (found.stamps.known())
+  shadow.unjudged.push_back(
+      {Channel::tool, "how far it is seen to the side of the tip that it presses: both are round there"});
+  if (found.stamps.known()) {
     add(shadow, Channel::tool, Quantity::tool_stamps, beside_twins(found.stamps, stamps),
         bounds::kToolStamps);
+    // By its stamp a packet is younger than it is by what that is late.
+    const auto& own = ages.packets();
+    std::vector<double> old;
+    old.reserve(kTwins);
+    for (std::size_t i = 0; i < own.size(); ++i) old.push_back(mean_age(own[i]).value + stamps[i]);
+    const models::Interval age = mean_age(recorded);
+    add(shadow, Channel::tool, Quantity::tool_latency,
+        beside_twins({age.value + found.stamps.value, std::hypot(age.half, found.stamps.half)}, old),
+        bounds::kToolLatency);
+  }
   const models::Interval more = beside_twins(found.gives, gives);
   if (more.known())
     shadow.facts.push_back(

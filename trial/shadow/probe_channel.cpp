@@ -18,8 +18,9 @@ constexpr double kStep = 20e-6;       // m, of the difference that stands for a 
 constexpr double kSlopeTime = 4e-3;   // s, likewise
 constexpr double kTouch = 0.2;        // N: less is no push
 constexpr int kMostRounds = 10;
-constexpr double kSettled = 2e-6;  // m
-constexpr Eigen::Index kAlike = 0, kNearer = 1, kLate = 2, kZeros = 3;
+constexpr double kSettled = 2e-6;   // m
+constexpr double kFarthest = 3e-3;  // m: what is farther away is another place
+constexpr Eigen::Index kAlike = 0, kNearer = 1, kLate = 2, kPushed = 3;
 
 using Forces = std::vector<double>;  // N, along the push, tick by tick
 
@@ -111,19 +112,18 @@ struct Compared {
 // measured(t) = alike * twin(t - late), its object nearer: all of them at once, and each push's own zero.
 Compared compare(const Rows& rows, const std::vector<Reading>& measured, const Forces& twin,
                  const Forces& stepped, double late) {
-  BlockFit fit(static_cast<std::size_t>(kZeros + rows.pushes), kForceBlock);
+  BlockFit fit(static_cast<std::size_t>(kPushed), kForceBlock);
   const double reach = kSlopeTime / rows.dt;
   for (const Reading& one : measured) {
     const auto tick = static_cast<std::size_t>(std::max(0.0, std::round(one.at)));
     if (tick >= rows.push.size() || rows.push[tick] < 0) continue;
     const double at = one.at - late / rows.dt;
     const double force = force_at(twin, at);
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(kZeros + rows.pushes);
+    Eigen::VectorXd row(kPushed);
     row(kAlike) = force;
     row(kNearer) = (force_at(stepped, at) - force) / kStep;
     row(kLate) = -(force_at(twin, at + reach) - force_at(twin, at - reach)) / (2.0 * kSlopeTime);
-    row(kZeros + rows.push[tick]) = 1.0;
-    fit.add(rows.begin + one.at * rows.dt, row, one.force);
+    fit.add(rows.begin + one.at * rows.dt, row, one.force, rows.push[tick]);
   }
   const BlockFit::Result found = fit.solve();
   const double size = found.values[kAlike].value;
@@ -174,6 +174,7 @@ void see_probed(const Tape& tape, Shadow& shadow) {
   std::vector<Wrench> felt;
   Forces twin, stepped;
   Compared found;
+  bool settled = false;
   for (int round = 0; round < kMostRounds; ++round) {
     felt = felt_by_twin(tape, quiet, nearer);
     twin = along_push(along, felt);
@@ -183,20 +184,26 @@ void see_probed(const Tape& tape, Shadow& shadow) {
       return cannot_judge(shadow, Channel::force, "the probe pressed nothing that the twin has there");
     found = compare(rows, recorded, twin, stepped, late);
     if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
-    if (std::abs(found.nearer.value) < kSettled || round + 1 == kMostRounds) break;
+    settled = std::abs(found.nearer.value) < kSettled;
+    if (settled || round + 1 == kMostRounds) break;
     // The twin presses as far as it must to feel what was felt; no farther at once than its law bends.
     nearer += std::clamp(found.nearer.value, -0.5e-3, 0.5e-3);
     if (std::isfinite(found.late.value)) late = std::clamp(late + found.late.value, -0.02, 0.02);
   }
   if (!found.alike.known())
     return cannot_judge(shadow, Channel::force, "the probe pressed for too short a time");
-  std::vector<double> alike, place, time;
-  for (std::vector<double>* one : {&alike, &place, &time}) one->reserve(kTwins);
+  if (!settled && std::abs(nearer) > kFarthest)
+    return cannot_judge(
+        shadow, Channel::force,
+        fmt::format("the object stands more than {:.0f} mm from where the twin has it", 1e3 * kFarthest));
+  std::vector<double> alike, place, time, rest;
+  for (std::vector<double>* one : {&alike, &place, &time, &rest}) one->reserve(kTwins);
   for (std::size_t k = 0; k < kTwins; ++k) {
     const Compared one = compare(rows, twin_forces(tape, along, felt, twin_seed(k)), twin, stepped, 0.0);
     alike.push_back(one.alike.value);
     place.push_back(one.nearer.value);
     time.push_back(one.late.value);
+    rest.push_back(one.rms);
   }
   models::Interval stiffer = beside_twins(found.alike, alike);
   add(shadow, Channel::force, Quantity::stiffness, stiffer, bounds::kStiffness);
@@ -206,10 +213,14 @@ void see_probed(const Tape& tape, Shadow& shadow) {
   models::Interval delay = beside_twins(found.late, time);
   delay.value += late;
   add(shadow, Channel::force, Quantity::force_time, delay, bounds::kForceTime);
+  // Legs that bend shake what hangs on them, and those of the twin are not moved here.
+  if (!tape.twin.twin.structural())
+    add(shadow, Channel::force, Quantity::force_rest, beside_twins({found.rms, 0.0}, rest),
+        bounds::kForceRest);
   shadow.facts.push_back(
-      {Channel::force, fmt::format("{} pushes; what is left of the force is {:.3f} N rms, the twin's sensor "
-                                   "scatters by about {:.3f} N",
-                                   rows.pushes, found.rms, tape.twin.twin.force.noise)});
+      {Channel::force,
+       fmt::format("{} pushes; what is left of the force is {:.3f} N rms, of the twin's {:.3f} N",
+                   rows.pushes, found.rms, of_twins(rest).value)});
 }
 
 }  // namespace enc::trial

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kDepthBlock = 0.25;  // s
 constexpr double kDeep = 0.1e-3;      // m: less is no press that tells a slope
-constexpr std::int32_t kMost = 64;    // contacts, each of which has its own beginning
-constexpr Eigen::Index kDeeper = 0, kAfter = 1, kBegins = 2;
+constexpr Eigen::Index kDeeper = 0, kAfter = 1, kColumns = 2;
 
 struct Depth {
   double t, twin, speed, recorded;  // s, m, m/s, m
@@ -38,7 +37,7 @@ std::vector<Depth> depths(const Tape& tape) {
     const bool both = outputs.mode == Mode::contact && frame.out.mode == Mode::contact &&
                       outputs.contacts == frame.out.contacts && contact.anchored && !contact.below &&
                       ((outputs.why | frame.out.why) & kAtLimit) == 0;
-    if (!both || !machine.known() || !tape.tip.knows(frame.tick.t) || outputs.contacts > kMost) return;
+    if (!both || !machine.known() || !tape.tip.knows(frame.tick.t)) return;
     const Pose<'N', 'W'> X_NW = contact.X_WN.inverse();
     const auto deep = [&](const TipSample& tip) {
       return -(X_NW * (tape.scene.X_WR * tip.X_RH.origin())).xyz[2] - tape.scene.tip_radius;
@@ -58,10 +57,11 @@ void see_rendered(const Tape& tape, Shadow& shadow) {
     return cannot_judge(shadow, Channel::rendering, "nothing was sent to the machine: this was a dry run");
   if (!tape.pressed) return cannot_judge(shadow, Channel::rendering, "nothing that is rendered was pressed");
   const std::vector<Depth> all = depths(tape);
-  std::int32_t contacts = 0;
+  std::int32_t contacts = 0, last = -1;
   double deepest = 0.0;
   for (const Depth& one : all) {
-    contacts = std::max(contacts, one.contact);
+    contacts += one.contact != last ? 1 : 0;
+    last = one.contact;
     deepest = std::max(deepest, one.twin);
   }
   if (deepest < kDeep)
@@ -70,13 +70,12 @@ void see_rendered(const Tape& tape, Shadow& shadow) {
         fmt::format("where the record has a contact the twin's gave way by {:.3f} mm; expected "
                     "more than {:.1f} mm",
                     1e3 * deepest, 1e3 * kDeep));
-  BlockFit fit(static_cast<std::size_t>(kBegins + contacts), kDepthBlock);
+  BlockFit fit(static_cast<std::size_t>(kColumns), kDepthBlock);
   for (const Depth& one : all) {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(kBegins + contacts);
+    Eigen::VectorXd row(kColumns);
     row(kDeeper) = one.twin;
     row(kAfter) = -one.speed;
-    row(kBegins + one.contact - 1) = 1.0;
-    fit.add(one.t, row, one.recorded);
+    fit.add(one.t, row, one.recorded, one.contact);  // each has its own beginning
   }
   const BlockFit::Result found = fit.solve();
   const models::Interval& deeper = found.values[kDeeper];

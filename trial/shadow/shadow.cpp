@@ -35,7 +35,13 @@ models::Setup twin_of(const RecordReader& record, const std::string& path,
                       const std::vector<std::string>& overrides) {
   models::Setup twin = models::setup_of(record.texts(), path);
   if (overrides.empty()) return twin;
+  const double rate = twin.rig.loop.rate;
   for (const std::string& text : overrides) models::set(twin, text);
+  if (twin.rig.loop.rate != rate)
+    throw Error(
+        fmt::format("--set rig.loop.rate_hz: the ticks of {} are those of {:g} Hz; expected the rate that it "
+                    "was recorded with; leave it out",
+                    path, rate));
   models::check(twin);
   models::note_unread(twin);
   models::fill_curves(twin, models::models_dir(twin.scene_path));
@@ -93,8 +99,7 @@ models::Interval of_twins(const std::vector<double>& values) {
 
 models::Interval beside_twins(const models::Interval& recorded, const std::vector<double>& values) {
   const models::Interval twins = of_twins(values);
-  const double own = std::isnan(recorded.half) ? 0.0 : recorded.half;
-  return {recorded.value - twins.value, std::hypot(own, twins.half)};
+  return {recorded.value - twins.value, std::hypot(recorded.half, twins.half)};
 }
 
 void add(Shadow& shadow, Channel channel, Quantity quantity, const models::Interval& off, double bound,

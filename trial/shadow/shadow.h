@@ -30,11 +30,13 @@ enum class Quantity : std::uint8_t {
   stiffness,      // share: the object that is pressed is so much stiffer
   object_place,   // m: that object stands so much nearer to what presses it
   force_time,     // s: what the sensor feels comes so much later
+  force_rest,     // N rms: what these three leave over, more than the twin's leaves
   rendered        // share: the rendered object is so much stiffer
 };
 constexpr auto words(Quantity) {
   return enum_words("machine_time", "machine_place", "machine_rest", "registration", "tool_latency",
-                    "tool_stamps", "stiffness", "object_place", "force_time", "rendered_stiffness");
+                    "tool_stamps", "stiffness", "object_place", "force_time", "force_rest",
+                    "rendered_stiffness");
 }
 
 struct Divergence {

@@ -33,13 +33,16 @@ models::TrackerLog with_packets(models::TrackerLog rows, const Scene& scene,
   return rows;
 }
 
-// s by which packets are older than their stamps' time when they come: mean, and what blocks of time say.
+}  // namespace
+
 models::Interval mean_age(const std::vector<SeenPacket>& packets) {
   BlockFit fit(1, kAgeBlock);
   for (const SeenPacket& one : packets)
     fit.add(in_seconds(one.t), Eigen::VectorXd::Ones(1), age(one.t, one.stamp));
   return fit.solve().values[0];
 }
+
+namespace {
 
 struct Pauses {
   double rate = kUnset, longest = 0.0;  // packets a second; s

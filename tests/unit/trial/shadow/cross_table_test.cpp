@@ -106,6 +106,14 @@ const std::vector<Injected>& injections() {
        Quantity::tool_latency,
        "",
        3e-3},
+      {"3 ms of its stamps",
+       pressing(),
+       {"truth.tracker.stamp_error_ms=3"},
+       {"truth.tracker.stamp_error_ms=0"},
+       "tool tool_stamps",
+       Quantity::tool_stamps,
+       "",
+       3e-3},
       {"1 mm of registration",
        pressing(),
        {"truth.frames.W_C.position_mm=[0,-900,601]"},
@@ -134,6 +142,29 @@ TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
     EXPECT_NEAR(size->off.value, one.size, std::max(size->off.half, least)) << row;
     EXPECT_LT(size->off.half, 0.5 * std::abs(one.size)) << row;
   }
+}
+
+// Two at once do not hide each other: by stamps that are late, a packet that is late looks punctual.
+TEST(ShadowTable, LatencyAndStampsOfAPressingToolAreBothNamed) {
+  const trial::Shadow shadow =
+      shadowed(pressing(), 7, {"truth.tracker.stamp_error_ms=3", "truth.tracker.process_ms=12.2"},
+               {"truth.tracker.stamp_error_ms=0", "truth.tracker.process_ms=9.2"});
+  EXPECT_THAT(named(shadow), testing::UnorderedElementsAre("tool tool_stamps", "tool tool_latency"));
+}
+
+// What no size, place or time explains is said to be such, and not taken for nothing.
+TEST(ShadowTable, AForceOfAnotherLawOrAWorseSensorHasARest) {
+  EXPECT_THAT(named(shadowed(probing(), 7, {"truth.force.noise_N=0.3"}, {"truth.force.noise_N=0.0125"})),
+              testing::Contains("force force_rest"));
+  EXPECT_THAT(named(shadowed(probing(), 7, {"truth.ball.friction=0.15"}, {"truth.ball.friction=0.02"})),
+              testing::Contains("force force_rest"));
+}
+
+TEST(ShadowTable, AnObjectThatIsFarAwayIsNotJudged) {
+  const trial::Shadow shadow =
+      shadowed(probing(), 7, {"truth.ball.misplaced_mm=[0,0,-12]"}, {"truth.ball.misplaced_mm=[0,0,0]"});
+  EXPECT_EQ(found(shadow, Quantity::stiffness), nullptr);
+  EXPECT_FALSE(shadow.unjudged.empty());
 }
 
 // A platform on legs that bend is not shaken by being led: it is placed where it said that it was.
