@@ -72,7 +72,7 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options) {
                    "of a rig: whose clamped tool its machine carries; default: clamped_tool")
       ->check(unnamed);
   command->add_option("--poses", options.poses, "of a rig: in which the machine stands still; default: 24")
-      ->check(CLI::Range(8, 500));
+      ->check(CLI::Range(12, 500));
   device_options(command, options.armed, options.lockstep);
   command->add_option("--square-mm", options.square_mm, "of a chessboard: side of the board's squares");
   command->add_option("--corners", options.corners,

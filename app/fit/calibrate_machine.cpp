@@ -17,6 +17,7 @@
 #include "core/time.h"
 #include "models/files.h"
 #include "models/fit/machine/turn.h"
+#include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
 #include "trial/carried/machine_calibration.h"
@@ -99,11 +100,15 @@ std::string tracker_text(const Found& found) {
   const PoseSpec& W_C = *found.file.W_C;
   std::string text = fmt::format(
       "tracker     position_mm = {} of C in W; {:.3f} mm from what the rig believes\n"
-      "            rotation_deg = {} about x, then y, then z of W; {:.3f} deg from what the rig believes\n"
+      "            rotation_deg = {} about x, then y, then z of W, known to {} deg about W's axes; {:.3f} "
+      "deg from "
+      "what the rig believes\n"
       "            so that what is seen at W's origin is known to {} mm\n"
       "            {:.4f} mm and {:.4f} deg rms left over, {:.4f} mm at most\n",
       with(kMm * W_C.position, kMm * fit.place_half), kMm * (W_C.position - rig.frames.W_C.position).norm(),
-      with(kDeg * W_C.rotation, kDeg * fit.turn_half), turned(Quat(fit.X_WC.q()), rig.frames.W_C.rotation),
+      list(kDeg * W_C.rotation, digits_of(kDeg * fit.turn_half.minCoeff())),
+      list(kDeg * fit.turn_half, digits_of(kDeg * fit.turn_half.minCoeff())),
+      turned(Quat(fit.X_WC.q()), rig.frames.W_C.rotation),
       list(kMm * fit.origin_half, digits_of(kMm * fit.origin_half.minCoeff())), kMm * fit.rms,
       kDeg * fit.rms_turn, kMm * fit.most);
   const ToolSpec& tool = found.setup.scene.tools[static_cast<std::size_t>(found.made.clamped_tool)];
@@ -209,13 +214,23 @@ int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource
     trial::CarriedTool tool(setup, trial_options(options, modules));
     made = trial::calibrate_machine(tool, options.poses.value_or(trial::kUsualPoses), progress);
   } catch (const trial::CarryingEnded&) {
-    return 0;  // by a signal, which makes the exit code
+    if (!options.stop || !options.stop())
+      throw Error("the devices ended the run; nothing was written; see `encounter devices`", {},
+                  ErrorKind::device);
+    fmt::print(stderr, "{}stopped by hand: the machine stands, and nothing was written\n",
+               terminal ? "\r" : "");
+    return 4;  // unless it was a signal, which makes the exit code
   }
   if (terminal) fmt::print(stderr, "\r        \r");
   const Found found{setup, made, file_of(setup, made)};
   const std::string text = found_text(found);
   if (file) {
-    std::string remarks = fmt::format("# Encounter {}: encounter calibrate\n", ENCOUNTER_VERSION);
+    std::string remarks =
+        fmt::format("# Encounter {}: encounter calibrate {}{}{} --scene {} --seed {}", ENCOUNTER_VERSION,
+                    options.log, options.armed ? " --armed" : "", options.lockstep ? " --lockstep" : "",
+                    setup.scene_path, options.seed.value_or(1));
+    for (const std::string& set : options.set) remarks += " --set " + set;
+    remarks = models::printable(remarks) + "\n";
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = text.find('\n', at);
       remarks += "# " + text.substr(at, end - at) + "\n";

@@ -9,6 +9,7 @@
 #include "app/fit/fit_module.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
+#include "app/run/hand.h"
 #include "app/run/stop_signals.h"
 #include "core/error.h"
 #include "models/schema/wording.h"
@@ -81,10 +82,19 @@ int calibrate(const CalibrateOptions& options) {
   const bool folder = !rig && std::filesystem::is_directory(options.log, none);
   if (!rig && !folder) refuse_what_it_is_not(options, rigs);
   if (folder) return calibrations().calibrate(options);
-  std::optional<StopSignals> signals;  // of a machine that moves: it is stopped, whenever one comes
+  // Of a machine that moves: it is stopped, whenever a signal or a key says so.
+  std::optional<StopSignals> signals;
+  std::optional<HandAtTheRun> hand;
+  bool halted = false;
   CalibrateOptions stoppable = options;
-  stoppable.catch_signals = [&] { signals.emplace(); };
-  stoppable.stop = [] { return StopSignals::caught() != 0; };
+  stoppable.catch_signals = [&] {
+    signals.emplace();
+    hand.emplace();
+  };
+  stoppable.stop = [&] {
+    halted = halted || (hand && (hand->next() == trial::Hand::halt || hand->quits()));
+    return halted || StopSignals::caught() != 0;
+  };
   const int code = fits().calibrate(stoppable, module_for_calibration);
   return signals && StopSignals::caught() != 0 ? 128 + StopSignals::caught() : code;
 }

@@ -39,7 +39,8 @@ void describe_file(Visitor& v, RigCalibration& file) {
   });
   table_if(v, "frames", file.W_C || file.H_F, [&] {
     part(v, "W_C", file.W_C, [&](PoseSpec& p) {
-      v.value({"position_mm", "of the tracker in the world", kMadeBy, kSaid, kAny, kMust}, &p.position);
+      v.value({"position_mm", "of the tracker in the world", kMadeBy, kSaid, {-1e4, 1e4}, kMust},
+              &p.position);
       v.value({"rotation_deg", "about the fixed x, then y, then z axis", kMadeBy, kSaid, kTurns, kMust},
               &p.rotation);
     });
@@ -69,17 +70,19 @@ RigCalibration rounded(RigCalibration file) {
   return file;
 }
 
-// "gcs 192.168.0.10"; of a driver that has no address, its name.
+// "gcs 192.168.0.10 50000"; of a driver that has no address, its name.
 std::string device_of(const RigSpec& rig, const std::string& driver) {
-  for (const DriverTable& table : rig.drivers)
-    for (const DriverValue& value : table.values)
-      if (table.name == driver && value.key == "address") {
-        std::string_view address = value.text;  // as in the file, with its quotes
-        if (address.size() > 1 && (address.front() == '"' || address.front() == '\''))
-          address = address.substr(1, address.size() - 2);
-        return fmt::format("{} {}", driver, address);
+  std::string device = driver;
+  for (const char* key : {"address", "port"})
+    for (const DriverTable& table : rig.drivers)
+      for (const DriverValue& value : table.values) {
+        if (table.name != driver || value.key != key) continue;
+        std::string_view text = value.text;  // as in the file, with its quotes
+        if (text.size() > 1 && (text.front() == '"' || text.front() == '\''))
+          text = text.substr(1, text.size() - 2);
+        device += fmt::format(" {}", text);
       }
-  return driver;
+  return device;
 }
 
 // Empty where it is the same rig.
@@ -181,7 +184,10 @@ void fill_measured(Setup& setup) {
         "FILE` writes, beside the rig's; see to its name",
         named, models::quoted(path), why));
   const RigCalibration file = parse_rig_calibration(text, path);
-  if (const std::string other = other_rig(file.of, identity_of(rig)); !other.empty())
+  std::string other = other_rig(file.of, identity_of(rig));
+  if (other.empty() && file.title != rig.title)
+    other = fmt::format("its title was {} and is {}", models::quoted(file.title), models::quoted(rig.title));
+  if (!other.empty())
     throw Error(
         fmt::format("{}: the calibration {} is of another rig: {}; expected one of this rig; calibrate "
                     "it, or name its own file",

@@ -5,7 +5,7 @@
 //   date = "2026-11-28"
 //
 //   [of]                                       # which rig it is of: of another one it is refused
-//   manipulator = "gcs 192.168.0.10"           # driver, and address where it has one
+//   manipulator = "gcs 192.168.0.10 50000"     # driver, address and port where it has them
 //   force = "netft 192.168.0.11"
 //   tracker = "igtl 192.168.0.12"
 //   [of.geometry]                              # of the machine, as [manipulator.geometry]

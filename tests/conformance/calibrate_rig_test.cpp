@@ -37,7 +37,7 @@ TEST(CalibrateRig, FindsBehindItsWiresWhatTheRigDoesNotKnow) {
   const TemporaryFolder folder;
   const std::string file = folder.file("measured.toml");
   const Result r = run_program(
-      calibrating(there, {"--poses", "10", "--json", "--scene", kClamped, "--out", file}), {}, 400);
+      calibrating(there, {"--poses", "12", "--json", "--scene", kClamped, "--out", file}), {}, 400);
   ASSERT_EQ(r.code, 0) << r.err;
   const auto told = nlohmann::json::parse(r.out);
   const auto force = told["force"], tracker = told["tracker"];
@@ -58,7 +58,7 @@ TEST(CalibrateRig, WhatFailsOnTheWayLeavesNoFileAndAMachineAtRest) {
   const TemporaryFolder folder;
   const std::string file = folder.file("measured.toml");
   const Result r =
-      run_program(calibrating(there, {"--poses", "10", "--scene", kClamped, "--out", file}), {}, 400);
+      run_program(calibrating(there, {"--poses", "12", "--scene", kClamped, "--out", file}), {}, 400);
   EXPECT_EQ(r.code, 3) << r.out << r.err;
   EXPECT_THAT(r.err, HasSubstr("the machine is in hold"));
   EXPECT_FALSE(std::filesystem::exists(file));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/machine/arm.h"
 #include "core/mode.h"
 #include "core/task/carry/carry.h"
 #include "core/track/minimum_jerk.h"
@@ -23,12 +24,17 @@ constexpr double kAcceleration = 0.1;  // m/s^2, a quarter of what the machine c
 constexpr double kPeakAcceleration = 5.7735;  // of a minimum-jerk way: over length / time^2
 constexpr double kClosing = 5.0;              // s: no gripper takes longer
 constexpr double kPatience = 5.0;             // s, to come to rest
-constexpr double kLongestHold = 1.0;          // s
-constexpr double kStillSpeed = 0.2e-3;        // m/s
-constexpr double kNear = 0.2e-3;              // m, of what rests from where it was sent
-constexpr double kNearTurn = 2e-3;            // rad
-constexpr double kStillTime = 0.3;            // s of rest before anything counts
-constexpr double kMeasured = 1.0;             // s
+constexpr double kTurnOff = M_PI / 180.0;     // rad, beside what it lags behind
+constexpr double kTurnPatience = 0.050;       // s
+constexpr double kWeightTurned =
+    0.5;                           // of it: twice the sine of the largest tilt, and a machine that speeds up
+constexpr double kTouched = 10.0;  // N: a cable is less, and whoever is in the way feels no more
+constexpr double kLongestHold = 1.0;    // s
+constexpr double kStillSpeed = 0.2e-3;  // m/s
+constexpr double kNear = 0.2e-3;        // m, of what rests from where it was sent
+constexpr double kNearTurn = 2e-3;      // rad
+constexpr double kStillTime = 0.3;      // s of rest before anything counts
+constexpr double kMeasured = 1.0;       // s
 
 // The tool, what carries, watches and weighs it, and nothing else.
 models::Setup bare(models::Setup setup) {
@@ -82,8 +88,13 @@ CarriedTool::CarriedTool(models::Setup setup, TrialOptions options)
 
 TrialOptions CarriedTool::with_law(TrialOptions options) {
   options.seconds = std::numeric_limits<double>::infinity();
+  // The core keeps places within reach; a turn comes on top.
   options.law = [this](const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) {
+    const Pose<'R', 'H'> before = out.tip;
     carry(scene, tick, in, wanted_, state, out);
+    if (!out.tip.valid() || scene.reach.contains(out.tip)) return;
+    out_of_reach_ = true;
+    out.tip = before;
   };
   return options;
 }
@@ -101,11 +112,39 @@ void CarriedTool::tick() {
                             trial_.gate().links().back().role),
                 {}, ErrorKind::device);
   held_ = trial_.outputs().mode == Mode::hold ? held_ + dt : 0.0;
-  if (held_ > kLongestHold)
-    throw Error(fmt::format("the machine is in hold: {}; expected it to carry the tool; see "
-                            "docs/guide/laboratory.md and calibrate again",
-                            why_text(trial_.outputs().why & kHoldReasons)),
-                {}, ErrorKind::device);
+  watch();
+}
+
+// A calibration has no reason to go on after any trouble: whoever is there sees to it and begins again.
+void CarriedTool::watch() {
+  const auto fail = [](const std::string& what) { throw Error(what, {}, ErrorKind::device); };
+  const Scene& scene = trial_.scene();
+  const Inputs& in = trial_.inputs();
+  if (held_ > (wanted_.valid() ? 0.0 : kLongestHold))
+    fail(fmt::format(
+        "the machine is in hold: {}; expected it to carry the tool; see docs/guide/laboratory.md, "
+        "turn it back to zero and calibrate again",
+        why_text(trial_.outputs().why & kHoldReasons)));
+  if (out_of_reach_) fail("the machine was sent out of its reach; see rig.manipulator.geometry");
+  if (!wanted_.valid()) return;
+  const Quat turn = (scene.X_WR * in.tip.value.X_RH).q();
+  const double late = 2.0 * scene.servo.lag * kTurning + kTurnOff;
+  turned_off_ = turn.angularDistance(wanted_.q()) > late ? turned_off_ + scene.dt : 0.0;
+  if (turned_off_ > kTurnPatience)
+    fail(fmt::format(
+        "the machine is turned by {:.1f} degrees from where it was sent; expected {:.1f} at most; see "
+        "the order of its rotations and its pivot, turn it back to zero and calibrate again",
+        turn.angularDistance(wanted_.q()) * 180.0 / M_PI, late * 180.0 / M_PI));
+  if (!scene.has_force || in.wrench.health != Health::ok) return;
+  if (!first_force_.finite()) first_force_ = in.wrench.value.force;
+  const double more = (in.wrench.value.force - first_force_).norm();
+  const double most = kWeightTurned * scene.force.mass * kStandardGravity + kTouched;
+  if (more > most)
+    fail(fmt::format(
+        "the force has changed by {:.1f} N since it began; expected {:.1f} N at most, of a weight "
+        "that is tilted; something is in the way: free it, turn the machine back to zero and "
+        "calibrate again",
+        more, most));
 }
 
 // Where the machine stands, and until the jaws hold what it shall carry.
@@ -124,6 +163,14 @@ void CarriedTool::begin() {
                       kClosing),
           {}, ErrorKind::device);
     tick();
+    const Stamped<TipSample>& tip = trial_.inputs().tip;
+    const Quat turn = (trial_.scene().X_WR * tip.value.X_RH).q();
+    if (tip.health == Health::ok && turn.angularDistance(Quat::Identity()) > kNearTurn)
+      throw Error(
+          fmt::format("the machine stands turned by {:.1f} degrees; expected it upright; turn it back to "
+                      "zero by its own means, with the tool clear, and calibrate again",
+                      turn.angularDistance(Quat::Identity()) * 180.0 / M_PI),
+          {}, ErrorKind::device);
   } while (!ready());
   wanted_ = trial_.scene().X_WR * trial_.outputs().tip;
 }
@@ -138,9 +185,8 @@ void CarriedTool::go(const Pose<'W', 'H'>& to) {
       throw Error("the way to the next pose leads out of the machine's reach; see rig.manipulator.geometry",
                   {}, ErrorKind::device);
   const double time = way_time(from, to, scene.reach);
-  // In a hold the way stands still, and so does what turns.
   for (double gone = 0.0; gone < time;) {
-    if (held_ == 0.0) gone += scene.dt;
+    gone += scene.dt;
     wanted_ = between(from, to, MinimumJerk(gone / time).x);
     tick();
   }
@@ -184,7 +230,8 @@ CarriedStand CarriedTool::stand() {
   CarriedStand stand;
   Vec3 place = Vec3::Zero(), seen = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();
   MeanTurn turn, seen_turn;
-  std::size_t places = 0;
+  std::size_t places = 0, moved = 0;  // ticks
+  constexpr std::size_t kMostMoved = 100;
   Time told_force = trial_.inputs().wrench.t, told_tool = trial_.inputs().tool.t;
   while (now_ < begin + kMeasured) {
     tick();
@@ -193,6 +240,14 @@ CarriedStand CarriedTool::stand() {
     told_tool = in.tool.t;
     told_force = in.wrench.t;
     if (now_ < begin) continue;
+    if (!resting()) {
+      if (++moved > kMostMoved)
+        throw Error(
+            "the machine moved while it was measured; expected it to stand; see its servo and what "
+            "shakes it",
+            {}, ErrorKind::device);
+      continue;
+    }
     const Pose<'W', 'H'> X_WH = scene.X_WR * in.tip.value.X_RH;
     place += X_WH.p();
     turn.add(X_WH.q());

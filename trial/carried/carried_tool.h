@@ -43,12 +43,15 @@ class CarriedTool {
  private:
   TrialOptions with_law(TrialOptions options);
   void tick();
+  void watch();  // throws where it does not do what it should
   void begin();
-  void follow(const Pose<'W', 'H'>& to);
   void rest();
   [[nodiscard]] bool resting() const;
 
-  Pose<'W', 'H'> wanted_;          // of the next tick; unset: it waits
+  Pose<'W', 'H'> wanted_;  // of the next tick; unset: it waits
+  Vec<'F'> first_force_;   // N, raw, where it began; unset: not yet
+  bool out_of_reach_ = false;
+  double turned_off_ = 0.0;        // s that it has been turned otherwise than it was sent
   double now_ = 0.0, held_ = 0.0;  // s; in a hold
   Trial trial_;
 };

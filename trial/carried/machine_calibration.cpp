@@ -92,7 +92,14 @@ MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count,
         fmt::format("the force sensor said nothing usable in {} of {} stands; see `encounter devices`",
                     found.stands.size() - weighed.size(), found.stands.size()),
         {}, ErrorKind::device);
-  if (scene.has_force) found.weight = models::fit_weight(weighed, found.time);
+  if (scene.has_force) {
+    found.weight = models::fit_weight(weighed, found.time);
+    if (found.weight->mass.value < found.tool_mass)
+      throw Error(
+          fmt::format("{:.3f} kg are behind the sensor and the scene's tool weighs {:.3f} kg; expected a "
+                      "tool that is lighter than all of it; correct its mass_kg",
+                      found.weight->mass.value, found.tool_mass));
+  }
   if (scene.has_tracker) found.hand_eye = models::fit_hand_eye(seen);
   return found;
 }

@@ -15,7 +15,7 @@
 
 namespace enc::trial {
 
-inline constexpr std::size_t kFewestPoses = 8, kUsualPoses = 24, kMostPoses = 500;
+inline constexpr std::size_t kFewestPoses = 12, kUsualPoses = 24, kMostPoses = 500;
 
 // Tilted by up to 10 degrees to all sides, turned by up to 20 to both, spread over the middle of the reach;
 // neighbours in the list are far from each other, so that a zero that drifts is not taken for a tilt. The way

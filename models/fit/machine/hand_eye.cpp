@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Mat9 = Eigen::Matrix<double, 9, 9>;
 
-constexpr std::size_t kFewestSeen = 6;      // stands
+constexpr std::size_t kFewestSeen = 10;     // stands
 constexpr Eigen::Index kPoseUnknowns = 12;  // place and turn of both poses
 constexpr double kLeastSecondTurn = 0.035;  // rad rms about each axis but the best two: 2 degrees
 constexpr double kMostLeftPlace = 2e-3;     // m rms
@@ -114,7 +114,8 @@ MatrixXd slopes(std::span<const EyeStand> stands, const Both& at) {
 struct Scatter {
   Vec3 place, turn;
 };
-double freedom_of(Eigen::Index stands) { return static_cast<double>(stands) - kPoseUnknowns / 6.0; }
+// Places tell up to nine of the twelve unknowns: of each of their axes three.
+double freedom_of(Eigen::Index stands) { return static_cast<double>(stands) - 3.0; }
 Scatter scatter_of(const VectorXd& left) {
   const Eigen::Index n = left.size() / 6;
   const auto rms = [&](Eigen::Index from, double least) {

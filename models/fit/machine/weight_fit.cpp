@@ -24,6 +24,8 @@ using Eigen::VectorXd;
 constexpr Eigen::Index kWeightUnknowns = 7;  // turn, mass, zero
 constexpr std::size_t kFewestWeighed = 6;    // stands
 constexpr double kLeastSwing = 0.05;         // of the direction of the weight, rms to each side: 3 degrees
+constexpr double kAxisOff = 0.2;             // of a sensor's axis that reads as it should, with sign and unit
+constexpr double kSure = 4.0;                // standard deviations
 constexpr double kMostLeftForce = 0.2;       // N rms: drift and noise of a sensor are far less
 
 // The direction of weight in H, times g.
@@ -171,6 +173,47 @@ Solved best_of(const Log& log, const Estimate& guess) {
   return best;
 }
 
+// Each axis of the sensor against what it should read: 1 where its sign and its unit are right. A turn and a
+// zero make up for a wrong axis but for how the weight along it changes, which is what tells it.
+struct AxisSlope {
+  double value = kUnset, deviation = kUnset;
+};
+AxisSlope slope_of(const Log& log, const Solved& found, Eigen::Index axis) {
+  const auto n = static_cast<Eigen::Index>(log.stands.size());
+  MatrixXd by(n, 2);
+  VectorXd read(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const WeightStand& stand = log.stands[static_cast<std::size_t>(i)];
+    by.row(i) << (found.at.mass * found.at.R_FH * weight_per_kg(stand))(axis), 1.0;
+    read(i) = stand.wrench.force.e()(axis);
+  }
+  const Eigen::LLT<MatrixXd> root(covariance(log, found.ratio));
+  by = root.matrixL().solve(by);
+  read = root.matrixL().solve(read);
+  const MatrixXd inverse = (by.transpose() * by).inverse();
+  const VectorXd slope = inverse * (by.transpose() * read);
+  const double left = (read - by * slope).squaredNorm() / static_cast<double>(n - 2);
+  return {slope(0), std::sqrt(std::max(left, 1e-18) * inverse(0, 0))};
+}
+
+void check_axes(const Log& log, const Solved& found) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const AxisSlope slope = slope_of(log, found, axis);
+    const double off = std::abs(slope.value - 1.0);
+    if (off <= kAxisOff && kSure * slope.deviation <= 1.0) continue;
+    if (off <= kAxisOff || off <= kSure * slope.deviation)
+      throw Error(fmt::format(
+          "sign and unit of the force sensor's {} are not told by these poses: it reads {:.2f} +- "
+          "{:.2f} of what it should; expected 1; visit more poses, or wait until its zero is "
+          "steady",
+          "xyz"[axis], slope.value, kSure * slope.deviation));
+    throw Error(fmt::format(
+        "the force sensor's {} reads {:.2f} +- {:.2f} of what it should; expected 1; see to the sign, "
+        "the unit and the cable of that axis",
+        "xyz"[axis], slope.value, kSure * slope.deviation));
+  }
+}
+
 // torque(i) = middle x weight(i) + its zero: all linear.
 Vec<'F'> middle_of(std::span<const WeightStand> stands, const Estimate& at) {
   const auto n = static_cast<Eigen::Index>(stands.size());
@@ -193,7 +236,8 @@ WeightFit fit_weight(std::span<const WeightStand> stands, double end) {
     throw Error(fmt::format("{} stands of the machine; expected {} or more; visit more poses", stands.size(),
                             kFewestWeighed));
   const double last = stands.back().time;
-  const Solved found = best_of({stands, end > last ? end : last}, first_guess(stands));
+  const Log log{stands, end > last ? end : last};
+  const Solved found = best_of(log, first_guess(stands));
   const double freedom = 3.0 * static_cast<double>(stands.size()) - static_cast<double>(kWeightUnknowns);
   const double reach = student(freedom, kNormal99) * std::sqrt(found.variance);
   const VectorXd half = reach * found.inverse.diagonal().cwiseSqrt();
@@ -217,6 +261,7 @@ WeightFit fit_weight(std::span<const WeightStand> stands, double end) {
         fmt::format("a weight and a zero leave {:.3g} N rms of the force over, {:.3g} at most; expected at "
                     "most {:g}; see that nothing touches the tool and that no cable pulls",
                     fit.rms, fit.most, kMostLeftForce));
+  check_axes(log, found);
   return fit;
 }
 

@@ -44,7 +44,7 @@ class RigCalibrationFile : public testing::Test {
     write("measured.toml", rig_calibration_text(measured()));
   }
   static RigCalibration measured() {
-    return {"sim",
+    return {models::load_rig(kShippedModels + "rigs/sim.toml").title,
             "2026-11-28",
             identity_of(models::load_rig(kShippedModels + "rigs/sim.toml")),
             PoseSpec{{0.0031234, -0.8961, 0.6}, {0.01, -0.02, 0.03}},
@@ -122,6 +122,8 @@ TEST_F(RigCalibrationFile, OfAnotherRigIsRefused) {
   change("manipulator = \"sim\"", "manipulator = \"gcs 192.168.0.10\"");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("rig.toml:"), HasSubstr("of another rig"),
                                HasSubstr("its manipulator was 'gcs 192.168.0.10' and is 'sim'")));
+  change("title = \"", "title = \"Another ");
+  EXPECT_THAT(refusal(), HasSubstr("its title was 'Another "));
   change("height_mm = 154.5", "height_mm = 154.6");
   EXPECT_THAT(refusal(), HasSubstr("rig.manipulator.geometry.height_mm was 154.6 and is 154.5"));
   change("base_half_angle_deg = 22.6", "base_half_angle_deg = 22.7");

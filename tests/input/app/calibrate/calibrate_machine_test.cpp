@@ -28,20 +28,20 @@ class CalibrateMachine : public CalibrateFiles {
 
 TEST_F(CalibrateMachine, WritesWhatTheRigReads) {
   const std::string out = path("measured.toml");
-  const Result r = run_program({"calibrate", "sim", "--poses", "8", "--out", out, "--set",
+  const Result r = run_program({"calibrate", "sim", "--poses", "12", "--out", out, "--set",
                                 "truth.frames.W_C.position_mm=[3, -896, 600]", "--set",
                                 "truth.tracker.bias_mm=[0, 0, 0]", "--set", "truth.hexapod.mass_kg=1.11"},
                                kShipped);
   ASSERT_EQ(r.code, 0) << r.err;
-  EXPECT_THAT(r.out, AllOf(HasSubstr("8 poses in "), HasSubstr("force       mass_kg = 1.1"),
+  EXPECT_THAT(r.out, AllOf(HasSubstr("12 poses in "), HasSubstr("force       mass_kg = 1.1"),
                            HasSubstr("the rig believes 0.91"), HasSubstr("tracker     position_mm = ["),
                            HasSubstr("mm from what the rig believes"), HasSubstr("tool        tip_mm = ["),
                            HasSubstr("intervals   99 % for each number")));
   const std::string file = text_of(out);
-  EXPECT_THAT(file, AllOf(HasSubstr("# 8 poses in "), HasSubstr("\n[of]\nmanipulator = \"sim\"\n"),
+  EXPECT_THAT(file, AllOf(HasSubstr("# 12 poses in "), HasSubstr("\n[of]\nmanipulator = \"sim\"\n"),
                           HasSubstr("[frames.W_C]"), HasSubstr("[frames.H_F]"), HasSubstr("mass_kg = 1.1")));
   // It is not written over.
-  EXPECT_THAT(line({"calibrate", "sim", "--poses", "8", "--out", out}), HasSubstr("--force"));
+  EXPECT_THAT(line({"calibrate", "sim", "--poses", "12", "--out", out}), HasSubstr("--force"));
   // The rig that names it believes it, and says so.
   write("rig.toml", replaced(text_of(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml"), "\n[loop]\n",
                              "\n[calibration]\nfile = \"measured.toml\"\n\n[loop]\n"));
@@ -52,16 +52,16 @@ TEST_F(CalibrateMachine, WritesWhatTheRigReads) {
 }
 
 TEST_F(CalibrateMachine, TellsTheSameInJson) {
-  const Result r = run_program({"calibrate", "sim", "--poses", "8", "--json", "--seed", "3"}, kShipped);
+  const Result r = run_program({"calibrate", "sim", "--poses", "12", "--json", "--seed", "3"}, kShipped);
   ASSERT_EQ(r.code, 0) << r.err;
   const auto told = nlohmann::json::parse(r.out);
-  EXPECT_EQ(told["poses"], 8);
+  EXPECT_EQ(told["poses"], 12);
   EXPECT_NEAR(told["force"]["mass_kg"].get<double>(), 0.91, 3 * told["force"]["mass_half_kg"].get<double>());
   // The twin's tracker has a constant error, which goes into its position.
   EXPECT_NEAR(told["tracker"]["position_mm"][1].get<double>(), -900.0, 1.0);
   EXPECT_LT(told["tracker"]["origin_half_mm"][2].get<double>(), 0.05);
   EXPECT_NEAR(told["tracker"]["tip_mm"][2].get<double>(), -120.0, 0.2);
-  EXPECT_EQ(run_program({"calibrate", "sim", "--poses", "8", "--json", "--seed", "3"}, kShipped).out, r.out)
+  EXPECT_EQ(run_program({"calibrate", "sim", "--poses", "12", "--json", "--seed", "3"}, kShipped).out, r.out)
       << "the same seed tells the same";
 }
 
@@ -70,14 +70,14 @@ TEST_F(CalibrateMachine, RefusesInALineWhatCannotBe) {
   EXPECT_THAT(line({"calibrate", "sim", "--pairs", "8"}), HasSubstr("--pairs is of a rig with an arm"));
   EXPECT_THAT(line({"calibrate", "sim", "--through-images"}),
               HasSubstr("--through-images is of a rig with an arm"));
-  EXPECT_THAT(line({"calibrate", "vishap", "--poses", "8"}), HasSubstr("--poses is of a rig with a hexapod"));
+  EXPECT_THAT(line({"calibrate", "vishap", "--poses", "12"}), HasSubstr("--poses is of a rig with a hexapod"));
   EXPECT_THAT(line({"calibrate", "vishap", "--armed"}), HasSubstr("--armed is of a rig with a hexapod"));
   EXPECT_THAT(line({"calibrate", write("log.csv", "time_s\n"), "--scene", "x"}),
               HasSubstr("--scene is of a rig"));
   EXPECT_THAT(line({"calibrate", "sim", "--scene", ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml"}),
               HasSubstr("no tool is clamped"));
   EXPECT_NE(run_program({"calibrate", "sim", "--poses", "3"}, kShipped).code, 0);
-  EXPECT_THAT(line({"calibrate", "sim", "--poses", "8", "--set", "truth.tracker.loss=1"}),
+  EXPECT_THAT(line({"calibrate", "sim", "--poses", "12", "--set", "truth.tracker.loss=1"}),
               HasSubstr("the tool was seen in 0 stands"));
 }
 

@@ -2,8 +2,9 @@
 // rests, and what is found is what was put in.
 #include "trial/carried/carried_tool.h"
 
+#include <algorithm>
 #include <cmath>
-#include <set>
+#include <functional>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -68,10 +69,68 @@ TEST(CarriedTool, SaysWhatKeepsItFromGoing) {
               HasSubstr("no tool is clamped in this scene"));
   // A machine that does not do as it is told.
   EXPECT_THAT(said([] {
-                CarriedTool tool(clamped({"truth.hexapod.speed_mm_s=0.5"}), {});
+                CarriedTool tool(clamped({"truth.hexapod.servo_hz=0.3"}), {});
                 tool.go(kAside);
               }),
               HasSubstr("in hold"));
+}
+
+// Whatever is wrong on the way ends it at once: nothing goes on by itself.
+TEST(CarriedTool, AnyTroubleOnTheWayEndsIt) {
+  const auto said = [](const std::function<void(double, Inputs&)>& spoil) -> std::string {
+    TrialOptions options;
+    double t = 0.0;
+    options.disturb = [&](Inputs& in) { spoil(t += 1e-3, in); };
+    CarriedTool tool(clamped(), options);
+    try {
+      tool.go(kAside);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::device);
+      EXPECT_LT(tool.now(), 4.0) << e.what();
+      return e.what();
+    }
+    return "done";
+  };
+  EXPECT_EQ(said([](double, Inputs&) {}), "done");
+  EXPECT_THAT(said([](double t, Inputs& in) {
+                if (t > 2.0 && t < 2.004) in.wrench.health = Health::fault;
+              }),
+              HasSubstr("in hold: force invalid"));
+  EXPECT_THAT(said([](double t, Inputs& in) {
+                if (t > 2.0) in.wrench.value.force = in.wrench.value.force + Vec<'F'>(0, 20, 0);
+              }),
+              HasSubstr("something is in the way"));
+  // A machine that does not turn, and one that stood turned before.
+  EXPECT_THAT(said([](double, Inputs& in) {
+                in.tip.value.X_RH = {Quat::Identity(), Vec3(in.tip.value.X_RH.p())};
+              }),
+              AllOf(HasSubstr("degrees from where it was sent"), HasSubstr("turn it back to zero")));
+  EXPECT_THAT(
+      said([](double, Inputs& in) {
+        in.tip.value.X_RH = {Quat(Eigen::AngleAxisd(0.1, Vec3::UnitX())), Vec3(in.tip.value.X_RH.p())};
+      }),
+      HasSubstr("the machine stands turned by 5.7 degrees"));
+}
+
+// No tick turns it faster than is said, nor is there a leap at the beginning or at the end of a way.
+TEST(CarriedTool, TurnsSlowlyAndWithoutALeap) {
+  TrialOptions options;
+  Quat before = Quat::Identity();
+  double fastest = 0.0, slowest_change = 0.0, speed = 0.0;
+  options.watch = [&](const Glance& glance) {
+    if (!glance.out.tip.valid()) return;
+    const double now = glance.out.tip.q().angularDistance(before) / 1e-3;
+    before = Quat(glance.out.tip.q());
+    fastest = std::max(fastest, now);
+    slowest_change = std::max(slowest_change, std::abs(now - speed));
+    speed = now;
+  };
+  CarriedTool tool(clamped(), options);
+  tool.go(kAside);
+  tool.go(Pose<'W', 'H'>::identity());
+  EXPECT_LT(fastest, 0.101);
+  EXPECT_GT(fastest, 0.05);
+  EXPECT_LT(slowest_change, 1e-3) << "rad/s from one tick to the next";
 }
 
 TEST(CarriedTool, StopsWhereItIsWhenItIsToldTo) {
@@ -80,13 +139,14 @@ TEST(CarriedTool, StopsWhereItIsWhenItIsToldTo) {
   options.stop = [&] { return ++asked > 700; };
   CarriedTool tool(clamped(), options);
   EXPECT_THROW(tool.go(kAside), CarryingEnded);
+  EXPECT_LT(tool.now(), 0.8);
 }
 
 TEST(CalibrationPoses, AreInReachAndSoAreTheWaysBetween) {
   const Hexapod machine{HexapodGeometry{}};
   const Reach reach{0.05, 0.41, machine, {}};
   const Pose<'W', 'R'> X_WR = Pose<'W', 'H'>::identity() * machine.zero().inverse();
-  for (const std::size_t count : {std::size_t{8}, kUsualPoses, std::size_t{200}}) {
+  for (const std::size_t count : {kFewestPoses, kUsualPoses, std::size_t{200}}) {
     const auto poses = calibration_poses(reach, X_WR, count);
     ASSERT_EQ(poses.size(), count);
     Pose<'W', 'H'> from = Pose<'W', 'H'>::identity();
@@ -153,7 +213,7 @@ TEST(MachineCalibration, FindsWhatTheRigDoesNotKnow) {
 TEST(MachineCalibration, WeighsWhatTheSceneDoesNotAskForAndMissesAToolThatNobodySees) {
   const auto found = [](const std::vector<std::string>& set) {
     CarriedTool tool(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml", "", set), {});
-    return calibrate_machine(tool, 8);
+    return calibrate_machine(tool, 12);
   };
   EXPECT_TRUE(found({}).weight) << "the scene names no force sensor, and the rig has one";
   try {
