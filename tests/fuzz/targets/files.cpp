@@ -163,8 +163,8 @@ Target recorded_mesh() {
   return target;
 }
 
-const Offer kStereo("stereo", &stereo), kRig("rig_calibration", &rig_calibration), kRecord("record", &record),
-    kMesh("recorded_mesh", &recorded_mesh);
+const Offer kStereo("stereo", &stereo), kRigCalibration("rig_calibration", &rig_calibration),
+    kRecord("record", &record), kMesh("recorded_mesh", &recorded_mesh);
 
 }  // namespace
 }  // namespace enc::fuzz
