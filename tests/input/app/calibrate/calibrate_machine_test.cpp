@@ -70,7 +70,8 @@ TEST_F(CalibrateMachine, RefusesInALineWhatCannotBe) {
   EXPECT_THAT(line({"calibrate", "sim", "--pairs", "8"}), HasSubstr("--pairs is of a rig with an arm"));
   EXPECT_THAT(line({"calibrate", "sim", "--through-images"}),
               HasSubstr("--through-images is of a rig with an arm"));
-  EXPECT_THAT(line({"calibrate", "vishap", "--poses", "12"}), HasSubstr("--poses is of a rig with a hexapod"));
+  EXPECT_THAT(line({"calibrate", "vishap", "--poses", "12"}),
+              HasSubstr("--poses is of a rig with a hexapod"));
   EXPECT_THAT(line({"calibrate", "vishap", "--armed"}), HasSubstr("--armed is of a rig with a hexapod"));
   EXPECT_THAT(line({"calibrate", write("log.csv", "time_s\n"), "--scene", "x"}),
               HasSubstr("--scene is of a rig"));

@@ -176,10 +176,10 @@ TEST(ClockTie, ALeastDelayThatIsNotTrueIsWrongWithTheOffset) {
 TEST(ClockTie, SaysInWordsWhatItKnows) {
   EXPECT_EQ(words({}), "");
   EXPECT_EQ(words({.ahead = -0.5}), "its clock is 0.5000 s behind the run's");
-  EXPECT_EQ(
-      words({.ahead = 3.0, .drift = 50e-6, .spread = 2e-5, .forward = 2}),
-      "its clock is 3.0000 s ahead of the run's, 50.0 ppm fast; half of its quickest messages lie within 0.020 ms of "
-      "that; it was set forward 2 times");
+  EXPECT_EQ(words({.ahead = 3.0, .drift = 50e-6, .spread = 2e-5, .forward = 2}),
+            "its clock is 3.0000 s ahead of the run's, 50.0 ppm fast; half of its quickest messages lie "
+            "within 0.020 ms of "
+            "that; it was set forward 2 times");
 }
 
 }  // namespace
