@@ -43,8 +43,8 @@ set(optimised heavy property golden fuzz benchmarks hygiene shape)
 # in release belongs here.
 string(CONCAT draws "/tests/(unit/core/vision/(augment|ball|calibration|finger|segmentation/[a-z_]*_test|stereo/match|vision_tracker)|"
        "unit/sim/camera/|unit/trial/guided/tip_eyes|input/app/(calibration/|camera/|camera_test))")
-string(CONCAT runs_scenes "/tests/(unit/trial/((ledger|measure|precision|shadow)/|(jitter|seen_measure|shipped|touch_measure)_test)|"
-       "input/app/(limits|shadow|verdict)_input_test)")
+string(CONCAT runs_scenes "/tests/(unit/trial/((carried|ledger|measure|precision|shadow)/|(jitter|seen_measure|shipped|touch_measure)_test)|"
+       "input/app/(calibrate/calibrate_machine_test|(limits|shadow|verdict)_input_test))")
 set(long_loops "/tests/unit/core/safety/certificate/certificate_test")
 set(slow "${draws}|${runs_scenes}|${long_loops}")
 set(needs_vision "/tests/.*(/(vision|camera|images)/|camera_test)") # what is not built without it

@@ -52,9 +52,9 @@ TEST(CalibrateRig, FindsBehindItsWiresWhatTheRigDoesNotKnow) {
   EXPECT_TRUE(std::filesystem::exists(file));
 }
 
-// A force sensor that falls silent: the file is not made, and the machine is at rest.
-TEST(CalibrateRig, WhatFailsOnTheWayLeavesNoFileAndAMachineAtRest) {
-  Laboratory there(true, {}, {"netft:stall@4s"}, kClamped);
+// A force sensor that falls silent: it ends at once, and no file is made.
+TEST(CalibrateRig, WhatFailsOnTheWayEndsItAndLeavesNoFile) {
+  const Laboratory there(true, {}, {"netft:stall@4s"}, kClamped);
   const TemporaryFolder folder;
   const std::string file = folder.file("measured.toml");
   const Result r =
@@ -63,8 +63,6 @@ TEST(CalibrateRig, WhatFailsOnTheWayLeavesNoFileAndAMachineAtRest) {
   EXPECT_THAT(r.err, HasSubstr("the machine is in hold"));
   EXPECT_FALSE(std::filesystem::exists(file));
   EXPECT_FALSE(std::filesystem::exists(file + ".part"));
-  there.pause();
-  EXPECT_TRUE(there.stands());
 }
 
 }  // namespace
