@@ -182,15 +182,15 @@ TEST(HandEyeFit, FindsTheTrackerWithinItsIntervals) {
         const Vec3 tip = seen.X_HT.inverse().p() - fit.tip.value;
         // Of what is seen at W's origin.
         const Vec3 origin = (fit.X_WC * (seen.X_WC.inverse() * Point<'W'>(0, 0, 0))).e();
-        const auto count = [&](std::size_t first, const Vec3& error, const Vec3& half) {
+        const auto tally = [&](std::size_t first, const Vec3& error, const Vec3& half) {
           for (std::size_t a = 0; a < 3; ++a)
             held[first + a] +=
                 std::abs(error(static_cast<Eigen::Index>(a))) <= half(static_cast<Eigen::Index>(a));
         };
-        count(0, turned, fit.turn_half);
-        count(3, moved, fit.place_half);
-        count(6, tip, fit.tip.half);
-        count(9, origin, fit.origin_half);
+        tally(0, turned, fit.turn_half);
+        tally(3, moved, fit.place_half);
+        tally(6, tip, fit.tip.half);
+        tally(9, origin, fit.origin_half);
         widest = std::max(widest, fit.origin_half.maxCoeff());
       }
       EXPECT_THAT(held, testing::Each(testing::Ge(193))) << count << " stands, turns to " << turn;
