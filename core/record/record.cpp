@@ -113,7 +113,8 @@ std::string listed(const std::vector<std::uint64_t>& numbers) {
 
 RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
                            std::size_t chunks)
-    : path_(path), chunks_(chunks, kChunkBytes / kWord) {
+    : path_(path), chunks_(chunks) {
+  for (Chunk& one : chunks_) one.words.resize(kChunkBytes / kWord);
   const std::vector<std::uint64_t> packed = pack(texts);
   if (packed.size() * kWord > kHeaderBytes)
     throw Error("the record '" + path +
@@ -153,29 +154,33 @@ void RecordWriter::put(const void* bytes, std::size_t size) noexcept {
 }
 
 void RecordWriter::drain() noexcept {
-  chunks_.drain([this](const ChunkRing::Chunk& one) { put(one.words.data(), (one.used + 1) * kWord); });
+  for (std::size_t i = in_file_; i < whole_.load(std::memory_order_acquire); ++i) {
+    const Chunk& one = chunk(i);
+    put(one.words.data(), (one.used + 1) * kWord);
+    in_file_.store(i + 1, std::memory_order_release);
+  }
 }
 
 void RecordWriter::flush_chunk() noexcept {
-  ChunkRing::Chunk& one = chunks_.filling();
+  const std::size_t number = whole_;
+  Chunk& one = chunk(number);
   if (behind_ || one.used == 1) return;
   one.words[0] = head(kChunk, (one.used - 1) * kWord);
   chain_.add(one.words[0]);
   one.words[one.used] = chain_.value;
-  // With one chunk it goes into the file before it is filled again.
-  if (chunks_.size() > 1) {
-    behind_ = !chunks_.next();
-  } else {
-    put(one.words.data(), (one.used + 1) * kWord);
-    one.used = 1;
-  }
+  whole_.store(number + 1, std::memory_order_release);
+  if (chunks_.size() == 1) drain();
+  if (number + 1 - in_file_.load(std::memory_order_acquire) < chunks_.size())
+    chunk(number + 1).used = 1;
+  else
+    behind_ = true;
 }
 
 void RecordWriter::write(const Tick& tick, const Inputs& in, const Outputs& out,
                          std::uint64_t state_hash) noexcept {
   if (file_ == nullptr || full()) return;
   RecordedTick frame{tick, in, out, state_hash};
-  ChunkRing::Chunk& one = chunks_.filling();
+  Chunk& one = chunk(whole_);
   PutLeaves put_leaves{one.words.data() + one.used, chain_};
   all_fields(put_leaves, frame);
   one.used += frame_words();

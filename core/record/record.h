@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "core/record/chunk_ring.h"
 #include "core/record/state_hash.h"
 
 namespace enc {
@@ -55,12 +54,18 @@ class RecordWriter {
   [[nodiscard]] std::int64_t ticks() const noexcept { return ticks_; }  // taken
 
  private:
+  struct Chunk {  // head, leaves, checksum
+    std::vector<std::uint64_t> words;
+    std::size_t used = 1;
+  };
   void put(const void* bytes, std::size_t size) noexcept;
   void flush_chunk() noexcept;
+  [[nodiscard]] Chunk& chunk(std::size_t number) noexcept { return chunks_[number % chunks_.size()]; }
 
   std::string path_;
   std::FILE* file_ = nullptr;
-  ChunkRing chunks_;
+  std::vector<Chunk> chunks_;
+  std::atomic<std::size_t> whole_ = 0, in_file_ = 0;  // chunks; the one that is filled is number whole_
   std::vector<std::uint64_t> end_;  // as a chunk, of what is said at the end; empty: nothing
   StateHash chain_;
   std::int64_t ticks_ = 0;
