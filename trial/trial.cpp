@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/task/carry/travel.h"
 #include "core/task/measure/probe.h"
+#include "models/setup/driver_table.h"
 #include "models/setup/rig_calibration.h"
 #include "sim/clock.h"
 #include "trial/camera/vision.h"
@@ -70,15 +71,9 @@ void refuse_limits(const models::Setup& setup, const Scene& scene) {
 // driver has by itself says nothing: it may have none on its wire.
 bool is_fake(const models::Setup& setup, const std::string& driver) {
   if (!setup.places.contains("rig.driver." + driver + ".address")) return false;
-  for (const DriverTable& table : setup.rig.drivers)
-    for (const DriverValue& value : table.values)
-      if (table.name == driver && value.key == "address") {
-        std::string_view at = value.text;  // as in the file, with its quotes
-        if (at.size() > 1 && (at.front() == '"' || at.front() == '\'')) at = at.substr(1, at.size() - 2);
-        const bool number = at.find_first_not_of("0123456789.") == std::string_view::npos;
-        return (number && at.starts_with("127.")) || at == "localhost" || at == "::1";
-      }
-  return false;
+  const std::string at = models::driver_text(setup.rig, driver, "address");
+  const bool number = at.find_first_not_of("0123456789.") == std::string::npos;
+  return (number && at.starts_with("127.")) || at == "localhost" || at == "::1";
 }
 
 // What is wrong with the day on which a rig was measured; empty: nothing. The day may be tomorrow's where the

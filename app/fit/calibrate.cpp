@@ -216,32 +216,32 @@ void refuse(bool given, const std::string& option, const std::string& of, const 
     throw Error(fmt::format("{} is of {}; {} is none; expected the command without it; remove it", option, of,
                             models::quoted(options.log)));
 }
+// Of an arm that is guided, and of a machine that carries a tool.
+void refuse_guided(const CalibrateOptions& o, const std::string& of) {
+  refuse(o.pairs.has_value(), "--pairs", of, o);
+  refuse(o.frames.has_value(), "--frames", of, o);
+  refuse(o.through_images, "--through-images", of, o);
+}
+void refuse_carried(const CalibrateOptions& o, const std::string& of) {
+  refuse(!o.scene.empty(), "--scene", of, o);
+  refuse(o.poses.has_value(), "--poses", of, o);
+  refuse(o.armed, "--armed", of, o);
+  refuse(o.lockstep, "--lockstep", of, o);
+}
 void refuse_rig_options(const CalibrateOptions& o) {
   refuse(!o.out.empty(), "--out", "a rig", o);
   refuse(o.force, "--force", "a rig", o);
-  refuse(o.pairs.has_value(), "--pairs", "a rig", o);
-  refuse(o.frames.has_value(), "--frames", "a rig", o);
   refuse(!o.set.empty(), "--set", "a rig", o);
-  refuse(o.through_images, "--through-images", "a rig", o);
-  refuse(!o.scene.empty(), "--scene", "a rig", o);
-  refuse(o.poses.has_value(), "--poses", "a rig", o);
-  refuse(o.armed, "--armed", "a rig", o);
-  refuse(o.lockstep, "--lockstep", "a rig", o);
+  refuse_guided(o, "a rig");
+  refuse_carried(o, "a rig");
 }
 
 int calibrate_rig(const CalibrateOptions& o, const trial::DriverSource& modules) {
   if (models::load_rig(o.log).arm.driver != "none") {
-    const std::string of = "a rig with a hexapod";
-    refuse(!o.scene.empty(), "--scene", of, o);
-    refuse(o.poses.has_value(), "--poses", of, o);
-    refuse(o.armed, "--armed", of, o);
-    refuse(o.lockstep, "--lockstep", of, o);
+    refuse_carried(o, "a rig with a hexapod");
     return calibrate_arm(o, modules);
   }
-  const std::string of = "a rig with an arm";
-  refuse(o.pairs.has_value(), "--pairs", of, o);
-  refuse(o.frames.has_value(), "--frames", of, o);
-  refuse(o.through_images, "--through-images", of, o);
+  refuse_guided(o, "a rig with an arm");
   return calibrate_machine(o, modules);
 }
 

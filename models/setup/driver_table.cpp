@@ -131,4 +131,16 @@ void read_driver_table(Setup& setup, const std::string& driver, void (*declare)(
   tables.insert(std::find_if(tables.begin(), tables.end(), after), {driver, reader.all()});
 }
 
+std::string driver_text(const RigSpec& rig, std::string_view driver, std::string_view key) {
+  for (const DriverTable& table : rig.drivers)
+    for (const DriverValue& value : table.values) {
+      if (table.name != driver || value.key != key) continue;
+      std::string_view text = value.text;  // as in the file, with its quotes
+      if (text.size() > 1 && (text.front() == '"' || text.front() == '\''))
+        text = text.substr(1, text.size() - 2);
+      return std::string(text);
+    }
+  return {};
+}
+
 }  // namespace enc::models

@@ -4,6 +4,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/devices/settings.h"
@@ -21,6 +22,9 @@ void settle_drivers(Setup& setup);
 // Reads the table into what the driver declares (null: it has no keys). The set-up then holds every value,
 // defaults included.
 void read_driver_table(Setup& setup, const std::string& driver, void (*declare)(Settings&));
+
+// What a driver's table says of a key, a text without its quotes; empty where it says nothing.
+[[nodiscard]] std::string driver_text(const RigSpec& rig, std::string_view driver, std::string_view key);
 
 // Gives one table's values to who asks for them.
 class DriverTableReader final : public Settings {

@@ -15,6 +15,7 @@
 #include "models/schema/toml_writer.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
+#include "models/setup/driver_table.h"
 #include "models/setup/scene_check.h"
 
 namespace enc::models {
@@ -74,14 +75,7 @@ RigCalibration rounded(RigCalibration file) {
 std::string device_of(const RigSpec& rig, const std::string& driver) {
   std::string device = driver;
   for (const char* key : {"address", "port"})
-    for (const DriverTable& table : rig.drivers)
-      for (const DriverValue& value : table.values) {
-        if (table.name != driver || value.key != key) continue;
-        std::string_view text = value.text;  // as in the file, with its quotes
-        if (text.size() > 1 && (text.front() == '"' || text.front() == '\''))
-          text = text.substr(1, text.size() - 2);
-        device += fmt::format(" {}", text);
-      }
+    if (const std::string text = driver_text(rig, driver, key); !text.empty()) device += " " + text;
   return device;
 }
 

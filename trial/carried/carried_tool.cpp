@@ -83,6 +83,15 @@ class MeanTurn {
 
 }  // namespace
 
+bool way_in_reach(const Reach& reach, const Pose<'W', 'R'>& X_WR, const Pose<'W', 'H'>& from,
+                  const Pose<'W', 'H'>& to) {
+  constexpr int kSteps = 100;
+  const Pose<'R', 'W'> X_RW = X_WR.inverse();
+  for (int i = 0; i <= kSteps; ++i)
+    if (!reach.contains(X_RW * between(from, to, static_cast<double>(i) / kSteps))) return false;
+  return true;
+}
+
 CarriedTool::CarriedTool(models::Setup setup, TrialOptions options)
     : trial_(bare(std::move(setup)), with_law(std::move(options))) {}
 
@@ -179,11 +188,9 @@ void CarriedTool::go(const Pose<'W', 'H'>& to) {
   if (!wanted_.valid()) begin();
   const Pose<'W', 'H'> from = wanted_;
   const Scene& scene = trial_.scene();
-  constexpr int kSteps = 100;
-  for (int i = 0; i <= kSteps; ++i)
-    if (!scene.reach.contains(scene.X_WR.inverse() * between(from, to, static_cast<double>(i) / kSteps)))
-      throw Error("the way to the next pose leads out of the machine's reach; see rig.manipulator.geometry",
-                  {}, ErrorKind::device);
+  if (!way_in_reach(scene.reach, scene.X_WR, from, to))
+    throw Error("the way to the next pose leads out of the machine's reach; see rig.manipulator.geometry", {},
+                ErrorKind::device);
   const double time = way_time(from, to, scene.reach);
   for (double gone = 0.0; gone < time;) {
     gone += scene.dt;

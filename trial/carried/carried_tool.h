@@ -20,6 +20,10 @@ struct CarriedStand {
   std::size_t packets = 0;  // in which the tracker saw the clamped tool
 };
 
+// Whether all of the way on which go() takes it is within reach.
+[[nodiscard]] bool way_in_reach(const Reach& reach, const Pose<'W', 'R'>& X_WR, const Pose<'W', 'H'>& from,
+                                const Pose<'W', 'H'>& to);
+
 // The run was told to end: all that moves was stopped.
 struct CarryingEnded {};
 

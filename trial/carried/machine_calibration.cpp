@@ -20,17 +20,6 @@ double fraction(double x) { return x - std::floor(x); }
 // The i-th of a sequence that fills a line evenly, whatever its length [Roberts 2018, R sequences].
 double spread(std::size_t i, double ratio) { return fraction(0.5 + ratio * static_cast<double>(i + 1)); }
 
-bool reached(const Reach& reach, const Pose<'R', 'W'>& X_RW, const Pose<'W', 'H'>& from,
-             const Pose<'W', 'H'>& to) {
-  constexpr int kSteps = 50;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double share = static_cast<double>(i) / kSteps;
-    const Pose<'W', 'H'> at(from.q().slerp(share, to.q()), Vec3(from.p() + share * (to.p() - from.p())));
-    if (!reach.contains(X_RW * at)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<Pose<'W', 'H'>> calibration_poses(const Reach& reach, const Pose<'W', 'R'>& X_WR,
@@ -38,7 +27,6 @@ std::vector<Pose<'W', 'H'>> calibration_poses(const Reach& reach, const Pose<'W'
   constexpr double kGolden = 0.6180339887498949;
   constexpr std::array<double, 4> kRatios{0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                           0.5385972572236101};
-  const Pose<'R', 'W'> X_RW = X_WR.inverse();
   const Pose<'W', 'H'> zero = Pose<'W', 'H'>::identity();
   std::vector<Pose<'W', 'H'>> poses;
   poses.reserve(count);
@@ -58,7 +46,8 @@ std::vector<Pose<'W', 'H'>> calibration_poses(const Reach& reach, const Pose<'W'
       pose = {Quat(Eigen::AngleAxisd(size * tilt, axis) * Eigen::AngleAxisd(size * turn, Vec3::UnitZ())),
               Vec3(size * place)};
       size *= 0.9;
-    } while (size > 0.1 && !(reached(reach, X_RW, before, pose) && reached(reach, X_RW, pose, zero)));
+    } while (size > 0.1 &&
+             !(way_in_reach(reach, X_WR, before, pose) && way_in_reach(reach, X_WR, pose, zero)));
     poses.push_back(pose);
   }
   return poses;

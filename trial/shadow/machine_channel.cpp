@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "models/setup/driver_table.h"
 #include "trial/shadow/block_fit.h"
 #include "trial/shadow/bounds.h"
 #include "trial/shadow/channels.h"
@@ -54,15 +55,9 @@ BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& said, doub
 
 // s between two set-points of the machine's driver, [driver.NAME] cycle_ms; 0 where it has none.
 double wire_cycle(const RigSpec& rig) {
-  for (const DriverTable& table : rig.drivers)
-    for (const DriverValue& value : table.values) {
-      double ms = 0.0;
-      const char* end = value.text.data() + value.text.size();
-      if (table.name == rig.manipulator.driver && value.key == "cycle_ms" &&
-          std::from_chars(value.text.data(), end, ms).ptr == end)
-        return 1e-3 * ms;
-    }
-  return 0.0;
+  const std::string text = models::driver_text(rig, rig.manipulator.driver, "cycle_ms");
+  double ms = 0.0;
+  return std::from_chars(text.data(), text.data() + text.size(), ms).ec == std::errc() ? 1e-3 * ms : 0.0;
 }
 
 }  // namespace
