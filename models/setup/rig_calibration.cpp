@@ -209,4 +209,27 @@ void fill_measured(Setup& setup) {
   rig.calibration.file.clear();  // a resolved scene needs no other file
 }
 
+void fill_truth(Setup& setup) {
+  const auto take = [&](std::string_view name, auto& to, const auto& from) {
+    if (!setup.places.contains(name)) to = from;
+  };
+  const FramesRig& frames = setup.rig.frames;
+  sim::FramesTruth& truth = setup.twin.frames;
+  take("truth.frames.W_C.position_mm", truth.W_C.position, frames.W_C.position);
+  take("truth.frames.W_C.rotation_deg", truth.W_C.rotation, frames.W_C.rotation);
+  take("truth.frames.H_F.position_mm", truth.H_F.position, frames.H_F.position);
+  take("truth.frames.H_F.rotation_deg", truth.H_F.rotation, frames.H_F.rotation);
+  for (const auto& [side, name] : {std::pair{&HexapodGeometry::base_radius, "base_radius_mm"},
+                                   {&HexapodGeometry::platform_radius, "platform_radius_mm"},
+                                   {&HexapodGeometry::base_half_angle, "base_half_angle_deg"},
+                                   {&HexapodGeometry::platform_half_angle, "platform_half_angle_deg"},
+                                   {&HexapodGeometry::height, "height_mm"},
+                                   {&HexapodGeometry::tip_height, "tip_height_mm"},
+                                   {&HexapodGeometry::stroke, "stroke_mm"},
+                                   {&HexapodGeometry::tilt_limit, "tilt_limit_deg"},
+                                   {&HexapodGeometry::yaw_limit, "yaw_limit_deg"}})
+    take(fmt::format("truth.hexapod.geometry.{}", name), setup.twin.hexapod.geometry.*side,
+         setup.rig.manipulator.geometry.*side);
+}
+
 }  // namespace enc::models

@@ -272,6 +272,7 @@ Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& ove
   read_rig(setup, rig);
   for (const std::string& text : overrides) set(setup, text);
   settle_drivers(setup);
+  fill_truth(setup);
   return setup;
 }
 
@@ -321,6 +322,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   }
   fill_camera(setup);
   fill_measured(setup);
+  fill_truth(setup);
   mend_normals(setup);
   check(setup);
   note_stops(setup);

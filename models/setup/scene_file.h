@@ -89,6 +89,10 @@ void fill_camera(Setup& setup);
 // The file that the rig's [calibration] names, beside the rig's: what --set names stays. Throws Error where
 // it is of another rig.
 void fill_measured(Setup& setup);
+// Where neither the rig's file nor --set says what camera, sensor and machine truly are ([truth.frames],
+// [truth.hexapod.geometry], key by key), they are what the rig believes: a real rig has no [truth], and its
+// twin stands where its calibration says.
+void fill_truth(Setup& setup);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_stops(Setup& setup);    // time constants that MuJoCo takes for two time steps
 void note_props(Setup& setup);    // objects that want another prop than is mounted

@@ -118,6 +118,50 @@ TEST_F(RigCalibrationFile, ItsNumbersTakeThePlaceOfTheRigs) {
   EXPECT_EQ(set.rig.frames.W_C.position, measured().W_C->position);
 }
 
+// A real rig has no [truth]: its twin stands where the rig is thought to be.
+TEST_F(RigCalibrationFile, WhatNothingSaysOfTheTruthIsAsBelieved) {
+  const std::string sim = read_text(kShippedModels + "rigs/sim.toml");
+  const std::string calibrated = read_text(path("rig.toml"));
+  const auto without_truth = [](const std::string& rig) { return rig.substr(0, rig.find("\n[truth.") + 1); };
+  const std::string real =
+      replaced(replaced(without_truth(sim), "position_mm = [0, -900, 600]", "position_mm = [10, -890, 605]"),
+               "stroke_mm = 23.6", "stroke_mm = 23.5");
+  write("rig.toml", real);
+  const models::Setup plain = loaded();
+  EXPECT_LT((plain.twin.frames.W_C.position - Vec3(0.010, -0.890, 0.605)).norm(), 1e-12);
+  EXPECT_EQ(plain.twin.hexapod.geometry.stroke, plain.rig.manipulator.geometry.stroke);
+  EXPECT_NEAR(plain.twin.hexapod.geometry.stroke, 0.0235, 1e-12);
+  EXPECT_LT(
+      (models::load_rig_setup(path("rig.toml")).twin.frames.W_C.position - Vec3(0.010, -0.890, 0.605)).norm(),
+      1e-12);
+
+  const models::Setup set =
+      loaded({"rig.frames.W_C.position_mm=[5,-900,600]", "rig.frames.H_F.rotation_deg=[1,2,3]"});
+  EXPECT_LT((set.twin.frames.W_C.position - Vec3(0.005, -0.900, 0.600)).norm(), 1e-12);
+  EXPECT_EQ(set.twin.frames.H_F.rotation, set.rig.frames.H_F.rotation);
+  EXPECT_GT(set.twin.frames.H_F.rotation.norm(), 0.01);
+
+  // Key by key: what is said stays, whoever says it.
+  write("rig.toml", real + "[truth.frames.W_C]\nposition_mm = [1, -900, 600]\n");
+  const models::Setup part =
+      loaded({"rig.frames.W_C.rotation_deg=[1,2,3]", "truth.hexapod.geometry.stroke_mm=23"});
+  EXPECT_LT((part.twin.frames.W_C.position - Vec3(0.001, -0.900, 0.600)).norm(), 1e-12);
+  EXPECT_EQ(part.twin.frames.W_C.rotation, part.rig.frames.W_C.rotation);
+  EXPECT_GT(part.twin.frames.W_C.rotation.norm(), 0.01);
+  EXPECT_NEAR(part.twin.hexapod.geometry.stroke, 0.023, 1e-12);
+
+  write("rig.toml", without_truth(calibrated));
+  const models::Setup measured_once = loaded();
+  EXPECT_EQ(measured_once.twin.frames.W_C.position, measured().W_C->position);
+  EXPECT_EQ(measured_once.twin.frames.W_C.rotation, measured_once.rig.frames.W_C.rotation);
+  EXPECT_NEAR(measured_once.twin.frames.H_F.rotation.x(), 0.011, 1e-7);
+  EXPECT_LT((measured_once.twin.frames.H_F.position - Vec3(0, 0, -0.127)).norm(), 1e-12);
+
+  write("rig.toml", calibrated);  // of a simulated rig, whose truth is another
+  EXPECT_LT((loaded().twin.frames.W_C.position - Vec3(0.0, -0.900, 0.600)).norm(), 1e-12);
+  EXPECT_LT((loaded().twin.frames.H_F.rotation - Vec3(0, 0, 0)).norm(), 1e-12);
+}
+
 TEST_F(RigCalibrationFile, OfAnotherRigIsRefused) {
   change("manipulator = \"sim\"", "manipulator = \"gcs 192.168.0.10\"");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("rig.toml:"), HasSubstr("of another rig"),
