@@ -65,13 +65,20 @@ class Fit {
   }
 
  private:
-  // Least sum of sizes over a coarse grid: nothing to start from is needed, and outliers do no harm.
+  // Least sum of sizes over a coarse grid: nothing to start from is needed, and outliers do no harm. Of a few
+  // packets at the end of a short log any age explains most: half of them must be known.
   double nearest_age() const {
     constexpr double kGrid = 4e-3;  // s
     const std::size_t stride = std::max<std::size_t>(1, log_.packets.size() / 600);
-    double best = 0.0, least = INFINITY;
     constexpr int kAges = static_cast<int>((kLatest - kEarliest) / kGrid);
+    std::array<double, kAges + 1> known{};
+    for (int i = 0; i <= kAges; ++i)
+      for (std::size_t k = 0; k < times_->size(); k += stride)
+        if (path_.knows((*times_)[k] - (kEarliest + i * kGrid))) ++known[static_cast<std::size_t>(i)];
+    const double enough = std::max(kFewestPackets, 0.5 * *std::max_element(known.begin(), known.end()));
+    double best = 0.0, least = INFINITY;
     for (int i = 0; i <= kAges; ++i) {
+      if (known[static_cast<std::size_t>(i)] < enough) continue;
       const double age = kEarliest + i * kGrid;
       std::array<std::vector<double>, 3> errors;
       for (std::size_t k = 0; k < times_->size(); k += stride) {

@@ -12,6 +12,9 @@ namespace {
 // Of a column's square, what the columns before it leave of it: less is the same thing twice.
 constexpr double kApart = 1e-8;
 
+// Degrees of freedom: of fewer blocks nobody knows how much they scatter.
+constexpr double kFewestFree = 2.0;
+
 // Columns that can be told apart, in order, and their scales.
 struct Columns {
   std::vector<Eigen::Index> kept;
@@ -96,8 +99,9 @@ BlockFit::Result BlockFit::solve() const {
   for (Eigen::Index i = 0; i < m; ++i) {
     const auto c = static_cast<std::size_t>(columns.kept[static_cast<std::size_t>(i)]);
     const double scale = columns.scale(static_cast<Eigen::Index>(c));
-    models::Interval value = blocks[static_cast<std::size_t>(i)].around(found(i));
-    result.values[c] = {value.value / scale, value.half / scale};
+    const models::Blocks& of = blocks[static_cast<std::size_t>(i)];
+    const models::Interval value = of.around(found(i));
+    result.values[c] = {value.value / scale, of.freedom() < kFewestFree ? kUnset : value.half / scale};
   }
   return result;
 }

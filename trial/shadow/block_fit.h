@@ -24,7 +24,8 @@ class BlockFit {
   [[nodiscard]] std::size_t rows() const { return y_.size(); }
 
   struct Result {
-    // Unset, both: the rows do not tell it, or not apart from the columns before it.
+    // Unset, both: the rows do not tell it, or not apart from the columns before it. Without an interval:
+    // fewer than three blocks of time tell it.
     std::vector<models::Interval> values;
     double rms = kUnset;  // of what is left
   };

@@ -97,6 +97,24 @@ TEST(LatencyFit, NegativeAndLongLatencies) {
   }
 }
 
+// Half a second has no packet that is known to be 500 ms old: that none is left over explains nothing.
+TEST(LatencyFit, AShortLogHasNoAgeOfWhichItKnowsNoPacket) {
+  TrackerLog log;
+  log.period = kPeriod;
+  log.packet_period = 0.010;
+  const auto place = [](double t) { return Vec3(0.010 * std::sin(6.0 * M_PI * t), 0.0, 0.0); };
+  for (int n = 0; n < 500; ++n) {
+    const double t = n * kPeriod;
+    log.time.push_back(t);
+    log.tip.push_back(place(t));
+    if (n % 10 == 3) log.packets.push_back({t, kUnset, place(t - 0.020)});
+  }
+  const LatencyFit fit = fit_latency(log);
+  EXPECT_TRUE(fit.in_range);
+  EXPECT_NEAR(fit.latency.value, 0.020, 1e-3);
+  EXPECT_GT(fit.packets, 40U);
+}
+
 TEST(LatencyFit, OneWayIsMarked) {
   const LatencyFit one = fit_latency(log_of(diagonal(0.040, false), {}));
   EXPECT_TRUE(one.axes[0].one_way);

@@ -42,6 +42,19 @@ TEST(BlockFit, SaysNothingOfWhatItCannotTellApart) {
   EXPECT_NEAR(found.values[3].value, 1.0, 1e-9);
 }
 
+// Two blocks do not say how much blocks scatter: Student's t of one degree of freedom is 12.7.
+TEST(BlockFit, OfTwoBlocksThereIsNoInterval) {
+  for (const int blocks : {1, 2, 4}) {
+    sim::Stream noise(1, "block fit");
+    BlockFit fit(1, 0.25);
+    for (int i = 0; i < 250 * blocks; ++i)
+      fit.add(1e-3 * i, Eigen::VectorXd::Ones(1), 2.0 + 0.1 * noise.normal3().x());
+    const models::Interval mean = fit.solve().values[0];
+    EXPECT_NEAR(mean.value, 2.0, 0.05);
+    EXPECT_EQ(mean.known(), blocks > 2) << blocks;
+  }
+}
+
 TEST(BlockFit, OfNothingKnowsNothing) {
   const BlockFit::Result found = BlockFit(1, 0.25).solve();
   EXPECT_TRUE(std::isnan(found.values[0].value));
