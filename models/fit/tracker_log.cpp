@@ -14,12 +14,24 @@ namespace {
 constexpr std::size_t kFewestRows = 10;  // rows, and packets
 constexpr double kFarthest = 10.0;       // m: nothing of this kind is larger
 constexpr double kLongestPeriod = 0.1;   // s, of the rows: between them the tip is interpolated
+constexpr double kLongestGap = 0.1;      // s, of lost cycles; likewise
+constexpr double kRounding = 1e-6;       // s
+constexpr double kWhole = 0.25;          // of a period: a gap is a whole number of them to within this
+constexpr double kFarStamp = 1.0;        // s, of a machine's stamp from its row: another clock
 constexpr double kUneven = 0.5;          // of a period: a step that differs by more is not of this rate
 constexpr double kSilence = 0.5;         // s without a packet: a gap, and not a lost packet
 constexpr double kWindow = 2.0;          // s over which packets are counted
 constexpr double kRateChange = 0.3;      // a window's count may differ by this share
 
-enum : std::size_t { kRowTime, kTip, kTool = kTip + 3, kStamp = kTool + 3 };
+enum : std::size_t { kRowTime, kTip, kTool = kTip + 3, kStamp = kTool + 3, kTipStamp };
+
+double median_step(const std::vector<double>& times) {
+  std::vector<double> steps;
+  steps.reserve(times.size());
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  return steps[steps.size() / 2];
+}
 
 class LogReader {
  public:
@@ -27,14 +39,16 @@ class LogReader {
 
   TrackerLog read(double rate) {
     row_.header({"time_s", "tip_x_mm", "tip_y_mm", "tip_z_mm", "tool_x_mm", "tool_y_mm", "tool_z_mm"},
-                {"tool_time_s"});
+                {"tool_time_s", "tip_time_s"});
     while (row_.next()) {
       take_time();
       lines_.push_back(row_.line());
       log_.tip.push_back(position(kTip));
+      take_tip_stamp();
       take_packet();
     }
     log_.repeated = filled_ > 0 && !holes_;
+    check_tip_stamps();
     check_rows(rate);
     check_packets();
     return std::move(log_);
@@ -63,6 +77,32 @@ class LogReader {
     log_.time.push_back(time);
   }
 
+  void take_tip_stamp() {
+    if (!row_.has(kTipStamp)) return;
+    const double before = log_.tip_time.empty() ? kUnset : log_.tip_time.back();
+    const double stamp = row_.text(kTipStamp).empty() ? kUnset : row_.number(kTipStamp);
+    // Of a machine that is not heard of the last stands on.
+    if (!(stamp <= before) && std::abs(stamp - log_.time.back()) > kFarStamp)
+      row_.fail(kTipStamp,
+                fmt::format("the tip's stamp {} is {:.3g} s from the row's time; expected one clock; "
+                            "leave the column out",
+                            row_.text(kTipStamp), std::abs(stamp - log_.time.back())));
+    log_.tip_time.push_back(stamp);
+  }
+
+  void check_tip_stamps() {
+    std::size_t news = 0;
+    double newest = kUnset;
+    for (const double stamp : log_.tip_time)
+      if (std::isfinite(stamp) && !(stamp <= newest)) newest = stamp, ++news;
+    if (news == 0) return log_.tip_time.clear();
+    if (news < kFewestRows)
+      row_.fail_line(
+          fmt::format("the tip has {} stamps; expected at least {}; see that the machine answers, or leave "
+                      "the column out",
+                      news, kFewestRows));
+  }
+
   // Empty cells, or the same three numbers as before: no new packet.
   void take_packet() {
     if (row_.text(kTool).empty() && row_.text(kTool + 1).empty() && row_.text(kTool + 2).empty()) {
@@ -79,14 +119,7 @@ class LogReader {
     packet_rows_.push_back(lines_.size() - 1);
   }
 
-  static double median_step(const std::vector<double>& times) {
-    std::vector<double> steps;
-    steps.reserve(times.size());
-    for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                     steps.end());
-    return steps[steps.size() / 2];
-  }
+  double step_to(std::size_t i) const { return log_.time[i] - log_.time[i - 1]; }
 
   void check_rows(double rate) {
     if (log_.time.size() < kFewestRows)
@@ -103,19 +136,33 @@ class LogReader {
                                             log_.period, 1.0 / kLongestPeriod));
     std::vector<std::size_t> odd;
     for (std::size_t i = 1; i < log_.time.size(); ++i)
-      if (std::abs(log_.time[i] - log_.time[i - 1] - log_.period) > kUneven * log_.period) odd.push_back(i);
+      if (std::abs(step_to(i) - log_.period) > kUneven * log_.period) odd.push_back(i);
     if (odd.empty()) return;
-    const std::size_t i = odd.front();
-    const double step = log_.time[i] - log_.time[i - 1];
     if (odd.size() > std::max<std::size_t>(3, log_.time.size() / 50))
-      row_.fail_line(lines_[i],
+      row_.fail_line(lines_[odd.front()],
                      fmt::format("here the rows come every {:.4g} ms and mostly every {:.4g} ms ({} such "
                                  "steps); expected one rate; cut the log where the rate changes",
-                                 step * 1e3, log_.period * 1e3, odd.size()));
-    row_.fail_line(lines_[i], fmt::format("rows are missing from {:.6g} to {:.6g} s (a step of {:.4g} ms "
-                                          "among steps of {:.4g} ms); expected no gap; cut the log there, or "
-                                          "record it again",
-                                          log_.time[i - 1], log_.time[i], step * 1e3, log_.period * 1e3));
+                                 step_to(odd.front()) * 1e3, log_.period * 1e3, odd.size()));
+    std::size_t missing = 0;
+    double longest = 0.0;
+    for (const std::size_t i : odd) {
+      const double rows = step_to(i) / log_.period;
+      const bool lost =
+          rows > 1.5 && std::abs(rows - std::round(rows)) <= kWhole && step_to(i) <= kLongestGap + kRounding;
+      if (!lost)
+        row_.fail_line(
+            lines_[i],
+            fmt::format("rows are missing from {:.6g} to {:.6g} s (a step of {:.4g} ms among steps "
+                        "of {:.4g} ms); expected no gap of more than {:g} ms; cut the log there, or "
+                        "record it again",
+                        log_.time[i - 1], log_.time[i], step_to(i) * 1e3, log_.period * 1e3,
+                        kLongestGap * 1e3));
+      missing += static_cast<std::size_t>(std::lround(rows)) - 1;
+      longest = std::max(longest, step_to(i));
+    }
+    log_.notes.push_back(
+        fmt::format("{} rows are missing, at {} places of up to {:.3g} ms: there the tip is interpolated",
+                    missing, odd.size(), longest * 1e3));
   }
 
   // Nothing tells a lost packet from a tool at rest without noise, where the last value is repeated.
@@ -178,20 +225,43 @@ class LogReader {
 
 }  // namespace
 
-TipPath::TipPath(const TrackerLog& log) : log_(log), reach_(std::max(5e-3, 2.0 * log.period)) {}
+TipPath::TipPath(const TrackerLog& log)
+    : first_(log.time.front()), last_(log.time.back()), period_(log.period) {
+  if (log.tip_time.empty()) {
+    time_ = log.time;
+    tip_ = log.tip;
+  }
+  for (std::size_t i = 0; i < log.tip_time.size(); ++i) {
+    const double t = log.tip_time[i];  // NaN is no news, either
+    if (!(time_.empty() ? std::isfinite(t) : t > time_.back())) continue;
+    time_.push_back(t);
+    tip_.push_back(log.tip[i]);
+  }
+  if (time_.size() > 1 && !log.tip_time.empty()) period_ = median_step(time_);
+  reach_ = std::max(5e-3, 2.0 * period_);
+}
+
+// The first that was later, or the last.
+std::size_t TipPath::after(double t) const {
+  // They are even but for jitter and gaps: the right one is near.
+  const auto last = static_cast<double>(time_.size() - 1);
+  auto i = static_cast<std::size_t>(std::clamp(std::ceil((t - time_.front()) / period_), 1.0, last));
+  while (i > 1 && time_[i - 1] > t) --i;
+  while (i + 1 < time_.size() && time_[i] <= t) ++i;
+  return i;
+}
 
 bool TipPath::knows(double t) const {
-  return t - reach_ >= log_.time.front() && t + reach_ <= log_.time.back();
+  if (time_.size() < 2 || t - reach_ < time_.front() || t + reach_ > time_.back()) return false;
+  if (t < first_ || t > last_) return false;
+  const std::size_t i = after(t);
+  return time_[i] - time_[i - 1] <= std::max(kLongestGap + kRounding, 1.5 * period_);
 }
 
 Vec3 TipPath::position(double t) const {
-  // Rows are even but for jitter: the right one is near.
-  const auto last = static_cast<double>(log_.time.size() - 1);
-  auto i = static_cast<std::size_t>(std::clamp(std::ceil((t - log_.time.front()) / log_.period), 1.0, last));
-  while (i > 1 && log_.time[i - 1] > t) --i;
-  while (i + 1 < log_.time.size() && log_.time[i] <= t) ++i;
-  const double share = (t - log_.time[i - 1]) / (log_.time[i] - log_.time[i - 1]);
-  return log_.tip[i - 1] + share * (log_.tip[i] - log_.tip[i - 1]);
+  const std::size_t i = after(t);
+  const double share = (t - time_[i - 1]) / (time_[i] - time_[i - 1]);
+  return tip_[i - 1] + share * (tip_[i] - tip_[i - 1]);
 }
 
 Vec3 TipPath::velocity(double t) const {

@@ -19,6 +19,12 @@ void add(std::string& row, double x) {
 
 void add_empty(std::string& row, std::size_t cells) { row.append(cells, ','); }
 
+// When it was true; nothing where there never was one.
+template <class V>
+void add_stamp(std::string& row, const Stamped<V>& sample) {
+  add(row, sample.health == Health::absent ? kUnset : seconds(sample.t.time_since_epoch()));
+}
+
 // How hard the object is pressed, N. By a probe: as measured in this tick, not filtered. In a contact: what
 // the object was made to answer to, which is filtered.
 double pressing(const Scene& scene, const Outputs& out) {
@@ -83,7 +89,7 @@ void RecordTable::add_markers(std::string& row, const TrackedTool& tool) const {
 std::string_view RecordTable::header() {
   return "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
          "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source,tool,markers_x_mm,markers_y_mm,markers_z_mm,"
-         "markers_qx,markers_qy,markers_qz,markers_qw\n";
+         "markers_qx,markers_qy,markers_qz,markers_qw,tip_time_s,force_time_s\n";
 }
 
 std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
@@ -101,6 +107,8 @@ std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& 
   seen ? add_tip(row, in.tool) : add_empty(row, 4);
   row += ',' + (number > 0 ? source_ : "");
   seen ? add_markers(row, in.tool.value) : add_empty(row, 8);
+  scene_.impedance() != nullptr ? add_stamp(row, in.arm) : add_stamp(row, in.tip);
+  add_stamp(row, in.wrench);
   return row + '\n';
 }
 

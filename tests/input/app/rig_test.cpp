@@ -71,7 +71,8 @@ struct Row {
   std::string mode;
   std::vector<double> numbers;  // of all other columns before the source; NaN where the cell is empty
   std::string source;
-  std::vector<std::string> markers;  // and the tool that they are of; no empty last cell
+  std::vector<std::string>
+      markers;  // the tool, its markers, and the stamps of tip and force; no empty last cell
 };
 std::vector<Row> rows_of(const std::string& csv) {
   std::istringstream in(csv);
@@ -82,7 +83,7 @@ std::vector<Row> rows_of(const std::string& csv) {
       text,
       "time_s,mode,tip_x_mm,tip_y_mm,tip_z_mm,force_x_N,force_y_N,force_z_N,deflection_mm,force_N,repeat,"
       "tool_x_mm,tool_y_mm,tool_z_mm,tool_time_s,source,tool,markers_x_mm,markers_y_mm,markers_z_mm,"
-      "markers_qx,markers_qy,markers_qz,markers_qw");
+      "markers_qx,markers_qy,markers_qz,markers_qw,tip_time_s,force_time_s");
   while (std::getline(in, text)) {
     Row row;
     std::istringstream cells(text);
@@ -123,6 +124,9 @@ TEST_F(RigProgram, RunsReplaysAndExports) {
     RecordedTick tick;
     ASSERT_TRUE(record.next(tick));
     ASSERT_EQ(row.numbers.size(), 14U);
+    ASSERT_EQ(row.markers.size(), 10U);
+    ASSERT_EQ(std::stod(row.markers[8]), seconds(tick.in.tip.t.time_since_epoch()));
+    ASSERT_EQ(std::stod(row.markers[9]), seconds(tick.in.wrench.t.time_since_epoch()));
     ASSERT_EQ(row.mode, "probe");
     ASSERT_EQ(row.source,
               row.numbers[9] > 0 ? "SIMULATED and not measured: ball 'nominal' pressed 6 mm at 4 mm/s" : "");

@@ -64,6 +64,38 @@ TEST(TrackerLog, TakesStampsAndInterpolatesTheTip) {
   EXPECT_TRUE(path.knows(0.150));
 }
 
+// A loop on a busy computer loses a cycle now and then: the tip moves on in a straight line meanwhile.
+TEST(TrackerLog, AFewLostRowsAreInterpolatedAndCounted) {
+  const TrackerLog log = parse_tracker_log(kHead + rows(0, 100) + rows(101, 150) + rows(210, 300), "l.csv");
+  EXPECT_EQ(log.time.size(), 239U);
+  EXPECT_THAT(log.notes, testing::Contains(HasSubstr("61 rows are missing, at 2 places of up to 61 ms")));
+  EXPECT_NEAR(log.period, 1e-3, 1e-9);
+  const TipPath path(log);
+  for (const double t : {0.0995, 0.1, 0.120, 0.149, 0.18, 0.2095, 0.25}) {
+    EXPECT_TRUE(path.knows(t)) << t;
+    EXPECT_NEAR(path.position(t).x(), t * 1e-3, 1e-12) << t;
+  }
+}
+
+// The tip moves by 1 mm in each row; its stamps are 4 ms before the rows, and each stands in two of them.
+TEST(TrackerLog, TheTipIsWhereItWasAtItsOwnStamp) {
+  std::string text = "tip_time_s," + kHead;
+  for (int n = 0; n < 300; ++n) {
+    const int said = n / 2 * 2;
+    const bool lost = n > 120 && n <= 270;  // nothing was heard of it: the last stands on
+    text += fmt::format("{:.3f},{:.3f},{},0,0,{}\n", (lost ? 120 : said) * 1e-3 - 4e-3, n * 1e-3,
+                        lost ? 120 : said, n % 10 == 0 ? fmt::format("{},0,0", n) : ",,");
+  }
+  const TipPath path(parse_tracker_log(text, "l.csv"));
+  for (const double t : {0.050, 0.0605, 0.0811}) {
+    EXPECT_TRUE(path.knows(t)) << t;
+    EXPECT_NEAR(path.position(t).x(), t + 4e-3, 1e-9) << t;
+    EXPECT_NEAR(path.velocity(t).x(), 1.0, 1e-9) << t;
+  }
+  EXPECT_FALSE(path.knows(0.2));
+  EXPECT_TRUE(path.knows(0.285));
+}
+
 std::string refused_log(const std::string& csv, double rate = kUnset) {
   try {
     static_cast<void>(parse_tracker_log(csv, "l.csv", rate));
@@ -95,6 +127,8 @@ TEST(TrackerLog, RefusesWithThePlaceInOneLine) {
       {good + "0.100,0.2,0,0,,,\n", "l.csv:202:1:", "does not come after 0.199"},
       {good + "0.200,0.2\n", "l.csv:202:7:", "2 columns; expected 7"},
       {good + rows(300, 400), "l.csv:202:1:", "rows are missing from 0.199 to 0.3 s"},
+      {good + "0.2016,0.2,0,0,,,\n", "l.csv:202:1:", "rows are missing from 0.199 to 0.2016 s"},
+      {"tip_time_s," + kHead + "5,0.000,0,0,0,,,\n", "l.csv:2:1:", "the tip's stamp 5 is 5 s from the row's"},
       {good + rows(200, 1000, 10, 2), "l.csv:", "expected one rate"},
       {kHead + rows(0, 9), "l.csv:10:1:", "there are 9 rows; expected at least 10"},
       {kHead + rows(0, 50), "l.csv:51:1:", "there are 5 packets"},
