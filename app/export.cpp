@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
+#include "app/lack.h"
 #include "app/options.h"
 #include "app/process.h"
 #include "app/run/stop_signals.h"
@@ -109,17 +110,6 @@ std::string ledger_of(const RecordReader& record, const std::string& path) {
                    : ": the end, where it stands, is missing (the run was killed, or the file was cut off); "
                      "record it again") +
               ", or leave out --ledger");
-}
-
-// What of a record is not there, as a person is told it.
-std::string lack_of(const RecordReader& record, const char* in) {
-  if (!record.damage().empty())
-    return fmt::format("{}; only the {} ticks before it are in the {}", record.damage(), record.ticks(), in);
-  if (!record.sealed())
-    return fmt::format(
-        "is not sealed: it was cut off, or its run was killed; the {} ticks that it holds are in the {}",
-        record.ticks(), in);
-  return {};
 }
 
 // Gives all ticks away; false where a signal came before the last: half a file is none.

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
+#include "app/lack.h"
 #include "core/error.h"
 #include "models/schema/wording.h"
 
@@ -188,6 +189,8 @@ std::string report(const std::string& record, const std::vector<std::string>& se
         "less well known than its bound is\n";
   for (const Divergence& one : shadow.found)
     if (one.diverges()) text += fmt::format("diverges    {}: {}\n", word_of(one.channel), sentence(one));
+  for (const trial::Remark& one : shadow.gross)
+    text += fmt::format("diverges    {}: {}\n", word_of(one.channel), one.text);
   if (shadow.diverges()) return text;
   if (shadow.found.empty()) return text + "verdict     nothing in this record can be held against a twin\n";
   const auto vague =
@@ -199,8 +202,9 @@ std::string report(const std::string& record, const std::vector<std::string>& se
 
 OrderedJson number_or_none(double x) { return std::isfinite(x) ? OrderedJson(x) : OrderedJson(nullptr); }
 
-std::string json_of(const Shadow& shadow) {
+std::string json_of(const Shadow& shadow, const std::string& lack) {
   OrderedJson json;
+  if (!lack.empty()) json["lack"] = lack;
   json["ticks"] = shadow.ticks;
   json["seconds_s"] = shadow.seconds;
   json["diverges"] = shadow.diverges();
@@ -224,6 +228,7 @@ std::string json_of(const Shadow& shadow) {
       list.push_back({{"channel", word_of(one.channel)}, {"text", one.text}});
     return list;
   };
+  json["gross"] = remarks(shadow.gross);
   json["not_judged"] = remarks(shadow.unjudged);
   json["notes"] = remarks(shadow.facts);
   return json.dump(2);
@@ -242,9 +247,11 @@ int shadow_command(const ShadowOptions& options) {
   const models::Setup twin = trial::twin_of(record, options.record, options.set);
   for (const std::string& note : twin.notes) fmt::print(stderr, "{}\n", note);
   const Shadow shadow = trial::shadow(record, options.record, twin);
-  fmt::print("{}", options.json ? json_of(shadow) + "\n"
+  const std::string lack = lack_of(record, "comparison");
+  fmt::print("{}", options.json ? json_of(shadow, lack) + "\n"
                                 : report(options.record, options.set, twin.scene.title, shadow));
-  return shadow.diverges() ? 1 : 0;
+  if (!lack.empty()) fmt::print(stderr, "encounter: {}: {}\n", options.record, lack);
+  return shadow.diverges() || !record.damage().empty() ? 1 : 0;
 }
 
 }  // namespace enc::app

@@ -30,6 +30,8 @@ inline constexpr std::size_t kTwins = 32;
 
 void add(Shadow& shadow, Channel channel, Quantity quantity, const models::Interval& off, double bound,
          const std::string& axis = {});
+// So far off that no size is found for it.
+void diverges_grossly(Shadow& shadow, Channel channel, std::string how);
 void cannot_judge(Shadow& shadow, Channel channel, std::string why);
 
 // The twin's machine as a record tells it what to do.
@@ -85,7 +87,7 @@ class TwinTrackers {
 void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow);
 void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Shadow& shadow);
 // Of what is neither: how old packets are by their stamps; and how many come.
-void see_ages(const std::vector<SeenPacket>& recorded, const std::vector<std::vector<SeenPacket>>& twins,
-              bool judge, Shadow& shadow);
+void see_ages(const Tape& tape, const std::vector<SeenPacket>& recorded,
+              const std::vector<std::vector<SeenPacket>>& twins, bool judge, Shadow& shadow);
 
 }  // namespace enc::trial

@@ -16,6 +16,7 @@ namespace {
 constexpr double kMachineBlock = 0.25;  // s
 constexpr int kRounds = 6;
 constexpr std::size_t kMostRows = 100'000;  // of ticks that are compared
+constexpr double kMoves = 1e-3;             // m/s, of the twin: less is a stop
 
 // Where the twin's machine was, tick by tick from the first; NaN where nobody knows.
 struct TwinWay {
@@ -51,6 +52,21 @@ BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& said, doub
     }
   }
   return fit.solve();
+}
+
+// m rms, of all three axes: what neither time nor place explains, where the twin moves, or everywhere.
+double rest_of(const TwinWay& way, const std::vector<Said>& said, double late,
+               const BlockFit::Result& found) {
+  const Vec3 off(found.values[0].value, found.values[1].value, found.values[2].value);
+  double moving = 0.0, of_moving = 0.0, all = 0.0, of_all = 0.0;
+  for (const Said& one : said) {
+    const Vec3 place = way.place(one.t - late), speed = way.speed(one.t - late);
+    if (!place.allFinite() || !speed.allFinite()) continue;
+    const double square = (one.at - place - off).squaredNorm();
+    all += square, ++of_all;
+    if (speed.norm() > kMoves) moving += square, ++of_moving;
+  }
+  return of_moving > 0.0 ? std::sqrt(moving / of_moving) : std::sqrt(all / of_all);
 }
 
 // s between two set-points of the machine's driver, [driver.NAME] cycle_ms; 0 where it has none.
@@ -108,7 +124,7 @@ void see_machine(const Tape& tape, Shadow& shadow) {
     add(shadow, Channel::machine, Quantity::machine_place, off, bounds::kMachinePlace,
         std::string(1, "xyz"[a]));
   }
-  add(shadow, Channel::machine, Quantity::machine_rest, {found.rms * std::sqrt(3.0), 0.0},
+  add(shadow, Channel::machine, Quantity::machine_rest, {rest_of(way, said, late, found), 0.0},
       bounds::kMachineRest);
 }
 

@@ -135,7 +135,7 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
   });
   find_lines(tape, recorded, contact, pressed);
   const Seen found = seen_pressing(tape, pressed, recorded);
-  const bool told = found.packets >= kFewest && tape.sent;
+  const bool told = found.packets >= kFewest;
   TwinTrackers trackers(tape), ages(tape);
   const Pose<'W', 'R'> X_WR = sim::hexapod_base(tape.twin.twin.hexapod);
   for (std::size_t i = 0; i < pressed.felt.size(); ++i) {
@@ -146,7 +146,7 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
     const Held held = held_by_twin(tape, pressed, X_WR, i, t);
     trackers.advance(t, held.tool, held.X_WT);
   }
-  see_ages(recorded, ages.packets(), !told || !found.stamps.known(), shadow);
+  see_ages(tape, recorded, ages.packets(), !told || !found.stamps.known(), shadow);
   if (!told)
     return cannot_judge(shadow, Channel::tool,
                         fmt::format("{} packets came of a tool that pressed the tip, and the machine carried "

@@ -2,6 +2,7 @@
 // would have pushed back with.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,9 @@ constexpr double kBefore = 1e-3;      // m before the touch, from where on a pus
 constexpr double kStep = 20e-6;       // m, of the difference that stands for a slope
 constexpr double kSlopeTime = 4e-3;   // s, likewise
 constexpr double kTouch = 0.2;        // N: less is no push
+constexpr double kFelt = 1.0;         // N: more than weight, inertia and drift are in a block of time
 constexpr int kMostRounds = 10;
+constexpr double kBend = 0.5e-3;    // m
 constexpr double kSettled = 2e-6;   // m
 constexpr double kFarthest = 3e-3;  // m: what is farther away is another place
 constexpr Eigen::Index kAlike = 0, kNearer = 1, kLate = 2, kPushed = 3;
@@ -96,7 +99,8 @@ Rows rows_of(const Tape& tape) {
   bool in = false;
   for (std::size_t i = 0; i < ticks; ++i) {
     const Time t = tape.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count());
-    const bool now = probe.deflection(tape.scene.X_WR * tape.tip.at(t).X_RH.origin()) > from;
+    const bool now =
+        tape.tip.knows(t) && probe.deflection(tape.scene.X_WR * tape.tip.at(t).X_RH.origin()) > from;
     if (now && !in) ++rows.pushes;
     if (now) rows.push[i] = rows.pushes - 1;
     in = now;
@@ -148,6 +152,22 @@ std::vector<Reading> recorded_forces(const Tape& tape, const Along& along) {
   return out;
 }
 
+// N, between the blocks of time in which it felt least and most: whatever the probe was thought to press.
+double felt_at_most(const std::vector<Reading>& readings, double dt) {
+  std::map<std::int64_t, std::pair<double, double>> blocks;  // sum and number
+  for (const Reading& one : readings) {
+    auto& [sum, number] = blocks[static_cast<std::int64_t>(std::floor(one.at * dt / kForceBlock))];
+    sum += one.force;
+    ++number;
+  }
+  double least = INFINITY, most = -INFINITY;
+  for (const auto& [block, of] : blocks) {
+    least = std::min(least, of.first / of.second);
+    most = std::max(most, of.first / of.second);
+  }
+  return std::max(0.0, most - least);
+}
+
 // And what the twin's would have said with this seed.
 std::vector<Reading> twin_forces(const Tape& tape, const Along& along, const std::vector<Wrench>& felt,
                                  std::uint64_t seed) {
@@ -162,15 +182,30 @@ std::vector<Reading> twin_forces(const Tape& tape, const Along& along, const std
   return out;
 }
 
+// The twin's probe presses nothing. felt: by the record's; thought: by the twin's, where its object is
+// thought to be.
+void nothing_there(double felt, double thought, Shadow& shadow) {
+  if (felt > kFelt)
+    return diverges_grossly(
+        shadow, Channel::force,
+        fmt::format("the probe felt {:.1f} N where the twin has nothing that it presses", felt));
+  if (thought > kFelt)
+    return diverges_grossly(
+        shadow, Channel::force,
+        fmt::format("the probe felt nothing where the twin's presses with {:.1f} N", thought));
+  cannot_judge(shadow, Channel::force, "the probe pressed nothing that the twin has there");
+}
+
 }  // namespace
 
 void see_probed(const Tape& tape, Shadow& shadow) {
   if (tape.scene.probe() == nullptr || !tape.scene.has_force) return;
   const Along along(tape);
   const std::vector<Reading> recorded = recorded_forces(tape, along);
+  const double pressed = felt_at_most(recorded, tape.scene.dt);
   const Rows rows = rows_of(tape);
   const models::Setup quiet = faultless(tape.twin);
-  double nearer = 0.0, late = 0.0;
+  double nearer = 0.0, late = 0.0, thought = 0.0;
   std::vector<Wrench> felt;
   Forces twin, stepped;
   Compared found;
@@ -179,23 +214,32 @@ void see_probed(const Tape& tape, Shadow& shadow) {
     felt = felt_by_twin(tape, quiet, nearer);
     twin = along_push(along, felt);
     stepped = along_push(along, felt_by_twin(tape, quiet, nearer + kStep));
-    if (rows.pushes == 0 ||
-        *std::max_element(twin.begin(), twin.end()) - *std::min_element(twin.begin(), twin.end()) < kTouch)
-      return cannot_judge(shadow, Channel::force, "the probe pressed nothing that the twin has there");
+    const auto [least, most] = std::minmax_element(twin.begin(), twin.end());
+    if (round == 0) thought = *most - *least;
+    if (rows.pushes == 0 || *most - *least < kTouch) return nothing_there(pressed, thought, shadow);
     found = compare(rows, recorded, twin, stepped, late);
     if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
     settled = std::abs(found.nearer.value) < kSettled;
     if (settled || round + 1 == kMostRounds) break;
-    // The twin presses as far as it must to feel what was felt; no farther at once than its law bends.
-    nearer += std::clamp(found.nearer.value, -0.5e-3, 0.5e-3);
+    // The twin presses as far as it must to feel what was felt; no farther at once than its law bends. Where
+    // what was felt is not alike at all, only more or less of it tells which way that is.
+    const double towards = pressed > *most - *least ? kBend : -kBend;
+    nearer += found.alike.value > 0.0 ? std::clamp(found.nearer.value, -kBend, kBend) : towards;
     if (std::isfinite(found.late.value)) late = std::clamp(late + found.late.value, -0.02, 0.02);
   }
+  if (!settled && std::abs(nearer) > kFarthest)
+    return diverges_grossly(
+        shadow, Channel::force,
+        fmt::format(
+            "the object, or the machine, stands elsewhere: more than {:.0f} mm {} each other than the "
+            "twin's",
+            1e3 * kFarthest, nearer > 0.0 ? "nearer to" : "farther from"));
   if (!found.alike.known())
     return cannot_judge(shadow, Channel::force, "the probe pressed for too short a time");
-  if (!settled && std::abs(nearer) > kFarthest)
-    return cannot_judge(
+  if (!settled && !(found.alike.value > 0.0))
+    return diverges_grossly(
         shadow, Channel::force,
-        fmt::format("the object stands more than {:.0f} mm from where the twin has it", 1e3 * kFarthest));
+        "what the probe felt is not what the twin's object pushes back with, wherever it stands");
   std::vector<double> alike, place, time, rest;
   for (std::vector<double>* one : {&alike, &place, &time, &rest}) one->reserve(kTwins);
   for (std::size_t k = 0; k < kTwins; ++k) {

@@ -28,7 +28,8 @@ bool Divergence::diverges() const {
 bool Divergence::vague() const { return !known_to(off, bound) && !diverges(); }
 
 bool Shadow::diverges() const {
-  return std::any_of(found.begin(), found.end(), [](const Divergence& one) { return one.diverges(); });
+  return !gross.empty() ||
+         std::any_of(found.begin(), found.end(), [](const Divergence& one) { return one.diverges(); });
 }
 
 models::Setup twin_of(const RecordReader& record, const std::string& path,
@@ -105,6 +106,10 @@ models::Interval beside_twins(const models::Interval& recorded, const std::vecto
 void add(Shadow& shadow, Channel channel, Quantity quantity, const models::Interval& off, double bound,
          const std::string& axis) {
   shadow.found.push_back({channel, quantity, axis, off, bound});
+}
+
+void diverges_grossly(Shadow& shadow, Channel channel, std::string how) {
+  shadow.gross.push_back({channel, std::move(how)});
 }
 
 void cannot_judge(Shadow& shadow, Channel channel, std::string why) {

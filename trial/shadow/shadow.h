@@ -59,6 +59,7 @@ struct Remark {
 
 struct Shadow {
   std::vector<Divergence> found;
+  std::vector<Remark> gross;  // diverges by more than has a size, and why
   std::vector<Remark> unjudged, facts;
   std::int64_t ticks = 0;
   double seconds = 0.0;

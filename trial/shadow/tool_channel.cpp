@@ -15,6 +15,14 @@ namespace {
 
 constexpr std::size_t kFewestPackets = 30;
 constexpr double kAgeBlock = 0.25;  // s
+constexpr double kMost = 0.5;       // of the tool's motion, that the machine's does not explain
+
+// Of those that came, and are of a time, at which it is known where the machine was.
+std::vector<SeenPacket> with_machine(const Tape& tape, std::vector<SeenPacket> packets) {
+  std::erase_if(packets,
+                [&](const SeenPacket& one) { return !tape.tip.knows(one.t) || !tape.tip.knows(one.stamp); });
+  return packets;
+}
 
 double median_pause(const std::vector<SeenPacket>& packets) {
   std::vector<double> pauses;
@@ -31,6 +39,23 @@ models::TrackerLog with_packets(models::TrackerLog rows, const Scene& scene,
     rows.packets.push_back({in_seconds(one.t), in_seconds(one.stamp), Vec3(tip_of(scene, one.tool).e())});
   rows.packet_period = median_pause(packets);
   return rows;
+}
+
+bool goes_along(const models::LatencyFit& fit) {
+  return fit.carried && fit.in_range && !(fit.unexplained > kMost);
+}
+
+// How a tool that the machine carries does not go along with it.
+std::string astray(const models::LatencyFit& fit) {
+  if (!fit.carried) return "the tool moved while the machine that carries it stood still";
+  if (fit.unexplained > kMost)
+    return fmt::format(
+        "the tool did not go where the machine carried it: {:.0f} % of its motion is not the machine's; it "
+        "is "
+        "not held, or the camera is turned",
+        100.0 * std::min(1.0, fit.unexplained));
+  return fmt::format("the tool is seen {:.0f} ms after the machine carried it there: no tracker is so late",
+                     1e3 * fit.latency.value);
 }
 
 }  // namespace
@@ -59,8 +84,8 @@ Pauses pauses_of(const std::vector<SeenPacket>& packets) {
 
 }  // namespace
 
-void see_ages(const std::vector<SeenPacket>& recorded, const std::vector<std::vector<SeenPacket>>& twins,
-              bool judge, Shadow& shadow) {
+void see_ages(const Tape& tape, const std::vector<SeenPacket>& recorded,
+              const std::vector<std::vector<SeenPacket>>& twins, bool judge, Shadow& shadow) {
   std::vector<double> ages, rates;
   ages.reserve(twins.size());
   rates.reserve(twins.size());
@@ -71,9 +96,20 @@ void see_ages(const std::vector<SeenPacket>& recorded, const std::vector<std::ve
     rates.push_back(pauses.rate);
     longest = std::max(longest, pauses.longest);
   }
-  if (judge)
-    add(shadow, Channel::tool, Quantity::tool_latency, beside_twins(mean_age(recorded), ages),
-        bounds::kToolLatency);
+  const models::Interval older = beside_twins(mean_age(recorded), ages);
+  // Over a wire the quickest packet is as old as the rig file says: the mean tells no more than the jitter.
+  const bool wire = tape.twin.rig.tracker.driver != "sim";
+  if (judge && wire) {
+    cannot_judge(shadow, Channel::tool,
+                 "how late it is seen: a constant delay is not in stamps that are tied to when packets come");
+    if (older.known())
+      shadow.facts.push_back(
+          {Channel::tool,
+           fmt::format("by their stamps packets come {:.2f} +- {:.2f} ms later than from the twin's tracker",
+                       1e3 * older.value, 1e3 * older.half)});
+  } else if (judge) {
+    add(shadow, Channel::tool, Quantity::tool_latency, older, bounds::kToolLatency);
+  }
   const Pauses pauses = pauses_of(recorded);
   shadow.facts.push_back(
       {Channel::clock,
@@ -92,18 +128,27 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
     const sim::TrackerPlant::State& seen = world.tracker->state();  // what its own tracker was shown
     trackers.advance(t, seen.tool_before, seen.before);
   });
-  const models::LatencyFit found = models::fit_latency(with_packets(rows, tape.scene, recorded));
-  constexpr double kMost = 0.5;  // of the tool's motion, that the machine's does not explain
-  const bool carried = found.carried && found.in_range && !(found.unexplained > kMost);
-  see_ages(recorded, trackers.packets(), !carried || !found.latency.known(), shadow);
-  if (!carried)
+  const std::vector<SeenPacket> known = with_machine(tape, recorded);
+  if (known.size() < kFewestPackets) {
+    see_ages(tape, recorded, trackers.packets(), true, shadow);
     return cannot_judge(shadow, Channel::tool,
-                        "the machine did not carry it: where it should be seen is not known");
+                        fmt::format("where the machine was is known for {} of its {} packets; expected {}",
+                                    known.size(), recorded.size(), kFewestPackets));
+  }
+  const models::LatencyFit found = models::fit_latency(with_packets(rows, tape.scene, known));
+  const bool carried = goes_along(found);
+  see_ages(tape, recorded, trackers.packets(), !carried || !found.latency.known(), shadow);
   std::vector<models::LatencyFit> twins;
   twins.reserve(kTwins);
   for (const std::vector<SeenPacket>& packets : trackers.packets())
-    if (packets.size() >= kFewestPackets)
-      twins.push_back(models::fit_latency(with_packets(rows, tape.scene, packets)));
+    if (const std::vector<SeenPacket> seen = with_machine(tape, packets); seen.size() >= kFewestPackets)
+      twins.push_back(models::fit_latency(with_packets(rows, tape.scene, seen)));
+  // A motion that is lost in the tracker's noise is lost in the twin's, too.
+  if (!carried && std::count_if(twins.begin(), twins.end(), goes_along) > std::ssize(twins) / 2)
+    return diverges_grossly(shadow, Channel::tool, astray(found));
+  if (!carried)
+    return cannot_judge(shadow, Channel::tool,
+                        "the machine hardly moved it: it is lost in what its tracker adds");
   const auto beside = [&](const auto& part) {
     std::vector<double> values;
     values.reserve(twins.size());

@@ -70,6 +70,51 @@ TEST_F(ShadowInput, ACameraThatWasMovedIsRegistration) {
                            HasSubstr("farther than by the twin's tracker, towards +z\n")));
 }
 
+// Where it is too far off for a size it is said in words, and fails all the same.
+TEST_F(ShadowInput, AnObjectThatStandsFarOffDiverges) {
+  const std::string record = run_of("rig_identify", kQuickProbe);
+  const Words beside{"shadow", record, "--set", "truth.ball.misplaced_mm=[0,0,5]"};
+  const Result r = run_program(beside);
+  EXPECT_EQ(r.code, 1) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("diverges    force: the "), Not(HasSubstr("verdict"))));
+  Words json = beside;
+  json.emplace_back("--json");
+  const nlohmann::json found = nlohmann::json::parse(run_program(json).out);
+  EXPECT_TRUE(found.at("diverges"));
+  EXPECT_EQ(found.at("gross").at(0).at("channel"), "force");
+}
+
+TEST_F(ShadowInput, SaysWhatOfARecordIsMissing) {
+  const std::string record = run_of("plane", {"--for-s", "1"});
+  std::string bytes = test::bytes_of(record);
+  bytes.resize(bytes.size() * 3 / 4);
+  write("cut.encrec", bytes);
+  const Result cut = run_program({"shadow", path("cut.encrec"), "--partial"});
+  EXPECT_EQ(cut.code, 0) << cut.out;
+  EXPECT_THAT(cut.err, AllOf(HasSubstr("cut.encrec: is not sealed"), HasSubstr("are in the comparison\n")));
+  bytes = test::bytes_of(record);
+  bytes[bytes.size() * 3 / 4] = static_cast<char>(bytes[bytes.size() * 3 / 4] ^ 1);
+  write("damaged.encrec", bytes);
+  const Result damaged = run_program({"shadow", path("damaged.encrec"), "--partial", "--json"});
+  EXPECT_EQ(damaged.code, 1) << damaged.out;
+  EXPECT_THAT(damaged.err, HasSubstr("checksum"));
+  const nlohmann::json json = nlohmann::json::parse(damaged.out);
+  EXPECT_FALSE(json.at("diverges"));
+  EXPECT_THAT(json.at("lack").get<std::string>(),
+              AllOf(HasSubstr("checksum"), HasSubstr("in the comparison")));
+}
+
+// They have no --partial: the table of what is whole is export's.
+TEST_F(ShadowInput, CalibrateAndFitSayHowACutRecordIsRead) {
+  const std::string bytes = test::bytes_of(run_of("plane", {"--for-s", "0.5"}));
+  write("cut.encrec", bytes.substr(0, bytes.size() / 2));
+  for (const char* command : {"calibrate", "fit"})
+    EXPECT_THAT(
+        one_line(run_program({command, path("cut.encrec")})),
+        AllOf(HasSubstr("cut.encrec: byte "), HasSubstr("encounter export RECORD --partial --csv FILE"),
+              Not(HasSubstr("give --partial"))));
+}
+
 TEST_F(ShadowInput, RefusesInOneLine) {
   const std::string record = run_of("plane", {"--for-s", "0.5"});
   EXPECT_THAT(one_line(run_program({"shadow", path("none.encrec")})), HasSubstr("none.encrec"));

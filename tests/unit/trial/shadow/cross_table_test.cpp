@@ -1,5 +1,7 @@
 // Each injected error is found, is as large as it was made, and is named by its own channel and by no other.
+#include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -128,6 +130,12 @@ const std::vector<Injected>& injections() {
   return kAll;
 }
 
+// Nobody sees better than the machine's steps, 3 um, and 0.2 % of what is felt in each of them.
+double least_seen(Quantity quantity) {
+  if (quantity == Quantity::stiffness || quantity == Quantity::rendered) return 2e-3;
+  return quantity == Quantity::registration ? 5e-6 : 2e-6;
+}
+
 TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
   for (const Injected& one : injections()) {
     const std::string row = std::string(one.what) + " in " + one.scene.name;
@@ -135,12 +143,30 @@ TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
     EXPECT_THAT(named(shadow), ElementsAre(one.name)) << row;
     const trial::Divergence* size = found(shadow, one.quantity, one.axis);
     ASSERT_NE(size, nullptr) << row;
-    // Nobody sees better than the machine's steps, 3 um, and 0.2 % of what is felt in each of them.
-    const double least = one.quantity == Quantity::stiffness || one.quantity == Quantity::rendered ? 2e-3
-                         : one.quantity == Quantity::registration                                  ? 5e-6
-                                                                                                   : 2e-6;
-    EXPECT_NEAR(size->off.value, one.size, std::max(size->off.half, least)) << row;
+    EXPECT_NEAR(size->off.value, one.size, std::max(size->off.half, least_seen(one.quantity))) << row;
     EXPECT_LT(size->off.half, 0.5 * std::abs(one.size)) << row;
+  }
+}
+
+// Not by the luck of one seed: of twelve others, each names the three errors alone, and the printed interval
+// of 95 % holds the size of at least ten. Of a tracker's own latency, which goes in stairs of 1.67 ms, only
+// the name is asked for.
+TEST(ShadowTable, TheThreeErrorsAreNamedAloneWithEachSeed) {
+  for (const char* what :
+       {"5 % of stiffness", "3 ms of the tracker", "3 ms of its server", "1 mm of registration along x"}) {
+    const auto row = std::find_if(injections().begin(), injections().end(),
+                                  [what](const Injected& one) { return std::string(one.what) == what; });
+    ASSERT_NE(row, injections().end()) << what;
+    int held = 0;
+    for (std::uint64_t seed = 201; seed <= 212; ++seed) {
+      const trial::Shadow shadow = shadowed(row->scene, seed, row->altered, row->twin);
+      EXPECT_THAT(named(shadow), ElementsAre(row->name)) << what << ", seed " << seed;
+      const trial::Divergence* size = found(shadow, row->quantity, row->axis);
+      ASSERT_NE(size, nullptr) << what << ", seed " << seed;
+      if (std::abs(size->off.value - row->size) < std::max(size->off.half, least_seen(row->quantity))) ++held;
+    }
+    if (row->altered.front().starts_with("truth.tracker.latency_ms")) continue;
+    EXPECT_GE(held, 10) << what;
   }
 }
 
@@ -160,11 +186,68 @@ TEST(ShadowTable, AForceOfAnotherLawOrAWorseSensorHasARest) {
               testing::Contains("force force_rest"));
 }
 
-TEST(ShadowTable, AnObjectThatIsFarAwayIsNotJudged) {
-  const trial::Shadow shadow =
-      shadowed(probing(), 7, {"truth.ball.misplaced_mm=[0,0,-12]"}, {"truth.ball.misplaced_mm=[0,0,0]"});
-  EXPECT_EQ(found(shadow, Quantity::stiffness), nullptr);
-  EXPECT_FALSE(shadow.unjudged.empty());
+// What is too far off for a size is no less a divergence.
+TEST(ShadowTable, AnObjectThatIsFarAwayDiverges) {
+  const std::vector<std::string> believed{"truth.ball.misplaced_mm=[0,0,0]"};
+  for (const char* place : {"-12", "-5", "5", "12"}) {
+    const trial::Shadow shadow =
+        shadowed(probing(), 7, {"truth.ball.misplaced_mm=[0,0," + std::string(place) + "]"}, believed);
+    EXPECT_TRUE(shadow.diverges()) << place;
+    if (place[0] == '-') {
+      EXPECT_THAT(named(shadow), testing::Contains("force gross")) << place;
+      EXPECT_EQ(found(shadow, Quantity::stiffness), nullptr) << place;
+    }
+  }
+}
+
+TEST(ShadowTable, ATurnedCameraDiverges) {
+  const trial::Shadow shadow = shadowed(carrying(), 7, {"truth.frames.W_C.rotation_deg=[0,0,60]"},
+                                        {"truth.frames.W_C.rotation_deg=[0,0,0]"});
+  EXPECT_THAT(named(shadow), ElementsAre("tool gross"));
+  ASSERT_FALSE(shadow.gross.empty());
+  EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("did not go where the machine carried it"));
+}
+
+// Later than any tracker, and its stamps, too: as over a wire, where they are tied to when packets come.
+TEST(ShadowTable, AToolThatIsSeenMuchTooLateDiverges) {
+  constexpr std::size_t kTicks = 800;
+  std::deque<Stamped<TrackedTool>> under_way;
+  const auto later = [&under_way](RecordedTick& frame, double) {
+    under_way.push_back(frame.in.tool);
+    frame.in.tool = {};
+    if (under_way.size() <= kTicks) return;
+    frame.in.tool = under_way.front();
+    under_way.pop_front();
+    frame.in.tool.t += from_seconds(1e-3 * static_cast<double>(kTicks));
+  };
+  EXPECT_TRUE(shadowed_frames(carrying(), 7, later).diverges());
+}
+
+// Of bounds that no truth of the twin reaches: the record is altered frame by frame.
+TEST(ShadowTable, AMachineThatSaysItStandsElsewhereIsNamed) {
+  const auto aside = [](RecordedTick& frame, double) {
+    const Pose<'R', 'H'> said = frame.in.tip.value.X_RH;
+    frame.in.tip.value.X_RH = Pose<'R', 'H'>(Quat(said.q()), Vec3(said.p() + Vec3(0.0, 0.1e-3, 0.0)));
+  };
+  const trial::Shadow shadow = shadowed_frames(probing(), 7, aside);
+  EXPECT_THAT(named(shadow), testing::Contains("machine machine_place y"));
+  const trial::Divergence* place = found(shadow, Quantity::machine_place, "y");
+  ASSERT_NE(place, nullptr);
+  EXPECT_NEAR(place->off.value, 0.1e-3, 5e-6);
+}
+
+TEST(ShadowTable, AForceThatComesLaterIsNamed) {
+  const auto late = [](RecordedTick& frame, double) { frame.in.wrench.t += from_seconds(3e-3); };
+  const trial::Shadow shadow = shadowed_frames(probing(), 7, late);
+  EXPECT_THAT(named(shadow), ElementsAre("force force_time"));
+  const trial::Divergence* time = found(shadow, Quantity::force_time);
+  ASSERT_NE(time, nullptr);
+  EXPECT_NEAR(time->off.value, 3e-3, 0.3e-3);
+}
+
+TEST(ShadowTable, AServoOfAnotherFrequencyHasARest) {
+  EXPECT_THAT(named(shadowed(carrying(), 7, {}, {"truth.hexapod.servo_hz=6"})),
+              testing::Contains("machine machine_rest"));
 }
 
 // A platform on legs that bend is not shaken by being led: it is placed where it said that it was.

@@ -33,16 +33,45 @@ const ShadowedScene& pressing() {
   return kScene;
 }
 
+models::Setup set_up(const ShadowedScene& scene, const std::string& rig,
+                     const std::vector<std::string>& more) {
+  std::vector<std::string> set = scene.set;
+  set.insert(set.end(), more.begin(), more.end());
+  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene.name + ".toml", rig, set);
+}
+
 trial::Shadow shadowed(const ShadowedScene& scene, std::uint64_t seed,
                        const std::vector<std::string>& altered, const std::vector<std::string>& twin) {
   const TemporaryFolder folder;
-  std::vector<std::string> set = scene.set;
-  set.insert(set.end(), altered.begin(), altered.end());
   const std::string file = folder.file("r.encrec");
-  record_run(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene.name + ".toml", "sim", set), seed,
-             file);
+  record_run(set_up(scene, "sim", altered), seed, file);
   RecordReader record(file);
   return trial::shadow(record, file, trial::twin_of(record, file, twin));
+}
+
+trial::Shadow shadowed_frames(const ShadowedScene& scene, std::uint64_t seed, const AlterFrame& alter,
+                              const std::vector<std::string>& twin) {
+  const TemporaryFolder folder;
+  const std::string run = folder.file("r.encrec"), file = folder.file("altered.encrec");
+  record_run(set_up(scene), seed, run);
+  RecordReader from(run);
+  RecordWriter to(file, from.texts(), from.layout());
+  RecordedTick frame;
+  for (std::int64_t i = 0; from.next(frame); ++i) {
+    alter(frame, static_cast<double>(i) / static_cast<double>(from.ticks()));
+    to.write(frame.tick, frame.in, frame.out, frame.hash);
+  }
+  to.close();
+  RecordReader record(file);
+  return trial::shadow(record, file, trial::twin_of(record, file, twin));
+}
+
+trial::Shadow shadowed_beside(const models::Setup& recorded, std::uint64_t seed, const models::Setup& twin) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("r.encrec");
+  record_run(recorded, seed, file);
+  RecordReader record(file);
+  return trial::shadow(record, file, twin);
 }
 
 std::vector<std::string> named(const trial::Shadow& shadow) {
@@ -51,6 +80,7 @@ std::vector<std::string> named(const trial::Shadow& shadow) {
     if (one.diverges())
       names.push_back(std::string(word_of(one.channel)) + " " + std::string(word_of(one.quantity)) +
                       (one.axis.empty() ? "" : " " + one.axis));
+  for (const trial::Remark& one : shadow.gross) names.push_back(std::string(word_of(one.channel)) + " gross");
   return names;
 }
 

@@ -1,11 +1,15 @@
 #include "trial/shadow/shadow.h"
 
 #include <cmath>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/support/bytes_of.h"
+#include "tests/support/replaced.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/unit/trial/shadow/shadow_runs.h"
 #include "trial/shadow/channels.h"
 
@@ -76,6 +80,78 @@ TEST(ShadowTwins, AreTheSetUpWithWhatIsPutOverIt) {
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("did you mean"));
   }
+}
+
+// A rig as a laboratory has it: nothing but its calibration says where its camera is. What is real is there.
+TEST(ShadowTwins, OfARigWithoutTruthSeeAsItsCalibrationSays) {
+  const TemporaryFolder folder;
+  const std::string frame = "position_mm = [0, -900, 600]\nrotation_deg = [0, 0, 0]\n";
+  const std::string sim = bytes_of(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml");
+  std::ofstream(folder.file("mine.toml"))
+      << replaced(replaced(sim, "[truth.frames.W_C]\n" + frame, ""), frame,
+                  "position_mm = [3, -896, 604]\nrotation_deg = [1, -1, 1.4]\n");
+  const models::Setup twin = set_up(carrying(), folder.file("mine.toml"));
+  const models::Setup real =
+      set_up(carrying(), folder.file("mine.toml"),
+             {"truth.frames.W_C.position_mm=[3,-896,604]", "truth.frames.W_C.rotation_deg=[1,-1,1.4]"});
+  const trial::Shadow shadow = shadowed_beside(real, 7, twin);
+  EXPECT_THAT(named(shadow), testing::ElementsAre());
+  for (const char* axis : {"x", "y", "z"}) {
+    const Divergence* place = found(shadow, trial::Quantity::registration, axis);
+    ASSERT_NE(place, nullptr);
+    EXPECT_FALSE(place->vague());
+  }
+}
+
+// From here on nobody hears of the machine, which goes on all the same; what it said last stands on.
+AlterFrame lost_from(const std::function<bool(const RecordedTick&, double share)>& begins) {
+  struct Lost {
+    bool is = false;
+    Stamped<TipSample> last;
+  };
+  return [begins, lost = Lost{}](RecordedTick& frame, double share) mutable {
+    lost.is = lost.is || begins(frame, share);
+    if (!lost.is) lost.last = frame.in.tip;
+    frame.in.tip = lost.last;
+    if (lost.is) frame.in.tip.health = Health::fault;
+  };
+}
+
+TEST(ShadowLostLink, NothingIsHeldAgainstAMachineThatIsNotHeardOf) {
+  const auto in_second_push = [](const RecordedTick& frame, double share) {
+    return share > 0.5 && frame.out.deflection > 3e-3;
+  };
+  const trial::Shadow probed = shadowed_frames(probing(), 7, lost_from(in_second_push));
+  EXPECT_THAT(named(probed), testing::ElementsAre());
+  EXPECT_NE(found(probed, trial::Quantity::stiffness), nullptr);
+  const auto late = [](const RecordedTick&, double share) { return share > 0.6; };
+  const trial::Shadow carried = shadowed_frames(carrying(), 7, lost_from(late));
+  EXPECT_THAT(named(carried), testing::ElementsAre());
+  EXPECT_NE(found(carried, trial::Quantity::registration, "x"), nullptr);
+}
+
+// What packets are tied to is when they come: a delay that they all have is not seen in their stamps.
+TEST(ShadowUnjudged, TheAgeByStampsOfAWireTellsNoLatency) {
+  const ShadowedScene still{"clamped_tool", {}};
+  models::Setup twin = set_up(still);
+  EXPECT_NE(found(shadowed_beside(twin, 5, twin), trial::Quantity::tool_latency), nullptr);
+  twin.rig.tracker.driver = "igtl";
+  const trial::Shadow shadow = shadowed_beside(set_up(still), 5, twin);
+  EXPECT_EQ(found(shadow, trial::Quantity::tool_latency), nullptr);
+  EXPECT_THAT(shadow.unjudged,
+              testing::Contains(testing::Field(&trial::Remark::text,
+                                               HasSubstr("stamps that are tied to when packets come"))));
+  EXPECT_THAT(shadow.facts, testing::Contains(testing::Field(&trial::Remark::text,
+                                                             HasSubstr("by their stamps packets come"))));
+}
+
+// Nothing goes to the machine, and it says where it stands: that is all that registration asks for.
+TEST(ShadowUnjudged, ADryRunTellsRegistrationByThePress) {
+  const auto dry = [](RecordedTick& frame, double) { frame.in.withheld = true; };
+  const trial::Shadow shadow =
+      shadowed_frames(pressing(), 7, dry, {"truth.frames.W_C.position_mm=[0,-900,601]"});
+  EXPECT_THAT(named(shadow), testing::ElementsAre("tool registration away"));
+  EXPECT_EQ(found(shadow, trial::Quantity::machine_time), nullptr);
 }
 
 // Nothing is carried, nothing pressed, and nothing moves: it says so, and nothing fails.
