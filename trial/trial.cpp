@@ -76,31 +76,10 @@ bool is_fake(const models::Setup& setup, const std::string& driver) {
   return (number && at.starts_with("127.")) || at == "localhost" || at == "::1";
 }
 
-// What is wrong with the day on which a rig was measured; empty: nothing. The day may be tomorrow's where the
-// rig was measured east of here.
-std::string doubt_of(const CalibrationRig& calibration) {
-  const auto day = models::day_of(calibration.date);
-  if (!day)
-    return "this rig has no day of calibration; expected a [calibration] with date = \"YYYY-MM-DD\", the day "
-           "on which it was measured, or the file of `encounter calibrate RIG` (docs/guide/laboratory.md)";
-  const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
-  const std::int64_t age = (today - *day).count();
-  if (age < -1)
-    return fmt::format(
-        "this rig was calibrated on {}, which is {} days from now; expected a day that has been; "
-        "see to the date, and to the clock of this PC",
-        calibration.date, -age);
-  if (age > calibration.valid)
-    return fmt::format(
-        "this rig was calibrated on {}, {} days ago; expected {} at most; calibrate it again "
-        "(docs/guide/laboratory.md), or raise rig.calibration.valid_days if nothing was moved",
-        calibration.date, age, calibration.valid);
-  return {};
-}
-
 // With frames that nobody measured, or that may have changed, its tip is not where anybody expects it.
 void refuse_uncalibrated(const models::Setup& setup) {
-  const std::string doubt = doubt_of(setup.rig.calibration);
+  const std::string doubt = models::doubt_of(
+      setup.rig.calibration, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
   if (doubt.empty()) return;
   for (const DrivenRole& role : driven_roles(setup))
     if (role.moves && !is_fake(setup, role.driver))
@@ -264,13 +243,18 @@ TrialResult Trial::run() {
   result_.simulated = static_cast<double>(result_.ticks + result_.missed) * scene_.dt;
   result_.lateness = rig_.clock->lateness();
   result_.links = gate_.links();
-  result_.log = log_.lines();
-  each_role([&](const auto& role) {
-    if (const auto& device = rig_.*role.slot)
-      for (std::string& line : device->remarks()) result_.log.push_back(std::move(line));
-  });
+  result_.log = said();
   if (result_.diverged_at >= 0) result_.divergence = world_->divergence();
   return result_;
+}
+
+std::vector<std::string> Trial::said() const {
+  std::vector<std::string> lines = log_.lines();
+  each_role([&](const auto& role) {
+    if (const auto& device = rig_.*role.slot)
+      for (std::string& line : device->remarks()) lines.push_back(std::move(line));
+  });
+  return lines;
 }
 
 }  // namespace enc::trial

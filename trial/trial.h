@@ -86,8 +86,8 @@ class Trial {
   [[nodiscard]] State& state() { return state_; }
   [[nodiscard]] Outputs& outputs() { return out_; }
   [[nodiscard]] const Outputs& outputs() const { return out_; }
-  // The twin; there is one if a slot is simulated.
-  [[nodiscard]] bool has_world() const { return world_ != nullptr; }
+  [[nodiscard]] std::vector<std::string> said() const;  // by the devices so far, a line each
+  [[nodiscard]] bool has_world() const { return world_ != nullptr; }  // the twin, if a slot is simulated
   [[nodiscard]] sim::World& world() { return *world_; }
   [[nodiscard]] const sim::World& world() const { return *world_; }
   [[nodiscard]] const sim::Truth& truth() const { return world_ ? world_->truth() : unknown_; }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <encounter_version.h>
 #include <fmt/format.h>
@@ -171,6 +173,21 @@ Json found_json(const Found& found) {
   return json;
 }
 
+// Who is in the way of a machine is noticed by its force sensor alone.
+void refuse_unwatched(const models::Setup& setup, const CalibrateOptions& options) {
+  const std::string &force = setup.rig.force.driver, &tracker = setup.rig.tracker.driver;
+  if (force == "none" && tracker == "none")
+    throw Error(
+        fmt::format("{}: this rig has neither a force sensor nor a tracker; expected one that is to be "
+                    "calibrated; name its driver",
+                    models::place_of(setup, "rig.force.driver")));
+  if (trial::slots_of(setup).machine && !options.lockstep && (force == "none" || force == "sim"))
+    throw Error(fmt::format(
+        "{}: a machine that moves for minutes needs a force sensor that feels what is in its way; expected a "
+        "real one, and here it is {}; connect it and name its driver",
+        models::place_of(setup, "rig.force.driver"), models::quoted(force)));
+}
+
 models::Setup setup_for(const CalibrateOptions& options) {
   const std::string scene =
       options.scene.empty() ? models::models_dir("") + "/scenes/clamped_tool.toml" : options.scene;
@@ -183,6 +200,7 @@ models::Setup setup_for(const CalibrateOptions& options) {
         fmt::format("{}: a machine that is not armed does not move, and only a machine that moves can be "
                     "calibrated; expected --armed; clear its way, clamp the tool and add it",
                     models::place_of(setup, "rig.manipulator.driver")));
+  refuse_unwatched(setup, options);
   return setup;
 }
 
@@ -198,6 +216,35 @@ trial::TrialOptions trial_options(const CalibrateOptions& options, const trial::
   return how;
 }
 
+// However it ends: all that moves is stopped, then it is told what the devices have said. Why a link was lost
+// is in there.
+void end(std::optional<trial::CarriedTool>& tool) {
+  std::vector<std::string> lines = tool->trial().said();
+  if (const std::string& words = tool->trial().result().real_time; !words.empty())
+    lines.push_back("real time   " + words);
+  tool.reset();
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r        \r");
+  for (const std::string& line : lines) fmt::print(stderr, "{}\n", models::printable(line));
+}
+
+MachineCalibration made_with(const models::Setup& setup, const CalibrateOptions& options,
+                             const trial::DriverSource& modules) {
+  const auto progress = [terminal = isatty(STDERR_FILENO) != 0](double share) {
+    if (terminal) fmt::print(stderr, "\r{:3.0f} %", 100.0 * share);
+  };
+  std::optional<trial::CarriedTool> tool;
+  tool.emplace(setup, trial_options(options, modules));
+  try {
+    MachineCalibration made =
+        trial::calibrate_machine(*tool, options.poses.value_or(trial::kUsualPoses), progress);
+    end(tool);
+    return made;
+  } catch (...) {
+    if (tool) end(tool);
+    throw;
+  }
+}
+
 }  // namespace
 
 int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource& modules) {
@@ -205,25 +252,24 @@ int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource
   std::optional<models::OutFile> file;  // refused before anything moves
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   if (options.catch_signals) options.catch_signals();
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  const auto progress = [terminal](double share) {
-    if (terminal) fmt::print(stderr, "\r{:3.0f} %", 100.0 * share);
-  };
   MachineCalibration made;
   try {
-    trial::CarriedTool tool(setup, trial_options(options, modules));
-    made = trial::calibrate_machine(tool, options.poses.value_or(trial::kUsualPoses), progress);
+    made = made_with(setup, options, modules);
   } catch (const trial::CarryingEnded&) {
     if (!options.stop || !options.stop())
       throw Error("the devices ended the run; nothing was written; see `encounter devices`", {},
                   ErrorKind::device);
-    fmt::print(stderr, "{}stopped by hand: the machine stands, and nothing was written\n",
-               terminal ? "\r" : "");
+    fmt::print(stderr, "stopped by hand: the machine stands, and nothing was written\n");
     return 4;  // unless it was a signal, which makes the exit code
   }
-  if (terminal) fmt::print(stderr, "\r        \r");
   const Found found{setup, made, file_of(setup, made)};
   const std::string text = found_text(found);
+  fmt::print("{}", options.json ? found_json(found).dump(2) + "\n" : text);
+  std::fflush(stdout);  // whatever becomes of the file
+  if (options.stop && options.stop()) {
+    fmt::print(stderr, "stopped by hand: nothing was written\n");
+    return 4;
+  }
   if (file) {
     std::string remarks =
         fmt::format("# Encounter {}: encounter calibrate {}{}{} --scene {} --seed {}", ENCOUNTER_VERSION,
@@ -239,7 +285,6 @@ int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource
     file->write(remarks + "\n" + models::rig_calibration_text(found.file));
     file->keep();
   }
-  fmt::print("{}", options.json ? found_json(found).dump(2) + "\n" : text);
   return 0;
 }
 

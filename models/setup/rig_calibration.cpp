@@ -131,6 +131,25 @@ std::optional<std::chrono::sys_days> day_of(std::string_view text) {
   return date.ok() ? std::optional(std::chrono::sys_days(date)) : std::nullopt;
 }
 
+std::string doubt_of(const CalibrationRig& calibration, std::chrono::sys_days today) {
+  const auto day = day_of(calibration.date);
+  if (!day)
+    return "this rig has no day of calibration; expected a [calibration] with date = \"YYYY-MM-DD\", the day "
+           "on which it was measured, or the file of `encounter calibrate RIG` (docs/guide/laboratory.md)";
+  const std::int64_t age = (today - *day).count();
+  if (age < -1)
+    return fmt::format(
+        "this rig was calibrated on {}, which is {} days from now; expected a day that has been; "
+        "see to the date, and to the clock of this PC",
+        calibration.date, -age);
+  if (age > calibration.valid)
+    return fmt::format(
+        "this rig was calibrated on {}, {} days ago; expected {} at most; calibrate it again "
+        "(docs/guide/laboratory.md), or raise rig.calibration.valid_days if nothing was moved",
+        calibration.date, age, calibration.valid);
+  return {};
+}
+
 RigIdentity identity_of(const RigSpec& rig) {
   return {device_of(rig, rig.manipulator.driver), device_of(rig, rig.force.driver),
           device_of(rig, rig.tracker.driver), rig.manipulator.geometry};
@@ -186,6 +205,15 @@ void fill_measured(Setup& setup) {
         fmt::format("{}: the calibration {} is of another rig: {}; expected one of this rig; calibrate "
                     "it, or name its own file",
                     named, models::quoted(path), other));
+  const auto lacks = [&](const std::string& driver, bool says, const char* what) {
+    if (driver == "none" || says) return;
+    throw Error(
+        fmt::format("{}: the calibration {} does not say {}; expected all that this rig has, measured "
+                    "together; calibrate it again",
+                    named, models::quoted(path), what));
+  };
+  lacks(rig.tracker.driver, file.W_C.has_value(), "where the tracker is");
+  lacks(rig.force.driver, file.H_F && file.mass, "how the force sensor is turned and what it carries");
   if (!rig.calibration.date.empty() && rig.calibration.date != file.date)
     throw Error(
         fmt::format("{}: 'date' is {} and that of the calibration {} is {}; expected one of the two; remove "

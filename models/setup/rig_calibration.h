@@ -18,7 +18,7 @@
 //   [force]
 //   mass_kg = 0.912                            # behind the sensor, without the tool
 //
-// Each table of what is measured is there only if it was.
+// Each table of what is measured is there only if it was; a rig takes a file that has all that it has itself.
 #pragma once
 
 #include <chrono>
@@ -52,6 +52,10 @@ struct RigCalibration {
 
 // "2026-11-28" as a day; nothing where it is none.
 [[nodiscard]] std::optional<std::chrono::sys_days> day_of(std::string_view text);
+
+// What is wrong with the day on which a rig was measured, UTC; empty: nothing. It may be tomorrow's where the
+// rig was measured east of here.
+[[nodiscard]] std::string doubt_of(const CalibrationRig& calibration, std::chrono::sys_days today);
 
 // Whether such a file says what --set calls so: "rig.force.mass_kg".
 [[nodiscard]] bool of_rig_calibration(std::string_view name);

@@ -26,9 +26,10 @@ constexpr double kClosing = 5.0;              // s: no gripper takes longer
 constexpr double kPatience = 5.0;             // s, to come to rest
 constexpr double kTurnOff = M_PI / 180.0;     // rad, beside what it lags behind
 constexpr double kTurnPatience = 0.050;       // s
-constexpr double kWeightTurned =
-    0.5;                           // of it: twice the sine of the largest tilt, and a machine that speeds up
-constexpr double kTouched = 10.0;  // N: a cable is less, and whoever is in the way feels no more
+// Of the weight: a tilt by 10 degrees changes it by 2 sin(5 degrees), 0.174 of it, and a machine that speeds
+// up by 0.1 m/s^2 by 0.01.
+constexpr double kWeightTurned = 0.22;
+constexpr double kTouched = 10.0;       // N: a cable is less, and whoever is in the way feels no more
 constexpr double kLongestHold = 1.0;    // s
 constexpr double kStillSpeed = 0.2e-3;  // m/s
 constexpr double kNear = 0.2e-3;        // m, of what rests from where it was sent
@@ -54,6 +55,7 @@ models::Setup bare(models::Setup setup) {
   if (setup.rig.tracker.driver != "none" && !scene.tracker) scene.tracker.emplace();
   // Whatever it says of ways: the machine is sent from here.
   scene.travel.emplace();
+  scene.travel->speed = std::min(scene.travel->speed, setup.rig.manipulator.speed);
   scene.travel->start = Vec3::Zero();
   scene.travel->stops = {0.0, 1e-3};
   return setup;
@@ -63,11 +65,13 @@ Pose<'W', 'H'> between(const Pose<'W', 'H'>& from, const Pose<'W', 'H'>& to, dou
   return {from.q().slerp(share, to.q()), Vec3(from.p() + share * (to.p() - from.p()))};
 }
 
+// A rig that is slow goes and turns slowly.
 double way_time(const Pose<'W', 'H'>& from, const Pose<'W', 'H'>& to, const Reach& reach) {
   const double length = (to.p() - from.p()).norm();
   const double speed = std::min(kSpeed, kShareOfSpeed * reach.speed);
   const double acceleration = std::min(kAcceleration, kShareOfSpeed * reach.acceleration);
-  return std::max({0.2, kPeak * length / speed, kPeak * from.q().angularDistance(to.q()) / kTurning,
+  const double turning = kTurning * speed / kSpeed;
+  return std::max({0.2, kPeak * length / speed, kPeak * from.q().angularDistance(to.q()) / turning,
                    std::sqrt(kPeakAcceleration * length / acceleration)});
 }
 
@@ -136,6 +140,10 @@ void CarriedTool::watch() {
         why_text(trial_.outputs().why & kHoldReasons)));
   if (out_of_reach_) fail("the machine was sent out of its reach; see rig.manipulator.geometry");
   if (!wanted_.valid()) return;
+  if (!in.grip.value.holding)
+    fail(
+        "the jaws do not hold the tool any more; expected them closed on it to the end; put it between them, "
+        "turn the machine back to zero and calibrate again");
   const Quat turn = (scene.X_WR * in.tip.value.X_RH).q();
   const double late = 2.0 * scene.servo.lag * kTurning + kTurnOff;
   turned_off_ = turn.angularDistance(wanted_.q()) > late ? turned_off_ + scene.dt : 0.0;

@@ -1,5 +1,6 @@
 #include "trial/carried/machine_calibration.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,11 +15,84 @@ constexpr double kDegree = M_PI / 180.0;
 constexpr double kTilt = 10.0 * kDegree, kTurn = 20.0 * kDegree;
 constexpr double kAside = 0.015, kUp = 0.008;  // m, of the tip to each side
 constexpr std::size_t kFewestPackets = 20;     // of a stand
+constexpr double kNotCarried = 0.05;           // rad between two turns of one body
+constexpr double kTipOff = 1e-3;               // m: who puts a tip on a tip by hand comes nearer
+constexpr double kMassOff = 0.3;               // of what a scale has told
 
 double fraction(double x) { return x - std::floor(x); }
 
 // The i-th of a sequence that fills a line evenly, whatever its length [Roberts 2018, R sequences].
 double spread(std::size_t i, double ratio) { return fraction(0.5 + ratio * static_cast<double>(i + 1)); }
+
+// Before anything moves: all ways, and whether a fit of these poses tells weight from zero.
+void check_poses(const std::vector<Pose<'W', 'H'>>& poses, const Reach& reach, const Pose<'W', 'R'>& X_WR) {
+  const auto n = static_cast<double>(poses.size());
+  Vec3 mean = Vec3::Zero(), squares = Vec3::Zero();
+  Pose<'W', 'H'> before = Pose<'W', 'H'>::identity();
+  for (const Pose<'W', 'H'>& pose : poses) {
+    if (!way_in_reach(reach, X_WR, before, pose) ||
+        !way_in_reach(reach, X_WR, pose, Pose<'W', 'H'>::identity()))
+      throw Error(
+          "the machine does not reach the poses of a calibration, however near to its zero; expected room "
+          "for "
+          "a tilt of some degrees; see to rig.manipulator.geometry",
+          "manipulator.geometry");
+    const Vec3 down = pose.q().conjugate() * Vec3::UnitZ();
+    mean += down / n;
+    squares += down.cwiseAbs2() / n;
+    before = pose;
+  }
+  const Vec3 swing = (squares - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+  const double least = std::min(swing.x(), swing.y());
+  if (least < models::kLeastWeightSwing)
+    throw Error(fmt::format("the machine tilts by {:.1f} degrees rms to one side in the poses that it "
+                            "reaches; expected {:.1f}, which tell weight from zero; see to "
+                            "rig.manipulator.geometry, tilt_limit_deg above all",
+                            least / kDegree, models::kLeastWeightSwing / kDegree),
+                "manipulator.geometry");
+}
+
+// One body turns by one angle, whoever looks at it.
+void check_carried(const CarriedStand& first, const CarriedStand& now) {
+  const double machine = first.X_WH.q().angularDistance(now.X_WH.q()),
+               tool = first.X_CT.q().angularDistance(now.X_CT.q());
+  if (!(std::abs(machine - tool) < kNotCarried))
+    throw Error(
+        fmt::format("the machine has turned by {:.1f} degrees between two stands, and the tool is "
+                    "seen turned by {:.1f}; expected the tool between the jaws, and nothing else that "
+                    "carries its markers; clamp it, turn the machine back to zero and calibrate again",
+                    machine / kDegree, tool / kDegree),
+        {}, ErrorKind::device);
+}
+
+// All axes of a sensor may read in another unit: nothing but a scale tells that.
+void check_mass(const MachineCalibration& found, double believed) {
+  const double mass = found.weight->mass.value - found.tool_mass;
+  if (mass < 0.0)
+    throw Error(
+        fmt::format("{:.3f} kg are behind the sensor and the scene's tool weighs {:.3f} kg; expected a "
+                    "tool that is lighter than all of it; correct its mass_kg",
+                    found.weight->mass.value, found.tool_mass));
+  if (!(std::abs(mass - believed) <= kMassOff * believed + found.weight->mass.half))
+    throw Error(
+        fmt::format("by the force sensor {:.3f} kg are behind it, without the tool, and the rig has "
+                    "{:.3f} kg; expected {:.0f} % more or less; put on a scale what the sensor "
+                    "carries: see to the sensor's unit and gain, or correct rig.force.mass_kg",
+                    mass, believed, 100.0 * kMassOff));
+}
+
+// A lever of the machine that is wrong, too: only the tip tells it from the tracker's place.
+void check_tip(const MachineCalibration& found, const Vec3& tip) {
+  const Vec3 off = tip - found.hand_eye->tip.value;
+  if (off.norm() <= kTipOff + found.hand_eye->tip.half.norm()) return;
+  const Vec3 in_H = found.hand_eye->X_HT.q() * off;
+  throw Error(fmt::format(
+      "the tool's tip stands at [{:.2f}, {:.2f}, {:.2f}] mm of the haptic-tip, known to "
+      "{:.2f} mm; expected its middle, to {:g} mm; see to "
+      "rig.manipulator.geometry.tip_height_mm, to how the tool is clamped, and to its "
+      "tip_mm: what is wrong of them would be in the tracker's place",
+      1e3 * in_H.x(), 1e3 * in_H.y(), 1e3 * in_H.z(), 1e3 * found.hand_eye->tip.half.norm(), 1e3 * kTipOff));
+}
 
 }  // namespace
 
@@ -56,16 +130,24 @@ std::vector<Pose<'W', 'H'>> calibration_poses(const Reach& reach, const Pose<'W'
 MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count,
                                      const std::function<void(double)>& progress) {
   const Scene& scene = tool.trial().scene();
+  const std::vector<Pose<'W', 'H'>> poses = calibration_poses(scene.reach, scene.X_WR, count);
+  check_poses(poses, scene.reach, scene.X_WR);
   MachineCalibration found;
-  for (const Pose<'W', 'H'>& pose : calibration_poses(scene.reach, scene.X_WR, count)) {
+  found.stands.reserve(count);
+  const CarriedStand* first = nullptr;  // in which the tool was seen
+  for (const Pose<'W', 'H'>& pose : poses) {
     if (progress) progress(static_cast<double>(found.stands.size()) / static_cast<double>(count));
     tool.go(pose);
-    found.stands.push_back(tool.stand());
+    const CarriedStand& now = found.stands.emplace_back(tool.stand());
+    if (now.packets < kFewestPackets) continue;
+    if (first != nullptr) check_carried(*first, now);
+    if (first == nullptr) first = &now;
   }
   tool.go(Pose<'W', 'H'>::identity());
   found.time = tool.now();
   found.clamped_tool = scene.clamped_tool;
-  found.tool_mass = tool.trial().setup().scene.tools[static_cast<std::size_t>(scene.clamped_tool)].mass;
+  const ToolSpec& clamped = tool.trial().setup().scene.tools[static_cast<std::size_t>(scene.clamped_tool)];
+  found.tool_mass = clamped.mass;
 
   std::vector<models::WeightStand> weighed;
   std::vector<models::EyeStand> seen;
@@ -83,13 +165,12 @@ MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count,
         {}, ErrorKind::device);
   if (scene.has_force) {
     found.weight = models::fit_weight(weighed, found.time);
-    if (found.weight->mass.value < found.tool_mass)
-      throw Error(
-          fmt::format("{:.3f} kg are behind the sensor and the scene's tool weighs {:.3f} kg; expected a "
-                      "tool that is lighter than all of it; correct its mass_kg",
-                      found.weight->mass.value, found.tool_mass));
+    check_mass(found, tool.trial().setup().rig.force.mass);
   }
-  if (scene.has_tracker) found.hand_eye = models::fit_hand_eye(seen);
+  if (scene.has_tracker) {
+    found.hand_eye = models::fit_hand_eye(seen);
+    check_tip(found, clamped.tip);
+  }
   return found;
 }
 

@@ -154,10 +154,16 @@ void guard(Walk& walk, const Travel& travel, State& state, Travelling& now) noex
 }
 
 void report(const Walk& walk, const Travel&, State& state, const Travelling& now, Outputs& out) noexcept {
+  const Pose<'R', 'H'> sent = out.tip;
   report_common(walk, state, rotation_z_to(walk.normal.e()), nullptr, out);
   report_displaced(walk, now, out);
-  if (walk.carried != nullptr && walk.carried->valid())
+  if (walk.carried == nullptr) return;
+  // It turns where it may go, and stays as it is turned where it may not.
+  const bool goes = now.phase == TravelPhase::move && !holding(walk) && walk.carried->valid();
+  if (goes)
     out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate() * walk.carried->q(), now.command);
+  else if (sent.valid() && out.tip.valid())
+    out.tip = Pose<'R', 'H'>(Quat(sent.q()), now.command);
 }
 
 }  // namespace stages

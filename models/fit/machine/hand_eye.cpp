@@ -18,11 +18,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Mat9 = Eigen::Matrix<double, 9, 9>;
 
-constexpr std::size_t kFewestSeen = 10;     // stands
+constexpr std::size_t kFewestSeen = 12;     // stands: with fewer, intervals were found too narrow
 constexpr Eigen::Index kPoseUnknowns = 12;  // place and turn of both poses
 constexpr double kLeastSecondTurn = 0.035;  // rad rms about each axis but the best two: 2 degrees
 constexpr double kMostLeftPlace = 2e-3;     // m rms
 constexpr double kMostLeftTurn = 0.03;      // rad rms
+constexpr double kScaleOff = 0.005;         // of a tracker's lengths: a good one is ten times better
+constexpr double kScaleSure = 4.0;          // standard deviations
 constexpr double kExactPlace = 1e-8, kExactTurn = 1e-9;  // m, rad: no device is better
 
 struct Both {
@@ -139,6 +141,30 @@ bool settled(const Scatter& now, const Scatter& before) {
          ((now.turn - before.turn).array().abs() <= kShare * before.turn.array()).all();
 }
 
+// A tracker's scale hides in both places, and is seen only in what they leave over.
+void check_scale(std::span<const EyeStand> stands, const Both& at, const MatrixXd& by,
+                 const VectorXd& weights, const VectorXd& left) {
+  const auto n = static_cast<Eigen::Index>(stands.size());
+  MatrixXd with(by.rows(), kPoseUnknowns + 1);
+  with.leftCols(kPoseUnknowns) = by;
+  const Pose<'C', 'W'> X_CW = at.X_WC.inverse();
+  with.col(kPoseUnknowns).setZero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Pose<'C', 'T'> expected = X_CW * stands[static_cast<std::size_t>(i)].X_WH * at.X_HT;
+    with.block<3, 1>(3 * i, kPoseUnknowns) = weights.segment<3>(3 * i).cwiseProduct(Vec3(expected.p()));
+  }
+  const MatrixXd inverse = (with.transpose() * with).inverse();
+  const VectorXd found = inverse * (with.transpose() * weights.cwiseProduct(left));
+  const double scale = found(kPoseUnknowns),
+               sure = kScaleSure * std::sqrt(inverse(kPoseUnknowns, kPoseUnknowns));
+  if (std::abs(scale) > kScaleOff && std::abs(scale) > sure)
+    throw Error(
+        fmt::format("the tracker's lengths are {:.2f} +- {:.2f} % larger than the machine's; expected "
+                    "at most {:g} %; see to the tracker's calibration and unit, to the markers of the "
+                    "tool, and to rig.manipulator.geometry",
+                    100.0 * scale, 100.0 * sure, 100.0 * kScaleOff));
+}
+
 }  // namespace
 
 HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
@@ -161,7 +187,8 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
     if (step.norm() < 1e-12 && settled(scatter, before)) break;
   }
   const VectorXd left = left_over(stands, at);
-  const MatrixXd by = weights_of(scatter, left.size()).asDiagonal() * slopes(stands, at);
+  const VectorXd weights = weights_of(scatter, left.size());
+  const MatrixXd by = weights.asDiagonal() * slopes(stands, at);
   const MatrixXd inverse = (by.transpose() * by).inverse();
   const double reach = student(freedom_of(static_cast<Eigen::Index>(stands.size())), kNormal99);
 
@@ -196,6 +223,7 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
         "left over; expected at most {:g} and {:.1f}; see that the jaws hold the tool, that the "
         "machine and not the tracker moves, and to units and axes of both",
         fit.rms * 1e3, fit.rms_turn * 180.0 / M_PI, kMostLeftPlace * 1e3, kMostLeftTurn * 180.0 / M_PI));
+  check_scale(stands, at, by, weights, left);
   return fit;
 }
 

@@ -23,7 +23,6 @@ using Eigen::VectorXd;
 
 constexpr Eigen::Index kWeightUnknowns = 7;  // turn, mass, zero
 constexpr std::size_t kFewestWeighed = 6;    // stands
-constexpr double kLeastSwing = 0.05;         // of the direction of the weight, rms to each side: 3 degrees
 constexpr double kAxisOff = 0.2;             // of a sensor's axis that reads as it should, with sign and unit
 constexpr double kSure = 4.0;                // standard deviations
 constexpr double kMostLeftForce = 0.2;       // N rms: drift and noise of a sensor are far less
@@ -53,11 +52,11 @@ Estimate first_guess(std::span<const WeightStand> stands) {
   const Eigen::RowVectorXd middle = sides.colwise().mean();
   for (Eigen::Index side = 0; side < 2; ++side) {
     const double swing = std::sqrt((sides.col(side).array() - middle(side)).square().mean());
-    if (!(swing >= kLeastSwing * kStandardGravity))
+    if (!(swing >= kLeastWeightSwing * kStandardGravity))
       throw Error(
           fmt::format("the machine turned too little to tell weight from zero: the weight's direction swung "
                       "by {:.1f} degrees rms to one side; expected {:.0f}; visit poses that tilt more",
-                      swing / kStandardGravity * 180.0 / M_PI, kLeastSwing * 180.0 / M_PI));
+                      swing / kStandardGravity * 180.0 / M_PI, kLeastWeightSwing * 180.0 / M_PI));
   }
   const MatrixXd found = sides.colPivHouseholderQr().solve(force);  // rows: side x, side y, rest
   const Vec3 x = found.row(0).transpose(), y = found.row(1).transpose();

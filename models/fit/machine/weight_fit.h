@@ -34,6 +34,9 @@ struct WeightFit {
   double walk = kUnset;  // N / sqrt(s), of the zero
 };
 
+// Of the weight's direction, rms to each side: 3 degrees.
+inline constexpr double kLeastWeightSwing = 0.05;
+
 // Throws Error where the poses turn too little to tell weight from zero, and where what is measured does not
 // turn as a weight does: something touches. end: s, not before the last stand; unset: of that.
 [[nodiscard]] WeightFit fit_weight(std::span<const WeightStand> stands, double end = kUnset);

@@ -3,6 +3,7 @@
 #include "models/setup/rig_calibration.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -193,6 +194,30 @@ TEST_F(RigCalibrationFile, WhatIsWrongWithItIsSaidWithItsPlace) {
   write("measured.toml", rig_calibration_text(measured()));
   EXPECT_THAT(refusal({"rig.calibration.date=\"2026-11-27\""}), HasSubstr("expected one of the two"));
   EXPECT_THAT(refusal({"rig.calibration.valid_days=0"}), HasSubstr("valid_days"));
+}
+
+TEST_F(RigCalibrationFile, OfAPartOfTheRigIsRefused) {
+  RigCalibration part = measured();
+  part.W_C.reset();
+  write("measured.toml", rig_calibration_text(part));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("rig.toml:"), HasSubstr("does not say where the tracker is")));
+  part = measured();
+  part.mass.reset();
+  write("measured.toml", rig_calibration_text(part));
+  EXPECT_THAT(refusal(), HasSubstr("does not say how the force sensor is turned and what it carries"));
+}
+
+TEST(Days, LastAsLongAsTheRigSays) {
+  const std::chrono::sys_days day = *day_of("2026-11-28");
+  const auto doubt = [&](int days_later, const std::string& date = "2026-11-28") {
+    return models::doubt_of(CalibrationRig{"", date, 30}, day + std::chrono::days(days_later));
+  };
+  EXPECT_EQ(doubt(0), "");
+  EXPECT_EQ(doubt(30), "");
+  EXPECT_THAT(doubt(31), AllOf(HasSubstr("31 days ago"), HasSubstr("expected 30 at most")));
+  EXPECT_EQ(doubt(-1), "") << "measured east of here";
+  EXPECT_THAT(doubt(-2), AllOf(HasSubstr("2 days from now"), HasSubstr("clock of this PC")));
+  EXPECT_THAT(doubt(0, ""), HasSubstr("no day of calibration"));
 }
 
 TEST(Days, AreThoseOfTheCalendar) {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,6 +26,24 @@ using testing::HasSubstr;
 models::Setup clamped(const std::vector<std::string>& set = {}) {
   return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml", "", set);
 }
+
+class CountedStops final : public Manipulator {
+ public:
+  CountedStops(std::unique_ptr<Manipulator> machine, int& stopped)
+      : machine_(std::move(machine)), stopped_(stopped) {}
+  [[nodiscard]] Reach reach() const override { return machine_->reach(); }
+  Stamped<TipSample> read(Time now) noexcept override { return machine_->read(now); }
+  void command(const Pose<'R', 'H'>& X_RH) noexcept override { machine_->command(X_RH); }
+  void stop() noexcept override {
+    ++stopped_;
+    machine_->stop();
+  }
+
+ private:
+  std::unique_ptr<Manipulator> machine_;
+  int& stopped_;
+};
+
 const Pose<'W', 'H'> kAside(rotation_xyz(Vec3(0.10, -0.05, 0.2)), Vec3(0.008, -0.004, 0.003));
 
 TEST(CarriedTool, GoesThereRestsAndMeasures) {
@@ -100,6 +120,15 @@ TEST(CarriedTool, AnyTroubleOnTheWayEndsIt) {
                 if (t > 2.0) in.wrench.value.force = in.wrench.value.force + Vec<'F'>(0, 20, 0);
               }),
               HasSubstr("something is in the way"));
+  // Twice what a tilt explains and a cable pulls with, however much hangs there.
+  EXPECT_THAT(said([](double t, Inputs& in) {
+                if (t > 2.0) in.wrench.value.force = in.wrench.value.force + Vec<'F'>(0, 14, 0);
+              }),
+              HasSubstr("something is in the way"));
+  EXPECT_THAT(said([](double t, Inputs& in) {
+                if (t > 2.0) in.grip.value = {GripPhase::opening, 0.006, 100.0, false};
+              }),
+              HasSubstr("the jaws do not hold the tool any more"));
   // A machine that does not turn, and one that stood turned before.
   EXPECT_THAT(said([](double, Inputs& in) {
                 in.tip.value.X_RH = {Quat::Identity(), Vec3(in.tip.value.X_RH.p())};
@@ -133,13 +162,38 @@ TEST(CarriedTool, TurnsSlowlyAndWithoutALeap) {
   EXPECT_LT(slowest_change, 1e-3) << "rad/s from one tick to the next";
 }
 
+// As for a first run beside the machine: all of it is slow.
+TEST(CarriedTool, GoesAndTurnsAsSlowlyAsItsRig) {
+  TrialOptions options;
+  Pose<'R', 'H'> before;
+  double turning = 0.0, speed = 0.0;
+  options.watch = [&](const Glance& glance) {
+    if (glance.out.tip.valid() && before.valid()) {
+      turning = std::max(turning, glance.out.tip.q().angularDistance(before.q()) / 1e-3);
+      speed = std::max(speed, (glance.out.tip.p() - before.p()).norm() / 1e-3);
+    }
+    before = glance.out.tip;
+  };
+  CarriedTool tool(clamped({"rig.manipulator.speed_mm_s=5"}), options);
+  tool.go(kAside);
+  EXPECT_LT(turning, 0.0201);
+  EXPECT_GT(turning, 0.015);
+  EXPECT_LT(speed, 0.00401);
+}
+
 TEST(CarriedTool, StopsWhereItIsWhenItIsToldTo) {
-  int asked = 0;
+  int asked = 0, stopped = 0;
   TrialOptions options;
   options.stop = [&] { return ++asked > 700; };
-  CarriedTool tool(clamped(), options);
-  EXPECT_THROW(tool.go(kAside), CarryingEnded);
-  EXPECT_LT(tool.now(), 0.8);
+  options.fit_out = [&](Rig& rig) {
+    rig.manipulator = std::make_unique<CountedStops>(std::move(rig.manipulator), stopped);
+  };
+  {
+    CarriedTool tool(clamped(), options);
+    EXPECT_THROW(tool.go(kAside), CarryingEnded);
+    EXPECT_LT(tool.now(), 0.8);
+  }
+  EXPECT_GT(stopped, 0);
 }
 
 TEST(CalibrationPoses, AreInReachAndSoAreTheWaysBetween) {
@@ -222,6 +276,63 @@ TEST(MachineCalibration, WeighsWhatTheSceneDoesNotAskForAndMissesAToolThatNobody
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("the tool was seen in 0 stands"));
   }
+}
+
+std::string refused_calibration(const std::vector<std::string>& set, double& gone,
+                                const TrialOptions& options = {}) {
+  CarriedTool tool(clamped(set), options);
+  std::string why = "taken";
+  try {
+    (void)calibrate_machine(tool, 12);
+  } catch (const Error& e) {
+    why = e.what();
+  }
+  gone = tool.now();
+  return why;
+}
+
+TEST(MachineCalibration, RefusesWhatWouldHideInItsNumbers) {
+  double gone = 0.0;
+  // 2 mm of the tip: clamped so, or a lever of the machine. In the tracker's place nobody would see it.
+  TrialOptions lower;
+  lower.disturb = [seen = Time::min()](Inputs& in) mutable {
+    if (in.tool.t == seen || !in.tool.value.X_CT.valid()) return;
+    seen = in.tool.t;
+    in.tool.value.X_CT = in.tool.value.X_CT * Pose<'T', 'T'>::shift(0, 0, 0.002);
+  };
+  EXPECT_THAT(refused_calibration({}, gone, lower),
+              AllOf(HasSubstr("the tool's tip stands at ["), HasSubstr("tip_height_mm")));
+  // All axes in pounds look like a light load.
+  EXPECT_THAT(refused_calibration({"rig.force.mass_kg=4.0"}, gone),
+              AllOf(HasSubstr("put on a scale"), HasSubstr("unit and gain")));
+}
+
+TEST(MachineCalibration, PosesThatTellNothingAreRefusedBeforeAnythingMoves) {
+  double gone = 1.0;
+  EXPECT_THAT(
+      refused_calibration({"rig.manipulator.geometry.tilt_limit_deg=4"}, gone),
+      AllOf(HasSubstr("degrees rms to one side in the poses that it reaches"), HasSubstr("tilt_limit_deg")));
+  EXPECT_EQ(gone, 0.0);
+}
+
+// Jaws that only say so, and a tool that somebody holds still beside them.
+TEST(MachineCalibration, AToolThatIsNotCarriedEndsItAtTheSecondStand) {
+  TrialOptions options;
+  Pose<'C', 'T'> still;
+  options.disturb = [&](Inputs& in) {
+    if (!in.tool.value.X_CT.valid()) return;
+    if (!still.valid()) still = in.tool.value.X_CT;
+    in.tool.value.X_CT = still;
+  };
+  CarriedTool tool(clamped(), options);
+  try {
+    (void)calibrate_machine(tool, 24);
+    FAIL() << "taken";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("the tool is seen turned by 0.0"));
+    EXPECT_EQ(e.kind(), ErrorKind::device);
+  }
+  EXPECT_LT(tool.now(), 30.0);
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ TEST(Carry, WaitsForTheJawsAndWhereNothingIsAsked) {
   Sent sent(200);
   for (int i = 0; i < 150; ++i) sent.next(kTo);
   EXPECT_LT(sent.at().p().norm(), 1e-9) << "it moved before the tool was held";
+  EXPECT_LT(sent.at().q().angularDistance(Quat::Identity()), 1e-12) << "it turned before the tool was held";
   for (int i = 0; i < 500; ++i) sent.next({});
   EXPECT_LT(sent.at().p().norm(), 1e-9) << "it went to the stops of its travel";
   EXPECT_LT(sent.at().q().angularDistance(Quat::Identity()), 1e-12);
@@ -77,13 +78,33 @@ TEST(Carry, WaitsForTheJawsAndWhereNothingIsAsked) {
   EXPECT_GT(sent.at().p().norm(), 5e-3);
 }
 
+// Turned by a little more in each tick, as whoever turns it slowly asks.
+Pose<'W', 'H'> a_little_turned(int i) {
+  return {Quat(Eigen::AngleAxisd(1e-4 * i, Vec3::UnitX())), Vec3(kTo.p())};
+}
+
+TEST(Carry, JawsThatNoLongerHoldLetItNeitherGoNorTurn) {
+  Sent sent;
+  for (int i = 1; i <= 100; ++i) sent.next(a_little_turned(i));
+  sent.phase = GripPhase::opening;  // which is no hold: a hand may be taking the tool out
+  sent.from = 1 << 30;
+  for (int i = 101; i <= 150; ++i) sent.next(a_little_turned(i));
+  const Pose<'W', 'H'> stood = sent.at();
+  EXPECT_NEAR(stood.q().angularDistance(Quat::Identity()), 0.010, 1e-9);
+  for (int i = 151; i <= 600; ++i) sent.next(a_little_turned(i));
+  EXPECT_NE(sent.out.mode, Mode::hold);
+  EXPECT_LT(sent.at().q().angularDistance(stood.q()), 1e-12);
+  EXPECT_LT((sent.at().p() - stood.p()).norm(), 1e-3) << "it brakes";
+}
+
 TEST(Carry, ToolThatIsLostHoldsTheMachine) {
   Sent sent;
-  for (int i = 0; i < 100; ++i) sent.next(kTo);
+  for (int i = 1; i <= 100; ++i) sent.next(a_little_turned(i));
   sent.phase = GripPhase::closed;  // on nothing
   sent.from = 1 << 30;
-  for (int i = 0; i < 300; ++i) sent.next(kTo);
+  for (int i = 101; i <= 400; ++i) sent.next(a_little_turned(i));
   EXPECT_EQ(sent.out.mode, Mode::hold);
+  EXPECT_NEAR(sent.at().q().angularDistance(Quat::Identity()), 0.010, 1e-9) << "it turned on in a hold";
   EXPECT_NE(sent.out.why & kToolNotHeld, 0U);
   const Vec3 stood = sent.at().p();
   for (int i = 0; i < 100; ++i) sent.next(kTo);
