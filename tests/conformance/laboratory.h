@@ -90,13 +90,20 @@ inline nlohmann::json json_of(const tests::Result& result) {
 inline void expect_same_commands(const std::string& one, const std::string& other) {
   RecordReader a(one), b(other);
   EXPECT_EQ(a.ticks(), b.ticks());
-  double farthest = 0.0;
+  double farthest = 0.0, turned = 0.0;
+  std::int64_t sent = 0;
   RecordedTick x, y;
   while (a.next(x) && b.next(y)) {
     ASSERT_EQ(x.out.mode, y.out.mode) << x.tick.index;
+    ASSERT_EQ(x.out.tip.valid(), y.out.tip.valid()) << x.tick.index;
+    if (!x.out.tip.valid()) continue;
+    ++sent;
     farthest = std::max(farthest, (x.out.tip.p() - y.out.tip.p()).norm());
+    turned = std::max(turned, x.out.tip.q().angularDistance(y.out.tip.q()));
   }
+  EXPECT_GT(sent, a.ticks() / 2);
   EXPECT_LT(farthest, 1e-12) << "the wire carries twelve digits of a millimetre";
+  EXPECT_LT(turned, 1e-12);
 }
 
 }  // namespace enc::test
