@@ -51,13 +51,15 @@ double us_since(Wall::time_point begun) {
 void run_loop(RecordWriter& record, std::int64_t ticks, Costs& costs) {
   const trial::RecordThread file(record);
   std::array<std::byte, 1024> from{}, to{};
+  const Inputs in;
+  const Outputs out;
   Wall::time_point due = Wall::now();
   for (std::int64_t i = 0; i < ticks; ++i) {
     due += kPeriod;
     std::this_thread::sleep_until(due);
     const Tick tick{i, Time(i * Duration(kPeriod)), kPeriod};
     Wall::time_point begun = Wall::now();
-    record.write(tick, {}, {}, static_cast<std::uint64_t>(i));
+    record.write(tick, in, out, static_cast<std::uint64_t>(i));
     costs.write.push_back(us_since(begun));
     from[static_cast<std::size_t>(i) % from.size()] ^= std::byte{1};
     begun = Wall::now();

@@ -47,7 +47,7 @@ struct GetLeaves {
 };
 
 // Texts as bytes, filled up to whole words.
-std::vector<std::uint64_t> pack(const RecordTexts& texts) {
+std::vector<std::uint64_t> packed_texts(const RecordTexts& texts) {
   std::string bytes;
   const auto number = [&](std::size_t n) {
     const std::uint64_t wide = n;
@@ -113,9 +113,15 @@ std::string listed(const std::vector<std::uint64_t>& numbers) {
 
 RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
                            std::size_t chunks)
-    : path_(path), chunks_(chunks) {
-  for (Chunk& one : chunks_) one.words.resize(kChunkBytes / kWord);
-  const std::vector<std::uint64_t> packed = pack(texts);
+    : path_(path),
+      most_((kChunkBytes / kWord - 2) / frame_words()),
+      chunks_(chunks),
+      words_(kChunkBytes / kWord) {
+  for (Chunk& one : chunks_) {  // the memory is there, and not only promised
+    one.resize(most_);
+    one.clear();
+  }
+  const std::vector<std::uint64_t> packed = packed_texts(texts);
   if (packed.size() * kWord > kHeaderBytes)
     throw Error("the record '" + path +
                 "' cannot hold meshes of more than 64 MiB; make them coarser, or run without a record");
@@ -153,43 +159,42 @@ void RecordWriter::put(const void* bytes, std::size_t size) noexcept {
   if (std::fwrite(bytes, 1, size, file_) != size) errno_ = errno != 0 ? errno : EIO;
 }
 
+void RecordWriter::take_away(Chunk& one) noexcept {
+  PutLeaves put_leaves{words_.data() + 1, chain_};
+  for (RecordedTick& frame : one) all_fields(put_leaves, frame);
+  words_[0] = head(kChunk, one.size() * frame_words() * kWord);
+  chain_.add(words_[0]);
+  *put_leaves.to++ = chain_.value;
+  put(words_.data(), static_cast<std::size_t>(put_leaves.to - words_.data()) * kWord);
+  one.clear();
+}
+
 void RecordWriter::drain() noexcept {
   for (std::size_t i = in_file_; i < whole_.load(std::memory_order_acquire); ++i) {
-    const Chunk& one = chunk(i);
-    put(one.words.data(), (one.used + 1) * kWord);
+    take_away(chunk(i));
     in_file_.store(i + 1, std::memory_order_release);
   }
 }
 
 void RecordWriter::flush_chunk() noexcept {
   const std::size_t number = whole_;
-  Chunk& one = chunk(number);
-  if (behind_ || one.used == 1) return;
-  one.words[0] = head(kChunk, (one.used - 1) * kWord);
-  chain_.add(one.words[0]);
-  one.words[one.used] = chain_.value;
+  if (behind_ || chunk(number).empty()) return;
   whole_.store(number + 1, std::memory_order_release);
   if (chunks_.size() == 1) drain();
-  if (number + 1 - in_file_.load(std::memory_order_acquire) < chunks_.size())
-    chunk(number + 1).used = 1;
-  else
-    behind_ = true;
+  behind_ = number + 1 - in_file_.load(std::memory_order_acquire) == chunks_.size();
 }
 
 void RecordWriter::write(const Tick& tick, const Inputs& in, const Outputs& out,
                          std::uint64_t state_hash) noexcept {
   if (file_ == nullptr || full()) return;
-  RecordedTick frame{tick, in, out, state_hash};
   Chunk& one = chunk(whole_);
-  PutLeaves put_leaves{one.words.data() + one.used, chain_};
-  all_fields(put_leaves, frame);
-  one.used += frame_words();
+  one.emplace_back(tick, in, out, state_hash);
   ++ticks_;
-  if (one.used + frame_words() + 1 > one.words.size()) flush_chunk();
+  if (one.size() == most_) flush_chunk();
 }
 
 void RecordWriter::end_with(const RecordTexts& texts) {
-  end_ = pack(texts);
+  end_ = packed_texts(texts);
   if (end_.size() * kWord > kHeaderBytes)
     throw Error("the record '" + path_ + "' cannot hold more than 64 MiB at its end; run for a shorter time");
   end_.insert(end_.begin(), head(kEnd, end_.size() * kWord));

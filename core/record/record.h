@@ -30,10 +30,10 @@ struct RecordedTick {
 
 class RecordWriter {
  public:
-  static constexpr std::size_t kManyChunks = 256;  // 16 MiB: 16 s at 1 kHz
+  static constexpr std::size_t kManyChunks = 256;  // some 18 MB: 16 s at 1 kHz
 
   // Throws Error where the file cannot be made or its header not be written. With one chunk write() puts it
-  // into the file when it is whole; with more another thread calls drain(), and write() never waits.
+  // into the file when it is whole; with more another thread calls drain(), and write() only copies a tick.
   RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
                std::size_t chunks = 1);
   ~RecordWriter();  // without close() the record stays unsealed: the run did not end as it should
@@ -43,7 +43,7 @@ class RecordWriter {
   // Into memory, no heap; every 65th tick or so a chunk is whole. After a failed write, and where the file is
   // behind by all chunks, it does nothing: a record has no gap.
   void write(const Tick& tick, const Inputs& in, const Outputs& out, std::uint64_t state_hash) noexcept;
-  // What is whole goes to the file. From one thread at a time; the writer goes when no other calls it.
+  // What is whole is packed and goes to the file. From one thread at a time; the writer's goes, too.
   void drain() noexcept;
   // What is known only when the run has ended: close() puts it before the seal.
   void end_with(const RecordTexts& texts);
@@ -54,19 +54,19 @@ class RecordWriter {
   [[nodiscard]] std::int64_t ticks() const noexcept { return ticks_; }  // taken
 
  private:
-  struct Chunk {  // head, leaves, checksum
-    std::vector<std::uint64_t> words;
-    std::size_t used = 1;
-  };
+  using Chunk = std::vector<RecordedTick>;  // with room for most_
   void put(const void* bytes, std::size_t size) noexcept;
   void flush_chunk() noexcept;
+  void take_away(Chunk& chunk) noexcept;  // through words_ into the file
   [[nodiscard]] Chunk& chunk(std::size_t number) noexcept { return chunks_[number % chunks_.size()]; }
 
   std::string path_;
   std::FILE* file_ = nullptr;
+  std::size_t most_;  // ticks of a chunk
   std::vector<Chunk> chunks_;
   std::atomic<std::size_t> whole_ = 0, in_file_ = 0;  // chunks; the one that is filled is number whole_
-  std::vector<std::uint64_t> end_;  // as a chunk, of what is said at the end; empty: nothing
+  std::vector<std::uint64_t> words_;  // of the chunk that goes to the file: head, leaves, checksum
+  std::vector<std::uint64_t> end_;    // as a chunk, of what is said at the end; empty: nothing
   StateHash chain_;
   std::int64_t ticks_ = 0;
   std::atomic<int> errno_ = 0;
