@@ -86,7 +86,7 @@ class Trial {
   [[nodiscard]] State& state() { return state_; }
   [[nodiscard]] Outputs& outputs() { return out_; }
   [[nodiscard]] const Outputs& outputs() const { return out_; }
-  [[nodiscard]] std::vector<std::string> said() const;  // by the devices so far, a line each
+  [[nodiscard]] std::vector<std::string> said() const;                // by the devices so far, a line each
   [[nodiscard]] bool has_world() const { return world_ != nullptr; }  // the twin, if a slot is simulated
   [[nodiscard]] sim::World& world() { return *world_; }
   [[nodiscard]] const sim::World& world() const { return *world_; }
