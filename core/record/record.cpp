@@ -188,7 +188,7 @@ void RecordWriter::write(const Tick& tick, const Inputs& in, const Outputs& out,
                          std::uint64_t state_hash) noexcept {
   if (file_ == nullptr || full()) return;
   Chunk& one = chunk(whole_);
-  one.emplace_back(tick, in, out, state_hash);
+  one.push_back(RecordedTick{tick, in, out, state_hash});
   ++ticks_;
   if (one.size() == most_) flush_chunk();
 }

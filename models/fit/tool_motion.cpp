@@ -36,9 +36,12 @@ ToolMotion tool_motion(const TrackerLog& log, const TipPath& path, const SeenAt&
     blocks[block].push_back(tool);
     if (!seen.left_out[k]) good_tips.push_back(tip), good_tools.push_back(tool);
   }
+  // A block that lost most of its packets is no median.
+  std::size_t full = 0;
+  for (const std::vector<double>& block : blocks) full = std::max(full, block.size());
   double low = INFINITY, high = -INFINITY;
   for (const std::vector<double>& block : blocks) {
-    if (block.empty()) continue;
+    if (block.empty() || 3 * block.size() < full) continue;
     low = std::min(low, median(block));
     high = std::max(high, median(block));
   }

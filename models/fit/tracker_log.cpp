@@ -243,12 +243,7 @@ TipPath::TipPath(const TrackerLog& log)
 
 // The first that was later, or the last.
 std::size_t TipPath::after(double t) const {
-  // They are even but for jitter and gaps: the right one is near.
-  const auto last = static_cast<double>(time_.size() - 1);
-  auto i = static_cast<std::size_t>(std::clamp(std::ceil((t - time_.front()) / period_), 1.0, last));
-  while (i > 1 && time_[i - 1] > t) --i;
-  while (i + 1 < time_.size() && time_[i] <= t) ++i;
-  return i;
+  return static_cast<std::size_t>(std::upper_bound(time_.begin() + 1, time_.end() - 1, t) - time_.begin());
 }
 
 bool TipPath::knows(double t) const {

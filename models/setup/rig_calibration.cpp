@@ -241,6 +241,8 @@ void fill_truth(Setup& setup) {
   const auto take = [&](std::string_view name, auto& to, const auto& from) {
     if (!setup.places.contains(name)) to = from;
   };
+  if (setup.rig.force.mass > 0.0)
+    take("truth.hexapod.mass_kg", setup.twin.hexapod.mass, setup.rig.force.mass);
   const FramesRig& frames = setup.rig.frames;
   sim::FramesTruth& truth = setup.twin.frames;
   take("truth.frames.W_C.position_mm", truth.W_C.position, frames.W_C.position);

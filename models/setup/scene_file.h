@@ -90,8 +90,8 @@ void fill_camera(Setup& setup);
 // it is of another rig.
 void fill_measured(Setup& setup);
 // Where neither the rig's file nor --set says what camera, sensor and machine truly are ([truth.frames],
-// [truth.hexapod.geometry], key by key), they are what the rig believes: a real rig has no [truth], and its
-// twin stands where its calibration says.
+// [truth.hexapod.geometry] and what it carries, key by key), they are what the rig believes: a real rig has
+// no [truth], and its twin stands where its calibration says.
 void fill_truth(Setup& setup);
 void mend_normals(Setup& setup);  // to length 1; says so in the notes
 void note_stops(Setup& setup);    // time constants that MuJoCo takes for two time steps

@@ -17,7 +17,8 @@ constexpr double kAside = 0.015, kUp = 0.008;  // m, of the tip to each side
 constexpr std::size_t kFewestPackets = 20;     // of a stand
 constexpr double kNotCarried = 0.05;           // rad between two turns of one body
 constexpr double kTipOff = 1e-3;               // m: who puts a tip on a tip by hand comes nearer
-constexpr double kMassOff = 0.3;               // of what a scale has told
+constexpr double kMassOff = 0.3;       // of what a scale has told: a wrong unit is a factor of 4 or more
+constexpr double kLeastMassOff = 0.1;  // kg: of a light load a cable and the tool are a large share
 
 double fraction(double x) { return x - std::floor(x); }
 
@@ -25,7 +26,9 @@ double fraction(double x) { return x - std::floor(x); }
 double spread(std::size_t i, double ratio) { return fraction(0.5 + ratio * static_cast<double>(i + 1)); }
 
 // Before anything moves: all ways, and whether a fit of these poses tells weight from zero.
-void check_poses(const std::vector<Pose<'W', 'H'>>& poses, const Reach& reach, const Pose<'W', 'R'>& X_WR) {
+void check_poses(const std::vector<Pose<'W', 'H'>>& poses, const Scene& scene) {
+  const Reach& reach = scene.reach;
+  const Pose<'W', 'R'>& X_WR = scene.X_WR;
   const auto n = static_cast<double>(poses.size());
   Vec3 mean = Vec3::Zero(), squares = Vec3::Zero();
   Pose<'W', 'H'> before = Pose<'W', 'H'>::identity();
@@ -44,7 +47,7 @@ void check_poses(const std::vector<Pose<'W', 'H'>>& poses, const Reach& reach, c
   }
   const Vec3 swing = (squares - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
   const double least = std::min(swing.x(), swing.y());
-  if (least < models::kLeastWeightSwing)
+  if (scene.has_force && least < models::kLeastWeightSwing)
     throw Error(fmt::format("the machine tilts by {:.1f} degrees rms to one side in the poses that it "
                             "reaches; expected {:.1f}, which tell weight from zero; see to "
                             "rig.manipulator.geometry, tilt_limit_deg above all",
@@ -73,25 +76,29 @@ void check_mass(const MachineCalibration& found, double believed) {
         fmt::format("{:.3f} kg are behind the sensor and the scene's tool weighs {:.3f} kg; expected a "
                     "tool that is lighter than all of it; correct its mass_kg",
                     found.weight->mass.value, found.tool_mass));
-  if (!(std::abs(mass - believed) <= kMassOff * believed + found.weight->mass.half))
+  const double most = std::max(kMassOff * believed, kLeastMassOff) + found.weight->mass.half;
+  if (!(std::abs(mass - believed) <= most))
     throw Error(
-        fmt::format("by the force sensor {:.3f} kg are behind it, without the tool, and the rig has "
-                    "{:.3f} kg; expected {:.0f} % more or less; put on a scale what the sensor "
-                    "carries: see to the sensor's unit and gain, or correct rig.force.mass_kg",
-                    mass, believed, 100.0 * kMassOff));
+        fmt::format("by the force sensor {:.3f} kg are behind it, without the tool's {:g} kg, and the "
+                    "rig has {:.3f} kg; expected it to within {:.2f} kg; put on a scale what the "
+                    "sensor carries: see to the sensor's unit and gain, or correct rig.force.mass_kg "
+                    "or the tool's mass_kg",
+                    mass, found.tool_mass, believed, most));
 }
 
 // A lever of the machine that is wrong, too: only the tip tells it from the tracker's place.
 void check_tip(const MachineCalibration& found, const Vec3& tip) {
   const Vec3 off = tip - found.hand_eye->tip.value;
   if (off.norm() <= kTipOff + found.hand_eye->tip.half.norm()) return;
-  const Vec3 in_H = found.hand_eye->X_HT.q() * off;
-  throw Error(fmt::format(
-      "the tool's tip stands at [{:.2f}, {:.2f}, {:.2f}] mm of the haptic-tip, known to "
-      "{:.2f} mm; expected its middle, to {:g} mm; see to "
-      "rig.manipulator.geometry.tip_height_mm, to how the tool is clamped, and to its "
-      "tip_mm: what is wrong of them would be in the tracker's place",
-      1e3 * in_H.x(), 1e3 * in_H.y(), 1e3 * in_H.z(), 1e3 * found.hand_eye->tip.half.norm(), 1e3 * kTipOff));
+  const Vec3 in_H = 1e3 * (found.hand_eye->X_HT.q() * off), there = 1e3 * found.hand_eye->tip.value;
+  throw Error(
+      fmt::format("the tool's tip stands at [{:.2f}, {:.2f}, {:.2f}] mm of the haptic-tip, known to "
+                  "{:.2f} mm; expected its middle, to {:g} mm; see to "
+                  "rig.manipulator.geometry.tip_height_mm, to how the tool is clamped, and to its "
+                  "tip_mm, which is [{:.2f}, {:.2f}, {:.2f}] if it stands there: what is wrong of "
+                  "them would be in the tracker's place",
+                  in_H.x(), in_H.y(), in_H.z(), 1e3 * found.hand_eye->tip.half.norm(), 1e3 * kTipOff,
+                  there.x(), there.y(), there.z()));
 }
 
 }  // namespace
@@ -131,7 +138,7 @@ MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count,
                                      const std::function<void(double)>& progress) {
   const Scene& scene = tool.trial().scene();
   const std::vector<Pose<'W', 'H'>> poses = calibration_poses(scene.reach, scene.X_WR, count);
-  check_poses(poses, scene.reach, scene.X_WR);
+  check_poses(poses, scene);
   MachineCalibration found;
   found.stands.reserve(count);
   const CarriedStand* first = nullptr;  // in which the tool was seen

@@ -101,7 +101,7 @@ BlockFit::Result BlockFit::solve() const {
     const double scale = columns.scale(static_cast<Eigen::Index>(c));
     const models::Blocks& of = blocks[static_cast<std::size_t>(i)];
     const models::Interval value = of.around(found(i));
-    result.values[c] = {value.value / scale, of.freedom() < kFewestFree ? kUnset : value.half / scale};
+    result.values[c] = {value.value / scale, of.freedom() < kFewestFree - 1e-9 ? kUnset : value.half / scale};
   }
   return result;
 }

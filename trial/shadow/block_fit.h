@@ -25,7 +25,7 @@ class BlockFit {
 
   struct Result {
     // Unset, both: the rows do not tell it, or not apart from the columns before it. Without an interval:
-    // fewer than three blocks of time tell it.
+    // fewer than three blocks of time tell it alike.
     std::vector<models::Interval> values;
     double rms = kUnset;  // of what is left
   };

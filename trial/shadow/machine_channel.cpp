@@ -54,19 +54,23 @@ BlockFit::Result fit_way(const TwinWay& way, const std::vector<Said>& said, doub
   return fit.solve();
 }
 
-// m rms, of all three axes: what neither time nor place explains, where the twin moves, or everywhere.
+// m rms, of all three axes: what neither time nor place explains, of what moves or of what stands, whichever
+// is more, so that neither hides behind the other.
 double rest_of(const TwinWay& way, const std::vector<Said>& said, double late,
                const BlockFit::Result& found) {
   const Vec3 off(found.values[0].value, found.values[1].value, found.values[2].value);
-  double moving = 0.0, of_moving = 0.0, all = 0.0, of_all = 0.0;
+  double squares[2] = {0.0, 0.0}, rows[2] = {0.0, 0.0};  // it stands, it moves
   for (const Said& one : said) {
     const Vec3 place = way.place(one.t - late), speed = way.speed(one.t - late);
     if (!place.allFinite() || !speed.allFinite()) continue;
-    const double square = (one.at - place - off).squaredNorm();
-    all += square, ++of_all;
-    if (speed.norm() > kMoves) moving += square, ++of_moving;
+    const int moves = speed.norm() > kMoves ? 1 : 0;
+    squares[moves] += (one.at - place - off).squaredNorm();
+    ++rows[moves];
   }
-  return of_moving > 0.0 ? std::sqrt(moving / of_moving) : std::sqrt(all / of_all);
+  double most = kUnset;
+  for (const int part : {0, 1})
+    if (rows[part] > 0.0) most = std::fmax(most, std::sqrt(squares[part] / rows[part]));
+  return most;
 }
 
 // s between two set-points of the machine's driver, [driver.NAME] cycle_ms; 0 where it has none.

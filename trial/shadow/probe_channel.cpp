@@ -17,7 +17,7 @@ constexpr double kForceBlock = 0.25;  // s
 constexpr double kBefore = 1e-3;      // m before the touch, from where on a push is looked at
 constexpr double kStep = 20e-6;       // m, of the difference that stands for a slope
 constexpr double kSlopeTime = 4e-3;   // s, likewise
-constexpr double kTouch = 0.2;        // N: less is no push
+constexpr double kSame = 1e-4;        // N: of the softest object kStep is more
 constexpr double kFelt = 1.0;         // N: more than weight, inertia and drift are in a block of time
 constexpr int kMostRounds = 10;
 constexpr double kBend = 0.5e-3;    // m
@@ -182,6 +182,19 @@ std::vector<Reading> twin_forces(const Tape& tape, const Along& along, const std
   return out;
 }
 
+std::vector<Reading> tick_by_tick(const Forces& forces) {
+  std::vector<Reading> out;
+  out.reserve(forces.size());
+  for (const double force : forces) out.push_back({static_cast<double>(out.size()), force});
+  return out;
+}
+
+// A probe that goes nearer and feels nothing more touches nothing: weight and inertia are the same.
+bool alike_all(const Forces& twin, const Forces& stepped) {
+  return std::equal(twin.begin(), twin.end(), stepped.begin(), stepped.end(),
+                    [](double a, double b) { return std::abs(a - b) < kSame; });
+}
+
 // The twin's probe presses nothing. felt: by the record's; thought: by the twin's, where its object is
 // thought to be.
 void nothing_there(double felt, double thought, Shadow& shadow) {
@@ -215,8 +228,8 @@ void see_probed(const Tape& tape, Shadow& shadow) {
     twin = along_push(along, felt);
     stepped = along_push(along, felt_by_twin(tape, quiet, nearer + kStep));
     const auto [least, most] = std::minmax_element(twin.begin(), twin.end());
-    if (round == 0) thought = *most - *least;
-    if (rows.pushes == 0 || *most - *least < kTouch) return nothing_there(pressed, thought, shadow);
+    if (round == 0) thought = felt_at_most(tick_by_tick(twin), tape.scene.dt);
+    if (rows.pushes == 0 || alike_all(twin, stepped)) return nothing_there(pressed, thought, shadow);
     found = compare(rows, recorded, twin, stepped, late);
     if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
     settled = std::abs(found.nearer.value) < kSettled;

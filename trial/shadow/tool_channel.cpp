@@ -45,6 +45,12 @@ bool goes_along(const models::LatencyFit& fit) {
   return fit.carried && fit.in_range && !(fit.unexplained > kMost);
 }
 
+// So well that nothing but another motion hides it: a real tracker may be ten times as noisy as the twin's.
+bool goes_clearly_along(const models::LatencyFit& fit) {
+  constexpr double kClear = 0.1;
+  return goes_along(fit) && !(fit.unexplained > kClear);
+}
+
 // How a tool that the machine carries does not go along with it.
 std::string astray(const models::LatencyFit& fit) {
   if (!fit.carried) return "the tool moved while the machine that carries it stood still";
@@ -54,6 +60,10 @@ std::string astray(const models::LatencyFit& fit) {
         "is "
         "not held, or the camera is turned",
         100.0 * std::min(1.0, fit.unexplained));
+  if (fit.latency.value < 0.0)
+    return fmt::format(
+        "the tool is seen {:.0f} ms before the machine carried it there: times of one of them are wrong",
+        -1e3 * fit.latency.value);
   return fmt::format("the tool is seen {:.0f} ms after the machine carried it there: no tracker is so late",
                      1e3 * fit.latency.value);
 }
@@ -131,6 +141,11 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
   const std::vector<SeenPacket> known = with_machine(tape, recorded);
   if (known.size() < kFewestPackets) {
     see_ages(tape, recorded, trackers.packets(), true, shadow);
+    const auto arrived = std::count_if(recorded.begin(), recorded.end(),
+                                       [&](const SeenPacket& one) { return tape.tip.knows(one.t); });
+    if (arrived >= static_cast<std::ptrdiff_t>(kFewestPackets))
+      return diverges_grossly(shadow, Channel::tool,
+                              "its stamps are of another time than that in which its packets came");
     return cannot_judge(shadow, Channel::tool,
                         fmt::format("where the machine was is known for {} of its {} packets; expected {}",
                                     known.size(), recorded.size(), kFewestPackets));
@@ -144,7 +159,7 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
     if (const std::vector<SeenPacket> seen = with_machine(tape, packets); seen.size() >= kFewestPackets)
       twins.push_back(models::fit_latency(with_packets(rows, tape.scene, seen)));
   // A motion that is lost in the tracker's noise is lost in the twin's, too.
-  if (!carried && std::count_if(twins.begin(), twins.end(), goes_along) > std::ssize(twins) / 2)
+  if (!carried && std::count_if(twins.begin(), twins.end(), goes_clearly_along) > std::ssize(twins) / 2)
     return diverges_grossly(shadow, Channel::tool, astray(found));
   if (!carried)
     return cannot_judge(shadow, Channel::tool,

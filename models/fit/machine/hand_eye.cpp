@@ -141,22 +141,27 @@ bool settled(const Scatter& now, const Scatter& before) {
          ((now.turn - before.turn).array().abs() <= kShare * before.turn.array()).all();
 }
 
-// A tracker's scale hides in both places, and is seen only in what they leave over.
-void check_scale(std::span<const EyeStand> stands, const Both& at, const MatrixXd& by,
-                 const VectorXd& weights, const VectorXd& left) {
+// A tracker's scale hides in both places, and is seen only in what they leave over; how much that scatters is
+// seen when the scale is taken out of it.
+void check_scale(std::span<const EyeStand> stands, const Both& at, const VectorXd& left) {
   const auto n = static_cast<Eigen::Index>(stands.size());
-  MatrixXd with(by.rows(), kPoseUnknowns + 1);
-  with.leftCols(kPoseUnknowns) = by;
+  MatrixXd by(6 * n, kPoseUnknowns + 1);
+  by.leftCols(kPoseUnknowns) = slopes(stands, at);
+  by.col(kPoseUnknowns).setZero();
   const Pose<'C', 'W'> X_CW = at.X_WC.inverse();
-  with.col(kPoseUnknowns).setZero();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Pose<'C', 'T'> expected = X_CW * stands[static_cast<std::size_t>(i)].X_WH * at.X_HT;
-    with.block<3, 1>(3 * i, kPoseUnknowns) = weights.segment<3>(3 * i).cwiseProduct(Vec3(expected.p()));
+  for (Eigen::Index i = 0; i < n; ++i)
+    by.block<3, 1>(3 * i, kPoseUnknowns) = (X_CW * stands[static_cast<std::size_t>(i)].X_WH * at.X_HT).p();
+  double scale = 0.0, sure = kUnset;
+  VectorXd rest = left;
+  for (int round = 0; round < 2; ++round) {
+    const VectorXd weights = weights_of(scatter_of(rest), left.size());
+    const MatrixXd weighed = weights.asDiagonal() * by;
+    const MatrixXd inverse = (weighed.transpose() * weighed).inverse();
+    const VectorXd found = inverse * (weighed.transpose() * weights.cwiseProduct(left));
+    scale = found(kPoseUnknowns);
+    sure = kScaleSure * std::sqrt(inverse(kPoseUnknowns, kPoseUnknowns));
+    rest = left - by * found;
   }
-  const MatrixXd inverse = (with.transpose() * with).inverse();
-  const VectorXd found = inverse * (with.transpose() * weights.cwiseProduct(left));
-  const double scale = found(kPoseUnknowns),
-               sure = kScaleSure * std::sqrt(inverse(kPoseUnknowns, kPoseUnknowns));
   if (std::abs(scale) > kScaleOff && std::abs(scale) > sure)
     throw Error(
         fmt::format("the tracker's lengths are {:.2f} +- {:.2f} % larger than the machine's; expected "
@@ -187,8 +192,7 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
     if (step.norm() < 1e-12 && settled(scatter, before)) break;
   }
   const VectorXd left = left_over(stands, at);
-  const VectorXd weights = weights_of(scatter, left.size());
-  const MatrixXd by = weights.asDiagonal() * slopes(stands, at);
+  const MatrixXd by = weights_of(scatter, left.size()).asDiagonal() * slopes(stands, at);
   const MatrixXd inverse = (by.transpose() * by).inverse();
   const double reach = student(freedom_of(static_cast<Eigen::Index>(stands.size())), kNormal99);
 
@@ -223,7 +227,7 @@ HandEyeFit fit_hand_eye(std::span<const EyeStand> stands) {
         "left over; expected at most {:g} and {:.1f}; see that the jaws hold the tool, that the "
         "machine and not the tracker moves, and to units and axes of both",
         fit.rms * 1e3, fit.rms_turn * 180.0 / M_PI, kMostLeftPlace * 1e3, kMostLeftTurn * 180.0 / M_PI));
-  check_scale(stands, at, by, weights, left);
+  check_scale(stands, at, left);
   return fit;
 }
 

@@ -156,6 +156,7 @@ TEST_F(RigCalibrationFile, WhatNothingSaysOfTheTruthIsAsBelieved) {
   EXPECT_EQ(measured_once.twin.frames.W_C.position, measured().W_C->position);
   EXPECT_EQ(measured_once.twin.frames.W_C.rotation, measured_once.rig.frames.W_C.rotation);
   EXPECT_NEAR(measured_once.twin.frames.H_F.rotation.x(), 0.011, 1e-7);
+  EXPECT_EQ(measured_once.twin.hexapod.mass, 1.1099);
   EXPECT_LT((measured_once.twin.frames.H_F.position - Vec3(0, 0, -0.127)).norm(), 1e-12);
 
   write("rig.toml", calibrated);  // of a simulated rig, whose truth is another

@@ -44,7 +44,7 @@ TEST(BlockFit, SaysNothingOfWhatItCannotTellApart) {
 
 // Two blocks do not say how much blocks scatter: Student's t of one degree of freedom is 12.7.
 TEST(BlockFit, OfTwoBlocksThereIsNoInterval) {
-  for (const int blocks : {1, 2, 4}) {
+  for (const int blocks : {1, 2, 3, 4}) {
     sim::Stream noise(1, "block fit");
     BlockFit fit(1, 0.25);
     for (int i = 0; i < 250 * blocks; ++i)

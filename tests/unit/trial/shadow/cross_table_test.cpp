@@ -208,6 +208,37 @@ TEST(ShadowTable, ATurnedCameraDiverges) {
   EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("did not go where the machine carried it"));
 }
 
+// However short, and however little the twin feels: nothing but weight and inertia.
+TEST(ShadowTable, APushWhereTheTwinHasNothingDiverges) {
+  for (const char* repeats : {"probe.repeats=1", "probe.repeats=2"}) {
+    const ShadowedScene scene{"rig_identify", {repeats, "probe.dwell_s=1", "probe.rest_s=1"}};
+    const trial::Shadow shadow = shadowed(scene, 7, {}, {"truth.ball.misplaced_mm=[0,0,12]"});
+    EXPECT_THAT(named(shadow), testing::Contains("force gross")) << repeats;
+    ASSERT_FALSE(shadow.gross.empty());
+    EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("where the twin has nothing")) << repeats;
+  }
+}
+
+// A tracker that is much noisier than the twin's is no tool that is lost, where little moves.
+TEST(ShadowTable, ANoisyTrackerThatSeesLittleMotionIsNoGrossDivergence) {
+  const ShadowedScene scene{"tracking",
+                            {"travel.dwell_s=3", "travel.ways=both_ways", "travel.stops_mm=[0,0.3]"}};
+  const trial::Shadow shadow = shadowed(scene, 7, {"truth.tracker.noise_mm=[0.3,0.3,0.3]"},
+                                        {"truth.tracker.noise_mm=[0.019,0.011,0.011]"});
+  EXPECT_TRUE(shadow.gross.empty()) << shadow.gross.front().text;
+}
+
+// What hunts while it stands is not hidden by what it does on its way.
+TEST(ShadowTable, AMachineThatHuntsWhereItStandsHasARest) {
+  const auto hunting = [](RecordedTick& frame, double share) {
+    if (frame.in.tip.value.velocity.norm() > 1e-3) return;
+    const Pose<'R', 'H'> said = frame.in.tip.value.X_RH;
+    frame.in.tip.value.X_RH =
+        Pose<'R', 'H'>(Quat(said.q()), Vec3(said.p() + Vec3(0.3e-3 * std::sin(2e3 * share), 0.0, 0.0)));
+  };
+  EXPECT_THAT(named(shadowed_frames(carrying(), 7, hunting)), testing::Contains("machine machine_rest"));
+}
+
 // Later than any tracker, and its stamps, too: as over a wire, where they are tied to when packets come.
 TEST(ShadowTable, AToolThatIsSeenMuchTooLateDiverges) {
   constexpr std::size_t kTicks = 800;
@@ -220,7 +251,10 @@ TEST(ShadowTable, AToolThatIsSeenMuchTooLateDiverges) {
     under_way.pop_front();
     frame.in.tool.t += from_seconds(1e-3 * static_cast<double>(kTicks));
   };
-  EXPECT_TRUE(shadowed_frames(carrying(), 7, later).diverges());
+  const trial::Shadow shadow = shadowed_frames(carrying(), 7, later);
+  EXPECT_THAT(named(shadow), testing::Contains("tool gross"));
+  ASSERT_FALSE(shadow.gross.empty());
+  EXPECT_THAT(shadow.gross.front().text, testing::HasSubstr("no tracker is so late"));
 }
 
 // Of bounds that no truth of the twin reaches: the record is altered frame by frame.
