@@ -68,13 +68,17 @@ TEST_F(CalibrateMachine, TellsTheSameInJson) {
 TEST_F(CalibrateMachine, RefusesInALineWhatCannotBe) {
   EXPECT_THAT(line({"calibrate", "fakes"}), AllOf(HasSubstr("fakes.toml:"), HasSubstr("--armed")));
   // Nothing is connected to, and nothing would feel what is in the way.
-  EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--set", "rig.force.driver=none"}),
-              AllOf(HasSubstr("needs a force sensor"), HasSubstr("here it is 'none'")));
-  EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--set", "rig.force.driver=sim"}),
-              HasSubstr("here it is 'sim'"));
   EXPECT_THAT(
-      line({"calibrate", "sim", "--set", "rig.force.driver=none", "--set", "rig.tracker.driver=none"}),
-      HasSubstr("neither a force sensor nor a tracker"));
+      line({"calibrate", "fakes", "--armed", "--set", "rig.force.driver=sim"}),
+      AllOf(HasSubstr("fakes.toml:"), HasSubstr("needs a force sensor"), HasSubstr("here it is 'sim'")));
+  const std::string tracked = ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml";
+  EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--scene", tracked, "--set", "rig.force.driver=none"}),
+              HasSubstr("here it is 'none'"));
+  write("bare.toml", replaced(text_of(ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml"),
+                              "[force]\n[tracker]\n", ""));
+  EXPECT_THAT(line({"calibrate", "sim", "--scene", path("bare.toml"), "--set", "rig.force.driver=none",
+                    "--set", "rig.tracker.driver=none"}),
+              HasSubstr("neither a force sensor nor a tracker"));
   EXPECT_THAT(line({"calibrate", "sim", "--pairs", "8"}), HasSubstr("--pairs is of a rig with an arm"));
   EXPECT_THAT(line({"calibrate", "sim", "--through-images"}),
               HasSubstr("--through-images is of a rig with an arm"));

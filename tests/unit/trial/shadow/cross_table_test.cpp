@@ -148,8 +148,8 @@ TEST(ShadowTable, EachErrorIsNamedByItsChannelAlone) {
   }
 }
 
-// Not by the luck of one seed: of twelve others, each names the three errors alone, and the printed interval
-// of 95 % holds the size of at least ten. Of a tracker's own latency, which goes in stairs of 1.67 ms, only
+// Not by the luck of one seed: of six others, each names the three errors alone, and the printed interval of
+// 95 % holds the size of at least five. Of a tracker's own latency, which goes in stairs of 1.67 ms, only
 // the name is asked for.
 TEST(ShadowTable, TheThreeErrorsAreNamedAloneWithEachSeed) {
   for (const char* what :
@@ -158,7 +158,7 @@ TEST(ShadowTable, TheThreeErrorsAreNamedAloneWithEachSeed) {
                                   [what](const Injected& one) { return std::string(one.what) == what; });
     ASSERT_NE(row, injections().end()) << what;
     int held = 0;
-    for (std::uint64_t seed = 201; seed <= 212; ++seed) {
+    for (std::uint64_t seed = 201; seed <= 206; ++seed) {
       const trial::Shadow shadow = shadowed(row->scene, seed, row->altered, row->twin);
       EXPECT_THAT(named(shadow), ElementsAre(row->name)) << what << ", seed " << seed;
       const trial::Divergence* size = found(shadow, row->quantity, row->axis);
@@ -166,7 +166,7 @@ TEST(ShadowTable, TheThreeErrorsAreNamedAloneWithEachSeed) {
       if (std::abs(size->off.value - row->size) < std::max(size->off.half, least_seen(row->quantity))) ++held;
     }
     if (row->altered.front().starts_with("truth.tracker.latency_ms")) continue;
-    EXPECT_GE(held, 10) << what;
+    EXPECT_GE(held, 5) << what;
   }
 }
 
@@ -279,8 +279,8 @@ TEST(ShadowTable, AForceThatComesLaterIsNamed) {
   EXPECT_NEAR(time->off.value, 3e-3, 0.3e-3);
 }
 
-TEST(ShadowTable, AServoOfAnotherFrequencyHasARest) {
-  EXPECT_THAT(named(shadowed(carrying(), 7, {}, {"truth.hexapod.servo_hz=6"})),
+TEST(ShadowTable, AMachineThatSpeedsUpOtherwiseHasARest) {
+  EXPECT_THAT(named(shadowed(carrying(), 7, {}, {"truth.hexapod.acceleration_m_s2=0.3"})),
               testing::Contains("machine machine_rest"));
 }
 
