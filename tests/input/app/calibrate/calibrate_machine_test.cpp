@@ -68,9 +68,9 @@ TEST_F(CalibrateMachine, TellsTheSameInJson) {
 TEST_F(CalibrateMachine, RefusesInALineWhatCannotBe) {
   EXPECT_THAT(line({"calibrate", "fakes"}), AllOf(HasSubstr("fakes.toml:"), HasSubstr("--armed")));
   // Nothing is connected to, and nothing would feel what is in the way.
-  EXPECT_THAT(
-      line({"calibrate", "fakes", "--armed", "--set", "rig.force.driver=sim"}),
-      AllOf(HasSubstr("fakes.toml:"), HasSubstr("needs a force sensor"), HasSubstr("here it is 'sim'")));
+  EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--set", "rig.force.driver=sim"}),
+              AllOf(HasSubstr("--set rig.force.driver=sim: "), HasSubstr("needs a force sensor"),
+                    HasSubstr("here it is 'sim'")));
   const std::string tracked = ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml";
   EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--scene", tracked, "--set", "rig.force.driver=none"}),
               HasSubstr("here it is 'none'"));
