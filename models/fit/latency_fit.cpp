@@ -70,16 +70,10 @@ class Fit {
   double nearest_age() const {
     constexpr double kGrid = 4e-3;  // s
     const std::size_t stride = std::max<std::size_t>(1, log_.packets.size() / 600);
-    constexpr int kAges = static_cast<int>((kLatest - kEarliest) / kGrid);
-    std::array<double, kAges + 1> known{};
-    for (int i = 0; i <= kAges; ++i)
-      for (std::size_t k = 0; k < times_->size(); k += stride)
-        if (path_.knows((*times_)[k] - (kEarliest + i * kGrid))) ++known[static_cast<std::size_t>(i)];
-    const double enough = std::max(kFewestPackets, 0.5 * *std::max_element(known.begin(), known.end()));
-    double best = 0.0, least = INFINITY;
-    for (int i = 0; i <= kAges; ++i) {
-      if (known[static_cast<std::size_t>(i)] < enough) continue;
-      const double age = kEarliest + i * kGrid;
+    constexpr auto kAges = static_cast<std::size_t>((kLatest - kEarliest) / kGrid);
+    std::array<double, kAges + 1> known{}, size{};
+    for (std::size_t i = 0; i <= kAges; ++i) {
+      const double age = kEarliest + static_cast<double>(i) * kGrid;
       std::array<std::vector<double>, 3> errors;
       for (std::size_t k = 0; k < times_->size(); k += stride) {
         const double t = (*times_)[k] - age;
@@ -87,13 +81,16 @@ class Fit {
         const Vec3 e = log_.packets[k].tool - path_.position(t);
         for (std::size_t a = 0; a < 3; ++a) errors[a].push_back(e(static_cast<Eigen::Index>(a)));
       }
-      double size = 0.0;
-      for (const auto& axis : errors) {
-        const double middle = median(axis);
-        for (const double e : axis) size += std::abs(e - middle) / static_cast<double>(axis.size());
-      }
-      if (size < least) least = size, best = age;
+      known[i] = static_cast<double>(errors[0].size());
+      for (const auto& axis : errors)
+        for (const double middle = median(axis); const double e : axis)
+          size[i] += std::abs(e - middle) / known[i];
     }
+    const double enough = std::max(kFewestPackets, 0.5 * *std::max_element(known.begin(), known.end()));
+    double best = 0.0, least = INFINITY;
+    for (std::size_t i = 0; i <= kAges; ++i)
+      if (known[i] >= enough && size[i] < least)
+        least = size[i], best = kEarliest + static_cast<double>(i) * kGrid;
     return best;
   }
 
