@@ -241,8 +241,20 @@ TipPath::TipPath(const TrackerLog& log)
   reach_ = std::max(5e-3, 2.0 * period_);
 }
 
-// The first that was later, or the last.
+// The first that was later, or the last. Rows are even but for jitter and gaps: mostly the right one is near.
 std::size_t TipPath::after(double t) const {
+  const std::size_t last = time_.size() - 1;
+  const double share = (t - time_.front()) / (time_.back() - time_.front());
+  auto i = static_cast<std::size_t>(
+      std::clamp(std::ceil(share * static_cast<double>(last)), 1.0, static_cast<double>(last)));
+  for (int step = 0; step < 4; ++step) {
+    if (i > 1 && time_[i - 1] > t)
+      --i;
+    else if (i < last && time_[i] <= t)
+      ++i;
+    else
+      return i;
+  }
   return static_cast<std::size_t>(std::upper_bound(time_.begin() + 1, time_.end() - 1, t) - time_.begin());
 }
 
