@@ -17,14 +17,15 @@ TEST(RecordOfTwoThreads, IsWholeAndInOrder) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("threads_" + std::to_string(getpid()) + ".encrec")).string();
   {
-    RecordWriter record(path, {}, layout_hash(Scene()), 8);
+    RecordWriter record(path, {}, layout_hash(Scene()), 64);  // gone round five times
     std::atomic<bool> over = false;
     std::thread file([&] {
       while (!over) record.drain();
     });
     for (std::int64_t i = 0; i < kTicks && !record.full(); ++i) {
       record.write({i, Time(Duration(i)), Duration(1)}, {}, {}, 0);
-      if (i % 100 == 0) std::this_thread::sleep_for(std::chrono::microseconds(500));  // as a loop does
+      if (i % 100 == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));  // as a loop of 50 kHz does
     }
     over = true;
     file.join();
