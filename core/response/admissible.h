@@ -2,6 +2,8 @@
 // loop renders.
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -31,11 +33,15 @@ Interval first_below_zero(const F& f) {
   return bad;
 }
 
-// A number to three decimals, without a locale.
+// A number to three decimals, or to six digits where nobody counts them, without a locale.
 inline std::string decimals(double x) {
-  const auto thousandths = static_cast<long>(std::lround(x * 1e3));
-  const std::string digits = std::to_string(thousandths % 1000);
-  return std::to_string(thousandths / 1000) + "." + std::string(3 - digits.size(), '0') + digits;
+  constexpr double kLarge = 1e6;
+  std::array<char, 32> text{};
+  char* const from = text.data();
+  char* const to = from + text.size();
+  const auto end = std::abs(x) < kLarge ? std::to_chars(from, to, x, std::chars_format::fixed, 3)
+                                        : std::to_chars(from, to, x, std::chars_format::general, 6);
+  return {from, end.ptr};
 }
 
 inline void refuse(const Interval& bad, double limit, const std::string& curve, const std::string& key,

@@ -149,6 +149,14 @@ TEST(Response, RefusesReleaseAbovePress) {
               AllOf(HasSubstr("release curve is above the press curve"), HasSubstr("from 2.001 to 3.999")));
 }
 
+// A typo in the limit: 9e18 mm. More than a number of thousandths can be.
+TEST(Response, RefusesALimitThatNobodyMeansInWords) {
+  const ResponseSpec spec{
+      .press = per_mm({0.8, 4.0, 0, 0.05}), .release = per_mm({0.1, 3.4, 0, 0.06}), .limit = 9.2e15};
+  EXPECT_THAT(refusal(spec, 10.0), AllOf(HasSubstr("release curve is above the press curve"),
+                                         HasSubstr(" to 9.2e+18 (deflection in millimetres)")));
+}
+
 TEST(Response, RefusesWhatIsNotFinite) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
