@@ -16,9 +16,9 @@ inline constexpr double kMachineCycles = 1.5;
 // each axis holds all of them at their worst, and as much for a machine that was told to be elsewhere in
 // between.
 inline constexpr double kMachinePlace = 20e-6;  // m
-// Where it moves or where it stands, whichever is more, beside its lag, which is a time: a set-point that is taken a cycle earlier or later than
-// its neighbours is 50 um at 50 mm/s. Steps are 3 um, and a servo of 15 Hz that is 5 % off is 7 um more or
-// less behind while it speeds up with 0.41 m/s^2.
+// Where it moves or where it stands, whichever is more, beside its lag, which is a time: a set-point that is
+// taken a cycle earlier or later than its neighbours is 50 um at 50 mm/s. Steps are 3 um, and a servo of 15
+// Hz that is 5 % off is 7 um more or less behind while it speeds up with 0.41 m/s^2.
 inline constexpr double kMachineRest = 50e-6;  // m rms
 // A pose scatters by 0.02 mm; bias that turns with the direction, and the line between two round tips whose
 // sideways place is known to a few tenths, add up to 0.1 mm in a single stop. Twice that.
