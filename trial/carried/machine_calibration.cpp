@@ -37,8 +37,7 @@ void check_poses(const std::vector<Pose<'W', 'H'>>& poses, const Scene& scene) {
         !way_in_reach(reach, X_WR, pose, Pose<'W', 'H'>::identity()))
       throw Error(
           "the machine does not reach the poses of a calibration, however near to its zero; expected room "
-          "for "
-          "a tilt of some degrees; see to rig.manipulator.geometry",
+          "for a tilt of some degrees; see to rig.manipulator.geometry",
           "manipulator.geometry");
     const Vec3 down = pose.q().conjugate() * Vec3::UnitZ();
     mean += down / n;
@@ -147,8 +146,10 @@ MachineCalibration calibrate_machine(CarriedTool& tool, std::size_t count,
     tool.go(pose);
     const CarriedStand& now = found.stands.emplace_back(tool.stand());
     if (now.packets < kFewestPackets) continue;
-    if (first != nullptr) check_carried(*first, now);
-    if (first == nullptr) first = &now;
+    if (first == nullptr)
+      first = &now;
+    else
+      check_carried(*first, now);
   }
   tool.go(Pose<'W', 'H'>::identity());
   found.time = tool.now();

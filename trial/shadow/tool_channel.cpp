@@ -57,8 +57,7 @@ std::string astray(const models::LatencyFit& fit) {
   if (fit.unexplained > kMost)
     return fmt::format(
         "the tool did not go where the machine carried it: {:.0f} % of its motion is not the machine's; it "
-        "is "
-        "not held, or the camera is turned",
+        "is not held, or the camera is turned",
         100.0 * std::min(1.0, fit.unexplained));
   if (fit.latency.value < 0.0)
     return fmt::format(
