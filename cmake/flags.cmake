@@ -20,6 +20,9 @@ add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor -Woverloaded-virtual
                     -Wold-style-cast -Wcast-qual -Wvla -Wundef)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  if(ENCOUNTER_FAST_BUILD) # it collects its garbage from half a gigabyte on: a twelfth less time
+    add_compile_options(--param=ggc-min-heapsize=524288)
+  endif()
   # Those that are off see ghosts in std::string, where a precompiled header hides that it is the system's.
   add_compile_options(-Wduplicated-cond -Wlogical-op -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
   # Only with the compiler we test with: a newer one has new warnings, which must not keep a newcomer from building.

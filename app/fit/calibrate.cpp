@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
+#include "app/fit/units.h"
 #include "core/error.h"
 #include "models/csv_reader.h"
 #include "models/fit/latency_fit.h"
@@ -24,9 +25,6 @@ using models::AxisLatency;
 using models::Interval;
 using models::LatencyFit;
 using models::TrackerLog;
-
-constexpr double kMm = 1e3, kMs = 1e3;
-constexpr const char* kNames = "xyz";
 
 std::string text(const Interval& i, double unit, int digits) {
   if (std::isnan(i.value)) return "not known";

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "app/fit/commands.h"
+#include "app/fit/units.h"
 #include "core/error.h"
 #include "core/rotation.h"
 #include "core/time.h"
@@ -30,8 +31,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using models::RigCalibration;
 using trial::MachineCalibration;
-
-constexpr double kMm = 1e3, kDeg = 180.0 / M_PI;
 
 // What was found, as the rig will believe it.
 struct Found {

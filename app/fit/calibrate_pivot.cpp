@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
+#include "app/fit/units.h"
 #include "core/error.h"
 #include "models/fit/pivot/pivot_log.h"
 #include "models/schema/wording.h"
@@ -18,8 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using models::PivotFit;
 using models::PivotLog;
-
-constexpr double kMm = 1e3, kDeg = 180.0 / M_PI;
 
 double length_of(const PivotLog& log) { return log.poses.back().time - log.poses.front().time; }
 

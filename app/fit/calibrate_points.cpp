@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
+#include "app/fit/units.h"
 #include "core/error.h"
 #include "core/rotation.h"
 #include "models/files.h"
@@ -24,9 +25,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using trial::PointSet;
 using trial::PointStudy;
-
-constexpr double kMm = 1e3, kDeg = 180.0 / M_PI;
-constexpr const char* kNames = "xyz";
 
 std::string number(double x, double unit, int digits) {
   return std::isnan(x) ? "not known" : fmt::format("{:.{}f}", x * unit, digits);

@@ -51,6 +51,7 @@ class Form {
   [[nodiscard]] bool has(Part part) const;
   // Which of its parts did nothing so far, or are off: they would have cost nothing.
   [[nodiscard]] std::vector<Part> idle(const Form& minimal) const;
+  [[nodiscard]] std::int64_t touched() const { return touched_; }  // ticks
   [[nodiscard]] int elements() const { return trial_->world().physics().elements(); }
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
   [[nodiscard]] sim::World& world() { return trial_->world(); }
@@ -68,7 +69,8 @@ class Form {
   int file_ = -1;  // in memory
   std::unique_ptr<RecordWriter> record_;
   Stamped<TrackedTool> unused_;
-  std::int64_t ticks_ = 0, pictures_ = 0, surfaces_ = 0;  // seen by vision; drawn by the display
+  std::int64_t ticks_ = 0, touched_ = 0;
+  std::int64_t pictures_ = 0, surfaces_ = 0;  // seen by vision; drawn by the display
   Time drawn_{};
   StateHash felt_;
 };

@@ -12,6 +12,7 @@ namespace enc::bench {
 namespace {
 
 constexpr double kDearest = 1.25;  // times the cheapest that holds
+constexpr double kSpread = 1.5;    // +- 20 %
 
 // Orders as they are found: no bounds, as a contact is not smooth.
 std::string orders_text(const trial::Precision& all) {
@@ -32,13 +33,16 @@ std::string orders_text(const trial::Precision& all) {
 
 }  // namespace
 
-double accuracy_of(const trial::Precision& all) { return std::max(kForceAccuracy, 2.0 * all.second.error); }
+double accuracy_of(const trial::Precision& all, double wanted) {
+  return std::max(wanted, 2.0 * all.second.error);
+}
 
 ForceStudy force_study(const BenchContext& context, const std::string& scene,
                        const std::vector<std::string>& set, const trial::PrecisionOptions& options) {
   trial::PrecisionOptions asked = options;
   asked.seed = context.seed;
   asked.cpu = thread_seconds;
+  asked.drivers = modules_of(context);
   asked.yardstick = [] {
     Yardstick yardstick;
     for (int i = 0; i < 64; ++i) yardstick.measure();
@@ -71,9 +75,10 @@ Plot force_plot(Plot plot, const std::vector<trial::PrecisionPoint>& points,
   return cost_beside_error(std::move(plot), curves);
 }
 
-void add_force_precision(Bench& bench, const std::vector<std::string>& set) {
+void add_force_precision(Bench& bench, const std::vector<std::string>& set, const PrecisionNorm& norm) {
   if (bench.context.quick) return;
   trial::PrecisionOptions options;
+  options.quantities = norm.quantities;
   if (!bench.context.full) {
     options.rounds = 1;
     options.seconds = 4.0;
@@ -83,44 +88,52 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set) {
   const ForceStudy study = force_study(bench.context, bench.result.scene, set, options);
   bench.result.simulated += study.simulated;
   const trial::Precision& all = study.all;
-  const double accuracy = accuracy_of(all);
+  const double accuracy = accuracy_of(all, norm.accuracy);
+  const auto told = [&](double error) { return fmt::format("{:.4f} {}", error * norm.scale, norm.unit); };
+  const bool of_force = !norm.quantities;
   Table table{"precision",
-              "Error of the force against run time",
-              {"integrator", "timestep_us", "force_N", "path_um", "yardsticks a tick", "times_real_time",
-               "ships", "failure"},
+              fmt::format("Error of {} against run time", norm.of),
+              {"integrator", "timestep_us", of_force ? "force_N" : "error_percent", "path_um",
+               "yardsticks a tick", "times_real_time", "ships", "failure"},
               {}};
   for (const trial::PrecisionPoint& point : all.points) {
     const bool there = point.failure.empty();
     table.add(point.integrator, fmt::format("{:g}", point.step * 1e6),
-              there ? fmt::format("{:.4f}", point.error) : "",
+              there ? fmt::format("{:.4f}", point.error * norm.scale) : "",
               there ? fmt::format("{:.2f}", point.way * 1e6) : "", fmt::format("{:.2f}", point.yards),
               fmt::format("{:.0f}", 1.0 / point.cpu), point.shipped ? "ships" : "", point.failure);
   }
   table.note = "orders found: " + orders_text(all);
   bench.table(std::move(table));
+  std::vector<trial::PrecisionPoint> scaled = all.points;
+  for (trial::PrecisionPoint& point : scaled) point.error *= norm.scale;
   bench.plot(force_plot(
       {.id = "precision",
-       .title = "Error of the force against run time: " + study.scene,
+       .title = fmt::format("Error of {} against run time: {}", norm.of, study.scene),
        .x_label = "CPU time of a tick over a fixed piece of work",
-       .y_label = "error of the force (N rms)",
-       .caption = fmt::format(
-           "True force while something touches, against a converged run of the same hand ({:g} "
-           "s of it). Two converged runs differ by {:.3f} N; {:.3f} N is what this shall hold. What "
-           "failed stands at the upper edge.",
-           all.seconds, all.second.error, accuracy)},
-      all.points, &trial::PrecisionPoint::yards));
+       .y_label = fmt::format("error of {} ({})", norm.of, norm.unit == "N" ? "N rms" : norm.unit),
+       .caption = fmt::format("{}, against a converged run of the same hand ({:g} s of it). Two converged "
+                              "runs differ by {}; {} is what this shall hold. What failed stands at the "
+                              "upper edge.",
+                              of_force ? "True force while something touches"
+                                       : "The greatest difference, over the greatest value",
+                              all.seconds, told(all.second.error), told(accuracy))},
+      scaled, &trial::PrecisionPoint::yards));
   const trial::PrecisionPoint* shipped = trial::shipped(all.points);
   if (shipped == nullptr) return;
-  bench.figure("precision.error.rms", shipped->error, "N", at_most(accuracy),
-               fmt::format("force at what ships, {} at {:g} us; two converged runs differ by {:.4f} N",
-                           shipped->integrator, shipped->step * 1e6, all.second.error));
+  bench.figure(of_force ? "precision.error.rms" : "precision.error.max", shipped->error * norm.scale,
+               norm.unit.c_str(), at_most(accuracy * norm.scale),
+               fmt::format("{} at what ships, {} at {:g} us; two converged runs differ by {}", norm.of,
+                           shipped->integrator, shipped->step * 1e6, told(all.second.error)));
   if (!bench.context.full) return;
   const trial::PrecisionPoint* best = cheapest(all.points, {accuracy});
   bench.figure("precision.default_over_cheapest.cpu", best != nullptr ? shipped->yards / best->yards : kUnset,
-               "x", at_most(kDearest),
+               "x", norm.drawn ? Bounds{} : at_most(kDearest),
                best != nullptr
                    ? fmt::format("cheapest that holds: {} at {:g} us", best->integrator, best->step * 1e6)
                    : "nothing holds it");
+  bench.figure("precision.spread.max", shipped->spread, "x", at_most(kSpread),
+               "yardsticks of what ships, the greatest over the least of three runs");
 }
 
 }  // namespace enc::bench

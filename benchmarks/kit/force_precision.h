@@ -14,7 +14,7 @@ namespace enc::bench {
 // friction hides anyway. Where two converged runs do not agree so well themselves, twice what they differ
 // by: all are judged by both of them.
 inline constexpr double kForceAccuracy = 0.06;
-[[nodiscard]] double accuracy_of(const trial::Precision& all);
+[[nodiscard]] double accuracy_of(const trial::Precision& all, double wanted = kForceAccuracy);
 
 struct ForceStudy {
   std::string scene;
@@ -30,9 +30,20 @@ struct ForceStudy {
 [[nodiscard]] Plot force_plot(Plot plot, const std::vector<trial::PrecisionPoint>& points,
                               double trial::PrecisionPoint::*cost);
 
+// What is compared, in words and in its unit. By default the force.
+struct PrecisionNorm {
+  std::string of = "the force", unit = "N";
+  double scale = 1.0;  // of that unit in one of the study
+  // In the study's unit; more where two converged runs differ by half of it.
+  double accuracy = kForceAccuracy;
+  trial::QuantitiesOf quantities{};
+  bool drawn = false;  // pictures take nearly all of the time: then no setting is much cheaper than another
+};
+
 // The diagram, the table and the figures of a benchmark's own scene: what ships must hold the accuracy and be
 // at most 1.25 times as dear as the cheapest that does. By default a small form, of two steps; with --full
-// four steps and integrators, with --quick nothing.
-void add_force_precision(Bench& bench, const std::vector<std::string>& set = {});
+// four steps and integrators, and how far three runs' costs lie apart; with --quick nothing.
+void add_force_precision(Bench& bench, const std::vector<std::string>& set = {},
+                         const PrecisionNorm& norm = {});
 
 }  // namespace enc::bench

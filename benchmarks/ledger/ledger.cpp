@@ -1,13 +1,13 @@
 // Does the energy of every contact add up, in every scene that ships? And how much more came out of a contact
 // than went in, with the passivity controller and without?
+#include "benchmarks/ledger/ledger.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "benchmarks/kit/kit.h"
 #include "core/error.h"
 #include "trial/ledger/ledger_measure.h"
 
@@ -19,7 +19,6 @@ constexpr std::array kScenes{"reaching",    "wall",       "session",     "traini
                              "tennis_ball", "button",     "hit_ball",    "drum",         "keypad",
                              "room",        "tiles",      "indentation", "offset_press", "hare",
                              "plane",       "push_limit", "synchrony",   "two_objects"};
-constexpr double kSmallest = 0.05e-3;  // J: what a tenth of a newton does over half a millimetre
 constexpr int kSeeds = 4;
 
 struct Sums {
@@ -53,10 +52,7 @@ void add(const models::Setup& setup, std::uint64_t seed, bool first, Sums& sums,
     if (!first) continue;
     ++sums.contacts;
     sums.small += small ? 1 : 0;
-    using C = trial::ContactLedger;
-    for (double C::*term : {&C::hand, &C::carried, &C::kinetic, &C::spring, &C::weight, &C::joints, &C::law,
-                            &C::sampling, &C::delay, &C::quantisation, &C::limits})
-      sums.all.*term += one.*term;
+    add_terms(one, sums.all);
   }
 }
 
@@ -132,6 +128,7 @@ void run(Bench& bench) {
   bench.figure("closure.controlled.worst", 100.0 * controlled, "%", at_most(1.5),
                "with the passivity controller, of contacts above 0.05 mJ");
   bench.table(std::move(table));
+  add_error_over_time(bench);
 }
 
 const Entry kEntry{"ledger", "wall", "the energy of each contact adds up, in every scene", run};

@@ -13,6 +13,7 @@
 #include "benchmarks/tracking/tracking_trial.h"
 #include "benchmarks/wires/parts.h"
 #include "benchmarks/wires/wired_trial.h"
+#include "hw_drivers/wires/tight_times.h"
 
 namespace enc::bench::wires {
 namespace {
@@ -36,7 +37,8 @@ models::Setup on_fakes(const Bench& bench, const std::string& scene, int cycle,
   set.push_back(fmt::format("rig.driver.gcs.cycle_ms={}", std::max(cycle, 1)));
   set.push_back(fmt::format("rig.driver.gcs.poll_ms={}", cycle > 1 ? 2 : 1));
   set.insert(set.end(), bench.context.set.begin(), bench.context.set.end());
-  return models::load(bench.context.models + "/scenes/" + scene + ".toml", "fakes", set);
+  return models::load(bench.context.models + "/scenes/" + scene + ".toml", "fakes",
+                      enc::wires::tight_times(std::move(set)));
 }
 
 // Runs `measure(options, setup)` with the devices of the set-up behind their wires, or without wires.

@@ -12,6 +12,7 @@
 
 #include "benchmarks/wires/settling.h"
 #include "hw_drivers/gcs/drive/settings.h"
+#include "hw_drivers/wires/tight_times.h"
 #include "models/setup/driver_table.h"
 #include "sim/plants/hexapod_plant.h"
 
@@ -139,9 +140,10 @@ double decay(const models::Setup& setup) {
 
 models::Setup loaded(const std::string& models, const std::string& transport) {
   return models::load(models + "/scenes/tennis_ball.toml", "fakes",
-                      {"rig.driver.gcs.watchdog_ms=5", "rig.driver.netft.silent_ms=5",
-                       "rig.driver.igtl.transport=\"" + transport + "\"", "user.press_s=1", "user.hold_s=0.2",
-                       "user.release_s=1", "user.rest_s=0.5", "user.approach_mm_s=[50]"});
+                      enc::wires::tight_times({"rig.driver.gcs.watchdog_ms=5", "rig.driver.netft.silent_ms=5",
+                                               "rig.driver.igtl.transport=\"" + transport + "\"",
+                                               "user.press_s=1", "user.hold_s=0.2", "user.release_s=1",
+                                               "user.rest_s=0.5", "user.approach_mm_s=[50]"}));
 }
 
 // The number before the word in what a driver says at the end of a run.

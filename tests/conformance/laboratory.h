@@ -18,6 +18,7 @@
 #include "app/modules/modules.h"
 #include "core/record/record.h"
 #include "hw_drivers/wires/free_ports.h"
+#include "hw_drivers/wires/tight_times.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
 
@@ -32,7 +33,8 @@ struct Laboratory {
                       const std::vector<std::string>& faults = {}, const std::string& scene = kBall) {
     app::FakesOptions options{app::load_module, 1, lockstep};
     for (const std::string& fault : faults) options.faults.push_back(app::fault_of(fault, "the test"));
-    ports.insert(ports.end(), set.begin(), set.end());
+    const std::vector<std::string> all = lockstep ? wires::tight_times(set) : set;
+    ports.insert(ports.end(), all.begin(), all.end());
     setenv("ENCOUNTER_MODULES", tests::module_folder().c_str(), 1);
     fakes = std::make_unique<app::Fakes>(models::load(scene, "fakes", ports), std::move(options));
     serve();

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "models/order_statistics.h"
-#include "trial/trial.h"
 
 namespace enc::trial {
 namespace {
@@ -16,22 +16,28 @@ namespace {
 struct Run {
   std::vector<Vec3> force, tip;
   std::vector<char> touching;
+  std::optional<std::vector<double>> quantities;  // none: the force is compared
   double cpu = kUnset, yards = kUnset, simulated = 0.0;
   std::string failure;
   [[nodiscard]] std::int64_t touched() const { return std::count(touching.begin(), touching.end(), 1); }
 };
 
-Run run_once(const models::Setup& setup, const PrecisionOptions& asked, double seconds) {
+// `looks`: for the quantities that are compared, which takes time of its own.
+Run run_once(const models::Setup& setup, const PrecisionOptions& asked, double seconds, bool looks = true) {
   Run run;
   TrialOptions options;
   options.seed = asked.seed;
   options.seconds = seconds;
+  options.drivers = asked.drivers;
+  std::unique_ptr<Quantities> own;
   options.watch = [&](const Glance& glance) {
+    if (own) own->see(glance);
     run.force.push_back(glance.truth.contact_force.e());
     run.tip.push_back(glance.truth.tip.e());
     run.touching.push_back(glance.truth.touching ? 1 : 0);
   };
   try {
+    if (looks && asked.quantities) own = asked.quantities(setup, options);
     Trial trial(setup, options);
     const double before = asked.yardstick ? asked.yardstick() : kUnset;
     const double start = asked.cpu();
@@ -41,6 +47,7 @@ Run run_once(const models::Setup& setup, const PrecisionOptions& asked, double s
     run.simulated = result.simulated;
     run.cpu = cpu / result.simulated;
     run.yards = cpu / static_cast<double>(result.ticks) / (0.5 * (before + after));
+    if (own) run.quantities = own->all();
     if (result.diverged_at >= 0) run.failure = fmt::format("diverged at tick {}", result.diverged_at);
   } catch (const Error& e) {
     run.failure = e.what();
@@ -70,7 +77,8 @@ void judge(const Run& run, const Run& truth, PrecisionPoint& point) {
     point.failure = "touches nothing by then";
     return;
   }
-  point.error = std::sqrt(force / static_cast<double>(touched));
+  point.error = truth.quantities ? apart(run.quantities.value(), *truth.quantities)
+                                 : std::sqrt(force / static_cast<double>(touched));
   point.way = std::sqrt(way / static_cast<double>(std::max<std::size_t>(ticks, 1)));
   if (!std::isfinite(point.error) || !std::isfinite(point.way)) point.failure = "not finite";
 }
@@ -105,6 +113,17 @@ std::vector<PrecisionPoint> points_of(const PrecisionOptions& options, const sim
 }
 
 }  // namespace
+
+double apart(std::span<const double> some, std::span<const double> truth) {
+  double most = 0.0, largest = 0.0;
+  bool finite = some.size() == truth.size();
+  for (std::size_t i = 0; finite && i < truth.size(); ++i) {
+    finite = std::isfinite(some[i]) && std::isfinite(truth[i]);
+    most = std::max(most, std::abs(some[i] - truth[i]));
+    largest = std::max(largest, std::abs(truth[i]));
+  }
+  return finite && largest > 0.0 ? most / largest : kUnset;
+}
 
 std::vector<std::string> Precision::settings(const PrecisionPoint& point) const {
   return {fmt::format("{}.timestep_us={}", table, point.step * 1e6),
@@ -155,13 +174,19 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
   tell(4.0);
   all.points = points_of(options, shipped, period);
   std::vector<std::vector<double>> cpu(all.points.size()), yards(all.points.size());
-  for (int round = 0; round < options.rounds; ++round)
+  // What looks for quantities is not timed, and what is timed does not look.
+  const int first = options.quantities ? -1 : 0;
+  for (int round = first; round < options.rounds; ++round)
     for (std::size_t i = 0; i < all.points.size(); ++i) {
       PrecisionPoint& point = all.points[i];
       if (!point.failure.empty()) continue;
-      const Run run = run_once(with(setup_with, all, point), options, seconds);
-      judge(run, truth, point);
-      if (options.twice) judge_again(run, second, point);
+      const bool looks = round == first;
+      const Run run = run_once(with(setup_with, all, point), options, seconds, looks);
+      if (looks || first == 0) {
+        judge(run, truth, point);
+        if (options.twice) judge_again(run, second, point);
+      }
+      if (round < 0) continue;
       cpu[i].push_back(run.cpu);
       yards[i].push_back(run.yards);
       tell(2.0 / static_cast<double>(all.points.size()));

@@ -3,22 +3,26 @@
 //
 // The error is the true force on what is held, N rms over the ticks at which it touches in either run. Two
 // converged runs do not agree to the last digit: a count of a sensor that falls the other way goes round the
-// loop. What those two differ by is about the floor: what errs by less does so by luck.
+// loop. What those two differ by is about the floor: what errs by less does so by luck. In place of the force
+// other quantities of a run may be compared.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "models/setup/scene_file.h"
+#include "trial/trial.h"
 
 namespace enc::trial {
 
 // What may be off at most; unset: by anything.
 struct Accuracy {
-  double force = kUnset;  // N rms
+  double force = kUnset;  // N rms, or as Quantities has it
   double way = kUnset;    // m rms, of the tip's path
 };
 
@@ -56,6 +60,22 @@ struct Grid {
   std::vector<int> parts{1, 2, 4, 8};  // of the haptic period: a step is one of them
 };
 
+// The greatest difference over the greatest true value; unset where one is not finite, all true ones are 0,
+// or there are not as many.
+[[nodiscard]] double apart(std::span<const double> some, std::span<const double> truth);
+// What a run comes to besides its force: numbers of one unit, that are apart() from those of a converged run.
+class Quantities {
+ public:
+  Quantities() = default;
+  virtual ~Quantities() = default;
+  Quantities(const Quantities&) = delete;
+  Quantities& operator=(const Quantities&) = delete;
+  virtual void see(const Glance& glance) = 0;
+  [[nodiscard]] virtual std::vector<double> all() const = 0;  // while the trial lives
+};
+// Of a run that will have these options, to which it may add, but for `watch`.
+using QuantitiesOf = std::function<std::unique_ptr<Quantities>(const models::Setup&, TrialOptions&)>;
+
 struct PrecisionOptions {
   std::uint64_t seed = 1;
   double seconds = 12.0;        // at most; where nothing touches by then, all of the scene's programme
@@ -67,6 +87,8 @@ struct PrecisionOptions {
   bool twice = true;   // also judged by that other one: what errs more counts
   // A fixed piece of work, timed now, s: costs are told in it, too. Empty: they are not.
   std::function<double()> yardstick{};
+  QuantitiesOf quantities{};  // compared in place of the force; empty: the force
+  DriverSource drivers{};     // of a scene with a camera
   std::function<void(double)> progress{};
 };
 

@@ -46,6 +46,17 @@ TEST(Precision, AHandIsTheSameWhateverTheStep) {
   }
 }
 
+TEST(Precision, QuantitiesThatAreNoNumbersAreNoSmallError) {
+  using All = std::vector<double>;
+  const All truth{-2.0, 0.5, 0.0};
+  EXPECT_DOUBLE_EQ(apart(All{-2.0, 0.5, 0.0}, truth), 0.0);
+  EXPECT_DOUBLE_EQ(apart(All{-1.5, 0.5, 0.8}, truth), 0.4);
+  EXPECT_TRUE(std::isnan(apart(All{-2.0, kUnset, 0.0}, truth)));
+  EXPECT_TRUE(std::isnan(apart(All{-2.0, 0.5, INFINITY}, truth)));
+  EXPECT_TRUE(std::isnan(apart(All{-2.0, 0.5}, truth)));
+  EXPECT_TRUE(std::isnan(apart(All{0.0, 0.0}, All{0.0, 0.0})));
+}
+
 PrecisionPoint point(const char* integrator, double step, double error, double cpu, bool shipped = false) {
   PrecisionPoint made{integrator, step};
   made.error = error;
