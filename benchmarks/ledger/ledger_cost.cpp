@@ -10,7 +10,7 @@ using C = trial::ContactLedger;
 constexpr double C::*kTerms[] = {&C::hand,   &C::carried,      &C::kinetic, &C::spring,
                                  &C::weight, &C::joints,       &C::law,     &C::sampling,
                                  &C::delay,  &C::quantisation, &C::limits};
-constexpr double kAccuracy = 0.03;  // of the largest term, chosen
+constexpr double kAccuracy = 0.005;  // of the largest term, chosen: half of what a ledger may be open
 
 class Energies final : public trial::Quantities {
  public:
