@@ -232,7 +232,13 @@ std::string axis_range(const char* axis, const Limits& limits, bool log, double 
   if (!limits.any(log)) return fmt::format("set {}range [{}]\n", axis, log ? "0.1:1" : "0:1");
   double low = log ? std::log(limits.least_positive) : limits.least;
   double high = log ? std::log(limits.most) : limits.most;
-  const double span = high > low ? high - low : log ? 1.0 : std::max(std::abs(high), 1e-9);
+  // On a logarithmic axis what differs by little shall not look as if it differed by much.
+  constexpr double kLeastRatio = 4.0;
+  if (const double more = 0.5 * (std::log(kLeastRatio) - (high - low)); log && more > 0.0) {
+    low -= more;
+    high += more;
+  }
+  const double span = high > low ? high - low : std::max(std::abs(high), 1e-9);
   const bool from_zero = !log && low >= 0.0 && low < 0.1 * span;
   low = from_zero ? 0.0 : low - 0.04 * span;
   high += (0.04 + above) * span;
