@@ -11,9 +11,6 @@
 namespace enc::bench {
 namespace {
 
-constexpr double kDearest = 1.25;  // times the cheapest that holds
-constexpr double kSpread = 1.5;    // +- 20 %
-
 // Orders as they are found: no bounds, as a contact is not smooth.
 std::string orders_text(const trial::Precision& all) {
   std::string text;

@@ -30,8 +30,6 @@ const std::array<Form, 2>& forms() {
       Form{"structural", "truth.structure", 31.25e-6, {1e-3, 0.5e-3, 0.25e-3, 0.125e-3, 0.0625e-3}}};
   return kForms;
 }
-constexpr double kDearest = 1.25;  // times the cheapest that holds
-constexpr double kSpread = 1.5;    // +- 20 %
 constexpr std::array<std::string_view, 4> kIntegrators{"implicitfast", "euler", "rk4", "discrete"};
 
 // What is swept: all of it with --full, else what takes some seconds.
