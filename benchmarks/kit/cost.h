@@ -9,9 +9,8 @@
 
 namespace enc::bench {
 
-// What ships costs at most so many times the cheapest setting that is as accurate as asked; and three runs of
-// it in yardsticks lie so far apart at most, +- 20 %.
-inline constexpr double kDearest = 1.25, kSpread = 1.5;
+// What ships costs at most so many times the cheapest setting that is as accurate as asked.
+inline constexpr double kDearest = 1.25;
 
 // Several ways to do the same, timed in turn, in an order drawn anew each round, so that a slow moment of the
 // machine hits them all. Rounds before the first warm up. CPU time of this thread.

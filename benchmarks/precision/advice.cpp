@@ -44,10 +44,10 @@ double asked_of(const std::vector<PrecisionPoint>& points, double PrecisionPoint
   double asked = kUnset, widest = kWide;
   for (const PrecisionPoint& point : points) {
     if (!point.failure.empty()) continue;
-    if (least == nullptr || point.cpu < least->cpu) least = &point;
+    if (least == nullptr || point.cost() < least->cost()) least = &point;
     double best = kUnset;  // of what is cheaper
     for (const PrecisionPoint& other : points)
-      if (other.failure.empty() && other.cpu * trial::kAsDear < point.cpu && !(best <= other.*error))
+      if (other.failure.empty() && other.cost() * trial::kAsDear < point.cost() && !(best <= other.*error))
         best = other.*error;
     if (!(best > widest * point.*error)) continue;
     widest = best / point.*error;

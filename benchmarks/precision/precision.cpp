@@ -47,9 +47,10 @@ std::vector<trial::PrecisionPoint> together(const std::vector<ForceStudy>& studi
       const trial::PrecisionPoint& point = points[i];
       if (!point.failure.empty()) all[i].failure = study.scene + ": " + point.failure;
       all[i].error = std::max(all[i].error, point.error / accuracy_of(study.all));
-      if (shipped != nullptr) cost.push_back(point.cpu / shipped->cpu);
+      if (shipped != nullptr) cost.push_back(point.cost() / shipped->cost());
     }
     all[i].cpu = cost.empty() ? kUnset : median(cost);
+    all[i].yards = kUnset;
   }
   return all;
 }
@@ -91,7 +92,7 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
   add_plot(bench, machine, all);
   if (shipped == nullptr || bench.context.quick) return;  // of one scene it says nothing
   bench.figure(fmt::format("{}.default_over_cheapest.cpu", machine.name),
-               best != nullptr ? 1.0 / best->cpu : kUnset, "x", at_most(1.25),
+               best != nullptr ? 1.0 / best->cpu : kUnset, "x", at_most(kDearest),
                best != nullptr
                    ? fmt::format("the cheapest setting that all of its scenes hold with: {} at {:g} us",
                                  best->integrator, best->step * 1e6)

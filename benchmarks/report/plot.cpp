@@ -227,18 +227,17 @@ std::string log_tics(const char* axis, double low, double high) {
   return text + fmt::format("set format {} '%g'\nset {}tics ({})\n", axis, axis, tics);
 }
 
-// A little wider than the data; `above` is a share of the axis that is kept free at the upper end.
-std::string axis_range(const char* axis, const Limits& limits, bool log, double above) {
+// A little wider than the data; `above` is a share of the axis that is kept free at the upper end; a
+// logarithmic axis spans at least `ratio`.
+std::string axis_range(const char* axis, const Limits& limits, bool log, double above, double ratio) {
   if (!limits.any(log)) return fmt::format("set {}range [{}]\n", axis, log ? "0.1:1" : "0:1");
   double low = log ? std::log(limits.least_positive) : limits.least;
   double high = log ? std::log(limits.most) : limits.most;
-  // On a logarithmic axis what differs by little shall not look as if it differed by much.
-  constexpr double kLeastRatio = 4.0;
-  if (const double more = 0.5 * (std::log(kLeastRatio) - (high - low)); log && more > 0.0) {
+  if (const double more = 0.5 * (std::log(ratio) - (high - low)); log && more > 0.0) {
     low -= more;
     high += more;
   }
-  const double span = high > low ? high - low : std::max(std::abs(high), 1e-9);
+  const double span = high > low ? high - low : log ? 1.0 : std::max(std::abs(high), 1e-9);
   const bool from_zero = !log && low >= 0.0 && low < 0.1 * span;
   low = from_zero ? 0.0 : low - 0.04 * span;
   high += (0.04 + above) * span;
@@ -283,8 +282,10 @@ std::string axes(const Plot& plot, const Bars& bars) {
     x.see(x.most + 0.6 * bars.width * bars.count);
     y.see(0.0);  // the length of a bar is its value
   }
-  std::string text =
-      axis_range("x", x, plot.log_x, 0.0) + axis_range("y", y, plot.log_y, failures ? 0.08 : 0.0);
+  // Costs and errors that differ by little shall not look as if they differed by much.
+  const double ratio = plot.log_x && plot.log_y ? 4.0 : 1.0;
+  std::string text = axis_range("x", x, plot.log_x, 0.0, ratio) +
+                     axis_range("y", y, plot.log_y, failures ? 0.08 : 0.0, ratio);
   if (!plot.x_names.empty()) {
     text += fmt::format("set xrange [-0.6:{}]\nset xtics {}(", static_cast<double>(plot.x_names.size()) - 0.4,
                         crowded(plot) ? "rotate by 30 right " : "");

@@ -219,11 +219,11 @@ double PrecisionPoint::share(const Accuracy& most) const {
 const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, const Accuracy& most) {
   const PrecisionPoint* best = nullptr;
   for (const PrecisionPoint& point : points)
-    if (point.meets(most) && (best == nullptr || point.cpu < best->cpu)) best = &point;
+    if (point.meets(most) && (best == nullptr || point.cost() < best->cost())) best = &point;
   if (best == nullptr) return nullptr;
-  const double dearest = kAsDear * best->cpu;
+  const double dearest = kAsDear * best->cost();
   for (const PrecisionPoint& point : points) {
-    if (!point.meets(most) || point.cpu > dearest) continue;
+    if (!point.meets(most) || point.cost() > dearest) continue;
     if (point.shipped) return &point;
     if (point.share(most) < best->share(most)) best = &point;
   }
@@ -233,7 +233,8 @@ const PrecisionPoint* cheapest(const std::vector<PrecisionPoint>& points, const 
 const PrecisionPoint* next_cheaper(const std::vector<PrecisionPoint>& points, const PrecisionPoint& than) {
   const PrecisionPoint* next = nullptr;
   for (const PrecisionPoint& point : points)
-    if (point.failure.empty() && point.cpu * kAsDear < than.cpu && (next == nullptr || point.cpu > next->cpu))
+    if (point.failure.empty() && point.cost() * kAsDear < than.cost() &&
+        (next == nullptr || point.cost() > next->cost()))
       next = &point;
   return next;
 }

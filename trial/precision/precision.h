@@ -7,6 +7,7 @@
 // other quantities of a run may be compared.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,6 +37,8 @@ struct PrecisionPoint {
   double yards = kUnset;   // what a tick cost in yardsticks, the median of some runs
   double spread = kUnset;  // greatest over least of these runs
   bool shipped = false;    // what the scene does without being told
+  // What settings are compared by: both are of the same run.
+  [[nodiscard]] double cost() const { return std::isnan(yards) ? cpu : yards; }
   // The error over what is allowed, the greater of the two; of what failed infinite.
   [[nodiscard]] double share(const Accuracy& most) const;
   [[nodiscard]] bool meets(const Accuracy& most) const { return share(most) <= 1.0; }
