@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/precision/parts.h"
