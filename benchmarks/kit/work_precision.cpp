@@ -210,7 +210,11 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
   const Extent extent = extent_of(spec, context);
   const Measured all = measured(spec, context, extent);
   const std::vector<Point>& points = all.points;
-  add_figures(spec, extent, context.full, all, load_scene(context, spec.scene, spec.set), result);
+  const models::Setup setup = load_scene(context, spec.scene, spec.set);
+  add_figures(spec, extent, context.full, all, setup, result);
+  Series ships{.name = "as it ships", .mark = Mark::points, .paper = true};
+  for (const Point& point : points)
+    if (is_default(point, setup)) ships.add(point.yards, point.error * 1e6);
 
   Table table{spec.benchmark + "_work_precision",
               "Error against run time",
@@ -234,7 +238,7 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
       }
       curves.push_back(std::move(curve));
     }
-  result.plots.push_back(cost_beside_error(
+  Plot plot = cost_beside_error(
       {.id = spec.benchmark + "_work_precision",
        .title = "Error against run time: " + spec.scene,
        .x_label = "CPU time of a tick over a fixed piece of work",
@@ -244,7 +248,9 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
                        "(left) to {:g} us (right). {:g} um is what this benchmark needs, or twice what those "
                        "two differ by ({}). What failed stands at the upper edge.",
                        extent.forms.front().steps.back() * 1e6, spec.accuracy * 1e6, floors)},
-      curves));
+      curves);
+  plot.series.push_back(std::move(ships));
+  result.plots.push_back(std::move(plot));
   result.tables.push_back(std::move(table));
 }
 
