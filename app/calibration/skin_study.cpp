@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "app/modules/units.h"
 #include "core/error.h"
 #include "core/vision/segmentation/kernels/arc.h"
 #include "hw_drivers/images/files/pair_list.h"
@@ -22,7 +23,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using segmentation::HueRule;
 
-constexpr double kDeg = 180.0 / std::numbers::pi;
 constexpr int kWhite = 128;                      // of 255, mean of the channels: hand
 constexpr int kFirstGrey = 64, kLastGrey = 191;  // neither: a picture
 constexpr double kMostGrey = 0.05;               // of a mask's pixels: edges, as JPEG blurs them

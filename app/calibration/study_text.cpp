@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/calibration/pair_study.h"
+#include "app/modules/units.h"
 #include "core/rotation.h"
 #include "models/schema/wording.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMm = 1e3, kDegrees = 180.0 / M_PI;
 constexpr double kGoodEpipolar = 0.6;  // px rms
 
 std::string residuals_text(const PairStudy& study) {
@@ -40,7 +40,7 @@ std::string lens_text(const char* side, const Lens& lens) {
 
 std::string head_text(const PairStudy& study) {
   const StereoRig& rig = study.found.rig;
-  const Vec3 p = rig.X_CD.p() * kMm, turn = angles_xyz(rig.X_CD.q()) * kDegrees;
+  const Vec3 p = rig.X_CD.p() * kMm, turn = angles_xyz(rig.X_CD.q()) * kDeg;
   constexpr double kAt = 0.6;  // m
   const double pixel = kAt * kAt / (rig.left.focal_x * rig.X_CD.p().norm());
   return lens_text("left", rig.left) + lens_text("right", rig.right) +
@@ -70,11 +70,11 @@ std::string notes_text(const PairStudy& study) {
   if (study.pairs.size() < 10)
     say(fmt::format("{} pairs are few: 10 to 20, with the board in all parts of both images",
                     study.pairs.size()));
-  if (found.tilt < 30.0 / kDegrees)
+  if (found.tilt < 30.0 / kDeg)
     say(fmt::format(
         "the boards are tilted by no more than {:.0f} deg against each other: the focal length is "
         "known badly; tilt them by 20 to 45 deg to all sides",
-        found.tilt * kDegrees));
+        found.tilt * kDeg));
   if (found.focal_deviation > 0.01)
     say(fmt::format("the focal length is known to {:.1f} % only; take pairs that are nearer and more tilted",
                     100.0 * found.focal_deviation));
@@ -113,14 +113,14 @@ std::string study_json(const PairStudy& study, const Board& board) {
   json["square_mm"] = board.square * kMm;
   json["left"] = lens_json(found.rig.left);
   json["right"] = lens_json(found.rig.right);
-  const Vec3 p = found.rig.X_CD.p() * kMm, turn = angles_xyz(found.rig.X_CD.q()) * kDegrees;
+  const Vec3 p = found.rig.X_CD.p() * kMm, turn = angles_xyz(found.rig.X_CD.q()) * kDeg;
   json["right"]["position_mm"] = {p.x(), p.y(), p.z()};
   json["right"]["rotation_deg"] = {turn.x(), turn.y(), turn.z()};
   json["reprojection_px"] = found.rms;
   json["epipolar_px"] = found.epipolar;
   json["rows_px"] = found.rows;
   json["focal_deviation"] = found.focal_deviation;
-  json["tilt_deg"] = found.tilt * kDegrees;
+  json["tilt_deg"] = found.tilt * kDeg;
   json["pairs"] = Json::array();
   for (std::size_t i = 0; i < study.pairs.size(); ++i) {
     const PairResidual& r = found.pairs[i];

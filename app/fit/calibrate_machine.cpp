@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "app/fit/commands.h"
-#include "app/fit/units.h"
+#include "app/modules/units.h"
 #include "core/error.h"
 #include "core/rotation.h"
 #include "core/time.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
-#include "app/fit/units.h"
+#include "app/modules/units.h"
 #include "core/error.h"
 #include "models/fit/pivot/pivot_log.h"
 #include "models/schema/wording.h"

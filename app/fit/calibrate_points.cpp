@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
-#include "app/fit/units.h"
+#include "app/modules/units.h"
 #include "core/error.h"
 #include "core/rotation.h"
 #include "models/files.h"

@@ -116,7 +116,7 @@ Costs costs_of(const BenchContext& context, const std::string& scene) {
   std::erase(unseen, Part::camera);
   std::vector<std::vector<Part>> forms{{}, unseen};
   for (const Part part : unseen) forms.push_back({part});
-  costs.seen = Form(context, scene, {}, 1.0).setup().scene.camera.has_value();
+  costs.seen = load_scene(context, scene).scene.camera.has_value();
   const Rivals small(context, scene, forms, costs.seen ? 12 : 120);
   small.judge(costs);
   costs.minimal = small.minimal();

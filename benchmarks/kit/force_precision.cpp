@@ -40,11 +40,7 @@ ForceStudy force_study(const BenchContext& context, const std::string& scene,
   asked.seed = context.seed;
   asked.cpu = thread_seconds;
   asked.drivers = modules_of(context);
-  asked.yardstick = [] {
-    Yardstick yardstick;
-    for (int i = 0; i < 64; ++i) yardstick.measure();
-    return yardstick.seconds();
-  };
+  asked.yardstick = yardstick_now;
   ForceStudy study{scene};
   study.all = trial::precision_of(
       [&](const std::vector<std::string>& held) { return load_scene(context, scene, set, held); }, asked);
@@ -123,16 +119,12 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set, cons
                fmt::format("{} at what ships, {} at {:g} us; two converged runs differ by {}", norm.of,
                            shipped->integrator, shipped->step * 1e6, told(all.second.error)));
   if (!bench.context.full) return;
-  const bool arm = bench.setup().scene.arm.has_value();
   const trial::PrecisionPoint* best = cheapest(all.points, {accuracy});
-  bench.figure(
-      "precision.default_over_cheapest.cpu", best != nullptr ? shipped->yards / best->yards : kUnset, "x",
-      arm ? Bounds{} : at_most(kDearest),
-      (best != nullptr ? fmt::format("cheapest that holds: {} at {:g} us", best->integrator, best->step * 1e6)
-                       : std::string("nothing holds it")) +
-          (arm ? "; an arm's setting is one for all its scenes: of the force, in eight of them, the "
-                 "benchmark precision judges it"
-               : ""));
+  bench.figure("precision.default_over_cheapest.cpu", best != nullptr ? shipped->yards / best->yards : kUnset,
+               "x", at_most(kDearest),
+               best != nullptr
+                   ? fmt::format("cheapest that holds: {} at {:g} us", best->integrator, best->step * 1e6)
+                   : "nothing holds it");
   bench.figure("precision.spread.max", shipped->spread, "x",
                "yardsticks of what ships, the greatest over the least of three runs");
 }

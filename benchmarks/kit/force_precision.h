@@ -39,11 +39,9 @@ struct PrecisionNorm {
   trial::QuantitiesOf quantities{};
 };
 
-// The diagram, the table and the figures of a benchmark's own scene: what ships must hold the accuracy, and
-// on the hexapod be at most 1.25 times as dear as the cheapest that does. An arm's setting is one for all of
-// its scenes, of which a ball that is hit asks for most: of the force, in eight of them, the benchmark
-// `precision` judges it. By default a small form, of two steps; with --full four steps and integrators, and
-// how far three runs' costs lie apart; with --quick nothing.
+// The diagram, the table and the figures of a benchmark's own scene: what ships must hold the accuracy and be
+// at most 1.25 times as dear as the cheapest that does. By default a small form, of two steps; with --full
+// four steps and integrators, and how far three runs' costs lie apart; with --quick nothing.
 void add_force_precision(Bench& bench, const std::vector<std::string>& set = {},
                          const PrecisionNorm& norm = {});
 

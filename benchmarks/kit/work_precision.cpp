@@ -13,7 +13,6 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/kit/yardstick.h"
 #include "core/error.h"
-#include "trial/precision/precision.h"
 #include "trial/trial.h"
 
 namespace enc::bench {
@@ -59,12 +58,6 @@ struct Path {
   std::string failure;    // why there is none
 };
 
-double yardstick() {
-  Yardstick yardstick;
-  for (int i = 0; i < 64; ++i) yardstick.measure();
-  return yardstick.seconds();
-}
-
 Path run_once(const WorkSpec& spec, const BenchContext& context, const Extent& extent, const Form& form,
               std::string_view integrator, double step) {
   Path path;
@@ -77,11 +70,11 @@ Path run_once(const WorkSpec& spec, const BenchContext& context, const Extent& e
     options.seconds = extent.seconds;
     options.watch = [&](const trial::Glance& glance) { path.tip.push_back(glance.truth.tip.e()); };
     trial::Trial trial(load_scene(context, spec.scene, spec.set, compared), options);
-    const double before = yardstick(), start = thread_seconds();
+    const double before = yardstick_now(), start = thread_seconds();
     const trial::TrialResult run = trial.run();
     const double cpu = thread_seconds() - start;
     path.cpu = cpu / run.simulated;
-    path.yards = cpu / static_cast<double>(run.ticks) / (0.5 * (before + yardstick()));
+    path.yards = cpu / static_cast<double>(run.ticks) / (0.5 * (before + yardstick_now()));
     if (run.diverged_at >= 0)
       path.failure = fmt::format("diverged at tick {}", run.diverged_at);
     else if (!path.tip.back().allFinite())
@@ -104,33 +97,19 @@ struct Point {
   std::string_view integrator;
   double step;
   double error = kUnset, cpu = kUnset;  // m; s for each second
-  double yards = kUnset,
-         spread = kUnset;  // yardsticks for each tick; the greatest over the least of its runs
+  double yards = kUnset;                // yardsticks for each tick
+  double spread = kUnset;               // the greatest over the least of its runs
   std::string failure{};
   [[nodiscard]] bool good(double accuracy) const { return failure.empty() && error <= accuracy; }
 };
 
-// The points, and what two converged runs of a form differ by, m: what errs by less does so by luck.
-struct Measured {
-  std::vector<Point> points;
-  std::map<const Form*, double> floor;
-  [[nodiscard]] double accuracy(const WorkSpec& spec, const Form& form) const {
-    return std::max(spec.accuracy, 2.0 * floor.at(&form));
-  }
-};
-
 // Three runs in turn with all the others, so that a slow moment of the machine does not hit one point alone.
-// Each is judged by two converged runs, of which the greater error counts.
-Measured measured(const WorkSpec& spec, const BenchContext& context, const Extent& extent) {
-  Measured all;
-  std::vector<Point>& points = all.points;
-  std::map<const Form*, std::array<Path, 2>> converged;
+std::vector<Point> measured(const WorkSpec& spec, const BenchContext& context, const Extent& extent) {
+  std::vector<Point> points;
+  std::map<const Form*, Path> converged;
   for (const Form& form : extent.forms) {
-    converged[&form] = {run_once(spec, context, extent, form, "rk4", form.reference),
-                        run_once(spec, context, extent, form, "implicitfast", 0.5 * form.reference)};
-    for (const Path& path : converged[&form])
-      if (!path.failure.empty()) throw Error("a converged run failed: " + path.failure);
-    all.floor[&form] = rms(converged[&form][0], converged[&form][1]);
+    const Path& truth = converged[&form] = run_once(spec, context, extent, form, "rk4", form.reference);
+    if (!truth.failure.empty()) throw Error("the converged run failed: " + truth.failure);
     for (const std::string_view integrator : extent.integrators)
       for (const double step : form.steps) points.push_back({&form, integrator, step});
   }
@@ -141,9 +120,7 @@ Measured measured(const WorkSpec& spec, const BenchContext& context, const Exten
       if (!point.failure.empty()) continue;
       const Path path = run_once(spec, context, extent, *point.form, point.integrator, point.step);
       point.failure = path.failure;
-      const std::array<Path, 2>& truth = converged[point.form];
-      const double error = rms(path, truth[0]), other = rms(path, truth[1]);
-      point.error = other > error || std::isnan(other) ? other : error;
+      point.error = rms(path, converged[point.form]);
       cpu[i].push_back(path.cpu);
       yards[i].push_back(path.yards);
       if (context.progress)
@@ -156,7 +133,7 @@ Measured measured(const WorkSpec& spec, const BenchContext& context, const Exten
     const auto [least, most] = std::minmax_element(yards[i].begin(), yards[i].end());
     points[i].spread = *most / *least;
   }
-  return all;
+  return points;
 }
 
 // What the rig does without being told: from its own files.
@@ -167,36 +144,30 @@ bool is_default(const Point& point, const models::Setup& setup) {
   return std::abs(point.step - step) < 1e-9 && integrator == point.integrator;
 }
 
-void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const Measured& all,
+void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const std::vector<Point>& points,
                  const models::Setup& setup, BenchResult& result) {
-  const std::vector<Point>& points = all.points;
   for (const Form& form : extent.forms) {
-    const double accuracy = all.accuracy(spec, form);
     const Point* chosen = nullptr;
     const Point* cheapest = nullptr;
     for (const Point& point : points) {
       if (point.form != &form) continue;
       if (is_default(point, setup)) chosen = &point;
-      if (point.good(accuracy) && (cheapest == nullptr || point.yards < cheapest->yards)) cheapest = &point;
+      if (point.good(spec.accuracy) && (cheapest == nullptr || point.yards < cheapest->yards))
+        cheapest = &point;
     }
     if (chosen == nullptr) continue;  // --set has put another step in its place
-    // Times are not known better than by a tenth.
-    if (cheapest != nullptr && chosen->good(accuracy) && chosen->yards <= trial::kAsDear * cheapest->yards)
-      cheapest = chosen;
     const std::string id = fmt::format("{}.work_precision.{}.", spec.benchmark, form.name);
     result.figures.push_back(
-        {id + "error.rms", kUnset, chosen->error * 1e6, "um", Role::ours, kUnset, accuracy * 1e6,
-         fmt::format("true tip's path at the default, {} at {:g} us, from the farther of two converged ones, "
-                     "which differ "
-                     "by {:.3g} um",
-                     chosen->integrator, chosen->step * 1e6, all.floor.at(&form) * 1e6)});
+        {id + "error.rms", kUnset, chosen->error * 1e6, "um", Role::ours, kUnset, spec.accuracy * 1e6,
+         fmt::format("true tip's path at the default, {} at {:g} us, from the converged one",
+                     chosen->integrator, chosen->step * 1e6)});
     if (!full) continue;
     // The structural form is chosen for the legs' vibration, which asks for more: benchmark `structure`.
     const double dearest = std::string_view(form.name) == "control" ? kDearest : kUnset;
     result.figures.push_back(
         {id + "default_over_cheapest.cpu", kUnset,
          cheapest != nullptr ? chosen->yards / cheapest->yards : kUnset, "x", Role::ours, kUnset, dearest,
-         cheapest != nullptr ? fmt::format("cheapest that meets {:.3g} um: {} at {:g} us", accuracy * 1e6,
+         cheapest != nullptr ? fmt::format("cheapest that meets {:g} um: {} at {:g} us", spec.accuracy * 1e6,
                                            cheapest->integrator, cheapest->step * 1e6)
                              : "no point meets the accuracy"});
     result.figures.push_back({id + "spread.max", kUnset, chosen->spread, "x", Role::ours, kUnset, kUnset,
@@ -208,10 +179,9 @@ void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const Me
 
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result) {
   const Extent extent = extent_of(spec, context);
-  const Measured all = measured(spec, context, extent);
-  const std::vector<Point>& points = all.points;
+  const std::vector<Point> points = measured(spec, context, extent);
   const models::Setup setup = load_scene(context, spec.scene, spec.set);
-  add_figures(spec, extent, context.full, all, setup, result);
+  add_figures(spec, extent, context.full, points, setup, result);
   Series ships{.name = "as it ships", .mark = Mark::points, .paper = true};
   for (const Point& point : points)
     if (is_default(point, setup)) ships.add(point.yards, point.error * 1e6);
@@ -221,9 +191,6 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
               {"form", "integrator", "timestep_us", "error_um", "yardsticks a tick", "cpu_s_per_s",
                "times_real_time", "failure"}};
   std::vector<CostCurve> curves;
-  std::string floors;
-  for (const Form& form : extent.forms)
-    floors += fmt::format("{}{} {:.3g} um", floors.empty() ? "" : ", ", form.name, all.floor.at(&form) * 1e6);
   for (const Form& form : extent.forms)
     for (const std::string_view integrator : extent.integrators) {
       CostCurve curve{fmt::format("{} {}", form.name, integrator)};
@@ -243,11 +210,10 @@ void add_work_precision(const WorkSpec& spec, const BenchContext& context, Bench
        .title = "Error against run time: " + spec.scene,
        .x_label = "CPU time of a tick over a fixed piece of work",
        .y_label = "error of the tip's path (um rms)",
-       .caption =
-           fmt::format("True tip against the farther of two converged runs of the same form; time steps 1 ms "
-                       "(left) to {:g} us (right). {:g} um is what this benchmark needs, or twice what those "
-                       "two differ by ({}). What failed stands at the upper edge.",
-                       extent.forms.front().steps.back() * 1e6, spec.accuracy * 1e6, floors)},
+       .caption = fmt::format(
+           "True tip against the converged run of the same form; time steps 1 ms (left) to {:g} us "
+           "(right). {:g} um is what this benchmark needs. What failed stands at the upper edge.",
+           extent.forms.front().steps.back() * 1e6, spec.accuracy * 1e6)},
       curves);
   plot.series.push_back(std::move(ships));
   result.plots.push_back(std::move(plot));

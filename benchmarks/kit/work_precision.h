@@ -1,5 +1,5 @@
 // Error against run time: one run repeated over the form of the hexapod, the integrator and the time step,
-// each judged by two converged runs of the same form. Failures are points, too.
+// each judged by a converged run of the same form. Failures are points, too.
 #pragma once
 
 #include <string>
@@ -14,14 +14,13 @@ struct WorkSpec {
   std::string scene;             // in models/scenes, without ".toml"
   std::vector<std::string> set;  // the run itself, without step, integrator and form
   double seconds = kUnset;       // s, of experiment; unset: until the scene's programme is over
-  // m rms of the true tip's path: what this benchmark needs; more where two converged runs differ by half of
-  // it.
-  double accuracy = kUnset;
+  double accuracy = kUnset;      // m rms of the true tip's path: what this benchmark needs
 };
 
 // The default step and integrator of each form must meet the accuracy, and of the control form no point that
-// meets it may be much cheaper. Throws Error where a converged run fails. Runs alone on one core: it measures
-// time. By default a small form of some seconds, which judges the default alone; with --full all of it.
+// meets it may be much cheaper. Throws Error where the converged run fails. Runs alone on one core: it
+// measures time. By default a small form of some seconds, which judges the default alone; with --full all of
+// it.
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result);
 
 }  // namespace enc::bench

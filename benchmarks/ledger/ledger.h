@@ -1,8 +1,6 @@
 // The energy of contacts: parts of the benchmark `ledger`.
 #pragma once
 
-#include <vector>
-
 #include "benchmarks/kit/kit.h"
 #include "trial/ledger/ledger.h"
 

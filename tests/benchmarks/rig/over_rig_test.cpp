@@ -100,12 +100,11 @@ void expect_free(const Words& ports) {
 // stiffness to two steps of the machine (3 um) out of the 3 mm that 30 N press 10 N/mm in.
 TEST(OverRig, OverFakesInLockstepTheFiguresAreThoseOfTheTwin) {
   const test::TemporaryFolder folder;
-  Words ports = enc::wires::free_ports();
-  for (const std::string& one : enc::wires::tight_times()) ports.push_back(one);
+  const Words ports = enc::wires::free_ports();
   const tests::Result r =
       tests::run_program(bench_words({"tracking", "stiffness", "--rig", "fakes", "--armed", "--lockstep",
                                       "--fakes", "--quick", "--out", folder.file("out")},
-                                     ports),
+                                     enc::wires::tight_times(ports)),
                          {}, 300);
   EXPECT_EQ(r.code, 0) << r.out << r.err;
   EXPECT_THAT(r.out, AllOf(ContainsRegex("stiffness.rig.load.10.percent +absent"),

@@ -1,4 +1,4 @@
-// In what the subcommands of the module tell lengths, times and angles, and the names of the axes.
+// In what the subcommands of modules tell lengths, times and angles, and the names of the axes.
 #pragma once
 
 #include <cmath>
