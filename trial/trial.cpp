@@ -168,6 +168,7 @@ void Trial::count() {
     if (mode == Mode::hold && ++result_.times_held <= TrialResult::kMostHolds)
       result_.holds.emplace_back(now_.t, out_.why & kHoldReasons);
   }
+  if (mode == Mode::hold) result_.last_hold = {now_.t, out_.why & kHoldReasons};
   result_.last_mode = mode;
   result_.last_why = out_.why;
   result_.contacts = out_.contacts;

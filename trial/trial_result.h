@@ -24,6 +24,7 @@ struct TrialResult {
   static constexpr std::int64_t kMostHolds = 16;
   std::vector<std::pair<Time, std::uint32_t>> holds;  // when each began, and why; the first of them
   std::int64_t times_held = 0;                        // all of them
+  std::pair<Time, std::uint32_t> last_hold{};         // its last tick, and why; where there was any
   Mode last_mode = Mode::away;
   std::uint32_t last_why = 0;
   std::uint64_t hash = 0;

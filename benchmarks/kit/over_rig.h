@@ -47,8 +47,8 @@ void tell(const std::string& line);
 // Of a run that is over. Throws Error (kind device) where that was not its own end: what it has measured is
 // no measure.
 void check_ended(const trial::Trial& trial);
-// When a run first held and why; empty: it did not. Over devices nothing is measured then: refuse_held()
-// throws Error (kind device).
+// When a run held and why, after the first 0.1 s; empty: it did not. Over devices nothing is measured then:
+// refuse_held() throws Error (kind device).
 [[nodiscard]] std::string held_in(const trial::Trial& trial);
 void refuse_held(const std::string& held);
 

@@ -124,6 +124,18 @@ TEST(Fakes, AFaultThatCannotBeIsRefused) {
   }
 }
 
+// Whenever the client comes: for it the fakes' time begins anew, and so do messages that are under way.
+TEST(Fakes, AFaultOfTheirLineIsTheSameHoweverLongTheyWaited) {
+  for (const char* fault : {"gcs:jitter=1ms", "gcs:slow-start=100ms"}) {
+    Laboratory there(false, {}, {fault});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    std::vector<std::string> words{"devices", "fakes"};
+    for (const std::string& set : there.ports) words.insert(words.end(), {"--set", set});
+    const Result result = run_program(words);
+    EXPECT_EQ(result.code, 0) << fault << result.out << result.err;
+  }
+}
+
 // Dry: all is read and computed, and the machine is told nothing.
 TEST(Fakes, WithoutArmedTheMachineHearsNoSetPoint) {
   Laboratory there(false);

@@ -33,7 +33,7 @@ std::string Server::describe() const { return "C-887 at " + net::place(address_,
 
 void Server::serve(Time now) {
   if (line_.suffers(Trouble::Kind::stall)) return;
-  accept(now);
+  if (accept(now)) return;  // the world has begun anew, and `now` is of the one before
   while (client_.is_open() && answer(now)) {
   }
   if (client_.is_open()) send(now);  // what was late
@@ -46,19 +46,23 @@ void Server::wait_on(std::vector<int>& descriptors) const {
 }
 
 // A second client is sent away at once, as there is one controller for one.
-void Server::accept(Time now) {
+bool Server::accept(Time now) {
   net::Socket next = listener_.accept();
-  if (!next.is_open() || line_.suffers(Trouble::Kind::disconnect)) return;
+  if (!next.is_open() || line_.suffers(Trouble::Kind::disconnect)) return false;
   // Who came later may have waited for the first to go: what that one still said comes first.
   while (client_.is_open() && answer(now)) {
   }
-  if (client_.is_open()) return log_.say("fake C-887: a second client was refused");
+  if (client_.is_open()) {
+    log_.say("fake C-887: a second client was refused");
+    return false;
+  }
   client_ = std::move(next);
   unsent_.clear();
   line_.begin(now);
   controller_.forget_line();
   told_before_ = controller_.told();
   if (begin_) begin_();
+  return begin_ != nullptr;
 }
 
 bool Server::answer(Time now) {

@@ -30,7 +30,7 @@ class Server final : public Fake {
   void heal(Trouble::Kind kind) override;
 
  private:
-  void accept(Time now);
+  bool accept(Time now);  // true: somebody has come, for whom the world has begun anew
   bool answer(Time now);  // true: something came
   void send(Time now);
   void leave();  // the client has

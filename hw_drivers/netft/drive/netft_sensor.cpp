@@ -86,17 +86,23 @@ Stamped<Wrench> NetftSensor::read(Time now) noexcept {
   if (session_.counts().records > before) heard_ = arrival_.of(now, net::steady_now());
   Stamped<Wrench> newest = session_.newest();
   newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
-  const Time last = newest.health == Health::absent ? begun_ : heard_;
-  if (!lockstep_ && age(now, last) > settings_.silent + 1e-9) linked_ = false;
+  read_ = now;
+  if (silence() > settings_.silent + 1e-9) linked_ = false;
   if (!linked_) newest.health = Health::fault;
   return newest;
 }
 
+double NetftSensor::silence() const noexcept {
+  if (lockstep_ || !reading_) return 0.0;
+  return age(read_, session_.newest().health == Health::absent ? begun_ : heard_);
+}
+
 std::vector<std::string> NetftSensor::remarks() const {
   const Counts& counts = session_.counts();
-  std::string line = fmt::format(
-      "{}: {} records, {} missing, {} old or twice, {} wrong; longest without one {:.1f} ms", describe(),
-      counts.records, counts.missing, counts.old, counts.wrong, 1e3 * counts.longest_gap);
+  std::string line =
+      fmt::format("{}: {} records, {} missing, {} old or twice, {} wrong; longest without one {:.1f} ms",
+                  describe(), counts.records, counts.missing, counts.old, counts.wrong,
+                  1e3 * std::max(counts.longest_gap, silence()));
   if (counts.status != 0) line += "; " + status_words(counts.status);
   if (const std::string clock = net::words(session_.clock()); !clock.empty()) line += "; " + clock;
   return {line};

@@ -32,6 +32,8 @@ class NetftSensor final : public ForceSensor {
   void ask(Command command) noexcept;
   void first_record();
   bool receive() noexcept;  // into datagram_
+  // s, since the last record, at the last read; in lockstep there is none.
+  [[nodiscard]] double silence() const noexcept;
 
   NetftSettings settings_;
   Configuration found_;
@@ -41,7 +43,7 @@ class NetftSensor final : public ForceSensor {
   Duration period_;                        // of the loop
   std::array<std::byte, 256> datagram_{};  // longer ones are no records
   std::size_t size_ = 0;
-  Time begun_{}, heard_{};
+  Time begun_{}, heard_{}, read_{};
   bool lockstep_, reading_ = false, linked_ = true;
   bool agreed_ = false;  // the command interface was asked, too
 };

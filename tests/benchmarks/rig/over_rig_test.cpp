@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -94,6 +95,28 @@ void expect_free(const Words& ports) {
     EXPECT_NO_THROW((void)(datagrams ? net::bind_udp("127.0.0.1", port) : net::listen_tcp("127.0.0.1", port)))
         << one;
   }
+}
+
+// However many holds there are before there is anything to go by, and whenever the last of them began.
+TEST(OverRig, ARunThatHeldIsSeenToHaveHeld) {
+  const auto held = [](const std::function<bool(int)>& gone) {
+    trial::TrialOptions options;
+    options.seconds = 0.4;
+    int tick = 0;
+    options.disturb = [&](Inputs& in) {
+      if (gone(tick++)) in.tip.health = Health::absent;
+    };
+    trial::Trial trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml", "", {}), options);
+    while (trial.tick()) {
+    }
+    return held_in(trial);
+  };
+  EXPECT_EQ(held([](int) { return false; }), "");
+  EXPECT_EQ(held([](int tick) { return tick < 90 && tick % 2 == 1; }), "");
+  EXPECT_THAT(held([](int tick) { return tick == 300; }), HasSubstr("held at 0.300 s: machine pose lost"));
+  EXPECT_THAT(held([](int tick) { return (tick < 90 && tick % 2 == 1) || tick == 300; }),
+              HasSubstr("held at 0.300 s: machine pose lost"));
+  EXPECT_THAT(held([](int tick) { return tick >= 50; }), HasSubstr("held at 0.400 s: machine pose lost"));
 }
 
 // In lockstep only rounding on the wires is between the two: Table 1 comes out as in the twin, and a
