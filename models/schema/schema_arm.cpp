@@ -145,7 +145,7 @@ void describe(Visitor& v, ArmRig& a) {
   v.value({"prop_lag_ms", "of a driven prop's surface behind what it is told", "docs/reference/objects.md",
            assumed, kNotNegative},
           &a.prop_lag);
-  v.value({"stale_ms", "an older sample is lost", "sources/choices 5", assumed, {1e-4, 1.0}}, &a.stale);
+  v.value({"stale_ms", "an older sample is lost", "sources/choices 5", assumed, {0.1, 1000.0}}, &a.stale);
   v.value({"least_dexterity",
            "nearer to a singular pose no object may be",
            "docs/reference/phantom.md",

@@ -70,7 +70,7 @@ void describe(Visitor& v, ForceRig& f) {
   v.value({"tare_clearance_mm", "gap from which on the tool is clear", "sources/force_sensor 3", assumed,
            kPositive},
           &f.tare_clearance);
-  v.value({"stale_ms", "an older sample is lost", "sources/choices 5", assumed, {1e-4, 1.0}}, &f.stale);
+  v.value({"stale_ms", "an older sample is lost", "sources/choices 5", assumed, {0.1, 1000.0}}, &f.stale);
 }
 
 void describe(Visitor& v, ReachBelief& r) {
