@@ -154,6 +154,19 @@ TEST(GcsDriver, AWatchdogOfLessThanThreeCyclesIsRefused) {
   EXPECT_TRUE(bench.driver()->linked());
 }
 
+TEST(GcsDriver, APositionThatIsLostBeforeTheNextIsRefused) {
+  GcsBench bench;
+  bench.settings.poll = 0.0051;
+  try {
+    static_cast<void>(bench.driver());
+    ADD_FAILURE() << "it would hold all the time";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("stale_ms of [force] is 5, and poll_ms is 5.1"));
+  }
+  bench.settings.poll = 0.005;
+  EXPECT_TRUE(bench.driver()->linked());
+}
+
 TEST(GcsDriver, AFailureOfTheMachineIsAFaultAndALine) {
   GcsBench bench;
   const auto driver = bench.driver();

@@ -48,6 +48,12 @@ GcsManipulator::GcsManipulator(const Offer& offer, const GcsSettings& settings, 
                             "{:g} of them",
                             settings.place(), 1e3 * settings.watchdog, 1e3 * seconds(offer.period), kCycles),
                 {}, ErrorKind::device);
+  if (offer.rig.force.stale < settings.poll)
+    throw Error(
+        fmt::format("{}: stale_ms of [force] is {:g}, and poll_ms is {:g}: each position would be lost "
+                    "before the next; expected poll_ms and twice the longest answer",
+                    settings.place(), 1e3 * offer.rig.force.stale, 1e3 * settings.poll),
+        {}, ErrorKind::device);
   if (machine_.found().lockstep)
     throw Error(machine_.describe() +
                     ": its time goes on with each set-point; add --lockstep, or begin the fake without",

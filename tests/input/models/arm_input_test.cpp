@@ -50,6 +50,19 @@ TEST(ArmInput, LimitsOfAJointGoUpAndHaveHomeBetweenThem) {
               HasSubstr("expected a range"));
 }
 
+// In the key's own unit: a slip of a thousand is refused, and every rig that ships stays.
+TEST(ArmInput, AnAgeHasAnEndOfBothKinds) {
+  for (const auto& [key, scene] :
+       {std::pair{"rig.arm.stale_ms=", "wall"}, {"rig.force.stale_ms=", "tennis_ball"}}) {
+    EXPECT_EQ(said({key + std::string("0.1")}, scene), "");
+    EXPECT_EQ(said({key + std::string("1000")}, scene), "");
+    for (const char* wrong : {"0", "-1", "0.05", "1001", "5000"})
+      EXPECT_THAT(said({std::string(key) + wrong}, scene),
+                  HasSubstr("expected a number from 0.1 to 1000 in ms"))
+          << key << wrong;
+  }
+}
+
 TEST(ArmInput, FrictionSetsInWithinTwoTimeStepsOrLater) {
   EXPECT_EQ(said({"truth.arm.friction_time_ms=2"}), "");
   EXPECT_THAT(
