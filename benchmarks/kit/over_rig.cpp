@@ -89,14 +89,14 @@ void check_ended(const trial::Trial& trial) {
 std::string held_in(const trial::Trial& trial) {
   // Before the first samples there is nothing to go by.
   constexpr Time kBegun{Duration(100'000'000)};
-  const auto text = [](Time t, std::uint32_t why) {
-    return fmt::format("the run held at {:.3f} s: {}", seconds(t.time_since_epoch()), why_text(why));
+  const auto text = [](const char* when, Time t, std::uint32_t why) {
+    return fmt::format("the run {} at {:.3f} s: {}", when, seconds(t.time_since_epoch()), why_text(why));
   };
   for (const auto& [t, why] : trial.result().holds)
-    if (t > kBegun) return text(t, why);
+    if (t > kBegun) return text("held", t, why);
   // One that had begun before, or of which the list has no more.
   const auto& [t, why] = trial.result().last_hold;
-  return t > kBegun ? text(t, why) : std::string();
+  return t > kBegun ? text("was in hold", t, why) : std::string();
 }
 
 void refuse_held(const std::string& held) {

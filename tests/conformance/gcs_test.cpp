@@ -258,6 +258,26 @@ TEST(GcsPort, AnErrorOfTheFakeWithoutACodeIsThatOfAStrut) {
   }
 }
 
+// Its world begins anew with the client: what is late is so by that world's time.
+TEST(GcsPort, AFaultOfTheLineIsTheSameHoweverLateTheClientCame) {
+  for (const std::int64_t waited_s : {0, 10}) {
+    FollowingMachine machine;
+    trial::DeviceLog log;
+    gcs::Server server(machine, {}, "127.0.0.1", 0, log, [] {});
+    server.suffer({Trouble::Kind::slow_start, 0.1});
+    net::Socket client = net::connect_tcp("127.0.0.1", server.port(), Duration(1'000'000'000));
+    const std::string question = "ERR?\n";
+    ASSERT_EQ(client.send(std::as_bytes(std::span(question))), question.size());
+    server.serve(Time{Duration(waited_s * 1'000'000'000)});
+    std::array<std::byte, 16> bytes{};
+    int ms = 0;
+    for (std::size_t got = 0; got == 0 && ms < 1000; got = client.receive(bytes))
+      server.serve(Time{Duration(++ms * 1'000'000LL)});
+    EXPECT_GE(ms, 100) << waited_s;
+    EXPECT_LT(ms, 1000) << waited_s;
+  }
+}
+
 TEST(GcsPort, NobodyThereIsOneLine) {
   GcsPort there;
   there.table.port = 1;

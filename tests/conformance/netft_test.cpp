@@ -1,6 +1,7 @@
 // The driver of the Net F/T and its fake over loopback.
 #include <atomic>
 #include <chrono>
+#include <string>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -27,6 +28,13 @@ struct Pressed final : ForceSensor {
   std::atomic<double> newtons = -12.5;
   std::atomic<Health> health = Health::ok;
 };
+
+double longest_silence_ms(const ForceSensor& sensor) {
+  const std::string line = sensor.remarks().at(0), words = "longest without one ";
+  const std::size_t at = line.find(words);
+  EXPECT_NE(at, std::string::npos) << line;
+  return at == std::string::npos ? 0.0 : std::stod(line.substr(at + words.size()));
+}
 
 struct NetftPorts {
   struct Table final : DefaultOffer::Defaults {
@@ -144,9 +152,13 @@ TEST(NetftDriver, ASilentBoxIsLostAndStaysSo) {
   served.reset();
   EXPECT_EQ(loop.read_for(*driver, 100).health, Health::fault);
   EXPECT_FALSE(driver->linked());
+  // Until it was lost, and no longer: then nobody listens.
+  const double silent = longest_silence_ms(*driver);
+  EXPECT_GE(silent, 50.0);
   served = std::make_unique<Served>(there.server);
   EXPECT_EQ(loop.read_for(*driver, 50).health, Health::fault);
   EXPECT_FALSE(driver->linked());
+  EXPECT_EQ(longest_silence_ms(*driver), silent);
 }
 
 // The process is stopped within a tick: what it reads then came later than the tick began.

@@ -58,7 +58,7 @@ bool Server::accept(Time now) {
   }
   client_ = std::move(next);
   unsent_.clear();
-  line_.begin(now);
+  line_.begin(begin_ ? Time{} : now);
   controller_.forget_line();
   told_before_ = controller_.told();
   if (begin_) begin_();

@@ -86,7 +86,7 @@ Stamped<Wrench> NetftSensor::read(Time now) noexcept {
   if (session_.counts().records > before) heard_ = arrival_.of(now, net::steady_now());
   Stamped<Wrench> newest = session_.newest();
   newest.t = std::min(newest.t, now);  // in a tick that was held up it may be of after its beginning
-  read_ = now;
+  if (linked_) read_ = now;            // afterwards nobody listens
   if (silence() > settings_.silent + 1e-9) linked_ = false;
   if (!linked_) newest.health = Health::fault;
   return newest;

@@ -115,8 +115,9 @@ TEST(OverRig, ARunThatHeldIsSeenToHaveHeld) {
   EXPECT_EQ(held([](int tick) { return tick < 90 && tick % 2 == 1; }), "");
   EXPECT_THAT(held([](int tick) { return tick == 300; }), HasSubstr("held at 0.300 s: machine pose lost"));
   EXPECT_THAT(held([](int tick) { return (tick < 90 && tick % 2 == 1) || tick == 300; }),
-              HasSubstr("held at 0.300 s: machine pose lost"));
-  EXPECT_THAT(held([](int tick) { return tick >= 50; }), HasSubstr("held at 0.400 s: machine pose lost"));
+              HasSubstr("was in hold at 0.300 s: machine pose lost"));
+  EXPECT_THAT(held([](int tick) { return tick >= 50; }),
+              HasSubstr("was in hold at 0.400 s: machine pose lost"));
 }
 
 // In lockstep only rounding on the wires is between the two: Table 1 comes out as in the twin, and a

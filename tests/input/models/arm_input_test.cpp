@@ -50,7 +50,7 @@ TEST(ArmInput, LimitsOfAJointGoUpAndHaveHomeBetweenThem) {
               HasSubstr("expected a range"));
 }
 
-// In the key's own unit: a slip of a thousand is refused, and every rig that ships stays.
+// In the key's own unit: a slip of a thousand is refused.
 TEST(ArmInput, AnAgeHasAnEndOfBothKinds) {
   for (const auto& [key, scene] :
        {std::pair{"rig.arm.stale_ms=", "wall"}, {"rig.force.stale_ms=", "tennis_ball"}}) {
