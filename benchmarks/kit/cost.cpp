@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "benchmarks/kit/statistics.h"
 
@@ -35,10 +36,27 @@ double Race::ratio(std::size_t way, const Race& race, std::size_t over) const {
 double Race::more(std::size_t way, std::size_t over) const {
   std::vector<double> apart = seconds_.at(way);
   for (std::size_t i = 0; i < apart.size(); ++i) apart[i] -= seconds_.at(over).at(i);
-  std::sort(apart.begin(), apart.end());
-  const auto cut = static_cast<std::ptrdiff_t>(apart.size() / 20);
-  const auto from = apart.begin() + cut, to = apart.end() - cut;
-  return std::accumulate(from, to, 0.0) / static_cast<double>(to - from);
+  return trimmed_mean(std::move(apart)).mean;
+}
+
+void Race::add(const Race& race) {
+  for (std::size_t way = 0; way < seconds_.size(); ++way)
+    seconds_[way].insert(seconds_[way].end(), race.seconds_.at(way).begin(), race.seconds_.at(way).end());
+}
+
+TrimmedMean trimmed_mean(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  const auto cut = static_cast<std::ptrdiff_t>(numbers.size() / 20);
+  const auto from = numbers.begin() + cut, to = numbers.end() - cut;
+  const auto n = static_cast<double>(to - from);
+  TrimmedMean of{std::accumulate(from, to, 0.0) / n};
+  // What was cut off counts as the outermost that is left (Tukey and McLaughlin 1963).
+  double squares =
+      static_cast<double>(cut) * (std::pow(*from - of.mean, 2) + std::pow(*(to - 1) - of.mean, 2));
+  for (auto at = from; at != to; ++at) squares += std::pow(*at - of.mean, 2);
+  const auto all = static_cast<double>(numbers.size());
+  of.doubt = std::sqrt(squares / (all - 1.0)) * std::sqrt(all) / n;
+  return of;
 }
 
 double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors, double floor) {

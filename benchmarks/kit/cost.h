@@ -24,10 +24,20 @@ class Race {
   // How much longer all its rounds took than those of the other, without the tenth of the rounds in which the
   // two were farthest apart either way: s for each round.
   [[nodiscard]] double more(std::size_t way, std::size_t over) const;
+  [[nodiscard]] double spent(std::size_t way, std::size_t round) const { return seconds_.at(way).at(round); }
+  [[nodiscard]] std::size_t rounds() const { return seconds_.empty() ? 0 : seconds_.front().size(); }
+  // The rounds of another race between the same ways count, too.
+  void add(const Race& race);
 
  private:
   std::vector<std::vector<double>> seconds_;  // [way][round]
 };
+
+// Mean of the numbers without the twentieth at either end, and its standard error.
+struct TrimmedMean {
+  double mean = kUnset, doubt = kUnset;
+};
+[[nodiscard]] TrimmedMean trimmed_mean(std::vector<double> numbers);
 
 // A way of a race that does a chunk of a long work at each call: work(i) of the next indices below `count`,
 // then from 0 again. `count` is a multiple of `chunk`.

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -50,6 +52,39 @@ TEST(Race, RoundsBeforeTheFirstAreNotTimedAndChunksBeginAnew) {
   const Race other(3, {[] {}}, 0);
   EXPECT_GT(race.ratio(0, other, 0), 0.0);
   EXPECT_THROW((void)race.ratio(0, Race(2, {[] {}}), 0), std::out_of_range);  // not as many rounds
+}
+
+TEST(Race, RoundsOfAnotherRaceCountToo) {
+  Race race(3, {[] { work(100); }, [] { work(200); }});
+  const Race more(4, {[] { work(100); }, [] { work(200); }});
+  const double first = race.spent(1, 0), last = more.spent(1, 3);
+  race.add(more);
+  ASSERT_EQ(race.rounds(), 7U);
+  EXPECT_EQ(race.spent(1, 0), first);
+  EXPECT_EQ(race.spent(1, 6), last);
+}
+
+// Said of one sample: what means of many samples scatter by.
+TEST(TrimmedMean, SaysHowWellItIsKnown) {
+  std::mt19937_64 random(7);
+  for (const double share_of_outliers : {0.0, 0.01}) {
+    std::vector<double> means, doubts;
+    for (int sample = 0; sample < 400; ++sample) {
+      std::vector<double> numbers(120);
+      for (double& number : numbers) {
+        number = std::normal_distribution(3.0, 0.5)(random);
+        if (std::bernoulli_distribution(share_of_outliers)(random)) number *= 20.0;
+      }
+      const TrimmedMean of = trimmed_mean(std::move(numbers));
+      means.push_back(of.mean);
+      doubts.push_back(of.doubt);
+    }
+    double mean = 0.0, scatter = 0.0, doubt = 0.0;
+    for (const double one : means) mean += one / 400.0;
+    for (const double one : means) scatter += (one - mean) * (one - mean) / 399.0;
+    for (const double one : doubts) doubt += one / 400.0;
+    EXPECT_NEAR(doubt / std::sqrt(scatter), 1.0, 0.15) << share_of_outliers;
+  }
 }
 
 TEST(Race, TellsHowMuchLongerARoundTook) {
