@@ -10,11 +10,12 @@
 
 namespace enc::bench {
 
-Race::Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up)
+Race::Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up,
+           std::uint64_t seed)
     : seconds_(ways.size()) {
   std::vector<std::size_t> order(ways.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(seed);
   for (std::size_t round = 0; round < warm_up + rounds; ++round) {
     std::shuffle(order.begin(), order.end(), random);
     for (const std::size_t way : order) {
@@ -45,6 +46,7 @@ void Race::add(const Race& race) {
 }
 
 TrimmedMean trimmed_mean(std::vector<double> numbers) {
+  if (numbers.empty()) return {};
   std::sort(numbers.begin(), numbers.end());
   const auto cut = static_cast<std::ptrdiff_t>(numbers.size() / 20);
   const auto from = numbers.begin() + cut, to = numbers.end() - cut;

@@ -1,6 +1,7 @@
 // What something costs, and that beside how wrong it is.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ inline constexpr double kDearest = 1.25;
 // machine hits them all. Rounds before the first warm up. CPU time of this thread.
 class Race {
  public:
-  Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up = 1);
+  Race(std::size_t rounds, const std::vector<std::function<void()>>& ways, std::size_t warm_up = 1,
+       std::uint64_t seed = 1);
   [[nodiscard]] double seconds(std::size_t way, double share = 0.5) const;  // below which that share lies
   // Median of what each round took, over what it took the other; also one of another race of as many rounds.
   [[nodiscard]] double ratio(std::size_t way, std::size_t over) const { return ratio(way, *this, over); }

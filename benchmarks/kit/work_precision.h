@@ -18,10 +18,10 @@ struct WorkSpec {
 };
 
 // The default step and integrator of each form must meet the accuracy, and of the control form no point that
-// meets it may be much cheaper. With elastic legs (the structural form) the accuracy is asked for where two
-// converged runs agree to half of it. Throws Error where the converged run fails. Runs alone on one core: it
-// measures time. By default a small form of some seconds, which judges the default alone; with --full all of
-// it.
+// meets it may be much cheaper. With elastic legs (the structural form) it is judged with --full alone, and
+// may err by as much more as two converged runs differ by. Throws Error where the converged run fails. Runs
+// alone on one core: it measures time. By default a small form of some seconds, which judges the default
+// alone; with --full all of it.
 void add_work_precision(const WorkSpec& spec, const BenchContext& context, BenchResult& result);
 
 }  // namespace enc::bench

@@ -182,14 +182,14 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 }
 
 std::string missing_text(const std::string& table, const Key& key, const Target& target) {
-  return fmt::format("{} has no '{}'; expected {}; add '{} = {}'", table, key.name, expected(key, target),
-                     key.name, example_of(key, target));
+  return fmt::format("{} has no '{}'; expected {}; add '{} = {}'", printable(table), key.name,
+                     expected(key, target), key.name, example_of(key, target));
 }
 
 std::string unknown_text(const std::string& table, std::string_view key,
                          const std::vector<std::string>& known) {
   const std::string near = nearest_name(key, known);
-  std::string wanted = "expected a key of " + table;
+  std::string wanted = "expected a key of " + printable(table);
   if (!unit_of(near).label.empty() && key.starts_with(stem_of(near)))
     wanted = fmt::format("expected the unit {}", unit_of(near).label);
   return fmt::format("unknown key {}; {}; {}", quoted(std::string(key)), wanted, advice(key, known));

@@ -24,11 +24,13 @@ Mat3 axes_of(const ProbeSpec& spec) {
 // Centre of a sphere that comes in along `inward` from afar, when it first touches the object. A step as long
 // as the gap never goes through a surface.
 Point<'W'> first_touch(const Object& object, Point<'W'> centre, const Vec<'W'>& inward, double radius) {
-  constexpr double kTouching = 1e-12;  // m
-  constexpr double kFar = 1.0;         // m
-  for (double way = 0.0; way < kFar;) {
+  constexpr double kFar = 1.0;     // m
+  constexpr int kSteps = 100'000;  // one that grazes it comes nearer and nearer, or goes on by little
+  const double touching = std::max(1e-12, 1e-15 * centre.e().norm());  // m; no place is known better
+  double way = 0.0;
+  for (int i = 0; i < kSteps && way < kFar; ++i) {
     const double gap = stages::nearest(object, centre).distance - radius;
-    if (gap <= kTouching) return centre;
+    if (gap <= touching) return centre;
     centre = centre + gap * inward;
     way += gap;
   }

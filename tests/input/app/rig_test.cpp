@@ -195,6 +195,10 @@ TEST_F(RigProgram, MistakesInAProbe) {
   EXPECT_THAT(refused({"probe.speed_mm_s=51"}), HasSubstr("cannot push that fast"));
   EXPECT_THAT(refused({"probe.object=bal"}), HasSubstr("did you mean 'ball'?"));
   EXPECT_THAT(refused({"object.ball.position_mm=[0,0,70]"}), HasSubstr("outside the machine's reach"));
+  // So far away that its surface is known to half a nanometre: it was looked for until it came near to 1e-12
+  // m.
+  EXPECT_THAT(refused({"object.ball.position_mm=[0,0,2147483648]"}),
+              HasSubstr("outside the machine's reach"));
   EXPECT_THAT(refused({"object.ball.position_mm=[0,0,44]"}), HasSubstr("in the way of the probe"));
   EXPECT_THAT(refused({"object.ball.limit_mm=6"}), HasSubstr("is real and has a 'limit_mm'"));
   EXPECT_THAT(refused({"truth.ball.set=dead"}), HasSubstr("'set' is 'dead'; expected"));

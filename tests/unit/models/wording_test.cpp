@@ -20,6 +20,8 @@ TEST(Wording, WhatMovesATerminalsCursorIsASpace) {
 TEST(Wording, NamesOfAFileAreShownAsTheyMayBe) {
   EXPECT_EQ(advice("ball", {"bal\n"}), "did you mean 'bal '?");
   EXPECT_EQ(advice("b", {"stylus\t", "plane"}), "the names here are 'stylus ', 'plane'");
+  EXPECT_EQ(unknown_text("[behaviour.\t]", "kin", {"kind"}),
+            "unknown key 'kin'; expected a key of [behaviour. ]; did you mean 'kind'?");
 }
 
 // Letter by letter two names of this length would take hours.
