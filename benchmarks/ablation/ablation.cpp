@@ -39,7 +39,6 @@ struct Costs {
   std::vector<Part> parts{};
   std::vector<double> each{};              // s for each tick, of a part
   double minimal = 0.0, everything = 0.0;  // s for each tick
-  double unseen = 0.0;                     // everything but the camera, which would hide all else
   double ratio = kUnset;                   // everything over minimal
   int elements = 0, all_elements = 0;      // of the physics
   std::size_t equal = 0, forms = 0;        // felt as by the minimal form
@@ -149,7 +148,7 @@ Costs costs_of(const BenchContext& context, const std::string& scene) {
   costs.explained = small.explained();
   costs.doubt = small.doubt();
   costs.minimal = small.minimal();
-  costs.unseen = costs.everything = costs.minimal + small.more(1);
+  costs.everything = costs.minimal + small.more(1);
   costs.ratio = small.ratio(1);
   costs.elements = small.elements(0);
   costs.all_elements = small.elements(1);
