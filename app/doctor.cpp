@@ -141,9 +141,8 @@ std::string models_problem() {
 
 int doctor() {
   Doctor doctor;
-  const std::string mujoco = sim::mujoco_version();
-  doctor.say(mujoco.rfind("4.", 0) == 0, Need::must, "MuJoCo " + mujoco,
-             "version 4 is needed; run ./encounter once more, it fetches it");
+  const std::string unfit = sim::mujoco_problem();
+  doctor.say(unfit.empty(), Need::must, "MuJoCo " + sim::mujoco_version(), unfit);
   const std::string problem = models_problem();
   doctor.say(problem.empty(), Need::must, "scenes, rigs and responses", problem);
   std::string modules;

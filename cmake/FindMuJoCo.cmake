@@ -1,9 +1,9 @@
-# Finds MuJoCo 4 as target mujoco::mujoco: in MUJOCO_ROOT, else in .deps (where setup.sh puts it), else on the system.
+# Finds MuJoCo 4.0.1 or a later 4 as target mujoco::mujoco: in MUJOCO_ROOT, else in .deps (where setup.sh puts it), else on the system.
 # The Python wheel, our usual source, has a versioned library only and no CMake files, hence the glob.
 if(MUJOCO_ROOT)
   set(mujoco_places ${MUJOCO_ROOT})
 else()
-  set(mujoco_places ${PROJECT_SOURCE_DIR}/.deps/mujoco-4.0.0 /usr/local /usr)
+  set(mujoco_places ${PROJECT_SOURCE_DIR}/.deps/mujoco-4.0.1 /usr/local /usr)
 endif()
 
 # NO_CACHE: another MUJOCO_ROOT must count the next time we configure.
@@ -31,6 +31,11 @@ if(MuJoCo_INCLUDE_DIR)
   if(NOT major EQUAL 4)
     message(FATAL_ERROR "Encounter needs MuJoCo 4, but ${MuJoCo_INCLUDE_DIR}/mujoco has mjVERSION_HEADER ${number}. "
                         "Point MUJOCO_ROOT (or the variable ENCOUNTER_MUJOCO of ./encounter) to a MuJoCo 4.")
+  endif()
+  if(MuJoCo_VERSION VERSION_LESS 4.0.1)
+    message(FATAL_ERROR "${MuJoCo_INCLUDE_DIR}/mujoco is MuJoCo 4.0.0, whose solver factors a wrong Hessian where the "
+                        "constraint Jacobian is sparse (mended in 4.0.1). Point MUJOCO_ROOT (or the variable "
+                        "ENCOUNTER_MUJOCO of ./encounter) to a later one.")
   endif()
 endif()
 

@@ -4,8 +4,8 @@
 # Words for people go to stderr; what the tools say goes to build/setup.log.
 
 : "${root:?is set by the caller}"
-mujoco_version=4.0.0
-mujoco_sha256=885bd9b9cc0a6b5ba1114923eb954027652a6a0c115fa46b3218b83bae72ac4f
+mujoco_version=4.0.1
+mujoco_sha256=be28c0c7587347ef996b4de0487264e9da296282082b092bae211a9163e9aed6
 log=$root/build/setup.log
 doing="starting"
 
@@ -62,9 +62,13 @@ setup_packages() {  # GROUP...
   }
 }
 
-# Headers of a MuJoCo 4 that the machine has by itself.
+# MuJoCo 4.0.0 factors a wrong Hessian where the constraint Jacobian is sparse (its issue 3767, mended in 4.0.1).
+bad_mujoco() { grep -qsE 'define mjVERSION_HEADER +4000000\b' "$@"; }
+
+# The system has a MuJoCo 4 of its own that Encounter can use.
 system_mujoco() {
-  grep -qsE 'define mjVERSION_HEADER +4[0-9]{6}' /usr/local/include/mujoco/mujoco.h /usr/include/mujoco/mujoco.h
+  local headers=(/usr/local/include/mujoco/mujoco.h /usr/include/mujoco/mujoco.h)
+  grep -qsE 'define mjVERSION_HEADER +4[0-9]{6}' "${headers[@]}" && ! bad_mujoco "${headers[@]}"
 }
 
 # A Python wheel as a file, pinned by version and hash, without installing it.
@@ -80,13 +84,15 @@ fetch_wheel() {  # NAME==VERSION SHA256 INTO OPTION...: options of pip
 # Debian's MuJoCo is too old, so we take library and headers out of the Python wheel, pinned by version and hash.
 setup_mujoco() {
   local home=$root/.deps/mujoco-$mujoco_version work=$root/.deps/unfinished
+  ! bad_mujoco "${ENCOUNTER_MUJOCO:-}"/{include/,}mujoco/mujoco.h ||
+    stop "ENCOUNTER_MUJOCO=$ENCOUNTER_MUJOCO is MuJoCo 4.0.0, whose solver factors a wrong Hessian (mended in 4.0.1); set it to the folder of a MuJoCo 4.0.1 or later, or unset it and give the same command again"
   [[ -z ${ENCOUNTER_MUJOCO:-} && ! -d $home ]] && ! system_mujoco || return 0
-  [[ $(uname -m) == x86_64 ]] || stop "MuJoCo $mujoco_version is fetched for x86_64 only; install MuJoCo 4 and set ENCOUNTER_MUJOCO to its folder"
+  [[ $(uname -m) == x86_64 ]] || stop "MuJoCo $mujoco_version is fetched for x86_64 only; install MuJoCo $mujoco_version or later and set ENCOUNTER_MUJOCO to its folder"
   doing="fetching MuJoCo $mujoco_version"
   say "fetching MuJoCo $mujoco_version (10 MB)"
   fetch_wheel "mujoco-core==$mujoco_version" "$mujoco_sha256" "$work" --python-version 3.11 --platform manylinux_2_28_x86_64 || {
     tail -n 3 "$log" >&2
-    stop "MuJoCo $mujoco_version is missing and could not be fetched; see that this machine is online (or set ENCOUNTER_MUJOCO to the folder of a MuJoCo 4), then give the same command again"
+    stop "MuJoCo $mujoco_version is missing and could not be fetched; see that this machine is online (or set ENCOUNTER_MUJOCO to the folder of a MuJoCo 4.0.1 or later), then give the same command again"
   }
   logged /usr/bin/python3 -c '
 import pathlib, sys, zipfile
@@ -219,16 +225,29 @@ show_progress() {
 # A build folder that was moved or copied here points to where it came from.
 drop_moved() { [[ ! -e $1/CMakeCache.txt ]] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$1/CMakeCache.txt" || rm -rf "$1"; }
 
+# The folder of the compiler cache: CCACHE_DIR where it is set, else one folder for all clones of this user. It is the only
+# place outside the project that a build writes to. Its size is ccache's own limit (5 GB), or `ccache -M` of that folder.
+compiler_cache() {
+  local shared=${XDG_CACHE_HOME:-${HOME:+$HOME/.cache}}
+  if [[ -n ${CCACHE_DIR:-} ]]; then echo "$CCACHE_DIR"
+  elif [[ $shared == /* ]] && mkdir -p "$shared/encounter/ccache" 2>/dev/null && [[ -w $shared/encounter/ccache ]]; then
+    echo "$shared/encounter/ccache"
+  else echo "$root/build/ccache"; fi
+}
+
 # Configures and builds. Configuring again takes half a second and sees edited presets and newly installed packages.
 build_preset() {  # PRESET TARGET...
   local preset=$1 todo
   shift
   drop_moved "$root/build/$preset"
-  # Presets differ in few objects: what one has compiled, the next takes from the cache. The cache lives in build/ like all else.
+  # Presets, commits and clones differ in few objects: ccache, where it is installed, compiles each once.
   local launcher=""
-  ! command -v ccache >/dev/null || launcher=ccache
-  local -x CCACHE_DIR=$root/build/ccache CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_MAXSIZE=2G
-  local -x CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+  if command -v ccache >/dev/null; then
+    launcher=ccache
+    local -x CCACHE_DIR; CCACHE_DIR=$(compiler_cache)
+    local -x CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+    local -x CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+  fi
   cd "$root" || exit 2  # presets are found from here; callers that care use a subshell
   if logged cmake --preset "$preset" -DMUJOCO_ROOT="${ENCOUNTER_MUJOCO:-}" -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"; then
     if [[ -e build/$preset/.ninja_log ]]; then

@@ -15,10 +15,10 @@ foreach(part enc_vision enc_camera enc_images enc_picture enc_calibration)
     target_link_libraries(enc_test_support PUBLIC ${part})
   endif()
 endforeach()
-target_compile_definitions(enc_test_support PUBLIC ENCOUNTER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+# The only file of the tests that knows a path, so that a compiler cache knows all others in another folder, too.
 set_source_files_properties(
   tests/support/built.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_DEFINITIONS
-  "ENCOUNTER_MODULE_DIR=\"${module_dir}\";ENCOUNTER_BINARY=\"${PROJECT_BINARY_DIR}/encounter\"")
+  "ENCOUNTER_MODULE_DIR=\"${module_dir}\";ENCOUNTER_BINARY=\"${PROJECT_BINARY_DIR}/encounter\";ENCOUNTER_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
 # g++ takes a precompiled header only where -fPIC and -fPIE are the same; CMake gives libraries one, programs the other.
 set_target_properties(enc_test_support PROPERTIES POSITION_INDEPENDENT_CODE OFF)
 enc_precompile(enc_test_support ${enc_standard_headers} ${enc_eigen_headers} <fmt/format.h> <gmock/gmock.h> <gtest/gtest.h>)
@@ -169,8 +169,7 @@ if(ENCOUNTER_SANITIZE MATCHES "fuzzer")
     file(GLOB images CONFIGURE_DEPENDS tests/fuzz/images/*.cpp)
     list(APPEND sources ${images})
   endif()
-  enc_program(fuzz ${sources} tests/support/scenes.cpp)
+  enc_program(fuzz ${sources} tests/support/built.cpp tests/support/scenes.cpp)
   target_link_libraries(fuzz PRIVATE enc_fit enc_gcs enc_igtl enc_netft enc_trial $<$<TARGET_EXISTS:enc_images>:enc_images> fmt::fmt)
-  target_compile_definitions(fuzz PRIVATE ENCOUNTER_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_options(fuzz PRIVATE -fsanitize=fuzzer)
 endif()

@@ -39,8 +39,20 @@ void install_mujoco_handlers() {
 
 std::string mujoco_version() { return mj_versionString(); }
 
+std::string mujoco_problem(int version) {
+  if (version / 1'000'000 != 4) return "version 4 is needed; run ./encounter once more, it fetches it";
+  // Its issue 3767: rows of a sparse constraint Jacobian share a block of the Cholesky factor wrongly.
+  if (version == 4'000'000)
+    return "its solver factors a wrong Hessian, mended in 4.0.1; unset ENCOUNTER_MUJOCO or point it to a "
+           "later "
+           "one, and run ./encounter once more";
+  return {};
+}
+
 Physics::Physics(SpecPtr spec) : spec_(std::move(spec)) {
   install_mujoco_handlers();
+  if (const std::string problem = mujoco_problem(); !problem.empty())
+    throw Error("MuJoCo " + mujoco_version() + ": " + problem);
   spec_->option.disableflags |= mjDSBL_AUTORESET;
   model_.reset(mj_compile(spec_.get(), nullptr));
   if (!model_) {

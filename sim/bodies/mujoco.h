@@ -76,5 +76,7 @@ inline void set3(double* to, const Vec3& v) noexcept { std::copy_n(v.data(), 3, 
 // (sources/twin 4).
 void install_mujoco_handlers();
 [[nodiscard]] std::string mujoco_version();
+// Why a MuJoCo of this version (4000001 is 4.0.1) must not be used, and what to do; empty: it may.
+[[nodiscard]] std::string mujoco_problem(int version = mj_version());
 
 }  // namespace enc::sim

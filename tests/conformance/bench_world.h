@@ -9,13 +9,14 @@
 
 #include "core/record/state_hash.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "trial/trial.h"
 
 namespace enc::test {
 
 inline std::string scene_file(const std::string& name) {
   std::string file =
-      ENCOUNTER_SOURCE_DIR "/models/scenes/";  // literals joined: g++ 12 warns wrongly of string + literal
+      tests::source_dir() + "/models/scenes/";  // literals joined: g++ 12 warns wrongly of string + literal
   file.append(name).append(".toml");
   return file;
 }

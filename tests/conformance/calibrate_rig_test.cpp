@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/conformance/laboratory.h"
+#include "tests/support/built.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,7 +21,7 @@ using testing::HasSubstr;
 using tests::Result;
 using tests::run_program;
 
-const std::string kClamped = ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml";
+const std::string kClamped = tests::source_dir() + "/models/scenes/clamped_tool.toml";
 const std::vector<std::string> kWrong{
     "truth.frames.W_C.position_mm=[3, -896, 600]", "truth.frames.W_C.rotation_deg=[1, -1, 1.4]",
     "truth.force.turned_deg=[1, 1, -1.4]", "truth.hexapod.mass_kg=1.11", "truth.tracker.bias_mm=[0, 0, 0]"};

@@ -12,13 +12,14 @@
 #include "tests/conformance/foreign/piped_child.h"
 #include "tests/conformance/gcs_bench.h"
 #include "tests/conformance/gcs_port.h"
+#include "tests/support/built.h"
 #include "tests/support/run_program.h"
 
 namespace enc::test {
 namespace {
 
-const std::string kPipython = ENCOUNTER_SOURCE_DIR "/.deps/pipython";
-const std::string kScripts = ENCOUNTER_SOURCE_DIR "/tests/conformance/foreign/";
+const std::string kPipython = tests::source_dir() + "/.deps/pipython";
+const std::string kScripts = tests::source_dir() + "/tests/conformance/foreign/";
 
 class GcsForeign : public testing::Test {
  protected:

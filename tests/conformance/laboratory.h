@@ -24,7 +24,7 @@
 
 namespace enc::test {
 
-inline const std::string kBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
+inline const std::string kBall = tests::source_dir() + "/models/scenes/tennis_ball.toml";
 
 // The fakes in this process, where their machine can be seen.
 struct Laboratory {

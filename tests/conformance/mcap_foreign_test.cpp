@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/record/record.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -20,10 +21,10 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string kMcap = ENCOUNTER_SOURCE_DIR "/.deps/mcap";
-const std::string kMcapScript = ENCOUNTER_SOURCE_DIR "/tests/conformance/foreign/mcap_reader.py";
-const std::string kPress = ENCOUNTER_SOURCE_DIR "/tests/data/press.encrec";
-const std::string kArmPress = ENCOUNTER_SOURCE_DIR "/tests/data/arm_press.encrec";
+const std::string kMcap = tests::source_dir() + "/.deps/mcap";
+const std::string kMcapScript = tests::source_dir() + "/tests/conformance/foreign/mcap_reader.py";
+const std::string kPress = tests::source_dir() + "/tests/data/press.encrec";
+const std::string kArmPress = tests::source_dir() + "/tests/data/arm_press.encrec";
 
 class McapForeign : public testing::Test {
  protected:

@@ -12,12 +12,13 @@
 #include "hw_drivers/netft/fake/server.h"
 #include "hw_drivers/netft/wire/record.h"
 #include "tests/conformance/foreign/piped_child.h"
+#include "tests/support/built.h"
 
 namespace enc::test {
 namespace {
 
-const std::string kPynetft = ENCOUNTER_SOURCE_DIR "/.deps/pynetft";
-const std::string kPynetftScript = ENCOUNTER_SOURCE_DIR "/tests/conformance/foreign/pynetft_client.py";
+const std::string kPynetft = tests::source_dir() + "/.deps/pynetft";
+const std::string kPynetftScript = tests::source_dir() + "/tests/conformance/foreign/pynetft_client.py";
 
 // As in pynetft_client.py. No two axes are alike, so that their order, their signs and their bytes count.
 struct PressedTwoWays final : ForceSensor {

@@ -23,7 +23,7 @@ namespace enc::tests {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = ENCOUNTER_SOURCE_DIR;
+const fs::path kRoot = tests::source_dir();
 
 // The file of a library that this process has loaded.
 std::string loaded(const std::string& part) {

@@ -8,12 +8,13 @@
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/shapes/hare.h"
+#include "tests/support/built.h"
 
 namespace enc {
 namespace {
 
 TEST(HareGoldenLong, IsReproducedAndSound) {
-  const std::string path = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
+  const std::string path = tests::source_dir() + "/models/meshes/hare.glb";
   std::ifstream file(path, std::ios::binary);
   const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   ASSERT_FALSE(committed.empty());

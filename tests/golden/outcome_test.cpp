@@ -13,14 +13,15 @@
 
 #include "models/setup/scene_file.h"
 #include "sim/truth_fields.h"
+#include "tests/support/built.h"
 #include "trial/trial.h"
 
 namespace enc {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kScenes = ENCOUNTER_SOURCE_DIR "/models/scenes";
-const fs::path kTable = ENCOUNTER_SOURCE_DIR "/tests/golden/outcomes.csv";
+const fs::path kScenes = tests::source_dir() + "/models/scenes";
+const fs::path kTable = tests::source_dir() + "/tests/golden/outcomes.csv";
 constexpr const char* kHeader = "scene,seed,length,ticks,state_hash,outcome_hash";
 constexpr double kShort = 1.5;  // s
 

@@ -11,16 +11,17 @@
 #include "models/fit/loop_fit.h"
 #include "models/setup/response_file.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "trial/measure/record_table.h"
 
 namespace enc {
 namespace {
 
 constexpr double kLimit = 6e-3;
-const std::string kResponses = ENCOUNTER_SOURCE_DIR "/models/responses/";
+const std::string kResponses = tests::source_dir() + "/models/responses/";
 
 double floor_of_rig() {
-  return models::fit_floor(loop_of(models::load_rig(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml")));
+  return models::fit_floor(loop_of(models::load_rig(tests::source_dir() + "/models/rigs/sim.toml")));
 }
 
 // What run, export and fit do, in one process.
@@ -28,7 +29,7 @@ void expect_fitted(const std::string& scene, const std::string& ball, const std:
   std::ifstream file(kResponses + response, std::ios::binary);
   const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   ASSERT_FALSE(committed.empty());
-  const models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene + ".toml", "sim",
+  const models::Setup setup = models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "sim",
                                            {"truth.ball.set=" + ball});
   const models::LoopData loop = models::parse_loop(trial::table_of_run(setup, 1), scene + ".csv", kLimit);
   const models::LoopFit fit = models::fit_loop(loop, {kLimit, floor_of_rig(), kUnset});

@@ -16,13 +16,14 @@
 #include "core/error.h"
 #include "core/record/replay.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "trial/trial.h"
 
 namespace enc {
 namespace {
 
-constexpr const char* kResolved = ENCOUNTER_SOURCE_DIR "/tests/golden/tennis_ball.resolved.toml";
-const std::string kData = ENCOUNTER_SOURCE_DIR "/tests/data/";
+const std::string kResolved = tests::source_dir() + "/tests/golden/tennis_ball.resolved.toml";
+const std::string kData = tests::source_dir() + "/tests/data/";
 // Written where it can be taken from: the words of a failure say how.
 std::string resolve_again(const std::string& text) {
   const std::string path = testing::TempDir() + "tennis_ball.resolved.toml";
@@ -65,7 +66,7 @@ std::string record_again(const Press& press) {
 TEST(ResolvedGolden, TennisBall) {
   std::ifstream file(kResolved, std::ios::binary);
   const std::string committed((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml", "sim");
+  const models::Setup setup = models::load(tests::source_dir() + "/models/scenes/tennis_ball.toml", "sim");
   const std::string text = models::resolved(setup);
   EXPECT_TRUE(text == committed) << resolve_again(text);
   EXPECT_THAT(committed, testing::StartsWith("format = 1\n"));

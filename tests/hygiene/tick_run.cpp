@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 }  // namespace
 
 std::vector<std::string> scenes(bool camera) {
-  const fs::path root = ENCOUNTER_SOURCE_DIR "/models/scenes";
+  const fs::path root = tests::source_dir() + "/models/scenes";
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
     const std::string name = fs::relative(entry.path(), root).replace_extension().generic_string();
@@ -34,7 +34,7 @@ Told counted_run(const Case& asked) {
     static std::atomic<int> caught{0};  // as the program's signals are
     trial::TrialOptions options = asked.options;
     const models::Setup setup =
-        models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + asked.scene + ".toml", "", {});
+        models::load(tests::source_dir() + "/models/scenes/" + asked.scene + ".toml", "", {});
     const auto also = options.watch;
     trial::RunMeasures measures(setup, options);
     options.watch = [&](const trial::Glance& glance) {

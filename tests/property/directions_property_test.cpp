@@ -12,11 +12,12 @@
 #include "models/fit/response_fit.h"
 #include "models/setup/directions.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 
 namespace enc::models {
 namespace {
 
-const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kModels = tests::source_dir() + "/models";
 constexpr double kLimit = 6e-3;
 
 class DirectionsProperty : public testing::Test {

@@ -8,11 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
+
 namespace enc {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = ENCOUNTER_SOURCE_DIR;
+const fs::path kRoot = tests::source_dir();
 
 std::vector<fs::path> sources_in(const std::string& folder) {
   std::vector<fs::path> all;

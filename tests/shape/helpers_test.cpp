@@ -16,6 +16,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
+
 namespace enc::helpers {
 namespace {
 
@@ -192,7 +194,7 @@ TEST(Helpers, OfAFolderHaveNamesOrParametersOfTheirOwn) {
   std::map<std::string, std::map<std::string, std::string>> folders;  // file by helper
   std::size_t all = 0;
   for (const char* top : {"app", "benchmarks", "core", "hw_drivers", "models", "sim", "tests", "trial"})
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ENCOUNTER_SOURCE_DIR) / top)) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(tests::source_dir()) / top)) {
       const std::string folder = entry.path().parent_path().string(), file = entry.path().filename().string();
       const bool alone = file == "main.cpp" || file.ends_with("_avx2.cpp");
       if (entry.path().extension() != ".cpp" || alone) continue;

@@ -13,12 +13,13 @@
 #include <gtest/gtest.h>
 
 #include "core/frames.h"
+#include "tests/support/built.h"
 
 namespace enc {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kTop = ENCOUNTER_SOURCE_DIR;
+const fs::path kTop = tests::source_dir();
 const std::vector<std::string> kFolders{"core", "sim", "models", "trial", "hw_drivers", "benchmarks", "app"};
 
 struct Source {

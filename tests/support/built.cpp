@@ -4,6 +4,7 @@
 
 namespace enc::tests {
 
+std::string source_dir() { return ENCOUNTER_SOURCE_DIR; }
 std::string program_file() { return ENCOUNTER_BINARY; }
 std::string module_folder() { return ENCOUNTER_MODULE_DIR; }
 bool is_built(const std::string& module) {

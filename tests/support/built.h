@@ -6,6 +6,7 @@
 
 namespace enc::tests {
 
+[[nodiscard]] std::string source_dir();  // the project's top folder
 [[nodiscard]] std::string program_file();
 [[nodiscard]] std::string module_folder();
 [[nodiscard]] bool is_built(const std::string& module);  // "vision"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "trial/finger_loop.h"
 #include "trial/trial.h"
 
@@ -17,7 +18,7 @@ inline Scene finger_scene(const std::string& name, const std::vector<std::string
   std::vector<std::string> set{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
   set.insert(set.end(), more.begin(), more.end());
   return trial::prepare_setup(
-      models::load(fmt::format("{}/models/scenes/{}.toml", ENCOUNTER_SOURCE_DIR, name), "", set));
+      models::load(fmt::format("{}/models/scenes/{}.toml", tests::source_dir(), name), "", set));
 }
 
 // A finger of 8 mm radius; `depth` of its lowest point under z = 0, negative: the gap. The tip goes there,

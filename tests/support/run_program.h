@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/built.h"
+
 namespace enc::tests {
 
 struct Result {
@@ -16,9 +18,9 @@ struct Result {
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
 // Where the models are that the program is shipped with, wherever it is started.
-inline const Environment kShipped{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
+inline const Environment kShipped{{"ENCOUNTER_MODELS", tests::source_dir() + "/models"}};
 inline std::string shipped_scene(const std::string& name) {
-  return std::string(ENCOUNTER_SOURCE_DIR).append("/models/scenes/").append(name).append(".toml");
+  return tests::source_dir() + "/models/scenes/" + name + ".toml";
 }
 
 // Another program, which is looked for in PATH. It is killed (code 137) after `timeout` seconds.

@@ -10,6 +10,7 @@
 #include "benchmarks/extremes/judge.h"
 #include "benchmarks/kit/benchmark.h"
 #include "tests/conformance/bench_world.h"
+#include "tests/support/built.h"
 
 namespace enc::bench::extremes {
 namespace {
@@ -90,7 +91,7 @@ TEST(Extremes, TheShortFormHolds) {
                                   [](const Benchmark& b) { return std::string(b.name) == "extremes"; });
   ASSERT_NE(found, all.end());
   BenchContext context;
-  context.models = ENCOUNTER_SOURCE_DIR "/models";
+  context.models = tests::source_dir() + "/models";
   context.quick = true;
   const BenchResult result = result_of(*found, context);
   std::set<std::string> ids;

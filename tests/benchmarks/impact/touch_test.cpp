@@ -5,11 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
+
 namespace enc::bench::impact {
 namespace {
 
 models::Setup session() {
-  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/session.toml", {},
+  return models::load(tests::source_dir() + "/models/scenes/session.toml", {},
                       {"truth.hand.drift_mm=0", "truth.solver.tolerance=1e-12"});
 }
 Law law(double stiffness, double friction) {

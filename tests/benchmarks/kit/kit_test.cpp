@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "tests/support/run_program.h"
 
 namespace enc::bench {
@@ -26,7 +27,7 @@ using ::testing::SizeIs;
 
 BenchContext context_of(std::uint64_t seed = 1) {
   BenchContext context;
-  context.models = ENCOUNTER_SOURCE_DIR "/models";
+  context.models = tests::source_dir() + "/models";
   context.seed = seed;
   return context;
 }
@@ -40,7 +41,7 @@ std::string text_of(const fs::path& file) {
 
 // What the build leaves out where vision was not built: "|segmentation|fingertip|...|".
 std::string through_a_camera() {
-  const std::string text = text_of(ENCOUNTER_SOURCE_DIR "/cmake/benchmarks.cmake"), before = "\"/(";
+  const std::string text = text_of(tests::source_dir() + "/cmake/benchmarks.cmake"), before = "\"/(";
   const std::size_t from = text.find(before) + before.size();
   return "|" + text.substr(from, text.find(")$\"", from) - from) + "|";
 }
@@ -49,7 +50,7 @@ std::string through_a_camera() {
 std::vector<std::string> written(bool with_camera) {
   const std::string cameras = through_a_camera();
   std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(ENCOUNTER_SOURCE_DIR "/benchmarks")) {
+  for (const auto& entry : fs::directory_iterator(tests::source_dir() + "/benchmarks")) {
     const std::string name = entry.path().filename().string();
     const bool camera = cameras.find("|" + name + "|") != std::string::npos;
     if (text_of(entry.path() / (name + ".cpp")).find("\nconst Entry kEntry{") != std::string::npos &&

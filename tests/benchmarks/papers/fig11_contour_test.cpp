@@ -8,6 +8,7 @@
 
 #include "benchmarks/report/plot.h"
 #include "core/error.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 
 namespace enc::bench::deformation {
@@ -17,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string kModels = std::string(ENCOUNTER_SOURCE_DIR) + "/models";
+const std::string kModels = tests::source_dir() + "/models";
 std::string file() { return test::bytes_of(kModels + "/../benchmarks/reference/fig11_contour.csv"); }
 
 std::string refusal(const std::string& text) {

@@ -6,12 +6,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
+
 namespace enc::bench::indentation {
 namespace {
 
 using testing::ElementsAre;
 
-const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kModels = tests::source_dir() + "/models";
 
 // 2 N/mm pressing, 1 N/mm releasing.
 Response loop() { return {ResponseSpec{{2000, 0, 0, 0}, {1000, 0, 0, 0}, 6e-3}, 0.0}; }

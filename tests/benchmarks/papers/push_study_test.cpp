@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/stiffness/stiffness.h"
+#include "tests/support/built.h"
 
 namespace enc::bench::stiffness {
 namespace {
@@ -68,7 +69,7 @@ TEST(PushStudy, SlopeOfAnAbsoluteForceErrorIsMinusOne) {
 }
 
 models::Setup setup_with(const std::vector<std::string>& variant) {
-  return push_setup(ENCOUNTER_SOURCE_DIR "/models", {}, variant);
+  return push_setup(tests::source_dir() + "/models", {}, variant);
 }
 
 TEST(PushStudy, AForceErrorBecomesTheErrorThatItHasToBe) {

@@ -40,7 +40,7 @@ class Questionnaire : public testing::Test {
     EXPECT_EQ(r.code, 2) << r.out;
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
   }
-  const Environment kModels{{"ENCOUNTER_MODELS", ENCOUNTER_SOURCE_DIR "/models"}};
+  const Environment kModels{{"ENCOUNTER_MODELS", tests::source_dir() + "/models"}};
   test::TemporaryFolder temporary_;
 };
 
@@ -130,7 +130,7 @@ TEST_F(Questionnaire, MistakesAreOneLineEach) {
 }
 
 TEST_F(Questionnaire, ASceneMayNameAForm) {
-  std::ifstream plane(ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml");
+  std::ifstream plane(tests::source_dir() + "/models/scenes/plane.toml");
   const std::string scene{std::istreambuf_iterator<char>(plane), {}};
   const Result good =
       run_program({"check", write("g.toml", scene + "\n[questionnaire]\nform = \"vhmr_2020\"\n")}, kModels);

@@ -10,6 +10,7 @@
 
 #include "benchmarks/questionnaire/opinion.h"
 #include "core/error.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,7 +23,7 @@ using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kModels = tests::source_dir() + "/models";
 
 // Two items on a scale of three steps, and one thing used before.
 Form small_form() {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/support/built.h"
 
 namespace enc::bench {
 namespace {
@@ -81,7 +82,7 @@ TEST(Choice, WhatDoesNotExistIsRefusedWithTheNearest) {
 
 // Nothing is passed over in silence: what --set cannot change refuses it, by name.
 TEST(Choice, WhatReadsNoSceneTakesNoSettings) {
-  const std::string models = ENCOUNTER_SOURCE_DIR "/models";
+  const std::string models = tests::source_dir() + "/models";
   std::vector<std::string> left;
   EXPECT_THAT(names_of(settable(chosen({"press", "registration"}), true, models, left)),
               ElementsAre("press", "registration"));

@@ -6,6 +6,7 @@
 
 #include "benchmarks/tracking/tracking_fit.h"
 #include "core/error.h"
+#include "tests/support/built.h"
 
 namespace enc::bench {
 namespace {
@@ -39,7 +40,7 @@ TEST(Reference, SaysWhatIsWrong) {
 // The norms follow from their components but for the one that the paper has wrong.
 TEST(Reference, TableOneAddsUp) {
   const tracking::Table1 paper =
-      tracking::table1_of(Reference::load(ENCOUNTER_SOURCE_DIR "/models", "table1.csv"));
+      tracking::table1_of(Reference::load(tests::source_dir() + "/models", "table1.csv"));
   for (std::size_t s = 0; s < 3; ++s) {
     std::array<tracking::Cell, 4> column = paper[s];
     fill_norm(column);

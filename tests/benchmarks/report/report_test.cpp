@@ -13,6 +13,7 @@
 #include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/plot.h"
 #include "core/error.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -50,7 +51,7 @@ Plot small_plot() {
 // One calibrated figure that holds, one predicted that does not, one of ours.
 Report small_report() {
   Report report{"./encounter bench press --set 'a=<1>'", 7, {"a=<1>"}, {"press", "speed"}};
-  report.background.contradictions = contradictions(ENCOUNTER_SOURCE_DIR "/models");
+  report.background.contradictions = contradictions(tests::source_dir() + "/models");
   BenchResult result{"press", "tennis_ball", 2.5, 10.0, {}};
   result.figures = {{"press.a.mean", 0.2, 0.25, "mm", Role::calibrated, 0.1, 0.3, "a | b <c>", 0.24, 0.26},
                     {"press.b.max", 0.5, 0.4, "mm", Role::predicted, 0.45, kUnset, ""},
@@ -337,7 +338,7 @@ TEST(Plot, InAPageNoTwoDrawingsShareAName) {
 }
 
 TEST(Contradictions, AreFoundInThePrintedNumbers) {
-  const std::vector<Contradiction> all = contradictions(ENCOUNTER_SOURCE_DIR "/models");
+  const std::vector<Contradiction> all = contradictions(tests::source_dir() + "/models");
   std::vector<std::string> ids;
   for (const Contradiction& c : all) ids.push_back(c.id);
   // Table 1 has six norms and Table 2 six cells: only these are wrong.

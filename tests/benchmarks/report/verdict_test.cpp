@@ -9,6 +9,7 @@
 
 #include "benchmarks/report/report.h"
 #include "core/error.h"
+#include "tests/support/built.h"
 
 namespace enc::bench {
 namespace {
@@ -123,7 +124,7 @@ TEST(Verdict, SaysWhatIsWrongWithTheThresholds) {
 
 // The shipped thresholds: each has a source, and the known figures meet the right one.
 TEST(Verdict, TheShippedThresholdsAreComplete) {
-  const std::vector<Threshold> all = load_thresholds(ENCOUNTER_SOURCE_DIR "/models");
+  const std::vector<Threshold> all = load_thresholds(tests::source_dir() + "/models");
   for (const Threshold& t : all) {
     EXPECT_GT(t.compares.size(), 20U) << t.figure;
     EXPECT_TRUE(std::isnan(t.value) || t.source.size() > 10U) << t.figure;

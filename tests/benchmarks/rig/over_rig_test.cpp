@@ -106,7 +106,8 @@ TEST(OverRig, ARunThatHeldIsSeenToHaveHeld) {
     options.disturb = [&](Inputs& in) {
       if (gone(tick++)) in.tip.health = Health::absent;
     };
-    trial::Trial trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml", "", {}), options);
+    trial::Trial trial(models::load(tests::source_dir() + "/models/scenes/tennis_ball.toml", "", {}),
+                       options);
     while (trial.tick()) {
     }
     return held_in(trial);

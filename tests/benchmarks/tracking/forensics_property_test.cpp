@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/tracking/forensics.h"
+#include "tests/support/built.h"
 
 namespace enc::bench::tracking {
 namespace {
@@ -16,7 +17,7 @@ double figure(const BenchResult& result, const std::string& id) {
 
 TEST(Forensics, FindsWhatWasPutInto100Logs) {
   BenchContext context;
-  context.models = ENCOUNTER_SOURCE_DIR "/models";
+  context.models = tests::source_dir() + "/models";
   BenchResult result;
   add_forensics(context, result);
   EXPECT_GE(figure(result, "latency.percent"), 95.0) << "within 1 ms";

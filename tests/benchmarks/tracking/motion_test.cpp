@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/tracking/prediction_run.h"
+#include "tests/support/built.h"
 
 namespace enc::bench::tracking {
 namespace {
@@ -76,7 +77,7 @@ std::array<TipErrors, 3> errors_with(const std::vector<std::string>& more) {
                                "truth.tracker.udp_delay_ms=0", "truth.tracker.packets=event"};
   set.insert(set.end(), more.begin(), more.end());
   const models::Setup setup =
-      models::load(std::string(ENCOUNTER_SOURCE_DIR).append("/models/scenes/tennis_ball.toml"), "sim", set);
+      models::load(tests::source_dir() + "/models/scenes/tennis_ball.toml", "sim", set);
   StopsSpec spec;
   spec.stops = {0.0, 0.080};
   spec.dwell = 0.5;

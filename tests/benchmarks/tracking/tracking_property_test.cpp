@@ -7,6 +7,7 @@
 
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_trial.h"
+#include "tests/support/built.h"
 
 namespace enc::bench::tracking {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 models::Setup setup_with(std::vector<std::string> set) {
   std::vector<std::string> all{"travel.axes=\"x\"", "travel.speed_mm_s=40", "travel.dwell_s=0.5"};
   all.insert(all.end(), set.begin(), set.end());
-  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml", "sim", all);
+  return models::load(tests::source_dir() + "/models/scenes/tracking.toml", "sim", all);
 }
 
 // Over `seeds` phases of the clocks, forward.

@@ -7,12 +7,13 @@
 
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/wires/safety.h"
+#include "tests/support/built.h"
 
 namespace enc::bench::wires {
 namespace {
 
 TEST(SafetyMatrix, EachFaultEndsAsStatedWithTheMachineAtRest) {
-  const ShortPress press(ENCOUNTER_SOURCE_DIR "/models");
+  const ShortPress press(tests::source_dir() + "/models");
   const models::Setup& setup = press.datagrams;
   struct Cell {
     const Fault& fault;

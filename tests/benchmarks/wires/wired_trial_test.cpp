@@ -10,12 +10,13 @@
 #include "benchmarks/session/session_measure.h"
 #include "benchmarks/wires/settling.h"
 #include "hw_drivers/wires/tight_times.h"
+#include "tests/support/built.h"
 
 namespace enc::bench::wires {
 namespace {
 
 constexpr double kStands = 1e-4;  // m/s
-const std::string kTennisBall = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
+const std::string kTennisBall = tests::source_dir() + "/models/scenes/tennis_ball.toml";
 
 models::Setup fakes(std::vector<std::string> set = {}) {
   return models::load(kTennisBall, "fakes", enc::wires::tight_times(std::move(set)));
@@ -142,7 +143,7 @@ TEST(WiredTrial, AChangeOfTheToolIsSeenWithinAPeriodOfTheTracker) {
     int changes = 0;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const models::Setup setup = models::load(
-          ENCOUNTER_SOURCE_DIR "/models/scenes/session.toml", "fakes",
+          tests::source_dir() + "/models/scenes/session.toml", "fakes",
           enc::wires::tight_times({"user.session.duration_s=30", "rig.driver.igtl.transport=" + transport,
                                    "truth.tracker.marker_noise_mm=0.02"}));
       session::SessionMeasure measure(setup);

@@ -18,6 +18,7 @@
 
 #include "tests/conformance/foreign/piped_child.h"
 #include "tests/conformance/tracker/igtl_bench.h"
+#include "tests/support/built.h"
 
 namespace enc::test {
 namespace {
@@ -25,9 +26,9 @@ namespace {
 namespace library = ::igtl;
 using testing::HasSubstr;
 
-const std::string kPyigtl = ENCOUNTER_SOURCE_DIR "/.deps/pyigtl";
+const std::string kPyigtl = tests::source_dir() + "/.deps/pyigtl";
 std::vector<std::string> script(const std::string& name) {
-  return {"/usr/bin/python3", "-B", ENCOUNTER_SOURCE_DIR "/tests/conformance/foreign/" + name, kPyigtl};
+  return {"/usr/bin/python3", "-B", tests::source_dir() + "/tests/conformance/foreign/" + name, kPyigtl};
 }
 
 // As in the scripts: a quarter turn about z, then 10, 20, 30 mm. No two of its numbers are alike, so that

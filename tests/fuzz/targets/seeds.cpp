@@ -6,13 +6,14 @@
 
 #include "models/mesh_files/mesh_write.h"
 #include "models/shapes/shapes.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 
 namespace enc::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = ENCOUNTER_SOURCE_DIR;
+const fs::path kRoot = tests::source_dir();
 
 }  // namespace
 

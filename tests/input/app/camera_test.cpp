@@ -9,6 +9,7 @@
 
 #include "sim/picture/picture.h"
 #include "tests/input/app/program.h"
+#include "tests/support/built.h"
 
 namespace enc::tests {
 namespace {
@@ -17,7 +18,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kScene = ENCOUNTER_SOURCE_DIR "/models/scenes/camera/wall.toml";
+const std::string kScene = tests::source_dir() + "/models/scenes/camera/wall.toml";
 
 class Camera : public Program {
  protected:
@@ -86,7 +87,7 @@ TEST_F(Camera, OneThatComesBackWithoutAStallIsNotInTheWorld) {
 
 // Found before anything moves: such a camera would not see what is to be met.
 TEST_F(Camera, ARegistrationOfAnotherRigIsRefused) {
-  const std::string keypad = ENCOUNTER_SOURCE_DIR "/models/scenes/camera/keypad.toml";
+  const std::string keypad = tests::source_dir() + "/models/scenes/camera/keypad.toml";
   const auto line = [&](const std::string& scene, const std::string& set) {
     return refused({"check", scene, "--set", "rig.frames.W_C." + set});
   };
@@ -106,7 +107,7 @@ TEST_F(Camera, ARegistrationOfAnotherRigIsRefused) {
 }
 
 TEST_F(Camera, AnObjectOutOfViewAmongOthersIsAWarning) {
-  const std::string keypad = ENCOUNTER_SOURCE_DIR "/models/scenes/camera/keypad.toml";
+  const std::string keypad = tests::source_dir() + "/models/scenes/camera/keypad.toml";
   const Environment no_leaks{{"ASAN_OPTIONS", "detect_leaks=0"}};  // of the libraries that draw
   const Result all = run_program({"check", keypad}, no_leaks);
   EXPECT_THAT(all.err, Not(HasSubstr("no finger is seen"))) << all.err;
@@ -320,7 +321,7 @@ TEST_F(Camera, TheViewThroughItIsRawWithoutTheArmOrAugmented) {
 }
 
 TEST_F(Camera, AViewThroughNoCameraIsRefusedInOneLine) {
-  const std::string wall = ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml";
+  const std::string wall = tests::source_dir() + "/models/scenes/wall.toml";
   const Result none = run_program({"view", wall, "--through-camera", "raw", "--shot", path("a.png")});
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.err, AllOf(HasSubstr("wall.toml:1:1: the scene has no camera"), HasSubstr("[camera]")));

@@ -8,6 +8,7 @@
 
 #include "app/built.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,7 +21,7 @@ using testing::Not;
 using tests::Result;
 using tests::run_program;
 using tests::shipped_scene;
-const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kModels = tests::source_dir() + "/models";
 
 Result checked(const std::vector<std::string>& words) {
   std::vector<std::string> command{"check"};

@@ -24,7 +24,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using Words = std::vector<std::string>;
 
-const std::string kRoot = ENCOUNTER_SOURCE_DIR;
+const std::string kRoot = tests::source_dir();
 const std::string kWall = kRoot + "/models/scenes/wall.toml", kRecord = kRoot + "/tests/data/press.encrec";
 
 std::string line(const Words& args) {

@@ -112,7 +112,7 @@ TEST_F(ProgramFiles, TwoRunsDoNotRecordIntoOneFile) {
 TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
   const std::string record = recorded(), csv = good_loop();
   const std::string points = write("points.csv", "x_m,y_m,z_m\n0,0,0.1\n");
-  const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
+  const std::string mesh = tests::source_dir() + "/models/meshes/hare.glb";
   const std::vector<Words> all{{"run", shipped_scene("plane"), "--for-s", "0.1"},
                                {"check", shipped_scene("plane")},
                                {"params", shipped_scene("plane")},
@@ -257,13 +257,13 @@ TEST_F(ProgramFiles, AMarkBeforeTheTextIsReadOver) {
   std::string semicolons = good;
   std::replace(semicolons.begin(), semicolons.end(), ',', ';');
   EXPECT_THAT(line({"fit", write("semi.csv", semicolons)}), HasSubstr("parted by ';'"));
-  const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
+  const std::string mesh = tests::source_dir() + "/models/meshes/hare.glb";
   EXPECT_EQ(run_program({"nearest", mesh, write("p.csv", "\xEF\xBB\xBFx_m,y_m,z_m\n0,0,0\n")}, kShipped).code,
             0);
 }
 
 TEST_F(ProgramFiles, NearestKnowsArmsAndHowFarIsTooFar) {
-  const std::string mesh = ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb";
+  const std::string mesh = tests::source_dir() + "/models/meshes/hare.glb";
   EXPECT_THAT(line({"nearest", mesh, write("far.csv", "x_m,y_m,z_m\n0,1e300,0\n")}),
               HasSubstr("far.csv:2:3: 1e300 m is farther than"));
   const Result arm = run_program(
@@ -286,7 +286,7 @@ TEST_F(ProgramFiles, WhatNeverEndsIsRefused) {
            {"run", shipped_scene("plane"), "--rig", path("zero.toml")},
            {"fit", "/dev/zero"},
            {"calibrate", "/dev/zero"},
-           {"nearest", ENCOUNTER_SOURCE_DIR "/models/meshes/hare.glb", "/dev/zero"}})
+           {"nearest", tests::source_dir() + "/models/meshes/hare.glb", "/dev/zero"}})
     EXPECT_THAT(line(args, 2, 30.0), AllOf(HasSubstr("expected "), testing::Not(HasSubstr("bad_alloc"))));
 }
 

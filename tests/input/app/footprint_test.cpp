@@ -35,7 +35,7 @@ TEST(Footprint, TheProgramHoldsNoBenchmark) {
 
 TEST(Footprint, APlaneMapsNoModuleAndHasOneThread) {
   const Result result =
-      run_program({"run", ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml", "--for-s", "0.1", "--json"});
+      run_program({"run", tests::source_dir() + "/models/scenes/plane.toml", "--for-s", "0.1", "--json"});
   ASSERT_EQ(result.code, 0) << result.err;
   const Json json = Json::parse(result.out);
   EXPECT_EQ(json["threads"], 1);

@@ -116,7 +116,7 @@ TEST(Limits, CheckTellsTheClassAndEachBound) {
 TEST(Limits, ARigThatDoesNotSayWhatItLosesHasNoCertificate) {
   const test::TemporaryFolder folder;
   const std::string rig = folder.file("rig.toml");
-  std::ifstream shipped(std::string(ENCOUNTER_SOURCE_DIR) + "/models/rigs/vishap.toml");
+  std::ifstream shipped(tests::source_dir() + "/models/rigs/vishap.toml");
   std::string text{std::istreambuf_iterator<char>(shipped), {}};
   const std::size_t from = text.find("[arm.loop]");
   text.erase(from, text.find("[arm.machine]") - from);

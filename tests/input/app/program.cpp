@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 
 namespace enc::tests {
@@ -44,7 +45,7 @@ std::string loop_text() {
 
 Program::Program() {
   fs::create_directory(folder_ / "models");
-  const fs::path models = fs::path(ENCOUNTER_SOURCE_DIR) / "models";
+  const fs::path models = fs::path(tests::source_dir()) / "models";
   for (const char* part : {"scenes", "rigs", "mjcf", "responses"})
     fs::copy(models / part, folder_ / "models" / part, fs::copy_options::recursive);
   fs::copy(models / "behaviours.toml", folder_ / "models");

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/built.h"
+
 namespace enc::tests {
 namespace {
 
@@ -82,7 +84,7 @@ TEST_F(Program, ARunThatEndsInHoldSaysSo) {
 }
 
 TEST_F(Program, AClampedToolIsHeldAndSeen) {
-  const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml";
+  const std::string scene = tests::source_dir() + "/models/scenes/clamped_tool.toml";
   const Result r = run_program({"run", scene, "--for-s", "1", "--json"});
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_TRUE(Json::parse(r.out).at("built").contains("gripper"));

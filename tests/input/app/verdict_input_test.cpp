@@ -17,9 +17,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Result run_scene(const std::string& name, const std::string& set, int seed = 1) {
-  std::vector<std::string> words{"run",
-                                 std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + name + ".toml",
-                                 "--seed", std::to_string(seed)};
+  std::vector<std::string> words{"run", tests::source_dir() + "/models/scenes/" + name + ".toml", "--seed",
+                                 std::to_string(seed)};
   if (!set.empty()) words.insert(words.end(), {"--set", set});
   return run_program(words);
 }

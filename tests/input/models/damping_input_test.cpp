@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 
 namespace enc {
 namespace {
@@ -13,7 +14,7 @@ using testing::HasSubstr;
 
 std::string refused(const std::string& setting) {
   try {
-    models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml", "sim", {setting});
+    models::load(tests::source_dir() + "/models/scenes/plane.toml", "sim", {setting});
   } catch (const Error& e) {
     return e.what();
   }

@@ -21,7 +21,7 @@ using testing::StartsWith;
 class DriverInput : public testing::Test {
  protected:
   DriverInput() {
-    text_ = test::bytes_of(std::string(ENCOUNTER_SOURCE_DIR) + "/models/rigs/sim.toml");
+    text_ = test::bytes_of(tests::source_dir() + "/models/rigs/sim.toml");
     for (const std::string role : {"[manipulator]\n", "[force]\n"}) {
       const std::size_t at = text_.find(role + "driver = \"sim\"");
       text_.replace(at, role.size() + 14, role + "driver = \"sample\"");
@@ -39,7 +39,7 @@ class DriverInput : public testing::Test {
     return "encounter: " + rig() + ":" + std::to_string(line_ + line) + ":" + std::to_string(column) + ": ";
   }
   test::TemporaryFolder folder_;
-  std::string scene_ = std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/rig_A.toml", text_;
+  std::string scene_ = tests::source_dir() + "/models/scenes/rig_A.toml", text_;
   int line_ = 0;
 };
 

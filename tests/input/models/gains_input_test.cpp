@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/support/built.h"
 #include "trial/trial.h"
 
 namespace enc {
@@ -13,7 +14,7 @@ using ::testing::HasSubstr;
 
 std::string said_gains(const std::string& set) {
   try {
-    (void)trial::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", {set}));
+    (void)trial::prepare_setup(models::load(tests::source_dir() + "/models/scenes/wall.toml", "", {set}));
   } catch (const Error& e) {
     return e.what();
   }

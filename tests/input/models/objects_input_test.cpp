@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"
 
@@ -20,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const fs::path kModels = fs::path(ENCOUNTER_SOURCE_DIR) / "models";
+const fs::path kModels = fs::path(tests::source_dir()) / "models";
 
 models::Setup setup_of(const std::string& scene, const std::vector<std::string>& set = {},
                        const std::string& rig = "vishap") {

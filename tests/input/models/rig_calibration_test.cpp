@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "tests/support/replaced.h"
 #include "tests/support/temporary_folder.h"
 
@@ -30,7 +31,7 @@ using test::replaced;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::string kShippedModels = ENCOUNTER_SOURCE_DIR "/models/";
+const std::string kShippedModels = tests::source_dir() + "/models/";
 
 std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

@@ -7,6 +7,7 @@
 
 #include "models/setup/scene_file.h"
 #include "tests/input/models/scene_folder.h"
+#include "tests/support/built.h"
 #include "tests/support/replaced.h"
 
 namespace enc::models {
@@ -136,7 +137,7 @@ TEST_F(SceneFile, places) {
 
 // Every committed scene loads. (What needs its measured curve is skipped until that is generated.)
 TEST(Scenes, all_load) {
-  const std::string models = ENCOUNTER_SOURCE_DIR "/models";
+  const std::string models = tests::source_dir() + "/models";
   EXPECT_GE(files_in(models, "scenes").size(), 3U);
   const bool curves = fs::exists(models + "/responses/tennis_ball.toml");
   for (const std::string& name : files_in(models, "scenes")) {

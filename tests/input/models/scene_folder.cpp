@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "tests/support/replaced.h"
 
 namespace enc::test {
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 void SceneFile::SetUp() {
   folder_ = fs::temp_directory_path() / ("enc_scene_file_" + std::to_string(getpid()));
   for (const char* sub : {"scenes", "rigs", "responses"}) fs::create_directories(folder_ / sub);
-  std::ifstream rig(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml");
+  std::ifstream rig(tests::source_dir() + "/models/rigs/sim.toml");
   std::stringstream text;
   text << rig.rdbuf();
   rig_ = text.str();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "models/shapes/hare.h"
+#include "tests/support/built.h"
 #include "tests/support/scenes.h"
 #include "trial/prepare.h"
 
@@ -79,7 +80,7 @@ Drawn draw_scene(std::uint64_t seed, Random& random) {
     static std::map<std::string, models::Setup> setups;
     const std::string name = kArmScenes[random.of(kArmScenes.size())];
     if (!setups.contains(name))
-      setups[name] = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", "", {});
+      setups[name] = models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", "", {});
     drawn.what = "arm, " + name;
     drawn.scene = trial::prepare_setup(setups[name]);
     return drawn;

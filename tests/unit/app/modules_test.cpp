@@ -143,7 +143,7 @@ TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
   const auto hash = [&] {
     const std::string out = (folder_ / "border.h").string();
     EXPECT_EQ(tests::run({"cmake", "-DROOT=" + root.string(), "-DOUT=" + out, "-DCOMPILER=x", "-P",
-                          ENCOUNTER_SOURCE_DIR "/cmake/border.cmake"})
+                          tests::source_dir() + "/cmake/border.cmake"})
                   .code,
               0);
     std::ifstream file(out);
@@ -158,7 +158,7 @@ TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
   };
   for (const char* folder : {"core", "sim", "trial", "app", "benchmarks", "models"}) {
     fs::create_directories(root / folder);
-    fs::copy(fs::path(ENCOUNTER_SOURCE_DIR) / folder, root / folder,
+    fs::copy(fs::path(tests::source_dir()) / folder, root / folder,
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
   const std::string before = hash();

@@ -18,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const char* const kScene = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
+const std::string kScene = tests::source_dir() + "/models/scenes/tennis_ball.toml";
 
 // Mesa and LLVM keep some bytes at exit, which the leak checker of the dev build would make ours. All else
 // stays checked.
@@ -69,7 +69,7 @@ TEST(View, ABlowIsShownAtItsTouch) {
   if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const fs::path shot = fs::path(testing::TempDir()) / ("blow_" + std::to_string(getpid()) + ".png");
   const tests::Result result = tests::run_program(
-      {"view", ENCOUNTER_SOURCE_DIR "/models/scenes/hit_ball.toml", "--shot", shot.string()}, kNotOurLeaks);
+      {"view", tests::source_dir() + "/models/scenes/hit_ball.toml", "--shot", shot.string()}, kNotOurLeaks);
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("at 1.5"));
   fs::remove(shot);
@@ -79,7 +79,7 @@ TEST(View, WhatIsRefusedIsSaidWithItsPlace) {
   if (!tests::is_built("view")) GTEST_SKIP() << "built without the view";
   const std::string far = "object.wall.position_mm=[0, 0, -900]";
   const tests::Result result = tests::run_program(
-      {"view", ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "--shot", "a.png", "--set", far},
+      {"view", tests::source_dir() + "/models/scenes/wall.toml", "--shot", "a.png", "--set", far},
       kNotOurLeaks);
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("--set " + far + ": the arm does not get"));

@@ -15,6 +15,7 @@
 #include "models/schema/toml_writer.h"
 #include "models/setup/scene_file.h"
 #include "sim/truth_fields.h"
+#include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"
 
@@ -23,7 +24,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-const std::string kModels = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kModels = tests::source_dir() + "/models";
 
 // Calls `found` with every value's full name.
 class Walk final : public Visitor {

@@ -10,13 +10,14 @@
 
 #include "models/schema/schema.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
 
 namespace enc::models {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string kShipped = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kShipped = tests::source_dir() + "/models";
 
 std::map<std::string, std::string> values_of(const Setup& setup) {
   std::map<std::string, std::string> values;

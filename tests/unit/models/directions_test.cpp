@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 
 namespace enc::models {
 namespace {
@@ -123,7 +124,7 @@ TEST(Directions, MistakesInTheFileAreOneLine) {
 
 // ---- in a scene -------------------------------------------------------------------------------------------
 
-const std::string kFolder = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kFolder = tests::source_dir() + "/models";
 
 Setup any_ball(std::vector<std::string> set) {
   set.insert(set.begin(), "object.ball.behaviour=tennis_ball_any");

@@ -14,6 +14,7 @@
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 
 namespace enc::models {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-std::string source(const std::string& path) { return std::string(ENCOUNTER_SOURCE_DIR) + "/" + path; }
+std::string source(const std::string& path) { return tests::source_dir() + "/" + path; }
 
 // The committed scenes without the measured curve, so that these tests need no generated file.
 models::Setup plane() { return load(source("models/scenes/plane.toml"), "sim"); }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "tests/support/scenes.h"
 #include "trial/trial.h"
 
@@ -43,7 +44,7 @@ TEST(HexapodPlant, AServoIsAsSlowAsItsEquationHoweverFastItIs) {
 TEST(User, PushesNoHarderThanAHandDoes) {
   trial::TrialOptions options;
   options.seconds = 6.0;
-  models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml", "",
+  models::Setup setup = models::load(tests::source_dir() + "/models/scenes/plane.toml", "",
                                      {"user.depth_mm=400", "truth.hand.strength_N=20"});
   trial::Trial trial(std::move(setup), options);
   double most = 0.0;

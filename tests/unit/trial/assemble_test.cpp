@@ -22,7 +22,7 @@ const std::vector<std::string> kSample{kUncalibrated[0], kUncalibrated[1],
                                        "rig.calibration.valid_days=36500"};
 
 models::Setup scene(const std::string& name, const std::vector<std::string>& set = {}) {
-  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", {}, set);
+  return models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", {}, set);
 }
 
 class Assemble : public testing::Test {

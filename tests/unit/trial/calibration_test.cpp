@@ -3,13 +3,14 @@
 #include <cstdlib>
 
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "trial/trial.h"
 
 namespace enc {
 namespace {
 
 models::Setup still_setup() {
-  models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml", "sim");
+  models::Setup setup = models::load(tests::source_dir() + "/models/scenes/plane.toml", "sim");
   setup.twin.tracker.bias = setup.twin.tracker.noise = Vec3::Zero();
   setup.twin.force.zero = setup.twin.force.drift = setup.twin.force.noise = 0.0;
   setup.twin.hand.tremor = setup.twin.hand.drift = 0.0;  // the hand stands still while it waits: 0.6 s

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "tests/unit/trial/runs.h"
 
 namespace enc::trial {
@@ -14,8 +15,7 @@ namespace {
 using certificate::Class;
 
 std::vector<Certified> of(const std::string& name, const std::vector<std::string>& set = {}) {
-  const models::Setup setup =
-      models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + name + ".toml", "", set);
+  const models::Setup setup = models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", "", set);
   return certificates_of(setup, prepare_setup(setup));
 }
 
@@ -70,7 +70,7 @@ TEST(Certificates, ALargeSignalBoundIsOneSidedWhereTheSearchEnds) {
   using Side = certificate::Row::Side;
   const auto row = [](const std::string& name, const std::vector<std::string>& set) {
     const models::Setup setup =
-        models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", "", set);
+        models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", "", set);
     return certificate::row_of(certificates_of(setup, prepare_setup(setup), true).back().certificate,
                                "large_signal");
   };
@@ -89,7 +89,7 @@ TEST(Certificates, ALargeSignalBoundIsOneSidedWhereTheSearchEnds) {
 
 // So many copies of the wall's object, each elsewhere on the arm's plane.
 models::Setup tiled(std::size_t count) {
-  models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/keypad.toml", "", {});
+  models::Setup setup = models::load(tests::source_dir() + "/models/scenes/keypad.toml", "", {});
   const ObjectSpec key = setup.scene.objects.front();
   setup.scene.objects.assign(count, key);
   for (std::size_t i = 0; i < count; ++i) {
@@ -131,7 +131,7 @@ TEST(Certificates, ManyObjectsThatAreAlikeShareTheWorst) {
 // Of the floor of `reaching`, which may be touched anywhere.
 TEST(Certificates, AreOfTheWorstOfAFewPlaces) {
   const models::Setup setup =
-      models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", {"rig.arm.speed_mm_s=600"});
+      models::load(tests::source_dir() + "/models/scenes/wall.toml", "", {"rig.arm.speed_mm_s=600"});
   models::Setup anywhere = setup;
   anywhere.scene.user.reset();
   const Certified pressed = certificates_of(setup, prepare_setup(setup)).back();

@@ -9,6 +9,7 @@
 #include "core/devices/roles.h"
 #include "core/error.h"
 #include "models/setup/driver_table.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/replaced.h"
 #include "tests/support/temporary_folder.h"
@@ -102,7 +103,7 @@ class DriverContract : public testing::Test {
  protected:
   DriverContract() {
     given() = Given{};
-    text_ = test::bytes_of(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml");
+    text_ = test::bytes_of(tests::source_dir() + "/models/rigs/sim.toml");
     for (const std::string role : {"[manipulator]\n", "[gripper]\n"})
       text_ = replaced(text_, role + "driver = \"sim\"", role + "driver = \"box\"");
     text_ =
@@ -111,7 +112,7 @@ class DriverContract : public testing::Test {
   }
   models::Setup load(const std::string& table, const std::vector<std::string>& set = {}) {
     std::ofstream(rig_) << text_ << table;
-    return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml", rig_, set);
+    return models::load(tests::source_dir() + "/models/scenes/clamped_tool.toml", rig_, set);
   }
   // lab.toml:LINE:COLUMN, the line counted from the table on.
   [[nodiscard]] std::string at(int line, int column) const {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "tests/support/scenes.h"
 #include "trial/trial.h"
 
@@ -65,7 +66,7 @@ TEST(DropOut, TheCommandCatchesUpWithoutALeap) {
 TEST(DropOut, APressAfterABlackOutIsFelt) {
   const auto peak = [](const char* at) {
     const models::Setup setup = models::load(
-        ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml", {},
+        tests::source_dir() + "/models/scenes/tennis_ball.toml", {},
         {"user.approach_mm_s=[200]", "user.approach_from_mm=100", "user.press_s=1", "user.release_s=1",
          std::string("truth.tracker.blackout_at_s=") + at, "truth.tracker.blackout_for_s=0.3"});
     double most = 0.0;

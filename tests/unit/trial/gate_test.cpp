@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/support/built.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -117,7 +118,7 @@ struct Watchers {
 };
 
 models::Setup shipped_scene(const std::string& name, const std::vector<std::string>& set = {}) {
-  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + name + ".toml", {}, set);
+  return models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", {}, set);
 }
 
 // ---- stop

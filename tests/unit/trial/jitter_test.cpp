@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "trial/measure/felt_apart.h"
 #include "trial/measure/frame_force.h"
 #include "trial/trackers/jittered_tracker.h"
@@ -27,7 +28,7 @@ FeltWay press(Duration jitter, std::uint64_t seed) {
                                                     JitteredTracker::Spec{kFrame, jitter, seed});
   };
   options.watch = [&](const Glance& glance) { way.see(glance); };
-  Trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "",
+  Trial(models::load(tests::source_dir() + "/models/scenes/wall.toml", "",
                      {"truth.tracker.latency_ms=0", "user.approach_mm_s=[100]", "user.rest_s=1"}),
         options)
       .run();
@@ -66,7 +67,7 @@ Pressed press_fast(std::uint64_t seed, bool beside = true) {
     const double deep = glance.truth.tool_radius - glance.truth.tool_tip.xyz[2];
     pressed.too_deep = std::max(pressed.too_deep, glance.out.deflection - deep);
   };
-  pressed.result = Trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "",
+  pressed.result = Trial(models::load(tests::source_dir() + "/models/scenes/wall.toml", "",
                                       {"user.approach_mm_s=[200, 300]", "user.press_s=0.6", "user.hold_s=0.3",
                                        "user.release_s=0.4", "user.rest_s=1", "user.depth_mm=5"}),
                          options)

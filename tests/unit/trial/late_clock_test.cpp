@@ -113,7 +113,7 @@ TEST(LateClock, AnArmedRunHoldsAfterAStallAndSendsNoBurst) {
       EXPECT_NE(glance.out.why & kClockLate, 0U);
     };
     trial::Trial trial(
-        models::load(std::string(ENCOUNTER_SOURCE_DIR "/models/scenes/") + scene + ".toml", {},
+        models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", {},
                      {"rig.manipulator.driver=\"sample\"", "rig.force.driver=\"sample\"",
                       "rig.calibration.date=\"2026-11-27\"", "rig.calibration.valid_days=36500"}),
         options);

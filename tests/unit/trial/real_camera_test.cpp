@@ -66,8 +66,8 @@ class RealCamera : public testing::Test {
   ~RealCamera() override { unsetenv("ENCOUNTER_MODULES"); }
   static models::Setup wall(const std::string& arm, const std::string& camera) {
     return models::load(
-        ENCOUNTER_SOURCE_DIR "/models/scenes/camera/wall.toml",
-        ENCOUNTER_SOURCE_DIR "/models/rigs/vishap.toml",
+        tests::source_dir() + "/models/scenes/camera/wall.toml",
+        tests::source_dir() + "/models/rigs/vishap.toml",
         {"user.depth_mm=2", "rig.arm.driver=\"" + arm + "\"", "rig.camera.driver=\"" + camera + "\"",
          "rig.calibration.date=\"2026-11-27\"", "rig.calibration.valid_days=36500"});
   }

@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::test {
 
 models::Setup scene(const std::string& name, const Set& set) {
-  return models::load(
-      std::string(ENCOUNTER_SOURCE_DIR).append("/models/scenes/").append(name).append(".toml"), "sim", set);
+  return models::load(tests::source_dir() + "/models/scenes/" + name + ".toml", "sim", set);
 }
 
 Set quick(const Set& more) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 
 namespace enc::trial {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using Set = std::vector<std::string>;
 
 models::Setup setup_of(const std::string& scene, const Set& set = {}) {
-  return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
+  return models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", set);
 }
 
 // Two presses of 6 mm with little between them.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "tests/support/scenes.h"
 #include "trial/trial.h"
 
@@ -16,7 +17,7 @@ trial::TrialOptions seeded(std::uint64_t seed) {
   return options;
 }
 models::Setup shipped(const std::string& scene) {
-  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene + ".toml", "", {});
+  return models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", {});
 }
 
 TEST(ShippedBall, IsOneContactAHit) {
@@ -58,7 +59,7 @@ Unfounded unfounded_of(trial::Trial& trial) {
 TEST(ShippedBall, IsNotHitByTheArmsOwnLag) {
   for (const char* tilt : {"45", "60"})
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      trial::Trial trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/hit_ball.toml", "",
+      trial::Trial trial(models::load(tests::source_dir() + "/models/scenes/hit_ball.toml", "",
                                       {std::string("user.approach_tilt_deg=") + tilt}),
                          seeded(seed));
       EXPECT_EQ(unfounded_of(trial).begun, 0) << tilt << " degrees, seed " << seed;
@@ -70,7 +71,7 @@ TEST(ShippedBall, IsNotHitByTheArmsOwnLag) {
 TEST(ShippedBall, IsLetGoWhenNothingIsFelt) {
   for (const char* hard : {"user.approach_mm_s=[2]", "behaviour.hit_ball.interaction.travel_mm=10",
                            "behaviour.hit_ball.interaction.mass_kg=100"}) {
-    trial::Trial trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/hit_ball.toml", "", {hard}),
+    trial::Trial trial(models::load(tests::source_dir() + "/models/scenes/hit_ball.toml", "", {hard}),
                        seeded(1));
     EXPECT_LT(unfounded_of(trial).lasting, 0.05) << hard;
     EXPECT_NE(trial.outputs().mode, Mode::contact) << hard;

@@ -13,7 +13,7 @@ namespace enc::trial {
 namespace {
 
 models::Setup touched(const std::string& scene, const std::vector<std::string>& set = {}) {
-  return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
+  return models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", set);
 }
 
 // As of a real arm and a real finger: the measure is not shown what is true.

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/input/app/calibrate/calibrate_files.h"
+#include "tests/support/built.h"
 #include "tests/support/replaced.h"
 
 namespace enc::tests {
@@ -43,9 +44,9 @@ TEST_F(CalibrateMachine, WritesWhatTheRigReads) {
   // It is not written over.
   EXPECT_THAT(line({"calibrate", "sim", "--poses", "12", "--out", out}), HasSubstr("--force"));
   // The rig that names it believes it, and says so.
-  write("rig.toml", replaced(text_of(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml"), "\n[loop]\n",
+  write("rig.toml", replaced(text_of(tests::source_dir() + "/models/rigs/sim.toml"), "\n[loop]\n",
                              "\n[calibration]\nfile = \"measured.toml\"\n\n[loop]\n"));
-  const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml";
+  const std::string scene = tests::source_dir() + "/models/scenes/tracking.toml";
   const Result params = run_program({"params", scene, "--rig", path("rig.toml")}, kShipped);
   ASSERT_EQ(params.code, 0) << params.err;
   EXPECT_THAT(params.out, testing::ContainsRegex("rig.force.mass_kg,kg,1.1[^\n]*measured.toml"));
@@ -71,10 +72,10 @@ TEST_F(CalibrateMachine, RefusesInALineWhatCannotBe) {
   EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--set", "rig.force.driver=sim"}),
               AllOf(HasSubstr("--set rig.force.driver=sim: "), HasSubstr("needs a force sensor"),
                     HasSubstr("here it is 'sim'")));
-  const std::string tracked = ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml";
+  const std::string tracked = tests::source_dir() + "/models/scenes/tracking.toml";
   EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--scene", tracked, "--set", "rig.force.driver=none"}),
               HasSubstr("here it is 'none'"));
-  write("bare.toml", replaced(text_of(ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml"),
+  write("bare.toml", replaced(text_of(tests::source_dir() + "/models/scenes/clamped_tool.toml"),
                               "[force]\n[tracker]\n", ""));
   EXPECT_THAT(line({"calibrate", "sim", "--scene", path("bare.toml"), "--set", "rig.force.driver=none",
                     "--set", "rig.tracker.driver=none"}),
@@ -87,7 +88,7 @@ TEST_F(CalibrateMachine, RefusesInALineWhatCannotBe) {
   EXPECT_THAT(line({"calibrate", "vishap", "--armed"}), HasSubstr("--armed is of a rig with a hexapod"));
   EXPECT_THAT(line({"calibrate", write("log.csv", "time_s\n"), "--scene", "x"}),
               HasSubstr("--scene is of a rig"));
-  EXPECT_THAT(line({"calibrate", "sim", "--scene", ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml"}),
+  EXPECT_THAT(line({"calibrate", "sim", "--scene", tests::source_dir() + "/models/scenes/plane.toml"}),
               HasSubstr("no tool is clamped"));
   EXPECT_NE(run_program({"calibrate", "sim", "--poses", "3"}, kShipped).code, 0);
   EXPECT_THAT(line({"calibrate", "sim", "--poses", "12", "--set", "truth.tracker.loss=1"}),

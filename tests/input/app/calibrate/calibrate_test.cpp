@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/input/app/calibrate/calibrate_files.h"
+#include "tests/support/built.h"
 
 namespace enc::tests {
 namespace {
@@ -53,7 +54,7 @@ TEST_F(Calibrate, TellsBiasAndLatency) {
 }
 
 TEST_F(Calibrate, ReadsWhatExportWrites) {
-  const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml";
+  const std::string scene = tests::source_dir() + "/models/scenes/clamped_tool.toml";
   ASSERT_EQ(run_program({"run", scene, "--for-s", "3", "--record", path("r.encrec"), "--set",
                          "truth.tracker.bias_mm=[0.2,0,-0.1]"},
                         kShipped)
@@ -70,7 +71,7 @@ TEST_F(Calibrate, ReadsWhatExportWrites) {
 // The whole way, of the scene in which the machine carries a tool past the tracker: 3.5 ms of the tracker,
 // half an exposure, 9.2 ms of the server, 0.5 ms of network, half a cycle; injected 5 ms more.
 TEST_F(Calibrate, FindsTheLatencyOfTheTrackingScene) {
-  const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml";
+  const std::string scene = tests::source_dir() + "/models/scenes/tracking.toml";
   ASSERT_EQ(run_program({"run", scene, "--record", path("t.encrec"), "--set", "travel.dwell_s=0.5", "--set",
                          "travel.ways=both_ways", "--set", "truth.tracker.latency_ms=8.5"},
                         kShipped)
@@ -117,7 +118,7 @@ const std::string kPoints =
 
 // A person presses a ball: the tip follows the tool, and is no reference for it.
 TEST_F(Calibrate, AToolThatGoesItsOwnWayTellsNothing) {
-  const std::string scene = ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml";
+  const std::string scene = tests::source_dir() + "/models/scenes/tennis_ball.toml";
   ASSERT_EQ(run_program({"run", scene, "--for-s", "40", "--record", path("p.encrec")}, kShipped).code, 0);
   ASSERT_EQ(run_program({"export", path("p.encrec"), "--csv", path("p.csv")}).code, 0);
   EXPECT_THAT(line({"calibrate", path("p.csv")}), HasSubstr("of the tool's motion"));

@@ -14,6 +14,7 @@
 #include "core/vision/image.h"
 #include "hw_drivers/images/files/image_file.h"
 #include "sim/picture/picture.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/one_line.h"
 #include "tests/support/run_program.h"
@@ -130,7 +131,7 @@ TEST_F(CalibrateSkin, WritesWhatARigReads) {
                                                           images_ + " --skin " + masks_ + "\n"));
   EXPECT_THAT(line({"--out", "-"}), HasSubstr("--out: '-' is no name of a file"));
   // In the place of the rig's own table.
-  const std::string models = ENCOUNTER_SOURCE_DIR "/models", table = test::bytes_of(out);
+  const std::string models = tests::source_dir() + "/models", table = test::bytes_of(out);
   std::string rig = test::bytes_of(models + "/rigs/vishap.toml");
   const std::size_t from = rig.find("[vision]"), to = rig.find("\n[", from);
   rig.replace(from, to - from, table);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -15,7 +16,7 @@
 namespace enc::tests {
 namespace {
 
-const std::string kFolder = ENCOUNTER_SOURCE_DIR "/models";
+const std::string kFolder = tests::source_dir() + "/models";
 
 // A finger that comes, is seen from 0.9 s on, and touches at 1.4 s; images of a quarter of the pixels.
 const std::vector<std::string> kPress{"run",

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "app/run/run_report.h"
+#include "tests/support/built.h"
 
 namespace enc::app {
 namespace {
@@ -32,7 +33,7 @@ struct Held {
     return count;
   }
 
-  models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tennis_ball.toml", "sim");
+  models::Setup setup = models::load(tests::source_dir() + "/models/scenes/tennis_ball.toml", "sim");
   trial::TrialOptions options;
   trial::RunMeasures measured{setup, options};
   std::vector<trial::ArmStrength> strengths;

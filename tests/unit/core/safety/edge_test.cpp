@@ -10,6 +10,7 @@
 #include "core/safety/inside.h"
 #include "core/safety/room.h"
 #include "models/shapes/hare.h"
+#include "tests/support/built.h"
 #include "tests/support/scenes.h"
 #include "trial/trial.h"
 
@@ -151,7 +152,7 @@ class Gliding : public PoseTracker {
 
 // With the lag, the delay and the steps of the simulated machine.
 TEST(Edges, TheTwinStaysInsideOfACubeWithoutAHold) {
-  models::Setup setup = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/hare.toml", {}, {});
+  models::Setup setup = models::load(tests::source_dir() + "/models/scenes/hare.toml", {}, {});
   ObjectSpec& object = setup.scene.objects[0];
   object.surface = std::make_shared<const Mesh>(test::box(0.06, 0.06, 0.06));
   object.position = Vec3(0, 0, kHigh);

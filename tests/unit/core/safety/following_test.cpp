@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "tests/support/scenes.h"
 #include "trial/finger_loop.h"
 #include "trial/trial.h"
@@ -143,7 +144,7 @@ TEST(Following, ADryRunIsNotHeld) {
 trial::TrialResult run(const std::string& scene, const std::vector<std::string>& set, double seconds) {
   trial::TrialOptions options;
   options.seconds = seconds;
-  return trial::Trial(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene + ".toml", {}, set),
+  return trial::Trial(models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", {}, set),
                       options)
       .run();
 }
@@ -159,7 +160,7 @@ TEST(Following, ATwinWithADeadServoEndsInHold) {
 TEST(Following, AnArmThatIsStuckIsFoundOutUnderATouchToo) {
   const std::vector<std::string> exact{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
   trial::FingerLoop loop(
-      trial::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", exact)));
+      trial::prepare_setup(models::load(tests::source_dir() + "/models/scenes/wall.toml", "", exact)));
   loop.in.withheld = false;
   for (int i = 0; i < 200; ++i) loop.tick(Point<'W'>(0.060, 0.0, 0.058));
   for (int i = 0; i < 1000; ++i) loop.tick(Point<'W'>(0.060, 0.0, 0.005));  // 3 mm deep, 60 mm from the tip
@@ -170,7 +171,7 @@ TEST(Following, AnArmThatIsStuckIsFoundOutUnderATouchToo) {
 TEST(Following, AnArmThatIsStuckIsHeldUntilTheFingerHasGone) {
   const std::vector<std::string> exact{"rig.tracker.prediction=\"hold\"", "rig.tracker.usual_age_ms=2"};
   trial::FingerLoop loop(
-      trial::prepare_setup(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "", exact)));
+      trial::prepare_setup(models::load(tests::source_dir() + "/models/scenes/wall.toml", "", exact)));
   loop.in.withheld = false;
   const auto at = [&](double gap, int ticks) {
     for (int i = 0; i < ticks; ++i) loop.tick(Point<'W'>(0.060, 0.0, 0.008 + gap));

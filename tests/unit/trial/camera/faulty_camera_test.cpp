@@ -10,6 +10,7 @@
 #include "core/vision/vision_module.h"
 #include "core/vision/vision_tracker.h"
 #include "sim/camera/twin_camera.h"
+#include "tests/support/built.h"
 #include "tests/support/vision/quarter_size.h"
 #include "trial/trial.h"
 
@@ -42,7 +43,7 @@ models::Setup press(const std::vector<std::string>& more) {
   const std::vector<std::string> small = test::quarter_size();
   set.insert(set.end(), small.begin(), small.end());
   set.insert(set.end(), more.begin(), more.end());
-  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/camera/wall.toml", "", set);
+  return models::load(tests::source_dir() + "/models/scenes/camera/wall.toml", "", set);
 }
 
 struct Seen {

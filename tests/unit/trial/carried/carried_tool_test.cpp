@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/rotation.h"
 #include "models/fit/machine/turn.h"
+#include "tests/support/built.h"
 #include "trial/carried/machine_calibration.h"
 
 namespace enc::trial {
@@ -24,7 +25,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 models::Setup clamped(const std::vector<std::string>& set = {}) {
-  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/clamped_tool.toml", "", set);
+  return models::load(tests::source_dir() + "/models/scenes/clamped_tool.toml", "", set);
 }
 
 class CountedStops final : public Manipulator {
@@ -84,7 +85,7 @@ TEST(CarriedTool, SaysWhatKeepsItFromGoing) {
               }),
               AllOf(HasSubstr("hold"), HasSubstr("calibrate again")));
   EXPECT_THAT(said([] {
-                CarriedTool tool(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/plane.toml", "", {}), {});
+                CarriedTool tool(models::load(tests::source_dir() + "/models/scenes/plane.toml", "", {}), {});
               }),
               HasSubstr("no tool is clamped in this scene"));
   // A machine that does not do as it is told.
@@ -266,7 +267,7 @@ TEST(MachineCalibration, FindsWhatTheRigDoesNotKnow) {
 
 TEST(MachineCalibration, WeighsWhatTheSceneDoesNotAskForAndMissesAToolThatNobodySees) {
   const auto found = [](const std::vector<std::string>& set) {
-    CarriedTool tool(models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/tracking.toml", "", set), {});
+    CarriedTool tool(models::load(tests::source_dir() + "/models/scenes/tracking.toml", "", set), {});
     return calibrate_machine(tool, 12);
   };
   EXPECT_TRUE(found({}).weight) << "the scene names no force sensor, and the rig has one";

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/task/meet/guide.h"
+#include "tests/support/built.h"
 #include "trial/guided/registration_rig.h"
 #include "trial/trial.h"
 
@@ -20,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 models::Setup vishap(const std::vector<std::string>& set = {}) {
-  return models::load_rig_setup(ENCOUNTER_SOURCE_DIR "/models/rigs/vishap.toml", set);
+  return models::load_rig_setup(tests::source_dir() + "/models/rigs/vishap.toml", set);
 }
 const Point<'W'> kPlace(0.020, 0.060, -0.030);
 

@@ -9,13 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "trial/ledger/ledger_measure.h"
 
 namespace enc::trial {
 namespace {
 
 models::Setup setup_of(const std::string& scene, const std::vector<std::string>& set = {}) {
-  return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
+  return models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", set);
 }
 
 std::vector<ContactLedger> ledger_of(const models::Setup& setup, std::uint64_t seed, double time_s) {

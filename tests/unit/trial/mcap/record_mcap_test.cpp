@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/built.h"
 #include "tests/support/scenes.h"
 #include "tests/unit/trial/mcap/walked_mcap.h"
 #include "trial/mcap/json_schema.h"
@@ -195,7 +196,7 @@ TEST(RecordMcap, WhatADeviceHasNotSaidYetHasNoStamp) {
   gripper.scene.tools.push_back(gripper.scene.tools.front());
   gripper.scene.tools.back().name = "clamped";
   gripper.scene.gripper.emplace().tool = "clamped";
-  const models::Setup arm = models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "vishap", {});
+  const models::Setup arm = models::load(tests::source_dir() + "/models/scenes/wall.toml", "vishap", {});
   const auto check = [](const models::Setup& setup, const char* topic, auto device) {
     std::vector<RecordedTick> ticks(2);
     for (std::int64_t i = 0; i < 2; ++i) ticks[static_cast<std::size_t>(i)].tick.t = Time(Duration(5 + i));

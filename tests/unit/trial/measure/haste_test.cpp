@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/trial.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 // m, sorted: between the tip and its target along the surface, at each touch of random reaches.
 std::vector<double> apart_when_they_meet(const char* scene) {
-  models::Setup setup = models::load(fmt::format("{}/models/scenes/{}.toml", ENCOUNTER_SOURCE_DIR, scene), "",
+  models::Setup setup = models::load(fmt::format("{}/models/scenes/{}.toml", tests::source_dir(), scene), "",
                                      {"truth.hand.aborted=0"});
   setup.scene.user->kind = UserKind::reaches;
   if (!setup.scene.user->reaches) setup.scene.user->reaches.emplace();
@@ -50,7 +51,7 @@ TEST(Haste, TheTipIsWhereItsTargetIsWhenTheFingerTouches) {
 TEST(Haste, TheChosenKeyDoesNotFlickerBetweenPictures) {
   for (const std::uint64_t seed : {1U, 5U, 29U}) {
     models::Setup setup =
-        models::load(fmt::format("{}/models/scenes/keypad.toml", ENCOUNTER_SOURCE_DIR), "",
+        models::load(fmt::format("{}/models/scenes/keypad.toml", tests::source_dir()), "",
                      {"object.key_1.position_mm=[-20,20,20]", "object.key_2.position_mm=[-20,-20,0]",
                       "user.object=key_2", "user.approach_mm_s=[100]", "user.approach_tilt_deg=40"});
     setup.scene.objects.resize(2);

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/task/meet/arm_scene.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "tests/unit/trial/measure/controlled_replay.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/passivity_measure.h"
@@ -25,7 +26,7 @@ constexpr double kCycle = 2.6e-3;  // J: F v T of one, 8.5 N at 0.3 m/s
 models::Setup setup_of(const std::string& scene, const Set& set, const Set& more = {}) {
   Set all = set;
   all.insert(all.end(), more.begin(), more.end());
-  return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", all);
+  return models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", all);
 }
 
 // Of a wall that lies flat, by what is true: the tip's place and not what its encoders say.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -14,7 +15,7 @@ namespace {
 std::size_t departures(const std::string& scene, std::uint64_t seed,
                        const std::vector<std::string>& set = {}) {
   const models::Setup setup =
-      models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
+      models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", set);
   PressMeasure presses(setup);
   TrialOptions options;
   options.seed = seed;

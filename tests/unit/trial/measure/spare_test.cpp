@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "tests/unit/trial/measure/controlled_replay.h"
 #include "trial/ledger/ledger_measure.h"
 #include "trial/measure/passivity_measure.h"
@@ -24,7 +25,7 @@ const Set kControlledHexapod{"rig.admittance.passivity=controlled"};
 
 models::Setup loaded(const std::string& scene, Set set, const Set& more = {}) {
   set.insert(set.end(), more.begin(), more.end());
-  return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
+  return models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", set);
 }
 
 struct Pressed {

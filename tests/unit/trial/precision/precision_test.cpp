@@ -13,13 +13,14 @@
 #include "app/check/advise.h"
 #include "core/error.h"
 #include "models/setup/scene_file.h"
+#include "tests/support/built.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
 namespace {
 
 models::Setup setup_of(const std::string& scene, const std::vector<std::string>& set = {}) {
-  return models::load(std::string(ENCOUNTER_SOURCE_DIR) + "/models/scenes/" + scene + ".toml", "", set);
+  return models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", set);
 }
 
 std::vector<Vec3> tool_path(const std::string& scene, const std::vector<std::string>& set, double seconds) {

@@ -1,5 +1,6 @@
 #include "tests/unit/trial/shadow/shadow_runs.h"
 
+#include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/prepare.h"
 #include "trial/trial.h"
@@ -37,7 +38,7 @@ models::Setup set_up(const ShadowedScene& scene, const std::string& rig,
                      const std::vector<std::string>& more) {
   std::vector<std::string> set = scene.set;
   set.insert(set.end(), more.begin(), more.end());
-  return models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/" + scene.name + ".toml", rig, set);
+  return models::load(tests::source_dir() + "/models/scenes/" + scene.name + ".toml", rig, set);
 }
 
 trial::Shadow shadowed(const ShadowedScene& scene, std::uint64_t seed,

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/replaced.h"
 #include "tests/support/temporary_folder.h"
@@ -86,7 +87,7 @@ TEST(ShadowTwins, AreTheSetUpWithWhatIsPutOverIt) {
 TEST(ShadowTwins, OfARigWithoutTruthSeeAsItsCalibrationSays) {
   const TemporaryFolder folder;
   const std::string frame = "position_mm = [0, -900, 600]\nrotation_deg = [0, 0, 0]\n";
-  const std::string sim = bytes_of(ENCOUNTER_SOURCE_DIR "/models/rigs/sim.toml");
+  const std::string sim = bytes_of(tests::source_dir() + "/models/rigs/sim.toml");
   std::ofstream(folder.file("mine.toml"))
       << replaced(replaced(sim, "[truth.frames.W_C]\n" + frame, ""), frame,
                   "position_mm = [3, -896, 604]\nrotation_deg = [1, -1, 1.4]\n");

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built.h"
 #include "tests/support/finger_bench.h"
 #include "tests/support/scenes.h"
 
@@ -92,7 +93,7 @@ TEST(Reaching, ThePropFacesTheSurfaceThatIsBelievedToBeMet) {
 // the nearest point leaps to the left one, 12 mm away and more.
 trial::FingerLoop over_a_groove() {
   models::Setup setup =
-      models::load(ENCOUNTER_SOURCE_DIR "/models/scenes/wall.toml", "",
+      models::load(tests::source_dir() + "/models/scenes/wall.toml", "",
                    {"rig.tracker.prediction=\"constant_velocity\"", "rig.tracker.measurement_noise_mm=0.01",
                     "rig.tracker.usual_age_ms=20"});
   ObjectSpec& object = setup.scene.objects[0];

@@ -7,11 +7,12 @@
 
 #include "core/vision/calibration/stereo_calibration.h"
 #include "hw_drivers/images/files/pair_list.h"
+#include "tests/support/built.h"
 
 namespace enc {
 namespace {
 
-const std::string kFolder = ENCOUNTER_SOURCE_DIR "/.deps/chessboards";
+const std::string kFolder = tests::source_dir() + "/.deps/chessboards";
 const Board kBoard{9, 6, 0.025};  // the sheet's squares are of no known size; this one is for the report
 
 std::vector<PairCorners> real_pairs() {
