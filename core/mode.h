@@ -10,10 +10,12 @@ namespace enc {
 // Each mode has a cause, and is over when that is:
 //
 //   follow   a tool that is known is within the pause distance                                   at once
-//   contact  force is felt with the tool within 10 mm, or the tool is within the leave gap;      leave time
-//            until force was first felt: within 10 mm, for 0.5 s; force that is felt of a tool
-//            that is seen to be clear (tare_clearance) counts for 0.5 s
-//            behind a damper, the tip is deeper than the leave gap and no tool is 10 mm away     5 s
+//   contact  the contact's own tool is within the leave gap; or force is felt and that tool is    leave time
+//            within 10 mm. Before force was first felt: that tool is within 10 mm, for 0.5 s
+//            force is felt and its own tool is seen clear of the object (tare_clearance)          0.5 s
+//            force is felt and its own tool is out of view: while the force varies, as a hand's   5 s
+//            does, or another tool is near the object
+//            behind a damper, the tip is deeper than the leave gap and no tool is 10 mm away      5 s
 //   restore  the tip is on its way to the buffered point                                         2 s
 //   hold     a reason to hold; of a machine that did not follow: the tool is still there         at once
 //

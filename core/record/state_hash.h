@@ -18,6 +18,8 @@ template <class T>
 [[nodiscard]] std::uint64_t leaf_bits(const T& x) {
   if constexpr (std::is_same_v<T, double>)
     return std::isnan(x) ? 0x7ff8000000000000ULL : std::bit_cast<std::uint64_t>(x);
+  else if constexpr (std::is_same_v<T, float>)
+    return leaf_bits(static_cast<double>(x));
   else if constexpr (std::is_same_v<T, Time>)
     return static_cast<std::uint64_t>(x.time_since_epoch().count());
   else if constexpr (std::is_same_v<T, Duration>)
@@ -29,6 +31,8 @@ template <class T>
 void set_leaf(T& x, std::uint64_t bits) {
   if constexpr (std::is_same_v<T, double>)
     x = std::bit_cast<double>(bits);
+  else if constexpr (std::is_same_v<T, float>)
+    x = static_cast<float>(std::bit_cast<double>(bits));
   else if constexpr (std::is_same_v<T, Time>)
     x = Time(Duration(static_cast<std::int64_t>(bits)));
   else if constexpr (std::is_same_v<T, Duration>)

@@ -15,9 +15,11 @@ struct Contact {
   Pose<'W', 'N'> X_WN;     // at the first touch
   bool anchored = false;   // true once force was felt with the tip under the tool: the anchor no longer moves
   bool below = false;      // nothing was felt yet, and the tip is still on its way to it, lower than its tool
-  Time loaded{};           // last tick on which force was felt; the start of time: never
-  Time began{}, left{};    // when it began, and when the tip was sent back
-  double clear = 0.0;      // s for which its tool has been seen to be clear of the object
+  // N: the force that has stayed the same while the tool that is seen is clear and not the contact's own
+  float steady_force = 0.0F;
+  Time loaded{};         // last tick on which force was felt; the start of time: never
+  Time began{}, left{};  // when it began, and when the tip was sent back
+  double clear = 0.0;    // s for which whichever tool is seen has been clear of the object
 };
 
 template <class F>
@@ -31,6 +33,7 @@ void fields(F& f, Contact& c) {
   f("contact_began", c.began);
   f("contact_left", c.left);
   f("contact_clear", c.clear);
+  if (c.steady_force != 0.0F) f("contact_steady_force", c.steady_force);
 }
 
 }  // namespace enc

@@ -1,5 +1,7 @@
 // Which mode the machine is in [VHMR 3.3, 3.4]. Hysteresis everywhere: one press is one contact, whatever the
 // noise.
+#include <cmath>
+
 #include "core/rotation.h"
 #include "core/task/walk.h"
 
@@ -14,13 +16,29 @@ double pressing_force(const Walk& walk, const Vec<'W'>& normal) {
 // can mend that. Wider than what a tool at 200 mm/s moves while its pose is on the way.
 constexpr double kFar = 10e-3;  // m
 // How long a mode may outlive its cause (mode.h).
-constexpr double kMeeting = 0.5, kReturning = 5.0, kRestoring = 2.0;  // s
+constexpr double kMeeting = 0.5, kReturning = 5.0, kRestoring = 2.0, kUnseen = 5.0;  // s
 bool too_far(const Walk& walk) { return walk.tool_known && walk.gap > kFar; }
 
 // A hand that presses cannot change its tool: another one in view did not make this contact, and where it is
 // says nothing of it. Then force alone holds the contact and ends it.
 bool changed_tool(const Walk& walk, const State& state, const Rendering& now) {
   return walk.tool_known && state.tool.value.tool != now.contact.tool;
+}
+
+// A tool is known where the scene has a tracker that could see one.
+bool nothing_seen(const Walk& walk) { return walk.scene.has_tracker && !walk.tool_known; }
+
+// Force without a cause: it is an error of the sensor's zero. The contact's own tool is seen clear of the
+// object; or that tool is out of view, whichever tool is seen is clear, and the force stays the same, which
+// no hand can do.
+bool force_is_drift(const Walk& walk, bool own, double force, Contact& contact) {
+  if (!walk.scene.has_tracker) return false;
+  const bool clear = !walk.tool_known || (walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance);
+  const bool steady =
+      own || std::abs(force - static_cast<double>(contact.steady_force)) <= walk.scene.force.contact;
+  if (!steady) contact.steady_force = static_cast<float>(force);
+  contact.clear = clear && steady ? contact.clear + walk.scene.dt : 0.0;
+  return contact.clear >= (own ? kMeeting : kUnseen);
 }
 
 // As near to the buffered point as the machine gets.
@@ -76,13 +94,9 @@ void in_contact(Walk& walk, const Render& task, State& state, Rendering& now) {
   const double force = pressing_force(walk, now.contact.X_WN * Vec<'N'>(0, 0, 1));
   // Nothing but the force speaks for the contact of a tool that is no longer seen: it has to be a whole one.
   const double least = (changed ? 1.0 : 0.5) * walk.scene.force.contact;
-  // What is felt while the tool is seen to be clear for so long is an error of the zero, which is learnt
-  // anew.
-  const bool clear =
-      walk.tool_known && walk.tool_fresh && !changed && walk.gap > walk.scene.force.tare_clearance;
-  now.contact.clear = clear ? now.contact.clear + walk.scene.dt : 0.0;
-  const bool drifted = now.contact.clear >= kMeeting;
-  if (drifted && force >= least) now.tared = 0.0;
+  const bool own = walk.tool_known && !changed;
+  const bool drifted = force_is_drift(walk, own, force, now.contact);
+  if (drifted && own && force >= least) now.tared = 0.0;  // learnt anew
   if (force >= least && !drifted && (changed || !too_far(walk))) now.contact.loaded = walk.tick.t;
   const double without = age(walk.tick.t, now.contact.loaded);  // force, s
   // Behind a damper the tip comes back slowly; what pushed it may wait there.
@@ -104,7 +118,7 @@ void in_contact(Walk& walk, const Render& task, State& state, Rendering& now) {
 
 void in_free_space(Walk& walk, State& state, Rendering& now) {
   const FollowSpec& follow = walk.scene.follow;
-  if (walk.scene.has_tracker && !walk.tool_known) {
+  if (nothing_seen(walk)) {
     state.mode = Mode::away;
     return;
   }
@@ -130,11 +144,11 @@ void mode(Walk& walk, const Render& task, State& state, Rendering& now) noexcept
   } else if (state.mode == Mode::restore) {
     const Point<'W'> buffered = now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin);
     const Vec<'W'> normal = now.contact.X_WN * Vec<'N'>(0, 0, 1);
-    if (pressing_force(walk, normal) >= walk.scene.force.contact && !too_far(walk)) {
+    if (pressing_force(walk, normal) >= walk.scene.force.contact && !too_far(walk) && !nothing_seen(walk)) {
       begin_contact(walk, state, now, true);  // pressed again before the tip was back
     } else if ((walk.X_WH.origin() - buffered).norm() <= walk.scene.contact.restored || at_rest(walk, now) ||
                age(walk.tick.t, now.contact.left) >= kRestoring) {
-      state.mode = Mode::follow;
+      state.mode = nothing_seen(walk) ? Mode::away : Mode::follow;
     }
   } else {
     in_free_space(walk, state, now);

@@ -88,6 +88,12 @@ Drawn draw_scene(std::uint64_t seed, Random& random) {
   const SceneSpec spec = hexapod_scene(random, drawn.what);
   SceneSpec with = spec;
   with.follow.inset = random.in(20e-6, 0.5e-3);
+  if (with.tracker && with.tools.size() == 1) {
+    ToolSpec other = with.tools.front();
+    other.name = "other";
+    for (Vec3& marker : other.markers) marker *= 1.3;
+    with.tools.push_back(other);
+  }
   drawn.scene = prepare(with, drawn_rig(random));
   return drawn;
 }

@@ -36,15 +36,19 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
     return {};
   }
   if (state.mode != Mode::contact) {
-    loose_ = in_contact_ = 0.0;
+    loose_ = in_contact_ = alone_ = 0.0;
     return {};
   }
   in_contact_ += dt;
   const double force = -out.force.xyz[2];
-  const bool near =
-      tool_known && state.tool.value.tool == contact_of(state).tool && out.gap <= scene.contact.leave_gap;
-  const bool pressed = force >= 0.5 * scene.force.contact &&
-                       (!tool_known || out.gap <= 10e-3 || state.tool.value.tool != contact_of(state).tool);
+  const bool own = tool_known && (!scene.has_tracker || state.tool.value.tool == contact_of(state).tool);
+  const bool near = own && out.gap <= scene.contact.leave_gap;
+  const bool elsewhere = !own && (!tool_known || out.gap > scene.force.tare_clearance);
+  const bool same = std::abs(force - same_force_) <= scene.force.contact;
+  if (!same) same_force_ = force;
+  alone_ = elsewhere && same ? alone_ + dt : 0.0;
+  const bool pressed =
+      force >= 0.5 * scene.force.contact && (own ? out.gap <= 10e-3 : alone_ <= 5.0 + 3.0 * dt);
   const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;
   loose_ = near || pressed || coming ? 0.0 : loose_ + dt;
   const bool damped = scene.render()->damping && !(tool_known && out.gap > 10e-3);

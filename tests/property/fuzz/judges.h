@@ -17,6 +17,8 @@ class Modes {
 
  private:
   double well_ = 0.0, far_ = 0.0, restore_ = 0.0, loose_ = 0.0, in_contact_ = 0.0;
+  double alone_ = 0.0,
+         same_force_ = 0.0;  // s for which a force of so many N stayed the same, its tool out of view
 };
 
 // Commands of a position-controlled machine; targets of an arm.

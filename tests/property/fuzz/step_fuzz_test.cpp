@@ -46,6 +46,7 @@ class World {
     }
     honest_ = random.once_in(3);  // the devices say what is so, the hand alone touches the tip
     jams_ = !scene.impedance() && random.once_in(4);
+    if (!honest_ && random.once_in(3)) zero_jump_ = random.in(0.05, 0.4);
     test::SpoilOne count{random.engine, -1};
     fields(count, in);
     numbers_ = count.seen;
@@ -62,6 +63,15 @@ class World {
     }
     if (honest_) spoil_every_ = 0;
     if (zero_.norm() > 0.1) drift_ = -0.5 * zero_;
+    if (zero_jump_ > 0.0 && k_.index >= 2500) {  // after the first tare, and for good
+      zero_ = Vec3(0, 0, -zero_jump_);
+      drift_ = Vec3(0, 0, 0);
+    }
+    // The tool goes out of view, and another one lies there or is taken up.
+    if (scene_.tools.size() > 1 && !honest_ && random_.once_in(4000)) {
+      other_until_ = k_.index + 500 + static_cast<std::int64_t>(random_.of(12'000));
+      other_ = Vec3(random_.in(-0.15, 0.15), random_.in(-0.15, 0.15), random_.in(-0.01, 0.15));
+    }
     if (random_.once_in(1500)) gone_until_ = k_.index + 50 + static_cast<std::int64_t>(random_.of(450));
     if (jams_ && random_.once_in(3000))
       jammed_until_ = k_.index + 200 + static_cast<std::int64_t>(random_.of(1800));
@@ -69,7 +79,7 @@ class World {
     move_hand();
     machine();
     bool well = seen && spoil_every_ == 0 && zero_.norm() < 0.05;
-    clean_ = seen && spoil_every_ == 0 ? clean_ + scene_.dt : 0.0;
+    clean_ = seen && spoil_every_ == 0 && k_.index >= other_until_ ? clean_ + scene_.dt : 0.0;
     in.missed = 0;
     say_machine();
     if (scene_.has_tracker && seen && k_.index % 8 == 0) say_tool();
@@ -182,9 +192,12 @@ class World {
         Health::ok};
   }
   void say_tool() {
-    const Vec3 noisy = hand_ + random_.vec(20e-6);
-    const Pose<'W', 'T'> X_WT(Quat::Identity(), noisy - scene_.tools[0].tip.centre.e());
-    in.tool = {{0, scene_.X_WC.inverse() * X_WT}, k_.t - Duration(15'000'000), Health::ok};
+    const bool other = k_.index < other_until_;
+    const Vec3 noisy = (other ? other_ : hand_) + random_.vec(20e-6);
+    const std::int32_t tool = other ? 1 : 0;
+    const Pose<'W', 'T'> X_WT(Quat::Identity(),
+                              noisy - scene_.tools[static_cast<std::size_t>(tool)].tip.centre.e());
+    in.tool = {{tool, scene_.X_WC.inverse() * X_WT}, k_.t - Duration(15'000'000), Health::ok};
   }
 
   const Scene& scene_;
@@ -199,7 +212,9 @@ class World {
   Vec3 zero_low_{0, 0, 0}, zero_high_{0, 0, 0};
   double speed_ = 0.05, fastest_ = 0.0, clean_ = 0.0, off_ = 0.0;
   unsigned spoil_every_ = 0;
-  std::int64_t gone_until_ = 0, jammed_until_ = 0;
+  std::int64_t gone_until_ = 0, jammed_until_ = 0, other_until_ = 0;
+  Vec3 other_{0, 0, 0};
+  double zero_jump_ = 0.0;  // N
   bool seen_ = true, honest_ = false, jams_ = false, stuck_ = false;
 };
 

@@ -1,4 +1,6 @@
 // Each mode ends when its cause has (mode.h).
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/scenes.h"
@@ -92,6 +94,82 @@ TEST(ModeEnds, AContactOfAToolThatIsSeenToBeClear) {
     loop.tick(5000);
     EXPECT_EQ(loop.out.contacts, contacts) << drift;
   }
+}
+
+SceneSpec two_tools() {
+  SceneSpec spec = test::plane_scene();
+  ToolSpec other = spec.tools.front();
+  other.name = "other";
+  for (Vec3& marker : other.markers) marker *= 1.3;
+  spec.tools.push_back(other);
+  return spec;
+}
+
+// The tool vanishes as it lets go, another one is seen 150 mm away, and the zero is off: no cause is left.
+TEST(ModeEnds, AContactWhoseToolIsOutOfViewWhileAnotherIsSeenClear) {
+  for (const double drift : {0.06, 0.12, 0.5, 2.0}) {
+    SCOPED_TRACE(drift);
+    Loop loop(prepare(two_tools(), test::exact_rig()));
+    loop.tool_tip = at_gap(0.02);
+    loop.tick(1500);
+    loop.tool_tip = at_gap(-0.002);
+    loop.force = Vec<'W'>(0, 0, -5.0);
+    loop.tick(1000);
+    ASSERT_EQ(loop.out.mode, Mode::contact);
+    loop.force_zero = Vec<'F'>(0, 0, -drift);
+    loop.force = Vec<'W'>::zero();
+    loop.tool = 1;
+    loop.tool_tip = at_gap(0.150);
+    loop.tick(8000);
+    EXPECT_EQ(loop.out.mode, Mode::away) << why_text(loop.out.why);
+    const std::int32_t contacts = loop.out.contacts;
+    loop.tick(20'000);
+    EXPECT_EQ(loop.out.mode, Mode::away);
+    EXPECT_EQ(loop.out.contacts, contacts);
+  }
+}
+
+// A hand that presses varies its force: its contact stays, though its own tool is hidden and another lies in
+// view.
+TEST(ModeEnds, NotAContactWhoseForceVariesWhileItsToolIsHidden) {
+  Loop loop(prepare(two_tools(), test::exact_rig()));
+  loop.tool_tip = at_gap(0.02);
+  loop.tick(1500);
+  loop.tool_tip = at_gap(-0.002);
+  loop.force = Vec<'W'>(0, 0, -3.0);
+  loop.tick(1000);
+  ASSERT_EQ(loop.out.mode, Mode::contact);
+  loop.tool = 1;
+  loop.tool_tip = at_gap(0.150);
+  for (int i = 0; i < 20'000; ++i) {
+    loop.force = Vec<'W'>(0, 0, -3.0 - 0.2 * std::sin(2e-3 * i));  // 2 % or so, at 0.3 Hz
+    loop.tick();
+    ASSERT_EQ(loop.out.mode, Mode::contact) << i;
+  }
+  EXPECT_EQ(loop.out.contacts, 1);
+}
+
+// Only the tool that the gripper holds is in view when the tip is back: there is nothing to follow.
+TEST(ModeEnds, RestoringWithNoToolInViewEndsInAway) {
+  SceneSpec spec = two_tools();
+  spec.gripper.emplace().tool = "other";
+  Loop loop(prepare(spec, test::exact_rig()));
+  loop.spoil = [&loop](Inputs& in) {
+    in.grip = {{GripPhase::closed, 0.006, 100.0, true}, loop.now(), Health::ok};
+  };
+  loop.tool_tip = at_gap(0.02);
+  loop.tick(1500);
+  loop.tool_tip = at_gap(-0.002);
+  loop.force = Vec<'W'>(0, 0, -5.0);
+  loop.tick(1000);
+  ASSERT_EQ(loop.out.mode, Mode::contact) << why_text(loop.out.why);
+  loop.force = Vec<'W'>::zero();
+  loop.tool = 1;
+  for (int i = 0; i < 8000; ++i) {
+    loop.tick();
+    ASSERT_NE(loop.out.mode, Mode::hold) << i << ": " << why_text(loop.out.why);
+  }
+  EXPECT_EQ(loop.out.mode, Mode::away);
 }
 
 // A tip that never gets to where it was, and never stands still: noise of a machine, or a surface that is in
