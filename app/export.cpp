@@ -12,12 +12,12 @@
 #include "app/lack.h"
 #include "app/options.h"
 #include "app/process.h"
-#include "app/run/stop_signals.h"
 #include "core/error.h"
 #include "models/files.h"
 #include "trial/assemble.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"
+#include "trial/operator/signals.h"
 #include "trial/prepare.h"
 
 namespace enc::app {
@@ -117,7 +117,7 @@ template <class Take>
 bool take_all(RecordReader& record, bool stoppable, const Take& take) {
   for (RecordedTick frame; record.next(frame);) {
     take(frame);
-    if (stoppable && StopSignals::caught() != 0) return false;
+    if (stoppable && trial::Signals::caught() != 0) return false;
   }
   return true;
 }
@@ -160,8 +160,8 @@ int export_record(const ExportOptions& options) {
   const Scene scene = trial::prepare_setup(setup);
   const std::string ledger = options.ledger ? ledger_of(record, options.record) : "";
   // A pipe without a reader ends this as it ends others.
-  std::optional<StopSignals> signals;
-  if (mcap || csv != "-") signals.emplace();
+  std::optional<trial::Signals> signals;
+  if (mcap || csv != "-") signals.emplace().begin();
   std::string lack;
   if (options.ledger) {
     Output output(csv, models::existing(options.force));
@@ -171,7 +171,7 @@ int export_record(const ExportOptions& options) {
   } else {
     const bool whole = mcap ? write_mcap(options, record, setup, scene)
                             : write_table(options, csv, signals.has_value(), record, setup, scene);
-    if (!whole) return 128 + StopSignals::caught();
+    if (!whole) return 128 + trial::Signals::caught();
     lack = lack_of(record, mcap ? "file" : "table");
   }
   if (!lack.empty()) fmt::print(stderr, "encounter: {}: {}\n", options.record, lack);

@@ -35,9 +35,11 @@ struct CalibrateOptions {
   // Of a rig with a hexapod, with `out`, `force`, `seed` and `set`.
   std::string scene;  // whose clamped tool is carried; empty: clamped_tool
   std::optional<std::size_t> poses;
-  bool armed = false, lockstep = false;
-  std::function<void()> catch_signals{};  // from here on stop() tells of them
+  bool armed = false, lockstep = false, yes = false, not_real_time = false;
+  std::function<void()> catch_signals{};  // from here on stop() reports them
   std::function<bool()> stop{};
+  // Asks, unless there is nothing to ask, and reads keys from then on; false: the machine must not move.
+  std::function<bool(const std::string& question)> confirm{};
   // Of a folder of images, with `out`, `force` and `json`.
   std::optional<double> square_mm;
   std::optional<std::string> corners;  // "9x6"

@@ -28,6 +28,7 @@ struct RunOptions : SceneOptions {
   bool json = false;
   bool armed = false;
   bool lockstep = false;
+  bool yes = false, not_real_time = false;
   bool force = false;  // replaces a file that is there; so below
 };
 struct CheckOptions : SceneOptions {

@@ -10,7 +10,7 @@
 #include "models/schema/wording.h"
 #include "trial/camera/kept_frames.h"
 #include "trial/camera/vision.h"
-#include "trial/device_log.h"
+#include "trial/devices/device_log.h"
 
 namespace enc::app {
 namespace {

@@ -37,7 +37,7 @@ find_library(OPENIGTLINK_LIBRARY OpenIGTLink)
 add_custom_target(tests_sanitized) # what `./check` builds in dev
 add_custom_target(tests_optimised) # and in release
 set(sanitized unit input fuzz golden conformance)
-set(optimised heavy property golden fuzz benchmarks hygiene shape)
+set(optimised heavy property golden fuzz benchmarks hygiene shape terminal)
 # Of tests/unit and tests/input: what draws pictures by the thousand, runs whole scenes, or follows a mass through 10^8
 # periods. Under ASan they take 10 to 30 times as long, four fifths of all the time there. A new test that takes a second
 # in release belongs here.
@@ -147,6 +147,7 @@ if(OPENIGTLINK_INCLUDE_DIR AND OPENIGTLINK_LIBRARY)
   target_include_directories(test_conformance SYSTEM PRIVATE ${OPENIGTLINK_INCLUDE_DIR})
   target_link_libraries(test_conformance PRIVATE ${OPENIGTLINK_LIBRARY})
 endif()
+enc_test(terminal 2) # a person at the terminal of an armed run
 enc_test(benchmarks 2 $<LINK_LIBRARY:WHOLE_ARCHIVE,enc_bench>)
 enc_test(input 4)
 enc_test(shape 1)

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "models/setup/driver_table.h"
 #include "trial/camera/vision.h"
-#include "trial/driver_device.h"
+#include "trial/devices/driver_device.h"
 
 namespace enc::trial {
 namespace {

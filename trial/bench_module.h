@@ -17,9 +17,10 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::int64_t repeats = 0;  // 0: the benchmark's own
   bool quick = false, full = false, list = false, force = false;
-  std::string rig;                       // over whose devices it is measured; empty: in the twin
-  bool armed = false, lockstep = false;  // of them, as for a run
-  bool fakes = false;                    // `encounter fake` stands in for them
+  std::string rig;                          // over whose devices it is measured; empty: in the twin
+  bool armed = false, lockstep = false;     // of them, as for a run
+  bool yes = false, not_real_time = false;  // likewise
+  bool fakes = false;                       // `encounter fake` stands in for them
 };
 struct QuestionnaireOptions {
   std::string form = "vhmr_2020";

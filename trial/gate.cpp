@@ -32,10 +32,12 @@ void Gate::mark(const Rig& rig, Time now, Inputs& in) noexcept {
 
 void Gate::lose(RoleId id, const char* role, Time now, bool by_hand) noexcept {
   if (!lost_[at(id)] && links_.size() < kLinks) links_.push_back({role, now, by_hand});
+  by_hand_[at(id)] = by_hand && (!lost_[at(id)] || by_hand_[at(id)]);
   lost_[at(id)] = true;
 }
 
 void Gate::halt(Rig& rig, Time now) noexcept {
+  halted_ = true;
   each_role([&](const auto& role) {
     auto& device = rig.*role.slot;
     if constexpr (requires { device->stop(); })
@@ -56,6 +58,7 @@ void Gate::unmark(Inputs& in) noexcept {
 void Gate::resume() noexcept {
   resumed_ = resumed_ || lost_[at(RoleId::manipulator)];
   lost_ = {};
+  halted_ = false;
 }
 
 bool Gate::open(RoleId id, const Outputs& out) const noexcept {

@@ -41,6 +41,11 @@ class Gate {
   void resume() noexcept;
 
   [[nodiscard]] bool lost() const noexcept { return lost_ != std::array<bool, kRoles>{}; }
+  // The link of this role's device, and not only by hand.
+  [[nodiscard]] bool link_lost(RoleId id) const noexcept {
+    return lost_[static_cast<std::size_t>(id)] && !by_hand_[static_cast<std::size_t>(id)];
+  }
+  [[nodiscard]] bool halted() const noexcept { return halted_; }               // by hand, until resume()
   [[nodiscard]] std::int64_t withheld() const { return withheld_; }            // commands of dry devices
   [[nodiscard]] const std::vector<LostLink>& links() const { return links_; }  // the first 16
 
@@ -49,9 +54,10 @@ class Gate {
   [[nodiscard]] bool open(RoleId id, const Outputs& out) const noexcept;
   [[nodiscard]] bool sent(RoleId id, const Outputs& out) noexcept;  // counts what is not
 
-  std::array<bool, kRoles> dry_{}, lost_{}, marked_{};
+  std::array<bool, kRoles> dry_{}, lost_{}, by_hand_{}, marked_{};
   std::array<Health, kRoles> said_{};  // what is marked
   bool resumed_ = false;               // a machine, since the last tick
+  bool halted_ = false;
   std::int64_t withheld_ = 0;
   std::vector<LostLink> links_;
   bool stopped_ = true;  // nothing was told since

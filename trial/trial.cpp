@@ -57,8 +57,9 @@ void refuse_lockstep(const Slots& slots, const TrialOptions& options) {
 }
 
 // What a simulated machine only says, a real one does not begin (sources/choices 15).
-void refuse_limits(const models::Setup& setup, const Scene& scene) {
-  for (const Certified& one : certificates_of(setup, scene))
+void refuse_limits(const models::Setup& setup, const Scene& scene,
+                   const std::vector<Certified>& certificates) {
+  for (const Certified& one : certificates)
     if (const std::string why = refusal_text(setup, one); !why.empty())
       throw Error(models::place_of(setup, key_of(one)) + ": " + why + "; a real machine is not armed for it");
   for (const ArmStrength& at : strengths_of(setup, scene))
@@ -74,6 +75,18 @@ bool is_fake(const models::Setup& setup, const std::string& driver) {
   const std::string at = models::driver_text(setup.rig, driver, "address");
   const bool number = at.find_first_not_of("0123456789.") == std::string::npos;
   return (number && at.starts_with("127.")) || at == "localhost" || at == "::1";
+}
+
+// A tick that comes late holds the machine, and without real-time priority any other program makes it late.
+void refuse_slow(const models::Setup& setup, const RealTime& real_time) {
+  if (real_time.granted()) return;
+  for (const DrivenRole& role : driven_roles(setup))
+    if (role.moves && !is_fake(setup, role.driver))
+      throw Error(
+          fmt::format("{}: the loop gets no real-time priority, so cycles may be missed while the machine "
+                      "moves ({}); expected "
+                      "the priority; allow it, or add --not-real-time",
+                      models::place_of(setup, role.key), real_time.words()));
 }
 
 // With frames that nobody measured, or that may have changed, its tip is not where anybody expects it.
@@ -96,19 +109,23 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   const bool wall = slots.real && !options_.lockstep && keeps_wall_time(setup_, options_.drivers);
   const double pace = pace_of(options_, wall);
   result_.keeps_wall_time = wall && pace > 0.0;
-  if (slots.machine && options_.armed) refuse_limits(setup_, scene_);
+  const bool armed = slots.machine && options_.armed;
+  if (armed || options_.certify) certificates_ = certificates_of(setup_, scene_);
+  if (armed) refuse_limits(setup_, scene_, certificates_);
   if (slots.real && options_.armed && !options_.lockstep && !options_.calibrates) refuse_uncalibrated(setup_);
   // What keeps no wall clock works within the loop, so that it is the same in every run.
   const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
-  if (slots.machine && options_.armed && setup_.scene.camera && !threaded)
+  if (armed && setup_.scene.camera && !threaded)
     throw Error(models::place_of(setup_, "camera") +
                 ": vision through a camera that is simulated, or only plays, works within the haptic loop, "
                 "where a frame takes many periods; expected a real camera, for which it has a thread of its "
                 "own; a real machine is not armed for it");
-  if (wall && options_.real_time) {
-    real_time_ = std::make_unique<RealTime>(true);
-    result_.real_time = real_time_->words();
-  }
+  if (setup_.scene.camera && !options_.drivers)
+    throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
+  if (!setup_.scene.camera && !options_.frames.empty())
+    throw Error(
+        "--frames: the scene has no [camera], whose frames would be kept; leave it out, or run another "
+        "scene");
   simulated_ = !slots.real;
   leads_ = slots.machine && slots.simulated && setup_.scene.manipulator.has_value();
   if (slots.simulated || !slots.real) {
@@ -118,20 +135,21 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   } else {
     rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
   }
+  plan_length(pace);
+  if (options_.begins) options_.begins();
+  if (wall && options_.real_time) {  // before the devices, whose threads are as this one
+    real_time_ = std::make_unique<RealTime>(true);
+    result_.real_time = real_time_->words();
+    if (armed && options_.needs_real_time) refuse_slow(setup_, *real_time_);
+  }
   gate_ = Gate(setup_, slots.real && !options_.armed);
   if (slots.real) put_drivers(rig_, setup_, options_.drivers, log_, {pace == 0.0, options_.lockstep});
   if (setup_.scene.camera) {
-    if (!options_.drivers)
-      throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
     rig_.tracker = make_vision(
         setup_, options_.drivers,
         {world_.get(), options_.seed, log_, pace == 0.0, threaded, options_.look, options_.frames});
     result_.vision.threaded = threaded;
   }
-  if (!setup_.scene.camera && !options_.frames.empty())
-    throw Error(
-        "--frames: the scene has no [camera], whose frames would be kept; leave it out, or run another "
-        "scene");
   if (slots.real) result_.devices = describe_drivers(rig_, setup_);
   in_.withheld = slots.machine && !options_.armed;
   if (options_.fit_out) options_.fit_out(rig_);
@@ -139,6 +157,10 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (pace > 0.0)
     rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace,
                                               wall ? sim::Late::skip : sim::Late::wait, options_.stop);
+}
+
+// How many ticks it takes, and room for what is kept of each.
+void Trial::plan_length(double pace) {
   result_.holds.reserve(TrialResult::kMostHolds);
   if (std::isinf(options_.seconds)) {
     last_tick_ = std::numeric_limits<std::int64_t>::max();
@@ -211,15 +233,16 @@ bool Trial::tick() {
   gate_.write(rig_, out_);
   if (result_.step_ns.size() < result_.step_ns.capacity())
     result_.step_ns.push_back(nanoseconds(after - before));
+  const std::uint32_t period = result_.ticks > 0 ? nanoseconds(before.time_since_epoch() - before_) : 0;
   if (result_.ticks > 0 && result_.period_ns.size() < result_.period_ns.capacity())
-    result_.period_ns.push_back(nanoseconds(before.time_since_epoch() - before_));
+    result_.period_ns.push_back(period);
   before_ = before.time_since_epoch();
   count();
   if (record_ != nullptr) {
     record_->write(now_, in_, out_, hash_.value);
     result_.stopped = record_->full();
   }
-  if (options_.watch) options_.watch({scene_, now_, truth(), in_, out_, simulated_, &state_});
+  if (options_.watch) options_.watch({scene_, now_, truth(), in_, out_, simulated_, &state_, &gate_, period});
   if (world_) result_.diverged_at = world_->diverged_at();
   return true;
 }

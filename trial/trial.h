@@ -17,49 +17,14 @@
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
 #include "trial/assemble.h"
-#include "trial/device_log.h"
+#include "trial/certificates.h"
+#include "trial/devices/device_log.h"
 #include "trial/gate.h"
 #include "trial/time/real_time.h"
+#include "trial/trial_options.h"
 #include "trial/trial_result.h"
 
 namespace enc::trial {
-
-// What a tick was, for measures that look on. Truth is for them alone; the core does not see it.
-struct Glance {
-  const Scene& scene;
-  const Tick& tick;
-  const sim::Truth& truth;  // nothing in it is set where no slot is simulated
-  const Inputs& in;
-  const Outputs& out;
-  bool simulated = true;         // every slot: the truth knows what is touched
-  const State* state = nullptr;  // of the core, after the tick, where it is at hand
-};
-
-// Another law in place of step(), such as guide(), which moves an arm without a finger.
-using Law = std::function<void(const Scene&, const Tick&, const Inputs&, State&, Outputs&)>;
-
-struct TrialOptions {
-  std::uint64_t seed = 1;
-  double seconds = kUnset;  // unset: until the user or the probe of the scene is done; infinite: for ever
-  double pace = 0.0;        // experiment seconds for each wall second; 0: as fast as it goes
-  bool draw_all = false;    // build what is only looked at, too
-  DriverSource drivers{};   // none: every slot is simulated, whatever the rig names
-  std::string frames{};     // folder in which the frames of its camera are kept; empty: nowhere
-  bool work = false;        // the twin counts its work, as a LedgerMeasure asks; nothing else differs
-  bool armed = false;       // commands are sent to real devices; else they are only computed
-  bool real_time = false;   // a run that keeps the wall clock comes before other work (real_time.h)
-  bool lockstep = false;    // what answers is a fake whose time goes on with this loop's; needs `armed`
-  bool calibrates = false;  // a real machine is armed, though nobody has measured its rig of late
-  std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
-  std::function<Hand()> hand{};  // asked before each tick
-  // Hooks, in the order of a tick; an empty one is not called.
-  std::function<void(Rig&)> fit_out{};  // once: puts other devices in place of those of the rig
-  std::function<void(const Stamped<StereoFrame>&)> look{};  // while reading: each pair of a camera's images
-  std::function<void(Inputs&)> disturb{};                   // after reading
-  Law law{};                                                // in place of step()
-  std::function<void(const Glance&)> watch{};               // after the tick
-  std::function<void(double)> progress{};                   // share done, about ten times a second
-};
 
 class Trial {
  public:
@@ -79,6 +44,7 @@ class Trial {
   [[nodiscard]] const TrialResult& result() const { return result_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const models::Setup& setup() const { return setup_; }
+  [[nodiscard]] const std::vector<Certified>& certificates() const { return certificates_; }
   [[nodiscard]] const Tick& now() const { return now_; }  // of the last tick
   [[nodiscard]] Rig& rig() { return rig_; }
   [[nodiscard]] Inputs& inputs() { return in_; }
@@ -94,6 +60,7 @@ class Trial {
 
  private:
   void count();
+  void plan_length(double pace);
 
   models::Setup setup_;
   TrialOptions options_;
@@ -115,6 +82,7 @@ class Trial {
   RecordWriter* record_ = nullptr;
   bool simulated_ = true;  // every slot
   bool leads_ = false;     // the twin's machine follows one that is not simulated
+  std::vector<Certified> certificates_;
 };
 
 }  // namespace enc::trial

@@ -1,6 +1,6 @@
 // The command line. Each subcommand is one function in a file of its own (options.h). Exit codes: 0 yes, 1
-// the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold or diverged; 129, 130 and 143
-// after a clean end by SIGHUP, SIGINT and SIGTERM.
+// the answer is no, 2 the words or files are wrong, 3 a device, 4 ended in hold or diverged; 129, 130, 131
+// and 143 after a clean end by SIGHUP, SIGINT, SIGQUIT and SIGTERM.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -50,7 +50,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
                    "keep what the scene's camera sees in this new folder, as PNG images")
       ->check(unnamed);
   run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
-  device_options(run_command, run_options.armed, run_options.lockstep);
+  device_options(run_command, run_options);
   force_option(run_command, run_options.force);
   run_command->callback([&] { code = run(run_options); });
 
@@ -192,7 +192,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
                    "measure over the devices of this rig in place of the twin: a name in models/rigs, or a "
                    "file; tracking and stiffness can")
       ->check(unnamed);
-  device_options(bench_command, bench_options.armed, bench_options.lockstep);
+  device_options(bench_command, bench_options);
   bench_command->add_flag("--fakes", bench_options.fakes,
                           "`encounter fake` stands in for the devices of --rig; it is begun and ended here");
   bench_command->add_flag("--list", bench_options.list, "only print the benchmarks and what they show");

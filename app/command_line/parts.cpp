@@ -22,14 +22,6 @@ void force_option(CLI::App* command, bool& force) {
   command->add_flag("--force", force, "replace files that are there");
 }
 
-void device_options(CLI::App* command, bool& armed, bool& lockstep) {
-  command->add_flag("--armed", armed,
-                    "send commands to real devices; without it they are only computed and recorded");
-  command->add_flag("--lockstep", lockstep,
-                    "the devices are those of `encounter fake --lockstep`, whose time goes on with each "
-                    "set-point: as fast as it goes, and the same in every run");
-}
-
 CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options) {
   CLI::App* command = app.add_subcommand(
       "calibrate",
@@ -73,7 +65,7 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options) {
       ->check(unnamed);
   command->add_option("--poses", options.poses, "of a rig: in which the machine stands still; default: 24")
       ->check(CLI::Range(12, 500));
-  device_options(command, options.armed, options.lockstep);
+  device_options(command, options);
   command->add_option("--square-mm", options.square_mm, "of a chessboard: side of the board's squares");
   command->add_option("--corners", options.corners,
                       "of a chessboard: inner corners of the board; default: 9x6");

@@ -15,7 +15,19 @@ std::string bad_seed(const std::string& text);
 std::string unnamed(const std::string& text);
 
 void force_option(CLI::App* command, bool& force);
-void device_options(CLI::App* command, bool& armed, bool& lockstep);
+// The options of a command that may move real devices: armed, lockstep, yes, not_real_time.
+template <class Options>
+void device_options(CLI::App* command, Options& options) {
+  command->add_flag("--armed", options.armed,
+                    "send commands to real devices; without it they only go into the record");
+  command->add_flag(
+      "--lockstep", options.lockstep,
+      "run against `encounter fake --lockstep`: each set-point advances time by one period, so runs are "
+      "fast and repeatable");
+  command->add_flag("--yes", options.yes, "begin an armed run without the question before its first motion");
+  command->add_flag("--not-real-time", options.not_real_time,
+                    "move a real machine although the system refuses real-time priority to the loop");
+}
 CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options);
 CLI::App* add_shadow(CLI::App& app, ShadowOptions& options);
 

@@ -225,6 +225,8 @@ void refuse_carried(const CalibrateOptions& o, const std::string& of) {
   refuse(o.poses.has_value(), "--poses", of, o);
   refuse(o.armed, "--armed", of, o);
   refuse(o.lockstep, "--lockstep", of, o);
+  refuse(o.yes, "--yes", of, o);
+  refuse(o.not_real_time, "--not-real-time", of, o);
 }
 void refuse_rig_options(const CalibrateOptions& o) {
   refuse(!o.out.empty(), "--out", "a rig", o);

@@ -24,6 +24,7 @@
 #include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
 #include "trial/carried/machine_calibration.h"
+#include "trial/operator/consent.h"
 
 namespace enc::app {
 namespace {
@@ -187,6 +188,11 @@ void refuse_unwatched(const models::Setup& setup, const CalibrateOptions& option
         models::place_of(setup, "rig.force.driver"), models::quoted(force)));
 }
 
+// In lockstep there are only fakes.
+bool asks(const models::Setup& setup, const CalibrateOptions& options) {
+  return options.armed && !options.lockstep && trial::moves_device(setup);
+}
+
 models::Setup setup_for(const CalibrateOptions& options) {
   const std::string scene =
       options.scene.empty() ? models::models_dir("") + "/scenes/clamped_tool.toml" : options.scene;
@@ -200,6 +206,7 @@ models::Setup setup_for(const CalibrateOptions& options) {
                     "calibrated; expected --armed; clear its way, clamp the tool and add it",
                     models::place_of(setup, "rig.manipulator.driver")));
   refuse_unwatched(setup, options);
+  if (asks(setup, options) && !options.yes) trial::refuse_unasked();
   return setup;
 }
 
@@ -211,6 +218,7 @@ trial::TrialOptions trial_options(const CalibrateOptions& options, const trial::
   how.lockstep = options.lockstep;
   how.calibrates = true;
   how.real_time = true;
+  how.needs_real_time = !options.not_real_time;
   how.stop = options.stop;
   return how;
 }
@@ -226,6 +234,15 @@ void end(std::optional<trial::CarriedTool>& tool) {
   for (const std::string& line : lines) fmt::print(stderr, "{}\n", models::printable(line));
 }
 
+// The person did not want the machine to move.
+struct NotBegun {};
+
+// What is asked before the first motion; empty: nothing that could hurt anybody moves.
+std::string question_for(const trial::Trial& trial, const CalibrateOptions& options) {
+  if (!asks(trial.setup(), options)) return {};
+  return trial::motion_question(trial.setup(), trial.scene(), trial.result().devices);
+}
+
 MachineCalibration made_with(const models::Setup& setup, const CalibrateOptions& options,
                              const trial::DriverSource& modules) {
   const auto progress = [terminal = isatty(STDERR_FILENO) != 0](double share) {
@@ -233,6 +250,7 @@ MachineCalibration made_with(const models::Setup& setup, const CalibrateOptions&
   };
   std::optional<trial::CarriedTool> tool;
   tool.emplace(setup, trial_options(options, modules));
+  if (options.confirm && !options.confirm(question_for(tool->trial(), options))) throw NotBegun();
   try {
     MachineCalibration made =
         trial::calibrate_machine(*tool, options.poses.value_or(trial::kUsualPoses), progress);
@@ -254,6 +272,9 @@ int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource
   MachineCalibration made;
   try {
     made = made_with(setup, options, modules);
+  } catch (const NotBegun&) {
+    fmt::print(stderr, "\nencounter: not begun; nothing has moved\n");
+    return 2;  // unless it was a signal, which makes the exit code
   } catch (const trial::CarryingEnded&) {
     if (!options.stop || !options.stop())
       throw Error("the devices ended the run; nothing was written; see `encounter devices`", {},

@@ -7,10 +7,10 @@
 #include "app/laboratory/laboratory.h"
 #include "app/laboratory/probe.h"
 #include "app/modules/modules.h"
-#include "app/run/stop_signals.h"
 #include "core/error.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
+#include "trial/operator/signals.h"
 
 namespace enc::app {
 namespace {
@@ -36,19 +36,20 @@ std::string line_of(const Probed& device) {
 }  // namespace
 
 int devices(const LaboratoryOptions& options) {
-  const StopSignals signals;
+  trial::Signals signals;
+  signals.begin();
   if (!(options.seconds > 0.0 && options.seconds <= 1e4))
     throw Error("--for-s: expected a number above 0, up to 10000");
   const models::Setup setup = load_setup(with_scene(options));
   const auto found =
-      probe_devices(setup, load_module, options.seconds, [] { return StopSignals::caught() != 0; });
+      probe_devices(setup, load_module, options.seconds, [] { return trial::Signals::caught() != 0; });
   if (found.empty()) fmt::print("every device that the scene names is simulated\n");
   bool all = true;
   for (const Probed& device : found) {
     fmt::print("{}", line_of(device));
     all = all && device.there && device.samples > 0;
   }
-  if (StopSignals::caught() != 0) return 128 + StopSignals::caught();
+  if (trial::Signals::caught() != 0) return 128 + trial::Signals::caught();
   return all ? 0 : 3;
 }
 

@@ -12,8 +12,8 @@
 #include "app/laboratory/laboratory.h"
 #include "app/modules/modules.h"
 #include "app/process.h"
-#include "app/run/stop_signals.h"
 #include "core/error.h"
+#include "trial/operator/signals.h"
 
 namespace enc::app {
 namespace {
@@ -58,7 +58,8 @@ void by_hand(Fakes& fakes, const std::string& line) {
 }  // namespace
 
 int fake(const LaboratoryOptions& options) {
-  const StopSignals signals;
+  trial::Signals signals;
+  signals.begin();
   FakesOptions how{load_module, options.seed, options.lockstep, {}};
   for (const std::string& text : options.faults) how.faults.push_back(fault_of(text, "--fault"));
   Fakes fakes(load_setup(with_scene(options)), std::move(how));
@@ -70,12 +71,12 @@ int fake(const LaboratoryOptions& options) {
   std::fflush(stdout);  // whoever began us waits for it
   check_output();
   Lines lines;
-  while (StopSignals::caught() == 0) {
+  while (trial::Signals::caught() == 0) {
     fakes.turn();
     lines.read([&](const std::string& line) { by_hand(fakes, line); });
   }
   for (const std::string& line : fakes.log()) fmt::print("{}\n", line);
-  return 128 + StopSignals::caught();
+  return 128 + trial::Signals::caught();
 }
 
 }  // namespace enc::app

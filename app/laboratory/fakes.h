@@ -13,7 +13,7 @@
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
 #include "trial/assemble.h"
-#include "trial/device_log.h"
+#include "trial/devices/device_log.h"
 
 namespace enc::app {
 

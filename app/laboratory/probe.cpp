@@ -10,7 +10,7 @@
 #include "core/devices/roles.h"
 #include "core/error.h"
 #include "models/order_statistics.h"
-#include "trial/device_log.h"
+#include "trial/devices/device_log.h"
 
 namespace enc::app {
 namespace {

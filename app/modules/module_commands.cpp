@@ -9,12 +9,11 @@
 #include "app/fit/fit_module.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
-#include "app/run/hand.h"
-#include "app/run/stop_signals.h"
 #include "core/error.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
 #include "trial/bench_module.h"
+#include "trial/operator/operator.h"
 
 namespace enc::app {
 namespace {
@@ -82,21 +81,27 @@ int calibrate(const CalibrateOptions& options) {
   const bool folder = !rig && std::filesystem::is_directory(options.log, none);
   if (!rig && !folder) refuse_what_it_is_not(options, rigs);
   if (folder) return calibrations().calibrate(options);
-  // Of a machine that moves: it is stopped, whenever a signal or a key says so.
-  std::optional<StopSignals> signals;
-  std::optional<HandAtTheRun> hand;
+  // A machine that moves is stopped by any signal or key.
+  std::optional<trial::Operator> person;
   bool halted = false;
   CalibrateOptions stoppable = options;
   stoppable.catch_signals = [&] {
-    signals.emplace();
-    hand.emplace();
+    person.emplace();
+    person->stops_when_suspended();
+    person->begin();
+  };
+  stoppable.confirm = [&](const std::string& question) {
+    const bool yes =
+        question.empty() || options.yes || person->confirm(question) == trial::Operator::Answer::yes;
+    if (yes) person->listen();
+    return yes;
   };
   stoppable.stop = [&] {
-    halted = halted || (hand && (hand->next() == trial::Hand::halt || hand->quits()));
-    return halted || StopSignals::caught() != 0;
+    halted = halted || (person && (person->next() == trial::Hand::halt || person->quits()));
+    return halted || (person && person->stop());
   };
   const int code = fits().calibrate(stoppable, module_for_calibration);
-  return signals && StopSignals::caught() != 0 ? 128 + StopSignals::caught() : code;
+  return person && person->signal() != 0 ? 128 + person->signal() : code;
 }
 
 int shadow(const ShadowOptions& options) { return fits().shadow(options); }

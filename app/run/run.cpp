@@ -14,13 +14,14 @@
 #include "app/modules/modules.h"
 #include "app/options.h"
 #include "app/process.h"
-#include "app/run/hand.h"
+#include "app/run/console.h"
 #include "app/run/run_report.h"
-#include "app/run/stop_signals.h"
 #include "app/run/verdict.h"
 #include "app/stability_text.h"
 #include "core/error.h"
 #include "models/files.h"
+#include "trial/operator/consent.h"
+#include "trial/operator/operator.h"
 #include "trial/run_measures.h"
 #include "trial/time/record_thread.h"
 #include "trial/trial.h"
@@ -69,8 +70,7 @@ struct Recording {
 };
 
 std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup,
-                                      const trial::Trial& trial,
-                                      const std::vector<trial::Certified>& certificates) {
+                                      const trial::Trial& trial) {
   if (options.record.empty()) return nullptr;
   for (const std::string& path : {options.record, options.record + ".part"}) refuse_output(path);
   RecordTexts texts = models::record_texts(setup);
@@ -78,7 +78,7 @@ std::unique_ptr<Recording> record_for(const RunOptions& options, const models::S
   texts["rig"] = setup.rig_path;
   texts["seed"] = std::to_string(options.seed);
   texts["version"] = ENCOUNTER_VERSION;
-  texts["stability"] = stability_lines(certificates);
+  texts["stability"] = stability_lines(trial.certificates());
   return std::make_unique<Recording>(options, texts, trial.scene(), trial.result().keeps_wall_time);
 }
 
@@ -97,39 +97,100 @@ int diverged(const trial::TrialResult& result, const models::Setup& setup) {
   return 4;
 }
 
+trial::TrialOptions trial_options(const RunOptions& options, trial::Operator& person) {
+  trial::TrialOptions all;
+  all.seed = options.seed;
+  all.seconds = options.seconds.value_or(kUnset);
+  all.pace = pace_of(options.pace);
+  all.drivers = load_module;
+  all.armed = options.armed;
+  all.lockstep = options.lockstep;
+  all.real_time = true;  // dry, too: what is late holds
+  all.needs_real_time = !options.not_real_time;
+  all.certify = true;
+  all.frames = options.frames;
+  all.begins = [&person] { person.begin(); };
+  all.stop = [&person] { return person.stop(); };
+  all.hand = [&person] { return person.next(); };
+  return all;
+}
+
+// Shows an armed run while it happens.
+class Shown {
+ public:
+  Shown(trial::TrialOptions& options, trial::Operator& person) : person_(person) {
+    options.watch = [this, counts = std::move(options.watch)](const trial::Glance& glance) {
+      counts(glance);
+      watch_.see(glance);
+    };
+    person.acts = [this](trial::Hand hand, bool suspended) {
+      using Kind = trial::RunEvent::Kind;
+      watch_.note(hand == trial::Hand::resume ? Kind::resumed : suspended ? Kind::suspended : Kind::halted);
+    };
+    person.pauses = [this] {
+      if (console_) console_->flush();
+    };
+  }
+  Shown(const Shown&) = delete;
+  Shown& operator=(const Shown&) = delete;
+  void begin(const models::Setup& setup) {
+    std::vector<std::string> objects;
+    for (const ObjectSpec& object : setup.scene.objects) objects.push_back(object.name);
+    console_.emplace(watch_, std::move(objects), person_.reads_keys());
+  }
+  void end() {
+    if (person_.signal() != 0 || person_.quits()) watch_.note(trial::RunEvent::Kind::ends, person_.signal());
+    console_.reset();
+  }
+
+ private:
+  trial::Operator& person_;
+  trial::RunWatch watch_;
+  std::optional<Console> console_;
+};
+
 }  // namespace
 
 int run(const RunOptions& options) {
-  const StopSignals signals;  // from here on: devices are let go, whenever it comes
+  using trial::Operator;
+  Operator person;
   const models::Setup setup = load_setup(options);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
-  trial::TrialOptions trial_options;
-  trial::RunMeasures measured(setup, trial_options);
-  trial_options.seed = options.seed;
-  trial_options.seconds = options.seconds.value_or(kUnset);
-  trial_options.pace = pace_of(options.pace);
-  trial_options.drivers = load_module;
-  trial_options.armed = options.armed;
-  trial_options.lockstep = options.lockstep;
-  trial_options.real_time = true;  // dry, too: what is late holds
-  trial_options.frames = options.frames;
-  HandAtTheRun hand;
-  trial_options.stop = [&hand] { return StopSignals::caught() != 0 || hand.quits(); };
-  trial_options.hand = [&hand] { return hand.next(); };
+  const bool moves = options.armed && trial::moves_device(setup);
+  const bool attended = moves && !options.lockstep;  // in lockstep there are only fakes
+  if (attended && !options.yes) trial::refuse_unasked();
+  if (attended) person.stops_when_suspended();
+  trial::TrialOptions how = trial_options(options, person);
+  trial::RunMeasures measured(setup, how);
+  std::optional<Shown> shown;
+  if (moves) shown.emplace(how, person);
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) trial_options.progress = show_progress;
-  trial::Trial trial(
-      setup, trial_options);  // everything that can be refused is refused here, before a record is begun
-  const std::vector<trial::Certified> certificates = trial::certificates_of(setup, trial.scene());
-  const std::unique_ptr<Recording> record = record_for(options, setup, trial, certificates);
-  print_notes(setup.notes);  // of a scene that is not refused
-  print_notes(beyond(setup, certificates));
+  if (terminal && !shown) how.progress = show_progress;
+  trial::Trial trial(setup, how);  // everything that can be refused is refused here, before a record is begun
+  print_notes(setup.notes);        // of a scene that is not refused
+  print_notes(beyond(setup, trial.certificates()));
+  if (attended && !options.yes) {
+    const Operator::Answer answer =
+        person.confirm(trial::motion_question(setup, trial.scene(), trial.result().devices));
+    if (answer != Operator::Answer::yes) {
+      fmt::print(stderr, "\nencounter: not begun; nothing has moved\n");
+      return answer == Operator::Answer::stopped ? 128 + person.signal() : 2;
+    }
+  }
+  const std::unique_ptr<Recording> record = record_for(options, setup, trial);
   trial.record_to(record ? &record->writer : nullptr);
-  if (hand.reads_keys() && options.armed) fmt::print(stderr, "space stops, r resumes, q ends\n");
+  person.listen();
+  if (shown) shown->begin(setup);
   const double started = cpu_seconds();
   const trial::TrialResult result = trial.run();
-  if (terminal) fmt::print(stderr, "\r        \r");
+  if (shown) shown->end();
+  if (terminal && !shown) fmt::print(stderr, "\r        \r");
+  if (record) {
+    if (const auto contacts = measured.ledger.contacts(); !contacts.empty())
+      record->writer.end_with({{"ledger", trial::ledger_table(contacts)}});
+    record->end();  // before anything is printed, which a terminal may keep waiting
+  }
 
   const std::vector<trial::ArmStrength> strengths = trial::strengths_of(setup, trial.scene());
   RunReport report{setup,
@@ -137,7 +198,7 @@ int run(const RunOptions& options) {
                    result,
                    measured,
                    strengths,
-                   certificates,
+                   trial.certificates(),
                    options,
                    trial.has_world() ? trial.world().physics().steps() : 0,
                    trial.has_world() ? trial.world().physics().unsolved() : 0,
@@ -148,15 +209,10 @@ int run(const RunOptions& options) {
   const std::string text = options.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);  // while a pipe without a reader is an error only
-  if (record) {
-    if (const auto contacts = measured.ledger.contacts(); !contacts.empty())
-      record->writer.end_with({{"ledger", trial::ledger_table(contacts)}});
-    record->end();
-  }
   if (record && record->writer.full())
     throw Error(record->writer.error() + "; replay --partial reads what was written");
   if (result.diverged_at >= 0) return diverged(result, setup);
-  if (StopSignals::caught() != 0) return 128 + StopSignals::caught();
+  if (person.signal() != 0) return 128 + person.signal();
   if (result.last_mode == Mode::hold) return 4;
   return report.crossed.empty() ? 0 : 1;
 }

@@ -10,7 +10,7 @@
 #include "core/record/record.h"
 #include "core/record/state_hash.h"
 #include "trial/camera/vision.h"
-#include "trial/device_log.h"
+#include "trial/devices/device_log.h"
 #include "trial/run_measures.h"
 #include "trial/trial.h"
 

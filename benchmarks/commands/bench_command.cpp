@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include "benchmarks/commands/commands.h"
@@ -20,6 +21,7 @@
 #include "core/error.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
+#include "trial/operator/consent.h"
 
 namespace enc::bench {
 namespace {
@@ -52,6 +54,7 @@ std::string command_of(const trial::BenchOptions& options) {
   if (!options.rig.empty()) text += " --rig " + options.rig;
   if (options.armed) text += " --armed";
   if (options.lockstep) text += " --lockstep";
+  if (options.not_real_time) text += " --not-real-time";
   if (options.fakes) text += " --fakes";
   for (const std::string& set : options.set) text += " --set '" + set + "'";
   return text;
@@ -72,16 +75,18 @@ void print_table(const Table& table) {
   for (const auto& row : table.rows) line(row);
 }
 
-// SIGINT, SIGTERM, SIGHUP and SIGUSR1 wait until somebody asks; threads and what they start inherit that.
+// Signals that end a process wait until somebody asks; threads and what they start inherit that. Over devices
+// a suspension ends it, too: what was measured before it is no measure.
 class Signals {
  public:
-  Signals() {
+  explicit Signals(bool over_devices) {
     sigemptyset(&set_);
-    sigaddset(&set_, SIGINT);
-    sigaddset(&set_, SIGTERM);
-    sigaddset(&set_, SIGHUP);
-    sigaddset(&set_, SIGUSR1);  // stops a run over devices
-    pthread_sigmask(SIG_BLOCK, &set_, &before_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1}) sigaddset(&set_, signal);
+    if (over_devices)
+      for (const int signal : {SIGTSTP, SIGUSR2, SIGALRM, SIGXCPU, SIGPWR}) sigaddset(&set_, signal);
+    sigset_t blocked = set_;
+    for (const int signal : {SIGTTIN, SIGTTOU}) sigaddset(&blocked, signal);  // reading fails instead
+    pthread_sigmask(SIG_BLOCK, &blocked, &before_);
   }
   ~Signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
   Signals(const Signals&) = delete;
@@ -157,7 +162,7 @@ std::vector<Choice> choices_of(const trial::BenchOptions& options) {
 class Session {
  public:
   Session(const trial::BenchOptions& options, const trial::ModuleFinder& modules)
-      : options_(options), choices_(choices_of(options)) {
+      : options_(options), choices_(choices_of(options)), signals_(!options.rig.empty()) {
     if (!options.out.empty()) {
       folder_.emplace(options.out);
       check_folder(options.out, options.force);
@@ -178,6 +183,8 @@ class Session {
     context_.armed = options.armed;
     context_.lockstep = options.lockstep;
     context_.fakes = options.fakes;
+    context_.not_real_time = options.not_real_time;
+    context_.confirm = [this](const std::string& question) { confirm(question); };
     context_.stop = [this] { return stopping_.load(); };
     context_.progress = [this](double share) { share_ = share; };
   }
@@ -222,12 +229,28 @@ class Session {
     return result;
   }
 
-  // A machine that moves is stopped by its run, and fakes are ended; a second signal does not wait for that.
+  // A machine that moves is stopped by its run, and fakes are ended, however many signals come meanwhile.
   void let_go(const std::future<BenchResult>& work) {
     stopping_ = true;
-    while (!options_.rig.empty() && work.wait_for(kTurn) != std::future_status::ready &&
-           signals_.came() <= 0) {
+    while (!options_.rig.empty() && work.wait_for(kTurn) != std::future_status::ready) {
     }
+  }
+
+  // Once, before the first motion. The worker's thread asks, and this one still looks for signals.
+  void confirm(const std::string& question) {
+    if (confirmed_ || options_.yes) return;
+    trial::refuse_unasked();
+    fmt::print(stderr, "\n{}", question);
+    std::string line;
+    for (char c = 0; c != '\n';) {
+      pollfd ready{STDIN_FILENO, POLLIN, 0};
+      if (stopping_) throw Error("interrupted; nothing has moved");
+      if (poll(&ready, 1, 100) <= 0) continue;
+      if (read(STDIN_FILENO, &c, 1) <= 0) break;
+      line += c;
+    }
+    if (line != "\n") throw Error("not begun; nothing has moved");
+    confirmed_ = true;
   }
 
   void print(const Choice& choice, const BenchResult& result) {
@@ -279,6 +302,7 @@ class Session {
   BenchContext context_;
   std::atomic<double> share_{0.0};
   std::atomic<bool> stopping_{false};
+  bool confirmed_ = false;               // of the worker
   std::vector<std::string> fell_short_;  // ids
 };
 

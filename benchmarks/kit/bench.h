@@ -74,6 +74,9 @@ struct BenchContext {
   // Over the devices of a rig (over_rig.h); empty: in the twin.
   std::string rig{};
   bool armed = false, lockstep = false, fakes = false;
+  bool not_real_time = false;  // a machine moves although the system refuses that
+  // Called before a machine that somebody attends moves for the first time. Throws Error where it must not.
+  std::function<void(const std::string& question)> confirm{};
   std::function<bool()> stop{};  // asked by whatever runs there: true ends it
   // How many seeds or laps: what the user says, else the benchmark's own.
   [[nodiscard]] std::size_t count(std::size_t own, std::size_t if_quick) const {

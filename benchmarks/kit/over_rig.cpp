@@ -8,6 +8,7 @@
 #include "benchmarks/kit/load_scene.h"
 #include "core/error.h"
 #include "core/mode.h"
+#include "trial/operator/consent.h"
 
 namespace enc::bench {
 
@@ -22,6 +23,8 @@ OnRig on_rig(const BenchContext& context, const std::string& name, std::vector<s
         "--rig: the machine of {} is told nothing without --armed, and does nothing that could be "
         "measured; add it, or name another rig",
         on.setup.rig_path));
+  if (context.armed && context.confirm && attended(context, on.setup) && trial::moves_device(on.setup))
+    context.confirm(trial::motion_question(on.setup, trial::prepare_setup(on.setup), {}));
   return on;
 }
 
@@ -31,6 +34,7 @@ trial::TrialOptions rig_options(const BenchContext& context) {
   options.armed = context.armed;
   options.lockstep = context.lockstep;
   options.real_time = context.armed && !context.lockstep;
+  options.needs_real_time = !context.not_real_time;
   return options;
 }
 

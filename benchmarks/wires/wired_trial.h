@@ -7,7 +7,7 @@
 
 #include "hw_drivers/wires/wires.h"
 #include "models/setup/scene_file.h"
-#include "trial/device_log.h"
+#include "trial/devices/device_log.h"
 #include "trial/trial.h"
 
 namespace enc::bench::wires {

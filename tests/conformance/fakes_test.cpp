@@ -90,7 +90,7 @@ TEST(Fakes, InLockstepARunThroughSocketsIsTheSameEachTimeAndAsWithout) {
 TEST(Fakes, WhatDoesNotFitIsSaid) {
   {
     const Laboratory there(true);
-    EXPECT_THAT(run_program(there.words({"--armed", "--for-s", "1"})).err,
+    EXPECT_THAT(run_program(there.words({"--armed", "--yes", "--for-s", "1"})).err,
                 HasSubstr("its time goes on with each set-point; add --lockstep"));
     EXPECT_THAT(run_program(there.words({"--lockstep"})).err,
                 HasSubstr("without --armed none is sent; add it"));
@@ -141,12 +141,12 @@ TEST(Fakes, WithoutArmedTheMachineHearsNoSetPoint) {
   Laboratory there(false);
   const nlohmann::json dry = json_of(run_program(there.words({"--for-s", "2", "--json"})));
   EXPECT_GT(dry["withheld_commands"].get<int>(), 1000);
-  EXPECT_THAT(there.log(), HasSubstr("a client has gone, which told it to move 0 times"));
+  EXPECT_THAT(there.log(), HasSubstr("it commanded 0 moves and 0 stops"));
   EXPECT_EQ(there.fakes->world().machine->state().pose.p(),
             there.fakes->world().machine->machine().zero().p());
   there.serve();
-  EXPECT_GT(json_of(run_program(there.words({"--armed", "--for-s", "2", "--json"})))["ticks"], 100);
-  EXPECT_THAT(there.log(), testing::ContainsRegex("told it to move [1-9][0-9]+ times"));
+  EXPECT_GT(json_of(run_program(there.words({"--armed", "--yes", "--for-s", "2", "--json"})))["ticks"], 100);
+  EXPECT_THAT(there.log(), testing::ContainsRegex("it commanded [1-9][0-9]+ moves and [1-9][0-9]* stops"));
 }
 
 // For 2 s the program is not there. The machine stands at its last point, the first tick afterwards holds,
@@ -155,7 +155,7 @@ TEST(Fakes, ARunThatWasStoppedHoldsOnItsNextTickAndMakesNothingUp) {
   Laboratory there(false);
   const TemporaryFolder folder;
   const std::string record = folder.file("stopped.encrec"), report = folder.file("report");
-  Started run(there.words({"--armed", "--for-s", "8", "--record", record}), report);
+  Started run(there.words({"--armed", "--yes", "--for-s", "8", "--record", record}), report);
   std::this_thread::sleep_for(std::chrono::milliseconds(4000));
   run.send(SIGSTOP);
   std::this_thread::sleep_for(std::chrono::milliseconds(1000));
@@ -229,7 +229,7 @@ void kill_at_random_moments(int times) {
   double longest = 0.0;
   int moving = 0;
   for (int i = 0; i < times; ++i) {
-    Started run(there.words({"--armed"}), "/dev/null");
+    Started run(there.words({"--armed", "--yes"}), "/dev/null");
     // At any moment, its start included; most often while it goes fastest, when it has just begun.
     const bool any = i % 4 == 0;
     for (int wait = 0; !any && wait < 4000 && !there.moves; ++wait)

@@ -15,7 +15,7 @@
 #include "hw_drivers/wires/string_link.h"
 #include "tests/support/default_offer.h"
 #include "tests/support/devices/following_machine.h"
-#include "trial/device_log.h"
+#include "trial/devices/device_log.h"
 
 namespace enc::test {
 

@@ -45,8 +45,9 @@ struct Laboratory {
     thread = std::thread([this] {
       while (!end) {
         fakes->turn();
+        now = time();
         if (stands()) continue;
-        moved = time();
+        moved = now;
         moves = true;
       }
     });
@@ -79,6 +80,7 @@ struct Laboratory {
   std::vector<std::string> ports = wires::free_ports();
   std::unique_ptr<app::Fakes> fakes;
   std::atomic<bool> end = false, moves = false;  // it did, since somebody last said that it does not
+  std::atomic<double> now = 0.0;                 // s, of the world
   std::thread thread;
   double moved = 0.0;  // s of the world: when the machine last did
 };

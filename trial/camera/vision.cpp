@@ -8,7 +8,7 @@
 #include "sim/camera/stage.h"
 #include "trial/camera/arm_things.h"
 #include "trial/camera/kept_frames.h"
-#include "trial/driver_device.h"
+#include "trial/devices/driver_device.h"
 #include "trial/trackers/threaded_tracker.h"
 
 namespace enc::trial {

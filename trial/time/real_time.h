@@ -17,6 +17,7 @@ class RealTime {
 
   // "SCHED_FIFO 40, memory locked"; or why not, and what to do. Empty: not wanted.
   [[nodiscard]] const std::string& words() const { return words_; }
+  [[nodiscard]] bool granted() const { return first_; }  // the priority
 
  private:
   std::string words_;

@@ -118,6 +118,7 @@ void Controller::fail(int error) noexcept {
 }
 
 void Controller::stop(double hardness) noexcept {
+  ++stops_;
   profile_.halt(hardness);
   points_.clear();
   referencing_ = false;

@@ -48,6 +48,8 @@ class Controller {
   [[nodiscard]] int error() const noexcept { return error_; }  // that ERR? would say
   // How often it was told to move, be it refused or not: MOV, MVR, FRF.
   [[nodiscard]] std::int64_t told() const noexcept { return told_; }
+  // How often it was commanded to stop: HLT, STP, #24.
+  [[nodiscard]] std::int64_t stops() const noexcept { return stops_; }
   // For tests: something fails, as a strut may. The servos are off then.
   void fail(int error) noexcept;
   void mend() noexcept;  // and somebody has switched them on again
@@ -90,7 +92,7 @@ class Controller {
   bool referenced_, referencing_ = false;
   double velocity_;
   int error_ = kNoError;
-  std::int64_t told_ = 0;
+  std::int64_t told_ = 0, stops_ = 0;
   Text line_;
   bool long_ = false;  // the line is too long already
   std::string answer_;

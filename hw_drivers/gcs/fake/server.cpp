@@ -61,6 +61,8 @@ bool Server::accept(Time now) {
   line_.begin(begin_ ? Time{} : now);
   controller_.forget_line();
   told_before_ = controller_.told();
+  stops_before_ = controller_.stops();
+  stopped_.clear();
   if (begin_) begin_();
   return begin_ != nullptr;
 }
@@ -68,7 +70,10 @@ bool Server::accept(Time now) {
 bool Server::answer(Time now) {
   std::array<char, kMostText> bytes{};
   const std::size_t got = client_.receive(std::as_writable_bytes(std::span(bytes)));
+  constexpr std::size_t kStopsKept = 16;
+  const std::int64_t stops = controller_.stops();
   line_.put(now, std::as_bytes(std::span(controller_.take({bytes.data(), got}))));
+  if (controller_.stops() > stops && stopped_.size() < kStopsKept) stopped_.push_back(now);
   send(now);
   if ((got == 0 && client_.closed()) || unsent_.size() > kMostUnsent) leave();
   return got > 0;
@@ -76,8 +81,11 @@ bool Server::answer(Time now) {
 
 void Server::leave() {
   client_ = {};
-  log_.say(fmt::format("fake C-887: a client has gone, which told it to move {} times",
-                       controller_.told() - told_before_));
+  std::string times;
+  for (const Time t : stopped_) times += fmt::format(" {:.3f}", seconds(t.time_since_epoch()));
+  log_.say(fmt::format("fake C-887: the client is gone; it commanded {} moves and {} stops{}",
+                       controller_.told() - told_before_, controller_.stops() - stops_before_,
+                       times.empty() ? times : ", in s:" + times));
 }
 
 void Server::send(Time now) {

@@ -42,7 +42,8 @@ class Server final : public Fake {
   std::function<void()> begin_;
   net::Socket listener_;
   net::Socket client_;
-  std::int64_t told_before_ = 0;  // of the controller, when that came
+  std::int64_t told_before_ = 0, stops_before_ = 0;  // of the controller, when that came
+  std::vector<Time> stopped_;                        // the client's first stops
   net::BadLine line_;
   std::string unsent_;
 };

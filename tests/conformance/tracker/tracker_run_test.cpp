@@ -41,7 +41,8 @@ TEST(TrackerRun, ARecordOfARunWithAFaultIsWhole) {
   const Laboratory there(false, {"rig.driver.igtl.transport=tcp"}, {"igtl:disconnect@1500ms"});
   const TemporaryFolder folder;
   const std::string record = folder.file("fault.encrec");
-  const Result run = run_program(there.words({"--armed", "--for-s", "3", "--json", "--record", record}));
+  const Result run =
+      run_program(there.words({"--armed", "--yes", "--for-s", "3", "--json", "--record", record}));
   EXPECT_EQ(run.code, 4) << run.err;
   const nlohmann::json report = nlohmann::json::parse(run.out, nullptr, false);
   ASSERT_TRUE(report.is_object()) << run.out;

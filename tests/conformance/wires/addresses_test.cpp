@@ -19,7 +19,7 @@
 #include "tests/support/default_offer.h"
 #include "tests/support/devices/following_machine.h"
 #include "tests/support/devices/served.h"
-#include "trial/device_log.h"
+#include "trial/devices/device_log.h"
 
 namespace enc::test {
 namespace {

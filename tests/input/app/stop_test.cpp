@@ -91,6 +91,48 @@ TEST(Stop, ASignalEndsARunCleanlyWithItsOwnCode) {
   }
 }
 
+// Nothing has begun yet, so a start-up that computes for long ends at once and leaves nothing.
+TEST(Stop, AStartUpThatTakesLongEndsAtOnce) {
+  const test::TemporaryFolder folder;
+  const std::string scene = folder.file("many.toml"), record = folder.file("r.encrec");
+  {
+    std::ofstream file(scene);
+    file << "format = 1\ntitle = \"Many\"\n";
+    for (int i = 0; i < 20'000; ++i)
+      file << "[[object]]\nname = \"wall" << i << "\"\nshape = \"plane\"\nposition_mm = [0, 0, "
+           << 10 + 1e-4 * i << "]\nnormal = [0, 0, 1]\nbehaviour = \"wall\"\n";
+    file << "[[tool]]\nname = \"stylus\"\nmarkers_mm = [[0, 0, 0], [52, 0, 0], [0, 41, 0], [-17, -30, 12]]\n"
+            "tip_mm = [0, 0, -120]\n[manipulator]\n[force]\n[tracker]\n";
+  }
+  for (const auto& [signal, code] : {std::pair{SIGTERM, 143}, {SIGINT, 130}, {SIGQUIT, 131}, {SIGHUP, 129}}) {
+    const Started run({"run", scene, "--record", record});
+    run.ready();
+    const auto sent = std::chrono::steady_clock::now();
+    run.send(signal);
+    EXPECT_EQ(run.wait(), code) << run.text();
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(1));
+    EXPECT_FALSE(std::filesystem::exists(record) || std::filesystem::exists(record + ".part"));
+  }
+}
+
+// Whoever sends it: a supervisor, a timer, a limit.
+TEST(Stop, EachSignalThatWouldKillEndsTheRunCleanly) {
+  std::vector<int> signals{SIGQUIT, SIGABRT, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU,
+                           SIGIO,   SIGPWR,  SIGSEGV, SIGBUS,    SIGFPE,  SIGRTMIN + 3};
+  for (const int signal : signals) {
+    SCOPED_TRACE(signal);
+    const test::TemporaryFolder folder;
+    const std::string record = folder.file("r.encrec");
+    const Started run({"run", shipped_scene("plane"), "--pace", "wall", "--record", record});
+    const std::string aside = record + ".part";
+    while (!std::filesystem::exists(aside) || std::filesystem::file_size(aside) < 4096) after_ms(5);
+    after_ms(50);
+    for (int i = 0; i < 3; ++i) run.send(signal);
+    EXPECT_EQ(run.wait(), 128 + signal) << run.text();
+    EXPECT_TRUE(RecordReader(record).sealed());
+  }
+}
+
 // Half a table is worth nothing, and half of an MCAP file has no end that its readers look for.
 TEST(Stop, AnExportThatIsStoppedLeavesNothing) {
   const test::TemporaryFolder folder;
@@ -114,7 +156,7 @@ TEST(Stop, AlsoWhileTheClockWaits) {
   EXPECT_EQ(slow.wait(), 143);
   const Started armed({"run", shipped_scene("rig_A"), "--set", "rig.manipulator.driver=\"sample\"", "--set",
                        "rig.force.driver=\"sample\"", "--set", "rig.calibration.date=\"2026-11-27\"", "--set",
-                       "rig.calibration.valid_days=36500", "--armed"});
+                       "rig.calibration.valid_days=36500", "--armed", "--yes", "--not-real-time"});
   armed.ready();
   armed.send(SIGINT);
   EXPECT_EQ(armed.wait(), 130);
@@ -146,10 +188,12 @@ TEST(Stop, WhatIsIgnoredStaysIgnored) {
 
 // A process that was stopped for a second: armed, the cycles are lost and said; simulated, nothing is lost.
 TEST(Stop, AStoppedProcessMakesNothingUp) {
-  const std::vector<std::string> sample{
-      "--set",  "rig.manipulator.driver=\"sample\"",   "--set", "rig.force.driver=\"sample\"",
-      "--set",  "rig.calibration.date=\"2026-11-27\"", "--set", "rig.calibration.valid_days=36500",
-      "--armed"};
+  const std::vector<std::string> sample{"--set",          "rig.manipulator.driver=\"sample\"",
+                                        "--set",          "rig.force.driver=\"sample\"",
+                                        "--set",          "rig.calibration.date=\"2026-11-27\"",
+                                        "--set",          "rig.calibration.valid_days=36500",
+                                        "--armed",        "--yes",
+                                        "--not-real-time"};
   std::vector<std::string> args{"run", shipped_scene("rig_A"), "--for-s", "2.5", "--json"};
   args.insert(args.end(), sample.begin(), sample.end());
   const Started armed(args);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/support/default_offer.h"
-#include "trial/device_log.h"
+#include "trial/devices/device_log.h"
 
 namespace enc::test {
 

@@ -1,0 +1,185 @@
+#include "app/run/console.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "models/order_statistics.h"
+
+namespace enc::app {
+namespace {
+
+using trial::RunEvent;
+using trial::RunStatus;
+using trial::RunWatch;
+
+using std::chrono::milliseconds;
+constexpr milliseconds kTurn{10}, kStatusTurn{100}, kLast{200};
+// Standard error takes so much at once or says beforehand that it does not (PIPE_BUF is 4096).
+constexpr std::size_t kMostAtOnce = 1024;
+
+std::size_t columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+}
+
+double in_s(Time t) { return seconds(t.time_since_epoch()); }
+
+// "2026-11-29T12:00:00.123Z"
+std::string stamp() {
+  const auto now = std::chrono::time_point_cast<milliseconds>(std::chrono::system_clock::now());
+  const auto day = std::chrono::floor<std::chrono::days>(now);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss time(now - day);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                     time.hours().count(), time.minutes().count(), time.seconds().count(),
+                     time.subseconds().count());
+}
+
+}  // namespace
+
+std::string event_text(const RunEvent& event, const std::vector<std::string>& objects) {
+  using Kind = RunEvent::Kind;
+  const auto object = [&] {
+    const auto index = static_cast<std::size_t>(event.object);
+    return event.object >= 0 && index < objects.size() ? fmt::format(" with '{}'", objects[index])
+                                                       : std::string();
+  };
+  switch (event.kind) {
+    case Kind::hold:
+      return "hold: " + why_text(event.why);
+    case Kind::hold_over:
+      return fmt::format("hold is over: {}", mode_name(event.mode));
+    case Kind::contact:
+      return fmt::format("contact {}{}", event.contact, object());
+    case Kind::contact_over:
+      return fmt::format("contact {} is over", event.contact);
+    case Kind::link_lost:
+      return fmt::format("link lost: {}; see to it, then press r (or send SIGUSR2)", event.role);
+    case Kind::halted:
+      return "stopped by hand: the machine stands until r (or SIGUSR2)";
+    case Kind::suspended:
+      return "suspended: the machine stands; continue the process, then press r (or send SIGUSR2)";
+    case Kind::resumed:
+      return "resumed";
+    case Kind::ends:
+      return event.signal == 0 ? std::string("ends: q")
+                               : fmt::format("ends: SIG{}", sigabbrev_np(event.signal) != nullptr
+                                                                ? sigabbrev_np(event.signal)
+                                                                : std::to_string(event.signal).c_str());
+  }
+  return {};
+}
+
+std::string status_text(const RunStatus& status, bool keys) {
+  const std::uint32_t why = status.why & kHoldReasons;
+  std::string text = fmt::format("{:8.2f} s  {}", in_s(status.t),
+                                 status.halted ? "STOPPED BY HAND"
+                                 : why != 0    ? "HOLD: " + why_text(why)
+                                               : std::string(mode_name(status.mode)));
+  const double force = std::abs(status.force) < 0.005 ? 0.0 : status.force;  // without a sign
+  if (std::isfinite(force)) text += fmt::format("  {:.2f} N", force);
+  if (std::isfinite(status.gap)) text += fmt::format("  gap {:.2f} mm", 1e3 * status.gap);
+  const std::size_t periods = std::min(status.periods, RunStatus::kPeriods);
+  if (periods > 0) {
+    const std::vector<std::uint32_t> ns(status.periods_ns.begin(),
+                                        status.periods_ns.begin() + static_cast<std::ptrdiff_t>(periods));
+    text += fmt::format("  p99 {:.2f} ms", 1e-6 * models::percentile(ns, 0.99));
+  }
+  text += fmt::format("  missed {}", status.missed);
+  if (keys) text += "  | space stops, r resumes, q ends";
+  return text;
+}
+
+Console::Console(RunWatch& watch, std::vector<std::string> objects, bool keys)
+    : watch_(watch), objects_(std::move(objects)), keys_(keys), terminal_(isatty(STDERR_FILENO) != 0) {
+  // A signal is for the loop, whose sleep it ends.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, &before);
+  thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+Console::~Console() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+void Console::flush() const noexcept {
+  const std::uint64_t begun = rounds_;
+  for (int i = 0; i < 100 && rounds_ < begun + 2; ++i) std::this_thread::sleep_for(milliseconds(1));
+}
+
+std::size_t Console::write(std::string_view text) {
+  std::size_t taken = 0;
+  while (taken < text.size()) {
+    pollfd ready{STDERR_FILENO, POLLOUT, 0};
+    if (poll(&ready, 1, 0) <= 0) break;
+    const ssize_t got =
+        ::write(STDERR_FILENO, text.data() + taken, std::min(text.size() - taken, kMostAtOnce));
+    if (got < 0) return text.size();  // there is no reader any more
+    taken += static_cast<std::size_t>(got);
+  }
+  return taken;
+}
+
+void Console::show(const std::stop_token& stop) {
+  constexpr sched_param kNone{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &kNone);  // behind the loop, wherever it began
+  int turns = 0;
+  for (; !stop.stop_requested(); ++turns) {
+    show_events();
+    if (terminal_ && turns % (kStatusTurn / kTurn) == 0) show_status();
+    ++rounds_;
+    std::this_thread::sleep_for(kTurn);
+  }
+  for (auto left = kLast; left > milliseconds(0); left -= kTurn) {
+    show_events();
+    if (pending_.empty()) break;
+    std::this_thread::sleep_for(kTurn);
+  }
+  if (terminal_ && pending_.empty()) static_cast<void>(write("\r" + std::string(shown_width_, ' ') + "\r"));
+}
+
+void Console::show_events() {
+  constexpr std::size_t kMostPending = 64 * 1024;  // bytes; what is more is dropped and counted
+  RunEvent event;
+  std::string lines;
+  while (pending_.size() + lines.size() < kMostPending && watch_.next(event)) {
+    const std::string text = fmt::format("{:8.3f} s  {}", in_s(event.t), event_text(event, objects_));
+    lines += terminal_ ? text + "\n" : stamp() + text + "\n";
+  }
+  if (const std::size_t dropped = watch_.take_dropped(); dropped > 0)
+    lines +=
+        fmt::format("{}{} more events came too fast to be shown\n", terminal_ ? "" : stamp() + "  ", dropped);
+  if (!lines.empty()) {
+    pending_ += terminal_ ? "\r" + std::string(shown_width_, ' ') + "\r" + lines : lines;
+    shown_width_ = 0;
+  }
+  pending_.erase(0, write(pending_));
+}
+
+void Console::show_status() {
+  RunStatus status;
+  if (!pending_.empty() || !watch_.newest(status)) return;
+  std::string text = status_text(status, keys_);
+  text.resize(std::min(text.size(), columns() - 1));
+  const std::size_t width = text.size();
+  text.resize(std::max(width, shown_width_), ' ');
+  text.insert(0, 1, '\r');
+  pending_ = text.substr(write(text));  // the rest first, so that no line is cut
+  shown_width_ = width;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,48 @@
+// Shows an armed run on standard error while it happens: on a terminal a status line that renews itself and a
+// line for each event, elsewhere a line with a time stamp for each event. It writes from a thread of its own,
+// so that a terminal or a disk that does not take its words keeps no tick waiting.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "trial/operator/run_watch.h"
+
+namespace enc::app {
+
+class Console {
+ public:
+  // `watch` stays until this is gone. `objects`: their names, by index. `keys`: the run reads keys.
+  Console(trial::RunWatch& watch, std::vector<std::string> objects, bool keys);
+  ~Console();  // shows what is left, for 0.2 s at most, and clears the status line
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  // Waits until all events so far are shown, for 0.1 s at most: before the process is suspended.
+  void flush() const noexcept;
+
+ private:
+  void show(const std::stop_token& stop);
+  void show_events();
+  void show_status();
+  // How many bytes standard error took without waiting.
+  [[nodiscard]] static std::size_t write(std::string_view text);
+
+  trial::RunWatch& watch_;
+  const std::vector<std::string> objects_;
+  const bool keys_, terminal_;
+  std::string pending_;          // lines that standard error has not taken yet
+  std::size_t shown_width_ = 0;  // of the status line, in columns
+  std::atomic<std::uint64_t> rounds_ = 0;
+  std::jthread thread_;
+};
+
+// The words for them, without a line break.
+[[nodiscard]] std::string event_text(const trial::RunEvent& event, const std::vector<std::string>& objects);
+[[nodiscard]] std::string status_text(const trial::RunStatus& status, bool keys);
+
+}  // namespace enc::app

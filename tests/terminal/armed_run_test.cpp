@@ -1,0 +1,371 @@
+// A person at the terminal of an armed run: whatever is pressed, sent or closed, the machine is stopped and
+// the record is sealed. The fakes are in this process, the run is started by a shell on a pseudo-terminal.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <regex>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include "core/error.h"
+#include "core/record/record.h"
+#include "tests/conformance/laboratory.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/terminal/terminal.h"
+
+namespace enc::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kSetPoints = 0.030;  // s: three set-points of models/rigs/fakes.toml
+
+// A wall that is touched after some 1.5 s, again and again. The hand lets go faster than the tip follows, so
+// that restore lasts.
+constexpr const char* kScene = R"(format = 1
+title = "A wall for somebody at the terminal"
+[[object]]
+name = "wall"
+shape = "plane"
+position_mm = [0, 0, 10]
+normal = [0, 0, 1]
+behaviour = "wall"
+[[tool]]
+name = "stylus"
+markers_mm = [[0, 0, 0], [52, 0, 0], [0, 41, 0], [-17, -30, 12]]
+tip_mm = [0, 0, -120]
+[manipulator]
+[force]
+[tracker]
+[user]
+depth_mm = 3
+press_s = 0.4
+hold_s = 0.4
+release_s = 0.02
+rest_s = 1.5
+approach_from_mm = 30
+approach_mm_s = [50]
+repeats = 20
+)";
+
+// s of the fakes' world: when the machine was commanded to stop, by a run that is over.
+std::vector<double> stops_in(const std::string& log) {
+  static const std::regex kLine("stops, in s:((?: [0-9.]+)+)");
+  std::vector<double> all;
+  for (std::sregex_iterator found(log.begin(), log.end(), kLine), end; found != end; ++found) {
+    std::istringstream times((*found)[1]);
+    for (double t = 0.0; times >> t;) all.push_back(t);
+  }
+  return all;
+}
+
+std::string last_mode(const std::string& record) {
+  RecordReader reader(record);  // throws where it is damaged
+  EXPECT_TRUE(reader.sealed());
+  RecordedTick tick;
+  Mode mode = Mode::away;
+  while (reader.next(tick)) mode = tick.out.mode;
+  return std::string(mode_name(mode));
+}
+
+// Fakes in this process, a terminal, and an armed run in it.
+class Attended {
+ public:
+  explicit Attended(std::vector<std::string> more = {"--yes"}) {
+    std::ofstream(scene_) << kScene;
+    static std::mutex one_at_a_time;  // they set variables of this process
+    {
+      const std::lock_guard lock(one_at_a_time);
+      const std::vector<std::string> none;
+      for (int attempt = 0; !there_; ++attempt) {
+        try {
+          there_ = std::make_unique<Laboratory>(false, none, none, scene_);
+        } catch (const Error&) {
+          if (attempt == 5) throw;  // else another program has just taken a port
+        }
+      }
+    }
+    words_ = {tests::program_file(),
+              "run",
+              scene_,
+              "--rig",
+              "fakes",
+              "--armed",
+              "--for-s",
+              "60",
+              "--record",
+              record()};
+    for (const std::string& set : there_->ports) words_.insert(words_.end(), {"--set", set});
+    words_.insert(words_.end(), more.begin(), more.end());
+    EXPECT_TRUE(terminal.shows("$ ", 10.0));
+  }
+  void begin() { terminal.run(words_); }
+  // With a terminal of its own at standard input, which no signal comes from.
+  void begin_with_own_input() {
+    int slave = -1;
+    std::array<char, 100> name{};
+    ASSERT_EQ(openpty(&input_, &slave, name.data(), nullptr, nullptr), 0);
+    terminal.run(words_, std::string("< ") + name.data());
+    EXPECT_TRUE(terminal.shows("s  follow", 20.0)) << terminal.shown();
+    ::close(slave);
+  }
+  void close_input() { ::close(std::exchange(input_, -1)); }
+  [[nodiscard]] std::string record() const { return folder_.file("r.encrec"); }
+  void wait_for(const std::string& mode) {
+    EXPECT_TRUE(terminal.shows("s  follow", 20.0)) << terminal.shown();
+    if (mode == "hold") fault("igtl:stall");
+    const std::string sign = mode == "contact"   ? "s  contact 1 with 'wall'"
+                             : mode == "restore" ? "s  contact 1 is over"
+                             : mode == "hold"    ? "s  hold: tool lost"
+                                                 : "s  follow";
+    EXPECT_TRUE(terminal.shows(sign, 20.0)) << terminal.shown();
+  }
+  void fault(const std::string& text) {
+    there_->pause();
+    there_->fakes->suffer(app::fault_of(text, "the test"), "the test");
+    there_->serve();
+  }
+  void heal() {
+    there_->pause();
+    there_->fakes->heal();
+    there_->serve();
+  }
+  [[nodiscard]] double now() const { return there_->now; }
+  // Whether a run that is over commanded the machine to stop, between two moments of the fakes' world.
+  [[nodiscard]] bool stopped_between(double from, double to) {
+    constexpr double kTick = 0.002;  // s: what arrives is stamped with the tick before
+    const std::vector<double> all = stops_in(there_->log());
+    return std::any_of(all.begin(), all.end(), [&](double t) { return t >= from - kTick && t <= to; });
+  }
+  [[nodiscard]] std::string stops() { return there_->log(); }
+  [[nodiscard]] bool stands_for(double time) const {
+    there_->moves = false;
+    std::this_thread::sleep_for(std::chrono::duration<double>(time));
+    return !there_->moves;
+  }
+  tests::Terminal terminal;
+
+ private:
+  const TemporaryFolder folder_;
+  const std::string scene_ = folder_.file("wall.toml");
+  std::unique_ptr<Laboratory> there_;
+  std::vector<std::string> words_;
+  int input_ = -1;
+};
+
+struct Way {
+  const char* name;
+  int code;  // of the run; -1: nobody is left to ask
+  std::function<void(Attended& at, pid_t run)> act;
+  bool own_input = false;
+};
+
+const std::vector<Way>& ways() {
+  const auto twice = [](Attended&, pid_t run) {
+    for (int i = 0; i < 2; ++i) kill(run, SIGHUP);
+  };
+  static const std::vector<Way> kWays{
+      {"SIGHUP twice", 129, twice},
+      {"Ctrl-C three times", 130, [](Attended& at, pid_t) { at.terminal.type("\x03\x03\x03"); }},
+      {"SIGTERM", 143, [](Attended&, pid_t run) { kill(run, SIGTERM); }},
+      {"Ctrl-backslash", 131, [](Attended& at, pid_t) { at.terminal.type("\x1c"); }},
+      {"closed terminal", -1, [](Attended& at, pid_t) { at.terminal.close(); }},
+      {"closed standard input", 129, [](Attended& at, pid_t) { at.close_input(); }, true}};
+  return kWays;
+}
+
+// One run that is ended in one way in one mode. A mode may be over before the signal is there: then once
+// more.
+void end_in(const Way& way, const std::string& mode) {
+  std::string met;
+  for (int attempt = 0; attempt < 6 && met != mode; ++attempt) {
+    SCOPED_TRACE(std::string(way.name) + " in " + mode);
+    Attended at;
+    way.own_input ? at.begin_with_own_input() : at.begin();
+    at.wait_for(mode);
+    const pid_t run = at.terminal.child();
+    ASSERT_GT(run, 0);
+    const double before = at.now();
+    way.act(at, run);
+    const double acted = at.now();
+    ASSERT_TRUE(tests::ends(run, 10.0)) << at.terminal.shown();
+    EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
+    ASSERT_NO_THROW(met = last_mode(at.record())) << at.terminal.shown();
+    if (way.code < 0) continue;
+    const std::size_t from = at.terminal.shown().size();
+    at.terminal.type("echo code $?\n");
+    EXPECT_TRUE(at.terminal.shows(fmt::format("code {}", way.code), 5.0, from)) << at.terminal.shown();
+  }
+  EXPECT_EQ(met, mode) << way.name;
+}
+
+// Ctrl-Z stops the machine before the process; after fg it stands until r, and the keys work.
+void suspend_in(const std::string& mode) {
+  std::string met;
+  for (int attempt = 0; attempt < 6 && met != mode; ++attempt) {
+    SCOPED_TRACE("Ctrl-Z in " + mode);
+    Attended at;
+    at.begin();
+    at.wait_for(mode);
+    const pid_t run = at.terminal.child();
+    const double before = at.now();
+    at.terminal.type("\x1a");
+    const double acted = at.now();
+    ASSERT_TRUE(at.terminal.shows("Stopped", 10.0)) << at.terminal.shown();
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));  // it comes to rest
+    EXPECT_TRUE(at.stands_for(0.2));
+    at.terminal.type("stty sane\nfg\n");
+    EXPECT_TRUE(at.terminal.shows("STOPPED BY HAND", 10.0)) << at.terminal.shown();
+    EXPECT_TRUE(at.stands_for(0.3));
+    if (mode == "hold") at.heal();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the tracker is heard again
+    at.terminal.type("r");
+    EXPECT_TRUE(at.terminal.shows("s  resumed", 10.0)) << at.terminal.shown();
+    at.terminal.type("q");
+    ASSERT_TRUE(tests::ends(run, 10.0)) << at.terminal.shown();
+    // The mode of the tick in which the stop was sent; and when that was.
+    double sent = kUnset;
+    RecordReader reader(at.record());
+    EXPECT_TRUE(reader.sealed());
+    RecordedTick tick, earlier;
+    while (reader.next(tick)) {
+      if (std::isnan(sent) && tick.in.tip.health == Health::fault) {
+        sent = seconds(tick.tick.t.time_since_epoch());
+        met = mode_name(earlier.out.mode);
+      }
+      earlier = tick;
+    }
+    EXPECT_GT(sent, 0.0);
+    EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
+  }
+  EXPECT_EQ(met, mode);
+}
+
+void for_each_mode(const std::function<void(const std::string&)>& check) {
+  std::vector<std::future<void>> all;
+  for (const char* mode : {"follow", "contact", "restore", "hold"})
+    all.push_back(std::async(std::launch::async, check, mode));
+  for (std::future<void>& one : all) one.get();
+}
+
+class AtTheTerminal : public testing::TestWithParam<std::size_t> {};
+void end_everywhere(const Way& way) {
+  for_each_mode([&](const std::string& mode) { end_in(way, mode); });
+}
+TEST_P(AtTheTerminal, WhateverEndsTheRunStopsTheMachineAndSealsTheRecord) {
+  end_everywhere(ways()[GetParam()]);
+}
+INSTANTIATE_TEST_SUITE_P(Each, AtTheTerminal, testing::Range<std::size_t>(0, ways().size()));
+
+TEST(AtTheTerminalToo, CtrlZStopsTheMachineAndTheKeysWorkAfterFg) { for_each_mode(suspend_in); }
+
+// Space stops and r resumes; the status line has what a person needs to know.
+TEST(AtTheTerminalToo, TheStatusLineAndTheEventsAreThere) {
+  Attended at;
+  at.begin();
+  at.wait_for("contact");
+  EXPECT_THAT(
+      at.terminal.shown(),
+      testing::ContainsRegex("s  follow  [0-9.]+ N  gap [0-9.]+ mm  p99 [0-9.]+ ms  missed [0-9]+  \\| "
+                             "space stops, r resumes, q ends"));
+  at.terminal.type(" ");
+  EXPECT_TRUE(at.terminal.shows("s  stopped by hand: the machine stands until r", 5.0));
+  EXPECT_TRUE(at.terminal.shows("s  STOPPED BY HAND", 5.0));
+  std::size_t from = at.terminal.shown().size();
+  at.terminal.type("r");
+  EXPECT_TRUE(at.terminal.shows("s  resumed", 5.0, from));
+  EXPECT_TRUE(at.terminal.shows("s  hold is over", 5.0, from)) << at.terminal.shown();
+  from = at.terminal.shown().size();
+  at.fault("netft:stall");
+  EXPECT_TRUE(at.terminal.shows("s  link lost: force sensor", 5.0, from)) << at.terminal.shown();
+  at.terminal.type("q");
+  EXPECT_TRUE(at.terminal.shows("s  ends: q", 5.0, from));
+}
+
+// Ctrl-S: the terminal takes no words. The loop goes on in time, and a stop is a stop.
+TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
+  Attended at;
+  at.begin();
+  at.wait_for("follow");
+  at.terminal.type("\x13");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const pid_t run = at.terminal.child();
+  const double before = at.now();
+  kill(run, SIGTERM);
+  const double acted = at.now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // it has ended but for its report
+  at.terminal.type("\x11");
+  ASSERT_TRUE(tests::ends(run, 10.0));
+  EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
+  RecordReader reader(at.record());
+  EXPECT_TRUE(reader.sealed());
+  std::int64_t missed = 0;
+  RecordedTick tick;
+  while (reader.next(tick)) missed = std::max(missed, tick.in.missed);
+  EXPECT_LT(missed, 50) << "cycles at once: the loop waited for the terminal";
+}
+
+// Before the first motion: what moves, how far, how fast. Enter begins; anything else does not.
+TEST(AtTheTerminalToo, TheFirstMotionIsAskedFor) {
+  Attended at(std::vector<std::string>{});
+  at.begin();
+  ASSERT_TRUE(at.terminal.shows("Enter begins", 10.0)) << at.terminal.shown();
+  EXPECT_THAT(at.terminal.shown(),
+              testing::AllOf(
+                  HasSubstr("manipulator C-887"),
+                  testing::ContainsRegex("moves -[0-9]+ to [0-9]+, -[0-9]+ to [0-9]+, -[0-9]+ to [0-9]+ mm "
+                                         "along x, y, z from its zero, at most at 50 mm/s and 0.41 m/s2")));
+  EXPECT_TRUE(at.stands_for(0.5));
+  at.terminal.type("no\n");
+  EXPECT_TRUE(at.terminal.shows("not begun; nothing has moved", 5.0));
+  std::size_t from = at.terminal.shown().size();
+  at.terminal.type("echo code $?\n");
+  EXPECT_TRUE(at.terminal.shows("code 2", 5.0, from));
+  EXPECT_FALSE(std::filesystem::exists(at.record()));
+
+  from = at.terminal.shown().size();
+  at.begin();
+  ASSERT_TRUE(at.terminal.shows("Enter begins", 10.0, from));
+  at.terminal.type("\x1a");  // nothing moves yet: an ordinary pause
+  ASSERT_TRUE(at.terminal.shows("Stopped", 5.0, from)) << at.terminal.shown();
+  at.terminal.type("fg\n");
+  std::this_thread::sleep_for(std::chrono::milliseconds(3000));  // a person takes time
+  at.terminal.type("\n");
+  EXPECT_TRUE(at.terminal.shows("s  contact 1 with 'wall'", 20.0, from)) << at.terminal.shown();
+  EXPECT_THAT(at.terminal.shown().substr(from), testing::Not(HasSubstr("STOPPED")));
+  at.terminal.type("q");
+  EXPECT_TRUE(at.terminal.shows("state hash", 10.0, from));
+
+  from = at.terminal.shown().size();
+  at.terminal.type("rm " + at.record() + "\n");
+  at.begin();
+  ASSERT_TRUE(at.terminal.shows("Enter begins", 10.0, from));
+  at.terminal.type("\x03");
+  ASSERT_TRUE(at.terminal.shows("not begun; nothing has moved", 5.0, from)) << at.terminal.shown();
+  at.terminal.type("echo code $?\n");
+  EXPECT_TRUE(at.terminal.shows("code 130", 5.0, from));
+}
+
+TEST(AtTheTerminalLong, WhateverEndsTheRunTwentyTimes) {
+  for (int i = 0; i < 20; ++i) {
+    for (const Way& way : ways()) end_everywhere(way);
+    for_each_mode(suspend_in);
+  }
+}
+
+}  // namespace
+}  // namespace enc::test

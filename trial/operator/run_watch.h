@@ -1,0 +1,76 @@
+// What a person at an armed run sees of it: the present status, and events as they happen. The loop's side of
+// it: it compares and copies, and neither allocates nor waits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/latest.h"
+#include "trial/operator/queue.h"
+#include "trial/trial_options.h"
+
+namespace enc::trial {
+
+struct RunStatus {
+  Time t{};
+  Mode mode = Mode::away;
+  std::uint32_t why = 0;
+  bool halted = false;      // by hand
+  double gap = kUnset;      // m
+  double force = kUnset;    // N, that presses along the surface's normal
+  std::int64_t missed = 0;  // cycles since the start
+  static constexpr std::size_t kPeriods = 1000;
+  std::array<std::uint32_t, kPeriods> periods_ns{};  // of the last ticks, in no order
+  std::size_t periods = 0;                           // how many of them there are
+};
+
+struct RunEvent {
+  enum class Kind : std::uint8_t {
+    hold,
+    hold_over,
+    contact,
+    contact_over,
+    link_lost,
+    halted,
+    suspended,
+    resumed,
+    ends
+  };
+  Kind kind = Kind::hold;
+  Time t{};
+  std::uint32_t why = 0;       // of a hold
+  Mode mode = Mode::away;      // that follows a hold
+  std::int32_t contact = 0;    // number of a contact,
+  std::int32_t object = -1;    // and its object
+  const char* role = nullptr;  // of a lost link
+  int signal = 0;              // that ends the run; 0: a key
+};
+
+class RunWatch {
+ public:
+  void see(const Glance& glance) noexcept;
+  // Something that the person did.
+  void note(RunEvent::Kind kind, int signal = 0) noexcept;
+
+  // The reader's side, of one other thread.
+  bool newest(RunStatus& status) noexcept { return statuses_.read(status); }
+  bool next(RunEvent& event) noexcept { return events_.pop(event); }
+  [[nodiscard]] std::size_t take_dropped() noexcept { return events_.take_dropped(); }
+
+ private:
+  void push(RunEvent event) noexcept;
+  void compare(const Glance& glance) noexcept;
+
+  static constexpr int kStatusEach = 50;  // ticks
+  RunStatus status_;
+  Latest<RunStatus> statuses_;
+  Queue<RunEvent, 128> events_;
+  std::int64_t ticks_ = 0;
+  Mode mode_ = Mode::away;
+  std::uint32_t why_ = 0;
+  std::int32_t contacts_ = 0;
+  bool in_contact_ = false;
+  std::array<bool, kRoles> lost_{};
+};
+
+}  // namespace enc::trial

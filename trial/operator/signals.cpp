@@ -1,0 +1,106 @@
+#include "trial/operator/signals.h"
+
+#include <unistd.h>
+
+namespace enc::trial {
+namespace {
+
+volatile std::sig_atomic_t begun = 0, first_end = 0, halts = 0, resumes = 0, suspensions = 0, continued = 0;
+// What a fault of this program did before, by its number.
+std::array<struct sigaction, 32> faults_before{};
+
+extern "C" {
+
+void note_end(int number) {
+  if (begun == 0) _exit(128 + number);
+  if (first_end == 0) first_end = number;
+}
+void note_halt(int) { halts = 1; }
+void note_resume(int) { resumes = 1; }
+void note_suspension(int) { suspensions = 1; }
+void note_continued(int) { continued = 1; }
+
+// Another process sent it, as a supervisor may: it asks for the end. Otherwise this program is at fault, and
+// the signal does what it did before: the faulty instruction runs again, or abort() raises it again.
+void note_fault(int number, siginfo_t* info, void*) {
+  if (info->si_code == SI_USER && info->si_pid != getpid()) return note_end(number);
+  sigaction(number, &faults_before[static_cast<std::size_t>(number)], nullptr);
+  if (info->si_code <= 0) raise(number);
+}
+
+}  // extern "C"
+
+bool taken(volatile std::sig_atomic_t& flag) noexcept {
+  if (flag == 0) return false;
+  flag = 0;
+  return true;
+}
+
+}  // namespace
+
+Signals::Signals() {
+  for (volatile std::sig_atomic_t* flag : {&begun, &first_end, &halts, &resumes, &suspensions, &continued})
+    *flag = 0;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) take(signal, note_end, Spared::ignored);
+  // A profiler or a test may have a handler for one of these.
+  for (const int signal : {SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGIO, SIGPWR, SIGSTKFLT})
+    take(signal, note_end, Spared::handled);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) take(signal, note_end, Spared::handled);
+  take_faults();
+  take(SIGUSR1, note_halt, Spared::nothing);
+  take(SIGUSR2, note_resume, Spared::nothing);
+  for (const int signal : {SIGPIPE, SIGXFSZ, SIGTTIN, SIGTTOU}) take(signal, SIG_IGN, Spared::ignored);
+}
+
+Signals::~Signals() {
+  for (; count_ > 0; --count_) sigaction(taken_[count_ - 1].signal, &taken_[count_ - 1].before, nullptr);
+}
+
+void Signals::take(int signal, void (*handler)(int), Spared spared) {
+  if (count_ == taken_.size()) return;
+  Taken& one = taken_[count_];
+  one.signal = signal;
+  if (sigaction(signal, nullptr, &one.before) != 0) return;
+  if (spared != Spared::nothing && one.before.sa_handler == SIG_IGN) return;
+  if (spared == Spared::handled && one.before.sa_handler != SIG_DFL) return;
+  struct sigaction action {};
+  action.sa_handler = handler;
+  if (sigaction(signal, &action, nullptr) == 0) ++count_;
+}
+
+void Signals::take_faults() {
+  for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP}) {
+    Taken& one = taken_[count_];
+    one.signal = signal;
+    if (sigaction(signal, nullptr, &one.before) != 0) continue;
+    faults_before[static_cast<std::size_t>(signal)] = one.before;
+    struct sigaction action {};
+    action.sa_sigaction = note_fault;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+    if (sigaction(signal, &action, nullptr) == 0) ++count_;
+  }
+}
+
+void Signals::begin() noexcept { begun = 1; }
+
+void Signals::take_suspensions() noexcept {
+  take(SIGTSTP, note_suspension, Spared::ignored);
+  take(SIGCONT, note_continued, Spared::nothing);
+}
+
+int Signals::caught() noexcept { return first_end; }
+bool Signals::take_halt() noexcept { return taken(halts); }
+bool Signals::take_resume() noexcept { return taken(resumes); }
+bool Signals::take_suspension() noexcept { return taken(suspensions); }
+bool Signals::take_continued() noexcept { return taken(continued); }
+
+void Signals::suspend() noexcept {
+  struct sigaction ours {
+  }, plain{};
+  plain.sa_handler = SIG_DFL;
+  if (sigaction(SIGTSTP, &plain, &ours) != 0) return;
+  raise(SIGTSTP);  // returns when the process is continued
+  sigaction(SIGTSTP, &ours, nullptr);
+}
+
+}  // namespace enc::trial
