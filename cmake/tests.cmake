@@ -21,6 +21,8 @@ set_source_files_properties(
   "ENCOUNTER_MODULE_DIR=\"${module_dir}\";ENCOUNTER_BINARY=\"${PROJECT_BINARY_DIR}/encounter\";ENCOUNTER_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
 # g++ takes a precompiled header only where -fPIC and -fPIE are the same; CMake gives libraries one, programs the other.
 set_target_properties(enc_test_support PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+# Tests are compiled for a short build: what they test is optimised as ever.
+target_compile_options(enc_test_support PUBLIC $<IF:$<CONFIG:Release>,-O1,-Og> $<$<CONFIG:Release>:-g0>)
 enc_precompile(enc_test_support ${enc_standard_headers} ${enc_eigen_headers} <fmt/format.h> <gmock/gmock.h> <gtest/gtest.h>)
 
 find_path(CGAL_INCLUDE_DIR CGAL/AABB_tree.h)
@@ -41,12 +43,22 @@ set(optimised heavy property golden fuzz benchmarks hygiene shape terminal)
 # Of tests/unit and tests/input: what draws pictures by the thousand, runs whole scenes, or follows a mass through 10^8
 # periods. Under ASan they take 10 to 30 times as long, four fifths of all the time there. A new test that takes a second
 # in release belongs here.
-string(CONCAT draws "/tests/(unit/core/vision/(augment|ball|calibration|finger|segmentation/[a-z_]*_test|stereo/match|vision_tracker)|"
-       "unit/sim/camera/|unit/trial/guided/tip_eyes|input/app/(calibration/|camera/|camera_test))")
-string(CONCAT runs_scenes "/tests/(unit/trial/((carried|ledger|measure|precision|shadow)/|(jitter|seen_measure|shipped|touch_measure)_test)|"
-       "input/app/(calibrate/calibrate_machine_test|(limits|shadow|verdict)_input_test))")
-set(long_loops "/tests/unit/core/safety/certificate/certificate_test")
-set(slow "${draws}|${runs_scenes}|${long_loops}")
+set(draws
+    unit/app/view_test unit/core/dent/ unit/core/vision/augment/ unit/core/vision/ball/ unit/core/vision/calibration/
+    unit/core/vision/finger/ unit/core/vision/segmentation/[a-z_]*_test unit/core/vision/stereo/match
+    unit/core/vision/vision_tracker unit/sim/camera/ unit/trial/camera/faulty unit/trial/guided/
+    input/app/calibration/ input/app/camera/ input/app/camera_test)
+set(runs_scenes
+    unit/core/machine/motors unit/core/safety/edge unit/core/safety/guard unit/models/built_scene unit/sim/arm_world unit/sim/legs
+    unit/sim/rig_test unit/sim/session_world unit/trial/ball_fit unit/trial/carried/ unit/trial/jitter unit/trial/ledger/
+    unit/trial/measure/ unit/trial/precision/ unit/trial/seen_measure unit/trial/shadow/ unit/trial/shipped unit/trial/touch_measure
+    unit/trial/trial_dent unit/trial/trial_fault unit/trial/trial_press input/app/calibrate/calibrate_machine
+    input/app/calibrate/calibrate_test input/app/check_test input/app/limits_input input/app/rig_test input/app/shadow_input
+    input/app/stop_test input/app/verdict_input)
+set(long_loops unit/core/safety/certificate/)
+set(slow ${draws} ${runs_scenes} ${long_loops})
+list(TRANSFORM slow PREPEND "/tests/")
+list(JOIN slow "|" slow)
 set(needs_vision "/tests/.*(/(vision|camera|images)/|camera_test)") # what is not built without it
 
 function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of unit and input, as above

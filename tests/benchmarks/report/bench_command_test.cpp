@@ -140,7 +140,7 @@ TEST(Bench, WithoutGnuplotItSaysSoInOneLine) {
 TEST(Bench, FiguresFollowFromSeedAndOverridesAlone) {
   const test::TemporaryFolder folder;
   const auto figures = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"bench", "encounter", "--repeats=3", "--out", folder.file("out")});
+    more.insert(more.begin(), {"bench", "encounter", "--repeats=1", "--out", folder.file("out")});
     run_program(more);
     return bytes_of(folder.path() / "out/encounter.csv") + bytes_of(folder.path() / "out/encounter.miss.svg");
   };
@@ -172,10 +172,10 @@ TEST(Bench, NoTimeOfTheMachineIsBounded) {
 
 // The last line names what fell short: the rest may have scrolled away.
 TEST(Bench, WhatFellShortIsNamedAtTheEnd) {
-  const Result r = run_program({"bench", "press", "--repeats=1", "--set", "truth.hexapod.servo_hz=1e-6"});
+  const Result r = run_program({"bench", "encounter", "--repeats=1", "--set", "truth.hexapod.servo_hz=1e-6"});
   EXPECT_EQ(r.code, 1) << r.err;
   const std::string last = r.out.substr(r.out.rfind('\n', r.out.size() - 2) + 1);
-  EXPECT_THAT(last, AllOf(StartsWith("out of bounds: "), HasSubstr("press.")));
+  EXPECT_THAT(last, AllOf(StartsWith("out of bounds: "), HasSubstr("encounter.")));
 }
 
 // Stopped when the first benchmark is complete, in the middle of the second, which would take minutes.

@@ -79,7 +79,7 @@ TEST(Verdict, MoreContactsThanPressesAreNamed) {
 // Those that come nearest to a line: late contacts and misses at 20 Hz, fast presses, soft springs.
 TEST(Verdict, NothingIsNamedWhereNothingIsWrong) {
   for (const char* name : {"reaching", "wall", "tiles", "hit_ball", "stiffness", "synchrony", "push_limit"})
-    for (int seed = 1; seed <= 5; ++seed) {
+    for (int seed = 1; seed <= tests::thorough(1, 5); ++seed) {
       // There a finger presses the prop aside while it is on its way, and a motor comes to its peak for 30
       // ms.
       if (std::string(name) == "reaching" && seed == 4) continue;

@@ -20,8 +20,10 @@ models::Setup shipped(const std::string& scene) {
   return models::load(tests::source_dir() + "/models/scenes/" + scene + ".toml", "", {});
 }
 
+const auto kSeeds = static_cast<std::uint64_t>(tests::thorough(2, 4));
+
 TEST(ShippedBall, IsOneContactAHit) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     trial::Trial trial(shipped("hit_ball"), seeded(seed));
     bool touched = false;
     std::int32_t contacts = 0;
@@ -58,7 +60,7 @@ Unfounded unfounded_of(trial::Trial& trial) {
 // Beside the ball the prop goes along with the finger, and lags: that is no hit.
 TEST(ShippedBall, IsNotHitByTheArmsOwnLag) {
   for (const char* tilt : {"45", "60"})
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
       trial::Trial trial(models::load(tests::source_dir() + "/models/scenes/hit_ball.toml", "",
                                       {std::string("user.approach_tilt_deg=") + tilt}),
                          seeded(seed));
@@ -80,7 +82,7 @@ TEST(ShippedBall, IsLetGoWhenNothingIsFelt) {
 
 // The ball gets no more than the finger has put in.
 TEST(ShippedBall, GainsNoEnergy) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     trial::Trial trial(shipped("hit_ball"), seeded(seed));
     double work = 0.0;
     while (trial.tick()) {

@@ -22,6 +22,7 @@
 #include "core/vision/segmentation/skin.h"
 #include "sim/camera/context.h"
 #include "sim/camera/skin_tones.h"
+#include "tests/support/built.h"
 
 namespace enc::sim {
 namespace {
@@ -132,8 +133,8 @@ TEST(Stage, TheLampsSideShows) {
 
 TEST(Stage, AnOfficeHasNothingOfTheHueOfSkin) {
   for (const Scenery scenery : {Scenery::office, Scenery::clutter})
-    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-      StageSpec spec = small(scenery, seed);
+    for (int seed = 1; seed <= tests::thorough(2, 6); ++seed) {
+      StageSpec spec = small(scenery, static_cast<std::uint64_t>(seed));
       spec.sensor.noise = 0.0;
       const Image office = drawn(spec, nullptr);
       int skin_hued = 0;
@@ -302,14 +303,15 @@ TEST(Stage, AThreadWaitsUntilAnotherHasDrawn) {
 
 TEST(Stage, SeveralThreadsDrawTheSame) {
   const Image alone = drawn(small(Scenery::clutter, 3));
+  const int times = tests::thorough(2, 5);
   std::array<int, 3> same{};
   std::vector<std::thread> threads;
   for (int& count : same)
     threads.emplace_back([&] {
-      for (int i = 0; i < 5; ++i) count += drawn(small(Scenery::clutter, 3)).rgb == alone.rgb ? 1 : 0;
+      for (int i = 0; i < times; ++i) count += drawn(small(Scenery::clutter, 3)).rgb == alone.rgb ? 1 : 0;
     });
   for (std::thread& thread : threads) thread.join();
-  for (const int count : same) EXPECT_EQ(count, 5);
+  for (const int count : same) EXPECT_EQ(count, times);
 }
 
 TEST(StageRenderer, Draws) {

@@ -82,7 +82,8 @@ TEST(Ledger, OpensByWhatIsLeftOut) {
 // A button is pressed: the target stands, so nothing is carried; a machine that pushes what it is asked for
 // has no limits; and all of it adds up, whoever presses.
 TEST(Ledger, OfAButtonCloses) {
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+  for (int i = 1; i <= tests::thorough(1, 4); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i);
     const std::vector<ContactLedger> all = ledger_of(setup_of("keypad"), seed, 6.0);
     ASSERT_FALSE(all.empty());
     for (const ContactLedger& one : all) {

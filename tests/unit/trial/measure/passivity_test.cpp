@@ -101,8 +101,9 @@ TEST(TrialPassivity, AWallThatRingsGivesOutLittle) {
 // foresees: there it is 0.14 mJ at most (16 seeds), and stays within F v T of one cycle.
 TEST(TrialPassivity, NoShippedSceneGivesOutMoreThanATenthOfAMillijoule) {
   for (const char* scene : {"wall", "button", "keypad", "hit_ball", "reaching"})
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      const PassivityFigures of = felt_in(setup_of(scene, kControlled), seed).controller;
+    for (int seed = 1; seed <= tests::thorough(1, 4); ++seed) {
+      const PassivityFigures of =
+          felt_in(setup_of(scene, kControlled), static_cast<std::uint64_t>(seed)).controller;
       EXPECT_LE(of.given, std::string(scene) == "reaching" ? kCycle : 0.1e-3) << scene << ", seed " << seed;
       EXPECT_GE(of.dissipated, 0.0) << scene;
     }
@@ -114,9 +115,14 @@ TEST(TrialPassivity, NoShippedSceneGivesOutMoreThanATenthOfAMillijoule) {
 TEST(TrialPassivity, AContactThatIsFoundAgainIsNoGift) {
   const Set lost{"truth.tracker.blackout_at_s=2.5", "truth.tracker.blackout_for_s=0.6"};
   const Set stiff{"behaviour.phantom_wall.stiffness_N_per_mm=1.6", lost[0], lost[1]};
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    EXPECT_LE(felt_in(setup_of("wall", lost, kControlled), seed).controller.given, 0.1e-3) << seed;
-    EXPECT_LE(felt_in(setup_of("wall", stiff, kControlled), seed).controller.given, 0.4e-3) << seed;
+  for (int seed = 1; seed <= tests::thorough(2, 5); ++seed) {
+    EXPECT_LE(felt_in(setup_of("wall", lost, kControlled), static_cast<std::uint64_t>(seed)).controller.given,
+              0.1e-3)
+        << seed;
+    EXPECT_LE(
+        felt_in(setup_of("wall", stiff, kControlled), static_cast<std::uint64_t>(seed)).controller.given,
+        0.4e-3)
+        << seed;
   }
 }
 
