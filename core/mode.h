@@ -13,8 +13,9 @@ namespace enc {
 //   contact  the contact's own tool is within the leave gap; or force is felt and that tool is    leave time
 //            within 10 mm. Before force was first felt: that tool is within 10 mm, for 0.5 s
 //            force is felt and its own tool is seen clear of the object (tare_clearance)          0.5 s
-//            force is felt and its own tool is out of view: while the force varies, as a hand's   5 s
-//            does, or another tool is near the object
+//            force is felt and that tool is out of view: the force varies, as a hand's does;
+//            or it is steady and small, and the tool in view is clear                             5 s
+//            or it is steady and larger, or another tool is near the object                       60 s
 //            behind a damper, the tip is deeper than the leave gap and no tool is 10 mm away      5 s
 //   restore  the tip is on its way to the buffered point                                         2 s
 //   hold     a reason to hold; of a machine that did not follow: the tool is still there         at once

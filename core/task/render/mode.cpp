@@ -16,7 +16,9 @@ double pressing_force(const Walk& walk, const Vec<'W'>& normal) {
 // can mend that. Wider than what a tool at 200 mm/s moves while its pose is on the way.
 constexpr double kFar = 10e-3;  // m
 // How long a mode may outlive its cause (mode.h).
-constexpr double kMeeting = 0.5, kReturning = 5.0, kRestoring = 2.0, kUnseen = 5.0;  // s
+constexpr double kMeeting = 0.5, kReturning = 5.0, kRestoring = 2.0, kUnseen = 5.0, kUnseenLong = 60.0;  // s
+// A force that stays within so much of the contact threshold is steady, and small up to so many thresholds.
+constexpr double kSteady = 0.15, kSmall = 3.0;
 bool too_far(const Walk& walk) { return walk.tool_known && walk.gap > kFar; }
 
 // A hand that presses cannot change its tool: another one in view did not make this contact, and where it is
@@ -28,17 +30,23 @@ bool changed_tool(const Walk& walk, const State& state, const Rendering& now) {
 // A tool is known where the scene has a tracker that could see one.
 bool nothing_seen(const Walk& walk) { return walk.scene.has_tracker && !walk.tool_known; }
 
-// Force without a cause: it is an error of the sensor's zero. The contact's own tool is seen clear of the
-// object; or that tool is out of view, whichever tool is seen is clear, and the force stays the same, which
-// no hand can do.
+// Force without a cause is an error of the sensor's zero. The contact's own tool is seen clear of the object;
+// or that tool is out of view and the force is steadier than a hand can keep it: for a while where the force
+// is small and the tool in view is clear, for a minute otherwise. A pose that is late neither counts nor ends
+// the count.
 bool force_is_drift(const Walk& walk, bool own, double force, Contact& contact) {
   if (!walk.scene.has_tracker) return false;
-  const bool clear = !walk.tool_known || (walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance);
-  const bool steady =
-      own || std::abs(force - static_cast<double>(contact.steady_force)) <= walk.scene.force.contact;
-  if (!steady) contact.steady_force = static_cast<float>(force);
-  contact.clear = clear && steady ? contact.clear + walk.scene.dt : 0.0;
-  return contact.clear >= (own ? kMeeting : kUnseen);
+  if (walk.tool_known && !walk.tool_fresh) return false;
+  const double threshold = walk.scene.force.contact;
+  const bool clear = !walk.tool_known || walk.gap > walk.scene.force.tare_clearance;
+  const bool steady = std::abs(force - static_cast<double>(contact.steady_force)) <= kSteady * threshold;
+  const bool changed = contact.unseen == own;
+  const bool goes_on = own ? clear : steady;
+  contact.unseen = !own;
+  if (changed || (!own && !steady)) contact.steady_force = static_cast<float>(force);
+  contact.clear = goes_on && !changed ? contact.clear + walk.scene.dt : 0.0;
+  const double longest = own ? kMeeting : clear && force <= kSmall * threshold ? kUnseen : kUnseenLong;
+  return contact.clear >= longest;
 }
 
 // As near to the buffered point as the machine gets.

@@ -11,11 +11,14 @@ namespace {
 
 bool engaged(const State& state) { return state.mode == Mode::contact || state.mode == Mode::restore; }
 
-// Whether nothing can be on the tip.
-bool clear_of_object(const Walk& walk, const State& state) {
+// Whether nothing can be on the tip. A tool that was out of view as its contact ended may still press until
+// that tool is seen clear.
+bool clear_of_object(const Walk& walk, const State& state, Contact& contact) {
   if (state.mode != Mode::away && state.mode != Mode::follow) return false;
   if (!walk.scene.has_tracker) return true;
-  return walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance;
+  const bool clear = walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance;
+  if (clear && state.tool.value.tool == contact.tool) contact.unseen = false;
+  return clear && !contact.unseen;
 }
 
 Walls walls_around(const Walk& walk, State& state, const Rendering& now) {
@@ -45,7 +48,7 @@ void touch(Walk& walk, const Render&, State& state, Rendering& now) noexcept {
 
 void act(Walk& walk, const Render& task, State& state, Rendering& now) noexcept {
   grip(walk);
-  sense(walk, state, now, clear_of_object(walk, state));  // what force is on the tip
+  sense(walk, state, now, clear_of_object(walk, state, now.contact));  // what force is on the tip
   weigh(walk, task, state, now);
   hold_lost(walk, state, now);
   check_tip(walk, state, now);

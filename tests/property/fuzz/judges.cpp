@@ -44,11 +44,12 @@ std::string Modes::judge(const Scene& scene, const State& state, const Outputs& 
   const bool own = tool_known && (!scene.has_tracker || state.tool.value.tool == contact_of(state).tool);
   const bool near = own && out.gap <= scene.contact.leave_gap;
   const bool elsewhere = !own && (!tool_known || out.gap > scene.force.tare_clearance);
-  const bool same = std::abs(force - same_force_) <= scene.force.contact;
+  const bool same = std::abs(force - same_force_) <= 0.15 * scene.force.contact;
   if (!same) same_force_ = force;
-  alone_ = elsewhere && same ? alone_ + dt : 0.0;
-  const bool pressed =
-      force >= 0.5 * scene.force.contact && (own ? out.gap <= 10e-3 : alone_ <= 5.0 + 3.0 * dt);
+  alone_ = !own && same ? alone_ + dt : 0.0;
+  // Late poses do not count, and how late they are is not seen here: half as long again.
+  const double longest = elsewhere && force <= 3.0 * scene.force.contact ? 7.5 : 90.0;
+  const bool pressed = force >= 0.5 * scene.force.contact && (own ? out.gap <= 10e-3 : alone_ <= longest);
   const bool coming = in_contact_ < 0.5 && tool_known && out.gap <= 10e-3;
   loose_ = near || pressed || coming ? 0.0 : loose_ + dt;
   const bool damped = scene.render()->damping && !(tool_known && out.gap > 10e-3);

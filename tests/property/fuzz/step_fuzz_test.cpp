@@ -256,7 +256,7 @@ class StepFuzz : public testing::TestWithParam<int> {};
 // In shards, so that ctest runs them side by side.
 TEST_P(StepFuzz, StaysWithinLimitsInsideAndWithinItsModes) {
   constexpr std::uint64_t kShards = 4;
-  const std::uint64_t scenes = number_of("ENCOUNTER_FUZZ_SCENES", 24);
+  const std::uint64_t scenes = number_of("ENCOUNTER_FUZZ_SCENES", 96);
   const std::uint64_t first = number_of("ENCOUNTER_FUZZ_SEED", 1);
   const double length = scenes > 100 ? 20.0 : 6.0;
   const auto start = std::chrono::steady_clock::now();

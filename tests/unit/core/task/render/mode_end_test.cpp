@@ -105,22 +105,28 @@ SceneSpec two_tools() {
   return spec;
 }
 
+// A contact whose own tool is hidden from here on, while another one is seen at this gap.
+Loop hidden(double gap) {
+  Loop loop(prepare(two_tools(), test::exact_rig()));
+  loop.tool_tip = at_gap(0.02);
+  loop.tick(1500);
+  loop.tool_tip = at_gap(-0.002);
+  loop.force = Vec<'W'>(0, 0, -5.0);
+  loop.tick(1000);
+  EXPECT_EQ(loop.out.mode, Mode::contact);
+  loop.tool = 1;
+  loop.tool_tip = at_gap(gap);
+  return loop;
+}
+
 // The tool vanishes as it lets go, another one is seen 150 mm away, and the zero is off: no cause is left.
 TEST(ModeEnds, AContactWhoseToolIsOutOfViewWhileAnotherIsSeenClear) {
   for (const double drift : {0.06, 0.12, 0.5, 2.0}) {
     SCOPED_TRACE(drift);
-    Loop loop(prepare(two_tools(), test::exact_rig()));
-    loop.tool_tip = at_gap(0.02);
-    loop.tick(1500);
-    loop.tool_tip = at_gap(-0.002);
-    loop.force = Vec<'W'>(0, 0, -5.0);
-    loop.tick(1000);
-    ASSERT_EQ(loop.out.mode, Mode::contact);
+    Loop loop = hidden(0.150);
     loop.force_zero = Vec<'F'>(0, 0, -drift);
     loop.force = Vec<'W'>::zero();
-    loop.tool = 1;
-    loop.tool_tip = at_gap(0.150);
-    loop.tick(8000);
+    loop.tick(drift < 0.3 ? 8000 : 63'000);
     EXPECT_EQ(loop.out.mode, Mode::away) << why_text(loop.out.why);
     const std::int32_t contacts = loop.out.contacts;
     loop.tick(20'000);
@@ -129,24 +135,66 @@ TEST(ModeEnds, AContactWhoseToolIsOutOfViewWhileAnotherIsSeenClear) {
   }
 }
 
+// The other tool lies on the object's edge, where it touches nothing.
+TEST(ModeEnds, AContactWhoseToolIsOutOfViewWhileAnotherIsNear) {
+  Loop loop = hidden(0.0029);
+  loop.force_zero = Vec<'F'>(0, 0, -0.12);
+  loop.force = Vec<'W'>::zero();
+  bool over = false;
+  for (int i = 0; i < 65'000 && !over; ++i) {
+    loop.tick();
+    over = loop.out.mode != Mode::contact;
+  }
+  EXPECT_TRUE(over);
+}
+
+// Poses that are late for 60 ms, every 4 s.
+TEST(ModeEnds, AContactWhoseToolIsOutOfViewWhilePosesAreLate) {
+  Loop loop = hidden(0.150);
+  loop.force_zero = Vec<'F'>(0, 0, -0.12);
+  loop.force = Vec<'W'>::zero();
+  int ticks = 0;
+  auto last = Inputs{}.tool;
+  loop.spoil = [&](Inputs& in) {
+    if (ticks++ % 4000 < 60)
+      in.tool = last;
+    else
+      last = in.tool;
+  };
+  loop.tick(9000);
+  EXPECT_EQ(loop.out.mode, Mode::away) << why_text(loop.out.why);
+}
+
 // A hand that presses varies its force: its contact stays, though its own tool is hidden and another lies in
 // view.
 TEST(ModeEnds, NotAContactWhoseForceVariesWhileItsToolIsHidden) {
-  Loop loop(prepare(two_tools(), test::exact_rig()));
-  loop.tool_tip = at_gap(0.02);
-  loop.tick(1500);
-  loop.tool_tip = at_gap(-0.002);
-  loop.force = Vec<'W'>(0, 0, -3.0);
-  loop.tick(1000);
-  ASSERT_EQ(loop.out.mode, Mode::contact);
-  loop.tool = 1;
-  loop.tool_tip = at_gap(0.150);
-  for (int i = 0; i < 20'000; ++i) {
-    loop.force = Vec<'W'>(0, 0, -3.0 - 0.2 * std::sin(2e-3 * i));  // 2 % or so, at 0.3 Hz
-    loop.tick();
-    ASSERT_EQ(loop.out.mode, Mode::contact) << i;
+  for (const double force : {0.5, 1.0, 3.0}) {
+    Loop loop = hidden(0.150);
+    for (int i = 0; i < 100'000; ++i) {
+      loop.force = Vec<'W'>(0, 0, -force * (1.0 - 0.04 * std::sin(2e-3 * i)));  // 0.3 Hz
+      loop.tick();
+      ASSERT_EQ(loop.out.mode, Mode::contact) << force << " N, " << i;
+    }
+    EXPECT_EQ(loop.out.contacts, 1);
   }
-  EXPECT_EQ(loop.out.contacts, 1);
+}
+
+// A hand so still that its contact ends: its force is not learnt as the zero while its tool is hidden.
+TEST(ModeEnds, WithoutLearningTheForceOfAHiddenHand) {
+  for (const double force : {0.2, 2.0}) {
+    Loop loop = hidden(0.150);
+    loop.force = Vec<'W'>(0, 0, -force);
+    loop.tick(63'000);
+    EXPECT_EQ(loop.out.mode, Mode::away);
+    loop.tick(20'000);
+    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.norm(), 0.0, 1e-3) << force;
+    loop.tool = 0;
+    loop.tool_tip = at_gap(0.150);  // and it is again when that tool is seen clear
+    loop.force = Vec<'W'>::zero();
+    loop.force_zero = Vec<'F'>(0, 0, -0.03);
+    loop.tick(20'000);
+    EXPECT_NEAR(recall<Commanded>(loop.state).force_zero.xyz[2], -0.03, 0.005) << force;
+  }
 }
 
 // Only the tool that the gripper holds is in view when the tip is back: there is nothing to follow.
