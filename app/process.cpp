@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "trial/operator/standard_error.h"
 
 namespace enc::app {
 
@@ -40,9 +41,10 @@ void check_output() {
 bool reads_terminal() { return isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp(); }
 
 void show_progress(double share) {
-  fmt::print(stderr, "\r  {:3.0f} %", share * 100.0);
-  std::fflush(stderr);
+  static_cast<void>(trial::StandardError().write(fmt::format("\r  {:3.0f} %", share * 100.0)));
 }
+
+void clear_progress() { static_cast<void>(trial::StandardError().write("\r        \r")); }
 
 int thread_count() {
   int count = 0;

@@ -16,7 +16,9 @@ void check_output();
 
 // Standard input is a terminal, and who types there types for this process.
 [[nodiscard]] bool reads_terminal();
-void show_progress(double share);  // on a line of standard error, which is a terminal
+// On a line of standard error, which is a terminal; what it does not take at once is not shown.
+void show_progress(double share);
+void clear_progress();
 [[nodiscard]] int thread_count();
 [[nodiscard]] double peak_memory_mb();
 [[nodiscard]] double cpu_seconds();  // of this process since it was started, loading included

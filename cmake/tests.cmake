@@ -22,7 +22,7 @@ set_source_files_properties(
 # g++ takes a precompiled header only where -fPIC and -fPIE are the same; CMake gives libraries one, programs the other.
 set_target_properties(enc_test_support PROPERTIES POSITION_INDEPENDENT_CODE OFF)
 # Tests are compiled for a short build: what they test is optimised as ever.
-target_compile_options(enc_test_support PUBLIC $<IF:$<CONFIG:Release>,-O1,-Og> $<$<CONFIG:Release>:-g0>)
+target_compile_options(enc_test_support PUBLIC $<IF:$<CONFIG:Release>,-O1,-Og>)
 enc_precompile(enc_test_support ${enc_standard_headers} ${enc_eigen_headers} <fmt/format.h> <gmock/gmock.h> <gtest/gtest.h>)
 
 find_path(CGAL_INCLUDE_DIR CGAL/AABB_tree.h)

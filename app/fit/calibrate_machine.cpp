@@ -25,6 +25,7 @@
 #include "models/setup/scene_file.h"
 #include "trial/carried/machine_calibration.h"
 #include "trial/operator/consent.h"
+#include "trial/operator/standard_error.h"
 
 namespace enc::app {
 namespace {
@@ -245,8 +246,9 @@ std::string question_for(const trial::Trial& trial, const CalibrateOptions& opti
 
 MachineCalibration made_with(const models::Setup& setup, const CalibrateOptions& options,
                              const trial::DriverSource& modules) {
-  const auto progress = [terminal = isatty(STDERR_FILENO) != 0](double share) {
-    if (terminal) fmt::print(stderr, "\r{:3.0f} %", 100.0 * share);
+  const trial::StandardError error;  // a machine that moves waits for no terminal
+  const auto progress = [&error](double share) {
+    if (error.terminal()) error.write(fmt::format("\r{:3.0f} %", 100.0 * share));
   };
   std::optional<trial::CarriedTool> tool;
   tool.emplace(setup, trial_options(options, modules));

@@ -87,7 +87,7 @@ int calibrate(const CalibrateOptions& options) {
   CalibrateOptions stoppable = options;
   stoppable.catch_signals = [&] {
     person.emplace();
-    person->stops_when_suspended();
+    if (options.armed) person->stops_when_suspended();
     person->begin();
   };
   stoppable.confirm = [&](const std::string& question) {

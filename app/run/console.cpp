@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/ioctl.h>
@@ -24,8 +23,6 @@ using trial::RunWatch;
 
 using std::chrono::milliseconds;
 constexpr milliseconds kTurn{10}, kStatusTurn{100}, kLast{200};
-// Standard error takes so much at once or says beforehand that it does not (PIPE_BUF is 4096).
-constexpr std::size_t kMostAtOnce = 1024;
 
 std::size_t columns() {
   winsize size{};
@@ -65,7 +62,7 @@ std::string event_text(const RunEvent& event, const std::vector<std::string>& ob
     case Kind::contact_over:
       return fmt::format("contact {} is over", event.contact);
     case Kind::link_lost:
-      return fmt::format("link lost: {}; see to it, then press r (or send SIGUSR2)", event.role);
+      return fmt::format("link lost: {}; it needs a new run (q ends this one)", event.role);
     case Kind::halted:
       return "stopped by hand: the machine stands until r (or SIGUSR2)";
     case Kind::suspended:
@@ -87,6 +84,7 @@ std::string status_text(const RunStatus& status, bool keys) {
                                  status.halted ? "STOPPED BY HAND"
                                  : why != 0    ? "HOLD: " + why_text(why)
                                                : std::string(mode_name(status.mode)));
+  if (keys) text += "  | space stops, r resumes, q ends |";  // first: a narrow terminal shows them
   const double force = std::abs(status.force) < 0.005 ? 0.0 : status.force;  // without a sign
   if (std::isfinite(force)) text += fmt::format("  {:.2f} N", force);
   if (std::isfinite(status.gap)) text += fmt::format("  gap {:.2f} mm", 1e3 * status.gap);
@@ -97,12 +95,11 @@ std::string status_text(const RunStatus& status, bool keys) {
     text += fmt::format("  p99 {:.2f} ms", 1e-6 * models::percentile(ns, 0.99));
   }
   text += fmt::format("  missed {}", status.missed);
-  if (keys) text += "  | space stops, r resumes, q ends";
   return text;
 }
 
-Console::Console(RunWatch& watch, std::vector<std::string> objects, bool keys)
-    : watch_(watch), objects_(std::move(objects)), keys_(keys), terminal_(isatty(STDERR_FILENO) != 0) {
+Console::Console(RunWatch& watch, std::vector<std::string> objects, std::function<bool()> reads_keys)
+    : watch_(watch), objects_(std::move(objects)), reads_keys_(std::move(reads_keys)) {
   // A signal is for the loop, whose sleep it ends.
   sigset_t all, before;
   sigfillset(&all);
@@ -121,26 +118,13 @@ void Console::flush() const noexcept {
   for (int i = 0; i < 100 && rounds_ < begun + 2; ++i) std::this_thread::sleep_for(milliseconds(1));
 }
 
-std::size_t Console::write(std::string_view text) {
-  std::size_t taken = 0;
-  while (taken < text.size()) {
-    pollfd ready{STDERR_FILENO, POLLOUT, 0};
-    if (poll(&ready, 1, 0) <= 0) break;
-    const ssize_t got =
-        ::write(STDERR_FILENO, text.data() + taken, std::min(text.size() - taken, kMostAtOnce));
-    if (got < 0) return text.size();  // there is no reader any more
-    taken += static_cast<std::size_t>(got);
-  }
-  return taken;
-}
-
 void Console::show(const std::stop_token& stop) {
   constexpr sched_param kNone{};
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &kNone);  // behind the loop, wherever it began
   int turns = 0;
   for (; !stop.stop_requested(); ++turns) {
     show_events();
-    if (terminal_ && turns % (kStatusTurn / kTurn) == 0) show_status();
+    if (error_.terminal() && turns % (kStatusTurn / kTurn) == 0) show_status();
     ++rounds_;
     std::this_thread::sleep_for(kTurn);
   }
@@ -149,7 +133,8 @@ void Console::show(const std::stop_token& stop) {
     if (pending_.empty()) break;
     std::this_thread::sleep_for(kTurn);
   }
-  if (terminal_ && pending_.empty()) static_cast<void>(write("\r" + std::string(shown_width_, ' ') + "\r"));
+  if (error_.terminal() && pending_.empty())
+    static_cast<void>(error_.write("\r" + std::string(shown_width_, ' ') + "\r"));
 }
 
 void Console::show_events() {
@@ -158,27 +143,27 @@ void Console::show_events() {
   std::string lines;
   while (pending_.size() + lines.size() < kMostPending && watch_.next(event)) {
     const std::string text = fmt::format("{:8.3f} s  {}", in_s(event.t), event_text(event, objects_));
-    lines += terminal_ ? text + "\n" : stamp() + text + "\n";
+    lines += error_.terminal() ? text + "\n" : stamp() + text + "\n";
   }
   if (const std::size_t dropped = watch_.take_dropped(); dropped > 0)
-    lines +=
-        fmt::format("{}{} more events came too fast to be shown\n", terminal_ ? "" : stamp() + "  ", dropped);
+    lines += fmt::format("{}{} more events came too fast to be shown\n",
+                         error_.terminal() ? "" : stamp() + "  ", dropped);
   if (!lines.empty()) {
-    pending_ += terminal_ ? "\r" + std::string(shown_width_, ' ') + "\r" + lines : lines;
+    pending_ += error_.terminal() ? "\r" + std::string(shown_width_, ' ') + "\r" + lines : lines;
     shown_width_ = 0;
   }
-  pending_.erase(0, write(pending_));
+  pending_.erase(0, error_.write(pending_));
 }
 
 void Console::show_status() {
   RunStatus status;
   if (!pending_.empty() || !watch_.newest(status)) return;
-  std::string text = status_text(status, keys_);
+  std::string text = status_text(status, reads_keys_());
   text.resize(std::min(text.size(), columns() - 1));
   const std::size_t width = text.size();
   text.resize(std::max(width, shown_width_), ' ');
   text.insert(0, 1, '\r');
-  pending_ = text.substr(write(text));  // the rest first, so that no line is cut
+  pending_ = text.substr(error_.write(text));  // the rest first, so that no line is cut
   shown_width_ = width;
 }
 

@@ -5,19 +5,21 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "trial/operator/run_watch.h"
+#include "trial/operator/standard_error.h"
 
 namespace enc::app {
 
 class Console {
  public:
-  // `watch` stays until this is gone. `objects`: their names, by index. `keys`: the run reads keys.
-  Console(trial::RunWatch& watch, std::vector<std::string> objects, bool keys);
+  // `watch` stays until this is gone. `objects`: their names, by index. `reads_keys`: whether the run reads
+  // keys at present; asked from another thread.
+  Console(trial::RunWatch& watch, std::vector<std::string> objects, std::function<bool()> reads_keys);
   ~Console();  // shows what is left, for 0.2 s at most, and clears the status line
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
@@ -29,12 +31,10 @@ class Console {
   void show(const std::stop_token& stop);
   void show_events();
   void show_status();
-  // How many bytes standard error took without waiting.
-  [[nodiscard]] static std::size_t write(std::string_view text);
-
   trial::RunWatch& watch_;
   const std::vector<std::string> objects_;
-  const bool keys_, terminal_;
+  const std::function<bool()> reads_keys_;
+  const trial::StandardError error_;
   std::string pending_;          // lines that standard error has not taken yet
   std::size_t shown_width_ = 0;  // of the status line, in columns
   std::atomic<std::uint64_t> rounds_ = 0;

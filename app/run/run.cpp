@@ -125,7 +125,10 @@ class Shown {
     };
     person.acts = [this](trial::Hand hand, bool suspended) {
       using Kind = trial::RunEvent::Kind;
-      watch_.note(hand == trial::Hand::resume ? Kind::resumed : suspended ? Kind::suspended : Kind::halted);
+      if (hand != trial::Hand::resume)
+        watch_.note(suspended ? Kind::suspended : Kind::halted);
+      else if (watch_.halted())
+        watch_.note(Kind::resumed);
     };
     person.pauses = [this] {
       if (console_) console_->flush();
@@ -136,7 +139,7 @@ class Shown {
   void begin(const models::Setup& setup) {
     std::vector<std::string> objects;
     for (const ObjectSpec& object : setup.scene.objects) objects.push_back(object.name);
-    console_.emplace(watch_, std::move(objects), person_.reads_keys());
+    console_.emplace(watch_, std::move(objects), [this] { return person_.reads_keys(); });
   }
   void end() {
     if (person_.signal() != 0 || person_.quits()) watch_.note(trial::RunEvent::Kind::ends, person_.signal());
@@ -184,13 +187,13 @@ int run(const RunOptions& options) {
   if (shown) shown->begin(setup);
   const double started = cpu_seconds();
   const trial::TrialResult result = trial.run();
-  if (shown) shown->end();
-  if (terminal && !shown) fmt::print(stderr, "\r        \r");
   if (record) {
     if (const auto contacts = measured.ledger.contacts(); !contacts.empty())
       record->writer.end_with({{"ledger", trial::ledger_table(contacts)}});
     record->end();  // before anything is printed, which a terminal may keep waiting
   }
+  if (shown) shown->end();
+  if (terminal && !shown) clear_progress();
 
   const std::vector<trial::ArmStrength> strengths = trial::strengths_of(setup, trial.scene());
   RunReport report{setup,

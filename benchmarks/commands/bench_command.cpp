@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include "benchmarks/commands/commands.h"
@@ -22,6 +23,7 @@
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "trial/operator/consent.h"
+#include "trial/operator/standard_error.h"
 
 namespace enc::bench {
 namespace {
@@ -81,9 +83,9 @@ class Signals {
  public:
   explicit Signals(bool over_devices) {
     sigemptyset(&set_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1}) sigaddset(&set_, signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1}) wait_for(signal);
     if (over_devices)
-      for (const int signal : {SIGTSTP, SIGUSR2, SIGALRM, SIGXCPU, SIGPWR}) sigaddset(&set_, signal);
+      for (const int signal : {SIGTSTP, SIGUSR2, SIGALRM, SIGXCPU, SIGPWR}) wait_for(signal);
     sigset_t blocked = set_;
     for (const int signal : {SIGTTIN, SIGTTOU}) sigaddset(&blocked, signal);  // reading fails instead
     pthread_sigmask(SIG_BLOCK, &blocked, &before_);
@@ -98,6 +100,12 @@ class Signals {
   }
 
  private:
+  // One that is ignored, as by nohup, stays so.
+  void wait_for(int signal) {
+    struct sigaction before {};
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) sigaddset(&set_, signal);
+  }
+
   sigset_t set_{}, before_{};
 };
 
@@ -107,26 +115,25 @@ class Teller {
   Teller(const char* name, std::size_t number, std::size_t of)
       : text_(fmt::format("{} of {}: {}", number, of, name)) {}
   void tell(double share) {
-    if (terminal_)
-      fmt::print(stderr, "\r  {} {:3.0f} %  {:.0f} s ", text_, std::floor(100.0 * share), since(start_));
+    if (error_.terminal())
+      error_.write(
+          fmt::format("\r  {} {:3.0f} %  {:.0f} s ", text_, std::floor(100.0 * share), since(start_)));
     else if (since(start_) > 2.0)  // what is refused at once has one line: why
       say();
-    std::fflush(stderr);
   }
   void end() {
-    if (terminal_)
-      fmt::print(stderr, "\r{:60}\r", "");
+    if (error_.terminal())
+      error_.write(fmt::format("\r{:60}\r", ""));
     else
       say();
-    std::fflush(stderr);
   }
 
  private:
   void say() {
-    if (!said_) fmt::print(stderr, "encounter: {}\n", text_);
+    if (!said_) error_.write(fmt::format("encounter: {}\n", text_));
     said_ = true;
   }
-  const bool terminal_ = isatty(STDERR_FILENO) != 0;
+  const trial::StandardError error_;  // this thread looks for signals, too
   const std::string text_;
   const WallClock::time_point start_ = WallClock::now();
   bool said_ = false;
@@ -240,6 +247,7 @@ class Session {
   void confirm(const std::string& question) {
     if (confirmed_ || options_.yes) return;
     trial::refuse_unasked();
+    tcflush(STDIN_FILENO, TCIFLUSH);  // a key that was pressed before the question is no answer
     fmt::print(stderr, "\n{}", question);
     std::string line;
     for (char c = 0; c != '\n';) {
@@ -286,9 +294,9 @@ class Session {
   [[noreturn]] void stop(int signal) const {
     std::string missing;
     for (const std::string& name : report_.missing) missing += " " + name;
-    fmt::print(stderr, "{}encounter: interrupted; {} of {} benchmarks complete, missing:{}\n",
-               isatty(STDERR_FILENO) != 0 ? "\n" : "", report_.results.size(), choices_.size(), missing);
-    std::fflush(nullptr);
+    const trial::StandardError error;
+    error.write(fmt::format("{}encounter: interrupted; {} of {} benchmarks complete, missing:{}\n",
+                            error.terminal() ? "\n" : "", report_.results.size(), choices_.size(), missing));
     _exit(128 + signal);
   }
 

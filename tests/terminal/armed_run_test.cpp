@@ -113,7 +113,7 @@ class Attended {
     words_.insert(words_.end(), more.begin(), more.end());
     EXPECT_TRUE(terminal.shows("$ ", 10.0));
   }
-  void begin() { terminal.run(words_); }
+  void begin(const std::string& rest = {}) { terminal.run(words_, rest); }
   // With a terminal of its own at standard input, which no signal comes from.
   void begin_with_own_input() {
     int slave = -1;
@@ -150,6 +150,13 @@ class Attended {
     constexpr double kTick = 0.002;  // s: what arrives is stamped with the tick before
     const std::vector<double> all = stops_in(there_->log());
     return std::any_of(all.begin(), all.end(), [&](double t) { return t >= from - kTick && t <= to; });
+  }
+  [[nodiscard]] bool is_sealed_within(double seconds) const {
+    for (double waited = 0.0; waited < seconds; waited += 0.01) {
+      if (std::filesystem::exists(record())) return RecordReader(record()).sealed();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
   }
   [[nodiscard]] std::string stops() { return there_->log(); }
   [[nodiscard]] bool stands_for(double time) const {
@@ -278,22 +285,23 @@ TEST(AtTheTerminalToo, TheStatusLineAndTheEventsAreThere) {
   Attended at;
   at.begin();
   at.wait_for("contact");
-  EXPECT_THAT(
-      at.terminal.shown(),
-      testing::ContainsRegex("s  follow  [0-9.]+ N  gap [0-9.]+ mm  p99 [0-9.]+ ms  missed [0-9]+  \\| "
-                             "space stops, r resumes, q ends"));
+  EXPECT_THAT(at.terminal.shown(),
+              testing::ContainsRegex("s  follow  \\| space stops, r resumes, q ends \\|  [0-9.]+ N  "
+                                     "gap [0-9.]+ mm  p99 [0-9.]+ ms  missed [0-9]+"));
   at.terminal.type(" ");
   EXPECT_TRUE(at.terminal.shows("s  stopped by hand: the machine stands until r", 5.0));
   EXPECT_TRUE(at.terminal.shows("s  STOPPED BY HAND", 5.0));
   std::size_t from = at.terminal.shown().size();
   at.terminal.type("r");
   EXPECT_TRUE(at.terminal.shows("s  resumed", 5.0, from));
+  at.terminal.type("r");  // nothing was stopped: this one is no event
   EXPECT_TRUE(at.terminal.shows("s  hold is over", 5.0, from)) << at.terminal.shown();
   from = at.terminal.shown().size();
   at.fault("netft:stall");
   EXPECT_TRUE(at.terminal.shows("s  link lost: force sensor", 5.0, from)) << at.terminal.shown();
   at.terminal.type("q");
   EXPECT_TRUE(at.terminal.shows("s  ends: q", 5.0, from));
+  EXPECT_THAT(at.terminal.shown().substr(from), testing::Not(HasSubstr("resumed")));
 }
 
 // Ctrl-S: the terminal takes no words. The loop goes on in time, and a stop is a stop.
@@ -307,8 +315,8 @@ TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
   const double before = at.now();
   kill(run, SIGTERM);
   const double acted = at.now();
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // it has ended but for its report
-  at.terminal.type("\x11");
+  EXPECT_TRUE(at.is_sealed_within(5.0));
+  at.terminal.type("\x11");  // it has ended but for its report
   ASSERT_TRUE(tests::ends(run, 10.0));
   EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
   RecordReader reader(at.record());
@@ -319,10 +327,26 @@ TEST(AtTheTerminalToo, ATerminalThatTakesNoWordsKeepsNoTickWaiting) {
   EXPECT_LT(missed, 50) << "cycles at once: the loop waited for the terminal";
 }
 
+// The link to the terminal hangs: it takes some kB, and then nothing, not even an end.
+TEST(AtTheTerminalToo, ATerminalThatHangsLeavesNoRecordUnsealed) {
+  Attended at;
+  at.begin();
+  at.wait_for("follow");
+  const pid_t run = at.terminal.child();
+  at.terminal.stop_reading();
+  std::this_thread::sleep_for(std::chrono::seconds(7));  // status lines fill what it takes
+  const double before = at.now();
+  kill(run, SIGTERM);
+  const double acted = at.now();
+  EXPECT_TRUE(at.is_sealed_within(5.0));
+  EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
+}
+
 // Before the first motion: what moves, how far, how fast. Enter begins; anything else does not.
 TEST(AtTheTerminalToo, TheFirstMotionIsAskedFor) {
   Attended at(std::vector<std::string>{});
   at.begin();
+  at.terminal.type("\n");  // before the question: no answer
   ASSERT_TRUE(at.terminal.shows("Enter begins", 10.0)) << at.terminal.shown();
   EXPECT_THAT(at.terminal.shown(),
               testing::AllOf(
@@ -358,6 +382,10 @@ TEST(AtTheTerminalToo, TheFirstMotionIsAskedFor) {
   ASSERT_TRUE(at.terminal.shows("not begun; nothing has moved", 5.0, from)) << at.terminal.shown();
   at.terminal.type("echo code $?\n");
   EXPECT_TRUE(at.terminal.shows("code 130", 5.0, from));
+
+  from = at.terminal.shown().size();
+  at.begin("2>/dev/null; echo code $?");  // where nobody could read the question
+  EXPECT_TRUE(at.terminal.shows("code 2", 10.0, from)) << at.terminal.shown();
 }
 
 TEST(AtTheTerminalLong, WhateverEndsTheRunTwentyTimes) {

@@ -50,6 +50,7 @@ Terminal::Terminal() {
   if (shell_ == 0) {
     for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGTTIN, SIGTTOU})
       std::signal(signal, SIG_DFL);
+    close_range(3, ~0U, 0);  // else this shell keeps the terminals of other tests open
     execve("/bin/bash", arguments.data(), environment.data());
     _exit(127);
   }
@@ -58,7 +59,8 @@ Terminal::Terminal() {
     std::array<char, 4096> bytes{};
     while (!over_) {
       pollfd ready{master_, POLLIN, 0};
-      if (poll(&ready, 1, 2) <= 0) continue;
+      if (!reads_) wait_ms(2);
+      if (!reads_ || poll(&ready, 1, 2) <= 0) continue;
       const ssize_t got = read(master_, bytes.data(), bytes.size());
       if (got <= 0) break;
       const std::lock_guard lock(mutex_);

@@ -23,6 +23,7 @@ class Terminal {
   void run(const std::vector<std::string>& words, const std::string& rest = {});
   void type(const std::string& keys) const;  // as they are: "\x03" is Ctrl-C
   void close();
+  void stop_reading() { reads_ = false; }  // a terminal whose link hangs
 
   // All that was shown so far.
   [[nodiscard]] std::string shown() const;
@@ -36,7 +37,7 @@ class Terminal {
   pid_t shell_ = -1;
   mutable std::mutex mutex_;
   std::string shown_;
-  std::atomic<bool> over_ = false;
+  std::atomic<bool> over_ = false, reads_ = true;
   std::thread reader_;
 };
 

@@ -71,11 +71,12 @@ std::string motion_question(const models::Setup& setup, const Scene& scene,
 }
 
 void refuse_unasked() {
-  if (isatty(STDIN_FILENO) == 0)
-    throw Error(
-        "--armed: an armed run asks before the first motion, and standard input is no terminal; expected a "
-        "person "
-        "who answers; clear the machine's way and add --yes");
+  const bool hears = isatty(STDIN_FILENO) != 0, shows = isatty(STDERR_FILENO) != 0;
+  if (hears && shows) return;
+  throw Error(fmt::format(
+      "--armed: an armed run asks before the first motion, and standard {} is no terminal; expected a person "
+      "who reads the question and answers; clear the machine's way and add --yes",
+      hears ? "error" : "input"));
 }
 
 }  // namespace enc::trial

@@ -1,6 +1,7 @@
 // The keys of the terminal at standard input, one by one and without waiting.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -34,7 +35,8 @@ class Keys {
 
   std::unique_ptr<Terminal> terminal_;  // none: standard input is no terminal
   std::uint32_t calls_ = 0;
-  bool taken_ = false, lost_ = false;
+  std::atomic<bool> taken_ = false;  // another thread may ask
+  bool lost_ = false;
 };
 
 }  // namespace enc::trial

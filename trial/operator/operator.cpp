@@ -6,13 +6,15 @@
 #include <span>
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 namespace enc::trial {
 
 int Operator::signal() const noexcept {
   if (const int caught = Signals::caught(); caught != 0) return caught;
-  return keys_.lost() ? SIGHUP : 0;  // nobody can stop it by hand any more
+  return stops_ && keys_.lost() ? SIGHUP : 0;  // nobody can stop it by hand any more
 }
 
 bool Operator::stop() noexcept {
@@ -50,11 +52,14 @@ Hand Operator::next() noexcept {
 }
 
 Operator::Answer Operator::confirm(const std::string& question) {
+  tcflush(STDIN_FILENO, TCIFLUSH);  // a key that was pressed before the question is no answer
   fmt::print(stderr, "{}", question);
   std::fflush(stderr);
   std::string line;
   while (!stop()) {
     char c = 0;
+    pollfd ready{STDIN_FILENO, POLLIN, 0};
+    if (poll(&ready, 1, 100) <= 0) continue;  // a signal may have come before it waited
     const ssize_t got = read(STDIN_FILENO, &c, 1);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return Answer::no;

@@ -52,6 +52,8 @@ class RunWatch {
   // Something that the person did.
   void note(RunEvent::Kind kind, int signal = 0) noexcept;
 
+  [[nodiscard]] bool halted() const noexcept { return status_.halted; }  // by hand, on the tick before
+
   // The reader's side, of one other thread.
   bool newest(RunStatus& status) noexcept { return statuses_.read(status); }
   bool next(RunEvent& event) noexcept { return events_.pop(event); }

@@ -222,7 +222,7 @@ TEST(Console, TheStatusLineNamesModeReasonForceGapPeriodAndKeys) {
   status.periods_ns = {1'000'000, 1'010'000, 1'010'000};
   EXPECT_EQ(
       app::status_text(status, true),
-      "    3.21 s  follow  0.00 N  gap 12.30 mm  p99 1.01 ms  missed 7  | space stops, r resumes, q ends");
+      "    3.21 s  follow  | space stops, r resumes, q ends |  0.00 N  gap 12.30 mm  p99 1.01 ms  missed 7");
   status.why = kToolLost | kLimited;
   EXPECT_EQ(app::status_text(status, false),
             "    3.21 s  HOLD: tool lost  0.00 N  gap 12.30 mm  p99 1.01 ms  missed 7");
