@@ -18,6 +18,17 @@ constexpr double kTold = 0.75;
 
 bool known_to(const models::Interval& off, double bound) { return off.known() && off.half <= kTold * bound; }
 
+// The twin runs from time 0 to the last tick, whatever the record holds of it.
+void check_length(const Tape& tape, std::int64_t ticks, const std::string& path) {
+  constexpr std::int64_t kLost = 100'000;  // cycles that may be lost, besides as many as there are ticks
+  const std::int64_t most = 2 * ticks + kLost;
+  if (tape.last < most && in_seconds(tape.begin) <= static_cast<double>(most) * tape.scene.dt) return;
+  throw Error(
+      fmt::format("{}: begins at {:g} s and ends with cycle {}, but holds {} ticks; expected at most as many "
+                  "lost cycles, and {}; record it again",
+                  path, in_seconds(tape.begin), tape.last, ticks, kLost));
+}
+
 }  // namespace
 
 bool Divergence::diverges() const {
@@ -69,6 +80,7 @@ Shadow shadow(RecordReader& record, const std::string& path, const models::Setup
   const Tape tape(record, twin, scene);
   result.ticks = record.ticks();
   result.seconds = tape.seconds();
+  check_length(tape, result.ticks, path);
   if (tape.tip.empty())
     throw Error(
         fmt::format("{}: its machine never said where it was; expected a record of a machine that "

@@ -99,7 +99,9 @@ TEST_F(RecordTest, GivesBackEveryLeaf) {
   fields(number, set.tick);
   fields(number, set.in);
   fields(number, set.out);
+  set.tick.index = 5;
   RecordedTick odd;
+  odd.tick.index = 6;
   odd.in.tool.value.X_CT.xyz = {-0.0, INFINITY, 5e-324};
   odd.in.tool.t = Time(Duration(-5));
   odd.in.wrench.value.force.xyz[0] = -std::nan("0x123");  // another NaN than the canonical one
