@@ -14,10 +14,11 @@ std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 std::vector<std::array<std::int32_t, 3>> neighbours_of(const Mesh& mesh) {
-  // All directed edges in buckets by their lower end; the same edge the other way round is in the same
-  // bucket.
+  // All directed edges in buckets by their lower end, sorted by their higher end: an edge and the same edge
+  // the other way round stand side by side, however many there are at a vertex.
   struct Edge {
     std::int32_t to, slot;  // the higher end; 3 * triangle + i, ~ of it where it runs from high to low
+    [[nodiscard]] std::int32_t place() const { return slot < 0 ? ~slot : slot; }
   };
   std::vector<std::int32_t> start(mesh.vertices.size() + 1, 0);
   for (const auto& t : mesh.triangles)
@@ -31,18 +32,20 @@ std::vector<std::array<std::int32_t, 3>> neighbours_of(const Mesh& mesh) {
       const std::int32_t a = mesh.triangles[k][i];
       const std::int32_t b = mesh.triangles[k][(i + 1) % 3];
       const auto slot = static_cast<std::int32_t>(3 * k + i);
-      const std::int32_t low = std::min(a, b);
-      std::int32_t& end = filled[index(low)];
-      for (std::int32_t e = start[index(low)]; e < end; ++e) {
-        Edge& other = edges[index(e)];
-        if (other.to != std::max(a, b) || (other.slot < 0) != (a < b)) continue;
-        const std::int32_t twin = other.slot < 0 ? ~other.slot : other.slot;
-        across[k][i] = twin / 3;
-        across[index(twin / 3)][index(twin % 3)] = static_cast<std::int32_t>(k);
-        break;
-      }
-      edges[index(end++)] = {std::max(a, b), a < b ? slot : ~slot};
+      edges[index(filled[index(std::min(a, b))]++)] = {std::max(a, b), a < b ? slot : ~slot};
     }
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    const auto first = edges.begin() + start[v], last = edges.begin() + start[v + 1];
+    std::sort(first, last, [](const Edge& a, const Edge& b) {
+      return a.to != b.to ? a.to < b.to : a.place() < b.place();
+    });
+    for (auto e = first; e != last && e + 1 != last; ++e) {
+      const Edge &one = e[0], &other = e[1];
+      if (one.to != other.to || (one.slot < 0) == (other.slot < 0)) continue;
+      across[index(one.place() / 3)][index(one.place() % 3)] = other.place() / 3;
+      across[index(other.place() / 3)][index(other.place() % 3)] = one.place() / 3;
+    }
+  }
   return across;
 }
 

@@ -165,7 +165,7 @@ Nearest MeshTree::nearest(const Point<'O'>& p, std::int32_t hint) const noexcept
   Search search(*this, p.e(), from_centre);
   if (hint >= 0 && static_cast<std::size_t>(hint) < mesh_.triangles.size()) search.offer(hint);
   search.run();
-  return search.answer();
+  return search.triangle >= 0 ? search.answer() : Nearest{};
 }
 
 std::array<Vec3, 3> MeshTree::corners(std::int32_t triangle) const noexcept {

@@ -14,11 +14,14 @@
 
 namespace enc {
 
+// How far from O's origin a vertex may be along each axis, m: squares of distances stay finite in float.
+inline constexpr double kFarthestVertex = 1e6;
+
 // Built once, constant while the loop runs; shared by all who ask.
 class MeshTree {
  public:
-  // Precondition, checked where files are read: closed, manifold, consistently oriented, all finite. At least
-  // one triangle.
+  // Precondition, checked where files are read: closed, manifold, consistently oriented, no vertex beyond
+  // kFarthestVertex. At least one triangle.
   explicit MeshTree(const Mesh& mesh);
 
   // `feature` is the index of the triangle, `hint` the one that the last query gave: it makes the search

@@ -28,7 +28,12 @@ Mesh scaled_mesh(const ObjectSpec& spec) {
   if (!(spec.scale > 0.0)) throw Error("a mesh needs a positive scale", "object." + spec.name + ".scale");
   Mesh mesh = *spec.surface;
   for (auto& vertex : mesh.vertices)
-    for (double& x : vertex) x *= spec.scale;
+    for (double& x : vertex) {
+      x *= spec.scale;
+      if (!(std::abs(x) <= kFarthestVertex))
+        throw Error("with this scale the mesh reaches beyond 1000 km; expected less; make it smaller",
+                    "object." + spec.name + ".scale");
+    }
   return mesh;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -9,12 +10,15 @@
 
 #include "core/error.h"
 #include "core/frames.h"
+#include "core/mesh/mesh_tree.h"
 #include "models/mesh_files/mesh_file.h"
 
 namespace enc::models {
 namespace {
 
 constexpr std::size_t kMostParts = 1000;
+// Faces that are looked at to say which part lies in which: some seconds, and so many times all of them.
+constexpr std::size_t kMostRound = 100'000'000, kMostRoundEach = 64;
 constexpr double kFlat = 1e-10;  // height over longest side: a triangle flatter than this has no normal
 
 using Faces = std::vector<std::size_t>;
@@ -38,6 +42,7 @@ class Checker {
       std::iota(number_.begin(), number_.end(), std::size_t{0});
     }
     if (mesh_.triangles.empty()) fail("there are no faces; expected a closed surface; export the mesh again");
+    check_places();
     drop_degenerate();
     check_areas();
     find_neighbours();
@@ -61,6 +66,16 @@ class Checker {
   [[nodiscard]] std::string numbered(Faces faces) const {
     for (std::size_t& face : faces) face = number_[face];
     return face_list(sorted(faces), lines_);
+  }
+
+  void check_places() const {
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (const double x = mesh_.vertices[v][i]; !(std::abs(x) <= kFarthestVertex))
+          fail(
+              fmt::format("vertex {} is at {} = {:g} m; expected at most {:g} m from the origin; export the "
+                          "mesh in metres",
+                          v, "xyz"[i], x, kFarthestVertex));
   }
 
   // A triangle with one vertex twice is an edge: without it the others close as before.
@@ -255,25 +270,58 @@ class Checker {
     return volume;
   }
 
-  // In how many other parts each part lies: their winding numbers at one of its vertices [van Oosterom and
-  // Strackee 1983]. Costs faces times parts.
+  // The faces of each part, and a box around them.
+  struct Extent {
+    Faces faces{};
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    [[nodiscard]] bool holds(const Vec3& p) const {
+      return (low.array() <= p.array()).all() && (p.array() <= high.array()).all();
+    }
+  };
+  [[nodiscard]] std::vector<Extent> extents() const {
+    std::vector<Extent> all(static_cast<std::size_t>(parts_));
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
+      Extent& part = all[static_cast<std::size_t>(part_[f])];
+      part.faces.push_back(f);
+      for (std::size_t i = 0; i < 3; ++i) {
+        part.low = part.low.cwiseMin(corner(mesh_, f, i));
+        part.high = part.high.cwiseMax(corner(mesh_, f, i));
+      }
+    }
+    return all;
+  }
+  // Whether a part goes round a point, by its winding number there [van Oosterom and Strackee 1983].
+  [[nodiscard]] bool goes_round(const Extent& part, const Vec3& probe) const {
+    double angle = 0.0;
+    for (const std::size_t f : part.faces) {
+      const Vec3 a = corner(mesh_, f, 0) - probe, b = corner(mesh_, f, 1) - probe,
+                 c = corner(mesh_, f, 2) - probe;
+      const double na = a.norm(), nb = b.norm(), nc = c.norm();
+      angle +=
+          2.0 * std::atan2(a.dot(b.cross(c)), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
+    }
+    return std::abs(angle) > 2.0 * std::numbers::pi;
+  }
+
+  // In how many other parts each part lies: whether they go round one of its vertices. Only a part whose box
+  // holds that vertex is looked at.
   [[nodiscard]] std::vector<int> depths() const {
     std::vector<int> depth(static_cast<std::size_t>(parts_), 0);
     if (parts_ < 2) return depth;
-    std::vector<Vec3> probe(static_cast<std::size_t>(parts_));
-    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
-      probe[static_cast<std::size_t>(part_[f])] = corner(mesh_, f, 0);
-    for (std::size_t p = 0; p < probe.size(); ++p) {
-      std::vector<double> angle(probe.size(), 0.0);
-      for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
-        if (part_[f] == static_cast<std::int32_t>(p)) continue;
-        const Vec3 a = corner(mesh_, f, 0) - probe[p], b = corner(mesh_, f, 1) - probe[p],
-                   c = corner(mesh_, f, 2) - probe[p];
-        const double na = a.norm(), nb = b.norm(), nc = c.norm();
-        angle[static_cast<std::size_t>(part_[f])] +=
-            2.0 * std::atan2(a.dot(b.cross(c)), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
+    const std::vector<Extent> parts = extents();
+    std::size_t work = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const Vec3 probe = corner(mesh_, parts[p].faces.back(), 0);
+      for (std::size_t other = 0; other < parts.size(); ++other) {
+        if (other == p || !parts[other].holds(probe)) continue;
+        work += parts[other].faces.size();
+        if (work > kMostRound + kMostRoundEach * mesh_.triangles.size())
+          fail(
+              fmt::format("too many of its {} parts lie in the boxes around others; expected few; unite the "
+                          "parts, or keep the outer surface only",
+                          parts_));
+        depth[p] += goes_round(parts[other], probe) ? 1 : 0;
       }
-      for (const double a : angle) depth[p] += std::abs(a) > 2.0 * std::numbers::pi ? 1 : 0;
     }
     return depth;
   }

@@ -90,6 +90,11 @@ Mesh unpacked(const std::string& bytes, const std::string& name) {
   for (const auto& t : mesh.triangles)
     for (const std::int32_t corner : t)
       if (corner < 0 || static_cast<std::uint64_t>(corner) >= counts[0]) damaged();
+  // A run records what check_mesh() gave it, and that leaves it as it is.
+  Mesh checked = mesh;
+  weld(checked);
+  checked = check_mesh(std::move(checked), name).mesh;
+  if (checked.vertices != mesh.vertices || checked.triangles != mesh.triangles) damaged();
   return mesh;
 }
 

@@ -1,5 +1,8 @@
 // Records: where they cannot be written, what is wrong with one, and that a replay is the run again.
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
 #include <regex>
 #include <string>
 
@@ -127,6 +130,82 @@ TEST_F(Program, AlteredAndResealedRecordDiffers) {
   EXPECT_EQ(r.code, 1);
   EXPECT_EQ(r.err, "");
   EXPECT_THAT(r.out, StartsWith("differs from tick 400 on: "));
+}
+
+// Sealed as a whole record is, so that its numbers alone can tell.
+TEST_F(Program, NumbersOutOfRangeAreRefusedByEachReaderOfRecords) {
+  RecordReader reader(recorded());
+  const auto spoiled = [&](const std::string& name, const RecordTexts& texts, const auto& spoil) {
+    RecordWriter record(path(name), texts, reader.layout());
+    RecordedTick frame;
+    for (reader.rewind(); reader.next(frame);) {
+      spoil(frame);
+      record.write(frame.tick, frame.in, frame.out, frame.hash);
+    }
+    record.close();
+    return path(name);
+  };
+  const std::string mode = spoiled("mode.encrec", reader.texts(), [](RecordedTick& f) {
+    if (f.tick.index == 300) f.out.mode = static_cast<Mode>(200);
+  });
+  const std::string time = spoiled("time.encrec", reader.texts(), [](RecordedTick& f) {
+    if (f.tick.index == 0) f.tick.t = Time(Duration(std::numeric_limits<std::int64_t>::max()));
+  });
+  for (const std::string& record : {mode, time})
+    for (const Words& words : {Words{"replay"}, Words{"export", "--csv", path("t.csv")},
+                               Words{"export", "--mcap", path("t.mcap")}, Words{"fit"}, Words{"shadow"}}) {
+      Words args = words;
+      args.insert(args.begin() + 1, record);
+      EXPECT_THAT(refused(args),
+                  MatchesRegex(".*: byte [0-9]+: '(mode|t)' of a tick is [0-9]+; expected .*\n"))
+          << words.back();
+    }
+  // Each is possible, and together they are more than the record can be of.
+  const std::string late =
+      spoiled("late.encrec", reader.texts(), [](RecordedTick& f) { f.tick.t += Duration(kMostTime / 2); });
+  EXPECT_THAT(refused({"shadow", late}), HasSubstr("expected at most as many lost cycles"));
+  const std::string lost = spoiled("lost.encrec", reader.texts(), [](RecordedTick& f) {
+    if (f.tick.index >= 400) f.tick.index += kMostTicks / 2;
+  });
+  EXPECT_THAT(refused({"shadow", lost}), HasSubstr("expected at most as many lost cycles"));
+}
+
+// The mesh in a record is looked at as one of a file is.
+TEST_F(Program, AMeshInARecordIsASolidOrRefused) {
+  const std::string scene = std::string(source_dir()) + "/models/scenes/hare.toml",
+                    whole = path("hare.encrec");
+  ASSERT_EQ(run_program({"run", scene, "--for-s", "0.02", "--record", whole}).code, 0);
+  ASSERT_EQ(run_program({"replay", whole}).code, 0);
+  RecordReader reader(whole);
+  const auto with_mesh = [&](const auto& spoil) {
+    RecordTexts texts = reader.texts();
+    std::string& mesh = texts.at("mesh:hare.glb");
+    std::array<std::uint64_t, 2> counts{};
+    std::memcpy(counts.data(), mesh.data(), sizeof(counts));
+    std::vector<double> places(3 * counts[0]);
+    std::memcpy(places.data(), mesh.data() + sizeof(counts), 8 * places.size());
+    spoil(places);
+    std::memcpy(mesh.data() + sizeof(counts), places.data(), 8 * places.size());
+    std::string& resolved = texts.at("resolved");  // its hash is anybody's to write, too
+    const std::size_t key = resolved.find("mesh_hash"), end = resolved.find('\n', key);
+    resolved.erase(key, end - key);
+    RecordWriter record(path("other.encrec"), texts, reader.layout());
+    RecordedTick frame;
+    for (reader.rewind(); reader.next(frame);) record.write(frame.tick, frame.in, frame.out, frame.hash);
+    record.close();
+    return refused({"replay", path("other.encrec")});
+  };
+  using Places = std::vector<double>;
+  EXPECT_THAT(with_mesh([](Places& places) {
+                for (double& x : places) x *= 1e300;
+              }),
+              HasSubstr("expected at most 1e+06 m from the origin"));
+  EXPECT_THAT(with_mesh([](Places& places) { places[7] = kUnset; }), HasSubstr("vertex 2 is at y = nan m"));
+  EXPECT_THAT(with_mesh([](Places& places) { std::fill(places.begin(), places.end(), 0.0); }),
+              HasSubstr("hare.glb"));
+  EXPECT_THAT(
+      with_mesh([](Places& places) { places[0] = places[3], places[1] = places[4], places[2] = places[5]; }),
+      HasSubstr("hare.glb"));
 }
 
 TEST_F(Program, ReplayIsEqualAndNamesTheHashOfTheRun) {

@@ -132,6 +132,36 @@ TEST(MeshTree, NeighboursMeetAtTheirEdges) {
       for (const std::int32_t k : t) EXPECT_GE(k, 0);  // closed
 }
 
+// A cone of many sides: all of them meet at its tip, and half of their edges have one end in common.
+TEST(MeshTree, NeighboursOfManyFacesAtOneVertex) {
+  constexpr std::int32_t kSides = 50'000;
+  Mesh cone{{{0, 0, 1}, {0, 0, 0}}, {}};
+  for (std::int32_t i = 0; i < kSides; ++i) {
+    const double turn = 2.0 * M_PI * i / kSides;
+    const std::int32_t a = 2 + i, b = 2 + (i + 1) % kSides;
+    cone.vertices.push_back({std::cos(turn), std::sin(turn), 0});
+    cone.triangles.push_back({0, a, b});
+    cone.triangles.push_back({1, b, a});
+  }
+  const auto across = neighbours_of(cone);
+  for (std::int32_t i = 0; i < kSides; ++i) {
+    const std::int32_t next = (i + 1) % kSides, before = (i + kSides - 1) % kSides;
+    ASSERT_EQ(across[static_cast<std::size_t>(2 * i)], (std::array{2 * before, 2 * i + 1, 2 * next})) << i;
+    ASSERT_EQ(across[static_cast<std::size_t>(2 * i + 1)], (std::array{2 * next + 1, 2 * i, 2 * before + 1}))
+        << i;
+  }
+}
+
+// No file holds one: it is refused before. Its answer is none, and not what stands elsewhere in memory.
+TEST(MeshTree, OfAMeshThatIsTooLargeNothingIsNear) {
+  Mesh huge = tetrahedron();
+  for (auto& vertex : huge.vertices)
+    for (double& x : vertex) x *= 1e20;
+  const Nearest at = MeshTree(huge).nearest(Point<'O'>(0.1, 0.1, 0.1));
+  EXPECT_EQ(at.feature, -1);
+  EXPECT_TRUE(std::isnan(at.distance) && !at.point.finite() && !at.normal.finite());
+}
+
 // All sizes of tree: not full leaves, not full nodes, one level and several.
 TEST(MeshTree, EqualsTryingEveryTriangle) {
   std::mt19937_64 random(3);
