@@ -44,8 +44,9 @@ struct MeshBytes {
 // The JSON of a .glb whose header and chunks fit the file. Checked here to the byte, because tinygltf 2.7
 // reads up to 8 bytes beyond a chunk that claims to be longer than the file.
 [[nodiscard]] std::string_view json_of_glb(const MeshBytes& file);
-// tinygltf walks nested values by recursion, so a file must not nest as deep as it likes.
-void check_depth(const MeshBytes& file, std::string_view json, bool binary);
+// tinygltf walks nested values by recursion and keeps some hundred bytes for each value: a file must not nest
+// as deep as it likes, nor have more than kMostTriangles values.
+void check_json(const MeshBytes& file, std::string_view json, bool binary);
 
 // A finite number from the whole word, whatever the locale; false if it is none.
 [[nodiscard]] bool read_number(std::string_view word, double& number);

@@ -46,8 +46,13 @@ std::string_view json_of_glb(const MeshBytes& file) {
   return std::string_view(bytes).substr(20, json);
 }
 
-void check_depth(const MeshBytes& file, std::string_view json, bool binary) {
+void check_json(const MeshBytes& file, std::string_view json, bool binary) {
+  const auto fail = [&](std::size_t i, const std::string& what) {
+    if (binary) file.fail_at_byte(20 + i, what);
+    file.fail_at_text(i, what);
+  };
   int depth = 0;
+  std::size_t values = 1;
   bool quoted = false;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
@@ -55,12 +60,13 @@ void check_depth(const MeshBytes& file, std::string_view json, bool binary) {
       ++i;
     } else if (c == '"') {
       quoted = !quoted;
-    } else if (!quoted && (c == '[' || c == '{')) {
-      if (++depth <= kDeepestJson) continue;
-      const std::string what =
-          fmt::format("JSON nested {} deep; expected at most {}; export the file again", depth, kDeepestJson);
-      if (binary) file.fail_at_byte(20 + i, what);
-      file.fail_at_text(i, what);
+    } else if (!quoted && (c == '[' || c == '{' || c == ',')) {
+      if (c != ',' && ++depth > kDeepestJson)
+        fail(i, fmt::format("JSON nested {} deep; expected at most {}; export the file again", depth,
+                            kDeepestJson));
+      if (++values > kMostTriangles)
+        fail(i, fmt::format("JSON of more than {} values; expected fewer; export the mesh as one, as .glb",
+                            kMostTriangles));
     } else if (!quoted && (c == ']' || c == '}')) {
       --depth;
     }

@@ -18,10 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uintmax_t kMostBuffers = (std::uintmax_t{1} << 31) - 1;  // of all buffer files
+
 // What tinygltf may read: regular files in the mesh's own folder. Images are never read.
 struct Folder {
-  fs::path root;        // canonical
-  std::string refused;  // the first file that was asked for outside
+  fs::path root;            // canonical
+  std::string refused;      // the first file that was asked for outside
+  std::uintmax_t read = 0;  // bytes; one file may be named any number of times
 
   static bool is_image(const fs::path& path) {
     static const std::vector<std::string> kEndings{".png", ".jpg",  ".jpeg", ".webp",
@@ -40,6 +43,14 @@ struct Folder {
     }
     return !is_image(path) && fs::is_regular_file(path, failed);
   }
+  bool too_much() const { return read > kMostBuffers; }
+  bool may_read_whole(const std::string& asked) {
+    std::error_code failed;
+    if (too_much() || !may_read(asked)) return false;
+    const std::uintmax_t size = fs::file_size(asked, failed);
+    read += failed ? 0 : size;
+    return !failed && !too_much();
+  }
 };
 
 tinygltf::FsCallbacks callbacks(Folder& folder) {
@@ -50,7 +61,8 @@ tinygltf::FsCallbacks callbacks(Folder& folder) {
   };
   calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path,
                            void* user) {
-    return static_cast<Folder*>(user)->may_read(path) && tinygltf::ReadWholeFile(out, error, path, nullptr);
+    return static_cast<Folder*>(user)->may_read_whole(path) &&
+           tinygltf::ReadWholeFile(out, error, path, nullptr);
   };
   calls.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
     return false;
@@ -114,7 +126,7 @@ class GltfReader {
 
   void parse() {
     const std::string_view json = binary_ ? json_of_glb(file_) : std::string_view(file_.bytes);
-    check_depth(file_, json, binary_);
+    check_json(file_, json, binary_);
     std::error_code none;
     const fs::path parent = fs::path(file_.path).parent_path();
     Folder folder{fs::canonical(parent.empty() ? "." : parent, none), {}};
@@ -140,6 +152,9 @@ class GltfReader {
           "copy there",
           models::quoted(asked)));
     }
+    if (folder.too_much())
+      fail(
+          "its buffers hold 2 GiB or more together; expected less; name each once, or make the mesh coarser");
     if (!good) fail_parse(file_, json, binary_, error);
     if (model_.asset.version != "2.0" && !model_.asset.version.starts_with("2."))
       fail(fmt::format("asset.version is {}; expected 2.0; export the file again",
@@ -262,6 +277,9 @@ class GltfReader {
 
   void add_mesh(std::size_t index, const Eigen::Matrix4d& placed) {
     for (const tinygltf::Primitive& p : part(model_.meshes, "meshes", static_cast<int>(index)).primitives) {
+      if (++primitives_ > kMostTriangles)
+        fail(fmt::format("its nodes have more than {} primitives; expected fewer; export the mesh as one",
+                         kMostTriangles));
       if (p.mode == TINYGLTF_MODE_POINTS || p.mode == TINYGLTF_MODE_LINE ||
           p.mode == TINYGLTF_MODE_LINE_LOOP || p.mode == TINYGLTF_MODE_LINE_STRIP)
         continue;  // no surface
@@ -296,7 +314,6 @@ class GltfReader {
       fail(fmt::format("more than {} vertices; expected fewer; make the mesh coarser", 3 * kMostTriangles));
     const Eigen::Matrix3d turn = placed.topLeftCorner<3, 3>();
     const Eigen::Vector3d shift = placed.topRightCorner<3, 1>();
-    mesh_.vertices.reserve(mesh_.vertices.size() + view.count);
     for (std::size_t i = 0; i < view.count; ++i) {
       std::array<float, 3> raw{};
       std::memcpy(raw.data(), view.data + i * view.stride, sizeof(raw));  // need not be aligned
@@ -341,7 +358,6 @@ class GltfReader {
     const std::size_t count = list ? c.size() / 3 : c.size() - 2;
     if (count > kMostTriangles - std::min(mesh_.triangles.size(), kMostTriangles))
       fail(fmt::format("more than {} triangles; expected fewer; make the mesh coarser", kMostTriangles));
-    mesh_.triangles.reserve(mesh_.triangles.size() + count);
     for (std::size_t i = 0; i < count; ++i) {
       std::array<std::int32_t, 3> t{};
       if (list) {
@@ -360,6 +376,7 @@ class GltfReader {
   const MeshBytes& file_;
   bool binary_;
   tinygltf::Model model_;
+  std::size_t primitives_ = 0;  // of all nodes
   Mesh mesh_;
 };
 

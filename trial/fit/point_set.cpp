@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -55,9 +56,8 @@ class PointReader {
                             "number the places",
                             models::quoted(std::string(row_.text(kPair)))));
     const auto wanted = static_cast<std::int64_t>(number);
-    const auto same = std::find_if(places_.begin(), places_.end(),
-                                   [&](const SeenPlace& place) { return place.number == wanted; });
-    return same != places_.end() ? *same : places_.emplace_back(SeenPlace{wanted, {}});
+    const auto [at, first] = by_number_.try_emplace(wanted, places_.size());
+    return first ? places_.emplace_back(SeenPlace{wanted, {}}) : places_[at->second];
   }
 
   Vec3 position(std::size_t column) const {
@@ -105,6 +105,7 @@ class PointReader {
 
   CsvReader row_;
   PointSet places_;
+  std::map<std::int64_t, std::size_t> by_number_;  // place of a number among these
   std::size_t header_ = 1;
 };
 

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "models/mesh_files/mesh_write.h"
+#include "tests/support/built.h"
 #include "tests/support/replaced.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -89,6 +90,16 @@ TEST_P(BadMesh, IsRefusedInOneLine) {
   expect_refused(path.string(), GetParam().words);
 }
 
+// Many nodes with one mesh: what is read grows with them, and so must the time, not with their square.
+std::string many_nodes(int count) {
+  std::string nodes, roots;
+  for (int i = 0; i < count; ++i) {
+    nodes += i > 0 ? R"(,{"mesh":0})" : R"({"mesh":0})";
+    roots += (i > 0 ? "," : "") + std::to_string(i);
+  }
+  return replaced(gltf(R"("nodes":[0])", R"("nodes":[)" + roots + "]"), R"([{"mesh":0}])", "[" + nodes + "]");
+}
+
 constexpr const char* kOpen = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 std::string obj(const std::string& more) { return kOpen + more; }
 const std::string kClosed = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
@@ -154,7 +165,8 @@ std::vector<Bad> bad_gltf() {
        gltf("\"scene\":0,", "\"scene\":0,\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],"), "Draco"},
       {"Skewed", "a.gltf", gltf("{\"mesh\":0}", "{\"mesh\":0,\"matrix\":[1,0,0,1,0,1,0,0,0,0,1,0,0,0,0,1]}"),
        "perspective"},
-      {"OneTriangle", "a.gltf", gltf(), "face 0 at a hole"}};
+      {"OneTriangle", "a.gltf", gltf(), "face 0 at a hole"},
+      {"ManyNodes", "a.gltf", many_nodes(30'000), "doubled: another face"}};
 }
 
 std::vector<Bad> bad_others() {
@@ -185,6 +197,8 @@ std::vector<Bad> bad_others() {
        obj("v 0.1 0.1 0.1\nv 1.1 0.1 0.1\nv 0.1 1.1 0.1\nv 0.1 0.1 1.1\n" + kClosed +
            "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n"),
        "passing through other faces"},
+      {"FarVertex", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1e20 0\nv 0 0 1\n" + kClosed,
+       "vertex 2 is at y = 1e+20 m; expected at most 1e+06 m from the origin"},
       {"ObjFaceNotFlat", "a.obj", obj("v 1 1 1\nf 1 2 5 3\n"), "a.obj:6:1: a face that is not flat"},
       {"ObjFaceCrossesItself", "a.obj", obj("v 2 2 0\nv 3 0 0\nf 1 5 2 3 6\n"),
        "a.obj:7:1: a face whose sides cross"},
@@ -213,6 +227,19 @@ INSTANTIATE_TEST_SUITE_P(Gltf, BadMesh, ::testing::ValuesIn(bad_gltf()), kName);
 INSTANTIATE_TEST_SUITE_P(Others, BadMesh, ::testing::ValuesIn(bad_others()), kName);
 
 using BadPlace = BadMesh;
+
+// A mesh that reaches as far as it may has an answer, and one that its scene makes larger is refused there.
+TEST_F(BadPlace, AsFarAsItMayAndNoFarther) {
+  const fs::path path = folder_ / "a.obj";
+  std::ofstream(path) << "v 0 0 0\nv 1e6 0 0\nv 0 1e6 0\nv 0 0 1e6\n" << kClosed;
+  const Result far = run_program({"nearest", path.string(), (folder_ / "points.csv").string()});
+  EXPECT_EQ(far.code, 0) << far.err;
+  EXPECT_THAT(far.out, HasSubstr("\n-0,0,0,0,-0.577"));
+  const Result scaled = run_program(
+      {"check", std::string(source_dir()) + "/models/scenes/hare.toml", "--set", "object.hare.scale=1e9"});
+  EXPECT_EQ(scaled.code, 2) << scaled.out;
+  EXPECT_THAT(scaled.err, HasSubstr("with this scale the mesh reaches beyond 1000 km"));
+}
 
 TEST_F(BadPlace, AFolderAndNothing) {
   fs::create_directory(folder_ / "folder.glb");
