@@ -16,6 +16,10 @@
 namespace enc::fuzz {
 namespace {
 
+// s of CPU time, of one input: what reads a file has a limit on its work. Checked in the long form alone, as
+// the short one is run beside other programs.
+constexpr double kSlowest = 5.0;
+
 std::size_t number_of(const char* variable, std::size_t otherwise) {
   const char* text = std::getenv(variable);
   return text != nullptr && *text != '\0' ? std::strtoull(text, nullptr, 10) : otherwise;
@@ -36,11 +40,12 @@ class Parsers : public testing::TestWithParam<std::string> {};
 TEST_P(Parsers, TakeOrRefuseWhateverComes) {
   const Target& target = fuzz::target(GetParam());
   const std::size_t inputs = number_of("ENCOUNTER_FUZZ_INPUTS", target.inputs);
+  const bool long_form = std::getenv("ENCOUNTER_FUZZ_INPUTS") != nullptr;
   const std::size_t seed = number_of("ENCOUNTER_FUZZ_SEED", 1);
   const std::string words = fmt::format("{} (ENCOUNTER_FUZZ_SEED={})", target.name, seed);
   watch(words);
   std::size_t accepted = 0, most_heap = 0;
-  double most_per_byte = 0.0;
+  double most_per_byte = 0.0, slowest = 0.0;
   for (const std::string& input : target.seeds) {
     const Verdict verdict = judge(target, input);
     ASSERT_EQ(verdict.wrong, "") << "seed of " << words << ": " << kept_input(target, input);
@@ -59,15 +64,20 @@ TEST_P(Parsers, TakeOrRefuseWhateverComes) {
       ++accepted;
       mutator.keep(input);
     }
+    if (long_form) {
+      EXPECT_LE(verdict.seconds, kSlowest)
+          << "input " << i << " of " << words << ": " << kept_input(target, input);
+    }
+    slowest = std::max(slowest, verdict.seconds);
     most_heap = std::max(most_heap, verdict.most_heap);
     most_per_byte = std::max(
         most_per_byte, static_cast<double>(verdict.most_heap) / static_cast<double>(input.size() + 1024));
   }
   fmt::print(
       "{:12} {:>8} inputs, {:5.1f} % accepted; at most {:.0f} kB of heap, {:.0f} bytes for one of input (and "
-      "1 kB)\n",
+      "1 kB); slowest {:.3f} s\n",
       target.name, inputs, 100.0 * static_cast<double>(accepted) / static_cast<double>(inputs),
-      static_cast<double>(most_heap) * 1e-3, most_per_byte);
+      static_cast<double>(most_heap) * 1e-3, most_per_byte, slowest);
   // A target whose every input is refused is one that looks at nothing but the first mistake.
   EXPECT_GT(accepted, 0U) << words;
 }

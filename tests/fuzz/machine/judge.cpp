@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -60,6 +61,12 @@ void limit_cpu(int seconds) {
   setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
+double cpu_time() {
+  timespec used{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
 // One line that any terminal shows.
 std::string wrong_with(const std::string& words) {
   if (words.empty()) return "an Error without words";
@@ -103,6 +110,7 @@ Verdict judge(const Target& target, const std::string& input) {
   forget_peak();
   const std::size_t before = live_bytes();
   Verdict verdict;
+  const double began = cpu_time();
   try {
     verdict.accepted = target.run(input);
   } catch (const Error& e) {
@@ -113,6 +121,7 @@ Verdict judge(const Target& target, const std::string& input) {
     verdict.wrong = fmt::format("an exception that is no Error: {}", e.what());
   }
   limit_cpu(0);
+  verdict.seconds = cpu_time() - began;
   now.data = nullptr;
   verdict.most_heap = peak_bytes() - before;
   const std::size_t most = target.bound.per_byte * input.size() + target.bound.besides;

@@ -11,6 +11,7 @@ struct Verdict {
   bool accepted = false;
   std::string wrong;          // empty: nothing
   std::size_t most_heap = 0;  // bytes
+  double seconds = 0.0;       // of CPU time
 };
 [[nodiscard]] Verdict judge(const Target& target, const std::string& input);
 

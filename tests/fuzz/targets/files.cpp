@@ -12,6 +12,7 @@
 #include "tests/fuzz/targets/seeds.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/scenes.h"
+#include "trial/prepare.h"
 
 namespace enc::fuzz {
 namespace {
@@ -65,8 +66,9 @@ const Folder& folder() {
   return kFolder;
 }
 
-std::string small_record(int ticks, const RecordTexts& texts, const RecordTexts& ends) {
-  test::Loop loop(prepare(test::ball_scene(), RigSpec{}));
+std::string small_record(const Scene& scene, int ticks, const RecordTexts& texts, const RecordTexts& ends) {
+  test::Loop loop(scene);
+  loop.tool_tip = Point<'W'>(0, 0, 0.02);
   const std::string path = folder().path("seed.encrec");
   RecordWriter record(path, texts, layout_hash(loop.scene));
   for (int i = 0; i < ticks; ++i) {
@@ -99,6 +101,7 @@ void seal_again(std::string& bytes) {
   }
 }
 
+// Also on to where its numbers go; a record without a scene is only read.
 void read_all(const std::string& path, Partial partial) {
   RecordReader reader(path, partial);
   for (int pass = 0; pass < 2; ++pass) {
@@ -108,23 +111,32 @@ void read_all(const std::string& path, Partial partial) {
     expect(ticks == reader.ticks(), fmt::format("it says {} ticks and gives {}", reader.ticks(), ticks));
     reader.rewind();
   }
+  if (reader.texts().contains("resolved")) use(models::setup_of(reader.texts(), path), reader);
 }
 
 Target record() {
   Target target;
-  target.seeds = {small_record(3, {{"resolved", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}},
+  const Scene ball = prepare(test::ball_scene(), RigSpec{});
+  target.seeds = {small_record(ball, 3, {{"about", "format = 1\n"}, {"seed", "7"}, {"version", "9.8.7"}},
                                {{"ledger", "contact,hand_mJ\n1,2.5\n"}}),
-                  small_record(1, {}, {})};
+                  small_record(ball, 1, {}, {})};
   // Of another layout, by a version that wants two lines.
-  target.seeds.push_back(small_record(1, {{"version", "9\n8"}}, {}));
+  target.seeds.push_back(small_record(ball, 1, {{"version", "9\n8"}}, {}));
   target.seeds.back()[16] ^= 1;
   seal_again(target.seeds.back());
+  // With its scene; mostly ticks, so that most of what is spoiled is in them.
+  const ModelsFolder models;
+  for (const char* scene : {"plane", "tennis_ball"}) {
+    const models::Setup setup = models::load(models.path(fmt::format("scenes/{}.toml", scene)), "");
+    target.seeds.push_back(small_record(trial::prepare_setup(setup), 60, models::record_texts(setup), {}));
+  }
   target.tokens = {"CHNK",
                    "TEXT",
                    "SEAL",
                    "\x89"
                    "ENCREC\n",
                    std::string(8, '\0'),
+                   std::string(7, '\xff') + '\x7f',
                    std::string("\2\0\0\0\0\0\0\0", 8)};
   target.run = [](const std::string& input) {
     const std::string path = folder().write("fuzz.encrec", input);
@@ -138,26 +150,27 @@ Target record() {
     return true;
   };
   target.mend = &seal_again;
-  target.inputs = 5000;
   return target;
 }
 
-models::Setup mesh_setup() {
-  const ModelsFolder folder_of_models;
-  return models::load(folder_of_models.write("scenes/a.toml", mesh_scene()), "");
-}
-
-// The mesh that a record holds beside its scene.
+// The mesh that a record holds beside its scene. Its hash is left out, or no other mesh were taken.
 Target recorded_mesh() {
   Target target;
   const models::Setup setup = mesh_setup();
-  const RecordTexts texts = models::record_texts(setup);
+  RecordTexts texts = models::record_texts(setup);
+  std::string& resolved = texts.at("resolved");
+  const std::size_t hash = resolved.find("mesh_hash");
+  resolved.erase(hash, resolved.find('\n', hash) - hash);
   target.seeds = {texts.at("mesh:small.obj")};
-  target.run = [texts](const std::string& input) {
+  const std::string first =
+      folder().write("mesh.encrec", small_record(trial::prepare_setup(setup), 3, {}, {}));
+  target.run = [texts, first](const std::string& input) {
     RecordTexts others = texts;
     others["mesh:small.obj"] = input;
     const models::Setup read = models::setup_of(others, "fuzz.encrec");
-    expect(models::record_texts(read) == others, "what is written of it is another");
+    expect(models::record_texts(read).at("mesh:small.obj") == input, "what is written of it is another");
+    RecordReader record(first);
+    use(read, record);
     return true;
   };
   return target;

@@ -8,12 +8,16 @@
 
 #include "core/error.h"
 #include "core/mesh/mesh_tree.h"
+#include "core/mesh/triangle.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/mesh_files/mesh_write.h"
+#include "models/schema/wording.h"
 #include "models/shapes/shapes.h"
 #include "tests/fuzz/machine/target.h"
 #include "tests/fuzz/targets/seeds.h"
+#include "tests/support/scenes.h"
+#include "trial/prepare.h"
 
 namespace enc::fuzz {
 namespace {
@@ -23,6 +27,22 @@ const Folder& mesh_folder() {
   static const bool kFilled = (kFolder.write("b.bin", std::string(96, '\1')), true);
   static_cast<void>(kFilled);
   return kFolder;
+}
+
+// In a scene, of a size that the machine can hold. Where the machine does not reach it, that is said in a
+// line.
+void press(const Mesh& mesh, double radius) {
+  static models::Setup setup = mesh_setup();
+  ObjectSpec& object = setup.scene.objects.at(0);
+  object.surface = std::make_shared<const Mesh>(mesh);
+  object.scale = 0.05 / radius;
+  try {
+    test::Loop loop(trial::prepare_setup(setup));
+    loop.tool_tip = Point<'W'>(0, 0, 0.02);
+    loop.tick(3);
+  } catch (const Error& e) {
+    expect(models::printable(e.what()) == e.what(), "an Error of more than one line comes of it");
+  }
 }
 
 bool sane(models::FileMesh read, const std::string& name) {
@@ -35,7 +55,13 @@ bool sane(models::FileMesh read, const std::string& name) {
   const Mesh mesh = models::check_mesh(std::move(read.mesh), name, read.lines).mesh;
   for (const auto& vertex : mesh.vertices)
     for (const double x : vertex) expect(std::isfinite(x), "a vertex is not finite");
-  static_cast<void>(MeshTree(mesh).nearest(Point<'O'>(0.01, 0.02, 0.03)));
+  const MeshTree tree(mesh);
+  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0.01, 0.02, 0.03), Vec3(-1e6, 1e6, 1e6), vec(mesh.vertices[0])}) {
+    const Nearest near = tree.nearest(Point<'O'>(p));
+    expect(std::isfinite(near.distance) && near.point.finite() && near.normal.finite() && near.feature >= 0,
+           "nothing of it is nearest to a place");
+  }
+  press(mesh, tree.bound().radius);
   const std::string text = models::mesh_bytes(mesh, ".obj");
   const models::FileMesh again = models::read_obj({name, text});
   expect(again.mesh.vertices == mesh.vertices && again.mesh.triangles == mesh.triangles,

@@ -1,13 +1,19 @@
 #include "tests/fuzz/targets/seeds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
+#include "core/record/replay.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/shapes/shapes.h"
+#include "tests/fuzz/machine/target.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
+#include "trial/mcap/record_mcap.h"
+#include "trial/measure/record_table.h"
+#include "trial/prepare.h"
 
 namespace enc::fuzz {
 namespace {
@@ -35,6 +41,29 @@ std::string mesh_scene() {
   return text.replace(text.find(mesh), mesh.size(), "small.obj\"");
 }
 std::string small_mesh() { return models::mesh_bytes(models::geodesic_ball(2), ".obj"); }
+
+models::Setup mesh_setup() {
+  const ModelsFolder models;
+  return models::load(models.write("scenes/a.toml", mesh_scene()), "");
+}
+
+void use(const models::Setup& setup, RecordReader& record) {
+  const Scene scene = trial::prepare_setup(setup);
+  for (const Object& object : scene.objects)
+    for (const Point<'O'>& p : {Point<'O'>(0, 0, 0), Point<'O'>(0.01, 0.02, 0.03), Point<'O'>(0, 0, -1e6)}) {
+      const Nearest near = object.surface.nearest(p);
+      expect(std::isfinite(near.distance) && near.point.finite() && near.normal.finite(),
+             "nothing of an object is nearest to a place");
+    }
+  static_cast<void>(replay(scene, record));
+  trial::RecordTable table(setup, scene);
+  trial::McapWriter file([](std::string_view) {}, "fuzz");
+  trial::RecordMcap mcap(file, setup, scene, record.texts());
+  RecordedTick frame;
+  for (record.rewind(); record.next(frame); mcap.add(frame))
+    static_cast<void>(table.row(frame.tick, frame.in, frame.out));
+  mcap.end(record.end_texts(), "whole");
+}
 
 const std::vector<std::string>& toml_tokens() {
   static const std::vector<std::string> kAll{"true",

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/record/record.h"
+#include "models/setup/scene_file.h"
+
 namespace enc::fuzz {
 
 // Of the repository. "models/scenes/*.toml": all of them, in order; longer than `most` bytes are left out.
@@ -15,6 +18,12 @@ namespace enc::fuzz {
 // A scene whose object is the mesh `small.obj`, and that file.
 [[nodiscard]] std::string mesh_scene();
 [[nodiscard]] std::string small_mesh();
+// That scene, loaded.
+[[nodiscard]] models::Setup mesh_setup();
+
+// What commands do with what they have read: `record` is run again and exported with its scene. Throws Error
+// where the scene cannot be prepared.
+void use(const models::Setup& setup, RecordReader& record);
 
 [[nodiscard]] const std::vector<std::string>& toml_tokens();
 
