@@ -156,7 +156,7 @@ TEST(MeshTree, NeighboursOfManyFacesAtOneVertex) {
 TEST(MeshTree, OfAMeshThatIsTooLargeNothingIsNear) {
   Mesh huge = tetrahedron();
   for (auto& vertex : huge.vertices)
-    for (double& x : vertex) x *= 1e20;
+    for (double& x : vertex) x = 2e20 * x - 1e20;
   const Nearest at = MeshTree(huge).nearest(Point<'O'>(0.1, 0.1, 0.1));
   EXPECT_EQ(at.feature, -1);
   EXPECT_TRUE(std::isnan(at.distance) && !at.point.finite() && !at.normal.finite());
