@@ -24,8 +24,8 @@ struct Place {
 };
 
 struct Candidate {
-  double asked = 0.0;  // N/m
-  bool hit = false;
+  double asked = 0.0;                     // N/m
+  Interaction kind = Interaction::slide;  // or hit, or passive: of these the law is another one
   Place worst;
   Class look = Class::unknown;
 };
@@ -46,7 +46,7 @@ std::vector<Place> places_of(const models::Setup& setup, const Scene& scene, std
   std::vector<Place> places;
   const auto add = [&](const Point<'W'>& at, const PerJoint& q, const Vec<'R'>& way) {
     places.push_back(
-        {at, planned, loop_at(law, hand_of(setup.rig), scene.dt, q, way, of.asked, of.hit), kUnset});
+        {at, planned, loop_at(law, hand_of(setup.rig), scene.dt, q, way, of.asked, of.kind), kUnset});
   };
   add(touched.at.point, touched.joints, touched.way);
   if (planned || object.met_in_its_middle()) return places;
@@ -76,20 +76,28 @@ Certified certified(const std::string& object, const Place& place, double asked)
   return found;
 }
 
+// The matrix of all directions is large where many periods are under way: there the normal alone is looked
+// at.
+double radius_at(const certificate::SampledLoop& loop, double stiffness, double damper) {
+  constexpr int kMany = 16;
+  const bool large = certificate::late(loop).whole + loop.ticks > kMany;
+  return certificate::spectral_radius(large ? loop.along() : loop, stiffness, damper);
+}
+
 std::vector<Candidate> candidates_of(const models::Setup& setup, const Scene& scene) {
-  std::map<std::pair<double, bool>, double> compared;
+  std::map<std::pair<double, Interaction>, double> compared;
   std::vector<Candidate> all;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     Candidate& one = all.emplace_back();
     one.asked = stiffest_asked(*scene.impedance(), object);
-    one.hit = object.interaction.kind == Interaction::hit;
+    const Interaction kind = object.interaction.kind;
+    if (kind == Interaction::hit || kind == Interaction::passive) one.kind = kind;
     std::vector<Place> places = places_of(setup, scene, i, one);
-    const auto [at, fresh] = compared.try_emplace({one.asked, one.hit});
+    const auto [at, fresh] = compared.try_emplace({one.asked, one.kind});
     if (fresh) at->second = compared_at(places.front(), one.asked);
     for (Place& place : places) {
-      place.radius =
-          certificate::spectral_radius(place.loop.loop, at->second, place.loop.asked.damper.at(at->second));
+      place.radius = radius_at(place.loop.loop, at->second, place.loop.asked.damper.at(at->second));
       if (&place == &places.front() || place.radius > one.worst.radius) one.worst = place;
     }
     const ArmLoopAt& loop = one.worst.loop;
@@ -105,11 +113,11 @@ std::vector<Certified> arm_certificates(const models::Setup& setup, const Scene&
   Place home;
   home.at = Point<'W'>(0, 0, 0);
   home.loop = loop_at(law, hand_of(setup.rig), scene.dt, law.arm.zero(),
-                      scene.X_WR.inverse() * Vec<'W'>(0, 0, 1), law.rig.stiffness, false);
+                      scene.X_WR.inverse() * Vec<'W'>(0, 0, 1), law.rig.stiffness, Interaction::slide);
   std::vector<Certified> found{certified("", home, law.rig.stiffness)};
   const std::vector<Candidate> all = candidates_of(setup, scene);
-  std::map<std::tuple<double, bool, Class>, std::size_t> worst;
-  const auto alike = [](const Candidate& one) { return std::tuple(one.asked, one.hit, one.look); };
+  std::map<std::tuple<double, Interaction, Class>, std::size_t> worst;
+  const auto alike = [](const Candidate& one) { return std::tuple(one.asked, one.kind, one.look); };
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto [at, fresh] = worst.try_emplace(alike(all[i]), i);
     if (!fresh && all[i].worst.radius > all[at->second].worst.radius) at->second = i;

@@ -138,7 +138,7 @@ double friction_stiffness(const SampledLoop& loop, double friction, const Damper
 }
 
 std::vector<Row> bounds(const SampledLoop& given, const Steps& steps, const Asked& asked) {
-  const SampledLoop loop = given.alone();
+  const SampledLoop loop = given.alone().along();
   const Damper& damper = asked.damper;
   const double stiffness = asked.stiffness;
   std::vector<Row> rows;
@@ -147,13 +147,15 @@ std::vector<Row> bounds(const SampledLoop& given, const Steps& steps, const Aske
     const double margin = stiffness < range.low ? stiffness / range.low : range.high / stiffness;
     rows.push_back({name, formula, range.high, margin, applies, source, range.low});
   };
-  const bool spring = plain(loop, damper), held = holds_counts(loop, steps, stiffness, damper.at(stiffness));
+  const bool one_way = given.around.count == 0;  // what the formulas are of
+  const bool spring = one_way && plain(loop, damper);
+  const bool held = one_way && holds_counts(loop, steps, stiffness, damper.at(stiffness));
   const double quantised = quantised_stiffness(loop, steps);
   add("colgate_schenkel", "b > T/2 1/(1 - cos wT) Re{(1 - e^{-jwT}) H(e^{jwT})}, 0 < w <= pi/T",
-      {0.0, passive_stiffness(loop, damper)}, true, "Colgate and Schenkel 1997");
+      {0.0, passive_stiffness(loop, damper)}, one_way, "Colgate and Schenkel 1997");
   add("abbott_okamura", "K <= min(2 b/T, 2 f_c/step)", {0.0, quantised}, spring, "Abbott and Okamura 2005");
   add("gil_hulin", "K < (b + B)/(T/2 + t_d)", {0.0, delayed_stiffness(loop, damper)},
-      std::isnan(loop.filter) && loop.ticks == 1 && damper.at(stiffness) <= loop.damping &&
+      one_way && std::isnan(loop.filter) && loop.ticks == 1 && damper.at(stiffness) <= loop.damping &&
           loop.damping * (2.0 * loop.period + loop.delay) <= kShort * loop.mass,
       "Gil et al. 2004, Hulin et al. 2006");
   add("diolaiti", "b/(K T) >= 1/2 or f_c/(K step) >= 1/2",
@@ -165,7 +167,7 @@ std::vector<Row> bounds(const SampledLoop& given, const Steps& steps, const Aske
       {0.0, friction_stiffness(loop, steps.friction, damper, kSmall)}, held, "describing function");
   add("friction_large", "|z| < 1 with 4 f_c/(pi w 1 mm) more damping",
       {0.0, friction_stiffness(loop, steps.friction, damper, kLarge)}, held, "describing function");
-  add("exact_alone", "|z| < 1 of the sampled loop", stable_range(loop, damper), true, "eigenvalues");
+  add("exact_alone", "|z| < 1 of the sampled loop", stable_range(given.alone(), damper), true, "eigenvalues");
   add("exact_with_hand", "|z| < 1 of the sampled loop and the hand", stable_range(given, damper), true,
       "eigenvalues");
   return rows;

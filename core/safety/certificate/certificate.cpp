@@ -37,16 +37,21 @@ bool rests(const SampledLoop& loop, const Row& row, double stiffness, double dam
   return (stiffness > row.low && stiffness < row.bound) || stable(loop, stiffness, damper);
 }
 
+// Sideways the law of an arm has a damper above what the device has: some hand makes it swing.
+bool passive(const SampledLoop& loop, const Steps& steps, double stiffness, double damper) {
+  return loop.around.count == 0 && holds_counts(loop, steps, stiffness, damper) &&
+         needed_damping(loop.alone(), stiffness, damper) <= loop.damping;
+}
+
 Class class_of(const SampledLoop& loop, const Steps& steps, const Asked& asked, const Certificate& found) {
   const double stiffness = asked.stiffness, damper = asked.damper.at(stiffness);
-  if (holds_counts(loop, steps, stiffness, damper) &&
-      needed_damping(loop.alone(), stiffness, damper) <= loop.damping)
-    return Class::passive;
+  if (passive(loop, steps, stiffness, damper)) return Class::passive;
   const bool alone = rests(loop.alone(), row_of(found, "exact_alone"), stiffness, damper);
   const bool held = rests(loop, row_of(found, "exact_with_hand"), stiffness, damper);
   if (alone) return held ? Class::alone : Class::unheld;
   if (held) return Class::held;
-  if (!(steps.friction > 0.0) || found.small.rest == Rest::cycle || found.small.rest == Rest::away)
+  const bool seen = found.small.rest != Rest::unknown || loop.around.count == 0;
+  if (!(steps.friction > 0.0) || !seen || found.small.rest == Rest::cycle || found.small.rest == Rest::away)
     return Class::unstable;
   return found.small.rest == Rest::still ? Class::local : Class::unknown;
 }
@@ -60,8 +65,14 @@ Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& as
   found.missing = missing_of(loop, steps, asked);
   if (!found.missing.empty()) return found;
   const double damper = asked.damper.at(asked.stiffness);
-  found.small = release(loop.alone(), steps, asked.stiffness, damper, kSmall);
-  found.large = release(loop.alone(), steps, asked.stiffness, damper, kLarge);
+  // The release is along the normal: it tells nothing where what is sideways decides.
+  const SampledLoop along = loop.alone().along();
+  if (loop.around.count == 0 ||
+      stable(along, asked.stiffness, damper) ==
+          rests(loop.alone(), row_of(found, "exact_alone"), asked.stiffness, damper)) {
+    found.small = release(along, steps, asked.stiffness, damper, kSmall);
+    found.large = release(along, steps, asked.stiffness, damper, kLarge);
+  }
   found.verdict = class_of(loop, steps, asked, found);
   if (found.verdict == Class::unknown) found.missing = "what a release does: too slow to be simulated";
   return found;
@@ -70,9 +81,7 @@ Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& as
 Class linear_class(const SampledLoop& loop, const Steps& steps, const Asked& asked) {
   if (!missing_of(loop, steps, asked).empty()) return Class::unknown;
   const double stiffness = asked.stiffness, damper = asked.damper.at(stiffness);
-  if (holds_counts(loop, steps, stiffness, damper) &&
-      needed_damping(loop.alone(), stiffness, damper) <= loop.damping)
-    return Class::passive;
+  if (passive(loop, steps, stiffness, damper)) return Class::passive;
   const bool held = stable(loop, stiffness, damper);
   if (stable(loop.alone(), stiffness, damper)) return held ? Class::alone : Class::unheld;
   return held ? Class::held : Class::unknown;

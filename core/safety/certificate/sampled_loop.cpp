@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Eigenvalues>
+
+#include "core/safety/certificate/tip_loop.h"
 
 namespace enc::certificate {
 namespace {
@@ -114,12 +117,23 @@ bool SampledLoop::known() const {
   return at_least(mass, 0.0) && mass + hand.mass > 0.0 && at_least(damping, 0.0) && at_least(period, 0.0) &&
          period > 0.0 && at_least(delay, 0.0) && ticks >= 1 && delay / period + ticks <= kMostPeriods + 1.0 &&
          (std::isnan(filter) || (filter > 0.0 && std::isfinite(filter))) && at_least(hand.mass, 0.0) &&
-         at_least(hand.damping, 0.0) && at_least(hand.stiffness, 0.0);
+         at_least(hand.damping, 0.0) && at_least(hand.stiffness, 0.0) && around.known();
+}
+
+bool Directions::known() const {
+  return moves.allFinite() && damping.allFinite() && at_least(stiffness, 0.0) && std::isfinite(damper) &&
+         (std::isnan(filter) || (filter > 0.0 && std::isfinite(filter)));
 }
 
 SampledLoop SampledLoop::alone() const {
   SampledLoop loop = *this;
   loop.hand = {};
+  return loop;
+}
+
+SampledLoop SampledLoop::along() const {
+  SampledLoop loop = *this;
+  loop.around = {};
   return loop;
 }
 
@@ -154,7 +168,9 @@ std::vector<double> angles(const SampledLoop& loop, int for_each_period) {
 
 std::vector<Complex> eigenvalues(const SampledLoop& loop, double stiffness, double damper) {
   if (!loop.known() || !std::isfinite(stiffness) || !std::isfinite(damper)) return {};
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(step_of(loop, stiffness, damper), false);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(
+      loop.around.count > 0 ? TipLoop(loop).step(stiffness, damper) : step_of(loop, stiffness, damper),
+      false);
   if (solver.info() != Eigen::Success) return {};
   const auto& found = solver.eigenvalues();
   return {found.data(), found.data() + found.size()};
@@ -175,6 +191,8 @@ double ringing(const SampledLoop& loop, double stiffness, double damper) {
   return std::abs(std::atan2(z.imag(), z.real())) / loop.period;
 }
 bool stable(const SampledLoop& loop, double stiffness, double damper) {
+  if (loop.around.count > 0 && loop.known() && std::isfinite(stiffness) && std::isfinite(damper))
+    return TipLoop(loop).outside(stiffness, damper) == 0;
   return spectral_radius(loop, stiffness, damper) < 1.0;
 }
 
@@ -182,12 +200,15 @@ std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dr
   if (!loop.known() || !std::isfinite(damper.fixed) || !std::isfinite(damper.ratio) || !at_least(dry, 0.0))
     return {};
   const Device device(loop);
+  std::optional<TipLoop> around;
+  if (loop.around.count > 0) around.emplace(loop);
   const auto rubbed = [&](double angle) {
     SampledLoop more = loop;
     more.damping += dry * loop.period / angle;
     return compliance(more, Device(more), angle);
   };
   const auto needed = [&](double angle) {
+    if (around) return around->needed(angle, damper);
     const Complex rate = rate_response(loop, angle);
     const Complex place = dry > 0.0 ? rubbed(angle) : compliance(loop, device, angle);
     return -(1.0 / (place * filter_response(loop, angle)) + damper.fixed * rate) /
@@ -221,8 +242,51 @@ std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dr
   return found;
 }
 
+namespace {
+
+// Eigenvalues that are not within the unit circle.
+long outside_of(const SampledLoop& loop, double stiffness, const Damper& damper) {
+  if (loop.around.count > 0) return TipLoop(loop).outside(stiffness, damper.at(stiffness));
+  const auto all = eigenvalues(loop, stiffness, damper.at(stiffness));
+  return std::count_if(all.begin(), all.end(), [](const Complex& z) { return !(std::norm(z) < 1.0); });
+}
+
+// Between a stable and an unstable stiffness.
+double border(const SampledLoop& loop, const Damper& damper, double stable, double unstable) {
+  for (int i = 0; i < 24; ++i) {
+    const double middle = std::sqrt(stable * unstable);
+    (outside_of(loop, middle, damper) == 0 ? stable : unstable) = middle;
+  }
+  return stable;
+}
+
+// The law grows in all directions at once, so no single loop has its edges: it is tried from soft to stiff.
+Range tried_range(const SampledLoop& loop, const Damper& damper) {
+  constexpr double kFinest = 1.15;
+  double low = 0.0, before = 0.0;
+  bool was_stable = false;
+  for (double at = 1.0; at < kStiffest; before = at, at *= kFinest) {
+    const bool is_stable = outside_of(loop, at, damper) == 0;
+    if (is_stable && !was_stable && before > 0.0) low = border(loop, damper, at, before);
+    if (!is_stable && was_stable) return {low, border(loop, damper, before, at)};
+    was_stable = is_stable;
+  }
+  return was_stable ? Range{low, std::numeric_limits<double>::infinity()} : Range{0.0, 0.0};
+}
+
+// A mode that hardly couples with the normal may leave the circle between two of the angles that are looked
+// at.
+double checked_high(const SampledLoop& loop, const Damper& damper, double stable, double high) {
+  const double below = 0.99 * high;
+  if (loop.around.count == 0 || !(below > stable) || outside_of(loop, below, damper) == 0) return high;
+  return border(loop, damper, stable, below);
+}
+
+}  // namespace
+
 Range stable_range(const SampledLoop& loop, const Damper& damper) {
   if (!loop.known() || !std::isfinite(damper.fixed) || !std::isfinite(damper.ratio)) return {};
+  if (loop.around.count > 0 && loop.around.alike) return tried_range(loop, damper);
   std::vector<Edge> ends = edges(loop, damper);
   ends.push_back({kStiffest, pi, 0});
   double from = 0.0;
@@ -231,9 +295,10 @@ Range stable_range(const SampledLoop& loop, const Damper& damper) {
     const double to = end.stiffness;
     if (outside <= 0 && to - from > 1e-9 * to) {
       const double between = from > 0.0 ? std::sqrt(from * to) : 0.5 * to;
-      const auto all = eigenvalues(loop, between, damper.at(between));
-      outside = std::count_if(all.begin(), all.end(), [](const Complex& z) { return !(std::norm(z) < 1.0); });
-      if (outside == 0) return {from, to < kStiffest ? to : std::numeric_limits<double>::infinity()};
+      outside = outside_of(loop, between, damper);
+      if (outside == 0)
+        return {from, to < kStiffest ? checked_high(loop, damper, between, to)
+                                     : std::numeric_limits<double>::infinity()};
     }
     outside += outside < 0 ? 0 : end.leave;
     from = to;

@@ -1,6 +1,6 @@
-// A spring and a damper that a computer renders through a device, along one way: the exact eigenvalues of the
-// sampled loop, and the stiffness from which on it is not stable. At set-up; linear, without friction and
-// encoder steps (release.h has them).
+// A spring and a damper that a computer renders through a device, along a normal: the exact eigenvalues of
+// the sampled loop, and the stiffness from which on it is not stable. At set-up; linear, without friction and
+// encoder steps (release.h has them). Where the device moves sideways as well all directions are one loop.
 //
 //   (m + m_h) x'' + (b + b_h) x' + k_h x = F       the device, and a hand that is rigidly on it
 //   F = -(K e_i + B r_i)  from  iT + t_d  until  (i + 1)T + t_d                     held, and t_d late
@@ -24,6 +24,20 @@ struct Hand {
   double stiffness = 0.0;  // N/m
 };
 
+// How the tip moves in all directions, where the law holds it sideways too. x = W eta is its place along the
+// normal and along two directions across it, of a device with the mass matrix M and the Jacobian J:
+//   eta'' = -C eta' + W^T F,   W W^T = J M^-1 J^T
+struct Directions {
+  int count = 0;                // of eta; 0: the tip moves along the normal alone
+  Mat3 moves = Mat3::Zero();    // W, 1/sqrt(kg): columns from `count` on are 0, as rows and columns of C are
+  Mat3 damping = Mat3::Zero();  // C, 1/s
+  double stiffness = 0.0;       // N/m, of the law sideways, as the next two
+  double damper = 0.0;          // N s/m
+  double filter = kUnset;       // a of eq. 3; unset: no filter
+  bool alike = false;           // sideways the law has the stiffness and the damper of the normal instead
+  [[nodiscard]] bool known() const;
+};
+
 struct SampledLoop {
   double mass = kUnset;     // kg, m, above none
   double damping = kUnset;  // N s/m, b, viscous
@@ -31,11 +45,13 @@ struct SampledLoop {
   double delay = 0.0;       // s, t_d, any: from the reading to the force
   int ticks = 1;            // n: the rate is a difference over so many periods
   double filter = kUnset;   // a of eq. 3, discrete; unset: no filter
-  Hand hand{};
+  Hand hand{};              // along the normal
+  Directions around{};      // with them mass and damping are those of the tip that nothing holds sideways
   // Whether everything that the loop needs is a number that can be: else there is no answer. Delay and ticks
   // are no more than kMostPeriods.
   [[nodiscard]] bool known() const;
   [[nodiscard]] SampledLoop alone() const;  // without the hand
+  [[nodiscard]] SampledLoop along() const;  // along the normal alone, as if nothing were sideways
 };
 
 // B = fixed + ratio K. A gain lambda on the law of eq. 2 scales both: there only the ratio is not zero.

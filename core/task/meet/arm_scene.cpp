@@ -115,7 +115,8 @@ double count_of(const Impedance& law, double dt) {
   double most = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec<'R'> way(Vec3(Vec3::Unit(axis)));
-    most = std::max(most, loop_at(law, {}, dt, law.arm.zero(), way, law.rig.stiffness, false).steps.encoder);
+    most = std::max(
+        most, loop_at(law, {}, dt, law.arm.zero(), way, law.rig.stiffness, Interaction::slide).steps.encoder);
   }
   return most;
 }

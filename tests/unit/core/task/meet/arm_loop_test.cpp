@@ -31,7 +31,7 @@ Impedance stage() {
 }
 
 TEST(ArmLoop, OfASlideIsWhatTheSlideIs) {
-  const ArmLoopAt up = loop_at(stage(), kHand, 1e-3, {}, kUp, 900.0, false);
+  const ArmLoopAt up = loop_at(stage(), kHand, 1e-3, {}, kUp, 900.0, Interaction::slide);
   EXPECT_NEAR(up.loop.mass, 0.1 + 0.02 + 0.01, 1e-12);
   EXPECT_NEAR(up.loop.damping, 0.3, 1e-12);
   EXPECT_NEAR(up.steps.friction, 0.04, 1e-12);
@@ -42,12 +42,12 @@ TEST(ArmLoop, OfASlideIsWhatTheSlideIs) {
   EXPECT_NEAR(up.asked.damper.ratio, 12.0 / 300.0, 1e-12);  // all of K_v, as heavy as at home
   EXPECT_EQ(up.asked.damper.fixed, 0.0);
   EXPECT_EQ(up.loop.hand.stiffness, 700.0);
-  const ArmLoopAt along = loop_at(stage(), kHand, 1e-3, {}, kAlong, 900.0, false);
+  const ArmLoopAt along = loop_at(stage(), kHand, 1e-3, {}, kAlong, 900.0, Interaction::slide);
   EXPECT_NEAR(along.loop.damping, 0.5, 1e-12);
   EXPECT_NEAR(along.steps.encoder, 2.0 * M_PI / (2000.0 * 100.0), 1e-15);
   // Half of each way: by the work, x v^2 + z v^2 of the rates that the masses take.
   const double h = std::sqrt(0.5), mx = 0.33, mz = 0.13;  // kg: the first slide carries the second
-  const ArmLoopAt aslant = loop_at(stage(), kHand, 1e-3, {}, Vec<'R'>(h, 0, h), 900.0, false);
+  const ArmLoopAt aslant = loop_at(stage(), kHand, 1e-3, {}, Vec<'R'>(h, 0, h), 900.0, Interaction::slide);
   const double m = 1.0 / (0.5 / mx + 0.5 / mz), vx = m * h / mx, vz = m * h / mz;
   EXPECT_NEAR(h * vx + h * vz, 1.0, 1e-12);
   EXPECT_NEAR(aslant.loop.damping, 0.5 * vx * vx + 0.3 * vz * vz, 1e-12);
@@ -55,7 +55,7 @@ TEST(ArmLoop, OfASlideIsWhatTheSlideIs) {
 }
 
 TEST(ArmLoop, ABallThatFliesIsASpringAlone) {
-  const ArmLoopAt ball = loop_at(stage(), kHand, 1e-3, {}, kUp, 900.0, true);
+  const ArmLoopAt ball = loop_at(stage(), kHand, 1e-3, {}, kUp, 900.0, Interaction::hit);
   EXPECT_TRUE(std::isnan(ball.loop.filter));
   EXPECT_EQ(ball.asked.damper.at(900.0), 0.0);
 }
@@ -63,7 +63,7 @@ TEST(ArmLoop, ABallThatFliesIsASpringAlone) {
 TEST(ArmLoop, WhatTheRigDoesNotSayIsNotKnown) {
   Impedance law = stage();
   law.rig.loop.reset();
-  const ArmLoopAt at = loop_at(law, kHand, 1e-3, {}, kUp, 900.0, false);
+  const ArmLoopAt at = loop_at(law, kHand, 1e-3, {}, kUp, 900.0, Interaction::slide);
   const certificate::Certificate found = certificate::certify(at.loop, at.steps, at.asked);
   EXPECT_EQ(found.verdict, certificate::Class::unknown);
   EXPECT_EQ(found.missing, "damping");
