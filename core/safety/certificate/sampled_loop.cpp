@@ -262,14 +262,17 @@ double border(const SampledLoop& loop, const Damper& damper, double stable, doub
 
 // The law grows in all directions at once, so no single loop has its edges: it is tried from soft to stiff.
 Range tried_range(const SampledLoop& loop, const Damper& damper) {
-  constexpr double kFinest = 1.15;
+  constexpr double kFirst = 1.0, kRise = 1.15;  // N/m; each over the one before
   double low = 0.0, before = 0.0;
   bool was_stable = false;
-  for (double at = 1.0; at < kStiffest; before = at, at *= kFinest) {
+  const int all = static_cast<int>(std::log(kStiffest / kFirst) / std::log(kRise));
+  for (int i = 0; i <= all; ++i) {
+    const double at = kFirst * std::pow(kRise, i);
     const bool is_stable = outside_of(loop, at, damper) == 0;
     if (is_stable && !was_stable && before > 0.0) low = border(loop, damper, at, before);
     if (!is_stable && was_stable) return {low, border(loop, damper, before, at)};
     was_stable = is_stable;
+    before = at;
   }
   return was_stable ? Range{low, std::numeric_limits<double>::infinity()} : Range{0.0, 0.0};
 }

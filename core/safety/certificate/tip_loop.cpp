@@ -37,9 +37,13 @@ Mat69 derivative(const SampledLoop& loop) {
 // What becomes of them in a share of a period, less what they were, so that slow loops keep their digits: of
 // the matrix exponential of the derivative the part that is not constant.
 Mat69 added(const Mat69& a, double share) {
-  double size = a.cwiseAbs().rowwise().sum().maxCoeff() * share, scale = share;
+  const double size = a.cwiseAbs().rowwise().sum().maxCoeff();
+  double scale = share;
   int halved = 0;
-  for (; size > 0.1; size *= 0.5, scale *= 0.5) ++halved;
+  while (size * scale > 0.1) {
+    scale *= 0.5;
+    ++halved;
+  }
   const Mat6 small = scale * a.leftCols<6>();
   Mat69 term = scale * a, sum = term;
   for (int i = 2; i <= 9; ++i) {
