@@ -1,5 +1,6 @@
 // What stiffness a device can render, by the formulas of the literature and by the exact eigenvalues, each as
-// a row that is printed. All of one loop along one way (sampled_loop.h).
+// a row that is printed. The formulas judge the normal alone, the eigenvalues all directions
+// (sampled_loop.h).
 #pragma once
 
 #include <cstdint>
@@ -87,6 +88,7 @@ inline constexpr double kSmall = 1e-4, kLarge = 1e-3;  // m: the two disturbance
 
 // All of them: colgate_schenkel, abbott_okamura, gil_hulin, diolaiti, friction_small, friction_large,
 // exact_alone, exact_with_hand. `loop.hand` is the hand that may be on it: all but the last are without it.
+// If the tip moves sideways too, only the exact rows apply.
 [[nodiscard]] std::vector<Row> bounds(const SampledLoop& loop, const Steps& steps, const Asked& asked);
 
 }  // namespace enc::certificate

@@ -1,4 +1,5 @@
-// Whether a device renders a stiffness stably, and by which bound: the certificate of one loop along one way.
+// Whether a device renders a stiffness stably, and by which bound: the certificate of one loop, in all
+// directions that the tip moves in.
 //
 // What "stable" means depends on the disturbance, because friction and encoder steps do: dry friction takes
 // most of a small swing's energy and little of a large one's. The classes, the first that is so:
@@ -21,7 +22,8 @@
 //
 // `small` and `large` say for every class what becomes of 0.1 mm and of 1 mm, without a hand, with friction
 // and counts: "stable at that disturbance" is `still` there, whatever the class. A loop that is stable alone
-// and yet cycles there hunts: its counts push more than its friction holds.
+// and yet cycles there hunts: its counts push more than its friction holds. The release runs along the normal
+// alone: both are `unknown` if the eigenvalues of all directions say something else than those of the normal.
 #pragma once
 
 #include <string>
