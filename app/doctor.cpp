@@ -129,7 +129,7 @@ void say_renderers(Doctor& doctor) {
 
 std::string models_problem() {
   try {
-    const std::string folder = models::models_dir("");
+    const std::string folder = models::models_dir();
     models::load(folder + "/scenes/tennis_ball.toml", "sim");
     return {};
   } catch (const std::exception& e) {
@@ -144,7 +144,7 @@ int doctor() {
   const std::string unfit = sim::mujoco_problem();
   doctor.say(unfit.empty(), Need::must, "MuJoCo " + sim::mujoco_version(), unfit);
   const std::string problem = models_problem();
-  doctor.say(problem.empty(), Need::must, "scenes, rigs and responses", problem);
+  doctor.say(problem.empty(), Need::must, "scenes, rigs and responses in " + models::models_dir(), problem);
   std::string modules;
   for (const std::string& name : modules_there()) modules += (modules.empty() ? "" : ", ") + name;
   doctor.say(!modules.empty(), Need::may, "modules: " + modules,

@@ -79,7 +79,7 @@ bool keeps_wall_time(const models::Setup& setup, const DriverSource& drivers) {
 
 std::unique_ptr<sim::World> make_world(const models::Setup& setup, const Scene& prepared, std::uint64_t seed,
                                        bool draw_all) {
-  const std::string mjcf = models::models_dir(setup.scene_path) + "/mjcf";
+  const std::string mjcf = models::models_dir() + "/mjcf";
   try {
     return std::make_unique<sim::World>(
         sim::WorldSpec{setup.scene, setup.rig, setup.twin, prepared, mjcf, seed, draw_all});

@@ -196,7 +196,7 @@ bool asks(const models::Setup& setup, const CalibrateOptions& options) {
 
 models::Setup setup_for(const CalibrateOptions& options) {
   const std::string scene =
-      options.scene.empty() ? models::models_dir("") + "/scenes/clamped_tool.toml" : options.scene;
+      options.scene.empty() ? models::models_dir() + "/scenes/clamped_tool.toml" : options.scene;
   // What an earlier calibration says is not asked: it may be what is wrong.
   std::vector<std::string> set = options.set;
   set.emplace_back("rig.calibration.file=\"\"");

@@ -74,7 +74,7 @@ int bench(const BenchOptions& options) { return benchmarks().bench(options, modu
 int fit(const FitOptions& options) { return fits().fit(options); }
 
 int calibrate(const CalibrateOptions& options) {
-  const std::vector<std::string> rigs = models::files_in(models::models_dir(""), "rigs");
+  const std::vector<std::string> rigs = models::files_in(models::models_dir(), "rigs");
   // A rig by its name, though a folder may have it, as `sim` of the sources.
   const bool rig = std::find(rigs.begin(), rigs.end(), options.log) != rigs.end();
   std::error_code none;

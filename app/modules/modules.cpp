@@ -94,7 +94,7 @@ std::vector<std::string> drivers_there() {
 
 SceneOptions with_scene(const SceneOptions& options) {
   SceneOptions with = options;
-  if (with.scene.empty()) with.scene = models::models_dir({}) + "/scenes/tennis_ball.toml";
+  if (with.scene.empty()) with.scene = models::models_dir() + "/scenes/tennis_ball.toml";
   return with;
 }
 

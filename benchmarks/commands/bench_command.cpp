@@ -158,7 +158,7 @@ std::vector<Choice> choices_of(const trial::BenchOptions& options) {
   if (!options.rig.empty()) all = over_devices(std::move(all), !options.names.empty());
   if (options.set.empty()) return all;
   std::vector<std::string> left;
-  all = settable(std::move(all), !options.names.empty(), models::models_dir(""), left);
+  all = settable(std::move(all), !options.names.empty(), models::models_dir(), left);
   if (!left.empty())
     fmt::print(stderr, "encounter: left out: {}; they read no scene that --set could change\n",
                fmt::join(left, ", "));
@@ -178,7 +178,7 @@ class Session {
     report_.seed = options.seed;
     report_.set = options.set;
     for (const Choice& choice : choices_) report_.missing.emplace_back(choice.benchmark->name);
-    context_.models = models::models_dir("");
+    context_.models = models::models_dir();
     report_.background = load_background(context_.models);
     context_.seed = options.seed;
     context_.repeats = options.repeats;

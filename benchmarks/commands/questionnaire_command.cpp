@@ -214,7 +214,7 @@ void write_pictures(const std::string& folder, const questionnaire::Form& form,
 
 int questionnaire_command(const trial::QuestionnaireOptions& options) {
   check_participant(options.participant);
-  const std::string models = models::models_dir("");
+  const std::string models = models::models_dir();
   const questionnaire::Form form = questionnaire::load_form(models, options.form);
   const std::vector<questionnaire::ItemReference> items = questionnaire::items_of(form, models);
   const std::map<std::string, std::string> verdicts = verdicts_of(options.results);

@@ -175,7 +175,7 @@ void describe(Visitor& v, SceneSpec& s) {
           &s.format);
   v.value({"title", "what the experiment is, in a line", kAuthor, chosen}, &s.title);
   v.value({"made_for",
-           "rig in models/rigs that it is made for; --rig says otherwise",
+           "rig in models/rigs that it is made for, or a file, from the scene's folder; --rig says otherwise",
            kAuthor,
            chosen,
            kAny,

@@ -41,7 +41,8 @@ std::string text_of_file(const std::string& path, const std::string& what,
   std::string text = read_file(path, kLongest, why);
   if (why.empty()) return text;
   throw Error(fmt::format("{}:1:1: cannot read this {}: {}; expected a TOML file; {}", path, what, why,
-                          advice(fs::path(path).stem().string(), names)));
+                          names.empty() ? "set ENCOUNTER_MODELS to the folder that has it"
+                                        : advice(fs::path(path).stem().string(), names)));
 }
 
 bool has_behaviours(const fs::path& folder) {
@@ -59,7 +60,7 @@ void read_scene(Setup& setup) {
   std::string why;
   const std::string text = read_file(setup.scene_path, kLongest, why);
   if (!why.empty()) {
-    const fs::path folder = fs::path(models_dir(setup.scene_path)) / "scenes";
+    const fs::path folder = fs::path(models_dir()) / "scenes";
     const std::vector<std::string> names = files_in(folder.parent_path().string(), "scenes");
     const std::string near = nearest_name(fs::path(setup.scene_path).stem().string(), names);
     const std::vector<std::string> offered =
@@ -94,7 +95,7 @@ void read_rig(Setup& setup, const std::string& rig) {
   setup.twin = sim::TwinSpec{};
   std::erase_if(setup.places,
                 [](const auto& p) { return p.first.starts_with("rig") || p.first.starts_with("truth"); });
-  const std::string models = models_dir(setup.scene_path);
+  const std::string models = models_dir();
   setup.rig_path =
       is_path(rig) ? rig : (fs::path(models) / "rigs" / (rig + ".toml")).lexically_normal().string();
   const std::string text = text_of_file(setup.rig_path, "rig", files_in(models, "rigs"));
@@ -108,9 +109,18 @@ void read_rig(Setup& setup, const std::string& rig) {
   refuse_driverless(setup);
 }
 
+// A path that a scene names begins at the scene's folder, wherever the program was started.
+std::string rig_of_scene(const Setup& setup) {
+  const std::string& rig = setup.scene.rig;
+  if (rig.empty()) return "sim";
+  if (!is_path(rig)) return rig;
+  const fs::path file = (fs::path(setup.scene_path).parent_path() / rig).lexically_normal();
+  return is_path(file.string()) ? file.string() : "./" + file.string();
+}
+
 void read_rig_of(Setup& setup, const std::string& rig) {
-  if (!rig.empty() || !has_rig(setup))
-    return read_rig(setup, !rig.empty() ? rig : setup.scene.rig.empty() ? "sim" : setup.scene.rig);
+  if (!rig.empty()) return read_rig(setup, rig);
+  if (!has_rig(setup)) return read_rig(setup, rig_of_scene(setup));
   setup.rig_path = setup.scene_path;
   clear_absent_drivers(setup);
 }
@@ -122,8 +132,7 @@ void read_behaviours(Setup& setup) {
                                               [&](const BehaviourSpec& b) { return b.name == o.behaviour; });
   };
   if (has_rig(setup) && std::all_of(setup.scene.objects.begin(), setup.scene.objects.end(), is_there)) return;
-  const std::string path =
-      (fs::path(models_dir(setup.scene_path)) / "behaviours.toml").lexically_normal().string();
+  const std::string path = (fs::path(models_dir()) / "behaviours.toml").lexically_normal().string();
   const std::string text = text_of_file(path, "list of behaviours", {});
   std::vector<BehaviourSpec> all;
   const Places places =
@@ -157,16 +166,17 @@ std::vector<std::string> files_in(const std::string& models_dir, const std::stri
   return names;
 }
 
-std::string models_dir(const std::string& scene_path) {
+std::string models_dir() {
   if (const char* set = std::getenv("ENCOUNTER_MODELS"); set != nullptr && *set != '\0') return set;
-  const fs::path above = (fs::path(scene_path).parent_path() / "..").lexically_normal();
-  if (has_behaviours(above)) return above.string();
   std::error_code none;
-  for (fs::path at = fs::read_symlink("/proc/self/exe", none); at.has_relative_path();
-       at = at.parent_path()) {
-    if (has_behaviours(at.parent_path() / "models")) return (at.parent_path() / "models").string();
-  }
-  return "models";
+  const fs::path beside = fs::read_symlink("/proc/self/exe", none).parent_path();
+  fs::path models = beside / "models";
+  // An installed program is in DIR/bin, a built one in build/release.
+  for (const fs::path& at : {beside.parent_path(), beside.parent_path().parent_path()})
+    if (!has_behaviours(models) && has_behaviours(at / "models")) models = at / "models";
+  // As short as a person would type it.
+  const fs::path from_here = models.lexically_relative(fs::current_path(none));
+  return (from_here.empty() || *from_here.begin() == ".." ? models : from_here).string();
 }
 
 namespace {
@@ -294,12 +304,11 @@ namespace {
 // Also where --rig names another one: a scene that is wrong is wrong everywhere.
 void check_made_for(const Setup& setup) {
   const std::string& rig = setup.scene.rig;
-  const std::vector<std::string> names = files_in(models_dir(setup.scene_path), "rigs");
+  const std::vector<std::string> names = files_in(models_dir(), "rigs");
   if (rig.empty() || is_path(rig) || std::find(names.begin(), names.end(), rig) != names.end()) return;
   fail(setup, "made_for",
        fmt::format("there is no rig {}; expected a file in {}; {}", quoted(rig),
-                   (fs::path(models_dir(setup.scene_path)) / "rigs").lexically_normal().string(),
-                   advice(rig, names)));
+                   (fs::path(models_dir()) / "rigs").lexically_normal().string(), advice(rig, names)));
 }
 
 }  // namespace
@@ -330,9 +339,9 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   note_views(setup);
   note_pusher(setup);
   note_unread(setup);
-  fill_curves(setup, models_dir(scene_path));
-  fill_meshes(setup, models_dir(scene_path));
-  check_form(setup, models_dir(scene_path));
+  fill_curves(setup, models_dir());
+  fill_meshes(setup, models_dir());
+  check_form(setup, models_dir());
   check(setup);
   round_to_text(setup);
   return setup;

@@ -36,8 +36,8 @@ struct Setup {
 };
 
 // rig: "sim", or another file in models/rigs without ".toml", or a path; empty: the one in the scene file, or
-// that it is made for, or "sim". overrides: "object.ball.radius_mm=30", "rig.force.filter_hz=20",
-// "truth.tracker.bias_mm=[0,0,0]".
+// that it is made for (a path from the scene's folder), or "sim". overrides: "object.ball.radius_mm=30",
+// "rig.force.filter_hz=20", "truth.tracker.bias_mm=[0,0,0]".
 Setup load(const std::string& scene_path, const std::string& rig,
            const std::vector<std::string>& overrides = {});
 
@@ -66,10 +66,12 @@ std::vector<Parameter> parameters(const Setup& setup);
 // contains it.
 std::string place_of(const Setup& setup, std::string_view key);
 
-// $ENCOUNTER_MODELS, else the folder above the scene's, else `models` beside or above the program.
-std::string models_dir(const std::string& scene_path);
+// Where behaviours, rigs, responses, meshes and the twin's models are: $ENCOUNTER_MODELS, else `models`
+// beside the program or up to two folders above it. What lies beside or above a scene is used only where it
+// names it.
+std::string models_dir();
 ResponseSpec load_response(const std::string& path);
-// The rig alone: a name in models/rigs beside the program, or a path.
+// The rig alone: a name in models_dir/rigs, or a path.
 RigSpec load_rig(const std::string& rig);
 // The rig with the simulator's truth, and no scene. overrides: as for load(), of rig and truth alone.
 Setup load_rig_setup(const std::string& rig, const std::vector<std::string>& overrides = {});

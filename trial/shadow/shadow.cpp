@@ -56,7 +56,7 @@ models::Setup twin_of(const RecordReader& record, const std::string& path,
                     path, rate));
   models::check(twin);
   models::note_unread(twin);
-  models::fill_curves(twin, models::models_dir(twin.scene_path));
+  models::fill_curves(twin, models::models_dir());
   models::check(twin);
   models::round_to_text(twin);
   return twin;

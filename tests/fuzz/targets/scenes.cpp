@@ -10,6 +10,7 @@
 #include "models/setup/scene_file.h"
 #include "tests/fuzz/machine/target.h"
 #include "tests/fuzz/targets/seeds.h"
+#include "tests/support/variable.h"
 #include "trial/prepare.h"
 
 namespace enc::fuzz {
@@ -73,6 +74,7 @@ Target behaviours() {
   target.run = [](const std::string& input) {
     static const ModelsFolder kOwn;
     kOwn.write("behaviours.toml", input);
+    const test::Variable models("ENCOUNTER_MODELS", kOwn.path(""));
     return sane(models::load(kOwn.path("scenes/two_objects.toml"), ""));
   };
   target.inputs = 500;
@@ -90,6 +92,7 @@ Target response() {
     kOwn.write("responses/again.toml", text);
     expect(models::response_text(models::load_response(kOwn.path("responses/again.toml")), "fuzz") == text,
            "what is written of it is read as another");
+    const test::Variable models("ENCOUNTER_MODELS", kOwn.path(""));
     return sane(models::load(kOwn.path("scenes/tennis_ball.toml"), ""));
   };
   target.inputs = 500;

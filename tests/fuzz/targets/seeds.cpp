@@ -139,7 +139,7 @@ ModelsFolder::ModelsFolder() {
     for (const auto& file : fs::directory_iterator(entry.path()))
       fs::create_symlink(file.path(), path(name + '/' + file.path().filename().string()));
   }
-  write("meshes/small.obj", small_mesh());
+  write("scenes/small.obj", small_mesh());  // beside the scenes that name it
 }
 
 std::string Folder::write(const std::string& name, const std::string& bytes) const {

@@ -184,6 +184,40 @@ TEST_F(Program, ModelsComeFromTheEnvironmentToo) {
   EXPECT_THAT(r.err, StartsWith("encounter: " + path("elsewhere/behaviours.toml") + ":"));
 }
 
+// A scene in a shared folder runs with the program's own files, not with those that somebody put there.
+TEST_F(Program, WhatLiesBesideOrAboveASceneIsNotTaken) {
+  fs::create_directories(path("shared/scenes"));
+  fs::copy_file(ball(), path("shared/scenes/ball.toml"));
+  for (const char* folder : {"rigs", "responses", "mjcf", "meshes"})
+    fs::create_directories(path(std::string("shared/") + folder));
+  for (const char* theirs :
+       {"behaviours.toml", "rigs/sim.toml", "responses/tennis_ball.toml", "mjcf/hexapod.xml"})
+    write(std::string("shared/") + theirs, "theirs");
+  const Result r =
+      run_program({"run", path("shared/scenes/ball.toml"), "--for-s", "0.1"}, {{"ENCOUNTER_MODELS", ""}});
+  EXPECT_EQ(r.code, 0) << r.err;
+}
+
+TEST_F(Program, AProgramWithoutItsModelsTakesNoneFromWhereItIsStarted) {
+  fs::create_directories(path("a/b/c"));
+  fs::copy_file(program_file(), path("a/b/c/encounter"));
+  const Result r = run(
+      {"bash", "-c", "cd \"$1\" && a/b/c/encounter check models/scenes/plane.toml", "bash", folder_.string()},
+      {{"ENCOUNTER_MODELS", ""}});
+  EXPECT_EQ(r.code, 2) << r.out;
+  EXPECT_THAT(r.err, AllOf(HasSubstr("a/b/c/models/rigs/sim.toml:1:1: cannot read this rig: "),
+                           HasSubstr("set ENCOUNTER_MODELS to the folder that has it")));
+}
+
+TEST_F(Program, ARigFileThatASceneNamesIsFoundFromTheScene) {
+  fs::create_directories(path("mine/rigs"));
+  write("mine/plane.toml", replaced(bytes_of(plane()), "title", "made_for = \"rigs/own.toml\"\ntitle"));
+  const Words check{"check", path("mine/plane.toml")};
+  EXPECT_THAT(refused(check), StartsWith(path("mine/rigs/own.toml") + ":1:1: cannot read this rig: "));
+  fs::copy_file(path("models/rigs/sim.toml"), path("mine/rigs/own.toml"));
+  EXPECT_EQ(run_program(check).code, 0);
+}
+
 // Of each role that the scene names, in a rig file or by --set; `run` and `check` say it in the same words.
 TEST_F(Program, ADriverThatIsNotThereIsNamedWithThoseThatAre) {
   for (const char* role : {"manipulator", "force", "tracker", "display"}) {

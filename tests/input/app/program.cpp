@@ -49,7 +49,6 @@ Program::Program() {
   for (const char* part : {"scenes", "rigs", "mjcf", "responses"})
     fs::copy(models / part, folder_ / "models" / part, fs::copy_options::recursive);
   fs::copy(models / "behaviours.toml", folder_ / "models");
-  unsetenv("ENCOUNTER_MODELS");
   unsetenv("ENCOUNTER_MODULES");
 }
 

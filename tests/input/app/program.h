@@ -11,6 +11,7 @@
 #include "tests/support/replaced.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/variable.h"
 
 namespace enc::tests {
 
@@ -43,6 +44,7 @@ class Program : public ::testing::Test {
 
   test::TemporaryFolder temporary_;
   const std::filesystem::path& folder_ = temporary_.path();
+  const test::Variable models_{"ENCOUNTER_MODELS", path("models")};
 };
 
 }  // namespace enc::tests

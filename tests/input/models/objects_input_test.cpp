@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/variable.h"
 #include "trial/trial.h"
 
 namespace enc::test {
@@ -111,6 +112,7 @@ std::string text_of(const fs::path& path) {
 TEST(ObjectsInput, EachEntryIsItsObjectsAlone) {
   const TemporaryFolder folder;
   fs::copy(kModels, folder.path(), fs::copy_options::recursive);
+  const Variable models("ENCOUNTER_MODELS", folder.path().string());
   const fs::path file = fs::path(folder.path()) / "behaviours.toml";
   const auto room = [&] {
     return trial::prepare_setup(

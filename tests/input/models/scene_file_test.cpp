@@ -215,11 +215,9 @@ TEST_F(SceneFile, file_that_cannot_be_read) {
             "rigs/sin.toml:1:1: cannot read this rig: No such file or directory; expected a TOML file; did "
             "you mean 'sim'?");
   fs::remove(folder_ / "behaviours.toml");
-  setenv("ENCOUNTER_MODELS", folder_.c_str(), 1);
   EXPECT_THAT(
       said(),
       StartsWith("behaviours.toml:1:1: cannot read this list of behaviours: No such file or directory"));
-  unsetenv("ENCOUNTER_MODELS");
 }
 
 }  // namespace

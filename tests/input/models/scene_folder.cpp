@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 void SceneFile::SetUp() {
   folder_ = fs::temp_directory_path() / ("enc_scene_file_" + std::to_string(getpid()));
+  models_.emplace("ENCOUNTER_MODELS", folder_.string());
   for (const char* sub : {"scenes", "rigs", "responses"}) fs::create_directories(folder_ / sub);
   std::ifstream rig(tests::source_dir() + "/models/rigs/sim.toml");
   std::stringstream text;

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/variable.h"
 
 namespace enc::test {
 
@@ -64,6 +67,7 @@ class SceneFile : public ::testing::Test {
   [[nodiscard]] std::string rig_said(const std::string& from, const std::string& to) const;
 
   std::filesystem::path folder_;
+  std::optional<Variable> models_;  // ENCOUNTER_MODELS: the folder
   std::string rig_;
 };
 
