@@ -49,11 +49,15 @@ void refuse_input(const std::string& path) {
     throw Error(fmt::format("{}: is read by this command; expected another file to write; choose one", path));
 }
 
-// A link is followed, so that it stays one.
-std::string target_of(const std::string& path) {
-  std::error_code none;
-  const fs::path target = fs::is_symlink(path, none) ? fs::canonical(path, none) : fs::path();
-  return none || target.empty() ? path : target.string();
+// What it points to is a place that nobody named. A device or a pipe may be called by a link, as /dev/stdout
+// is.
+void refuse_link(const std::string& path) {
+  struct stat s {};
+  if (lstat(path.c_str(), &s) == 0 && S_ISLNK(s.st_mode))
+    throw Error(
+        fmt::format("{}: is a link; expected a file, or a name that is free; name the file that it points "
+                    "to, or remove it",
+                    path));
 }
 
 // Unless something of that name is there. Not every file system can do it in one step.
@@ -113,11 +117,11 @@ OutFile::OutFile(std::string path, Existing existing) : path_(std::move(path)), 
     if (fd_ < 0) fail(errno);
     return;
   }
-  path_ = target_of(path_);
   aside_ = path_ + ".part";
   refuse_input(path_);
   refuse_input(aside_);
-  while (!begin(existing)) close();
+  refuse_link(path_);
+  while (!begin()) close();
 }
 
 OutFile::~OutFile() {
@@ -129,36 +133,39 @@ OutFile::~OutFile() {
 bool OutFile::is_ours() const {
   struct stat ours {
   }, there{};
-  return fstat(fd_, &ours) == 0 && stat(aside_.c_str(), &there) == 0 && identity(ours) == identity(there);
+  return fstat(fd_, &ours) == 0 && lstat(aside_.c_str(), &there) == 0 && identity(ours) == identity(there);
 }
 
-bool OutFile::begin(Existing existing) {
+void OutFile::refuse_existing() const {
   struct stat s {};
-  const auto refuse_existing = [&] {
-    if (existing == Existing::replace || lstat(path_.c_str(), &s) != 0) return;
-    throw Error(
-        fmt::format("{}: is there already; expected a new file; choose another name, or give --force "
-                    "to replace it",
-                    path_));
-  };
+  if (existing_ == Existing::replace || lstat(path_.c_str(), &s) != 0) return;
+  throw Error(
+      fmt::format("{}: is there already; expected a new file; choose another name, or give --force "
+                  "to replace it",
+                  path_));
+}
+
+// Whoever writes a file has it locked from its beginning.
+bool OutFile::lock() const { return flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
+
+void OutFile::refuse_other_run() {
+  close();
+  throw Error(
+      fmt::format("{}: another run is writing it; expected one at a time; choose another name, or "
+                  "wait for its end",
+                  path_));
+}
+
+bool OutFile::begin() {
   refuse_existing();  // before anything is made
-  fd_ = open(aside_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  fd_ = open(aside_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (fd_ < 0 && errno == EEXIST) {
+    remove_left_over();
+    return false;
+  }
   if (fd_ < 0) fail(errno);
-  if (flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close();
-    throw Error(
-        fmt::format("{}: another run is writing it; expected one at a time; choose another name, or "
-                    "wait for its end",
-                    path_));
-  }
+  if (!lock()) refuse_other_run();
   if (!is_ours()) return false;
-  if (fstat(fd_, &s) == 0 && s.st_size > 0 && existing == Existing::keep) {
-    close();
-    throw Error(
-        fmt::format("{}: is left of a run that did not end; look at it, then remove it, or give "
-                    "--force to write over it",
-                    aside_));
-  }
   try {
     refuse_existing();  // that other run may have ended just now
   } catch (const Error&) {
@@ -166,8 +173,30 @@ bool OutFile::begin(Existing existing) {
     close();
     throw;
   }
-  if (ftruncate(fd_, 0) != 0) fail(errno);
   return true;
+}
+
+void OutFile::remove_left_over() {
+  refuse_link(aside_);
+  fd_ = open(aside_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  struct stat s {};
+  if (fd_ < 0 && errno == ENOENT) return;
+  if (fd_ < 0 || fstat(fd_, &s) != 0) fail(errno);
+  if (!S_ISREG(s.st_mode) || s.st_uid != geteuid()) {
+    close();
+    throw Error(fmt::format(
+        "{}: is no file of yours; expected a name that is free; choose another one for {}", aside_, path_));
+  }
+  if (!lock()) refuse_other_run();
+  if (!is_ours()) return;
+  if (s.st_size > 0 && existing_ == Existing::keep) {
+    close();
+    throw Error(
+        fmt::format("{}: is left of a run that did not end; look at it, then remove it, or give "
+                    "--force to write over it",
+                    aside_));
+  }
+  unlink(aside_.c_str());
 }
 
 void OutFile::write(std::string_view text) {
@@ -177,6 +206,13 @@ void OutFile::write(std::string_view text) {
     if (n <= 0) fail(n < 0 ? errno : EIO);
     text.remove_prefix(static_cast<std::size_t>(n));
   }
+}
+
+std::FILE* OutFile::stream() const {
+  const int same = fcntl(fd_, F_DUPFD_CLOEXEC, 0);
+  std::FILE* stream = same < 0 ? nullptr : fdopen(same, "wb");
+  if (stream == nullptr) fail(errno);
+  return stream;
 }
 
 void OutFile::keep() {

@@ -1,8 +1,9 @@
 // Files as the program reads and writes them: nothing that this run has read is ever written over, nothing at
-// all without --force; what is written stands beside its place until it is whole, and two runs never write
-// one file (sources/choices 14).
+// all without --force; what is written stands beside its place until it is whole, two runs never write one
+// file (sources/choices 14), and no link is followed: a file is written where the user said, or nowhere.
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -25,15 +26,21 @@ class OutFile {
   OutFile(const OutFile&) = delete;
   OutFile& operator=(const OutFile&) = delete;
 
-  // Where it stands until keep(): PATH.part. A device or a pipe is written at once.
+  // Where it stands until keep(): PATH.part, a new file. A device or a pipe is written at once.
   [[nodiscard]] const std::string& aside() const { return aside_; }
+  // The same open file, for a writer of its own, which closes it.
+  [[nodiscard]] std::FILE* stream() const;
   void write(std::string_view text);
   void spare() { spared_ = true; }  // part of it is worth something: it stays where it is without keep(), too
   void keep();                      // it is whole: puts it in its place
 
  private:
-  [[nodiscard]] bool begin(Existing existing);  // false: another run has just moved or removed it
-  [[nodiscard]] bool is_ours() const;           // what stands in aside_
+  [[nodiscard]] bool begin();       // false: another run has just made, moved or removed it
+  [[nodiscard]] bool lock() const;  // false: another run has it
+  void refuse_existing() const;
+  [[noreturn]] void refuse_other_run();
+  void remove_left_over();             // what stands in aside_, where it is of a run that did not end
+  [[nodiscard]] bool is_ours() const;  // what stands in aside_
   void close();
   [[noreturn]] void fail(int why) const;
 

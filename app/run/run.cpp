@@ -58,7 +58,8 @@ struct Recording {
   // beside: the run keeps the wall clock, and no tick may wait for a disk.
   Recording(const RunOptions& options, const RecordTexts& texts, const Scene& scene, bool beside)
       : file(options.record, models::existing(options.force)),
-        writer(file.aside(), texts, layout_hash(scene), beside ? RecordWriter::kManyChunks : 1) {
+        writer(file.aside(), texts, layout_hash(scene), beside ? RecordWriter::kManyChunks : 1,
+               file.stream()) {
     file.spare();  // what a run that does not end has recorded is readable
     if (beside) thread.emplace(writer);
   }

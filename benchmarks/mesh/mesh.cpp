@@ -1,15 +1,14 @@
 // What a fine mesh costs: from its file to the first tick, and in each tick after that.
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/scratch_file.h"
 #include "benchmarks/kit/yardstick.h"
 #include "core/mesh/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
@@ -23,16 +22,6 @@ namespace {
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-// A file that is gone when this is.
-struct TemporaryFile {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("encounter_bench_{}.glb", getpid());
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
 
 // The tennis ball's scene with its sphere in triangles.
 models::Setup with_mesh(const Bench& bench, Mesh mesh) {
@@ -57,11 +46,11 @@ std::vector<std::uint32_t> middle_of(const std::vector<trial::TrialResult>& runs
 }
 
 void run(Bench& bench) {
-  std::optional<TemporaryFile> file(std::in_place);
-  models::write_mesh(models::geodesic_ball(224), file->path.string(), models::Existing::replace);
+  std::optional<ScratchFile> file(std::in_place, "ball.glb");
+  models::write_mesh(models::geodesic_ball(224), file->path(), models::Existing::keep);
   const double cpu_start = thread_seconds();
   const double start = wall_seconds();
-  models::CheckedMesh solid = models::load_solid(file->path.string());
+  models::CheckedMesh solid = models::load_solid(file->path());
   const double checked = wall_seconds();
   file.reset();  // now, and not at the end: a run may be stopped
   const MeshTree tree(solid.mesh);

@@ -23,7 +23,8 @@ namespace {
 class LockedFile {
  public:
   explicit LockedFile(std::string path)
-      : path_(std::move(path)), fd_(open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0644)) {
+      : path_(std::move(path)),
+        fd_(open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644)) {
     if (fd_ < 0) fail();
     struct stat kind {};
     if (fstat(fd_, &kind) == 0 && S_ISREG(kind.st_mode) && flock(fd_, LOCK_EX) == 0) {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "benchmarks/kit/kit.h"
+#include "benchmarks/kit/scratch_file.h"
 #include "core/record/record.h"
 #include "models/order_statistics.h"
 #include "trial/prepare.h"
@@ -22,19 +22,6 @@ namespace {
 using Wall = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPeriod{1};
-
-// A file of ours that goes when this does.
-struct Aside {
-  std::string path =
-      (std::filesystem::temp_directory_path() / fmt::format("encounter_{}.encrec", getpid())).string();
-  Aside() = default;
-  Aside(const Aside&) = delete;
-  Aside& operator=(const Aside&) = delete;
-  ~Aside() {
-    std::error_code none;
-    std::filesystem::remove(path, none);
-  }
-};
 
 struct Costs {
   std::vector<double> write, copy;  // us, of each tick: of the record; of as many bytes, copied
@@ -69,19 +56,19 @@ void run_loop(RecordWriter& record, std::int64_t ticks, Costs& costs) {
 }
 
 Costs measured(const models::Setup& setup, std::int64_t ticks) {
-  const Aside aside;
+  const ScratchFile aside("run.encrec");
   Costs costs;
   {
-    RecordWriter record(aside.path, {{"resolved", models::resolved(setup)}},
+    RecordWriter record(aside.path(), {{"resolved", models::resolved(setup)}},
                         layout_hash(trial::prepare_setup(setup)), RecordWriter::kManyChunks);
-    const auto header = std::filesystem::file_size(aside.path);
+    const auto header = std::filesystem::file_size(aside.path());
     run_loop(record, ticks, costs);
     record.close();
     costs.error = record.error();
     costs.bytes =
-        static_cast<double>(std::filesystem::file_size(aside.path) - header) / static_cast<double>(ticks);
+        static_cast<double>(std::filesystem::file_size(aside.path()) - header) / static_cast<double>(ticks);
   }
-  RecordReader reader(aside.path);
+  RecordReader reader(aside.path());
   RecordedTick got;
   std::int64_t next = 0;
   while (reader.next(got)) costs.wrong += got.tick.index == next++ ? 0 : 1;

@@ -171,8 +171,9 @@ std::string listed(const std::vector<std::uint64_t>& numbers) {
 // ---------------------------------------------------------------------------------------------------------
 
 RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
-                           std::size_t chunks)
+                           std::size_t chunks, std::FILE* file)
     : path_(path),
+      file_(file),
       most_((kChunkBytes / kWord - 2) / frame_words()),
       chunks_(chunks),
       words_(kChunkBytes / kWord) {
@@ -181,15 +182,17 @@ RecordWriter::RecordWriter(const std::string& path, const RecordTexts& texts, st
     one.clear();
   }
   const std::vector<std::uint64_t> packed = packed_texts(texts);
-  if (packed.size() * kWord > kHeaderBytes)
+  if (packed.size() * kWord > kHeaderBytes) {
+    if (file_ != nullptr) std::fclose(file_);
     throw Error("the record '" + path +
                 "' cannot hold meshes of more than 64 MiB; make them coarser, or run without a record");
+  }
   std::vector<std::uint64_t> header{kMagic, head(kRecordFormat, packed.size() * kWord), layout,
                                     frame_words()};
   header.insert(header.end(), packed.begin(), packed.end());
   for (const std::uint64_t word : header) chain_.add(word);
   header.push_back(chain_.value);
-  file_ = std::fopen(path.c_str(), "wb");
+  if (file_ == nullptr) file_ = std::fopen(path.c_str(), "wb");
   if (file_ == nullptr) {
     errno_ = errno;
     throw Error(error() + "; give a file in a folder that exists and may be written");

@@ -41,8 +41,9 @@ class RecordWriter {
 
   // Throws Error where the file cannot be made or its header not be written. With one chunk write() puts it
   // into the file when it is whole; with more another thread calls drain(), and write() only copies a tick.
+  // file: the empty file at `path`, open for writing, which is closed here; null: it is opened here, too.
   RecordWriter(const std::string& path, const RecordTexts& texts, std::uint64_t layout,
-               std::size_t chunks = 1);
+               std::size_t chunks = 1, std::FILE* file = nullptr);
   ~RecordWriter();  // without close() the record stays unsealed: the run did not end as it should
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -28,14 +27,6 @@ const std::string& without_frames(const std::string& folder) {
                               folder, side));
   }
   return folder;
-}
-
-// Without waiting for the disk, as this is within the loop.
-void write(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file << bytes;
-  file.close();
-  if (!file) throw Error(path + ": cannot be written");
 }
 
 Time exposure_of(const fs::path& file) {
@@ -75,7 +66,8 @@ bool KeepingCamera::poll(Time now, Stamped<StereoFrame>& newest) noexcept {
   try {
     const std::int64_t exposed = newest.t.time_since_epoch().count();
     for (const auto& [side, image] : {std::pair{"left", newest.value.left}, {"right", newest.value.right}})
-      write(fmt::format("{}/{}/{}.png", path_, side, exposed), files_.png(image));
+      models::write_file(fmt::format("{}/{}/{}.png", path_, side, exposed), files_.png(image),
+                         models::Existing::keep);
   } catch (const std::exception& e) {
     failure_ = e.what();
   }

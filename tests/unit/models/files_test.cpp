@@ -51,10 +51,44 @@ TEST_F(Files, WhatIsThereStaysUnlessItShallBeReplaced) {
   EXPECT_EQ(bytes_of(path("a")), "old");
   write_file(path("a"), "new", Existing::replace);
   EXPECT_EQ(bytes_of(path("a")), "new");
-  fs::create_symlink(path("a"), path("link"));
-  write_file(path("link"), "through", Existing::replace);
-  EXPECT_TRUE(fs::is_symlink(path("link")));
-  EXPECT_EQ(bytes_of(path("a")), "through");
+}
+
+// Who can write into the folder would else choose what is written over.
+TEST_F(Files, ALinkIsNeverWrittenThrough) {
+  write_file(path("theirs"), "theirs", Existing::keep);
+  for (const Existing existing : {Existing::keep, Existing::replace})
+    for (const char* target : {"theirs", "free"})
+      for (const char* name : {"a", "a.part"}) {
+        fs::create_symlink(path(target), path(name));
+        EXPECT_THAT(refusal(path("a"), existing), HasSubstr("is a link"));
+        EXPECT_TRUE(fs::is_symlink(path(name)));
+        fs::remove(path(name));
+        EXPECT_EQ(bytes_of(path("theirs")), "theirs");
+        EXPECT_FALSE(fs::exists(path("free")) || fs::exists(path("a")) || fs::exists(path("a.part")));
+      }
+}
+
+// With --force what is left of another run goes, and not what else has the same bytes.
+TEST_F(Files, WhatAnotherNameHasTooIsNotWrittenOver) {
+  write_file(path("theirs"), "theirs", Existing::keep);
+  fs::create_hard_link(path("theirs"), path("a.part"));
+  write_file(path("a"), "mine", Existing::replace);
+  EXPECT_EQ(bytes_of(path("theirs")), "theirs");
+  EXPECT_EQ(bytes_of(path("a")), "mine");
+  ASSERT_EQ(mkfifo(path("b.part").c_str(), 0600), 0);
+  EXPECT_THAT(refusal(path("b"), Existing::replace), HasSubstr("b.part: is no file of yours"));
+}
+
+// A link that takes the place of the file while it is written is put away, not followed.
+TEST_F(Files, NorIsALinkThatAppearsMeanwhile) {
+  write_file(path("theirs"), "theirs", Existing::keep);
+  OutFile file(path("a"), Existing::replace);
+  file.write("mine");
+  fs::create_symlink(path("theirs"), path("a"));
+  file.keep();
+  EXPECT_FALSE(fs::is_symlink(path("a")));
+  EXPECT_EQ(bytes_of(path("a")), "mine");
+  EXPECT_EQ(bytes_of(path("theirs")), "theirs");
 }
 
 // Also what came there while it was written; then nothing of either is lost.
