@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/process.h"
+#include "models/schema/wording.h"
 
 namespace enc::app {
 namespace {
@@ -107,7 +108,7 @@ std::string questionnaire_text(const models::Setup& setup) {
 }
 
 void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
+  for (const std::string& note : notes) fmt::print(stderr, "{}\n", models::printable(note));
 }
 
 std::string weak_text(const models::Setup& setup, const Scene& scene) {

@@ -14,6 +14,7 @@
 #include "app/options.h"
 #include "core/devices/roles.h"
 #include "core/error.h"
+#include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/camera/stage.h"
@@ -30,7 +31,7 @@ struct Doctor {
                ok                   ? "ok"
                : need == Need::must ? "MISSING"
                                     : "note",
-               what, ok ? "" : ": " + advice);
+               what, ok ? "" : ": " + models::printable(advice));
     if (!ok && need == Need::must) ready = false;
   }
 };

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <string_view>
 
 #include <encounter_version.h>
@@ -14,6 +16,7 @@
 #include "app/process.h"
 #include "core/error.h"
 #include "models/files.h"
+#include "models/schema/wording.h"
 #include "trial/assemble.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"
@@ -101,7 +104,12 @@ int export_world(const ExportOptions& options) {
 // As the run had it: it is of the truth, and nothing in a record's ticks says it again.
 std::string ledger_of(const RecordReader& record, const std::string& path) {
   const auto ledger = record.end_texts().find("ledger");
-  if (ledger != record.end_texts().end()) return ledger->second;
+  if (ledger != record.end_texts().end()) {
+    std::istringstream lines(ledger->second);
+    std::string text;
+    for (std::string line; std::getline(lines, line);) text += models::printable(line) + "\n";
+    return text;
+  }
   throw Error(path + ": has no energy ledger" +
               (!record.damage().empty() ? ": " + record.damage() + "; record it again"
                : record.sealed()

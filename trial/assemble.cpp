@@ -9,6 +9,7 @@
 
 #include "core/devices/roles.h"
 #include "core/error.h"
+#include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
 #include "trial/camera/vision.h"
 #include "trial/devices/driver_device.h"
@@ -168,7 +169,7 @@ std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup, c
       const std::string said = device->describe();
       all.push_back({role.table, said.empty() ? driver : said, true});
     } catch (const Error& e) {
-      all.push_back({role.table, e.what(), false});
+      all.push_back({role.table, models::printable(e.what()), false});
       machine_absent = role.id == RoleId::manipulator || role.id == RoleId::arm;
     }
   });

@@ -276,7 +276,7 @@ std::vector<std::string> Trial::said() const {
   std::vector<std::string> lines = log_.lines();
   each_role([&](const auto& role) {
     if (const auto& device = rig_.*role.slot)
-      for (std::string& line : device->remarks()) lines.push_back(std::move(line));
+      for (const std::string& line : device->remarks()) lines.push_back(models::printable(line));
   });
   return lines;
 }

@@ -311,7 +311,7 @@ int command_line(int argc, char** argv) {
   app.set_version_flag("--version", std::string("encounter " ENCOUNTER_VERSION));
   app.require_subcommand(1);
   app.failure_message([](const CLI::App*, const CLI::Error& e) {
-    return "encounter: " + std::string(e.what()) + "; see encounter --help\n";
+    return "encounter: " + enc::models::printable(e.what()) + "; see encounter --help\n";
   });
   try {
     return whole(answered(app, argc, argv));
@@ -323,7 +323,8 @@ int command_line(int argc, char** argv) {
     return 2;
   } catch (const std::exception& e) {
     const bool output = std::ferror(stdout) != 0;  // fmt throws what it cannot print
-    std::fprintf(stderr, "encounter: %s%s\n", output ? "standard output: " : "", e.what());
+    std::fprintf(stderr, "encounter: %s%s\n", output ? "standard output: " : "",
+                 enc::models::printable(e.what()).c_str());
     return 2;
   }
 }

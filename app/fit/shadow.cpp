@@ -245,7 +245,7 @@ int shadow_command(const ShadowOptions& options) {
         options.record.ends_with(".toml") ? "run that scene with --record" : "give the name of one"));
   RecordReader record(options.record, options.partial ? Partial::yes : Partial::no);
   const models::Setup twin = trial::twin_of(record, options.record, options.set);
-  for (const std::string& note : twin.notes) fmt::print(stderr, "{}\n", note);
+  for (const std::string& note : twin.notes) fmt::print(stderr, "{}\n", models::printable(note));
   const Shadow shadow = trial::shadow(record, options.record, twin);
   const std::string lack = lack_of(record, "comparison");
   fmt::print("{}", options.json ? json_of(shadow, lack) + "\n"

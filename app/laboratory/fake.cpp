@@ -13,6 +13,7 @@
 #include "app/modules/modules.h"
 #include "app/process.h"
 #include "core/error.h"
+#include "models/schema/wording.h"
 #include "trial/operator/signals.h"
 
 namespace enc::app {
@@ -51,7 +52,7 @@ void by_hand(Fakes& fakes, const std::string& line) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) return;
     fakes.suffer(fault_of(line, "standard input"), "standard input");
   } catch (const Error& e) {
-    fmt::print(stderr, "encounter: {}\n", e.what());  // who types may try again
+    fmt::print(stderr, "encounter: {}\n", models::printable(e.what()));  // who types may try again
   }
 }
 

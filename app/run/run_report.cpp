@@ -10,6 +10,7 @@
 #include "app/process.h"
 #include "app/stability_text.h"
 #include "models/order_statistics.h"
+#include "models/schema/wording.h"
 
 namespace enc::app {
 namespace {
@@ -272,7 +273,7 @@ std::string made_line(const RunReport& r) {
   if (r.asked.lockstep) text += ", --lockstep";
   if (r.asked.seconds) text += fmt::format(", --for-s {}", *r.asked.seconds);
   for (const std::string& set : r.asked.set) text += ", --set " + set;
-  return text + "\n";
+  return models::printable(text) + "\n";
 }
 
 std::string counted(std::int64_t count, const char* what) {

@@ -75,6 +75,10 @@ class Value {
   }
   void read(std::string* to) const {
     *to = text();
+    // Else a title could print lines of a report that nobody computed.
+    if (const std::string shown = printable(*to); shown != *to)
+      fail(fmt::format("is {}, which cannot be printed as it is", models::quoted(*to)),
+           "printable text on one line");
     if (to->empty() && key_.presence == Presence::needed) fail("is empty", wanted_);
     if (!key_.words.empty()) static_cast<void>(word(*to, key_.words));
   }
@@ -243,6 +247,10 @@ class Reader final : public Visitor {
           throw Error(fmt::format("{}: {} is {}; expected a number, a text, true or false, or a list of them",
                                   place_in(name_, key.source()), quoted(std::string(key.str())),
                                   kind_of(node)));
+        if (const auto* text = node.as_string(); text != nullptr && printable(text->get()) != text->get())
+          throw Error(fmt::format(
+              "{}: {} is {}, which cannot be printed as it is; expected printable text on one line",
+              place_in(name_, key.source()), quoted(std::string(key.str())), models::quoted(text->get())));
         table.values.push_back({std::string(key.str()), text_of_node(node), {}, {}});
       }
       close();

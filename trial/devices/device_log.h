@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "core/devices/driver.h"
+#include "models/schema/wording.h"
 
 namespace enc::trial {
 
 class DeviceLog final : public Log {
  public:
   void say(const std::string& line) override {
-    const std::lock_guard lock(mutex_);
-    if (lines_.size() < kMost) lines_.push_back(line);
+    const std::lock_guard lock(mutex_);  // what a wire said may hold anything
+    if (lines_.size() < kMost) lines_.push_back(models::printable(line));
   }
   [[nodiscard]] std::vector<std::string> lines() const {
     const std::lock_guard lock(mutex_);

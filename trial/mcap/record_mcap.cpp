@@ -40,41 +40,13 @@ bool is_known(const Pose<A, B>& X) {
   return X.q().coeffs().allFinite() && X.p().allFinite();
 }
 
-// Bytes of the UTF-8 letter that a text begins with. 0: it begins with none.
-std::size_t utf8_letter(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  const std::size_t size = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  if (text.size() < size) return 0;
-  for (std::size_t i = 1; i < size; ++i)
-    if ((byte(i) & 0xC0U) != 0x80) return 0;
-  // Longer than it need be, half of a pair of UTF-16, or beyond the last letter.
-  const bool none = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
-                    (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F);
-  return none ? 0 : size;
-}
-
-// On one line. Texts of an MCAP file are UTF-8, and readers refuse the file for one that is not: U+FFFD is in
-// the place of each byte that is no letter's.
-std::string line_for_mcap(std::string_view text) {
-  const std::string from = models::printable(std::string(text));
-  std::string line;
-  for (std::string_view rest = from; !rest.empty();) {
-    const std::size_t size = utf8_letter(rest);
-    line += size == 0 ? "\xEF\xBF\xBD" : rest.substr(0, size);
-    rest.remove_prefix(std::max<std::size_t>(size, 1));
-  }
-  return line;
-}
-
-// The same with the lines that it has.
+// Texts of an MCAP file are UTF-8, and readers refuse the file for one that is not: printable() shows each
+// byte that is no letter's. The lines stay.
 std::string lines_for_mcap(std::string_view text) {
   std::string lines;
   for (;;) {
     const std::size_t end = text.find('\n');
-    lines += line_for_mcap(text.substr(0, end));
+    lines += models::printable(text.substr(0, end));
     if (end == std::string_view::npos) return lines;
     lines += '\n';
     text.remove_prefix(end + 1);
@@ -83,7 +55,7 @@ std::string lines_for_mcap(std::string_view text) {
 
 // A name that is there already gets a mark behind it, so that no text is lost.
 void put_about(RecordTexts& about, std::string_view name, std::string_view text) {
-  std::string key = line_for_mcap(name);
+  std::string key = models::printable(name);
   while (about.contains(key)) key += '\'';
   about[key] = lines_for_mcap(text);
 }
@@ -107,7 +79,7 @@ RecordMcap::RecordMcap(McapWriter& file, const models::Setup& setup, const Scene
     if (name == "resolved")
       file_.attach("resolved.toml", "application/toml", text);
     else if (name.starts_with(kMesh))
-      file_.attach(line_for_mcap(name), "application/octet-stream", text);
+      file_.attach(models::printable(name), "application/octet-stream", text);
     else
       put_about(about_, name, text);
   }

@@ -218,6 +218,30 @@ TEST_F(Program, ARigFileThatASceneNamesIsFoundFromTheScene) {
   EXPECT_EQ(run_program(check).code, 0);
 }
 
+// Else a scene could print the lines of a report.
+TEST_F(Program, ATitleOrNameIsPrintableOnOneLine) {
+  const std::string text = bytes_of(plane());
+  for (const char* letters :
+       {"\\nstate hash  122d7c00183e94e0", "\\u001b[2J", "\\u009b2J", "\\u202e", "\\t", "\\r"})
+    for (const char* key : {"title = \"", "name = \"wall"}) {
+      write("models/scenes/theirs.toml", replaced(text, key, key + std::string(letters)));
+      const std::string said = scene_refused(path("models/scenes/theirs.toml"));
+      EXPECT_THAT(said, StartsWith(path("models/scenes/theirs.toml") + ":")) << letters;
+      EXPECT_THAT(said, HasSubstr("which cannot be printed as it is; expected printable text on one line"));
+      EXPECT_EQ(said.find_first_of("\033\r\t"), std::string::npos);
+    }
+  EXPECT_THAT(refused({"run", plane(), "--set", "scene.tit\033[2Jle=x"}), HasSubstr("\\x1b[2J"));
+}
+
+// A file in a shared folder may be called as somebody likes.
+TEST_F(Program, ANameOfAFileForgesNoLine) {
+  const std::string scene = path("a\nstate hash  122d7c00183e94e0.toml");
+  fs::copy_file(plane(), scene);
+  const Result r = run_program({"run", scene, "--for-s", "0.1"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("a\\nstate hash  122d7c00183e94e0.toml, rig "));
+}
+
 // Of each role that the scene names, in a rig file or by --set; `run` and `check` say it in the same words.
 TEST_F(Program, ADriverThatIsNotThereIsNamedWithThoseThatAre) {
   for (const char* role : {"manipulator", "force", "tracker", "display"}) {

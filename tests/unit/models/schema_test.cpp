@@ -29,7 +29,7 @@ models::Setup plane() { return load(source("models/scenes/plane.toml"), "sim"); 
 
 models::Setup full() {
   models::Setup s = plane();
-  s.scene.title = "A \"title\" with \\ and\nlines, caf\xC3\xA9";
+  s.scene.title = "A \"title\" with \\ and \\n, caf\xC3\xA9";
   s.scene.objects[0].limit = 0.003;
   ObjectSpec ball;
   ball.name = "ball";
@@ -319,8 +319,8 @@ TEST(Set, refuses_what_is_lost_in_si) {
 }
 TEST(Set, shows_what_it_was_given_on_one_line) {
   models::Setup s = plane();
-  EXPECT_THAT(message([&] { set(s, "a\nb=1"); }), HasSubstr("--set a b=1: unknown parameter 'a b'"));
-  EXPECT_THAT(message([&] { set(s, "a\nb"); }), HasSubstr("--set a b: there is no value"));
+  EXPECT_THAT(message([&] { set(s, "a\nb=1"); }), HasSubstr("--set a\\nb=1: unknown parameter 'a\\nb'"));
+  EXPECT_THAT(message([&] { set(s, "a\nb"); }), HasSubstr("--set a\\nb: there is no value"));
 }
 
 TEST(Locale, does_not_matter) {

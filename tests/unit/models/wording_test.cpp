@@ -6,22 +6,32 @@
 namespace enc::models {
 namespace {
 
-TEST(Wording, WhatMovesATerminalsCursorIsASpace) {
-  EXPECT_EQ(printable("left\033[2J\r\n\t01\x7F.png"), "left [2J   01 .png");
-  EXPECT_EQ(printable("a\xC2\x9B"
-                      "31m"),
-            "a  31m");  // U+009B, a terminal's other way to begin
-  EXPECT_EQ(printable("H\xC3\xA4nde \xC2\xB5m \xE2\x80\xA6"), "H\xC3\xA4nde \xC2\xB5m \xE2\x80\xA6");
-  EXPECT_EQ(printable("\xC2"), "\xC2");
-  EXPECT_EQ(printable("'\xC2' is"), "'\xC2' is");  // half a letter, and what is behind it stays
-  EXPECT_EQ(quoted("a\nb"), "'a b'");
+TEST(Wording, WhatATerminalObeysIsShownInLetters) {
+  EXPECT_EQ(printable("left\033[2J\r\n\t01\x7F.png"), "left\\x1b[2J\\r\\n\\t01\\x7f.png");
+  EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\x00b");
+  EXPECT_EQ(printable("a\u009b31m"), "a\\u009b31m");  // a terminal's other way to begin
+  EXPECT_EQ(printable("a\x9B 31m"), "a\\x9b 31m");    // and in one byte
+  for (const auto& [letter, shown] : {std::pair{"\u2028", "\\u2028"},
+                                      {"\u202e", "\\u202e"},
+                                      {"\u2066", "\\u2066"},
+                                      {"\u2069", "\\u2069"},
+                                      {"\u200f", "\\u200f"}})
+    EXPECT_EQ(printable(letter), shown);
+  for (const char* plain : {"H\u00e4nde \u00b5m \u2026 \u2212 \U0001F3BE", "a\\b", ""})
+    EXPECT_EQ(printable(plain), plain);
+  EXPECT_EQ(printable("'\xC2' is \xE2\x80"),
+            "'\\xc2' is \\xe2\\x80");  // half a letter, and what is behind it stays
+  EXPECT_EQ(printable("\xC0\x8A\xED\xA0\x80"),
+            "\\xc0\\x8a\\xed\\xa0\\x80");  // letters that UTF-8 does not have
+  EXPECT_EQ(quoted("a\nb"), "'a\\nb'");
+  EXPECT_EQ(quoted(std::string(79, 'x') + "\u00e4y"), "'" + std::string(79, 'x') + "...'");
 }
 
 TEST(Wording, NamesOfAFileAreShownAsTheyMayBe) {
-  EXPECT_EQ(advice("ball", {"bal\n"}), "did you mean 'bal '?");
-  EXPECT_EQ(advice("b", {"stylus\t", "plane"}), "the names here are 'stylus ', 'plane'");
+  EXPECT_EQ(advice("ball", {"bal\n"}), "did you mean 'bal\\n'?");
+  EXPECT_EQ(advice("b", {"stylus\t", "plane"}), "the names here are 'stylus\\t', 'plane'");
   EXPECT_EQ(unknown_text("[behaviour.\t]", "kin", {"kind"}),
-            "unknown key 'kin'; expected a key of [behaviour. ]; did you mean 'kind'?");
+            "unknown key 'kin'; expected a key of [behaviour.\\t]; did you mean 'kind'?");
 }
 
 // Letter by letter two names of this length would take hours.

@@ -131,7 +131,7 @@ TEST_F(CalibratePivot, AToolsNameIsTextAndNothingElse) {
       "2J";
   const Result r = run_program({"calibrate", named(red)});
   ASSERT_EQ(r.code, 0) << r.err;
-  EXPECT_THAT(r.out, testing::StartsWith("500 poses of p [31mn  2J in 10.0 s\n"));
+  EXPECT_THAT(r.out, testing::StartsWith("500 poses of p\\x1b[31mn\\u009b2J in 10.0 s\n"));
   const Result json = run_program({"calibrate", named(red), "--json"});
   EXPECT_EQ(nlohmann::json::parse(json.out)["tool"], red);
   for (const char c : json.out) ASSERT_TRUE(c == '\n' || (c >= ' ' && c < 127)) << json.out;

@@ -121,10 +121,10 @@ TEST_F(CalibrateImages, NamesArePrintedWithoutControlCharacters) {
   fs::rename(file("right2.png"), file("right2\033[31m.png"));
   const Result r = calibrate();
   ASSERT_EQ(r.code, 0) << r.err;
-  EXPECT_THAT(r.out, AllOf(HasSubstr("left2 [31m.png"), testing::Not(HasSubstr("\033"))));
+  EXPECT_THAT(r.out, AllOf(HasSubstr("left2\\x1b[31m.png"), testing::Not(HasSubstr("\033"))));
   fs::remove(file("right2\033[31m.png"));
   EXPECT_THAT(line(),
-              AllOf(HasSubstr("left2 [31m.png: has no right image"), testing::Not(HasSubstr("\033"))));
+              AllOf(HasSubstr("left2\\x1b[31m.png: has no right image"), testing::Not(HasSubstr("\033"))));
 }
 
 TEST_F(CalibrateImages, WhatIsNoFolderIsSaidAsWhatItIs) {
