@@ -36,6 +36,12 @@ auto make(const Role& role, const models::Setup& setup, const DriverSource& modu
   return driver_device(driver_of(setup, role), role.make, role.name, setup, modules, log, keeping);
 }
 
+DeviceWords words_of(const char* role, const std::string& driver, const Device& device) {
+  const std::string said = device.describe();
+  return {role, models::printable(said.empty() ? driver : said) + (device.is_fake() ? " (a fake)" : ""),
+          true};
+}
+
 class NoLog final : public Log {
   void say(const std::string&) override {}
 };
@@ -145,10 +151,19 @@ std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& s
   each_role([&](const auto& role) {
     const std::string driver = driver_of(setup, role);
     if (driver.empty()) return;
-    const std::string said = (rig.*role.slot)->describe();
-    all.push_back({role.table, said.empty() ? driver : said, true});
+    all.push_back(words_of(role.table, driver, *(rig.*role.slot)));
   });
   return all;
+}
+
+std::string real_machine(const Rig& rig, const models::Setup& setup) {
+  std::string key;
+  each_role([&](const auto& role) {
+    if constexpr (requires { (Rig{}.*role.slot)->stop(); })
+      if (key.empty() && !driver_of(setup, role).empty() && !(rig.*role.slot)->is_fake())
+        key = fmt::format("rig.{}.driver", role.table);
+  });
+  return key;
 }
 
 std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup, const DriverSource& drivers,
@@ -166,8 +181,7 @@ std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup, c
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(device)>, std::unique_ptr<PoseTracker>>)
         if (sees(setup, role)) device = make_vision(setup, drivers, {.log = log});
       if (!device) device = make(role, setup, drivers, log, {});
-      const std::string said = device->describe();
-      all.push_back({role.table, said.empty() ? driver : said, true});
+      all.push_back(words_of(role.table, driver, *device));
     } catch (const Error& e) {
       all.push_back({role.table, models::printable(e.what()), false});
       machine_absent = role.id == RoleId::manipulator || role.id == RoleId::arm;

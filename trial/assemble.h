@@ -66,7 +66,11 @@ struct DeviceWords {
   std::string role, words;  // "force", "sample 127.0.0.1:4711, answered"
   bool there = true;        // false: the words say what is wrong
 };
+// A fake says that it is one.
 [[nodiscard]] std::vector<DeviceWords> describe_drivers(const Rig& rig, const models::Setup& setup);
+// What names the driver of a machine that moves and is no fake, "rig.manipulator.driver"; empty: there is
+// none.
+[[nodiscard]] std::string real_machine(const Rig& rig, const models::Setup& setup);
 // Makes each device, or says why there is none. Nothing moves.
 [[nodiscard]] std::vector<DeviceWords> put_each_driver(Rig& rig, const models::Setup& setup,
                                                        const DriverSource& drivers, Log& log);

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/task/carry/travel.h"
 #include "core/task/measure/probe.h"
-#include "models/setup/driver_table.h"
+#include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "sim/clock.h"
 #include "trial/camera/vision.h"
@@ -68,36 +68,23 @@ void refuse_limits(const models::Setup& setup, const Scene& scene,
                   "; a real machine is not armed for it");
 }
 
-// What its rig file or --set names as on this PC is a fake, and so is what keeps step. An address that a
-// driver has by itself says nothing: it may have none on its wire.
-bool is_fake(const models::Setup& setup, const std::string& driver) {
-  if (!setup.places.contains("rig.driver." + driver + ".address")) return false;
-  const std::string at = models::driver_text(setup.rig, driver, "address");
-  const bool number = at.find_first_not_of("0123456789.") == std::string::npos;
-  return (number && at.starts_with("127.")) || at == "localhost" || at == "::1";
-}
-
 // A tick that comes late holds the machine, and without real-time priority any other program makes it late.
-void refuse_slow(const models::Setup& setup, const RealTime& real_time) {
+void refuse_slow(const models::Setup& setup, const std::string& machine, const RealTime& real_time) {
   if (real_time.granted()) return;
-  for (const DrivenRole& role : driven_roles(setup))
-    if (role.moves && !is_fake(setup, role.driver))
-      throw Error(
-          fmt::format("{}: the loop gets no real-time priority, so cycles may be missed while the machine "
-                      "moves ({}); expected "
-                      "the priority; allow it, or add --not-real-time",
-                      models::place_of(setup, role.key), real_time.words()));
+  throw Error(
+      fmt::format("{}: the loop gets no real-time priority, so cycles may be missed while the machine "
+                  "moves ({}); expected "
+                  "the priority; allow it, or add --not-real-time",
+                  models::place_of(setup, machine), real_time.words()));
 }
 
 // With frames that nobody measured, or that may have changed, its tip is not where anybody expects it.
-void refuse_uncalibrated(const models::Setup& setup) {
+void refuse_uncalibrated(const models::Setup& setup, const std::string& machine) {
   const std::string doubt = models::doubt_of(
       setup.rig.calibration, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
-  if (doubt.empty()) return;
-  for (const DrivenRole& role : driven_roles(setup))
-    if (role.moves && !is_fake(setup, role.driver))
-      throw Error(fmt::format("{}: {}; a real machine is not armed without it",
-                              models::place_of(setup, role.key), doubt));
+  if (!doubt.empty())
+    throw Error(fmt::format("{}: {}; a real machine is not armed without it",
+                            models::place_of(setup, machine), doubt));
 }
 
 }  // namespace
@@ -112,7 +99,6 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   const bool armed = slots.machine && options_.armed;
   if (armed || options_.certify) certificates_ = certificates_of(setup_, scene_);
   if (armed) refuse_limits(setup_, scene_, certificates_);
-  if (slots.real && options_.armed && !options_.lockstep && !options_.calibrates) refuse_uncalibrated(setup_);
   // What keeps no wall clock works within the loop, so that it is the same in every run.
   const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
   if (armed && setup_.scene.camera && !threaded)
@@ -140,10 +126,14 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (wall && options_.real_time) {  // before the devices, whose threads are as this one
     real_time_ = std::make_unique<RealTime>(true);
     result_.real_time = real_time_->words();
-    if (armed && options_.needs_real_time) refuse_slow(setup_, *real_time_);
   }
   gate_ = Gate(setup_, slots.real && !options_.armed);
   if (slots.real) put_drivers(rig_, setup_, options_.drivers, log_, {pace == 0.0, options_.lockstep});
+  // Whether they are fakes they have said by now; nothing is told to move before a tick.
+  const std::string machine = options_.armed ? real_machine(rig_, setup_) : std::string();
+  if (!machine.empty() && !options_.calibrates) refuse_uncalibrated(setup_, machine);
+  if (!machine.empty() && real_time_ && armed && options_.needs_real_time)
+    refuse_slow(setup_, machine, *real_time_);
   if (setup_.scene.camera) {
     rig_.tracker = make_vision(
         setup_, options_.drivers,

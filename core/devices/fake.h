@@ -6,12 +6,16 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/devices/driver.h"
 #include "core/rig.h"
 
 namespace enc {
+
+// How a fake names itself on its wire: a part of a name or of a number that the protocol has anyway.
+inline constexpr std::string_view kFakeName = "Encounter fake";
 
 // What goes wrong with a device or on its wire.
 struct Trouble {

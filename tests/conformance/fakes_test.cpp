@@ -270,6 +270,9 @@ TEST(Fakes, DevicesSaysWhatAnswersAndHowOften) {
   for (const char* part : {"manipulator  C-887", "force        Net F/T at 127.0.0.1",
                            "tracker      tool data of", " samples a second, "})
     EXPECT_THAT(result.out, HasSubstr(part));
+  for (const char* said :
+       {"referenced (a fake)\n", "its command interface agrees (a fake)\n", "answered (a fake)\n"})
+    EXPECT_THAT(result.out, HasSubstr(said)) << "each on its own wire";
   const Result none = run_program({"devices", "fakes", "--set", "rig.driver.gcs.port=1"});
   EXPECT_EQ(none.code, 3);
   EXPECT_THAT(none.out, HasSubstr("manipulator  NOT THERE: 127.0.0.1:1: nobody listens there"));

@@ -11,6 +11,8 @@
 #include "sim/plants/hexapod_plant.h"
 #include "tests/conformance/gcs_bench.h"
 #include "tests/conformance/gcs_port.h"
+#include "tests/support/built.h"
+#include "tests/support/run_program.h"
 
 namespace enc::test {
 namespace {
@@ -203,6 +205,30 @@ TEST(GcsPort, ASecondClientIsRefusedAndTheFirstGoesOn) {
     return first->read(Time{}).value.X_RH.p().x() > 1e-6;
   }));
   EXPECT_TRUE(first->linked());
+}
+
+// What listens on this PC may pass everything on to a machine that is real: without a calibration only a fake
+// that says that it is one is commanded.
+TEST(GcsPort, ARelayOnThisPcIsARealMachine) {
+  for (const bool fake : {true, false}) {
+    gcs::ControllerSettings settings;
+    if (!fake)
+      settings.identity = "(c)2019 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 119000000, 2.10.0.1";
+    GcsPort there(settings);
+    const tests::Result r = tests::run_program(
+        {"run", tests::shipped_scene("plane"), "--armed", "--yes", "--not-real-time", "--for-s", "0.1",
+         "--set", "rig.manipulator.driver=gcs", "rig.driver.gcs.address=\"127.0.0.1\"",
+         "rig.driver.gcs.port=" + std::to_string(there.server.port())},
+        {{"ENCOUNTER_MODULES", tests::module_folder()}});
+    EXPECT_TRUE(comes([&] { return !there.log.lines().empty(); }));
+    if (fake) {
+      EXPECT_THAT(r.out, HasSubstr(", referenced (a fake)\n")) << r.err;
+      continue;
+    }
+    EXPECT_EQ(r.code, 2) << r.out;
+    EXPECT_THAT(r.err, HasSubstr("this rig has no day of calibration"));
+    EXPECT_THAT(there.log.lines(), ElementsAre(HasSubstr("it commanded 0 moves and 0 stops")));
+  }
 }
 
 TEST(GcsPort, TheNextClientFindsItAsItIs) {

@@ -94,6 +94,7 @@ TEST(NetftDriver, ReadsWhatTheSensorSays) {
   const Served served(there.server);
   const auto driver = netft::streaming(there.offer());
   EXPECT_THAT(driver->describe(), HasSubstr("Net F/T at 127.0.0.1:"));
+  EXPECT_TRUE(driver->is_fake());
   EXPECT_THAT(driver->describe(),
               HasSubstr("configuration 'Gamma SI-130-10', 1000 records a second, answered, its command "
                         "interface agrees"));

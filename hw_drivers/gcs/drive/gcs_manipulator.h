@@ -28,6 +28,7 @@ class GcsManipulator final : public Manipulator {
   ~GcsManipulator() override;  // stops what was told to move
 
   [[nodiscard]] std::string describe() const override { return machine_.describe(); }
+  [[nodiscard]] bool is_fake() const override { return machine_.found().fake; }
   [[nodiscard]] bool linked() const noexcept override { return linked_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::vector<std::string> remarks() const override;
   [[nodiscard]] Reach reach() const override { return machine_.reach(); }

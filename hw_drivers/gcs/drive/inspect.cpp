@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/devices/fake.h"
 #include "core/error.h"
 #include "hw_drivers/gcs/wire/answer.h"
 #include "hw_drivers/gcs/wire/command.h"
@@ -103,6 +104,7 @@ void Inspector::identify(Found& found) {
   }
   found.identity = fields[1].empty() ? shown(answer) : fields[1] + " " + fields[2];
   found.firmware = fields[3];
+  found.fake = answer.find(kFakeName) != std::string::npos;
   found.lockstep = answer.find(kLockstep) != std::string::npos;
   name = found.identity + " at " + settings.place();
   if (!settings.firmware.empty() && compared(found.firmware, settings.firmware) < 0)

@@ -22,6 +22,7 @@ struct Found {
   Travel travel;
   Coordinates at{};       // where it stands
   int left_over = 0;      // an error that was there before: to ask for it clears it
+  bool fake = false;      // and says so
   bool lockstep = false;  // a fake whose time goes on with each set-point, and not by itself
 };
 

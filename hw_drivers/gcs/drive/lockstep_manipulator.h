@@ -17,6 +17,7 @@ class LockstepManipulator final : public Manipulator {
   LockstepManipulator(const Offer& offer, const GcsSettings& settings, std::unique_ptr<Link> link);
 
   [[nodiscard]] std::string describe() const override { return machine_.describe(); }
+  [[nodiscard]] bool is_fake() const override { return machine_.found().fake; }
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] Reach reach() const override { return machine_.reach(); }
   // Both wait for the answer, timeout_ms at most.

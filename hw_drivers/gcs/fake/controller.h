@@ -21,7 +21,9 @@ namespace enc::gcs {
 inline constexpr double kSmooth = 1.0, kAbrupt = 4.0;
 
 struct ControllerSettings {
-  std::string identity = "(c)2019 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 119000000, 2.10.0.1";
+  // Of a fake: a part of its first field is kFakeName.
+  std::string identity =
+      "(c)2019 Physik Instrumente (PI) GmbH & Co. KG Encounter fake, C-887.53, 119000000, 2.10.0.1";
   std::string stage = "H-840.D2";
   bool referenced = true;         // else FRF is needed, as after power-on
   double velocity = 0.05;         // VLS at power-on, m/s

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/devices/fake.h"
 #include "core/error.h"
 #include "hw_drivers/net/steady.h"
 
@@ -45,12 +46,30 @@ IgtlTracker::IgtlTracker(const Offer& offer, const IgtlSettings& settings)
       line_(settings),
       arrival_(!offer.waits),
       lockstep_(offer.lockstep) {
-  constexpr Duration kAgain{50'000'000};  // a datagram may be lost
-  const Duration until = net::steady_now() + from_seconds(settings.timeout);
   if (settings_.streams()) ask();
-  for (Message answer; read(line_.next(), answer) != Wrong::nothing;) {
-    if (line_.lost() || line_.closed() || net::steady_now() > until) throw no_answer(settings_, line_);
-    if (!settings_.streams()) ask();
+  first_answer();
+}
+
+// And who it is of: its STATUS says that. Not every server sends one, so a little later nothing more is
+// expected.
+void IgtlTracker::first_answer() {
+  constexpr Duration kAgain{50'000'000};  // a datagram may be lost
+  constexpr Duration kStatus{100'000'000};
+  bool answered = false;
+  for (Duration until = net::steady_now() + from_seconds(settings_.timeout);;) {
+    Message answer;
+    const bool came = read(line_.next(), answer) == Wrong::nothing;
+    if (came && answer.type.view() == "STATUS") {
+      fake_ = answer.device.view() == kFakeName;
+      return;
+    }
+    if (came && !answered) until = net::steady_now() + kStatus;
+    answered = answered || came;
+    const bool over = line_.lost() || line_.closed() || net::steady_now() > until;
+    if (over && answered) return;
+    if (over) throw no_answer(settings_, line_);
+    if (came) continue;
+    if (!settings_.streams() && !answered) ask();
     line_.wait(kAgain);
   }
 }

@@ -23,12 +23,14 @@ class IgtlTracker final : public PoseTracker {
   ~IgtlTracker() override;  // asks it to send no more
 
   [[nodiscard]] std::string describe() const override;
+  [[nodiscard]] bool is_fake() const override { return fake_; }
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] std::vector<std::string> remarks() const override;
   bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
 
  private:
   void ask() noexcept;  // the server, to send
+  void first_answer();
   void keep_awake(
       Time now) noexcept;  // of a stream: a server whose tools are out of view says that it is there
   void say(const char* what, std::span<const std::byte> content = {}) noexcept;
@@ -41,6 +43,7 @@ class IgtlTracker final : public PoseTracker {
   net::Arrival arrival_;
   Stamped<TrackedTool> newest_;
   Time begun_{}, asked_{}, heard_{};
+  bool fake_ = false;  // as its STATUS is named
   bool polled_ = false, begun_run_ = false, linked_ = true, lockstep_, news_ = false;
   int settled_ = 0;
 };

@@ -88,7 +88,7 @@ void ToolServer::say_pose(Time now, const Stamped<TrackedTool>& newest) {
 }
 
 void ToolServer::say_status(Time now) {
-  say(now, "STATUS", "Server", now.time_since_epoch().count(), status(status_));
+  say(now, "STATUS", kFakeName, now.time_since_epoch().count(), status(status_));
 }
 
 void ToolServer::say(Time now, const char* type, std::string_view device, std::int64_t stamp_ns,

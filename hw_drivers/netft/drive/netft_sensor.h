@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/devices/driver.h"
+#include "core/devices/fake.h"
 #include "hw_drivers/net/arrival.h"
 #include "hw_drivers/net/socket.h"
 #include "hw_drivers/netft/drive/session.h"
@@ -24,6 +25,7 @@ class NetftSensor final : public ForceSensor {
   ~NetftSensor() override;  // asks it to send no more
 
   [[nodiscard]] std::string describe() const override;
+  [[nodiscard]] bool is_fake() const override { return found_.serial.find(kFakeName) != std::string::npos; }
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] std::vector<std::string> remarks() const override;
   Stamped<Wrench> read(Time now) noexcept override;

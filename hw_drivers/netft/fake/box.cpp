@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/devices/fake.h"
 #include "hw_drivers/netft/drive/session.h"
 #include "hw_drivers/netft/wire/command.h"
 
@@ -12,6 +13,7 @@ Configuration gamma() {
   Configuration of;
   of.product = "Net F/T";
   of.name = "Gamma SI-130-10";
+  of.serial = kFakeName;
   of.per_newton = of.per_newton_metre = 1e6;
   of.ratings = {130, 130, 400, 10, 10, 10};
   of.rate = 1000;

@@ -93,6 +93,7 @@ std::string read_xml(std::string_view xml, Configuration& configuration) {
   Configuration read;
   read.product = page.text("prodname", true).value_or("");
   read.name = page.text("cfgnam", false).value_or("");
+  read.serial = page.text("cfgcalsn", false).value_or("");
   const double counts_force = page.positive("cfgcpf"), counts_torque = page.positive("cfgcpt");
   const std::string force = page.text("scfgfu", true).value_or(""),
                     torque = page.text("scfgtu", true).value_or("");
@@ -130,11 +131,12 @@ std::string xml_of(const Configuration& of) {
   for (const double rating : of.ratings) ratings += fmt::format("{}{:g}", ratings.empty() ? "" : ";", rating);
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\r\n<netft><prodname>{}</prodname><setcfgsel>0</setcfgsel>"
-      "<cfgnam>{}</cfgnam><cfgfu>2</cfgfu><scfgfu>N</scfgfu><cfgtu>3</cfgtu><scfgtu>N-m</scfgtu>"
+      "<cfgnam>{}</cfgnam><cfgcalsn>{}</cfgcalsn><cfgfu>2</cfgfu><scfgfu>N</scfgfu><cfgtu>3</"
+      "cfgtu><scfgtu>N-m</scfgtu>"
       "<cfgcpf>{:.0f}</cfgcpf><cfgcpt>{:.0f}</cfgcpt><cfgmr>{}</cfgmr><comrdte>{}</comrdte>"
       "<comrdtrate>{:.0f}</comrdtrate><setuserfilter>{}</setuserfilter></netft>\r\n",
-      of.product, of.name, of.per_newton, of.per_newton_metre, ratings, of.streams ? "Enabled" : "Disabled",
-      of.rate, of.filter);
+      of.product, of.name, of.serial, of.per_newton, of.per_newton_metre, ratings,
+      of.streams ? "Enabled" : "Disabled", of.rate, of.filter);
 }
 
 }  // namespace enc::netft

@@ -15,6 +15,7 @@ inline constexpr std::size_t kMostXml = 65536;  // bytes
 struct Configuration {
   std::string product;               // prodname, "Net F/T"
   std::string name;                  // cfgnam, of the active configuration
+  std::string serial;                // cfgcalsn, of its calibration
   double per_newton = kUnset;        // counts, made of cfgcpf and scfgfu
   double per_newton_metre = kUnset;  // counts, made of cfgcpt and scfgtu
   std::array<double, 6> ratings{kUnset, kUnset, kUnset, kUnset, kUnset, kUnset};  // cfgmr: N, N m

@@ -27,6 +27,7 @@ TEST(IgtlDriver, TakesThePosesOfAServerUntilItIsSilent) {
     auto served = std::make_unique<Served>(there.server);
     const auto driver = igtl::subscribed(there.offer());
     EXPECT_THAT(driver->describe(), HasSubstr(words));
+    EXPECT_TRUE(driver->is_fake());
     const IgtlBench::Watched seen = there.watch(*driver, 300);
     EXPECT_GT(seen.news, 10);
     EXPECT_EQ(there.newest.health, Health::ok);

@@ -83,8 +83,15 @@ TEST_F(Assemble, ARigThatNobodyCalibratedIsNotArmed) {
           testing::HasSubstr("[calibration]"), testing::HasSubstr("not armed")));
   EXPECT_EQ(said_when_armed(scene("rig_A", kSample)), "armed");
   // A gripper has force, too; a sensor that is real moves nothing.
-  EXPECT_THAT(said_when_armed(scene("clamped_tool", {"rig.gripper.driver=\"sample\""})),
-              testing::HasSubstr("no day"));
+  struct Jaws final : Gripper {
+    void command(const Grip&) noexcept override {}
+    void stop() noexcept override {}
+    Stamped<GripSample> read(Time) noexcept override { return {}; }
+  };
+  Rig rig;
+  rig.gripper = std::make_unique<Jaws>();
+  EXPECT_EQ(real_machine(rig, scene("clamped_tool", {"rig.gripper.driver=\"sample\""})),
+            "rig.gripper.driver");
   EXPECT_EQ(said_when_armed(scene("rig_A", {"rig.force.driver=\"sample\""})), "armed");
 }
 
@@ -108,28 +115,13 @@ TEST_F(Assemble, ACalibrationThatIsTooOldOrYetToComeIsRefused) {
   EXPECT_NO_THROW(Trial(scene("rig_A", kUncalibrated), calibrating));
 }
 
-// What answers on this PC is a fake.
-TEST_F(Assemble, AFakeOnThisPcNeedsNoCalibration) {
-  const auto refused = [](const std::string& address) {
+// What leads to the machine may be a relay on this PC: a fake says on its wire that it is one.
+TEST_F(Assemble, AnAddressMakesNoFake) {
+  for (const char* address : {"127.0.0.1", "localhost", "::1", "192.168.0.20"}) {
     std::vector<std::string> set = kUncalibrated;
-    set.push_back("rig.driver.sample.address=\"" + address + "\"");
-    return said_when_armed(scene("rig_A", set));
-  };
-  for (const char* here : {"127.0.0.1", "127.0.1.1", "localhost"})
-    EXPECT_THAT(refused(here), testing::Not(testing::HasSubstr("no day of calibration"))) << here;
-  for (const char* there : {"192.168.0.20", "127", "127.laboratory.example", "hexapod"})
-    EXPECT_THAT(refused(there), testing::HasSubstr("no day of calibration")) << there;
-}
-
-// An address that the driver has by itself was named by nobody: the machine may hang on another wire.
-TEST_F(Assemble, AnAddressThatNobodyNamedMakesNoFake) {
-  models::Setup setup = scene("rig_A", kUncalibrated);
-  DriverTable& own = setup.rig.drivers.emplace_back();
-  own.name = "sample";
-  DriverValue& address = own.values.emplace_back();
-  address.key = "address";
-  address.text = "\"127.0.0.1\"";
-  EXPECT_THAT(said_when_armed(setup), testing::HasSubstr("no day of calibration"));
+    set.push_back(std::string("rig.driver.sample.address=\"") + address + "\"");
+    EXPECT_THAT(said_when_armed(scene("rig_A", set)), testing::HasSubstr("no day of calibration")) << address;
+  }
 }
 
 TEST_F(Assemble, AnArmIsNotArmedForWhatItDoesNotHoldOrMayNot) {

@@ -63,6 +63,13 @@ TEST(GcsInspect, FindsWhatIsThereAndTellsNothing) {
   EXPECT_TRUE(device.controller.at_rest());
 }
 
+TEST(GcsInspect, AFakeIsWhatSaysSo) {
+  Device device;
+  EXPECT_TRUE(device.inspected().fake);
+  device.instead["*IDN?"] = "(c)2019 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 119000000, 2.10.0.1\n";
+  EXPECT_FALSE(device.inspected().fake);
+}
+
 TEST(GcsInspect, AnotherDeviceIsNamed) {
   Device device;
   device.instead["*IDN?"] = "Acme, Coffee maker\n";

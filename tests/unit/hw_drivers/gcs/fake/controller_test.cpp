@@ -39,7 +39,7 @@ const std::string kOnes = "X=1 \nY=1 \nZ=1 \nU=1 \nV=1 \nW=1\n";
 TEST(GcsController, SaysWhatItIs) {
   Bench bench;
   EXPECT_EQ(bench.say("*IDN?\n"),
-            "(c)2019 Physik Instrumente (PI) GmbH & Co. KG, C-887.53, 119000000, 2.10.0.1\n");
+            "(c)2019 Physik Instrumente (PI) GmbH & Co. KG Encounter fake, C-887.53, 119000000, 2.10.0.1\n");
   EXPECT_EQ(bench.say("CSV?\n"), "2.0\n");
   EXPECT_EQ(bench.say("ERR?\n"), "0\n");
   EXPECT_EQ(bench.say("SAI?\n"), "X \nY \nZ \nU \nV \nW\n");
