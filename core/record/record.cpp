@@ -6,12 +6,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <system_error>
-#include <type_traits>
 
 #include "core/error.h"
 #include "core/record/frame.h"
+#include "core/record/ranges.h"
 
 namespace enc {
 namespace {
@@ -45,63 +44,6 @@ struct GetLeaves {
   template <class T>
   void operator()(std::string_view, T& x) {
     set_leaf(x, *from++);
-  }
-};
-
-// The values that a leaf of a type can have, both ends included; a double has all.
-struct Range {
-  std::int64_t low, high;
-};
-template <class T>
-constexpr Range range_of_type() {
-  if constexpr (std::is_same_v<T, Time>)
-    return {-kMostStamp, kMostStamp};
-  else if constexpr (std::is_same_v<T, Duration>)
-    return {0, kMostPeriod};
-  else if constexpr (std::is_same_v<T, Mode>)
-    return {0, kModes - 1};
-  else if constexpr (std::is_enum_v<T>)
-    return {0, static_cast<std::int64_t>(kWords<T>.size()) - 1};
-  else if constexpr (std::is_integral_v<T> && sizeof(T) < kWord)
-    return {std::numeric_limits<T>::min(), std::numeric_limits<T>::max()};
-  else
-    return {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()};
-}
-
-// Looks for the first leaf of a frame that is out of its range (record.h).
-struct CheckLeaves {
-  const std::uint64_t* from;
-  std::int64_t index;    // of the tick before; then of this one
-  std::size_t leaf = 0;  // the next; once one is wrong, that one
-  std::string wrong{};   // empty: none so far
-
-  template <class T>
-  void operator()(std::string_view name, T&) {
-    if (!wrong.empty()) return;
-    const auto value = static_cast<std::int64_t>(from[leaf]);
-    const Range range = range_of<T>(name);
-    if (value < range.low || value > range.high) {
-      wrong = "'" + std::string(name) + "' of a tick is " + std::to_string(value) + "; expected " +
-              std::to_string(range.low) + " to " + std::to_string(range.high) + "; record the run again";
-      return;
-    }
-    if (std::is_same_v<T, std::int64_t> && name == "index") index = value;
-    ++leaf;
-  }
-
- private:
-  // Of the numbers that count ticks or time since the start, and so cannot be just anything.
-  template <class T>
-  [[nodiscard]] Range range_of(std::string_view name) const {
-    if constexpr (std::is_same_v<T, std::int64_t>) {
-      if (name == "index") return {index + 1, kMostTicks};
-      if (name == "missed") return {0, kMostTicks};
-    }
-    if constexpr (std::is_same_v<T, std::int32_t>)
-      if (name == "contacts") return {0, std::min<std::int64_t>(index + 1, range_of_type<T>().high)};
-    if constexpr (std::is_same_v<T, Time>)
-      if (name == "t" || name == "view_t") return {0, kMostTime};
-    return range_of_type<T>();
   }
 };
 

@@ -17,13 +17,6 @@ namespace enc {
 inline constexpr std::uint32_t kRecordFormat = 2;        // and 1 is read, which says nothing at its end
 using RecordTexts = std::map<std::string, std::string>;  // "resolved", "seed", "version"...: what the run was
 
-// Ranges of what a record says, checked where it is read; all else that is no double has those of its type.
-// `index` rises from tick to tick, and at most one contact begins in a tick.
-inline constexpr std::int64_t kMostTicks = 1'000'000'000'000;  // `index` and `missed`: 30 years at 1 kHz
-inline constexpr std::int64_t kMostTime = 1'000'000'000'000'000'000;  // ns, of a tick: 30 years; from 0
-inline constexpr std::int64_t kMostPeriod = 1'000'000'000;            // ns, of a tick's length; from 0
-inline constexpr std::int64_t kMostStamp = std::int64_t{1} << 62;     // ns, of a device's stamp: either way
-
 struct RecordedTick {
   Tick tick;
   Inputs in;
@@ -89,8 +82,7 @@ enum class Partial { no, yes };
 
 class RecordReader {
  public:
-  // Checks the whole file, every number of it against its range, before the first frame is given out. Throws
-  // Error in one line with the byte.
+  // Checks the whole file (ranges.h) before the first frame is given out. Throws Error with the byte.
   explicit RecordReader(const std::string& path, Partial partial = Partial::no);
 
   [[nodiscard]] const RecordTexts& texts() const { return texts_; }
@@ -118,11 +110,10 @@ class RecordReader {
   std::uint32_t format_ = kRecordFormat;
   std::vector<std::uint64_t> chunk_;  // leaves
   std::size_t used_ = 0;
-  std::int64_t index_ = -1;                              // of the last tick of the last chunk
   std::uint64_t size_ = 0, byte_ = 0, first_chunk_ = 0;  // of the file; where it is read; of the first chunk
   StateHash chain_, header_chain_;
   std::uint64_t layout_ = 0;
-  std::int64_t ticks_ = 0;
+  std::int64_t ticks_ = 0, index_ = -1;  // of the last tick of the last chunk
   bool sealed_ = false, done_ = false, told_end_ = false;
   std::string damage_;
 };

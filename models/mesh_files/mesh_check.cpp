@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -12,13 +10,12 @@
 #include "core/frames.h"
 #include "core/mesh/mesh_tree.h"
 #include "models/mesh_files/mesh_file.h"
+#include "models/mesh_files/mesh_parts.h"
 
 namespace enc::models {
 namespace {
 
 constexpr std::size_t kMostParts = 1000;
-// Faces that are looked at to say which part lies in which: some seconds, and so many times all of them.
-constexpr std::size_t kMostRound = 100'000'000, kMostRoundEach = 64;
 constexpr double kFlat = 1e-10;  // height over longest side: a triangle flatter than this has no normal
 
 using Faces = std::vector<std::size_t>;
@@ -270,66 +267,15 @@ class Checker {
     return volume;
   }
 
-  // The faces of each part, and a box around them.
-  struct Extent {
-    Faces faces{};
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    [[nodiscard]] bool holds(const Vec3& p) const {
-      return (low.array() <= p.array()).all() && (p.array() <= high.array()).all();
-    }
-  };
-  [[nodiscard]] std::vector<Extent> extents() const {
-    std::vector<Extent> all(static_cast<std::size_t>(parts_));
-    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
-      Extent& part = all[static_cast<std::size_t>(part_[f])];
-      part.faces.push_back(f);
-      for (std::size_t i = 0; i < 3; ++i) {
-        part.low = part.low.cwiseMin(corner(mesh_, f, i));
-        part.high = part.high.cwiseMax(corner(mesh_, f, i));
-      }
-    }
-    return all;
-  }
-  // Whether a part goes round a point, by its winding number there [van Oosterom and Strackee 1983].
-  [[nodiscard]] bool goes_round(const Extent& part, const Vec3& probe) const {
-    double angle = 0.0;
-    for (const std::size_t f : part.faces) {
-      const Vec3 a = corner(mesh_, f, 0) - probe, b = corner(mesh_, f, 1) - probe,
-                 c = corner(mesh_, f, 2) - probe;
-      const double na = a.norm(), nb = b.norm(), nc = c.norm();
-      angle +=
-          2.0 * std::atan2(a.dot(b.cross(c)), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
-    }
-    return std::abs(angle) > 2.0 * std::numbers::pi;
-  }
-
-  // In how many other parts each part lies: whether they go round one of its vertices. Only a part whose box
-  // holds that vertex is looked at.
-  [[nodiscard]] std::vector<int> depths() const {
-    std::vector<int> depth(static_cast<std::size_t>(parts_), 0);
-    if (parts_ < 2) return depth;
-    const std::vector<Extent> parts = extents();
-    std::size_t work = 0;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      const Vec3 probe = corner(mesh_, parts[p].faces.back(), 0);
-      for (std::size_t other = 0; other < parts.size(); ++other) {
-        if (other == p || !parts[other].holds(probe)) continue;
-        work += parts[other].faces.size();
-        if (work > kMostRound + kMostRoundEach * mesh_.triangles.size())
-          fail(
-              fmt::format("too many of its {} parts lie in the boxes around others; expected few; unite the "
-                          "parts, or keep the outer surface only",
-                          parts_));
-        depth[p] += goes_round(parts[other], probe) ? 1 : 0;
-      }
-    }
-    return depth;
-  }
-
   // A part inside another is a hollow, and its faces look into the hollow.
   void check_sides() {
     const std::vector<double> volume = volumes();
-    const std::vector<int> depth = depths();
+    const std::vector<int> depth = depths_of(mesh_, part_, static_cast<std::size_t>(parts_));
+    if (depth.empty())
+      fail(fmt::format(
+          "too many of its {} parts lie in the boxes around others; expected few; unite the parts, or "
+          "keep the outer surface only",
+          parts_));
     std::vector<bool> wrong(volume.size());
     for (std::size_t p = 0; p < volume.size(); ++p) {
       wrong[p] = (volume[p] > 0.0) == (depth[p] % 2 == 1);

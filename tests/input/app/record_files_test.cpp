@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/record/ranges.h"
 #include "core/record/record.h"
 #include "tests/input/app/program.h"
 #include "tests/support/built.h"
