@@ -41,10 +41,11 @@ void check_output() {
 bool reads_terminal() { return isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp(); }
 
 void show_progress(double share) {
-  static_cast<void>(trial::StandardError().write(fmt::format("\r  {:3.0f} %", share * 100.0)));
+  static const trial::StandardError error;
+  error.write(fmt::format("\r  {:3.0f} %", share * 100.0));
 }
 
-void clear_progress() { static_cast<void>(trial::StandardError().write("\r        \r")); }
+void clear_progress() { trial::StandardError().write("\r        \r"); }
 
 int thread_count() {
   int count = 0;

@@ -195,8 +195,7 @@ const std::vector<Way>& ways() {
   return kWays;
 }
 
-// One run that is ended in one way in one mode. A mode may be over before the signal is there: then once
-// more.
+// One run that is ended in one way in one mode. Once more where a mode was over before the signal came.
 void end_in(const Way& way, const std::string& mode) {
   std::string met;
   for (int attempt = 0; attempt < 6 && met != mode; ++attempt) {
@@ -333,12 +332,14 @@ TEST(AtTheTerminalToo, ATerminalThatHangsLeavesNoRecordUnsealed) {
   at.begin();
   at.wait_for("follow");
   const pid_t run = at.terminal.child();
-  at.terminal.stop_reading();
+  at.terminal.hang(true);
   std::this_thread::sleep_for(std::chrono::seconds(7));  // status lines fill what it takes
   const double before = at.now();
   kill(run, SIGTERM);
   const double acted = at.now();
   EXPECT_TRUE(at.is_sealed_within(5.0));
+  at.terminal.hang(false);  // it has ended but for its report
+  ASSERT_TRUE(tests::ends(run, 10.0));
   EXPECT_TRUE(at.stopped_between(before, acted + kSetPoints)) << at.stops();
 }
 

@@ -23,7 +23,7 @@ class Terminal {
   void run(const std::vector<std::string>& words, const std::string& rest = {});
   void type(const std::string& keys) const;  // as they are: "\x03" is Ctrl-C
   void close();
-  void stop_reading() { reads_ = false; }  // a terminal whose link hangs
+  void hang(bool hangs) { reads_ = !hangs; }  // its link: nobody reads what is written to it
 
   // All that was shown so far.
   [[nodiscard]] std::string shown() const;

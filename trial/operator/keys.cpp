@@ -1,9 +1,14 @@
 #include "trial/operator/keys.h"
 
+#include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
+#include <sched.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -30,18 +35,51 @@ struct Keys::Terminal {
 };
 
 Keys::Keys() = default;
-Keys::~Keys() { release(); }
+Keys::~Keys() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+  release();
+}
 
-bool Keys::in_foreground() const noexcept { return tcgetpgrp(STDIN_FILENO) == getpgrp(); }
-
-void Keys::begin() noexcept {
+void Keys::begin() {
   if (isatty(STDIN_FILENO) == 0) return;
   terminal_ = std::make_unique<Terminal>();
   take();
+  // A signal is for the loop, whose sleep it ends.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, &before);
+  thread_ = std::jthread([this](const std::stop_token& stop) { look(stop); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-void Keys::take() noexcept {
-  if (!terminal_ || lost_ || !in_foreground()) return;
+void Keys::look(const std::stop_token& stop) {
+  constexpr std::chrono::milliseconds kTurn{5};
+  constexpr int kSettings = 40;  // turns
+  constexpr sched_param kNone{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &kNone);  // behind the loop, wherever it began
+  for (int turn = 1; !stop.stop_requested(); ++turn) {
+    std::this_thread::sleep_for(kTurn);
+    const std::lock_guard lock(mutex_);
+    if (!active_) continue;
+    if (renew_.exchange(false) || turn % kSettings == 0) take_now();
+    std::array<char, 64> keys{};
+    const ssize_t got = terminal_->read(keys);
+    for (ssize_t i = 0; i < got; ++i) pressed_.push(keys[static_cast<std::size_t>(i)]);
+    if (got >= 0) continue;
+    lost_ = true;
+    return;
+  }
+}
+
+void Keys::take() {
+  const std::lock_guard lock(mutex_);
+  active_ = true;
+  take_now();
+}
+
+void Keys::take_now() noexcept {
+  if (!terminal_ || lost_ || tcgetpgrp(STDIN_FILENO) != getpgrp()) return;
   termios now{};
   if (tcgetattr(STDIN_FILENO, &now) != 0) return;
   if (!taken_) terminal_->before = now;
@@ -54,18 +92,17 @@ void Keys::take() noexcept {
 }
 
 // In the background the terminal belongs to another program.
-void Keys::release() noexcept {
-  if (taken_ && in_foreground()) tcsetattr(STDIN_FILENO, TCSANOW, &terminal_->before);
+void Keys::release() {
+  const std::lock_guard lock(mutex_);
+  active_ = false;
+  if (taken_ && tcgetpgrp(STDIN_FILENO) == getpgrp()) tcsetattr(STDIN_FILENO, TCSANOW, &terminal_->before);
   taken_ = false;
 }
 
 std::size_t Keys::read(std::span<char> into) noexcept {
-  constexpr std::uint32_t kLook = 16 * kSeldom;  // calls
-  if (!terminal_ || lost_ || ++calls_ % kSeldom != 0) return 0;
-  if (calls_ % kLook == 0) take();
-  const ssize_t got = terminal_->read(into);
-  lost_ = got < 0;
-  return got > 0 ? static_cast<std::size_t>(got) : 0;
+  std::size_t count = 0;
+  while (count < into.size() && pressed_.pop(into[count])) ++count;
+  return count;
 }
 
 }  // namespace enc::trial

@@ -36,7 +36,7 @@ Hand Operator::next() noexcept {
   // On the tick before, what moves was stopped.
   if (suspending_) suspend();
   suspending_ = false;
-  if (Signals::take_continued()) keys_.take();
+  if (Signals::take_continued()) keys_.renew();
   bool halt = Signals::take_halt(), resume = Signals::take_resume();
   std::array<char, 64> keys{};
   const std::size_t pressed = keys_.read(keys);

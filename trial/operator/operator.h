@@ -27,7 +27,7 @@ class Operator {
   // Between the two: prints the question and waits for Enter. Any other line is a no.
   enum class Answer : std::uint8_t { yes, no, stopped };
   [[nodiscard]] Answer confirm(const std::string& question);
-  void listen() noexcept {
+  void listen() {
     listens_ = true;
     keys_.begin();
   }
