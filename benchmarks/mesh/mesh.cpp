@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/scratch_file.h"
 #include "benchmarks/kit/yardstick.h"
+#include "benchmarks/recording/scratch_file.h"
 #include "core/mesh/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_write.h"

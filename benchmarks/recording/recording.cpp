@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/kit/scratch_file.h"
+#include "benchmarks/recording/scratch_file.h"
 #include "core/record/record.h"
 #include "models/order_statistics.h"
 #include "trial/prepare.h"

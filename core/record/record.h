@@ -41,8 +41,7 @@ class RecordWriter {
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
 
-  // Into memory, no heap; every 65th tick or so a chunk is whole. After a failed write, and where the file is
-  // behind by all chunks, it does nothing: a record has no gap.
+  // Into memory, no heap. After a failed write, and behind by all chunks, it does nothing: no gap.
   void write(const Tick& tick, const Inputs& in, const Outputs& out, std::uint64_t state_hash) noexcept;
   // What is whole is packed and goes to the file. From one thread at a time; the writer's goes, too.
   void drain() noexcept;

@@ -4,7 +4,7 @@
 #include "app/modules/modules.h"
 #include "tests/conformance/bench_world.h"
 #include "tests/support/built.h"
-#include "tests/support/default_offer.h"
+#include "tests/support/devices/default_offer.h"
 
 namespace enc::test {
 namespace {

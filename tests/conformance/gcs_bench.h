@@ -13,7 +13,7 @@
 #include "hw_drivers/gcs/fake/controller.h"
 #include "hw_drivers/net/steady.h"
 #include "hw_drivers/wires/string_link.h"
-#include "tests/support/default_offer.h"
+#include "tests/support/devices/default_offer.h"
 #include "tests/support/devices/following_machine.h"
 #include "trial/devices/device_log.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "hw_drivers/gcs/fake/server.h"
-#include "tests/support/default_offer.h"
+#include "tests/support/devices/default_offer.h"
 #include "tests/support/devices/following_machine.h"
 #include "tests/support/devices/served.h"
 #include "trial/devices/device_log.h"

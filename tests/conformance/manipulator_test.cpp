@@ -10,7 +10,7 @@
 #include "tests/conformance/bench_world.h"
 #include "tests/conformance/gcs_port.h"
 #include "tests/support/built.h"
-#include "tests/support/default_offer.h"
+#include "tests/support/devices/default_offer.h"
 
 namespace enc::test {
 namespace {

@@ -16,7 +16,7 @@
 #include "hw_drivers/igtl/fake/tool_server.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
-#include "tests/support/default_offer.h"
+#include "tests/support/devices/default_offer.h"
 #include "tests/support/devices/following_machine.h"
 #include "tests/support/devices/served.h"
 #include "trial/devices/device_log.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/support/default_offer.h"
+#include "tests/support/devices/default_offer.h"
 #include "trial/devices/device_log.h"
 
 namespace enc::test {
