@@ -244,8 +244,8 @@ build_preset() {  # PRESET TARGET...
   local launcher=""
   if command -v ccache >/dev/null; then
     launcher=ccache
-    local -x CCACHE_DIR; CCACHE_DIR=$(compiler_cache)
-    local -x CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+    local cache; cache=$(compiler_cache)
+    local -x CCACHE_DIR=$cache CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
     local -x CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
   fi
   cd "$root" || exit 2  # presets are found from here; callers that care use a subshell
