@@ -193,6 +193,7 @@ int run(const RunOptions& options) {
       record->writer.end_with({{"ledger", trial::ledger_table(contacts)}});
     record->end();  // before anything is printed, which a terminal may keep waiting
   }
+  person.end_listening();
   if (shown) shown->end();
   if (terminal && !shown) clear_progress();
 

@@ -31,6 +31,7 @@ class Operator {
     listens_ = true;
     keys_.begin();
   }
+  void end_listening() { keys_.release(); }  // what is typed from here on is for the shell
   [[nodiscard]] bool reads_keys() const noexcept { return keys_.reading(); }
 
   // As TrialOptions wants them.
