@@ -21,7 +21,7 @@ set_source_files_properties(
   "ENCOUNTER_MODULE_DIR=\"${module_dir}\";ENCOUNTER_BINARY=\"${PROJECT_BINARY_DIR}/encounter\";ENCOUNTER_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
 # g++ takes a precompiled header only where -fPIC and -fPIE are the same; CMake gives libraries one, programs the other.
 set_target_properties(enc_test_support PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-# Tests are compiled for a short build: what they test is optimised as ever.
+# Tests are compiled for a short build. What they link is optimised as ever, but for inline functions of headers.
 target_compile_options(enc_test_support PUBLIC $<IF:$<CONFIG:Release>,-O1,-Og>)
 enc_precompile(enc_test_support ${enc_standard_headers} ${enc_eigen_headers} <fmt/format.h> <gmock/gmock.h> <gtest/gtest.h>)
 

@@ -15,13 +15,13 @@ struct Contact {
   Pose<'W', 'N'> X_WN;     // at the first touch
   bool anchored = false;   // true once force was felt with the tip under the tool: the anchor no longer moves
   bool below = false;      // nothing was felt yet, and the tip is still on its way to it, lower than its tool
-  float steady_force = 0.0F;  // N: the force that has stayed the same while the contact's own tool is unseen
   // The contact's own tool is out of view. It may stay true after the contact: the tool may still press, and
   // no zero is learnt before it is seen clear.
   bool unseen = false;
-  Time loaded{};         // last tick on which force was felt; the start of time: never
-  Time began{}, left{};  // when it began, and when the tip was sent back
-  double clear = 0.0;    // s for which the force has had no cause (force_is_drift in render/mode.cpp)
+  float steady_force = 0.0F;  // N: the force that has stayed the same while the contact's own tool is unseen
+  Time loaded{};              // last tick on which force was felt; the start of time: never
+  Time began{}, left{};       // when it began, and when the tip was sent back
+  double clear = 0.0;         // s for which the force has had no cause (force_is_drift in render/mode.cpp)
 };
 
 template <class F>

@@ -173,8 +173,9 @@ TEST_F(Program, NumbersOutOfRangeAreRefusedByEachReaderOfRecords) {
 
 // The mesh in a record is looked at as one of a file is.
 TEST_F(Program, AMeshInARecordIsASolidOrRefused) {
-  const std::string scene = std::string(source_dir()) + "/models/scenes/hare.toml",
+  const std::string models = source_dir() + "/models", scene = models + "/scenes/hare.toml",
                     whole = path("hare.encrec");
+  const test::Variable all("ENCOUNTER_MODELS", models);  // the copy has no meshes
   ASSERT_EQ(run_program({"run", scene, "--for-s", "0.02", "--record", whole}).code, 0);
   ASSERT_EQ(run_program({"replay", whole}).code, 0);
   RecordReader reader(whole);
