@@ -196,7 +196,7 @@ void OutFile::remove_left_over() {
                     "--force to write over it",
                     aside_));
   }
-  unlink(aside_.c_str());
+  if (unlink(aside_.c_str()) != 0 && errno != ENOENT) fail(errno);
 }
 
 void OutFile::write(std::string_view text) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -57,8 +58,7 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
   hash = (hash ^ word) * 0xff51afd7ed558ccdULL;
   return hash ^ (hash >> 32);
 }
-std::uint64_t hash_of(const std::array<double, 3>& v) {
-  std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
+std::uint64_t hash_of(const std::array<double, 3>& v, std::uint64_t hash = 0x9e3779b97f4a7c15ULL) {
   for (const double x : v) hash = mixed(hash, std::bit_cast<std::uint64_t>(x));
   return hash;
 }
@@ -83,13 +83,18 @@ bool read_number(std::string_view word, double& number) {
 }
 
 void weld(Mesh& mesh) {
+  // Another one in each process, so that no file can be made whose vertices all fall into one slot.
+  static const std::uint64_t kKey = [] {
+    std::random_device random;
+    return (std::uint64_t{random()} << 32U) | random();
+  }();
   std::vector<std::int32_t> slots(std::bit_ceil(2 * mesh.vertices.size() + 1), -1);
   std::vector<std::int32_t> now(mesh.vertices.size());
   std::int32_t kept = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     std::array<double, 3> v = mesh.vertices[i];
     for (double& x : v) x += 0.0;  // -0 is at the same place as 0
-    std::size_t slot = hash_of(v) & (slots.size() - 1);
+    std::size_t slot = hash_of(v, kKey) & (slots.size() - 1);
     while (slots[slot] >= 0 && mesh.vertices[static_cast<std::size_t>(slots[slot])] != v)
       slot = (slot + 1) & (slots.size() - 1);
     if (slots[slot] < 0) {

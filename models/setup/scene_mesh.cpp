@@ -1,6 +1,9 @@
 // The meshes of a scene: found, checked, noted by their hash, and carried by records.
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -101,12 +104,17 @@ Mesh unpacked(const std::string& bytes, const std::string& name) {
 }  // namespace
 
 void fill_meshes(Setup& setup, const std::string& models_dir) {
+  std::map<std::string, std::shared_ptr<const Mesh>> loaded;  // each once, however many objects name it
   for (ObjectSpec& object : setup.scene.objects) {
     if (object.shape != ShapeKind::mesh) continue;
     const std::string path = find_mesh(setup, object, fs::path(models_dir) / "meshes").string();
-    CheckedMesh checked = load_solid(path);
-    setup.notes.insert(setup.notes.end(), checked.notes.begin(), checked.notes.end());
-    object.surface = std::make_shared<const Mesh>(std::move(checked.mesh));
+    std::shared_ptr<const Mesh>& mesh = loaded[path];
+    if (!mesh) {
+      CheckedMesh checked = load_solid(path);
+      setup.notes.insert(setup.notes.end(), checked.notes.begin(), checked.notes.end());
+      mesh = std::make_shared<const Mesh>(std::move(checked.mesh));
+    }
+    object.surface = mesh;
     compare_hash(setup, object, path);
   }
 }
@@ -123,12 +131,15 @@ Setup setup_of(const RecordTexts& texts, const std::string& record_path) {
   if (text == texts.end())
     throw Error(record_path + ": holds no scene; only records of encounter run can be replayed");
   Setup setup = parse_resolved(text->second, record_path + " (scene)");
+  std::map<std::string, std::shared_ptr<const Mesh>> loaded;
   for (ObjectSpec& object : setup.scene.objects) {
     if (object.shape != ShapeKind::mesh) continue;
     const auto mesh = texts.find("mesh:" + object.mesh);
     const std::string name = fmt::format("{} ({})", record_path, object.mesh);
     if (mesh == texts.end()) throw Error(name + ": the record does not hold this mesh; record the run again");
-    object.surface = std::make_shared<const Mesh>(unpacked(mesh->second, name));
+    std::shared_ptr<const Mesh>& surface = loaded[object.mesh];
+    if (!surface) surface = std::make_shared<const Mesh>(unpacked(mesh->second, name));
+    object.surface = surface;
     compare_hash(setup, object, name);
   }
   return setup;

@@ -85,7 +85,8 @@ std::vector<Time> exposures_in(const std::string& folder) {
   std::error_code failed;
   for (fs::directory_iterator entry(fs::path(folder) / "left", failed), end; !failed && entry != end;
        entry.increment(failed))
-    exposed.push_back(exposure_of(entry->path()));
+    if (entry->path().extension() != ".part")  // one that a run that was killed has left
+      exposed.push_back(exposure_of(entry->path()));
   if (failed || exposed.empty())
     throw Error(
         fmt::format("{}: has no frames in 'left'; expected frames as `run --frames` keeps them; "

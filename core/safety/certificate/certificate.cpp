@@ -67,9 +67,10 @@ Certificate certify(const SampledLoop& loop, const Steps& steps, const Asked& as
   const double damper = asked.damper.at(asked.stiffness);
   // The release is along the normal: it tells nothing where what is sideways decides.
   const SampledLoop along = loop.alone().along();
+  const Row& alone = row_of(found, "exact_alone");
   if (loop.around.count == 0 ||
-      stable(along, asked.stiffness, damper) ==
-          rests(loop.alone(), row_of(found, "exact_alone"), asked.stiffness, damper)) {
+      (alone.bound > 0.0 &&
+       stable(along, asked.stiffness, damper) == rests(loop.alone(), alone, asked.stiffness, damper))) {
     found.small = release(along, steps, asked.stiffness, damper, kSmall);
     found.large = release(along, steps, asked.stiffness, damper, kLarge);
   }
