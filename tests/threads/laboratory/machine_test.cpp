@@ -127,7 +127,7 @@ TEST(ThreadedMachine, EndsAsSoonAsItHasBegun) {
   watch.tick(Time{});
   fakes.suffer(*there.server, {Kind::disconnect});
   EXPECT_THAT(there.log_of_fake.lines(),
-              ElementsAre(HasSubstr("a client has gone"), HasSubstr("a client has gone")));
+              ElementsAre(HasSubstr("the client is gone"), HasSubstr("the client is gone")));
 }
 
 }  // namespace
