@@ -175,7 +175,7 @@ else()
   enc_test(threads 1 enc_trackers enc_gcs enc_igtl enc_netft)
 endif()
 # Lines of devices are made printable; of enc_models nothing else is needed.
-target_sources(test_threads PRIVATE models/schema/wording.cpp models/schema/units.cpp)
+target_sources(test_threads PRIVATE models/schema/printable.cpp)
 
 # The targets of tests/fuzz under libFuzzer, which clang alone has: preset `fuzz`, docs/reference/fuzz.md.
 if(ENCOUNTER_SANITIZE MATCHES "fuzzer")

@@ -91,8 +91,7 @@ int calibrate(const CalibrateOptions& options) {
     person->begin();
   };
   stoppable.confirm = [&](const std::string& question) {
-    const bool yes =
-        question.empty() || options.yes || person->confirm(question) == trial::Operator::Answer::yes;
+    const bool yes = question.empty() || options.yes || person->confirm(question) == trial::Answer::yes;
     if (yes) person->listen();
     return yes;
   };

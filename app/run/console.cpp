@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstring>
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <sched.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "models/order_statistics.h"
+#include "trial/time/beside_loop.h"
 
 namespace enc::app {
 namespace {
@@ -100,12 +98,7 @@ std::string status_text(const RunStatus& status, bool keys) {
 
 Console::Console(RunWatch& watch, std::vector<std::string> objects, std::function<bool()> reads_keys)
     : watch_(watch), objects_(std::move(objects)), reads_keys_(std::move(reads_keys)) {
-  // A signal is for the loop, whose sleep it ends.
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_BLOCK, &all, &before);
-  thread_ = std::jthread([this](const std::stop_token& stop) { show(stop); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = trial::beside_loop([this](const std::stop_token& stop) { show(stop); });
 }
 
 Console::~Console() {
@@ -119,8 +112,6 @@ void Console::flush() const noexcept {
 }
 
 void Console::show(const std::stop_token& stop) {
-  constexpr sched_param kNone{};
-  pthread_setschedparam(pthread_self(), SCHED_OTHER, &kNone);  // behind the loop, wherever it began
   int turns = 0;
   for (; !stop.stop_requested(); ++turns) {
     show_events();
@@ -133,8 +124,7 @@ void Console::show(const std::stop_token& stop) {
     if (pending_.empty()) break;
     std::this_thread::sleep_for(kTurn);
   }
-  if (error_.terminal() && pending_.empty())
-    static_cast<void>(error_.write("\r" + std::string(shown_width_, ' ') + "\r"));
+  if (error_.terminal() && pending_.empty()) error_.write("\r" + std::string(shown_width_, ' ') + "\r");
 }
 
 void Console::show_events() {

@@ -156,6 +156,7 @@ class Shown {
 }  // namespace
 
 int run(const RunOptions& options) {
+  using trial::Answer;
   using trial::Operator;
   Operator person;
   const models::Setup setup = load_setup(options);
@@ -175,11 +176,11 @@ int run(const RunOptions& options) {
   print_notes(setup.notes);        // of a scene that is not refused
   print_notes(beyond(setup, trial.certificates()));
   if (attended && !options.yes) {
-    const Operator::Answer answer =
+    const Answer answer =
         person.confirm(trial::motion_question(setup, trial.scene(), trial.result().devices));
-    if (answer != Operator::Answer::yes) {
+    if (answer != Answer::yes) {
       fmt::print(stderr, "\nencounter: not begun; nothing has moved\n");
-      return answer == Operator::Answer::stopped ? 128 + person.signal() : 2;
+      return answer == Answer::stopped ? 128 + person.signal() : 2;
     }
   }
   const std::unique_ptr<Recording> record = record_for(options, setup, trial);

@@ -11,8 +11,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <poll.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include "benchmarks/commands/commands.h"
@@ -247,17 +245,9 @@ class Session {
   void confirm(const std::string& question) {
     if (confirmed_ || options_.yes) return;
     trial::refuse_unasked();
-    tcflush(STDIN_FILENO, TCIFLUSH);  // a key that was pressed before the question is no answer
-    fmt::print(stderr, "\n{}", question);
-    std::string line;
-    for (char c = 0; c != '\n';) {
-      pollfd ready{STDIN_FILENO, POLLIN, 0};
-      if (stopping_) throw Error("interrupted; nothing has moved");
-      if (poll(&ready, 1, 100) <= 0) continue;
-      if (read(STDIN_FILENO, &c, 1) <= 0) break;
-      line += c;
-    }
-    if (line != "\n") throw Error("not begun; nothing has moved");
+    const trial::Answer answer = trial::ask("\n" + question, [this] { return stopping_.load(); });
+    if (answer == trial::Answer::stopped) throw Error("interrupted; nothing has moved");
+    if (answer == trial::Answer::no) throw Error("not begun; nothing has moved");
     confirmed_ = true;
   }
 

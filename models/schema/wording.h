@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "models/schema/printable.h"
 #include "models/schema/schema.h"
 
 namespace enc::models {
@@ -21,9 +22,6 @@ std::string missing_text(const std::string& table, const Key& key, const Target&
 std::string unknown_text(const std::string& table, std::string_view key,
                          const std::vector<std::string>& known);
 std::string lower_case(std::string text);  // A to Z alone
-// For a terminal, on one line: what would move its cursor, change its colours or turn its letters round, and
-// what is no UTF-8, stands as "\n", "\x1b" or "\u202e". Printable text is as it was.
-std::string printable(std::string_view text);
 // 'text' on one line, cut when long
 std::string quoted(const std::string& text);
 // "text", as TOML writes it

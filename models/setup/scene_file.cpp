@@ -339,9 +339,10 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   note_views(setup);
   note_pusher(setup);
   note_unread(setup);
-  fill_curves(setup, models_dir());
-  fill_meshes(setup, models_dir());
-  check_form(setup, models_dir());
+  const std::string models = models_dir();
+  fill_curves(setup, models);
+  fill_meshes(setup, models);
+  check_form(setup, models);
   check(setup);
   round_to_text(setup);
   return setup;

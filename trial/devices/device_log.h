@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/devices/driver.h"
-#include "models/schema/wording.h"
+#include "models/schema/printable.h"
 
 namespace enc::trial {
 

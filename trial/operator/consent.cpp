@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -68,6 +72,24 @@ std::string motion_question(const models::Setup& setup, const Scene& scene,
                             const std::vector<DeviceWords>& devices) {
   return "armed: this run moves\n" + motion_text(setup, scene, devices) +
          "Clear its way. Enter begins, Ctrl-C leaves (--yes begins without this question): ";
+}
+
+Answer ask(const std::string& question, const std::function<bool()>& stopped) {
+  tcflush(STDIN_FILENO, TCIFLUSH);
+  fmt::print(stderr, "{}", question);
+  std::fflush(stderr);
+  std::string line;
+  while (!stopped()) {
+    char c = 0;
+    pollfd ready{STDIN_FILENO, POLLIN, 0};
+    if (poll(&ready, 1, 100) <= 0) continue;  // a signal may have come before it waited
+    const ssize_t got = read(STDIN_FILENO, &c, 1);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return Answer::no;
+    if (c == '\n') return line.empty() ? Answer::yes : Answer::no;
+    line += c;
+  }
+  return Answer::stopped;
 }
 
 void refuse_unasked() {

@@ -1,6 +1,8 @@
 // What is asked and refused before an armed machine moves for the first time.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,5 +22,9 @@ namespace enc::trial {
 
 // Throws Error (kind input) where there is no terminal on which the question could be asked.
 void refuse_unasked();
+// Prints the question and waits for Enter, or until `stopped`. Any other line, or the end of the input, is a
+// no, and what was typed before the question is no answer.
+enum class Answer : std::uint8_t { yes, no, stopped };
+[[nodiscard]] Answer ask(const std::string& question, const std::function<bool()>& stopped);
 
 }  // namespace enc::trial

@@ -3,14 +3,13 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 
 #include <fcntl.h>
 #include <poll.h>
-#include <pthread.h>
-#include <sched.h>
 #include <termios.h>
 #include <unistd.h>
+
+#include "trial/time/beside_loop.h"
 
 namespace enc::trial {
 
@@ -45,19 +44,12 @@ void Keys::begin() {
   if (isatty(STDIN_FILENO) == 0) return;
   terminal_ = std::make_unique<Terminal>();
   take();
-  // A signal is for the loop, whose sleep it ends.
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_BLOCK, &all, &before);
-  thread_ = std::jthread([this](const std::stop_token& stop) { look(stop); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = beside_loop([this](const std::stop_token& stop) { look(stop); });
 }
 
 void Keys::look(const std::stop_token& stop) {
   constexpr std::chrono::milliseconds kTurn{5};
   constexpr int kSettings = 40;  // turns
-  constexpr sched_param kNone{};
-  pthread_setschedparam(pthread_self(), SCHED_OTHER, &kNone);  // behind the loop, wherever it began
   for (int turn = 1; !stop.stop_requested(); ++turn) {
     std::this_thread::sleep_for(kTurn);
     const std::lock_guard lock(mutex_);

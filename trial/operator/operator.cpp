@@ -1,14 +1,8 @@
 #include "trial/operator/operator.h"
 
 #include <array>
-#include <cerrno>
 #include <csignal>
 #include <span>
-
-#include <fmt/format.h>
-#include <poll.h>
-#include <termios.h>
-#include <unistd.h>
 
 namespace enc::trial {
 
@@ -51,22 +45,8 @@ Hand Operator::next() noexcept {
   return hand;
 }
 
-Operator::Answer Operator::confirm(const std::string& question) {
-  tcflush(STDIN_FILENO, TCIFLUSH);  // a key that was pressed before the question is no answer
-  fmt::print(stderr, "{}", question);
-  std::fflush(stderr);
-  std::string line;
-  while (!stop()) {
-    char c = 0;
-    pollfd ready{STDIN_FILENO, POLLIN, 0};
-    if (poll(&ready, 1, 100) <= 0) continue;  // a signal may have come before it waited
-    const ssize_t got = read(STDIN_FILENO, &c, 1);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return Answer::no;
-    if (c == '\n') return line.empty() ? Answer::yes : Answer::no;
-    line += c;
-  }
-  return Answer::stopped;
+Answer Operator::confirm(const std::string& question) {
+  return ask(question, [this] { return stop(); });
 }
 
 }  // namespace enc::trial

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "trial/operator/consent.h"
 #include "trial/operator/keys.h"
 #include "trial/operator/signals.h"
 #include "trial/trial.h"
@@ -24,8 +25,7 @@ class Operator {
     signals_.begin();
     signals_.take_suspensions();
   }
-  // Between the two: prints the question and waits for Enter. Any other line is a no.
-  enum class Answer : std::uint8_t { yes, no, stopped };
+  // Between the two: asks (consent.h), until a signal comes.
   [[nodiscard]] Answer confirm(const std::string& question);
   void listen() {
     listens_ = true;

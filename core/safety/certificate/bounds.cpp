@@ -19,7 +19,7 @@ struct Demand {
 Demand demand_at(const SampledLoop& loop, const Damper& damper, double angle) {
   const Late delay = late(loop);
   const Complex step = one_less(angle), rate = rate_response(loop, angle);
-  const Complex seen = filter_response(loop, angle) * (1.0 - one_less(angle * delay.whole));
+  const Complex seen = filter_response(loop.filter, angle) * (1.0 - one_less(angle * delay.whole));
   const Complex weight = (1.0 - delay.part * step) * step * (0.5 * loop.period / step.real());  // 1 - cos
   Demand found{damper.fixed * rate * seen, (1.0 + damper.ratio * rate) * seen, 0.0, 0.0,
                0.25 * delay.part * (1.0 - delay.part) * loop.period * loop.period};

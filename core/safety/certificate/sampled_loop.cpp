@@ -150,8 +150,8 @@ Complex one_less(double angle) {
 Complex rate_response(const SampledLoop& loop, double angle) {
   return one_less(angle * loop.ticks) / (loop.ticks * loop.period);
 }
-Complex filter_response(const SampledLoop& loop, double angle) {
-  return std::isnan(loop.filter) ? Complex(1.0) : loop.filter / (loop.filter + one_less(angle));
+Complex filter_response(double gain, double angle) {
+  return std::isnan(gain) ? Complex(1.0) : gain / (gain + one_less(angle));
 }
 
 std::vector<double> angles(const SampledLoop& loop, int for_each_period) {
@@ -211,7 +211,7 @@ std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dr
     if (around) return around->needed(angle, damper);
     const Complex rate = rate_response(loop, angle);
     const Complex place = dry > 0.0 ? rubbed(angle) : compliance(loop, device, angle);
-    return -(1.0 / (place * filter_response(loop, angle)) + damper.fixed * rate) /
+    return -(1.0 / (place * filter_response(loop.filter, angle)) + damper.fixed * rate) /
            (1.0 + damper.ratio * rate);
   };
   std::vector<Edge> found;

@@ -70,9 +70,10 @@ struct Late {
 
 // 1 - e^{-j angle}, precise where the angle is small.
 [[nodiscard]] std::complex<double> one_less(double angle);
-// Of the law at z = e^{j angle}, without its delay: (1 - z^-n) / (nT), and what eq. 3 makes of either.
+// Of the law at z = e^{j angle}, without its delay: (1 - z^-n) / (nT), and what eq. 3 with the gain a makes
+// of either.
 [[nodiscard]] std::complex<double> rate_response(const SampledLoop& loop, double angle);
-[[nodiscard]] std::complex<double> filter_response(const SampledLoop& loop, double angle);
+[[nodiscard]] std::complex<double> filter_response(double gain, double angle);
 // Angles in (0, pi], close enough for the delay and the ticks of the loop: logarithmic, then even, so many
 // more for a period of either.
 [[nodiscard]] std::vector<double> angles(const SampledLoop& loop, int for_each_period = 60);

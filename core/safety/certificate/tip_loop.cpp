@@ -54,10 +54,6 @@ Mat69 added(const Mat69& a, double share) {
   return sum;
 }
 
-Complex filtered(double gain, double angle) {
-  return std::isnan(gain) ? Complex(1.0) : gain / (gain + one_less(angle));
-}
-
 }  // namespace
 
 TipLoop::TipLoop(const SampledLoop& loop)
@@ -88,14 +84,14 @@ TipLoop::Response TipLoop::response(double angle) const {
 }
 
 Complex TipLoop::along(double angle, double stiffness, double damper) const {
-  return (stiffness + damper * rate_response(loop_, angle)) * filter_response(loop_, angle);
+  return (stiffness + damper * rate_response(loop_, angle)) * filter_response(loop_.filter, angle);
 }
 
 Complex TipLoop::across(double angle, double stiffness, double damper) const {
   const Directions& all = loop_.around;
   const Complex rate = rate_response(loop_, angle);
   return (all.alike ? stiffness + damper * rate : all.stiffness + all.damper * rate) *
-         filtered(all.filter, angle);
+         filter_response(all.filter, angle);
 }
 
 // With the sides closed the normal is one loop.
@@ -105,7 +101,8 @@ Complex TipLoop::needed(double angle, const Damper& damper) const {
   const Eigen::Matrix2cd held = Eigen::Matrix2cd::Identity() + side * place.bottomRightCorner<2, 2>();
   const Complex along = place(0, 0) - side * (place.topRightCorner<1, 2>() * held.inverse() *
                                               place.bottomLeftCorner<2, 1>())(0);
-  return -(1.0 / (along * filter_response(loop_, angle)) + damper.fixed * rate) / (1.0 + damper.ratio * rate);
+  return -(1.0 / (along * filter_response(loop_.filter, angle)) + damper.fixed * rate) /
+         (1.0 + damper.ratio * rate);
 }
 
 Complex TipLoop::determinant(double angle, double stiffness, double damper) const {

@@ -10,6 +10,7 @@
 #include "core/record/ranges.h"
 #include "core/record/record.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit/core/record/refusal.h"
 
 namespace enc {
 namespace {
@@ -34,15 +35,7 @@ class RecordRanges : public ::testing::Test {
     return path;
   }
   // What its reader says of it, or nothing.
-  [[nodiscard]] std::string refusal(const Spoil& spoil) const {
-    const std::string path = written(spoil);
-    try {
-      RecordReader reader(path);
-      return {};
-    } catch (const Error& e) {
-      return e.what();
-    }
-  }
+  [[nodiscard]] std::string refusal(const Spoil& spoil) const { return test::refusal(written(spoil)); }
   test::TemporaryFolder folder_;
 };
 

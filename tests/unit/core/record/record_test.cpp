@@ -16,11 +16,13 @@
 #include "tests/support/bytes_of.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit/core/record/refusal.h"
 
 namespace enc {
 namespace {
 
 using test::bytes_of;
+using test::refusal;
 
 namespace fs = std::filesystem;
 
@@ -61,16 +63,6 @@ class RecordTest : public ::testing::Test {
       parts.push_back(at);
     return parts;
   }
-  // The one line a reader says, or "" where it has nothing to say.
-  static std::string refusal(const std::string& path) {
-    try {
-      RecordReader reader(path);
-      return {};
-    } catch (const Error& e) {
-      return e.what();
-    }
-  }
-
   test::TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path();
 };

@@ -15,8 +15,8 @@ using test::Loop;
 Point<'W'> at_gap(double gap) { return {0, 0, kTop + kToolRadius + gap}; }
 
 // A tool that was clear, and now presses with 5 N at this gap.
-Loop pressed(double gap) {
-  Loop loop(prepare(test::plane_scene(), test::exact_rig()));
+Loop pressed(double gap, const SceneSpec& scene = test::plane_scene()) {
+  Loop loop(prepare(scene, test::exact_rig()));
   loop.tool_tip = at_gap(0.02);
   loop.tick(1500);
   loop.tool_tip = at_gap(gap);
@@ -107,12 +107,7 @@ SceneSpec two_tools() {
 
 // A contact whose own tool is hidden from here on, while another one is seen at this gap.
 Loop hidden(double gap) {
-  Loop loop(prepare(two_tools(), test::exact_rig()));
-  loop.tool_tip = at_gap(0.02);
-  loop.tick(1500);
-  loop.tool_tip = at_gap(-0.002);
-  loop.force = Vec<'W'>(0, 0, -5.0);
-  loop.tick(1000);
+  Loop loop = pressed(-0.002, two_tools());
   EXPECT_EQ(loop.out.mode, Mode::contact);
   loop.tool = 1;
   loop.tool_tip = at_gap(gap);
