@@ -9,9 +9,13 @@
 namespace enc::bench::plane_button {
 
 std::vector<std::string> live(std::vector<std::string> more) {
-  std::vector<std::string> all{"truth.tracker.rate_hz=1000",     "truth.tracker.latency_ms=0",
-                               "truth.tracker.noise_mm=[0,0,0]", "rig.tracker.prediction=\"hold\"",
-                               "rig.tracker.usual_age_ms=2",     "rig.arm.settle_ms=5"};
+  std::vector<std::string> all{"truth.tracker.rate_hz=1000",
+                               "truth.tracker.latency_ms=0",
+                               "truth.tracker.noise_mm=[0,0,0]",
+                               "truth.tracker.marker_noise_mm=0",
+                               "rig.tracker.prediction=\"hold\"",
+                               "rig.tracker.usual_age_ms=2",
+                               "rig.arm.settle_ms=5"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }

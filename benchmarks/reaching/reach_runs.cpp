@@ -57,9 +57,13 @@ void reach_at_random(models::Setup& setup, std::int64_t count) {
 
 Settings seen(Seen how) {
   if (how == Seen::vision) return {};
-  return {"truth.tracker.rate_hz=1000",      "truth.tracker.latency_ms=1",
-          "truth.tracker.noise_mm=[0,0,0]",  "rig.tracker.measurement_noise_mm=0.01",
-          "rig.tracker.usual_age_ms=10",     "rig.tracker.acceleration_noise_m_s2_per_sqrt_hz=1",
+  return {"truth.tracker.rate_hz=1000",
+          "truth.tracker.latency_ms=1",
+          "truth.tracker.noise_mm=[0,0,0]",
+          "truth.tracker.marker_noise_mm=0",
+          "rig.tracker.measurement_noise_mm=0.01",
+          "rig.tracker.usual_age_ms=10",
+          "rig.tracker.acceleration_noise_m_s2_per_sqrt_hz=1",
           "truth.tracker.clocks=\"aligned\""};
 }
 

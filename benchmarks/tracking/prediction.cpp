@@ -14,6 +14,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/tracking/prediction_rows.h"
 #include "benchmarks/tracking/prediction_run.h"
+#include "sim/plants/tracker_plant.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::tracking {
@@ -45,7 +46,13 @@ double root_mean_square(const std::vector<double>& x) {
 
 PredictionRun run_of(const Trials& trials, const PredictionRow& row, sim::Packets packets,
                      std::uint64_t seed) {
-  PredictionRun run{row.motion(seed), trials.setup.twin.tracker, seed, row.moving_only, row.from, row.to};
+  const ToolSpec& tool = trials.setup.scene.tools.front();
+  PredictionRun run{row.motion(seed),
+                    sim::with_tool_known(trials.setup.twin.tracker, tool.markers, tool.tip),
+                    seed,
+                    row.moving_only,
+                    row.from,
+                    row.to};
   run.truth.packets = packets;
   if (!row.with_bias) run.truth.bias = Vec3::Zero();
   if (row.change) row.change(run.truth);

@@ -15,6 +15,7 @@
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_plots.h"
 #include "benchmarks/tracking/tracking_trial.h"
+#include "sim/plants/tracker_plant.h"
 
 namespace enc::bench::tracking {
 namespace {
@@ -117,7 +118,8 @@ TwinTable twin_table(const Group& slow, const Group& fast, BiasSide side) {
 
 // What the theory says of a set-up: rig, truth and scene, whoever set them.
 Candidate theory_of(const models::Setup& setup) {
-  const sim::TrackerTruth& t = setup.twin.tracker;
+  const ToolSpec& tool = setup.scene.tools.front();
+  const sim::TrackerTruth t = sim::with_tool_known(setup.twin.tracker, tool.markers, tool.tip);
   std::array<AxisError, 3> axes;
   for (int a = 0; a < 3; ++a) axes[static_cast<std::size_t>(a)] = {t.bias[a], t.noise[a]};
   return candidate_of(chain_of(setup), moves_of(setup), axes);
@@ -142,6 +144,7 @@ double exact_error(const BenchContext& context, double& simulated) {
                 "rig.tracker.usual_age_ms=45",
                 "truth.tracker.bias_mm=[0, 0, 0]",
                 "truth.tracker.noise_mm=[0, 0, 0]",
+                "truth.tracker.marker_noise_mm=0",
                 "truth.tracker.latency_ms=0",
                 "truth.tracker.process_ms=0",
                 "truth.tracker.udp_delay_ms=0",

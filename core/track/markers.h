@@ -35,6 +35,10 @@ struct RecognisedTool {
 // `seen`: places of one tool's markers in C, in any order, none missing. `tools`: of each its markers in T.
 [[nodiscard]] RecognisedTool recognise(std::span<const Vec3> seen, std::span<const std::vector<Vec3>> tools);
 
+// Covariance of a point of the tool, in T, m^2, when each of at least 3 markers has white noise of 1 m along
+// each axis: of the least-squares pose, for small turns.
+[[nodiscard]] Mat3 point_covariance(std::span<const Vec3> markers, const Vec3& point);
+
 // Whether the markers of one can be taken for those of the other, in some order, by their distances. Mirror
 // images can: handedness alone is little to tell by.
 [[nodiscard]] bool alike(std::span<const Vec3> markers, std::span<const Vec3> other);

@@ -32,6 +32,7 @@ TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC
     : truth_(truth), X_CW_(X_WC.inverse()), markers_(std::move(markers)) {
   if (truth.latency * truth.rate > 60.0)
     throw Error("at most 60 frames can be on their way at once", "truth.tracker.latency");
+  if (markers_.empty()) truth_.marker_noise = kUnset;
   state_.noise = Stream(seed, "tracker");
   if (truth.process * truth.server_rate > 60.0)
     throw Error("at most 60 packets can be on their way at once", "truth.tracker.process");
@@ -46,7 +47,7 @@ TrackedTool TrackerPlant::by_markers(std::int32_t tool, const Pose<'W', 'T'>& X_
   std::array<Vec3, kMostMarkers> seen;
   for (std::size_t i = 0; i < markers.size(); ++i) {
     const Vec3 noise = truth_.marker_noise * state_.noise.normal3();
-    const Point<'W'> at(Vec3((X_WT * Point<'T'>(markers[i])).e() + truth_.bias + noise));
+    const Point<'W'> at(Vec3((X_WT * Point<'T'>(markers[i])).e() + noise));
     seen[i] = (X_CW_ * at).e();
   }
   const RecognisedTool found = recognise(std::span(seen).first(markers.size()), markers_);
@@ -56,22 +57,17 @@ TrackedTool TrackerPlant::by_markers(std::int32_t tool, const Pose<'W', 'T'>& X_
 void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT) {
   const double t = seconds(at.time_since_epoch());
   const bool blind = t >= truth_.blackout_at && t < truth_.blackout_at + truth_.blackout_for;
-  const auto put_exposed = [&](const TrackedTool& seen) {
-    put(state_.exposed, {seen, at + from_seconds(truth_.stamp_error), Health::ok},
-        at + from_seconds(truth_.latency));
-  };
-  if (!std::isnan(truth_.marker_noise)) {
-    if (blind || tool < 0) return;
-    if (const TrackedTool seen = by_markers(tool, X_WT); seen.tool >= 0) put_exposed(seen);
-    return;
-  }
   const Vec3 error = truth_.bias + truth_.noise.cwiseProduct(state_.noise.normal3());
   if (blind || tool < 0) return;  // none in view: a hand covers the markers, or none is held
   Quat turned(X_WT.q());
   if (truth_.turn_noise > 0.0)  // else nothing is drawn, and other noise stays what it is
     turned = rotation_xyz(truth_.turn_noise * state_.noise.normal3()) * turned;
-  const Pose<'W', 'T'> measured(turned, Vec3(X_WT.p() + error));
-  put_exposed({tool, X_CW_ * measured});
+  const Pose<'W', 'T'> shifted(turned, Vec3(X_WT.p() + error));
+  const TrackedTool seen =
+      std::isnan(truth_.marker_noise) ? TrackedTool{tool, X_CW_ * shifted} : by_markers(tool, shifted);
+  if (seen.tool < 0) return;
+  put(state_.exposed, {seen, at + from_seconds(truth_.stamp_error), Health::ok},
+      at + from_seconds(truth_.latency));
 }
 
 void TrackerPlant::transmit(const Stamped<TrackedTool>& sample, Time at) {
@@ -138,6 +134,15 @@ bool TrackerPlant::poll(Stamped<TrackedTool>& newest) noexcept {
   newest = state_.arrived;
   state_.news = false;
   return true;
+}
+
+TrackerTruth with_tool_known(TrackerTruth truth, std::span<const Vec3> markers, const Vec3& tip) {
+  if (!std::isnan(truth.marker_noise) && markers.size() >= 3) {
+    const Vec3 squares = truth.marker_noise * truth.marker_noise * point_covariance(markers, tip).diagonal();
+    truth.noise = (truth.noise.cwiseAbs2() + squares).cwiseSqrt();
+  }
+  truth.marker_noise = kUnset;
+  return truth;
 }
 
 }  // namespace enc::sim

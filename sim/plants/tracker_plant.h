@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/sample.h"
@@ -33,7 +34,7 @@ class TrackerPlant {
     bool news = false;
     std::int64_t dropped = 0;  // packets lost
   };
-  // `markers`: of each tool in T; needed where the truth has noise of markers.
+  // `markers`: of each tool in T. Without them the tool is known, and `marker_noise` is not used.
   TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC, std::uint64_t seed,
                std::vector<std::vector<Vec3>> markers = {});
 
@@ -55,5 +56,10 @@ class TrackerPlant {
   std::vector<std::vector<Vec3>> markers_;
   State state_;
 };
+
+// The same noise of an upright tool's tip, in W, from a tracker that knows the tool: `noise` includes the
+// markers'.
+[[nodiscard]] TrackerTruth with_tool_known(TrackerTruth truth, std::span<const Vec3> markers,
+                                           const Vec3& tip);
 
 }  // namespace enc::sim

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/task/walk.h"
+#include "sim/plants/tracker_plant.h"
 
 namespace enc::trial {
 namespace {
@@ -19,7 +20,10 @@ double miss_bound(const models::Setup& setup, double approach_speed) {
   const RigSpec& rig = setup.rig;
   // Still errors: inset, registration, three sigma of the tracker, tremor and drift of the hand within the
   // data's age.
-  const double still = setup.scene.follow.inset + twin.tracker.bias.norm() + 3.0 * twin.tracker.noise.norm();
+  double noise = twin.tracker.noise.norm();
+  for (const ToolSpec& tool : setup.scene.tools)
+    noise = std::max(noise, sim::with_tool_known(twin.tracker, tool.markers, tool.tip).noise.norm());
+  const double still = setup.scene.follow.inset + twin.tracker.bias.norm() + 3.0 * noise;
   // Age of what the tip acts on, at worst: a frame, a server slot and its processing, three times the mean
   // network delay, cycles, servo.
   const double age = 1.0 / twin.tracker.rate + twin.tracker.latency + 1.0 / twin.tracker.server_rate +

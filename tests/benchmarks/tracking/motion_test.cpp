@@ -74,7 +74,8 @@ TEST(Motion, TremorHasItsSizeAndAStopIsAStop) {
 
 std::array<TipErrors, 3> errors_with(const std::vector<std::string>& more) {
   std::vector<std::string> set{"truth.tracker.bias_mm=[0,0,0]", "truth.tracker.noise_mm=[0,0,0]",
-                               "truth.tracker.udp_delay_ms=0", "truth.tracker.packets=event"};
+                               "truth.tracker.marker_noise_mm=0", "truth.tracker.udp_delay_ms=0",
+                               "truth.tracker.packets=event"};
   set.insert(set.end(), more.begin(), more.end());
   const models::Setup setup =
       models::load(tests::source_dir() + "/models/scenes/tennis_ball.toml", "sim", set);

@@ -7,6 +7,7 @@
 
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_trial.h"
+#include "sim/plants/tracker_plant.h"
 #include "tests/support/built.h"
 
 namespace enc::bench::tracking {
@@ -25,8 +26,9 @@ Errors twin_of(const models::Setup& setup, std::uint64_t seeds) {
   return sum.forward[0].errors();
 }
 Errors theory_of(const models::Setup& setup) {
-  return Lag(likely_ages(chain_of(setup)), moves_of(setup))
-      .errors(setup.twin.tracker.bias.x(), setup.twin.tracker.noise.x());
+  const ToolSpec& tool = setup.scene.tools.front();
+  const sim::TrackerTruth truth = sim::with_tool_known(setup.twin.tracker, tool.markers, tool.tip);
+  return Lag(likely_ages(chain_of(setup)), moves_of(setup)).errors(truth.bias.x(), truth.noise.x());
 }
 
 TEST(TrackingProperty, TwinAndTheoryAgreeForRandomChains) {
@@ -36,17 +38,17 @@ TEST(TrackingProperty, TwinAndTheoryAgreeForRandomChains) {
   };
   for (int i = 0; i < 6; ++i) {
     const double acceleration = uniform(0.25, 2.0);
-    const models::Setup setup =
-        setup_with({fmt::format("truth.tracker.latency_ms={}", uniform(2, 15)),
-                    fmt::format("truth.tracker.process_ms={}", uniform(0, 8)),
-                    fmt::format("truth.tracker.udp_delay_ms={}", uniform(0, 6)),
-                    fmt::format("truth.tracker.bias_mm=[{}, 0, 0]", uniform(-0.2, 0.2)),
-                    fmt::format("truth.tracker.noise_mm=[{}, 0, 0]", uniform(0, 0.1)),
-                    fmt::format("truth.tracker.rate_hz={}", uniform(90, 200)),
-                    fmt::format("truth.tracker.server_rate_hz={}", uniform(40, 110)),
-                    fmt::format("truth.hexapod.acceleration_m_s2={}", acceleration),
-                    fmt::format("rig.manipulator.acceleration_m_s2={}", acceleration),
-                    fmt::format("travel.speed_mm_s={}", uniform(10, 45))});
+    const models::Setup setup = setup_with(
+        {fmt::format("truth.tracker.latency_ms={}", uniform(2, 15)),
+         fmt::format("truth.tracker.process_ms={}", uniform(0, 8)),
+         fmt::format("truth.tracker.udp_delay_ms={}", uniform(0, 6)),
+         fmt::format("truth.tracker.bias_mm=[{}, 0, 0]", uniform(-0.2, 0.2)),
+         fmt::format("truth.tracker.noise_mm=[{}, 0, 0]", uniform(0, 0.1)), "truth.tracker.marker_noise_mm=0",
+         fmt::format("truth.tracker.rate_hz={}", uniform(90, 200)),
+         fmt::format("truth.tracker.server_rate_hz={}", uniform(40, 110)),
+         fmt::format("truth.hexapod.acceleration_m_s2={}", acceleration),
+         fmt::format("rig.manipulator.acceleration_m_s2={}", acceleration),
+         fmt::format("travel.speed_mm_s={}", uniform(10, 45))});
     const Errors twin = twin_of(setup, 10);
     const Errors theory = theory_of(setup);
     EXPECT_NEAR(twin.rmse, theory.rmse, 0.04 * theory.rmse) << i;
@@ -87,9 +89,9 @@ TEST(TrackingProperty, EachParameterMovesTheFiguresAsTheTheorySays) {
 TEST(TrackingProperty, WithoutBiasNoiseDelayWaitAndStepTheErrorIsRounding) {
   const models::Setup setup = setup_with(
       {"travel.dwell_s=0.1", "truth.tracker.bias_mm=[0,0,0]", "truth.tracker.noise_mm=[0,0,0]",
-       "truth.tracker.latency_ms=0", "truth.tracker.process_ms=0", "truth.tracker.udp_delay_ms=0",
-       "truth.tracker.clocks=\"aligned\"", "truth.tracker.rate_hz=1000", "truth.tracker.server_rate_hz=1000",
-       "truth.hexapod.step_um=0", "truth.hexapod.repeatability_um=0"});
+       "truth.tracker.marker_noise_mm=0", "truth.tracker.latency_ms=0", "truth.tracker.process_ms=0",
+       "truth.tracker.udp_delay_ms=0", "truth.tracker.clocks=\"aligned\"", "truth.tracker.rate_hz=1000",
+       "truth.tracker.server_rate_hz=1000", "truth.hexapod.step_um=0", "truth.hexapod.repeatability_um=0"});
   const TravelErrors errors = run_travel(setup, 1, false);
   EXPECT_GT(errors.forward[0].size(), 1000);
   EXPECT_LT(errors.largest, 1e-9);

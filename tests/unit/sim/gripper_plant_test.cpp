@@ -98,8 +98,8 @@ TEST(ClampedTool, IsPartOfTheTipsBody) {
 
 TEST(ClampedTool, TheTrackerSeesItMoveWithTheMachine) {
   for (const char* form : {"control", "structural"}) {
-    Twin twin({"truth.tracker.noise_mm=[0,0,0]", "truth.tracker.bias_mm=[0,0,0]",
-               std::string("truth.hexapod.form=") + form},
+    Twin twin({"truth.tracker.noise_mm=[0,0,0]", "truth.tracker.marker_noise_mm=0",
+               "truth.tracker.bias_mm=[0,0,0]", std::string("truth.hexapod.form=") + form},
               1, "clamped_tool");
     Stamped<TrackedTool> seen;
     const Vec3 way(0.010, -0.005, 0.008);

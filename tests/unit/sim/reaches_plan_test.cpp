@@ -143,7 +143,7 @@ TEST(ReachesWorld, EachReachIsOneContact) {
   const models::Setup setup = models::load(
       scene_file("reaching"), "",
       {"user.reaches.count=3", "truth.hand.aborted=0", "truth.tracker.rate_hz=1000",
-       "truth.tracker.latency_ms=1", "truth.tracker.noise_mm=[0,0,0]",
+       "truth.tracker.latency_ms=1", "truth.tracker.noise_mm=[0,0,0]", "truth.tracker.marker_noise_mm=0",
        "rig.tracker.measurement_noise_mm=0.01", "rig.tracker.acceleration_noise_m_s2_per_sqrt_hz=1"});
   trial::TrialOptions options;
   int touched = 0, right = 0;

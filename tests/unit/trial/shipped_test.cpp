@@ -38,6 +38,26 @@ TEST(ShippedBall, IsOneContactAHit) {
   }
 }
 
+// The twin with the controller, contact and admittance settings of the laboratory rig, whose set-points come
+// each 10 ms.
+TEST(ShippedLaboratory, RendersTheTennisBall) {
+  const std::string scene = tests::source_dir() + "/models/scenes/tennis_ball.toml";
+  const models::Setup there = models::load(scene, "laboratory", {"user.approach_mm_s=[50]"});
+  models::Setup setup = models::load(scene, "", {"user.approach_mm_s=[50]"});
+  setup.rig.manipulator = there.rig.manipulator;
+  setup.rig.manipulator.driver = "sim";
+  setup.rig.contact = there.rig.contact;
+  setup.rig.admittance = there.rig.admittance;
+  setup.twin.hexapod.delay_cycles = std::lround(there.rig.manipulator.delay * setup.rig.loop.rate);
+  ASSERT_EQ(setup.twin.hexapod.delay_cycles, 14);
+  trial::Trial trial(setup, seeded(1));
+  double peak = 0.0;  // N
+  while (trial.tick()) peak = std::max(peak, trial.truth().contact_force.e().norm());
+  EXPECT_EQ(trial.result().times_held, 0);
+  EXPECT_EQ(trial.result().contacts, 1);
+  EXPECT_NEAR(peak, 12.05, 0.5);  // the press law at its limit of 6 mm, and the overshoot of the stop
+}
+
 // Contacts that begin though nothing has touched lately, and s of contact with nothing there.
 struct Unfounded {
   int begun = 0;
