@@ -18,19 +18,20 @@ namespace {
 std::string line_of(const Probed& device) {
   if (!device.there) return fmt::format("{:12} NOT THERE: {}\n", device.role, device.words);
   std::string text = fmt::format("{:12} {}\n", device.role, device.words);
-  if (device.samples == 0) return text + fmt::format("{:12} said nothing\n", "");
-  if (!device.last.empty()) text += fmt::format("{:12} {}\n", "", device.last);
+  if (device.samples > 0 && !device.last.empty()) text += fmt::format("{:12} {}\n", "", device.last);
   for (std::string remark : device.remarks) {
     if (remark.starts_with(device.words + ": ")) remark.erase(0, device.words.size() + 2);
     text += fmt::format("{:12} {}\n", "", remark);
   }
-  if (device.samples == 1) return text + fmt::format("{:12} 1 sample\n", "");
-  return text + fmt::format(
-                    "{:12} {:.1f} samples a second, {:.2f} ms apart, {:.2f} at most; old when they come: "
-                    "{:.2f} ms, p99 "
-                    "{:.2f}\n",
-                    "", device.rate, 1e3 * device.interval_p50, 1e3 * device.interval_max,
-                    1e3 * device.age_p50, 1e3 * device.age_p99);
+  if (device.samples == 1) text += fmt::format("{:12} 1 sample\n", "");
+  if (device.samples > 1)
+    text += fmt::format(
+        "{:12} {:.1f} samples a second, {:.2f} ms apart, {:.2f} at most; old when they come: {:.2f} ms, p99 "
+        "{:.2f}\n",
+        "", device.rate, 1e3 * device.interval_p50, 1e3 * device.interval_max, 1e3 * device.age_p50,
+        1e3 * device.age_p99);
+  if (!device.unusable.empty()) text += fmt::format("{:12} NOT USABLE: {}\n", "", device.unusable);
+  return text;
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ int devices(const LaboratoryOptions& options) {
   bool all = true;
   for (const Probed& device : found) {
     fmt::print("{}", line_of(device));
-    all = all && device.there && device.samples > 0;
+    all = all && device.there && device.unusable.empty();
   }
   if (trial::Signals::caught() != 0) return 128 + trial::Signals::caught();
   return all ? 0 : 3;

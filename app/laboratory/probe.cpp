@@ -16,16 +16,45 @@ namespace enc::app {
 namespace {
 
 struct Series {
-  Time last{};
-  bool any = false;
+  Time last{}, came{};  // the newest sample: when it was true, and when it was read
+  bool any = false, linked = true;
+  Health health = Health::absent;
+  std::int64_t faults = 0;              // samples
+  std::int64_t repeated = 0;            // poses of a tracker that are equal to the one before, to the bit
   std::vector<double> intervals, ages;  // s
   void add(Time t, Time now) {
     if (any) intervals.push_back(age(t, last));
     ages.push_back(age(now, t));
     last = t;
+    came = now;
     any = true;
   }
 };
+
+template <class Sample>
+bool repeats(const Stamped<Sample>&, const Stamped<Sample>&) {
+  return false;
+}
+// A tracker that measures never gives the same pose twice.
+bool repeats(const Stamped<TrackedTool>& before, const Stamped<TrackedTool>& now) {
+  return before.value.tool == now.value.tool && before.value.X_CT.xyz == now.value.X_CT.xyz &&
+         before.value.X_CT.xyzw == now.value.X_CT.xyzw;
+}
+
+// Why a run could not use the device. `end`: when the reading ended.
+std::string unusable(const Series& of, Time end) {
+  const auto samples = static_cast<std::int64_t>(of.ages.size());
+  constexpr std::int64_t kFew = 10;  // equal poses; fewer may be luck
+  if (samples == 0) return "it sent no sample";
+  if (of.faults > 0) return fmt::format("{} of {} samples report a fault", of.faults, samples);
+  if (!of.linked) return "its link was lost";
+  if (of.health != Health::ok) return fmt::format("its last sample is {}", word_of(of.health));
+  if (age(end, of.came) > 0.5 * age(end, Time{}))
+    return fmt::format("it sent nothing new in the last {:.2f} s", age(end, of.came));
+  if (samples > kFew && of.repeated == samples - 1)
+    return "all poses are equal to the bit: it repeats the last pose of a tool that it does not see";
+  return {};
+}
 
 std::string words_of(const Vec3& v, double unit) {
   return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", v.x() / unit, v.y() / unit, v.z() / unit);
@@ -37,7 +66,7 @@ std::string words_of(const Stamped<TipSample>& tip) {
 }
 std::string words_of(const Stamped<Wrench>& said) {
   return words_of(said.value.force.e(), 1.0) + " N, " + words_of(said.value.torque.e(), 1.0) + " N m, in F" +
-         (said.health == Health::ok ? "" : ", not to be believed");
+         (said.health == Health::ok ? "" : fmt::format(", {}", word_of(said.health)));
 }
 std::string words_of(const Stamped<TrackedTool>& tool) {
   return words_of(tool.value.X_CT.p(), kMm) + fmt::format(" mm, of tool {} in C", tool.value.tool);
@@ -66,6 +95,7 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
   });
   std::array<Series, kRoles> series;
   Inputs in;
+  Time end{};
   using Wall = std::chrono::steady_clock;
   const auto period = std::chrono::nanoseconds(from_seconds(1.0 / setup.rig.loop.rate));
   const Wall::time_point begun = Wall::now();
@@ -74,12 +104,18 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
     std::this_thread::sleep_until(begun + i * period);
     const Time now(std::chrono::duration_cast<Duration>(Wall::now() - begun));
     if (age(now, Time{}) > seconds) break;
+    const Inputs before = in;
+    end = now;
     rig.read(now, in);
     each_role([&](const auto& role) {
       const auto& said = in.*role.said;
       Series& of = series[static_cast<std::size_t>(role.id)];
-      if (rig.*role.slot && said.health != Health::absent && (!of.any || said.t > of.last))
-        of.add(said.t, now);
+      if (!(rig.*role.slot) || said.health == Health::absent) return;
+      of.health = said.health;
+      if (of.any && said.t <= of.last) return;
+      if (said.health == Health::fault) ++of.faults;
+      if (of.any && repeats(before.*role.said, said)) ++of.repeated;
+      of.add(said.t, now);
     });
   }
   each_role([&](const auto& role) {
@@ -87,6 +123,9 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
     if (at >= all.size()) return;
     all[at].last = words_of(in.*role.said);
     all[at].remarks = (rig.*role.slot)->remarks();
+    Series& of = series[static_cast<std::size_t>(role.id)];
+    of.linked = (rig.*role.slot)->linked();
+    all[at].unusable = unusable(of, end);
   });
   for (std::size_t i = 0; i < kRoles; ++i) {
     Series& of = series[i];

@@ -1,4 +1,5 @@
-// What the devices of a rig say when nobody tells them anything: how often, how regularly and how late.
+// Reads the devices of a rig without commanding them: how often samples come, how regularly and how late, and
+// whether a run could use them.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,8 @@ struct Probed {
   double interval_p50 = kUnset, interval_max = kUnset;  // between the times that samples were true, s
   double age_p50 = kUnset, age_p99 = kUnset;            // of a sample when it came, s
   std::string last{};                                   // the last sample, in words
-  std::vector<std::string> remarks{};                   // what the device says at the end, its clock among it
+  std::vector<std::string> remarks{};                   // as in the report of a run
+  std::string unusable{};                               // why a run could not use it; empty: it could
 };
 
 // Makes every device that is not simulated, reads each for so long at the loop's rate, and lets it go.

@@ -25,9 +25,24 @@ std::string shown(const Name<20>& name) {
   return text;
 }
 
-Error no_answer(const IgtlSettings& settings, const Line& line) {
+// Why what a server sends is no message.
+const char* fault(Wrong why) {
+  switch (why) {
+    case Wrong::no_checksum:
+      return "what it sends has CRC 0; expected the CRC of each message; let the server compute it";
+    case Wrong::checksum:
+      return "what it sends has a wrong CRC; expected CRC-64 ECMA-182 of the body; see the server's version";
+    case Wrong::version:
+      return "what it sends has a header of another version; expected 1 or 2; see the server's version";
+    default:
+      return "what it sends is cut or of a wrong size; expected messages of OpenIGTLink; see the server";
+  }
+}
+
+Error no_answer(const IgtlSettings& settings, const Line& line, Wrong why) {
   const char* const what =
-      line.lost()
+      why != Wrong::nothing ? fault(why)
+      : line.lost()
           ? "what answers does not speak OpenIGTLink; see that this is the port of the tracker's server"
       : line.closed()      ? "let us in and hung up; see that it takes another client"
       : settings.streams() ? "let us in and said nothing within {:.0f} ms; see that the server runs, and "
@@ -56,9 +71,12 @@ void IgtlTracker::first_answer() {
   constexpr Duration kAgain{50'000'000};  // a datagram may be lost
   constexpr Duration kStatus{100'000'000};
   bool answered = false;
+  Wrong why = Wrong::nothing;  // the last message was none
   for (Duration until = net::steady_now() + from_seconds(settings_.timeout);;) {
     Message answer;
-    const bool came = read(line_.next(), answer) == Wrong::nothing;
+    const std::span<const std::byte> bytes = line_.next();
+    const bool came = !bytes.empty() && read(bytes, answer) == Wrong::nothing;
+    if (!bytes.empty() && !came) why = read(bytes, answer);
     if (came && answer.type.view() == "STATUS") {
       fake_ = answer.device.view() == kFakeName;
       return;
@@ -67,8 +85,8 @@ void IgtlTracker::first_answer() {
     answered = answered || came;
     const bool over = line_.lost() || line_.closed() || net::steady_now() > until;
     if (over && answered) return;
-    if (over) throw no_answer(settings_, line_);
-    if (came) continue;
+    if (over) throw no_answer(settings_, line_, why);
+    if (!bytes.empty()) continue;
     if (!settings_.streams() && !answered) ask();
     line_.wait(kAgain);
   }
@@ -153,7 +171,12 @@ std::vector<std::string> IgtlTracker::remarks() const {
   const auto add = [&text](std::int64_t count, const char* what, const auto&... more) {
     if (count > 0) text += fmt::format(fmt::runtime(what), count, more...);
   };
-  add(counts.unknown, "; {} of tools that the scene does not name, such as '{}'", shown(counts.stranger));
+  add(counts.checksum, "; {} with a wrong CRC{}",
+      counts.no_checksum == counts.checksum ? ": 0, the server does not compute it" : "");
+  add(counts.unknown, "; {} of tools that the scene does not name, such as '{}'; expected {}",
+      shown(counts.stranger), reception_.expected());
+  add(counts.standing, "; {} with a stamp that stands still");
+  add(counts.repeated, "; {} equal to the bit to the pose before");
   add(counts.unseen, "; {} of tools out of view");
   add(counts.aside, "; {} of tools in view that nobody moved");
   add(line_.skipped(), "; {} too long for tool data");

@@ -23,6 +23,11 @@ bool same(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
   return (a.p() - b.p()).norm() <= kShare * (1.0 + a.p().norm()) && a.q().angularDistance(b.q()) <= kAngle;
 }
 
+// To the last bit: a tracker that measures never gives the same pose twice.
+bool equal(const Pose<'C', 'T'>& a, const Pose<'C', 'T'>& b) noexcept {
+  return a.xyz == b.xyz && a.xyzw == b.xyzw;
+}
+
 // To the last bit, where the metadata have it. False where they say something else.
 bool sharpen(const Message& message, Pose<'C', 'T'>& X_CT) noexcept {
   const std::string_view text = value_of(message.metadata, kPoseKey);
@@ -46,6 +51,27 @@ Reception::Reception(const IgtlSettings& settings, std::span<const std::string> 
   }
   stamps_ns_.assign(devices_.size(), kNoStamp);
   behind_ns_ = stamps_ns_;
+  again_.assign(devices_.size(), 0);
+  poses_.resize(devices_.size());
+}
+
+std::string Reception::expected() const {
+  std::string text;
+  for (const Name<20>& device : devices_)
+    text.append(text.empty() ? "'" : " or '").append(device.view()).append("'");
+  return text;
+}
+
+void Reception::count_wrong(Wrong why) noexcept {
+  const bool none = why == Wrong::no_checksum;
+  if (none) ++counts_.no_checksum;
+  ++(none || why == Wrong::checksum ? counts_.checksum : counts_.wrong);
+}
+
+// One stamp that comes twice is a message that comes twice. A stamp that comes a third time stands still.
+void Reception::count_old(std::size_t tool, std::int64_t stamp_ns) noexcept {
+  const bool stands = stamp_ns == stamps_ns_[tool] && again_[tool]++ > 0;
+  ++(stands ? counts_.standing : counts_.old);
 }
 
 void Reception::set_back() noexcept {
@@ -83,8 +109,8 @@ bool Reception::is_newer(const Message& message) noexcept {
 
 bool Reception::take(std::span<const std::byte> bytes, Time now, Stamped<TrackedTool>& newest) noexcept {
   Message message;
-  if (read(bytes, message) != Wrong::nothing) {
-    ++counts_.wrong;
+  if (const Wrong why = read(bytes, message); why != Wrong::nothing) {
+    count_wrong(why);
     return false;
   }
   heard_ = true;
@@ -139,12 +165,13 @@ bool Reception::take_one(const Told& told, Time now, Stamped<TrackedTool>& newes
   if (newest_ns_ != kNoStamp && newest_ns_ - told.stamp_ns > least) set_back();
   if (told.stamp_ns <= last) {
     if (!goes_back(tool, told.stamp_ns)) {
-      ++counts_.old;
+      count_old(tool, told.stamp_ns);
       return false;
     }
     set_back();
   }
   last = told.stamp_ns;
+  again_[tool] = 0;
   behind_ns_[tool] = kNoStamp;
   newest_ns_ = std::max(newest_ns_, last);
   const Time t = lockstep_ ? Time(Duration(told.stamp_ns)) : tie_.here(told.stamp_ns, now);
@@ -152,6 +179,8 @@ bool Reception::take_one(const Told& told, Time now, Stamped<TrackedTool>& newes
     ++counts_.aside;
     return false;
   }
+  if (counts_.poses > 0 && equal(poses_[tool], told.X_CT)) ++counts_.repeated;
+  poses_[tool] = told.X_CT;
   TrackedTool seen;
   seen.X_CT = told.X_CT;
   seen.tool = static_cast<std::int32_t>(tool);

@@ -39,7 +39,8 @@ Wrong read(std::span<const std::byte> bytes, Message& message) noexcept {
   if (version != 1 && version != 2) return Wrong::version;
   const std::span<const std::byte> body = bytes.subspan(kHeader);
   if (take<std::uint64_t>(bytes, 42) != body.size()) return Wrong::size;
-  if (take<std::uint64_t>(bytes, 50) != crc64(body)) return Wrong::checksum;
+  const auto checksum = take<std::uint64_t>(bytes, 50);
+  if (checksum != crc64(body)) return checksum == 0 ? Wrong::no_checksum : Wrong::checksum;
   Message read;
   read.type = take_name<12>(bytes, 2);
   read.device = take_name<20>(bytes, 14);

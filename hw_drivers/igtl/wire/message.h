@@ -54,7 +54,8 @@ struct Message {
   std::span<const std::byte> content, metadata;
 };
 
-enum class Wrong : std::uint8_t { nothing, cut, version, size, checksum };
+// no_checksum: the header has CRC 0, as of a server that does not compute it.
+enum class Wrong : std::uint8_t { nothing, cut, version, size, checksum, no_checksum };
 // Why a message is none; `message` is set where it is one.
 [[nodiscard]] Wrong read(std::span<const std::byte> bytes, Message& message) noexcept;
 

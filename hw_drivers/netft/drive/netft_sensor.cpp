@@ -1,6 +1,7 @@
 #include "hw_drivers/netft/drive/netft_sensor.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,7 @@ NetftSensor::NetftSensor(const Offer& offer, const NetftSettings& settings)
       agreed_ = true;
     }
   first_record();
+  if (!lockstep_ && !offer.waits) find_counter_rate();
   if (!lockstep_) ask(Command::stop);  // until the run begins: what fills the socket before is old then
 }
 
@@ -50,6 +52,29 @@ void NetftSensor::first_record() {
   }
 }
 
+// Watches records until the rate is known. Where the run does not keep the wall clock, the box is our fake.
+void NetftSensor::find_counter_rate() {
+  constexpr double kLeast = 0.4, kMost = 3.0;  // s
+  constexpr Duration kTurn{10'000'000};
+  CounterRate rate(settings_.counter);
+  double watched = 0.0;  // s, when the rate was last looked for
+  for (const Duration until = net::steady_now() + from_seconds(kMost); net::steady_now() < until;) {
+    socket_.wait(kTurn);
+    for (Record record; receive();)
+      if (netft::read(std::span(datagram_).first(size_), record)) rate.take(record.sample, socket_.came());
+    if (rate.watched() < watched + kLeast) continue;
+    watched = rate.watched();
+    if (std::isnan(rate.known())) continue;
+    counter_rate_ = rate.known();
+    session_ = Session(found_, from_seconds(settings_.least_delay), lockstep_, counter_rate_);
+    return;
+  }
+  throw Error(fmt::format("{}: its counter runs at {}/s, not {}; expected the rate of a box that is known; "
+                          "set driver.netft.counter_Hz to the sampling rate of this box",
+                          settings_.place(), grouped(rate.measured()), grouped(rate.expected())),
+              {}, ErrorKind::device);
+}
+
 void NetftSensor::ask(Command command) noexcept {
   static_cast<void>(socket_.send(bytes_of(Request{command})));
 }
@@ -60,9 +85,11 @@ bool NetftSensor::receive() noexcept {
 }
 
 std::string NetftSensor::describe() const {
-  return fmt::format("{} at {}, configuration '{}', {:g} records a second, answered{}", found_.product,
-                     settings_.place(), found_.name, found_.rate,
-                     agreed_ ? ", its command interface agrees" : "");
+  std::string text = fmt::format("{} at {}, configuration '{}', {:g} records a second, answered{}",
+                                 found_.product, settings_.place(), found_.name, found_.rate,
+                                 agreed_ ? ", its command interface agrees" : "");
+  if (counter_rate_ != kNetBoxRate) text += fmt::format(", its counter runs at {}/s", grouped(counter_rate_));
+  return text;
 }
 
 Stamped<Wrench> NetftSensor::read(Time now) noexcept {
@@ -103,6 +130,7 @@ std::vector<std::string> NetftSensor::remarks() const {
       fmt::format("{}: {} records, {} missing, {} old or twice, {} wrong; longest without one {:.1f} ms",
                   describe(), counts.records, counts.missing, counts.old, counts.wrong,
                   1e3 * std::max(counts.longest_gap, silence()));
+  if (counts.beyond > 0) line += fmt::format("; {} beyond the rating of an axis (cfgmr)", counts.beyond);
   if (counts.status != 0) line += "; " + status_words(counts.status);
   if (const std::string clock = net::words(session_.clock()); !clock.empty()) line += "; " + clock;
   return {line};

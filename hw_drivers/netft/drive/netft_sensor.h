@@ -33,12 +33,14 @@ class NetftSensor final : public ForceSensor {
  private:
   void ask(Command command) noexcept;
   void first_record();
+  void find_counter_rate();
   bool receive() noexcept;  // into datagram_
   // s, since the last record, at the last read; in lockstep there is none.
   [[nodiscard]] double silence() const noexcept;
 
   NetftSettings settings_;
   Configuration found_;
+  double counter_rate_ = kNetBoxRate;  // Hz
   Session session_;
   net::Socket socket_;
   net::Arrival arrival_;

@@ -38,6 +38,14 @@ bool Session::believed(const Record& record) noexcept {
   return true;
 }
 
+// Beyond its rating a transducer is not linear, and nothing of its calibration holds.
+bool Session::within_rating(const Record& record) const noexcept {
+  for (std::size_t i = 0; i < kAxes; ++i)
+    if (std::abs(record.counts[i] / (i < 3 ? of_.per_newton : of_.per_newton_metre)) > of_.ratings[i])
+      return false;
+  return true;
+}
+
 void Session::take(std::span<const std::byte> datagram, Time now) noexcept {
   Record record;
   if (!read(datagram, record)) {
@@ -58,9 +66,13 @@ void Session::take(std::span<const std::byte> datagram, Time now) noexcept {
   const auto force = [&](std::size_t i) { return record.counts[i] / of_.per_newton; };
   const auto torque = [&](std::size_t i) { return record.counts[i] / of_.per_newton_metre; };
   const Time t =
-      lockstep_ ? now : tie_.here(std::llround(1e9 / kSampleRate * static_cast<double>(samples_)), now);
-  const Health health = health_of(record.status);
+      lockstep_ ? now : tie_.here(std::llround(1e9 / counter_rate_ * static_cast<double>(samples_)), now);
+  Health health = health_of(record.status);
   if (health != Health::ok) counts_.status = record.status;
+  if (!within_rating(record)) {
+    ++counts_.beyond;
+    if (health == Health::ok) health = Health::saturated;
+  }
   newest_ = {{Vec<'F'>(force(0), force(1), force(2)), Vec<'F'>(torque(3), torque(4), torque(5))},
              std::max(t, newest_.t),
              health};

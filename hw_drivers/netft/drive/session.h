@@ -6,27 +6,27 @@
 #include <span>
 
 #include "hw_drivers/net/clock_tie.h"
+#include "hw_drivers/netft/drive/counter_rate.h"
 #include "hw_drivers/netft/wire/configuration.h"
 #include "hw_drivers/netft/wire/record.h"
 
 namespace enc::netft {
-
-inline constexpr double kSampleRate = 7000.0;  // of the box's own counter, Hz
 
 struct Counts {
   std::int64_t records = 0;
   std::int64_t missing = 0;  // numbers that never came, or came too late
   std::int64_t old = 0;      // came behind a newer one, or twice
   std::int64_t wrong = 0;    // no record
+  std::int64_t beyond = 0;   // with a force or torque beyond the rating of its axis (cfgmr)
   std::uint32_t status = 0;  // the last that was a fault or saturated
   double longest_gap = 0.0;  // between two that came, s
 };
 
 class Session {
  public:
-  // Lockstep: a record is true when it comes.
-  Session(const Configuration& of, Duration least_delay, bool lockstep)
-      : of_(of), tie_(least_delay), lockstep_(lockstep) {}
+  // counter_rate: of the box's own counter of samples, Hz. Lockstep: a record is true when it comes.
+  Session(const Configuration& of, Duration least_delay, bool lockstep, double counter_rate = kNetBoxRate)
+      : of_(of), tie_(least_delay), counter_rate_(counter_rate), lockstep_(lockstep) {}
 
   // A record has no checksum: one whose counter is far from what was expected is believed when the next goes
   // on from there, as after a box was switched off and on.
@@ -41,8 +41,10 @@ class Session {
  private:
   Configuration of_;
   net::ClockTie tie_;
+  double counter_rate_;
   bool lockstep_, begun_ = false;
   Counts counts_;
+  [[nodiscard]] bool within_rating(const Record& record) const noexcept;
   [[nodiscard]] bool believed(const Record& record) noexcept;  // counts it where not
 
   std::uint32_t number_ = 0, sample_ = 0;

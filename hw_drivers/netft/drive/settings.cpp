@@ -31,6 +31,11 @@ void NetftSettings::declare(Settings& table) {
                .low = 0,
                .high = 1e3},
               least_delay);
+  table.value({.name = "counter_Hz",
+               .meaning = "how fast it counts its samples; 0: found from its first records",
+               .low = 0,
+               .high = 1e6},
+              counter);
   table.value({.name = "product", .meaning = "a part of what it says that it is (prodname)"}, product);
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/devices/fake.h"
-#include "hw_drivers/netft/drive/session.h"
 #include "hw_drivers/netft/wire/command.h"
 
 namespace enc::netft {
@@ -59,7 +58,7 @@ Record Box::record(Time now) noexcept {
   // The counter goes on where the world has begun anew, and never stands.
   const auto at = [&] {
     return first_ + static_cast<std::uint32_t>(
-                        static_cast<std::uint64_t>(seconds(now.time_since_epoch()) * kSampleRate + 1e-6));
+                        static_cast<std::uint64_t>(seconds(now.time_since_epoch()) * counter_rate_ + 1e-6));
   };
   if (now < before_) first_ = sample_ + 1;
   before_ = now;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/devices/force_sensor.h"
+#include "hw_drivers/netft/drive/counter_rate.h"
 #include "hw_drivers/netft/wire/configuration.h"
 #include "hw_drivers/netft/wire/record.h"
 
@@ -27,12 +28,15 @@ class Box {
   // To 20 bytes of the command interface; empty: it does not know them.
   [[nodiscard]] std::vector<std::byte> answer(std::span<const std::byte> question, Time now);
   [[nodiscard]] std::string xml() const { return xml_of(of_); }
+  // For tests: of another box, Hz.
+  void count_at(double rate) noexcept { counter_rate_ = rate; }
   // For tests: what goes with each record from now on; 0: nothing.
   void fail(std::uint32_t status) noexcept { failure_ = status; }
 
  private:
   ForceSensor& sensor_;
   Configuration of_;
+  double counter_rate_ = kNetBoxRate;
   bool streams_ = false, biased_ = false;
   std::uint32_t number_ = 0, left_ = 0, sample_ = 0, failure_ = 0;
   std::array<double, 6> bias_{}, counts_{};

@@ -30,7 +30,7 @@ struct Request {
 
 struct Record {
   std::uint32_t number = 0;  // from 1, anew with each request
-  std::uint32_t sample = 0;  // of the sensor's own clock, 7,000 a second
+  std::uint32_t sample = 0;  // of the sensor's own clock
   std::uint32_t status = 0;  // 0: well
   std::array<std::int32_t, kAxes> counts{};
 };

@@ -218,6 +218,40 @@ TEST(IgtlReception, WhatTheServerReportsIsKept) {
   EXPECT_EQ(bench.reception.counts().status, 17);
 }
 
+// A server that stamps nothing, or whole seconds alone: the first is taken, the next is a message that came
+// twice, and from then on the stamp stands still.
+TEST(IgtlReception, AStampThatStandsStillIsCountedApart) {
+  Bench bench(std::string("tcp"));
+  for (std::int64_t second = 0; second < 3; ++second)
+    for (int n = 0; n < 10; ++n)
+      EXPECT_EQ(bench.take(pose(0.01 * n, second * 1'000'000'000, 1), 1e3 * second + 100.0 * n), n == 0);
+  EXPECT_EQ(bench.reception.counts().poses, 3);
+  EXPECT_EQ(bench.reception.counts().old, 3);
+  EXPECT_EQ(bench.reception.counts().standing, 24);
+}
+
+TEST(IgtlReception, PosesThatRepeatTheOneBeforeAreCounted) {
+  Bench bench(std::string("tcp"));
+  for (std::int64_t n = 1; n <= 10; ++n)
+    EXPECT_TRUE(bench.take(pose(n <= 4 ? 0.1 : 0.1 + 1e-6 * static_cast<double>(n), 10'000'000 * n, 1)));
+  EXPECT_EQ(bench.reception.counts().repeated, 3);
+  EXPECT_EQ(bench.reception.counts().poses, 10);
+}
+
+TEST(IgtlReception, AWrongChecksumIsCountedApartFromWhatIsNoMessage) {
+  Bench bench(std::string("tcp"));
+  const Written good = pose(0.1, 10'000'000, 1);
+  std::vector<std::byte> bytes(good.bytes().begin(), good.bytes().end());
+  net::put(std::span(bytes), 50, std::uint64_t{0});
+  EXPECT_FALSE(bench.reception.take(bytes, Time{}, bench.newest));
+  net::put(std::span(bytes), 50, std::uint64_t{77});
+  EXPECT_FALSE(bench.reception.take(bytes, Time{}, bench.newest));
+  EXPECT_FALSE(bench.reception.take(std::span(bytes).first(20), Time{}, bench.newest));
+  EXPECT_EQ(bench.reception.counts().checksum, 2);
+  EXPECT_EQ(bench.reception.counts().no_checksum, 1);
+  EXPECT_EQ(bench.reception.counts().wrong, 1);
+}
+
 // The quickest was 12.7 ms under way, and that is what is taken off; one that comes much later is late, and
 // stays late however long it lasts.
 TEST(IgtlReception, TheLeastDelayIsTakenOffAndADelayThatLastsIsNoClock) {

@@ -156,6 +156,21 @@ TEST(NetftSession, AStatusIsSaidAndRemembered) {
   EXPECT_EQ(bench.session.counts().status, 0x90000000U);
 }
 
+// cfgmr of a Gamma: 130 N across, 400 N along z, 10 N m about each axis.
+TEST(NetftSession, AForceBeyondTheRatingOfItsAxisIsSaturated) {
+  const auto health = [](std::array<std::int32_t, 6> counts, std::uint32_t status = 0) {
+    Bench bench;
+    bench.session.take(bytes_of(Record{1, 7, status, counts}), Time(ms(1)));
+    EXPECT_EQ(bench.session.counts().beyond, bench.session.newest().health == Health::ok ? 0 : 1);
+    return bench.session.newest().health;
+  };
+  EXPECT_EQ(health({129'999'999, -130'000'000, 399'999'999, 0, 0, -10'000'000}), Health::ok);
+  EXPECT_EQ(health({130'000'001, 0, 0, 0, 0, 0}), Health::saturated);
+  EXPECT_EQ(health({0, 0, -400'000'001, 0, 0, 0}), Health::saturated);
+  EXPECT_EQ(health({0, 0, 0, 0, 0, 10'000'001}), Health::saturated);
+  EXPECT_EQ(health({130'000'001, 0, 0, 0, 0, 0}, 0x90000000), Health::fault) << "a fault stays one";
+}
+
 std::string refused(const Configuration& of, const NetftSettings& settings = {}) {
   try {
     static_cast<void>(inspect(xml_of(of), settings, Duration(1'000'000)));

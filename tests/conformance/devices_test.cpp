@@ -1,0 +1,220 @@
+// `encounter devices` before servers that behave as real ones of public reports do: each cause is printed,
+// with the counts that the report of a run has, and the exit code is 3.
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/devices/fake.h"
+#include "hw_drivers/igtl/wire/content.h"
+#include "hw_drivers/igtl/wire/stream.h"
+#include "hw_drivers/net/big_endian.h"
+#include "hw_drivers/net/socket.h"
+#include "hw_drivers/net/steady.h"
+#include "hw_drivers/netft/fake/server.h"
+#include "hw_drivers/netft/wire/record.h"
+#include "tests/support/devices/served.h"
+#include "tests/support/run_program.h"
+
+namespace enc::test {
+namespace {
+
+using igtl::Written;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+using tests::Result;
+
+// The devices of the rig `fakes` that are not named in `real` are simulated.
+Result devices(const std::vector<std::string>& real, const char* seconds) {
+  std::vector<std::string> words{"devices", "fakes", "--for-s",
+                                 seconds,   "--set", "rig.manipulator.driver=sim"};
+  for (const std::string& set : real) words.insert(words.end(), {"--set", set});
+  return tests::run_program(words, tests::kShipped);
+}
+
+struct Sent {
+  double x = 0.0;  // m
+  std::int64_t stamp_ns = 0;
+  const char* device = "StylusToTracker";
+  // CRC in the header of the pose and of the answer to GET_STATUS.
+  std::uint64_t pose_crc = 1, status_crc = 1;  // 1: the right one; else what the header has
+};
+
+// A tracker's own server, over TCP, which sends what `pose` says 100 times a second.
+class TrackerServer {
+ public:
+  explicit TrackerServer(Sent (*pose)(int)) : pose_(pose) {}
+  ~TrackerServer() {
+    end_ = true;
+    thread_.join();
+  }
+  TrackerServer(const TrackerServer&) = delete;
+  TrackerServer& operator=(const TrackerServer&) = delete;
+  [[nodiscard]] Result asked(const char* seconds = "0.6") const {
+    return devices({"rig.force.driver=sim", "rig.driver.igtl.transport=tcp",
+                    "rig.driver.igtl.port=" + std::to_string(listener_.port())},
+                   seconds);
+  }
+
+ private:
+  static void send(net::Socket& client, const Written& message, std::uint64_t crc) {
+    std::vector<std::byte> bytes(message.bytes().begin(), message.bytes().end());
+    constexpr std::size_t kCrc = 50;
+    if (crc != 1) net::put(std::span(bytes), kCrc, crc);
+    static_cast<void>(client.send(bytes));
+  }
+  void serve() {
+    while (!end_ && !listener_.wait(Duration(10'000'000))) {
+    }
+    net::Socket client = listener_.accept();
+    igtl::Stream heard;
+    for (int k = 0; !end_; ++k) {
+      const Sent sent = pose_(k);
+      heard.came(client.receive(heard.room()));
+      for (auto bytes = heard.next(); !bytes.empty(); bytes = heard.next())
+        send(client, Written("STATUS", "Server", 0, igtl::status(1)), sent.status_crc);
+      send(client,
+           Written("TRANSFORM", sent.device, sent.stamp_ns,
+                   igtl::transform(Pose<'C', 'T'>::shift(sent.x, 0.02, 0.9))),
+           sent.pose_crc);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+
+  Sent (*pose_)(int);
+  net::Socket listener_ = net::listen_tcp("127.0.0.1", 0);
+  std::atomic<bool> end_ = false;
+  std::thread thread_{[this] { serve(); }};
+};
+
+double moving(int k) { return 0.01 * std::sin(k / 15.0); }
+std::int64_t fresh() { return (net::steady_now() + Duration(1'000'000'000'000)).count(); }
+
+TEST(Devices, ATrackerThatIsWellIsUsable) {
+  const Result result = TrackerServer([](int k) { return Sent{moving(k), fresh()}; }).asked();
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("samples a second"), HasSubstr(" poses, 0 old or twice, 0 wrong"),
+                                Not(HasSubstr("NOT USABLE"))));
+}
+
+TEST(Devices, AToolOfAnotherNameIsNamedBesideTheExpectedOne) {
+  const Result result = TrackerServer([](int k) {
+                          return Sent{moving(k), fresh(), "StylusToReference"};
+                        }).asked();
+  EXPECT_EQ(result.code, 3) << result.out;
+  EXPECT_THAT(result.out, AllOf(ContainsRegex("[1-9][0-9]+ of tools that the scene does not name, such as "
+                                              "'StylusToReference'; expected 'stylusToTracker'"),
+                                HasSubstr("NOT USABLE: it sent no sample")));
+}
+
+TEST(Devices, AWrongCrcIsCountedApartAndAMissingOneIsCalledSo) {
+  const Result none = TrackerServer([](int k) {
+                        return Sent{moving(k), fresh(), "StylusToTracker", 0};
+                      }).asked();
+  EXPECT_EQ(none.code, 3) << none.out;
+  EXPECT_THAT(none.out, AllOf(ContainsRegex("0 wrong; [1-9][0-9]+ with a wrong CRC: 0, the server does not"),
+                              HasSubstr("NOT USABLE: it sent no sample")));
+  const Result other = TrackerServer([](int k) {
+                         return Sent{moving(k), fresh(), "StylusToTracker", 77};
+                       }).asked();
+  EXPECT_EQ(other.code, 3) << other.out;
+  EXPECT_THAT(other.out,
+              AllOf(ContainsRegex("0 wrong; [1-9][0-9]+ with a wrong CRC"), Not(HasSubstr("CRC: 0"))));
+}
+
+TEST(Devices, AServerOfWhichNoMessageHasACrcIsNotTakenForASilentOne) {
+  const Result result = TrackerServer([](int k) {
+                          return Sent{moving(k), fresh(), "StylusToTracker", 0, 0};
+                        }).asked();
+  EXPECT_EQ(result.code, 3) << result.out;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("NOT THERE"), HasSubstr("what it sends has CRC 0")));
+}
+
+TEST(Devices, AStampThatStandsStillIsCountedAndItsOnePoseIsNoTracking) {
+  const Result result = TrackerServer([](int k) { return Sent{moving(k), 0}; }).asked();
+  EXPECT_EQ(result.code, 3) << result.out;
+  EXPECT_THAT(result.out,
+              AllOf(ContainsRegex(" 1 poses, 1 old or twice, 0 wrong; [1-9][0-9]+ with a stamp "
+                                  "that stands still"),
+                    HasSubstr("1 sample"), HasSubstr("NOT USABLE: it sent nothing new in the last")));
+}
+
+TEST(Devices, APoseThatIsRepeatedToTheBitIsNoTracking) {
+  const Result result = TrackerServer([](int) { return Sent{0.01, fresh()}; }).asked();
+  EXPECT_EQ(result.code, 3) << result.out;
+  EXPECT_THAT(result.out, AllOf(ContainsRegex("[1-9][0-9]+ equal to the bit to the pose before"),
+                                HasSubstr("NOT USABLE: all poses are equal to the bit")));
+}
+
+struct Pressed final : ForceSensor {
+  Stamped<Wrench> read(Time now) noexcept override {
+    return {{Vec<'F'>(0, 0, newtons), Vec<'F'>::zero()}, now, Health::ok};
+  }
+  std::atomic<double> newtons = 3.0;
+};
+
+// A Net Box whose counter may have another rate.
+struct ForceServer {
+  explicit ForceServer(double counter = netft::kNetBoxRate) { server.box().count_at(counter); }
+  [[nodiscard]] Result asked(const std::vector<std::string>& more = {}) {
+    const Served served(server);
+    std::vector<std::string> set{"rig.tracker.driver=sim",
+                                 "rig.driver.netft.port=" + std::to_string(server.port()),
+                                 "rig.driver.netft.http_port=" + std::to_string(server.http_port()),
+                                 "rig.driver.netft.command_port=" + std::to_string(server.command_port()),
+                                 "rig.driver.netft.silent_ms=500"};  // other tests take the processor, too
+    set.insert(set.end(), more.begin(), more.end());
+    return devices(set, "0.6");
+  }
+  Pressed sensor;
+  netft::Server server{sensor, netft::gamma(), "127.0.0.1", netft::Ports{}};
+};
+
+TEST(Devices, ABoxThatIsWellIsUsableWithAnyCounterThatIsKnown) {
+  const Result net_box = ForceServer().asked();
+  EXPECT_EQ(net_box.code, 0) << net_box.out << net_box.err;
+  EXPECT_THAT(net_box.out, Not(HasSubstr("its counter runs")));
+  const Result axia = ForceServer(3906.25).asked();
+  EXPECT_EQ(axia.code, 0) << axia.out << axia.err;
+  EXPECT_THAT(axia.out, HasSubstr("its counter runs at 3,906/s"));
+}
+
+TEST(Devices, ACounterOfAnUnknownRateIsRefusedAndMayBeSet) {
+  const Result unknown = ForceServer(5000.0).asked();
+  EXPECT_EQ(unknown.code, 3) << unknown.out;
+  EXPECT_THAT(unknown.out,
+              ContainsRegex("NOT THERE: .*: its counter runs at [45],[0-9][0-9][0-9]/s, not 7,000; "
+                            "expected .*set driver.netft.counter_Hz"));
+  const Result set = ForceServer(5000.0).asked({"rig.driver.netft.counter_Hz=5000"});
+  EXPECT_EQ(set.code, 0) << set.out << set.err;
+  EXPECT_THAT(set.out, HasSubstr("its counter runs at 5,000/s"));
+}
+
+TEST(Devices, AFaultInTheMiddleIsNoSuccess) {
+  ForceServer there;
+  there.server.suffer({Trouble::Kind::error_code, 0x80000004});
+  const Result result = there.asked();
+  EXPECT_EQ(result.code, 3) << result.out;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("status 0x80000004: temperature"),
+                                ContainsRegex("NOT USABLE: [0-9]+ of [0-9]+ samples report a fault")));
+}
+
+TEST(Devices, AForceBeyondTheRatingIsSaturated) {
+  ForceServer there;
+  there.sensor.newtons = -450.0;  // of 400 along z
+  const Result result = there.asked();
+  EXPECT_EQ(result.code, 3) << result.out;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("N m, in F, saturated"),
+                                ContainsRegex("[1-9][0-9]+ beyond the rating of an axis \\(cfgmr\\)"),
+                                HasSubstr("NOT USABLE: its last sample is saturated")));
+}
+
+}  // namespace
+}  // namespace enc::test
