@@ -6,8 +6,6 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <sched.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "app/modules/modules.h"
@@ -18,6 +16,7 @@
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/camera/stage.h"
+#include "trial/time/real_time.h"
 
 namespace enc::app {
 namespace {
@@ -51,10 +50,12 @@ bool program_there(const std::string& name) {
   return false;
 }
 
-bool may_be_real_time() {
-  rlimit limit{};
-  getrlimit(RLIMIT_RTPRIO, &limit);
-  return limit.rlim_cur > 0 || geteuid() == 0;
+// Tried, and given back: whether a limit and a right suffice is the kernel's to say.
+void say_real_time(Doctor& doctor) {
+  const trial::RealTime tried(true);
+  doctor.say(tried.granted(), Need::may,
+             fmt::format("real-time priority for hardware (SCHED_FIFO {})", trial::RealTime::kPriority),
+             tried.refusal() + "; simulation does not need it");
 }
 
 // The keys of a driver's table.
@@ -156,8 +157,7 @@ int doctor() {
   say_vision(doctor);
   doctor.say(program_there("gnuplot"), Need::may, "gnuplot for the plots of a report",
              "./encounter bench installs it");
-  doctor.say(may_be_real_time(), Need::may, "real-time priority for hardware",
-             "add rtprio to /etc/security/limits.conf; simulation does not need it");
+  say_real_time(doctor);
   doctor.say(std::thread::hardware_concurrency() >= 2, Need::may,
              fmt::format("{} cores", std::thread::hardware_concurrency()), "two are wanted for hardware");
   fmt::print("{}\n", doctor.ready ? "ready" : "not ready");

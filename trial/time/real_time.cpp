@@ -1,24 +1,83 @@
 #include "trial/time/real_time.h"
 
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace enc::trial {
+namespace {
+
+// Reads a line of /proc/self/status, "CapEff:\t000001ffffffffff".
+bool has_capability(unsigned number) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("CapEff:")) continue;
+    std::uint64_t bits = 0;
+    std::istringstream(line.substr(line.find(':') + 1)) >> std::hex >> bits;
+    return ((bits >> number) & 1U) != 0;
+  }
+  return false;
+}
+
+// The first user namespace maps every number to itself. In another one a capability counts for nothing
+// outside.
+bool in_first_user_namespace() {
+  std::ifstream map("/proc/self/uid_map");
+  std::uint64_t inside = 1, outside = 1, count = 0;
+  constexpr std::uint64_t kAll = 4294967295;
+  return !(map >> inside >> outside >> count) || (inside == 0 && outside == 0 && count == kAll);
+}
+
+}  // namespace
+
+RealTimeRights real_time_rights() {
+  constexpr unsigned kSysNice = 23;  // CAP_SYS_NICE, capability.h
+  rlimit limit{};
+  getrlimit(RLIMIT_RTPRIO, &limit);
+  std::error_code none;
+  return {.root = geteuid() == 0,
+          .sys_nice = has_capability(kSysNice) && in_first_user_namespace(),
+          .container = std::filesystem::exists("/.dockerenv", none) ||
+                       std::filesystem::exists("/run/.containerenv", none),
+          .most = limit.rlim_cur};
+}
+
+std::string real_time_refusal(int error, const RealTimeRights& rights) {
+  if (error != EPERM) return fmt::format("the system refuses SCHED_FIFO: {}", std::strerror(error));
+  // The kernel refuses a process that has the right where its control group has no real-time budget.
+  if (rights.sys_nice || rights.most >= RealTime::kPriority)
+    return "the container or control group has no real-time budget: docker run --cpu-rt-runtime=950000 "
+           "--ulimit rtprio=41 --cap-add=SYS_NICE, or sysctl -w kernel.sched_rt_runtime_us=-1 on the host";
+  if (rights.root || rights.container)
+    return "the container lacks the right: docker run --cap-add=SYS_NICE --ulimit rtprio=41";
+  return "allow it in /etc/security/limits.conf: rtprio 41";
+}
 
 RealTime::RealTime(bool wanted) {
   if (!wanted) return;
+  const RealTimeRights rights = real_time_rights();
   sched_param before{};
-  first_ = pthread_getschedparam(pthread_self(), &policy_before_, &before) == 0;
+  const bool known = pthread_getschedparam(pthread_self(), &policy_before_, &before) == 0;
   priority_before_ = before.sched_priority;
   sched_param now{};
   now.sched_priority = kPriority;
-  first_ = first_ && pthread_setschedparam(pthread_self(), SCHED_FIFO, &now) == 0;
+  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &now);
+  first_ = known && error == 0;
   locked_ = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-  words_ = first_ ? fmt::format("SCHED_FIFO {}", kPriority)
-                  : std::string("not first (allow it in /etc/security/limits.conf: rtprio 41)");
-  words_ += locked_ ? ", memory locked" : ", memory not locked (memlock unlimited, likewise)";
+  if (!first_) refusal_ = real_time_refusal(error, rights);
+  words_ = first_ ? fmt::format("SCHED_FIFO {}", kPriority) : fmt::format("not first ({})", refusal_);
+  words_ += locked_            ? ", memory locked"
+            : rights.container ? ", memory not locked (docker run --ulimit memlock=-1)"
+                               : ", memory not locked (memlock unlimited, likewise)";
 }
 
 RealTime::~RealTime() {

@@ -2,9 +2,21 @@
 // it begins, and memory that is never paged out. As far as the system allows; else the run goes on without.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace enc::trial {
+
+// The rights by which the system grants a process a fixed priority, sched(7).
+struct RealTimeRights {
+  bool root = false;       // the effective user
+  bool sys_nice = false;   // CAP_SYS_NICE is effective, and not only within a user namespace
+  bool container = false;  // a container's files say so: no login reads limits.conf there
+  std::uint64_t most = 0;  // RLIMIT_RTPRIO
+};
+[[nodiscard]] RealTimeRights real_time_rights();
+// Why a thread did not get the priority, and what to do. error: of pthread_setschedparam().
+[[nodiscard]] std::string real_time_refusal(int error, const RealTimeRights& rights);
 
 class RealTime {
  public:
@@ -17,10 +29,11 @@ class RealTime {
 
   // "SCHED_FIFO 40, memory locked"; or why not, and what to do. Empty: not wanted.
   [[nodiscard]] const std::string& words() const { return words_; }
-  [[nodiscard]] bool granted() const { return first_; }  // the priority
+  [[nodiscard]] bool granted() const { return first_; }                  // the priority
+  [[nodiscard]] const std::string& refusal() const { return refusal_; }  // empty: granted
 
  private:
-  std::string words_;
+  std::string words_, refusal_;
   bool first_ = false, locked_ = false;
   int policy_before_ = 0, priority_before_ = 0;
 };
