@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include <encounter_version.h>
 #include <fmt/format.h>
 
 #include "app/built.h"
@@ -22,6 +21,7 @@
 #include "trial/measure/record_table.h"
 #include "trial/operator/signals.h"
 #include "trial/prepare.h"
+#include "trial/provenance/provenance.h"
 
 namespace enc::app {
 namespace {
@@ -133,7 +133,7 @@ bool take_all(RecordReader& record, bool stoppable, const Take& take) {
 bool write_mcap(const ExportOptions& options, RecordReader& record, const models::Setup& setup,
                 const Scene& scene) {
   models::OutFile out(options.mcap, models::existing(options.force));
-  trial::McapWriter file([&](std::string_view bytes) { out.write(bytes); }, "encounter " ENCOUNTER_VERSION);
+  trial::McapWriter file([&](std::string_view bytes) { out.write(bytes); }, trial::program_words());
   trial::RecordMcap mcap(file, setup, scene, record.texts());
   if (!take_all(record, true, [&](const RecordedTick& frame) { mcap.add(frame); })) return false;
   const std::string lack = lack_of(record, "file");

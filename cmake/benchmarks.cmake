@@ -11,7 +11,7 @@ endif()
 enc_precompile_as(enc_bench enc_precompiled)
 enc_batches(enc_bench "${folders}")
 # Whole: each benchmark puts itself into the table, and nobody else names it.
-enc_module(bench bench benchmarks/module.cpp $<LINK_LIBRARY:WHOLE_ARCHIVE,enc_bench>)
+enc_module(bench bench benchmarks/module.cpp $<LINK_LIBRARY:WHOLE_ARCHIVE,enc_bench> enc_commit)
 
 # What the benchmarks race against: each library that is there adds its source to the module.
 set(sources)

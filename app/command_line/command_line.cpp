@@ -8,7 +8,6 @@
 #include <new>
 
 #include <CLI/CLI.hpp>
-#include <encounter_version.h>
 
 #include "app/command_line/parts.h"
 #include "app/laboratory/fault_text.h"
@@ -17,6 +16,7 @@
 #include "app/process.h"
 #include "core/error.h"
 #include "models/schema/wording.h"
+#include "trial/provenance/provenance.h"
 
 namespace enc::app {
 namespace {
@@ -307,8 +307,8 @@ int answered(CLI::App& app, int argc, char** argv) {
 
 int command_line(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of that file, not the end of the run
-  CLI::App app("Encounter: a digital twin of encounter-type haptic displays");
-  app.set_version_flag("--version", std::string("encounter " ENCOUNTER_VERSION));
+  CLI::App app("Encounter: a digital twin of encounter-type haptic displays", "encounter");
+  app.set_version_flag("--version", trial::program_words());
   app.require_subcommand(1);
   app.failure_message([](const CLI::App*, const CLI::Error& e) {
     return "encounter: " + enc::models::printable(e.what()) + "; see encounter --help\n";

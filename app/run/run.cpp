@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include <encounter_version.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,6 +21,7 @@
 #include "models/files.h"
 #include "trial/operator/consent.h"
 #include "trial/operator/operator.h"
+#include "trial/provenance/provenance.h"
 #include "trial/run_measures.h"
 #include "trial/time/record_thread.h"
 #include "trial/trial.h"
@@ -71,14 +71,14 @@ struct Recording {
 };
 
 std::unique_ptr<Recording> record_for(const RunOptions& options, const models::Setup& setup,
-                                      const trial::Trial& trial) {
+                                      const trial::Trial& trial, trial::WallTime started) {
   if (options.record.empty()) return nullptr;
   for (const std::string& path : {options.record, options.record + ".part"}) refuse_output(path);
   RecordTexts texts = models::record_texts(setup);
   texts["scene"] = options.scene;
   texts["rig"] = setup.rig_path;
   texts["seed"] = std::to_string(options.seed);
-  texts["version"] = ENCOUNTER_VERSION;
+  texts.merge(trial::provenance_texts(started, trial.result().keeps_wall_time));
   texts["stability"] = stability_lines(trial.certificates());
   return std::make_unique<Recording>(options, texts, trial.scene(), trial.result().keeps_wall_time);
 }
@@ -183,7 +183,8 @@ int run(const RunOptions& options) {
       return answer == Answer::stopped ? 128 + person.signal() : 2;
     }
   }
-  const std::unique_ptr<Recording> record = record_for(options, setup, trial);
+  const trial::WallTime begun = trial::wall_time();
+  const std::unique_ptr<Recording> record = record_for(options, setup, trial, begun);
   trial.record_to(record ? &record->writer : nullptr);
   person.listen();
   if (shown) shown->begin(setup);
@@ -210,7 +211,8 @@ int run(const RunOptions& options) {
                    trial.has_world() ? trial.world().physics().unsolved() : 0,
                    !options.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0,
                    trial.has_world() ? trial.world().physics().elements() : 0,
-                   started};
+                   started,
+                   begun};
   report.crossed = crossed(report);
   const std::string text = options.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);

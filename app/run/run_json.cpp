@@ -153,6 +153,10 @@ void press_figures(Json& json, const trial::PressMeasure& presses) {
 std::string run_json(const RunReport& r) {
   Json json;
   json["encounter"] = ENCOUNTER_VERSION;
+  json["commit"] = trial::built_commit().name;
+  json["commit_date"] = trial::built_commit().day;
+  json["date"] = trial::day_text(r.begun);
+  if (r.result.keeps_wall_time) json["started"] = trial::time_text(r.begun);
   json["scene"] = r.setup.scene_path;
   json["rig"] = r.setup.rig_path;
   json["seed"] = r.asked.seed;

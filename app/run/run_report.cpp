@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <encounter_version.h>
 #include <fmt/format.h>
 
 #include "app/built.h"
@@ -267,8 +266,11 @@ std::string ledger_line(const RunReport& r) {
 
 // Who repeats this gets the same report.
 std::string made_line(const RunReport& r) {
-  std::string text = fmt::format("made by     Encounter {}: {}, rig {}, seed {}", ENCOUNTER_VERSION,
-                                 r.setup.scene_path, r.setup.rig_path, r.asked.seed);
+  const bool wall = r.result.keeps_wall_time;
+  std::string text =
+      fmt::format("made by     {}, {} {}: {}, rig {}, seed {}", trial::program_words(),
+                  wall ? "started" : "on", wall ? trial::time_text(r.begun) : trial::day_text(r.begun),
+                  r.setup.scene_path, r.setup.rig_path, r.asked.seed);
   if (r.asked.armed) text += ", --armed";
   if (r.asked.lockstep) text += ", --lockstep";
   if (r.asked.seconds) text += fmt::format(", --for-s {}", *r.asked.seconds);

@@ -7,6 +7,7 @@
 #include "app/options.h"
 #include "trial/certificates.h"
 #include "trial/limits.h"
+#include "trial/provenance/provenance.h"
 #include "trial/run_measures.h"
 #include "trial/trial.h"
 
@@ -22,9 +23,10 @@ struct RunReport {
   const RunOptions& asked;
   // Steps of the simulated world, and those that its solver did not solve to its tolerance.
   std::int64_t steps = 0, unsolved = 0;
-  bool whole = true;     // not cut off by --for-s, a signal, a full disk or physics that diverged
-  int elements = 0;      // of the simulated world
-  double started = 0.0;  // CPU s from the start of the process to the first tick
+  bool whole = true;        // not cut off by --for-s, a signal, a full disk or physics that diverged
+  int elements = 0;         // of the simulated world
+  double started = 0.0;     // CPU s from the start of the process to the first tick
+  trial::WallTime begun{};  // when the first tick was due
   std::vector<std::string> crossed{};  // verdict.h
 };
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <encounter_version.h>
 #include <fmt/format.h>
 
 #include "benchmarks/kit/benchmark.h"
 #include "benchmarks/questionnaire/form.h"
-#include "benchmarks/report/machine.h"
 #include "benchmarks/report/plot.h"
 #include "sim/bodies/mujoco.h"
+#include "trial/provenance/provenance.h"
 
 namespace enc::bench {
 namespace {
@@ -83,14 +82,11 @@ const char* role_name(Role role) {
 }
 
 std::vector<Fact> facts(const Report& report) {
-  const Machine machine = this_machine();
-  std::vector<Fact> list{{"Encounter", ENCOUNTER_VERSION},
-                         {"MuJoCo", sim::mujoco_version()},
-                         {"Machine", fmt::format("{}, {} cores, {}, compiler {}", machine.processor,
-                                                 machine.cores, machine.system, machine.compiler)},
-                         {"Seed", std::to_string(report.seed)},
-                         {"Command", report.command},
-                         {"Figures", figures_line(report)}};
+  std::vector<Fact> list{
+      {"Made by", trial::program_words()},   {"Started", trial::time_text(report.started)},
+      {"MuJoCo", sim::mujoco_version()},     {"Machine", trial::words_of(trial::this_machine())},
+      {"Seed", std::to_string(report.seed)}, {"Command", report.command},
+      {"Figures", figures_line(report)}};
   const std::string felt = verdict_line(judged(report.results, report.background.thresholds));
   if (!felt.empty()) list.push_back({"Felt or not", felt});
   if (!report.set.empty()) list.push_back({"With --set", joined(report.set)});

@@ -11,6 +11,7 @@
 #include "benchmarks/questionnaire/proxies.h"
 #include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/verdict.h"
+#include "trial/provenance/provenance.h"
 
 namespace enc::bench {
 
@@ -32,6 +33,7 @@ struct Report {
   std::map<std::string, std::string> drawings{};  // SVG by plot id
   std::string not_drawn{};                        // why a drawing is missing; empty: none is
   Background background{};
+  trial::WallTime started = trial::wall_time();
   Plot verdict{};  // of the results so far; without names where nothing was judged
 };
 

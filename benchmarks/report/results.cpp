@@ -1,21 +1,18 @@
 // The files of a report, and results.json, which others read: keep its form (sources/choices 4).
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
-#include <thread>
 
 #include <encounter_version.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/utsname.h>
 
-#include "benchmarks/report/machine.h"
 #include "benchmarks/report/plot.h"
 #include "benchmarks/report/report.h"
 #include "core/error.h"
 #include "models/files.h"
 #include "sim/bodies/mujoco.h"
+#include "trial/provenance/provenance.h"
 
 namespace enc::bench {
 namespace {
@@ -84,20 +81,6 @@ void write_whole(const fs::path& path, const std::string& text) {
 
 }  // namespace
 
-Machine this_machine() {
-  Machine machine{"unknown", {}, __VERSION__, std::thread::hardware_concurrency()};
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.rfind("model name", 0) == 0) {
-      machine.processor = line.substr(line.find(':') + 2);
-      break;
-    }
-  utsname system{};
-  uname(&system);
-  machine.system = fmt::format("{} {}", system.sysname, system.machine);
-  return machine;
-}
-
 bool Figure::ok() const {
   if (absent) return true;
   if (!std::isfinite(twin)) return false;
@@ -130,9 +113,13 @@ std::string table_csv(const Table& table) {
 }
 
 std::string results_json(const Report& report) {
-  const Machine machine = this_machine();
+  const trial::Machine machine = trial::this_machine();
   Json json;
   json["encounter"] = ENCOUNTER_VERSION;
+  json["commit"] = trial::built_commit().name;
+  json["commit_date"] = trial::built_commit().day;
+  json["date"] = trial::day_text(report.started);
+  json["started"] = trial::time_text(report.started);
   json["mujoco"] = sim::mujoco_version();
   json["machine"] = {{"processor", machine.processor},
                      {"cores", machine.cores},

@@ -100,6 +100,25 @@ std::string shown(std::string text) {
   return text;
 }
 
+std::string text_or(const RecordTexts& texts, const char* name, const char* otherwise) {
+  const auto found = texts.find(name);
+  return found == texts.end() ? otherwise : shown(found->second);
+}
+
+// "Encounter 0.1.0, commit 71961a4f3c2d"
+std::string writer_of(const RecordTexts& texts) {
+  return "Encounter " + text_or(texts, "version", "(version not said)") + ", commit " +
+         text_or(texts, "commit", "not said");
+}
+
+// What leads to the version that wrote it.
+std::string way_to_writer(const RecordTexts& texts) {
+  const std::string commit = text_or(texts, "commit", "unknown");
+  if (commit == "unknown") return "use the version of Encounter that wrote it";
+  return "use the version of Encounter that wrote it (git checkout " + commit.substr(0, commit.find('-')) +
+         ")";
+}
+
 // "0x1, 0x2"
 std::string listed(const std::vector<std::uint64_t>& numbers) {
   std::string text;
@@ -284,11 +303,9 @@ void RecordReader::read_header() {
   if (!unpack(packed, texts_)) fail(32, "the record's header is damaged: impossible texts");
   const auto& known = layouts();
   if (std::find(known.begin(), known.end(), start[2]) == known.end() || start[3] != frame_words()) {
-    const auto version = texts_.find("version");
-    fail(16, "record of another layout: " + hex(start[2]) + " of Encounter " +
-                 (version == texts_.end() ? "(version not said)" : shown(version->second)) +
-                 ", but this program has " + listed(known) +
-                 "; use the version of Encounter that wrote it, or record again");
+    fail(16, "record of another layout: " + hex(start[2]) + " of " + writer_of(texts_) +
+                 ", but this program has " + listed(known) + "; " + way_to_writer(texts_) +
+                 ", or record again");
   }
   layout_ = start[2];
   header_chain_ = chain_;

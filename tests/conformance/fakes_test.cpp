@@ -18,6 +18,7 @@
 #include "hw_drivers/net/steady.h"
 #include "tests/conformance/laboratory.h"
 #include "tests/support/built.h"
+#include "tests/support/bytes_of.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -134,6 +135,27 @@ TEST(Fakes, AFaultOfTheirLineIsTheSameHoweverLongTheyWaited) {
     const Result result = run_program(words);
     EXPECT_EQ(result.code, 0) << fault << result.out << result.err;
   }
+}
+
+// When it began, by which program and on which machine: in the report, the record and the MCAP file.
+TEST(Fakes, ARunOnTheWallClockSaysWhenItBegan) {
+  Laboratory there(false);
+  const TemporaryFolder folder;
+  const std::string record = folder.file("r.encrec"), mcap = folder.file("r.mcap");
+  const nlohmann::json report =
+      json_of(run_program(there.words({"--for-s", "0.5", "--json", "--record", record})));
+  const std::string started = report["started"];
+  EXPECT_THAT(started,
+              testing::MatchesRegex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]{3}Z"));
+  EXPECT_EQ(report["date"], started.substr(0, 10));
+  const RecordTexts texts = RecordReader(record).texts();
+  EXPECT_EQ(texts.at("started"), started);
+  EXPECT_EQ(texts.at("commit"), report["commit"]);
+  EXPECT_THAT(texts.at("machine"), HasSubstr(" cores, "));
+  ASSERT_EQ(run_program({"export", record, "--mcap", mcap}).code, 0);
+  const std::string bytes = bytes_of(mcap);
+  for (const char* name : {"started", "commit", "commit_date", "date", "machine"})
+    EXPECT_THAT(bytes, testing::AllOf(HasSubstr(name), HasSubstr(texts.at(name))));
 }
 
 // Dry: all is read and computed, and the machine is told nothing.

@@ -119,6 +119,18 @@ TEST(ReportTable, AFigureThatNobodyCanKnowIsAbsentAndNoFailure) {
   EXPECT_EQ(json["benchmarks"][0]["figures"][3]["ok"], true);
 }
 
+TEST(ReportProvenance, SaysFromWhichCommitAndWhen) {
+  Report report = small_report();
+  report.started = trial::WallTime(std::chrono::milliseconds(1'795'999'092'345));
+  const auto json = nlohmann::json::parse(results_json(report));
+  EXPECT_EQ(json["commit"], trial::built_commit().name);
+  EXPECT_EQ(json["commit_date"], trial::built_commit().day);
+  EXPECT_EQ(json["date"], "2026-11-30");
+  EXPECT_EQ(json["started"], "2026-11-30T00:38:12.345Z");
+  for (const std::string& text : {report_markdown(report), report_html(report)})
+    EXPECT_THAT(text, AllOf(HasSubstr(", commit "), HasSubstr("2026-11-30T00:38:12.345Z")));
+}
+
 TEST(ReportTable, CountsWhatIsCalibratedAndWhatPredicted) {
   const Table table = role_table(small_report());
   EXPECT_THAT(table.rows, ElementsAre(ElementsAre("calibrated", "1", "1", "press.a.mean"),

@@ -88,7 +88,8 @@ TEST_F(Program, EverySubcommandHasHelp) {
     EXPECT_THAT(r.out, HasSubstr("Usage:")) << command;
   }
   EXPECT_EQ(run_program({"--help"}).code, 0);
-  EXPECT_THAT(run_program({"--version"}).out, MatchesRegex("encounter [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(run_program({"--version"}).out,
+              MatchesRegex("Encounter [0-9]+\\.[0-9]+\\.[0-9]+, commit .+ of .+\n"));
 }
 
 }  // namespace

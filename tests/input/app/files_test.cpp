@@ -195,9 +195,12 @@ TEST_F(ProgramFiles, AReportSaysHowItWasMade) {
                     HasSubstr(", seed 7, --for-s 0.1, --set rig.tracker.lost_age_ms=90\n")));
   Words json = words;
   json.emplace_back("--json");
-  EXPECT_THAT(run_program(json, kShipped).out,
-              AllOf(HasSubstr("\"encounter\": \""), HasSubstr("\"seed\": 7"), HasSubstr("\"for_s\": 0.1"),
-                    HasSubstr("\"rig.tracker.lost_age_ms=90\"")));
+  EXPECT_THAT(
+      run_program(json, kShipped).out,
+      AllOf(HasSubstr("\"encounter\": \""), testing::ContainsRegex("\"commit\": \"([0-9a-f]{12}|unknown)"),
+            testing::ContainsRegex("\"date\": \"[0-9]{4}-[0-9]{2}-[0-9]{2}\""),
+            testing::Not(HasSubstr("\"started\"")), HasSubstr("\"seed\": 7"), HasSubstr("\"for_s\": 0.1"),
+            HasSubstr("\"rig.tracker.lost_age_ms=90\"")));
 }
 
 // A ball that gives more than it takes is none: with a loss nothing is said.

@@ -264,7 +264,13 @@ TEST_F(RecordTest, ARecordOfAnotherLayoutSaysWhoWroteItAndWhatToDo) {
   RecordWriter(file("other"), {{"version", "9.8.7"}}, 0x0123456789abcdefULL).close();
   const std::string said = refusal(file("other"));
   EXPECT_NE(said.find("another layout: 0x0123456789abcdef of Encounter 9.8.7"), std::string::npos) << said;
-  EXPECT_NE(said.find("use the version of Encounter that wrote it"), std::string::npos) << said;
+  EXPECT_NE(said.find("use the version of Encounter that wrote it, or record again"), std::string::npos)
+      << said;
+  RecordWriter(file("later"), {{"version", "9.8.7"}, {"commit", "0123456789ab-dirty"}}, 0x0123456789abcdefULL)
+      .close();
+  const std::string later = refusal(file("later"));
+  EXPECT_NE(later.find("of Encounter 9.8.7, commit 0123456789ab-dirty"), std::string::npos) << later;
+  EXPECT_NE(later.find("(git checkout 0123456789ab)"), std::string::npos) << later;
 }
 
 TEST_F(RecordTest, OtherFilesAreNoRecords) {

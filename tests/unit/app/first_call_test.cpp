@@ -1,0 +1,111 @@
+// The script `encounter` in a clone that was never built, and the commit that a build is made from.
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/built.h"
+#include "tests/support/bytes_of.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+// As much of a clone as the script reads.
+class FirstCall : public testing::Test {
+ protected:
+  FirstCall() {
+    for (const char* name :
+         {"encounter", "CMakeLists.txt", "cmake/commit.sh", "cmake/setup.sh", "app/command_line/help.txt"}) {
+      fs::create_directories((at() / name).parent_path());
+      fs::copy_file(fs::path(source_dir()) / name, at() / name);
+    }
+  }
+  [[nodiscard]] fs::path at() const { return fs::path(folder_.path()) / "clone"; }
+  [[nodiscard]] Result call(const std::string& word) const {
+    return run({"bash", (at() / "encounter").string(), word});
+  }
+  [[nodiscard]] std::string commit() const {
+    const Result r = run({"bash", (at() / "cmake/commit.sh").string()});
+    EXPECT_EQ(r.code, 0) << r.err;
+    return r.out;
+  }
+  // False where there is no git.
+  [[nodiscard]] bool git(const std::string& words, const fs::path& in) const {
+    const Result r = run({"bash", "-c",
+                          "cd '" + in.string() +
+                              "' && unset GIT_DIR && export HOME=. GIT_CONFIG_NOSYSTEM=1 && "
+                              "git -c user.name=x -c user.email=x@y.z " +
+                              words});
+    return r.code == 0;
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(FirstCall, VersionAndHelpAnswerWithoutABuild) {
+  const Result version = call("--version"), help = call("--help");
+  EXPECT_EQ(version.code, 0) << version.err;
+  EXPECT_THAT(version.out, MatchesRegex("Encounter [0-9]+\\.[0-9]+\\.[0-9]+, commit unknown of unknown\n"));
+  EXPECT_EQ(help.code, 0) << help.err;
+  EXPECT_THAT(help.out, HasSubstr("  run "));
+  EXPECT_FALSE(fs::exists(at() / "build"));
+}
+
+// The script prints a file. The program prints the same.
+TEST_F(FirstCall, TheHelpOfTheScriptIsThatOfTheProgram) {
+  EXPECT_EQ(run_program({"--help"}).out, call("--help").out)
+      << "build/release/encounter --help >app/command_line/help.txt makes it anew";
+}
+
+TEST_F(FirstCall, TheCommitIsThatOfTheRepositoryAndSaysWhereCodeWasChanged) {
+  EXPECT_EQ(commit(), "unknown unknown\n") << "a tarball";
+  if (!git("init -q . && git add -A && git -c user.name=x -c user.email=x@y.z commit -q -m x", at()))
+    GTEST_SKIP() << "there is no git";
+  const std::string clean = commit();
+  EXPECT_THAT(clean, MatchesRegex("[0-9a-f]{12} [0-9]{4}-[0-9]{2}-[0-9]{2}\n"));
+  std::ofstream(at() / "README.md") << "words are no code\n";
+  EXPECT_EQ(commit(), clean);
+  fs::create_directories(at() / "core");
+  std::ofstream(at() / "core/new.cpp") << "\n";
+  EXPECT_EQ(commit(), clean.substr(0, 12) + "-dirty" + clean.substr(12));
+}
+
+// A tarball that was unpacked within somebody's repository has not that one's commit.
+TEST_F(FirstCall, ARepositoryAroundItIsAnotherOne) {
+  if (!git("init -q . && git -c user.name=x -c user.email=x@y.z commit -q --allow-empty -m x",
+           folder_.path()))
+    GTEST_SKIP() << "there is no git";
+  EXPECT_EQ(commit(), "unknown unknown\n");
+}
+
+// A build that finds the same commit compiles nothing anew.
+TEST_F(FirstCall, TheFileOfTheCommitIsWrittenOnlyWhereItChanges) {
+  const fs::path file = at() / "commit.cpp";
+  const auto write = [&] { return run({"bash", (at() / "cmake/commit.sh").string(), file.string()}).code; };
+  ASSERT_EQ(write(), 0);
+  EXPECT_THAT(test::bytes_of(file), HasSubstr("{\"unknown\", \"unknown\"}"));
+  const fs::file_time_type old = fs::last_write_time(file) - std::chrono::hours(1);
+  fs::last_write_time(file, old);
+  ASSERT_EQ(write(), 0);
+  EXPECT_EQ(fs::last_write_time(file), old);
+  std::ofstream(file) << "another\n";
+  ASSERT_EQ(write(), 0);
+  EXPECT_THAT(test::bytes_of(file), HasSubstr("unknown"));
+}
+
+// The program has the commit of its sources.
+TEST_F(FirstCall, TheProgramSaysItsCommit) {
+  EXPECT_THAT(
+      run_program({"--version"}).out,
+      MatchesRegex("Encounter [0-9.]+, commit ([0-9a-f]{12}(-dirty)? of [0-9-]{10}|unknown of unknown)\n"));
+}
+
+}  // namespace
+}  // namespace enc::tests

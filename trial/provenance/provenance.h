@@ -1,0 +1,36 @@
+// Which program made a result, on which machine and when, for whoever finds the result later. None of it is
+// part of a state hash.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+
+namespace enc::trial {
+
+// The commit that the program was built from: twelve digits, and "-dirty" where code was
+// changed since; the day of the commit. Both are "unknown" where there was no repository (cmake/commit.sh).
+struct BuiltCommit {
+  const char *name, *day;
+};
+[[nodiscard]] BuiltCommit built_commit() noexcept;
+// "Encounter 0.1.0, commit 71961a4f3c2d of 2026-11-29"
+[[nodiscard]] std::string program_words();
+
+using WallTime = std::chrono::sys_time<std::chrono::milliseconds>;  // UTC
+[[nodiscard]] WallTime wall_time();
+[[nodiscard]] std::string day_text(WallTime t);   // "2026-11-30"
+[[nodiscard]] std::string time_text(WallTime t);  // "2026-11-30T02:38:12.345Z", ISO 8601
+
+struct Machine {
+  std::string processor, system, compiler;
+  unsigned cores = 0;
+};
+[[nodiscard]] Machine this_machine();
+[[nodiscard]] std::string words_of(const Machine& machine);  // on one line
+
+// The texts of a record about its origin: `version`, `commit`, `commit_date`, `date` and `machine`;
+// `started`, too, of a run that keeps the wall clock.
+[[nodiscard]] std::map<std::string, std::string> provenance_texts(WallTime started, bool wall_clock);
+
+}  // namespace enc::trial
