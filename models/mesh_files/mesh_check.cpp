@@ -364,7 +364,9 @@ CheckedMesh check_mesh(Mesh mesh, const std::string& name, const std::vector<std
 
 CheckedMesh load_solid(const std::string& path) {
   FileMesh file = load_faces(path);
-  return check_mesh(std::move(file.mesh), path, file.lines);
+  CheckedMesh checked = check_mesh(std::move(file.mesh), path, file.lines);
+  checked.notes.insert(checked.notes.begin(), file.notes.begin(), file.notes.end());
+  return checked;
 }
 
 }  // namespace enc::models

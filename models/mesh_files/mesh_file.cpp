@@ -54,6 +54,15 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+// Zeros or the end mark of DOS (1A) behind a text. Gives how many bytes that were.
+std::size_t drop_padding(std::string& text) {
+  const std::size_t end = text.find_last_not_of(std::string_view("\0\x1a", 2)) + 1;  // npos + 1 is 0
+  const std::size_t padding = text.size() - end;
+  if (padding > kMostRest || end == 0) return 0;
+  text.resize(end);
+  return padding;
+}
+
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
   hash = (hash ^ word) * 0xff51afd7ed558ccdULL;
   return hash ^ (hash >> 32);
@@ -74,6 +83,11 @@ void MeshBytes::fail_at_text(std::size_t byte, const std::string& what) const {
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
   throw Error(fmt::format("{}:{}:{}: {}", path, line, before.size() - start + 1, what));
+}
+
+std::string rest_note(const MeshBytes& file, std::size_t rest, const std::string& after) {
+  return fmt::format("{}: passed over {} after {}", file.path,
+                     rest == 1 ? "1 byte" : fmt::format("{} bytes", rest), after);
 }
 
 bool read_number(std::string_view word, double& number) {
@@ -117,16 +131,17 @@ std::uint64_t content_hash(const Mesh& mesh) {
 }
 
 FileMesh load_faces(const std::string& path) {
-  const std::string bytes = bytes_of(path);
+  std::string bytes = bytes_of(path);
   const MeshBytes file{path, bytes};
   const std::string extension = extension_of(path);
+  const std::size_t padding = extension == ".obj" || extension == ".gltf" ? drop_padding(bytes) : 0;
   FileMesh read;
   if (extension == ".obj") {
     read = read_obj(file);
   } else if (extension == ".stl") {
-    read.mesh = read_stl(file);
+    read = read_stl(file);
   } else if (extension == ".gltf" || extension == ".glb") {
-    read.mesh = read_gltf(file, extension == ".glb");
+    read = read_gltf(file, extension == ".glb");
   } else {
     throw Error(
         fmt::format("{}:1:1: {} is no ending of a mesh file; expected .obj, .stl, .gltf or .glb; "
@@ -136,6 +151,7 @@ FileMesh load_faces(const std::string& path) {
   if (read.mesh.triangles.empty())
     throw Error(
         fmt::format("{}:1:1: the file has no triangles; expected a closed surface; export it again", path));
+  if (padding > 0) read.notes.push_back(rest_note(file, padding, "the end of the text"));
   weld(read.mesh);
   return read;
 }

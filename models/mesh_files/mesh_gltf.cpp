@@ -100,11 +100,10 @@ class GltfReader {
  public:
   GltfReader(const MeshBytes& file, bool binary) : file_(file), binary_(binary) {}
 
-  Mesh read() {
+  FileMesh read() {
     parse();
-    check_extensions();
     walk();
-    return std::move(mesh_);
+    return {std::move(mesh_), {}, std::move(notes_)};
   }
 
  private:
@@ -125,8 +124,12 @@ class GltfReader {
   }
 
   void parse() {
-    const std::string_view json = binary_ ? json_of_glb(file_) : std::string_view(file_.bytes);
+    const Glb glb = binary_ ? parts_of_glb(file_) : Glb{file_.bytes.size(), file_.bytes};
+    const std::string_view json = glb.json;
     check_json(file_, json, binary_);
+    check_extensions(file_, json, binary_);
+    if (const std::size_t rest = file_.bytes.size() - glb.length; rest > 0)
+      notes_.push_back(rest_note(file_, rest, "the length in the header"));
     std::error_code none;
     const fs::path parent = fs::path(file_.path).parent_path();
     Folder folder{fs::canonical(parent.empty() ? "." : parent, none), {}};
@@ -136,7 +139,7 @@ class GltfReader {
     std::string error, warning;
     bool good = false;
     try {
-      const auto size = static_cast<unsigned>(file_.bytes.size());
+      const auto size = static_cast<unsigned>(glb.length);
       good = binary_ ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
                                                    reinterpret_cast<const unsigned char*>(file_.bytes.data()),
                                                    size, folder.root.string())
@@ -155,23 +158,11 @@ class GltfReader {
     if (folder.too_much())
       fail(
           "its buffers hold 2 GiB or more together; expected less; name each once, or make the mesh coarser");
+    if (!good) check_extensions(file_, json, binary_, true);
     if (!good) fail_parse(file_, json, binary_, error);
     if (model_.asset.version != "2.0" && !model_.asset.version.starts_with("2."))
       fail(fmt::format("asset.version is {}; expected 2.0; export the file again",
                        models::quoted(model_.asset.version)));
-  }
-
-  // A required extension that changes shapes or that nobody here knows.
-  void check_extensions() const {
-    for (const std::string& name : model_.extensionsRequired) {
-      const bool looks = name.starts_with("KHR_materials") || name.starts_with("KHR_texture") ||
-                         name.starts_with("EXT_texture") || name == "KHR_lights_punctual";
-      if (!looks)
-        fail(fmt::format(
-            "the file requires the extension {}; expected plain glTF 2.0; export it without (no Draco or "
-            "meshopt compression, no quantisation)",
-            quoted(name)));
-    }
   }
 
   // The node tree of the scene, from the roots down, without recursion. A tree meets each node once.
@@ -378,10 +369,11 @@ class GltfReader {
   tinygltf::Model model_;
   std::size_t primitives_ = 0;  // of all nodes
   Mesh mesh_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace
 
-Mesh read_gltf(const MeshBytes& file, bool binary) { return GltfReader(file, binary).read(); }
+FileMesh read_gltf(const MeshBytes& file, bool binary) { return GltfReader(file, binary).read(); }
 
 }  // namespace enc::models

@@ -16,7 +16,9 @@ constexpr std::array<std::string_view, 17> kPassedOver{
 
 class ObjReader {
  public:
-  explicit ObjReader(const MeshBytes& file) : file_(file), text_(file.bytes) {}
+  explicit ObjReader(const MeshBytes& file) : file_(file), text_(file.bytes) {
+    if (text_.starts_with(kBom)) at_ = kBom.size();
+  }
 
   FileMesh read() {
     while (at_ < text_.size()) {
@@ -34,7 +36,7 @@ class ObjReader {
             quoted(std::string(what))));
       }
     }
-    return {std::move(mesh_), std::move(lines_)};
+    return {std::move(mesh_), std::move(lines_), {}};
   }
 
  private:

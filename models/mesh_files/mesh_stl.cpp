@@ -24,30 +24,51 @@ std::size_t stated_count(const std::string& bytes) {
   return count;
 }
 
+// How many triangles the file has room for.
+std::size_t room(const std::string& bytes) {
+  return bytes.size() < kHeader ? 0 : (bytes.size() - kHeader) / kFacet;
+}
+std::size_t rest(const std::string& bytes) { return bytes.size() - kHeader - kFacet * room(bytes); }
+
 // The size decides, because binary files may begin with "solid", too.
 bool is_text(const std::string& bytes) {
-  if (bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * stated_count(bytes)) return false;
+  if (bytes.size() >= kHeader && room(bytes) == stated_count(bytes)) return false;
   const std::string_view head = std::string_view(bytes).substr(0, 1024);
   return head.find('\0') == std::string_view::npos;
 }
 
-Mesh read_binary(const MeshBytes& file) {
+// The header's count, or that of the size where the header has 0: some programs never fill it in.
+std::size_t triangle_count(const MeshBytes& file, std::vector<std::string>& notes) {
   const std::string& bytes = file.bytes;
   if (bytes.size() < kHeader)
     file.fail_at_byte(bytes.size(),
                       fmt::format("the file ends in its header; expected {} bytes and 50 for each "
                                   "triangle; export it again",
                                   kHeader));
-  const std::size_t count = stated_count(bytes);
-  if (bytes.size() != kHeader + kFacet * count)
-    file.fail_at_byte(80,
-                      fmt::format("the file says {} triangles, but has {} bytes; expected {} bytes for them; "
-                                  "export it again",
-                                  count, bytes.size(), kHeader + kFacet * count));
+  const std::size_t stated = stated_count(bytes), fits = room(bytes), more = rest(bytes);
+  if (stated == 0 && fits > 0 && more == 0) {
+    notes.push_back(
+        fmt::format("{}: the count of triangles is missing; read {}, which fit the size", file.path, fits));
+  } else if (stated != fits) {
+    const std::string also = more > 0 ? fmt::format(" and {} bytes", more) : "";
+    file.fail_at_byte(
+        80, fmt::format(
+                "the file says {} triangles, but its {} bytes fit {}{}; expected {} bytes; export it again",
+                stated, bytes.size(), fits, also, kHeader + kFacet * stated));
+  } else if (more > 0) {
+    notes.push_back(rest_note(file, more, "the last triangle"));
+  }
+  return fits;
+}
+
+FileMesh read_binary(const MeshBytes& file) {
+  FileMesh read;
+  const std::string& bytes = file.bytes;
+  const std::size_t count = triangle_count(file, read.notes);
   if (count > kMostTriangles)
     file.fail_at_byte(
         80, fmt::format("{} triangles; expected at most {}; make the mesh coarser", count, kMostTriangles));
-  Mesh mesh;
+  Mesh& mesh = read.mesh;
   mesh.vertices.resize(3 * count);
   mesh.triangles.resize(count);
   for (std::size_t i = 0; i < 3 * count; ++i) {
@@ -64,15 +85,22 @@ Mesh read_binary(const MeshBytes& file) {
     }
     mesh.triangles[i / 3][i % 3] = static_cast<std::int32_t>(i);
   }
-  return mesh;
+  return read;
 }
 
 class TextReader {
  public:
-  explicit TextReader(const MeshBytes& file) : file_(file), text_(file.bytes) {}
+  explicit TextReader(const MeshBytes& file) : file_(file), text_(file.bytes) {
+    if (text_.starts_with(kBom)) at_ = kBom.size();
+  }
 
-  Mesh read() {
+  FileMesh read() {
     for (std::string_view first = word(); !first.empty(); first = word()) {
+      const std::size_t left = text_.size() - start_;
+      if (!read_.mesh.triangles.empty() && left <= kMostRest && !same(first, "solid")) {
+        read_.notes.push_back(rest_note(file_, left, "the last 'endsolid'"));
+        break;
+      }
       if (!same(first, "solid")) fail(first, "solid");
       skip_line();
       std::string_view next = word();
@@ -80,7 +108,7 @@ class TextReader {
       if (!same(next, "endsolid")) fail(next, "facet' or 'endsolid");
       skip_line();
     }
-    return std::move(mesh_);
+    return std::move(read_);
   }
 
  private:
@@ -114,7 +142,7 @@ class TextReader {
       if (word().empty()) fail("", "x y z' of the normal");
     expect("outer");
     expect("loop");
-    if (mesh_.triangles.size() >= kMostTriangles)
+    if (read_.mesh.triangles.size() >= kMostTriangles)
       file_.fail_at_text(start_, fmt::format("more than {} triangles; expected fewer; make the mesh coarser",
                                              kMostTriangles));
     std::array<std::int32_t, 3> triangle{};
@@ -125,10 +153,10 @@ class TextReader {
         const std::string_view text = word();
         if (!read_number(text, x)) fail(text, "vertex x y z' with three finite numbers, as 'vertex 0 0 0.01");
       }
-      corner = static_cast<std::int32_t>(mesh_.vertices.size());
-      mesh_.vertices.push_back(v);
+      corner = static_cast<std::int32_t>(read_.mesh.vertices.size());
+      read_.mesh.vertices.push_back(v);
     }
-    mesh_.triangles.push_back(triangle);
+    read_.mesh.triangles.push_back(triangle);
     expect("endloop");
     expect("endfacet");
   }
@@ -136,12 +164,12 @@ class TextReader {
   const MeshBytes& file_;
   std::string_view text_;
   std::size_t at_ = 0, start_ = 0;
-  Mesh mesh_;
+  FileMesh read_;
 };
 
 }  // namespace
 
-Mesh read_stl(const MeshBytes& file) {
+FileMesh read_stl(const MeshBytes& file) {
   return is_text(file.bytes) ? TextReader(file).read() : read_binary(file);
 }
 

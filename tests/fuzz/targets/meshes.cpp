@@ -110,7 +110,7 @@ Target stl() {
                    "vertex 0 0 0\n", "endloop",  "endfacet",           " "};
   target.run = [](const std::string& input) {
     static const std::string kPath = "fuzz.stl";
-    return sane({models::read_stl({kPath, input}), {}}, kPath);
+    return sane(models::read_stl({kPath, input}), kPath);
   };
   // The count of a binary file.
   target.mend = [](std::string& bytes) {
@@ -185,7 +185,7 @@ Target gltf() {
   target.tokens = gltf_tokens();
   target.run = [](const std::string& input) {
     static const std::string kPath = mesh_folder().path("fuzz.gltf");
-    return sane({models::read_gltf({kPath, input}, false), {}}, kPath);
+    return sane(models::read_gltf({kPath, input}, false), kPath);
   };
   target.bound = {512, 4U << 20U};
   return target;
@@ -198,7 +198,7 @@ Target glb() {
   target.tokens = gltf_tokens();
   target.run = [](const std::string& input) {
     static const std::string kPath = mesh_folder().path("fuzz.glb");
-    return sane({models::read_gltf({kPath, input}, true), {}}, kPath);
+    return sane(models::read_gltf({kPath, input}, true), kPath);
   };
   // The lengths: the JSON ends with its last brace, or where BIN begins.
   target.mend = [](std::string& bytes) {
