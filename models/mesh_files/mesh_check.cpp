@@ -9,14 +9,17 @@
 #include "core/error.h"
 #include "core/frames.h"
 #include "core/mesh/mesh_tree.h"
+#include "models/mesh_files/mesh_edges.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/mesh_files/mesh_parts.h"
+#include "models/sizes/mesh_size.h"
 
 namespace enc::models {
 namespace {
 
 constexpr std::size_t kMostParts = 1000;
-constexpr double kFlat = 1e-10;  // height over longest side: a triangle flatter than this has no normal
+constexpr double kNarrow = 1e-4;  // of the mesh's size: a gap below is no hole that somebody left
+constexpr double kFlat = 1e-10;   // height over longest side: a triangle flatter than this has no normal
 
 using Faces = std::vector<std::size_t>;
 
@@ -41,8 +44,11 @@ class Checker {
     if (mesh_.triangles.empty()) fail("there are no faces; expected a closed surface; export the mesh again");
     check_places();
     drop_degenerate();
+    edges_ = edges_of(mesh_);
+    weld_open_corners();
     check_areas();
-    find_neighbours();
+    refuse_crowded();
+    refuse_open();
     orient();
     check_vertices();
     check_touching();
@@ -107,67 +113,50 @@ class Checker {
               "vertices, or mesh the part again");
   }
 
-  // The sides of all faces, sorted into buckets by their lower vertex, then by the upper one.
-  struct Side {
-    std::int32_t high;
-    std::int32_t face;
-    bool up;  // runs from the lower vertex to the higher
-  };
-  void find_neighbours() {
-    std::vector<std::size_t> start(mesh_.vertices.size() + 1, 0);
-    const auto each = [&](auto use) {
-      for (std::size_t f = 0; f < mesh_.triangles.size(); ++f)
-        for (std::size_t i = 0; i < 3; ++i) use(f, mesh_.triangles[f][i], mesh_.triangles[f][(i + 1) % 3]);
-    };
-    each([&](std::size_t, std::int32_t a, std::int32_t b) {
-      ++start[static_cast<std::size_t>(std::min(a, b)) + 1];
-    });
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<Side> sides(start.back());
-    std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    each([&](std::size_t f, std::int32_t a, std::int32_t b) {
-      sides[next[static_cast<std::size_t>(std::min(a, b))]++] = {std::max(a, b), static_cast<std::int32_t>(f),
-                                                                 a < b};
-    });
-    neighbours_.assign(mesh_.triangles.size(), {});
-    Faces open, crowded;
-    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
-      const auto from = sides.begin() + static_cast<std::ptrdiff_t>(start[v]);
-      const auto to = sides.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
-      std::sort(from, to, [](const Side& a, const Side& b) {
-        return a.high != b.high ? a.high < b.high : a.face < b.face;
-      });
-      for (auto i = from; i != to;) {
-        const auto end = std::find_if(i, to, [&](const Side& s) { return s.high != i->high; });
-        if (end - i == 2) {
-          link(static_cast<std::int32_t>(v), i[0], i[1]);
-        } else {
-          for (auto s = i; s != end; ++s)
-            (end - i == 1 ? open : crowded).push_back(static_cast<std::size_t>(s->face));
-        }
-        i = end;
-      }
+  // Coordinates that went through float differ in their last digits where a corner was computed twice. The
+  // nearest corners first, so that a narrow gap does not depend on how far the widest may be.
+  void weld_open_corners() {
+    Weld all;
+    for (int steps = 1; steps <= kMostSteps && !edges_.open.empty(); steps *= 2) {
+      const Weld weld = weld_open(mesh_, edges_.open, steps);
+      if (weld.corners == 0) continue;
+      all += weld;
+      drop_degenerate();
+      edges_ = edges_of(mesh_);
     }
-    refuse_doubles(crowded);
-    refuse_if(sorted(crowded),
+    if (all.corners == 0) return;
+    note(fmt::format("joined {} with others at most {} away, {:.1g} of the mesh's size",
+                     all.corners == 1 ? "1 corner" : fmt::format("{} corners", all.corners),
+                     length_text(all.farthest), all.farthest / size_of(mesh_).extent.maxCoeff()));
+  }
+
+  void refuse_crowded() const {
+    refuse_doubles(edges_.crowded);
+    refuse_if(sorted(edges_.crowded),
               "share an edge with two or more others (non-manifold); expected exactly two faces at "
               "each edge; separate the parts");
-    refuse_if(sorted(open), "at a hole: an edge of only one face; expected a closed surface; close the hole");
+  }
+  void refuse_open() const {
+    if (edges_.open.empty()) return;
+    const Gap gap = widest_gap(mesh_, edges_.open);
+    std::string wide, advice = "close the hole";
+    if (!std::isnan(gap.width))
+      wide = fmt::format(" (the widest gap is {}, {:.1g} of the mesh's size)", length_text(gap.width),
+                         gap.of_size);
+    if (gap.of_size < kNarrow)
+      advice = gap.beside_edge ? "split the edges that have a corner of another face beside them "
+                                 "(T-junctions), or mesh the part again"
+                               : "merge the corners that are so near to each other";
+    Faces faces;
+    for (const OpenEdge& edge : edges_.open) faces.push_back(static_cast<std::size_t>(edge.face));
+    refuse_if(
+        sorted(faces),
+        fmt::format("at a hole: an edge of only one face{}; expected a closed surface; {}", wide, advice));
   }
   static Faces sorted(Faces faces) {
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     return faces;
-  }
-  void link(std::int32_t low, const Side& a, const Side& b) {
-    const auto side_of = [&](const Side& s) {
-      const auto& t = mesh_.triangles[static_cast<std::size_t>(s.face)];
-      const std::int32_t first = s.up ? low : s.high;
-      return static_cast<std::size_t>(std::find(t.begin(), t.end(), first) - t.begin());
-    };
-    const bool same = a.up != b.up;  // neighbours run along their edge in opposite ways
-    neighbours_[static_cast<std::size_t>(a.face)][side_of(a)] = {b.face, same};
-    neighbours_[static_cast<std::size_t>(b.face)][side_of(b)] = {a.face, same};
   }
   // Faces with the same three vertices.
   void refuse_doubles(const Faces& crowded) const {
@@ -195,7 +184,7 @@ class Checker {
       part_[seed] = parts_++;
       walk = {seed};
       for (std::size_t i = 0; i < walk.size(); ++i)
-        for (const Neighbour& n : neighbours_[walk[i]]) {
+        for (const Neighbour& n : edges_.neighbours[walk[i]]) {
           const auto face = static_cast<std::size_t>(n.face);
           const bool turns = turn[walk[i]] == n.same;  // what the first face and this way ask for
           if (part_[face] < 0) {
@@ -222,7 +211,7 @@ class Checker {
     if (static_cast<std::size_t>(parts_) > kMostParts)
       fail(fmt::format("{} separate parts; expected at most {}; keep the surface only", parts_, kMostParts));
   }
-  // Keeps side 1-2 in its place, so neighbours_ is only good for walking from here on.
+  // Keeps side 1-2 in its place, so edges_ is only good for walking from here on.
   void flip(std::size_t face) { std::swap(mesh_.triangles[face][1], mesh_.triangles[face][2]); }
 
   // All faces at a vertex form one fan: as many as one meets going round from neighbour to neighbour.
@@ -242,7 +231,7 @@ class Checker {
       };
       std::int32_t before = -1, at = first[v], met = 0;
       do {
-        const auto& around = neighbours_[static_cast<std::size_t>(at)];
+        const auto& around = edges_.neighbours[static_cast<std::size_t>(at)];
         const auto next = std::find_if(around.begin(), around.end(),
                                        [&](const Neighbour& n) { return n.face != before && has(n.face); });
         ++met;
@@ -314,13 +303,20 @@ class Checker {
       for (std::int32_t& v : t) v = now[static_cast<std::size_t>(v)];
   }
 
+  [[nodiscard]] std::string depth_text(const Touching& touching) const {
+    if (!(touching.depth > 0.0)) return {};
+    return fmt::format(" (each by at most {}, {:.1g} of the mesh's size)", length_text(touching.depth),
+                       touching.depth / size_of(mesh_).extent.maxCoeff());
+  }
   void check_touching() {
     if (mesh_.triangles.size() > kMostTouchTested)
       return note(fmt::format("not looked whether the surface passes through itself: more than {} faces",
                               kMostTouchTested));
     const Touching touching = touching_faces(mesh_);
     refuse_if(touching.crossing,
-              "passing through other faces; expected a surface that does not meet itself; unite the parts");
+              fmt::format("passing through other faces{}; expected a surface that does not meet itself; "
+                          "unite the parts",
+                          depth_text(touching)));
     refuse_if(touching.touching,
               fmt::format("touching others (the first {}), so that inside and outside are not told apart "
                           "there; expected a surface that does not meet itself; unite the parts, or move "
@@ -330,16 +326,12 @@ class Checker {
       note("gave up looking whether the surface passes through itself: too many faces lie close together");
   }
 
-  struct Neighbour {
-    std::int32_t face = -1;
-    bool same = true;  // turns the same way
-  };
   const std::string& name_;
   CheckedMesh result_;
   Mesh& mesh_;
   std::vector<std::size_t> number_;  // of each face in the file, or its line there
   bool lines_ = false;
-  std::vector<std::array<Neighbour, 3>> neighbours_;
+  Edges edges_;
   std::vector<std::int32_t> part_;  // connected part of each face
   std::int32_t parts_ = 0;
 };

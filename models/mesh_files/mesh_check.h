@@ -17,9 +17,10 @@ struct CheckedMesh {
 // Above this many triangles self-intersection is not looked for, and a note says so: it would take seconds.
 inline constexpr std::size_t kMostTouchTested = 300'000;
 
-// `name` begins every message. Faces are numbered from 0 in the order of the file, or named by their
-// `lines`, one for each triangle. Throws Error where the mesh is open, non-manifold, has faces of no area, is
-// not orientable, or meets itself.
+// Corners of open edges that differ in the last digits of a float alone are joined (mesh_edges.h). `name`
+// begins every message. Faces are numbered from 0 in the order of the file, or named by their `lines`, one
+// for each triangle. Throws Error where the mesh is open, non-manifold, has faces of no area, is not
+// orientable, or meets itself.
 [[nodiscard]] CheckedMesh check_mesh(Mesh mesh, const std::string& name,
                                      const std::vector<std::int32_t>& lines = {});
 // load_faces() and check_mesh().
@@ -31,6 +32,7 @@ struct Touching {
   std::vector<std::size_t> crossing;  // faces that pass through another one, or lie folded on a neighbour
   std::vector<std::size_t> touching;  // that touch one beside a common corner or edge; each once, in order
   std::size_t touched = 0;            // the face that the first of these touches
+  double depth = 0.0;                 // m: the shift that parts two crossing faces; the largest of all pairs
   bool finished = true;               // false: given up after 100 million pairs
 };
 // Faces that meet where they should not. They touch where they are no farther apart than 1e-12 of the mesh's

@@ -143,7 +143,10 @@ class Toucher {
       return;
     }
     if (beside(f, g, of_f, of_g) || beside(g, f, of_g, of_f)) return;
-    if (cross(f, g, of_f, of_g)) crosses_[f] = crosses_[g] = true;
+    if (cross(f, g, of_f, of_g)) {
+      crosses_[f] = crosses_[g] = true;
+      result_.depth = std::max(result_.depth, depth(f, g));
+    }
     if (touch(f, g, of_f, of_g)) touched_[f] = g, touched_[g] = f;
   }
 
@@ -183,6 +186,28 @@ class Toucher {
       if (!of_g[k] && !of_g[l] && pierces(corner(g, k), corner(g, l), f)) return true;
     }
     return false;
+  }
+
+  // The least shift that parts two faces: along a normal, or across a side of each [Cameron and Culley 1986].
+  [[nodiscard]] double depth(std::size_t f, std::size_t g) const {
+    const std::array<Vec3, 3> a{corner(f, 0), corner(f, 1), corner(f, 2)},
+        b{corner(g, 0), corner(g, 1), corner(g, 2)};
+    double least = std::numeric_limits<double>::infinity();
+    const auto along = [&](const Vec3& u, const Vec3& v) {
+      const Vec3 axis = u.cross(v);
+      if (!(axis.norm() > 1e-9 * u.norm() * v.norm())) return;  // sides that are parallel have none
+      const auto reach = [&](const std::array<Vec3, 3>& corners) {
+        const Vec3 at(axis.dot(corners[0] - a[0]), axis.dot(corners[1] - a[0]), axis.dot(corners[2] - a[0]));
+        return std::pair(at.minCoeff(), at.maxCoeff());
+      };
+      const auto [low_a, high_a] = reach(a);
+      const auto [low_b, high_b] = reach(b);
+      least = std::min(least, std::min(high_a - low_b, high_b - low_a) / axis.norm());
+    };
+    along(a[1] - a[0], a[2] - a[0]);
+    along(b[1] - b[0], b[2] - b[0]);
+    for (std::size_t i = 0; i < 9; ++i) along(a[(i / 3 + 1) % 3] - a[i / 3], b[(i % 3 + 1) % 3] - b[i % 3]);
+    return std::max(least, 0.0);
   }
 
   // All corners of a face, but for those that both have, are above a plane and not near it. `rounding`: by

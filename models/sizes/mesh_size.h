@@ -1,0 +1,31 @@
+// How large a mesh is and where, for messages: a wrong unit or origin shows there first.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/frames.h"
+#include "core/mesh/mesh.h"
+
+namespace enc::models {
+
+struct MeshSize {
+  Vec3 extent = Vec3::Zero();  // of the box around it, m
+  Vec3 middle = Vec3::Zero();  // of that box, m
+  double volume = 0.0;         // m^3; of a closed outward mesh
+  std::size_t faces = 0;
+};
+// Measures the vertices in the mesh's own axes; all is zero without a vertex.
+[[nodiscard]] MeshSize size_of(const Mesh& mesh);
+
+// "1.25 mm": three digits, in the unit from nm to km that gives a number from 1 to 1000. "0 mm" below 1e-12
+// m.
+[[nodiscard]] std::string length_text(double metres);
+// "67 x 67 x 60 mm": in the unit of the longest
+[[nodiscard]] std::string extent_text(const Vec3& extent);
+// "(1200, 0, 0) m"
+[[nodiscard]] std::string place_text(const Vec3& place);
+// "50.9 cm^3"
+[[nodiscard]] std::string volume_text(double cubic_metres);
+
+}  // namespace enc::models
