@@ -1,6 +1,7 @@
 #include "trial/prepare.h"
 
 #include "core/error.h"
+#include "models/sizes/scene_sizes.h"
 
 namespace enc::trial {
 
@@ -8,7 +9,8 @@ Scene prepare_setup(const models::Setup& setup) {
   try {
     return prepare(setup.scene, setup.rig);
   } catch (const Error& e) {
-    throw Error(models::place_of(setup, e.key()) + ": " + e.what(), {}, e.kind());
+    throw Error(models::place_of(setup, e.key()) + ": " + e.what() + models::mesh_advice(setup, e.key()), {},
+                e.kind());
   }
 }
 

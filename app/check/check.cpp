@@ -21,6 +21,7 @@
 #include "core/safety/room.h"
 #include "core/task/meet/arm_scene.h"
 #include "models/schema/wording.h"
+#include "models/sizes/scene_sizes.h"
 #include "trial/limits.h"
 #include "trial/prepare.h"
 
@@ -247,9 +248,11 @@ int check(const CheckOptions& options) {
     fmt::print("{}\n{}", models::printable(made), models::built_scene(setup));
     return 0;
   }
-  fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}{}", setup.scene.title, parts_text(setup),
+  const std::string sizes = models::sizes_text(setup);
+  fmt::print("{}\n{}{}\nframes\n{}{}{}\nlimits\n{}{}", setup.scene.title, parts_text(setup),
              devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup),
-             frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
+             frames_text(setup, scene), sizes.empty() ? "" : "\nsizes\n", sizes,
+             scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
              stability_text(setup, trial::certificates_of(setup, scene, true)));
   fmt::print("{}", costs_text(setup, options.seed, ready));
   return asked ? advise(options, *asked) : 0;

@@ -19,6 +19,7 @@
 #include "models/setup/directions.h"
 #include "models/setup/driver_table.h"
 #include "models/setup/scene_check.h"
+#include "models/sizes/scene_sizes.h"
 
 namespace enc::models {
 
@@ -342,6 +343,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   const std::string models = models_dir();
   fill_curves(setup, models);
   fill_meshes(setup, models);
+  note_sizes(setup);
   check_form(setup, models);
   check(setup);
   round_to_text(setup);

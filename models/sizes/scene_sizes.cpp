@@ -1,0 +1,177 @@
+#include "models/sizes/scene_sizes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/world/object.h"
+#include "models/schema/wording.h"
+#include "models/setup/scene_check.h"
+#include "models/sizes/mesh_size.h"
+
+namespace enc::models {
+namespace {
+
+// The sizes of what a hand holds or touches, m.
+struct Ordinary {
+  double least, most;
+  [[nodiscard]] bool has(double length) const { return length >= least && length <= most; }
+  [[nodiscard]] std::string text() const {
+    return fmt::format("expected {} to {}", length_text(least), length_text(most));
+  }
+};
+constexpr Ordinary kLever{0.020, 1.0};    // from the middle of a tool's markers to its tip
+constexpr Ordinary kSpan{0.020, 0.5};     // the longest way between two markers
+constexpr Ordinary kTip{0.00005, 0.030};  // the radius of a tip that is no point
+constexpr Ordinary kObject{0.005, 2.0};   // the longest side of a mesh, and a ball's diameter
+constexpr Ordinary kUsual{0.010, 1.0};    // the same, where a unit is guessed
+
+struct Factor {
+  double value;  // from this unit to the one that is expected
+  std::string_view unit;
+};
+constexpr auto kMeshUnits =
+    std::to_array<Factor>({{1e-3, "mm"}, {1e-2, "cm"}, {0.0254, "inches"}, {1e3, "km"}});
+constexpr auto kKeyUnits = std::to_array<Factor>({{1e3, "m"}, {10.0, "cm"}, {1e-3, "um"}});
+
+Vec3 middle_of(const std::vector<Vec3>& markers) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& marker : markers) middle += marker / static_cast<double>(markers.size());
+  return middle;
+}
+double lever_of(const ToolSpec& tool, double factor = 1.0) {
+  return (factor * tool.tip - middle_of(tool.markers)).norm();
+}
+double span_of(const ToolSpec& tool) {
+  double span = 0.0;
+  for (const Vec3& a : tool.markers)
+    for (const Vec3& b : tool.markers) span = std::max(span, (a - b).norm());
+  return span;
+}
+
+MeshSize size_in_world(const ObjectSpec& object) {
+  const Pose<'W', 'O'> X_WO = place_of(object);
+  Mesh mesh = *object.surface;
+  for (auto& vertex : mesh.vertices) {
+    const Vec3 at = (X_WO * Point<'O'>(Vec3(object.scale * Vec3(vertex.data())))).e();
+    vertex = {at.x(), at.y(), at.z()};
+  }
+  return size_of(mesh);
+}
+
+// "is the file in mm? then write scale = 0.001": the units that would give a mesh a usual size; empty: none.
+std::string scale_advice(const ObjectSpec& object, double longest) {
+  std::string text;
+  for (const Factor& factor : kMeshUnits) {
+    if (!kUsual.has(factor.value * longest)) continue;
+    text += fmt::format("{} {}? then write scale = {:g}", text.empty() ? "is the file in" : "; or in",
+                        factor.unit, factor.value * object.scale);
+    if (factor.unit == "mm") break;
+  }
+  return text;
+}
+
+// To the micrometre, as a file has it.
+std::string millimetres(const Vec3& v) {
+  const auto rounded = [](double metres) { return std::round(metres * 1e6) / 1e3 + 0.0; };  // no -0
+  return fmt::format("[{}, {}, {}]", rounded(v.x()), rounded(v.y()), rounded(v.z()));
+}
+
+void warn(Setup& setup, const std::string& key, const std::string& what) {
+  setup.notes.push_back(fmt::format("{}: warning: {}", place_of(setup, key), what));
+}
+
+void note_tool(Setup& setup, const ToolSpec& tool) {
+  const std::string key = "tool." + tool.name;
+  if (tool.tip_radius > 0.0 && !kTip.has(tool.tip_radius))
+    warn(setup, key + ".tip_radius",
+         fmt::format("the tip of tool {} has a radius of {}; {}; correct 'tip_radius_mm'", quoted(tool.name),
+                     length_text(tool.tip_radius), kTip.text()));
+  if (tool.markers.empty()) return;
+  if (const double span = span_of(tool); !kSpan.has(span))
+    warn(setup, key + ".markers",
+         fmt::format("the markers of tool {} are up to {} apart; {}; correct 'markers_mm'", quoted(tool.name),
+                     length_text(span), kSpan.text()));
+  const double lever = lever_of(tool);
+  if (kLever.has(lever)) return;
+  std::string advice = "correct 'tip_mm'";
+  for (const Factor& factor : kKeyUnits)
+    if (tool.tip.norm() > 0.0 && kLever.has(lever_of(tool, factor.value))) {
+      advice = fmt::format("is 'tip_mm' in {}? then write tip_mm = {}", factor.unit,
+                           millimetres(factor.value * tool.tip));
+      break;
+    }
+  warn(setup, key + ".tip",
+       fmt::format("the tip of tool {} is {} from the middle of its markers; {}; {}", quoted(tool.name),
+                   length_text(lever), kLever.text(), advice));
+}
+
+void note_mesh(Setup& setup, const ObjectSpec& object) {
+  const Vec3 extent = size_in_world(object).extent;
+  if (kObject.has(extent.maxCoeff())) return;
+  const std::string advice = scale_advice(object, extent.maxCoeff());
+  warn(setup, "object." + object.name + ".mesh",
+       fmt::format("mesh {} is {}; expected a longest side of {} to {}; {}", quoted(object.mesh),
+                   extent_text(extent), length_text(kObject.least), length_text(kObject.most),
+                   advice.empty() ? "correct its 'scale'" : advice));
+}
+
+}  // namespace
+
+void note_sizes(Setup& setup) {
+  for (const ToolSpec& tool : setup.scene.tools) note_tool(setup, tool);
+  for (const ObjectSpec& object : setup.scene.objects) {
+    if (object.shape == ShapeKind::mesh) note_mesh(setup, object);
+    if (object.shape == ShapeKind::sphere && !kObject.has(2.0 * object.radius))
+      warn(setup, "object." + object.name + ".radius",
+           fmt::format("ball {} has a diameter of {}; {}; correct 'radius_mm'", quoted(object.name),
+                       length_text(2.0 * object.radius), kObject.text()));
+  }
+}
+
+std::string sizes_text(const Setup& setup) {
+  std::string text;
+  for (const ToolSpec& tool : setup.scene.tools) {
+    text += fmt::format("  tool {}: tip radius {}", quoted(tool.name), length_text(tool.tip_radius));
+    if (!tool.markers.empty())
+      text += fmt::format(", {} from the middle of its {} markers, up to {} apart",
+                          length_text(lever_of(tool)), tool.markers.size(), length_text(span_of(tool)));
+    text += fmt::format("; {:g} g\n", tool.mass * 1e3);
+  }
+  for (const ObjectSpec& object : setup.scene.objects) {
+    if (object.shape != ShapeKind::mesh) continue;
+    const MeshSize size = size_in_world(object);
+    text += fmt::format("  mesh {} ({}): {}, middle at {} of W, volume {}, {} faces\n", quoted(object.name),
+                        printable(object.mesh), extent_text(size.extent), place_text(size.middle),
+                        volume_text(size.volume), size.faces);
+  }
+  return text;
+}
+
+std::string mesh_advice(const Setup& setup, const std::string& key) {
+  const std::vector<ObjectSpec>& objects = setup.scene.objects;
+  const std::string pressed = key.starts_with("user.") && setup.scene.user       ? setup.scene.user->object
+                              : key.starts_with("pusher.") && setup.scene.pusher ? setup.scene.pusher->object
+                                                                                 : std::string();
+  const bool named = key.starts_with("object.") && key.ends_with(".position");
+  if (!named && !key.starts_with("user.") && !key.starts_with("pusher.")) return {};
+  const auto is_meant = [&](const ObjectSpec& object) {
+    return named ? key == "object." + object.name + ".position" : pressed.empty() || pressed == object.name;
+  };
+  const auto object = std::find_if(objects.begin(), objects.end(), is_meant);
+  if (object == objects.end() || object->shape != ShapeKind::mesh) return {};
+  const MeshSize size = size_in_world(*object);
+  const double longest = size.extent.maxCoeff();
+  std::string advice;
+  if (!kObject.has(longest)) advice = scale_advice(*object, longest);
+  if (advice.empty() && size.middle.norm() > longest)
+    advice = fmt::format("position_mm = {} puts its middle at the origin of W",
+                         millimetres(object->position - size.middle));
+  return fmt::format("; mesh {} is {} in this scene, with its middle at {} of W{}{}", quoted(object->mesh),
+                     extent_text(size.extent), place_text(size.middle), advice.empty() ? "" : ": ", advice);
+}
+
+}  // namespace enc::models
