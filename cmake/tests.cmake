@@ -49,7 +49,7 @@ set(draws
     unit/core/vision/vision_tracker unit/sim/camera/ unit/trial/camera/faulty unit/trial/guided/
     input/app/calibration/ input/app/camera/ input/app/camera_test)
 set(runs_scenes
-    unit/core/machine/motors unit/core/safety/edge unit/core/safety/guard unit/models/built_scene unit/sim/arm_world unit/sim/legs
+    unit/core/machine/motors unit/core/safety/edge unit/core/safety/guard unit/models/built_scene unit/sim/arm_world unit/sim/export unit/sim/legs
     unit/sim/rig_test unit/sim/session_world unit/trial/ball_fit unit/trial/carried/ unit/trial/jitter unit/trial/ledger/
     unit/trial/measure/ unit/trial/precision/ unit/trial/seen_measure unit/trial/shadow/ unit/trial/shipped unit/trial/touch_measure
     unit/trial/trial_dent unit/trial/trial_fault unit/trial/trial_press input/app/calibrate/calibrate_machine

@@ -139,6 +139,7 @@ void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const
   name(body->element, called);
   body->mass = tool.mass;
   body->explicitinertial = true;
+  set3(body->ipos, Vec3::Zero());  // unset, MuJoCo compiles the body and leaves its mass out of the MJCF
   std::fill_n(body->inertia, 3, 1e-5);
   for (int axis = 0; axis < 3; ++axis) {
     mjsJoint* slide = mjs_addJoint(body, nullptr);
