@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "models/files.h"
+#include "models/schema/units.h"
 #include "models/schema/wording.h"
 
 namespace enc::models {
@@ -50,9 +51,12 @@ std::size_t CsvReader::find(std::string_view column, bool needed) const {
     names.reserve(cells_.size());
     for (const Cell& cell : cells_) names.emplace_back(cell.text);
     const std::string near = nearest_name(column, names);
-    fail_line(fmt::format(
-        "there is no column '{}'; expected a header with {}; {}", column, wanted_,
-        near.empty() ? "name the columns in the first line" : fmt::format("rename {}", quoted(near))));
+    const auto factor = factor_between(near, column);
+    std::string advice = "name the columns in the first line";
+    if (!near.empty()) advice = fmt::format("rename {}", quoted(near));
+    if (factor && *factor != 1.0)
+      advice = fmt::format("multiply {} by {:.6g} and call it '{}'", quoted(near), *factor, column);
+    fail_line(fmt::format("there is no column '{}'; expected a header with {}; {}", column, wanted_, advice));
   }
   if (std::find_if(found + 1, cells_.end(), is) != cells_.end())
     fail_line(fmt::format("there are two columns '{}'; expected one; rename the other", column));

@@ -1,5 +1,6 @@
 #include "models/schema/units.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -41,6 +42,31 @@ constexpr auto kUnits = std::to_array<Unit>({{"_m_s2_per_sqrt_hz", "m/s^2/sqrt(H
                                              {"_s", "s"},
                                              {"_m", "m"},
                                              {"", ""}});
+
+// What people write in names, longest suffix first. `kind`: only units of one kind can be converted.
+struct Written {
+  std::string_view suffix;
+  char kind;
+  double in_si;
+};
+constexpr auto kWritten = std::to_array<Written>(
+    {{"_N_per_mm", 'k', 1e3}, {"_N_per_um", 'k', 1e6}, {"_N_per_m", 'k', 1.0}, {"_mm_s2", 'a', 1e-3},
+     {"_cm_s", 'v', 1e-2},    {"_inch", 'l', 0.0254},  {"_mm_s", 'v', 1e-3},   {"_m_s2", 'a', 1.0},
+     {"_um_s", 'v', 1e-6},    {"_mrad", 'w', 1e-3},    {"_m_s", 'v', 1.0},     {"_deg", 'w', M_PI / 180.0},
+     {"_rad", 'w', 1.0},      {"_MPa", 'p', 1e6},      {"_kPa", 'p', 1e3},     {"_kHz", 'f', 1e3},
+     {"_khz", 'f', 1e3},      {"_min", 't', 60.0},     {"_Pa", 'p', 1.0},      {"_Hz", 'f', 1.0},
+     {"_hz", 'f', 1.0},       {"_cm", 'l', 1e-2},      {"_mm", 'l', 1e-3},     {"_um", 'l', 1e-6},
+     {"_nm", 'l', 1e-9},      {"_in", 'l', 0.0254},    {"_ms", 't', 1e-3},     {"_us", 't', 1e-6},
+     {"_ns", 't', 1e-9},      {"_kN", 'n', 1e3},       {"_mN", 'n', 1e-3},     {"_kg", 'm', 1.0},
+     {"_N", 'n', 1.0},        {"_s", 't', 1.0},        {"_m", 'l', 1.0},       {"_g", 'm', 1e-3}});
+
+const Written* written_in(std::string_view name) {
+  const auto ends = [&](const Written& unit) {
+    return name.size() > unit.suffix.size() && name.ends_with(unit.suffix);
+  };
+  const auto found = std::find_if(kWritten.begin(), kWritten.end(), ends);
+  return found == kWritten.end() ? nullptr : &*found;
+}
 
 // value * 10^power, rounded once. to_chars and from_chars know no locale.
 double shift(double value, int power) {
@@ -109,6 +135,14 @@ std::string text_of(const Unit& unit, double si, int k) {
   std::string text = shortest(unit, value, si, k);
   if (text.empty()) text = shortest(unit, value, to_si(unit, value, k), k);
   return text.empty() ? fmt::format("{}", value) : text;
+}
+
+std::optional<double> factor_between(std::string_view from, std::string_view to) {
+  const Written *a = written_in(from), *b = written_in(to);
+  if (a == nullptr || b == nullptr || a->kind != b->kind) return std::nullopt;
+  if (from.substr(0, from.size() - a->suffix.size()) != to.substr(0, to.size() - b->suffix.size()))
+    return std::nullopt;
+  return a->in_si / b->in_si;
 }
 
 double round_to(double value, double per_unit) {

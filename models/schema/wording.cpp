@@ -160,6 +160,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   constexpr std::size_t kLongest = 200;
   if (word.size() > kLongest) return {};
   if (std::string name = with_other_unit(word, names); !name.empty()) return name;
+  // A unit that no key has, as cm.
+  for (const std::string& name : names)
+    if (name != word && factor_between(word, name)) return name;
   std::string best;
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& name : names) {
@@ -184,7 +187,10 @@ std::string unknown_text(const std::string& table, std::string_view key,
   std::string wanted = "expected a key of " + printable(table);
   if (!unit_of(near).label.empty() && key.starts_with(stem_of(near)))
     wanted = fmt::format("expected the unit {}", unit_of(near).label);
-  return fmt::format("unknown key {}; {}; {}", quoted(std::string(key)), wanted, advice(key, known));
+  std::string times;
+  if (const auto factor = factor_between(key, near); factor && *factor != 1.0)
+    times = fmt::format(" then multiply by {:.6g}", *factor);
+  return fmt::format("unknown key {}; {}; {}{}", quoted(std::string(key)), wanted, advice(key, known), times);
 }
 
 std::string advice(std::string_view word, const std::vector<std::string>& names) {

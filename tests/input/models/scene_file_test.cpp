@@ -51,7 +51,8 @@ TEST_F(SceneFile, unknown_key) {
 
 TEST_F(SceneFile, wrong_unit_suffix) {
   EXPECT_EQ(scene_said("radius_mm", "radius_cm"),
-            "scenes/ball.toml:6:1: unknown key 'radius_cm'; expected the unit mm; did you mean 'radius_mm'?");
+            "scenes/ball.toml:6:1: unknown key 'radius_cm'; expected the unit mm; did you mean 'radius_mm'? "
+            "then multiply by 10");
   EXPECT_EQ(scene_said("depth_mm", "depth"),
             "scenes/ball.toml:17:1: unknown key 'depth'; expected the unit mm; did you mean 'depth_mm'?");
   EXPECT_THAT(rig_said("speed_mm_s", "speed_m_s"),

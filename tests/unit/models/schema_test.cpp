@@ -199,6 +199,32 @@ TEST(NearestName, knows_misspelt_words_and_other_units) {
   EXPECT_THAT(advice("colour", names), HasSubstr("'name', 'radius_mm'"));
 }
 
+TEST(UnitFactors, are_between_units_of_one_kind_and_one_stem) {
+  EXPECT_DOUBLE_EQ(factor_between("tip_m", "tip_mm").value(), 1000.0);
+  EXPECT_DOUBLE_EQ(factor_between("tip_mm", "tip_m").value(), 0.001);
+  EXPECT_DOUBLE_EQ(factor_between("radius_cm", "radius_mm").value(), 10.0);
+  EXPECT_DOUBLE_EQ(factor_between("stiffness_N_per_m", "stiffness_N_per_mm").value(), 0.001);
+  EXPECT_DOUBLE_EQ(factor_between("polar_rad", "polar_deg").value(), 180.0 / M_PI);
+  EXPECT_DOUBLE_EQ(factor_between("mass_g", "mass_kg").value(), 0.001);
+  EXPECT_DOUBLE_EQ(factor_between("force_N", "force_N").value(), 1.0);
+  EXPECT_FALSE(factor_between("tip_s", "tip_mm"));
+  EXPECT_FALSE(factor_between("tip_m", "top_mm"));
+  EXPECT_FALSE(factor_between("tip", "tip_mm"));
+  // Each unit of a key counts, so that none is forgotten.
+  for (const char* unit : {"_mm_s2", "_m_s2", "_mm_s", "_m_s", "_deg", "_MPa", "_kPa", "_mm", "_um", "_ms",
+                           "_us", "_hz", "_kg", "_N", "_s", "_m", "_N_per_mm", "_N_per_m", "_N_per_um"})
+    EXPECT_DOUBLE_EQ(factor_between("x" + std::string(unit), "x" + std::string(unit)).value(), 1.0) << unit;
+}
+
+TEST(NearestName, another_unit_comes_with_its_factor) {
+  EXPECT_EQ(unknown_text("[[tool]]", "tip_m", {"name", "tip_mm"}),
+            "unknown key 'tip_m'; expected the unit mm; did you mean 'tip_mm'? then multiply by 1000");
+  EXPECT_EQ(unknown_text("[[tool]]", "mass_g", {"name", "mass_kg"}),
+            "unknown key 'mass_g'; expected the unit kg; did you mean 'mass_kg'? then multiply by 0.001");
+  EXPECT_EQ(unknown_text("[[tool]]", "tip", {"name", "tip_mm"}),
+            "unknown key 'tip'; expected the unit mm; did you mean 'tip_mm'?");
+}
+
 TEST(Resolved, reads_back_to_the_same_text) {
   for (const models::Setup& setup : {plane(), full()}) {
     const std::string text = resolved(setup);

@@ -116,7 +116,8 @@ TEST(TrackerLog, RefusesWithThePlaceInOneLine) {
   };
   const std::vector<Case> cases{
       {"", "l.csv:1:1:", "there is no column 'time_s'"},
-      {"time_s,tip_x_mm,tip_y_mm,tip_z_mm,tool_x_mm,tool_y_mm,tool_z_m\n", "l.csv:1:1:", "rename 'tool_z_m'"},
+      {"time_s,tip_x_mm,tip_y_mm,tip_z_mm,tool_x_mm,tool_y_mm,tool_z_m\n",
+       "l.csv:1:1:", "multiply 'tool_z_m' by 1000 and call it 'tool_z_mm'"},
       {good + "0.200,0.2,0,0,nan,0,0\n", "l.csv:202:15:", "'tool_x_mm' is 'nan'"},
       {good + "0.200,0.2,0,zero,,,\n", "l.csv:202:13:", "'tip_z_mm' is 'zero'"},
       {good + "0.200,,0,0,,,\n", "l.csv:202:7:", "'tip_x_mm' is ''"},

@@ -185,8 +185,10 @@ TEST_F(DriverContract, ATableIsReadStrictly) {
   EXPECT_EQ(refusal(kTable), "");
   EXPECT_EQ(refusal(replaced(kTable, "port", "prot")),
             at(3, 1) + "unknown key 'prot'; expected a key of [driver.box]; did you mean 'port'?");
-  EXPECT_EQ(refusal(replaced(kTable, "timeout_ms", "timeout_s")),
-            at(4, 1) + "unknown key 'timeout_s'; expected the unit ms; did you mean 'timeout_ms'?");
+  EXPECT_EQ(
+      refusal(replaced(kTable, "timeout_ms", "timeout_s")),
+      at(4, 1) +
+          "unknown key 'timeout_s'; expected the unit ms; did you mean 'timeout_ms'? then multiply by 1000");
   EXPECT_EQ(refusal(replaced(kTable, "4712", "\"4712\"")),
             at(3, 1) +
                 "'port' is a text; expected a whole number from 1 to 65535 (of the box); write it like "
