@@ -18,6 +18,17 @@ template <class T>
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
   return static_cast<double>(values[rank]);
 }
+// Whether so many values have such a percentile: on average one of them at least lies beyond it. p50 needs 2
+// values, p95 and p5 need 20, p99 needs 100, p99.9 needs 1000. The least and the most need one.
+[[nodiscard]] constexpr bool has_percentile(std::size_t count, double share) {
+  const double beyond = share < 0.5 ? share : 1.0 - share;
+  return count > 0 && (beyond <= 0.0 || beyond * static_cast<double>(count) >= 1.0 - 1e-9);
+}
+// As percentile(); NaN where there are too few values for it.
+template <class T>
+[[nodiscard]] double known_percentile(const std::vector<T>& values, double share) {
+  return has_percentile(values.size(), share) ? percentile(values, share) : kUnset;
+}
 template <class T>
 [[nodiscard]] double median(const std::vector<T>& values) {
   return percentile(values, 0.5);

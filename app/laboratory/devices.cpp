@@ -25,11 +25,8 @@ std::string line_of(const Probed& device) {
   }
   if (device.samples == 1) text += fmt::format("{:12} 1 sample\n", "");
   if (device.samples > 1)
-    text += fmt::format(
-        "{:12} {:.1f} samples a second, {:.2f} ms apart, {:.2f} at most; old when they come: {:.2f} ms, p99 "
-        "{:.2f}\n",
-        "", device.rate, 1e3 * device.interval_p50, 1e3 * device.interval_max, 1e3 * device.age_p50,
-        1e3 * device.age_p99);
+    text += fmt::format("{:12} {:.1f} samples a second; apart {} ms; old when they come {} ms\n", "",
+                        device.rate, text_of(device.interval, 1e3, 2, 2), text_of(device.age, 1e3, 2, 2));
   if (!device.unusable.empty()) text += fmt::format("{:12} NOT USABLE: {}\n", "", device.unusable);
   return text;
 }

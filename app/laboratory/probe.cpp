@@ -9,7 +9,6 @@
 
 #include "core/devices/roles.h"
 #include "core/error.h"
-#include "models/order_statistics.h"
 #include "trial/devices/device_log.h"
 
 namespace enc::app {
@@ -133,11 +132,8 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
     Probed& device = all[place[i]];
     device.samples = static_cast<std::int64_t>(of.ages.size());
     device.rate = static_cast<double>(device.samples) / seconds;
-    device.age_p50 = models::median(of.ages);
-    device.age_p99 = models::percentile(of.ages, 0.99);
-    if (of.intervals.empty()) continue;
-    device.interval_p50 = models::median(of.intervals);
-    device.interval_max = *std::max_element(of.intervals.begin(), of.intervals.end());
+    device.age = percentiles_of(of.ages);
+    device.interval = percentiles_of(of.intervals);
   }
   return all;
 }

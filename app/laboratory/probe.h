@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run/percentiles.h"
 #include "models/setup/scene_file.h"
 #include "trial/assemble.h"
 
@@ -14,13 +15,12 @@ namespace enc::app {
 struct Probed {
   std::string role, words;  // as trial::DeviceWords has them
   bool there = true;
-  std::int64_t samples = 0;                             // news in that time
-  double rate = kUnset;                                 // Hz
-  double interval_p50 = kUnset, interval_max = kUnset;  // between the times that samples were true, s
-  double age_p50 = kUnset, age_p99 = kUnset;            // of a sample when it came, s
-  std::string last{};                                   // the last sample, in words
-  std::vector<std::string> remarks{};                   // as in the report of a run
-  std::string unusable{};                               // why a run could not use it; empty: it could
+  std::int64_t samples = 0;       // news in that time
+  double rate = kUnset;           // Hz
+  Percentiles interval{}, age{};  // s: between the times that samples were true; of a sample when it came
+  std::string last{};             // the last sample, in words
+  std::vector<std::string> remarks{};  // as in the report of a run
+  std::string unusable{};              // why a run could not use it; empty: it could
 };
 
 // Makes every device that is not simulated, reads each for so long at the loop's rate, and lets it go.

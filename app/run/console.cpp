@@ -9,7 +9,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "models/order_statistics.h"
+#include "app/run/percentiles.h"
 #include "trial/time/beside_loop.h"
 
 namespace enc::app {
@@ -90,7 +90,9 @@ std::string status_text(const RunStatus& status, bool keys) {
   if (periods > 0) {
     const std::vector<std::uint32_t> ns(status.periods_ns.begin(),
                                         status.periods_ns.begin() + static_cast<std::ptrdiff_t>(periods));
-    text += fmt::format("  p99 {:.2f} ms", 1e-6 * models::percentile(ns, 0.99));
+    const Percentiles of = percentiles_of(ns);
+    text += std::isnan(of.p99) ? fmt::format("  max {:.2f} ms", 1e-6 * of.most)
+                               : fmt::format("  p99 {:.2f} ms", 1e-6 * of.p99);
   }
   text += fmt::format("  missed {}", status.missed);
   return text;

@@ -4,8 +4,8 @@
 
 #include "app/built.h"
 #include "app/process.h"
+#include "app/run/percentiles.h"
 #include "app/run/run_report.h"
-#include "models/order_statistics.h"
 
 namespace enc::app {
 namespace {
@@ -121,21 +121,22 @@ Json stability_json(const std::vector<trial::Certified>& certificates) {
   return all;
 }
 
-Json times_json(const std::vector<std::uint32_t>& ns) {
-  const StepTimes times = step_times(ns);
-  return {{"p50", times.p50}, {"p99", times.p99}, {"p99_9", times.p999}, {"max", times.max}};
+// A percentile that there are too few values for is null.
+template <class T>
+Json times_json(const std::vector<T>& times, double scale) {
+  const Percentiles of = percentiles_of(times);
+  return {{"p50", number(of.p50 * scale)},
+          {"p99", number(of.p99 * scale)},
+          {"p99_9", number(of.p99_9 * scale)},
+          {"max", number(of.most * scale)}};
 }
 
 Json vision_json(const trial::FrameTimes& vision) {
-  const auto ms = [](const std::vector<double>& s) -> Json {
-    return {{"p50", number(models::percentile(s, 0.5) * 1e3)},
-            {"p99", number(models::percentile(s, 0.99) * 1e3)}};
-  };
   return {{"threaded", vision.threaded},
           {"frames", vision.frames},
           {"rate_hz", number(vision.rate())},
-          {"interval_ms", ms(vision.intervals)},
-          {"age_ms", ms(vision.ages)}};
+          {"interval_ms", times_json(vision.intervals, 1e3)},
+          {"age_ms", times_json(vision.ages, 1e3)}};
 }
 
 // Of a machine that holds a deflection against a force.
@@ -192,8 +193,8 @@ std::string run_json(const RunReport& r) {
     json["force_error_N"] = number(r.measured.pushes.force_error());
   }
   if (!r.scene.impedance()) press_figures(json, r.measured.presses);
-  json["step_ns"] = times_json(r.result.step_ns);
-  if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns);
+  json["step_ns"] = times_json(r.result.step_ns, 1.0);
+  if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns, 1.0);
   if (r.result.vision.frames > 0) json["vision"] = vision_json(r.result.vision);
   json["stability"] = stability_json(r.certificates);
   if (!r.measured.felt.truth) {

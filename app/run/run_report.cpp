@@ -7,8 +7,8 @@
 
 #include "app/built.h"
 #include "app/process.h"
+#include "app/run/percentiles.h"
 #include "app/stability_text.h"
-#include "models/order_statistics.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {
@@ -311,10 +311,8 @@ std::string loop_line(const trial::TrialResult& result) {
   std::string text;
   if (!result.real_time.empty()) text += "real time   " + result.real_time + "\n";
   if (result.period_ns.empty()) return text;
-  const StepTimes period = step_times(result.period_ns);
-  return text +
-         fmt::format("loop        from tick to tick p50 {:.3f}, p99 {:.3f}, p99.9 {:.3f}, max {:.3f} ms\n",
-                     period.p50 * 1e-6, period.p99 * 1e-6, period.p999 * 1e-6, period.max * 1e-6);
+  return text + fmt::format("loop        from tick to tick {} ms\n",
+                            text_of(percentiles_of(result.period_ns), 1e-6, 3, 3));
 }
 
 // Rates and jitter of the two loops; of the haptic one by the wall clock, where it keeps that.
@@ -322,24 +320,13 @@ std::string vision_lines(const trial::TrialResult& result) {
   const trial::FrameTimes& vision = result.vision;
   if (vision.frames == 0) return "";
   if (vision.intervals.empty()) return "vision      1 frame: too few for a rate\n";
-  const auto ms = [](const std::vector<double>& s, double share) {
-    return models::percentile(s, share) * 1e3;
-  };
-  std::string text = fmt::format(
-      "vision      {:.2f} frames/s {}; from frame to frame p50 {:.1f}, p99 {:.1f} ms; old when told p50 "
-      "{:.1f}, p99 {:.1f} ms\n",
-      vision.rate(), vision.threaded ? "in a thread of its own" : "within the loop",
-      ms(vision.intervals, 0.5), ms(vision.intervals, 0.99), ms(vision.ages, 0.5), ms(vision.ages, 0.99));
-  return text;
+  const auto ms = [](const std::vector<double>& s) { return text_of(percentiles_of(s), 1e3, 1, 1); };
+  return fmt::format("vision      {:.2f} frames/s {}; from frame to frame {} ms; old when told {} ms\n",
+                     vision.rate(), vision.threaded ? "in a thread of its own" : "within the loop",
+                     ms(vision.intervals), ms(vision.ages));
 }
 
 }  // namespace
-
-StepTimes step_times(const std::vector<std::uint32_t>& ns) {
-  if (ns.empty()) return {};
-  return {models::percentile(ns, 0.5), models::percentile(ns, 0.99), models::percentile(ns, 0.999),
-          models::percentile(ns, 1.0)};
-}
 
 std::string run_text(const RunReport& r) {
   std::string text =
@@ -378,9 +365,7 @@ std::string run_text(const RunReport& r) {
   for (const std::string& line : r.crossed) text += "LIMIT       " + line + "\n";
   text += questionnaire_text(r.setup);
   text += vision_lines(r.result);
-  const StepTimes times = step_times(r.result.step_ns);
-  text += fmt::format("tick        step() p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.1f} us\n",
-                      times.p50 * 1e-3, times.p99 * 1e-3, times.p999 * 1e-3, times.max * 1e-3);
+  text += fmt::format("tick        step() {} us\n", text_of(percentiles_of(r.result.step_ns), 1e-3, 2, 1));
   text += fmt::format(
       "time        {:.2f} s simulated in {:.3f} s: {:.0f} x real time; started in {:.0f} ms, {:.0f} MiB\n",
       r.result.simulated, r.result.wall, r.result.wall > 0.0 ? r.result.simulated / r.result.wall : 0.0,

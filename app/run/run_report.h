@@ -30,11 +30,6 @@ struct RunReport {
   std::vector<std::string> crossed{};  // verdict.h
 };
 
-// Percentiles of step() in ns: p50, p99, p99.9, max.
-struct StepTimes {
-  double p50 = 0, p99 = 0, p999 = 0, max = 0;
-};
-[[nodiscard]] StepTimes step_times(const std::vector<std::uint32_t>& ns);
 [[nodiscard]] std::string run_text(const RunReport& report);
 [[nodiscard]] std::string run_json(const RunReport& report);
 

@@ -53,7 +53,7 @@ TEST_F(Camera, TheTwinsFingerIsSeenAndRepeatsToTheBit) {
   EXPECT_THAT(once.out, AllOf(HasSubstr("tracker (vision)"),
                               HasSubstr("camera (640 x 480 at 20 Hz, simulated)"), HasSubstr("follow"),
                               HasSubstr("\nvision      20.00 frames/s within the loop; from frame to frame "
-                                        "p50 50.0, p99 50.0 ms; old when told p50 50.0, p99 50.0 ms\n")))
+                                        "p50 50.0, max 50.0 ms; old when told p50 50.0, max 50.0 ms\n")))
       << once.err;
   EXPECT_FALSE(line_of(once.out, "state hash").empty()) << once.out;
   EXPECT_EQ(line_of(once.out, "state hash"), line_of(again.out, "state hash"));

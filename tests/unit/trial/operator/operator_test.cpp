@@ -222,10 +222,14 @@ TEST(Console, TheStatusLineNamesModeReasonForceGapPeriodAndKeys) {
   status.periods_ns = {1'000'000, 1'010'000, 1'010'000};
   EXPECT_EQ(
       app::status_text(status, true),
-      "    3.21 s  follow  | space stops, r resumes, q ends |  0.00 N  gap 12.30 mm  p99 1.01 ms  missed 7");
+      "    3.21 s  follow  | space stops, r resumes, q ends |  0.00 N  gap 12.30 mm  max 1.01 ms  missed 7")
+      << "of three periods there is no p99";
   status.why = kToolLost | kLimited;
   EXPECT_EQ(app::status_text(status, false),
-            "    3.21 s  HOLD: tool lost  0.00 N  gap 12.30 mm  p99 1.01 ms  missed 7");
+            "    3.21 s  HOLD: tool lost  0.00 N  gap 12.30 mm  max 1.01 ms  missed 7");
+  status.periods = 100;
+  status.periods_ns.fill(1'010'000);
+  EXPECT_THAT(app::status_text(status, false), testing::HasSubstr("gap 12.30 mm  p99 1.01 ms  missed 7"));
   status.halted = true;
   EXPECT_THAT(app::status_text(status, false), testing::HasSubstr("STOPPED BY HAND"));
 }
