@@ -115,5 +115,103 @@ TEST_F(PairFolder, TwoThatWouldBeTheSame) {
   EXPECT_THAT(refusal(Layout::pairs), HasSubstr("is the same image by its name"));
 }
 
+// Two pairs of each, as people and tools name them.
+struct Naming {
+  const char *left, *right;  // with a number for {}
+};
+class PairNaming : public PairFolder, public testing::WithParamInterface<Naming> {
+ protected:
+  static std::string numbered(std::string name, const char* number) {
+    return name.replace(name.find("{}"), 2, number);
+  }
+};
+
+TEST_P(PairNaming, SaysWhichImageBelongsToWhich) {
+  for (const char* number : {"10", "9"})
+    for (const char* name : {GetParam().left, GetParam().right}) put(numbered(name, number));
+  ASSERT_EQ(layout_of(root()), Layout::pairs);
+  const PairList list = list_pairs(root(), Layout::pairs);
+  ASSERT_EQ(list.pairs.size(), 2U);
+  EXPECT_EQ(list.pairs[0].left, path(numbered(GetParam().left, "9")));
+  EXPECT_EQ(list.pairs[0].right, path(numbered(GetParam().right, "9")));
+  EXPECT_EQ(list.pairs[1].left, path(numbered(GetParam().left, "10")));
+  EXPECT_EQ(list.pairs[1].right, path(numbered(GetParam().right, "10")));
+  EXPECT_EQ(list.words,
+            numbered(GetParam().left, "9") + " with " + numbered(GetParam().right, "9") + ", and 1 more");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Folders, PairNaming,
+    testing::Values(Naming{"Left/{}.png", "Right/{}.png"}, Naming{"LEFT/a{}.PNG", "RIGHT/a{}.png"},
+                    Naming{"L/{}.png", "R/{}.png"}, Naming{"cam0/{}.png", "cam1/{}.png"},
+                    Naming{"Cam1/{}.png", "Cam2/{}.png"}, Naming{"cam_left/{}.png", "cam_right/{}.png"},
+                    Naming{"camera_0/{}.jpg", "camera_1/{}.png"}, Naming{"0/{}.png", "1/{}.png"},
+                    Naming{"image_02/data/{}.png", "image_03/data/{}.png"},
+                    Naming{"Left/L{}.png", "Right/R{}.png"}, Naming{"cam0/cam0_{}.png", "cam1/cam1_{}.png"},
+                    Naming{"left/{}_left.png", "right/{}.png"},
+                    Naming{"left/bright{}.png", "right/bright{}.png"}));
+INSTANTIATE_TEST_SUITE_P(
+    Files, PairNaming,
+    testing::Values(Naming{"L{}.png", "R{}.png"}, Naming{"{}L.png", "{}R.png"},
+                    Naming{"{}_l.png", "{}_r.png"}, Naming{"imgL{}.png", "imgR{}.png"},
+                    Naming{"left_{}.png", "right_{}.png"}, Naming{"{}_left.png", "{}_right.png"},
+                    Naming{"cam_left{}.png", "cam_right{}.png"}, Naming{"Left{}.PNG", "right{}.jpg"},
+                    Naming{"cam0_{}.png", "cam1_{}.png"}, Naming{"{}_Camera1.png", "{}_Camera2.png"},
+                    Naming{"left_hand_L{}.png", "left_hand_R{}.png"},
+                    Naming{"right_hand_left{}.png", "right_hand_right{}.png"}));
+
+TEST_F(PairFolder, WhatSaysNoSideIsSideBySide) {
+  for (const char* name : {"bright1.png", "bright2.png", "cam0001.png", "cam0002.png", "level1.png"})
+    put(name);
+  EXPECT_EQ(layout_of(root()), Layout::side_by_side);
+  EXPECT_EQ(list_pairs(root(), Layout::side_by_side).words,
+            "the left and the right half of bright1.png, and 4 more");
+}
+
+TEST_F(PairFolder, CountsOfBothSidesAreToldWhereOneIsMissing) {
+  for (const char* name : {"cam0/1.png", "cam0/2.png", "cam0/3.png", "cam1/1.png", "cam1/3.png"}) put(name);
+  EXPECT_THAT(refusal(Layout::pairs), AllOf(StartsWith(path("cam0/2.png") + ": has no right image"),
+                                            HasSubstr("3 left and 2 right images")));
+}
+
+TEST_F(PairFolder, OneSideAloneIsNoPairSideBySide) {
+  put("L1.png"), put("L2.png");
+  EXPECT_EQ(layout_of(root()), Layout::pairs);
+  EXPECT_THAT(refusal(Layout::pairs),
+              AllOf(StartsWith(path("L1.png") + ": has no right image"), HasSubstr("2 left and 0 right")));
+}
+
+TEST_F(PairFolder, WhatIsThereIsToldWhereNoPairsAre) {
+  put("first/1.png"), put("first/2.png"), put("second/1.png");
+  std::filesystem::create_directory(path("empty"));
+  EXPECT_EQ(layout_of(root()), Layout::pairs);
+  EXPECT_THAT(refusal(Layout::pairs),
+              AllOf(HasSubstr("only the folders empty (0 images), first (2 images), second (1 image)"),
+                    HasSubstr("expected left01.png and right01.png, or folders left and right")));
+}
+
+TEST_F(PairFolder, ALeftFolderWithoutARightOneIsTold) {
+  put("Left/1.png");
+  EXPECT_EQ(layout_of(root()), Layout::pairs);
+  EXPECT_THAT(refusal(Layout::pairs), HasSubstr("only the folder Left (1 image)"));
+}
+
+TEST_F(PairFolder, ThreeCamerasAreNotTwo) {
+  put("cam0/1.png"), put("cam1/1.png"), put("cam2/1.png");
+  EXPECT_THAT(refusal(Layout::pairs),
+              HasSubstr("several pairs of folders, such as cam0 and cam1, cam1 and cam2"));
+}
+
+TEST_F(PairFolder, ThreeCamerasOfOneFolderAreNotTwo) {
+  put("cam0_1.png"), put("cam1_1.png"), put("cam2_1.png");
+  EXPECT_THAT(refusal(Layout::pairs), HasSubstr("belongs to more than one image"));
+}
+
+TEST_F(PairFolder, ImagesOfNoSideAreCounted) {
+  put("left1.png"), put("right1.png"), put("board.png", 3, 3);
+  EXPECT_EQ(list_pairs(root(), Layout::pairs).words,
+            "left1.png with right1.png; 1 image of no side left aside");
+}
+
 }  // namespace
 }  // namespace enc::images
