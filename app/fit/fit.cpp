@@ -1,4 +1,5 @@
 // `encounter fit LOOP.csv`: a measured loop becomes a response file, and what is known about it is said.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -32,10 +33,12 @@ std::string branch_text(const char* name, const BranchKnown& known, double rmse,
   for (std::size_t i = 0; i < known.curve.size(); ++i)
     text += fmt::format("{}{:.2f}+-{:.3f}", i == 0 ? " " : ", ", known.curve[i].value, known.curve[i].half);
   text += " N at 1, 2, ... mm\n";
-  if (!known.repeats.empty() && !std::isnan(known.repeats.front())) {
+  const auto is_known = [](double half) { return !std::isnan(half); };
+  if (std::any_of(known.repeats.begin(), known.repeats.end(), is_known)) {
     text += "  repeats  ";
     for (std::size_t i = 0; i < known.repeats.size(); ++i)
-      text += fmt::format("{}+-{:.3f}", i == 0 ? " " : ", ", known.repeats[i]);
+      text += (i == 0 ? " " : ", ") +
+              (is_known(known.repeats[i]) ? fmt::format("+-{:.3f}", known.repeats[i]) : "unknown");
     text += " N of their mean there\n";
   }
   if (!known.curve.empty())
@@ -81,15 +84,21 @@ std::string energy_text(const models::LoopData& loop) {
       out * 1e3, in * 1e3);
 }
 
-std::string report(const LoopFit& fit) {
+std::string notes_text(const models::LoopData& loop) {
+  std::string text;
+  for (const std::string& note : loop.notes) text += fmt::format("note        {}\n", note);
+  return text;
+}
+
+std::string report(const LoopFit& fit, const models::LoopData& loop) {
   return fmt::format("{} presses, {} readings; slope kept within {:.4f} and {:.3f} N/mm\n", fit.presses,
                      fit.readings, fit.floor * 1e-3, fit.ceiling * 1e-3) +
+         notes_text(loop) +
          branch_text("press", fit.press, fit.curves.rmse_press, fit.curves.rmse_press_free) +
          branch_text("release", fit.release, fit.curves.rmse_release, fit.curves.rmse_release_free) +
          stops_text(fit) +
-         "intervals   95 %, block bootstrap over twelfths of each branch, fixed seed: neighbouring residuals "
-         "are "
-         "alike\n" +
+         "intervals   95 %: block bootstrap over twelfths of each branch with a fixed seed; those of the "
+         "curve also hold what repeats differ by and what the polynomial leaves over\n" +
          (fit.presses > 1 ? fmt::format("repeats     differ by at most {:.3f} N, at {:.2f} mm\n",
                                         fit.repeatability, fit.repeatability_at * 1e3)
                           : std::string("repeats     only one: nothing is known about repeatability\n"));
@@ -127,7 +136,7 @@ int fit_loop(const FitOptions& options) {
     throw Error(
         fmt::format("{}:1:1: {}; record the loop again, or give another --limit-mm", file_name, e.what()));
   }
-  fmt::print("{}{}", report(fit), energy_text(loop));
+  fmt::print("{}{}", report(fit, loop), energy_text(loop));
   if (!file) return 0;
   file->write(models::response_text(fit.response, fit.source));
   file->keep();

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "models/csv_reader.h"
 #include "models/fit/loop_csv.h"
+#include "models/order_statistics.h"
 #include "models/schema/wording.h"
 #include "trial/fit/ball_fit.h"
 
@@ -62,12 +63,26 @@ BallFitOptions asked(const FitOptions& options) {
   return how;
 }
 
-trial::Pushes read(const std::string& file, double limit) {
+// Seconds from one reading to the next, the middle one of all.
+double usual_step(const trial::Pushes& pushes) {
+  std::vector<double> steps;
+  for (const auto& push : pushes)
+    for (std::size_t i = 1; i < push.size(); ++i) steps.push_back(push[i].time - push[i - 1].time);
+  return models::median(steps);
+}
+
+trial::Pushes read(const std::string& file, double limit, std::vector<std::string>& notes) {
   constexpr double kDeepest = 8e-3;  // m, of the law's table
-  trial::Pushes pushes =
-      models::parse_loop(read_table(file, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
-                         file, limit)
-          .presses;
+  constexpr double kSlowest = 0.5;   // s: the ball's relaxation is over between two readings
+  models::LoopData loop = models::parse_loop(
+      read_table(file, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"), file, limit);
+  for (const std::string& note : loop.notes) notes.push_back(fmt::format("{}: {}", file, note));
+  trial::Pushes pushes = std::move(loop.presses);
+  if (const double step = usual_step(pushes); step >= kSlowest)
+    throw Error(
+        fmt::format("{}:1:1: rows are {:.3g} s apart: milliseconds? The ball relaxes within 0.05 to 5 s; "
+                    "expected at least 2 rows a second; multiply time_s by 0.001, or record faster",
+                    file, step));
   for (const auto& push : pushes)
     for (const models::LoopPoint& p : push)
       if (p.deflection > kDeepest)
@@ -131,11 +146,12 @@ std::string settings(const BallFit& fit) {
   return text;
 }
 
-std::string report(const trial::BallLoops& loops, const BallFit& fit) {
+std::string report(const trial::BallLoops& loops, const BallFit& fit, const std::vector<std::string>& notes) {
   std::string text = fmt::format("{} pushes, {} readings\n{:20}{:>10}    {:<8}{:>11}{:>10}   {:<8}{}\n",
                                  loops.pushes(), loops.readings(), "number", "value", "95 %", "full width",
                                  "alone", "known", "tied most to");
   for (const BallEstimate& e : fit.estimates) text += line(e);
+  for (const std::string& note : notes) text += fmt::format("note        {}\n", note);
   text += fmt::format("alone       half width if all the others were given; condition number {:.2g}\n",
                       fit.condition);
   for (const HeldNumber& held : fit.held) text += line(fit, held);
@@ -149,7 +165,8 @@ std::string report(const trial::BallLoops& loops, const BallFit& fit) {
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-std::string json_text(const trial::BallLoops& loops, const BallFit& fit) {
+std::string json_text(const trial::BallLoops& loops, const BallFit& fit,
+                      const std::vector<std::string>& notes) {
   Json json;
   json["pushes"] = loops.pushes();
   json["readings"] = loops.readings();
@@ -170,6 +187,7 @@ std::string json_text(const trial::BallLoops& loops, const BallFit& fit) {
   json["walk_N_per_sqrt_s"] = fit.walk;
   json["rms_N"] = fit.rms;
   json["condition"] = number_or_null(fit.condition);
+  if (!notes.empty()) json["notes"] = notes;
   return json.dump(2);
 }
 
@@ -183,7 +201,8 @@ int fit_ball(const FitOptions& options) {
   const BallFitOptions how = asked(options);
   std::vector<trial::Pushes> runs;
   runs.reserve(options.loops.size());
-  for (const std::string& file : options.loops) runs.push_back(read(file, options.limit_mm * 1e-3));
+  std::vector<std::string> notes;
+  for (const std::string& file : options.loops) runs.push_back(read(file, options.limit_mm * 1e-3, notes));
   const trial::BallLoops loops(std::move(runs));
   BallFit fit;
   try {
@@ -191,7 +210,7 @@ int fit_ball(const FitOptions& options) {
   } catch (const Error& e) {
     throw Error(fmt::format("{}:1:1: {}", options.loops.front(), e.what()));
   }
-  fmt::print("{}", options.json ? json_text(loops, fit) + "\n" : report(loops, fit));
+  fmt::print("{}", options.json ? json_text(loops, fit, notes) + "\n" : report(loops, fit, notes));
   return 0;
 }
 

@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
+#include <cstdint>
+#include <span>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "models/csv_reader.h"
+#include "models/fit/loop/branches.h"
+#include "models/fit/loop/contact.h"
 #include "models/schema/wording.h"
 
 namespace enc::models {
 namespace {
 
 enum : std::size_t { kTime, kDeflection, kForce, kRepeat, kSource };
-using Repeats = std::map<std::int64_t, std::vector<LoopPoint>>;
 
 std::int64_t repeat_of(const CsvReader& row) {
   if (row.text(kRepeat).empty()) return 0;
@@ -26,54 +28,79 @@ std::int64_t repeat_of(const CsvReader& row) {
   return static_cast<std::int64_t>(which);
 }
 
-// One list of readings for each repeat, and who measured them.
-Repeats read(CsvReader& row, std::string& remark) {
+// Times go forwards. A clock that each repeat starts anew is the usual reason where they do not.
+class Clock {
+ public:
+  double next(const CsvReader& row, std::int64_t repeat) {
+    const double time = row.number(kTime);
+    if (count_ > 0 && !(time > before_)) fail(row, time, repeat);
+    if (count_++ == 0) first_ = time;
+    before_ = time;
+    if (repeat > 0) last_repeat_ = repeat;
+    return time;
+  }
+
+ private:
+  [[noreturn]] void fail(const CsvReader& row, double time, std::int64_t repeat) const {
+    constexpr double kNearFirst = 0.1;  // of the time so far
+    const bool changes = repeat != last_repeat_ && time - first_ <= kNearFirst * (before_ - first_);
+    if (count_ > 2 && (changes || time <= first_))
+      row.fail(kTime,
+               fmt::format("the time {} s comes after {} s: time begins anew {}; expected one clock for the "
+                           "whole file; add the last time of a repeat to all times of the next",
+                           row.text(kTime), before_, place(repeat)));
+    row.fail(kTime,
+             fmt::format("the time {} s does not come after {} s; expected increasing times; sort the rows",
+                         row.text(kTime), before_));
+  }
+  [[nodiscard]] std::string place(std::int64_t repeat) const {
+    if (repeat > 0 && repeat != last_repeat_) return fmt::format("at repeat {}", repeat);
+    return last_repeat_ > 0 ? fmt::format("after repeat {} began", last_repeat_) : "here";
+  }
+
+  std::size_t count_ = 0;
+  double first_ = 0.0, before_ = 0.0;
+  std::int64_t last_repeat_ = 0;
+};
+
+std::vector<LoopRow> read(CsvReader& row, std::string& remark) {
   row.header({"time_s", "deflection_mm", "force_N", "repeat"}, {"source"});
   remark = row.remark();
-  Repeats repeats;
-  double before = -std::numeric_limits<double>::infinity();
+  std::vector<LoopRow> rows;
+  Clock clock;
+  bool sourced = false;
   while (row.next()) {
-    const double time = row.number(kTime);
-    if (!(time > before))
-      row.fail(kTime,
-               fmt::format("the time {} s does not come after {} s; expected increasing times; sort the rows",
-                           row.text(kTime), before));
-    before = time;
     const std::int64_t which = repeat_of(row);
+    LoopRow reading{clock.next(row, which), 0.0, kUnset, which};
     // A rig that has not found its zero yet has no force to tell; outside of a press nothing is lost by that.
-    const auto reading = [&](std::size_t column) {
-      return which == 0 && row.text(column).empty() ? 0.0 : row.number(column);
-    };
-    const LoopPoint point{reading(kDeflection) * 1e-3, reading(kForce), true, time};
-    if (which == 0 || !(point.deflection > 0.0)) continue;
-    if (repeats.empty() && !row.text(kSource).empty()) remark = row.text(kSource);
-    repeats[which].push_back(point);
+    const auto given = [&](std::size_t column) { return which != 0 || !row.text(column).empty(); };
+    if (given(kForce)) reading.force = row.number(kForce);
+    if (!given(kDeflection)) continue;
+    reading.deflection = row.number(kDeflection) * 1e-3;
+    if (which != 0 && !sourced && !row.text(kSource).empty()) {
+      remark = row.text(kSource);
+      sourced = true;
+    }
+    rows.push_back(reading);
   }
-  return repeats;
+  return rows;
 }
 
-// Pressing or releasing, by the travel over a window of readings, which a coarse or noisy position does not
-// turn around. What travels less than a quarter of the usual is at standstill or turns.
-std::vector<LoopPoint> branches(std::vector<LoopPoint>& press) {
-  const auto n = static_cast<std::ptrdiff_t>(press.size());
-  const std::ptrdiff_t half = std::clamp<std::ptrdiff_t>(n / 100, 1, 20);
-  std::vector<double> travel;
-  for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const auto from = static_cast<std::size_t>(std::max<std::ptrdiff_t>(i - half, 0));
-    const auto to = static_cast<std::size_t>(std::min(i + half, n - 1));
-    travel.push_back(press[to].deflection - press[from].deflection);
+// Readings in contact, with the zero of the force and the begin of contact put right.
+std::vector<LoopPoint> in_contact(std::span<const LoopRow> rows, const PressRows& press, std::size_t which,
+                                  const Contact& contact) {
+  std::vector<LoopPoint> points;
+  // Where contact begins elsewhere than at 0, the file's marks do not say which rows are in contact.
+  const std::size_t from = contact.shift ? press.from : press.first;
+  const std::size_t to = contact.shift ? press.to : press.last;
+  for (std::size_t i = from; i <= to; ++i) {
+    const LoopRow& row = rows[i];
+    if (std::isnan(row.force) || (row.repeat == 0 && !contact.shift)) continue;
+    const double deflection = row.deflection - contact.begin();
+    if (deflection > 0.0)
+      points.push_back({deflection, row.force - contact.zero_at(which, row.time), true, row.time});
   }
-  std::vector<double> sizes;
-  sizes.reserve(travel.size());
-  for (const double t : travel) sizes.push_back(std::abs(t));
-  std::sort(sizes.begin(), sizes.end());
-  const double usual = sizes.empty() ? 0.0 : sizes[sizes.size() * 3 / 4];
-  std::vector<LoopPoint> moving;
-  for (std::size_t i = 0; i < press.size(); ++i) {
-    press[i].pressing = travel[i] >= 0.0;
-    if (std::abs(travel[i]) > 0.25 * usual) moving.push_back(press[i]);
-  }
-  return moving;
+  return points;
 }
 
 // A line through force over deflection of what is pressed: how far the force rises along it up to the limit,
@@ -93,27 +120,89 @@ Rise rise_of(const std::vector<std::vector<LoopPoint>>& moving, double limit) {
   return {slope * limit, std::sqrt(std::max(0.0, ff - f * f / n - slope * slope * spread) / n)};
 }
 
-// What the whole file must say; `where` is its end.
-void check(const CsvReader& where, const LoopData& loop, double limit) {
-  constexpr std::ptrdiff_t kFewest = 20;
-  constexpr double kNear = 0.05e-3;     // m (sources/hand 3)
-  constexpr double kLeastForce = 1e-3;  // N: less is no reading of a force sensor
+// What the force is at 0 mm, by the first readings of the presses.
+struct Start {
+  double force = 0.0, error = kUnset;  // N
+  double slope = 0.0;                  // N/m
+};
+Start start_of(const LoopData& loop, double limit) {
+  constexpr double kFirst = 0.1;  // of the limit
+  double least = INFINITY;
+  for (const auto& press : loop.moving)
+    for (const LoopPoint& p : press)
+      if (p.pressing) least = std::min(least, p.deflection);
+  Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double squares = 0.0, n = 0.0;
+  for (const auto& press : loop.moving)
+    for (const LoopPoint& p : press) {
+      if (!p.pressing || p.deflection > least + kFirst * limit) continue;
+      const double u = p.deflection / limit;
+      const Eigen::Vector3d row(1.0, u, u * u);
+      gram += row * row.transpose();
+      right += row * p.force;
+      squares += p.force * p.force;
+      n += 1.0;
+    }
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(gram);
+  if (n < 10.0 || !lu.isInvertible()) return {};
+  const Eigen::Matrix3d inverse = lu.inverse();
+  const Eigen::Vector3d x = inverse * right;
+  const double variance = std::max(0.0, squares - x.dot(right)) / (n - 3.0);
+  return {x[0], std::sqrt(variance * inverse(0, 0)), (x[1] + 2.0 * x[2] * least / limit) / limit};
+}
+
+// A file that begins in contact has no zero of its own: its force has to begin at 0 N and 0 mm.
+void check_start(const CsvReader& where, const LoopData& loop, double limit, double rise) {
+  constexpr double kMost = 0.04;         // of the rise
+  constexpr double kBeyondChance = 6.0;  // standard deviations
+  const Start start = start_of(loop, limit);
+  if (!(std::abs(start.force) > std::max(kMost * rise, kBeyondChance * start.error))) return;
+  if (start.force < 0.0 && start.slope > 0.0)
+    where.fail_line(fmt::format(
+        "contact begins at {:.2f} mm, and no reading from before it tells the zero of the force; expected "
+        "contact to begin at 0 mm; record from before contact on, or take {:.2f} mm away from deflection_mm",
+        -start.force / start.slope * 1e3, -start.force / start.slope * 1e3));
+  where.fail_line(fmt::format(
+      "at 0 mm the force is {:.2f} N, and no reading from before contact tells its zero; expected 0 N; "
+      "record from before contact on, or correct the zero of force_N or of deflection_mm",
+      start.force));
+}
+
+void check_depth(const CsvReader& where, const LoopData& loop, double limit) {
+  constexpr double kNear = 0.05e-3;  // m (sources/hand 3)
+  constexpr double kUnit = 1e3;
   double deepest = 0.0;
-  std::ptrdiff_t pressing = 0;
-  std::ptrdiff_t releasing = 0;
   for (const auto& press : loop.presses)
     for (const LoopPoint& point : press) deepest = std::max(deepest, point.deflection);
+  const auto fits = [&](double factor) {
+    return deepest * factor >= 0.5 * limit && deepest * factor <= 3.0 * limit;
+  };
+  if (const bool metres = fits(kUnit); metres || fits(1.0 / kUnit))
+    where.fail_line(
+        fmt::format("the deepest deflection is {:.4g} mm; expected about {:g} mm; if deflection_mm is in {}, "
+                    "multiply it by {:g}",
+                    deepest * 1e3, limit * 1e3, metres ? "m" : "micrometres", metres ? kUnit : 1.0 / kUnit));
+  if (deepest < limit - kNear)
+    where.fail_line(
+        fmt::format("the deepest deflection is {:.3f} mm; expected {:g} mm, the limit; press deeper, or "
+                    "give --limit-mm {:g}",
+                    deepest * 1e3, limit * 1e3, std::floor(deepest * 1e4) / 10.0));
+}
+
+// What the whole file must say; `where` is its end.
+void check(const CsvReader& where, const LoopData& loop, double limit, bool zero_known) {
+  constexpr std::ptrdiff_t kFewest = 20;
+  constexpr double kLeastForce = 1e-3;  // N: less is no reading of a force sensor
+  std::ptrdiff_t pressing = 0;
+  std::ptrdiff_t releasing = 0;
   for (const auto& press : loop.moving)
     for (const LoopPoint& point : press) ++(point.pressing ? pressing : releasing);
   if (loop.presses.empty())
     where.fail_line(
         "no reading belongs to a press; expected rows with repeat 1, 2, ... and deflection_mm above 0; "
         "fill the column 'repeat'");
-  if (deepest < limit - kNear)
-    where.fail_line(
-        fmt::format("the deepest deflection is {:.3f} mm; expected {:g} mm, the limit; press deeper, or "
-                    "give --limit-mm {:g}",
-                    deepest * 1e3, limit * 1e3, std::floor(deepest * 1e4) / 10.0));
+  check_depth(where, loop, limit);
   if (pressing < kFewest || releasing < kFewest)
     where.fail_line(fmt::format(
         "there are {} readings while {}; expected at least {} on either branch; record the "
@@ -125,6 +214,7 @@ void check(const CsvReader& where, const LoopData& loop, double limit) {
         "pressed to {:g} mm the force rises by {:.3f} N and scatters by {:.3f} N; expected a force "
         "that rises with the deflection; see to the sign and the column of force_N",
         limit * 1e3, rise.force, rise.scatter));
+  if (!zero_known) check_start(where, loop, limit, rise.force);
 }
 
 }  // namespace
@@ -132,12 +222,21 @@ void check(const CsvReader& where, const LoopData& loop, double limit) {
 LoopData parse_loop(const std::string& text, const std::string& name, double limit) {
   CsvReader reader(text, name);
   LoopData loop;
-  auto repeats = read(reader, loop.remark);
-  for (auto& [repeat, press] : repeats) {
-    loop.moving.push_back(branches(press));
+  const std::vector<LoopRow> rows = read(reader, loop.remark);
+  const std::vector<PressRows> presses = presses_in(rows);
+  const Contact contact = find_contact(rows, presses);
+  for (std::size_t k = 0; k < presses.size(); ++k) {
+    std::vector<LoopPoint> press = in_contact(rows, presses[k], k, contact);
+    if (press.empty()) continue;
+    loop.moving.push_back(split_branches(press));
     loop.presses.push_back(std::move(press));
   }
-  check(reader, loop, limit);
+  loop.notes = contact.notes();
+  loop.zero_error = contact.zero_error();
+  loop.begin_error = contact.begin_error();
+  check(reader, loop, limit, std::any_of(contact.zeros.begin(), contact.zeros.end(), [](const PressZero& z) {
+          return z.known();
+        }));
   return loop;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "models/fit/block_error.h"
+#include "models/fit/loop/curve_errors.h"
 
 namespace enc::models {
 namespace {
@@ -17,7 +18,8 @@ namespace {
 // Neighbouring residuals are alike (they are mostly what a polynomial cannot follow), so intervals come from
 // a block bootstrap: each branch of each press in blocks, drawn with replacement. The seed is fixed, and the
 // engine's numbers are used as they come: the same file gives the same intervals everywhere.
-constexpr int kBlocks = 12;
+constexpr std::size_t kBlocks = 12;
+constexpr std::size_t kFewest = 4;  // readings of a block
 constexpr int kDraws = 400;
 
 std::vector<Quadratic> blocks_of(const LoopData& loop, double limit) {
@@ -27,9 +29,10 @@ std::vector<Quadratic> blocks_of(const LoopData& loop, double limit) {
       std::vector<LoopPoint> branch;
       std::copy_if(press.begin(), press.end(), std::back_inserter(branch),
                    [&](const LoopPoint& p) { return p.pressing == pressing; });
-      for (std::size_t b = 0; b < kBlocks; ++b) {
-        const std::size_t from = branch.size() * b / kBlocks;
-        const std::size_t to = branch.size() * (b + 1) / kBlocks;
+      const std::size_t count = std::clamp<std::size_t>(branch.size() / kFewest, 1, kBlocks);
+      for (std::size_t b = 0; b < count; ++b) {
+        const std::size_t from = branch.size() * b / count;
+        const std::size_t to = branch.size() * (b + 1) / count;
         blocks.push_back(normal_equations(std::span(branch).subspan(from, to - from), limit));
       }
     }
@@ -52,6 +55,8 @@ Eigen::MatrixXd bootstrap(const LoopData& loop, double limit, const Constraints&
     if (Eigen::LLT<Eigen::MatrixXd>(q.gram).info() != Eigen::Success) continue;
     drawn.push_back(constrained_minimum(q, all, tolerance));
   }
+  if (drawn.empty())
+    throw Error("the readings lie at so few deflections that no part of them determines the curves", "loop");
   Eigen::MatrixXd x(8, static_cast<Eigen::Index>(drawn.size()));
   for (std::size_t n = 0; n < drawn.size(); ++n) x.col(static_cast<Eigen::Index>(n)) = drawn[n];
   return x;
@@ -60,7 +65,6 @@ Eigen::MatrixXd bootstrap(const LoopData& loop, double limit, const Constraints&
 // Half the distance between the 2.5 % and the 97.5 % quantile.
 double half_width(const Eigen::RowVectorXd& values) {
   std::vector<double> sorted(values.begin(), values.end());
-  if (sorted.empty()) return kUnset;
   std::sort(sorted.begin(), sorted.end());
   const auto at = [&](double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
@@ -69,7 +73,7 @@ double half_width(const Eigen::RowVectorXd& values) {
 }
 
 BranchKnown known(const Quadratic& q, const Eigen::MatrixXd& drawn, const std::array<double, 4>& curve,
-                  double limit, bool pressing) {
+                  double limit, bool pressing, const CurveErrors& errors) {
   const Eigen::Index at = pressing ? 0 : 4;
   BranchKnown k;
   const Eigen::MatrixXd x = drawn.middleRows(at, 4);
@@ -81,7 +85,7 @@ BranchKnown known(const Quadratic& q, const Eigen::MatrixXd& drawn, const std::a
     const double u = d / limit;
     const Eigen::RowVector4d powers(u, u * u, u * u * u, u * u * u * u);
     const double force = d * (curve[0] + d * (curve[1] + d * (curve[2] + d * curve[3])));
-    k.curve.push_back({force, half_width(powers * x)});
+    k.curve.push_back({force, errors.half(d, half_width(powers * x))});
   }
   const Eigen::Matrix4d gram = q.gram.block<4, 4>(at, at);
   const Eigen::Vector4d scale = gram.diagonal().cwiseSqrt().cwiseInverse();
@@ -99,15 +103,23 @@ BranchKnown known(const Quadratic& q, const Eigen::MatrixXd& drawn, const std::a
   return k;
 }
 
-// Mean force of a press near a deflection, brought there along the fitted curve; NaN without readings.
+// Mean force of a press near a deflection, from the fitted curve; NaN without readings. Where a fast branch
+// has few, it is taken from farther around.
 double force_near(const std::vector<LoopPoint>& press, double d, bool pressing, const Response& response) {
-  constexpr double kNear = 0.05e-3;
+  constexpr double kNear = 0.05e-3;         // m
+  constexpr double kFarthest = 1.0 / 10.0;  // of the limit
+  constexpr int kEnough = 3;
   double sum = 0.0;
   int count = 0;
-  for (const LoopPoint& p : press) {
-    if (p.pressing != pressing || std::abs(p.deflection - d) > kNear) continue;
-    sum += p.force - (pressing ? response.press(p.deflection) : response.release(p.deflection));
-    ++count;
+  for (double near = kNear; count < kEnough && (near == kNear || near <= kFarthest * response.limit());
+       near *= 2.0) {
+    sum = 0.0;
+    count = 0;
+    for (const LoopPoint& p : press) {
+      if (p.pressing != pressing || std::abs(p.deflection - d) > near) continue;
+      sum += p.force - (pressing ? response.press(p.deflection) : response.release(p.deflection));
+      ++count;
+    }
   }
   return count > 0 ? sum / count : kUnset;
 }
@@ -152,15 +164,15 @@ void find_repeatability(const LoopData& loop, const Response& response, LoopFit&
     }
 }
 
-std::string source_of(const LoopFit& fit, const std::string& remark) {
+std::string source_of(const LoopFit& fit, const LoopData& loop) {
   return fmt::format(
-      "{} `encounter fit`: {} presses, {} readings, to {:g} mm; slope {:.3f} to {:.2f} N/mm; RMSE press "
+      "{} `encounter fit`: {} presses, {} readings, {}to {:g} mm; slope {:.3f} to {:.2f} N/mm; RMSE press "
       "{:.3f}, release {:.3f} N (without constraints {:.3f}, {:.3f} N); stops {:.3f} N (without constraints "
       "{:.3f} N)",
-      remark.empty() ? "Of unknown origin." : remark + ".", fit.presses, fit.readings,
-      fit.response.limit * 1e3, fit.floor * 1e-3, fit.ceiling * 1e-3, fit.curves.rmse_press,
-      fit.curves.rmse_release, fit.curves.rmse_press_free, fit.curves.rmse_release_free, fit.stops.rmse,
-      fit.stops.rmse_free);
+      loop.remark.empty() ? "Of unknown origin." : loop.remark + ".", fit.presses, fit.readings,
+      loop.notes.empty() ? "" : fmt::format("{}; ", fmt::join(loop.notes, "; ")), fit.response.limit * 1e3,
+      fit.floor * 1e-3, fit.ceiling * 1e-3, fit.curves.rmse_press, fit.curves.rmse_release,
+      fit.curves.rmse_press_free, fit.curves.rmse_release_free, fit.stops.rmse, fit.stops.rmse_free);
 }
 
 }  // namespace
@@ -187,12 +199,13 @@ LoopFit fit_loop(const LoopData& loop, const LoopFitOptions& options) {
   const double margin = 1e-5 * largest;
   const Eigen::MatrixXd drawn =
       bootstrap(loop, options.limit, renderable(options.floor, options.limit, margin), 0.01 * margin);
-  fit.press = known(q, drawn, fit.response.press, options.limit, true);
-  fit.release = known(q, drawn, fit.response.release, options.limit, false);
+  fit.press = known(q, drawn, fit.response.press, options.limit, true, CurveErrors(loop, response, true));
+  fit.release =
+      known(q, drawn, fit.response.release, options.limit, false, CurveErrors(loop, response, false));
   fit.press.repeats = known_by_repeats(loop, response, true);
   fit.release.repeats = known_by_repeats(loop, response, false);
   find_repeatability(loop, response, fit);
-  fit.source = source_of(fit, loop.remark);
+  fit.source = source_of(fit, loop);
   return fit;
 }
 

@@ -17,7 +17,8 @@ struct Known {
 
 struct BranchKnown {
   std::array<Known, 4> coefficients;  // of d^1..d^4, N/m^k
-  std::vector<Known> curve;           // N, at 1, 2, ... mm up to the limit
+  // N, at 1, 2, ... mm up to the limit: with what noise, repeats, the zero and the polynomial's shape may do.
+  std::vector<Known> curve;
   std::vector<double> repeats;  // N, there: half of the interval of the repeats' mean; unset below three
   double condition = 0.0;       // of the normal matrix, its columns scaled to length 1
   std::array<int, 2> tied{};    // which two coefficients (1..4) are hardest to tell apart,

@@ -17,6 +17,7 @@ struct LoopPoint {
   double force = 0.0;       // N
   bool pressing = true;     // else releasing
   double time = 0.0;        // s; the curves do not need it, a law with rate effects does
+  bool held = false;  // at standstill: the force relaxes, which a law without rate effects cannot follow
 };
 
 // Root mean squares of the residuals, N. "Free": least squares that is zero at zero and nothing else; the
@@ -39,8 +40,9 @@ struct StopsFit {
 };
 
 // The stops by non-negative least squares. Each press is a path of its own that begins at rest, in the order
-// of time. stiffest: N/m, more than which the object never is, whichever way it is moved: so that a tremor
-// at rest does not become a large force (see kTremor in the .cpp).
+// of time; readings that are held count for the path alone. stiffest: N/m, more than which the object never
+// is, whichever way it is moved: so that a tremor at rest does not become a large force (see kTremor in the
+// .cpp).
 [[nodiscard]] StopsFit fit_stops(std::span<const std::vector<LoopPoint>> presses, double limit,
                                  double lowest_slope, double stiffest);
 

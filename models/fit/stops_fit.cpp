@@ -44,7 +44,7 @@ void walk(std::span<const LoopPoint> press, const std::vector<double>& radii, do
       row[kCurve + i] = u * x;
     }
     before = d;
-    if (u > 0.0 && point.deflection <= limit) see(row, point);
+    if (u > 0.0 && point.deflection <= limit && !point.held) see(row, point);
   }
 }
 

@@ -51,4 +51,40 @@ std::string plant_loop_csv(const sim::BallParameters& ball, double speed, double
   return text;
 }
 
+double law_force(double deflection_mm, bool pressing) {
+  if (!(deflection_mm > 0.0)) return 0.0;
+  const double press = 1.05 * deflection_mm + 0.155 * deflection_mm * deflection_mm;
+  return pressing ? press : 0.74 * press - 0.08 * std::min(deflection_mm, 1.0);
+}
+
+std::string law_loop_csv(const LawLoop& loop, std::uint64_t seed) {
+  constexpr double kDeepest = 6.0;    // mm
+  constexpr double kRelaxing = 0.6;   // s
+  constexpr double kPause = 2.0;      // s, without rows
+  constexpr double kOvershoot = 0.1;  // s
+  sim::Stream random(seed, "law_loop");
+  std::string text = "time_s,deflection_mm,force_N,repeat\n";
+  const double way = kDeepest + loop.clear_mm, in = way / loop.in_mm_s, out = way / loop.out_mm_s;
+  const double lasts = in + loop.hold_s + out;
+  const auto rows = static_cast<long>(std::floor(lasts * loop.rate_Hz));
+  for (int repeat = 1; repeat <= loop.repeats; ++repeat) {
+    const double zero = loop.zero_N + loop.zero_drift_N * (repeat - 1);
+    for (long i = 0; i <= rows; ++i) {
+      const double t = static_cast<double>(i) / loop.rate_Hz;
+      const bool pressing = t <= in + loop.hold_s;
+      double d = std::min(
+          {-loop.clear_mm + loop.in_mm_s * t, kDeepest, -loop.clear_mm + loop.out_mm_s * (lasts - t)});
+      if (t > in && pressing) d += loop.overshoot_mm * std::max(0.0, 1.0 - (t - in) / kOvershoot);
+      const double held = std::clamp(t - in, 0.0, loop.hold_s);
+      const double force = law_force(d, pressing) *
+                           (pressing ? 1.0 - loop.relaxes * (1.0 - std::exp(-held / kRelaxing)) : 1.0);
+      const double read_mm = d + loop.begin_mm + loop.deflection_noise_mm * random.normal();
+      text += fmt::format("{:.4f},{:.4f},{:.4f},{}\n", (repeat - 1) * (lasts + kPause) + t, read_mm,
+                          force + zero + loop.force_noise_N * random.normal(),
+                          loop.marks_all || read_mm > 0.0 ? repeat : 0);
+    }
+  }
+  return text;
+}
+
 }  // namespace enc::test

@@ -2,6 +2,7 @@
 // tests and benchmarks, and for balls that no rig has pressed yet.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,23 @@ namespace enc::test {
 // The same five times over, with the force sensor's noise (0.0125 N rms) and steps (0.025 N), as a file for
 // `encounter fit`. Says in its first line that it is synthetic.
 [[nodiscard]] std::string plant_loop_csv(const sim::BallParameters& ball, double speed, double limit);
+
+// A rig that presses an object of one law at constant speeds, as a file for `encounter fit`.
+struct LawLoop {
+  double in_mm_s = 4.0, out_mm_s = 4.0;
+  double hold_s = 0.0;
+  double relaxes = 0.0;  // share of the force, within a few seconds of the hold
+  double rate_Hz = 1000.0;
+  double deflection_noise_mm = 0.003, force_noise_N = 0.02;  // rms
+  double zero_N = 0.0, zero_drift_N = 0.0;  // of the force: of all presses, and more from one to the next
+  double begin_mm = 0.0;                    // deflection_mm where contact begins
+  double clear_mm = 2.0;                    // starts and ends so far outside
+  double overshoot_mm = 0.0;                // deeper than the hold, for a tenth of a second
+  int repeats = 5;
+  bool marks_all = false;  // `repeat` stands in rows outside of contact, too
+};
+// N at a deflection in mm: 11.88 N pressing and 8.71 N releasing at 6 mm.
+[[nodiscard]] double law_force(double deflection_mm, bool pressing);
+[[nodiscard]] std::string law_loop_csv(const LawLoop& loop, std::uint64_t seed);
 
 }  // namespace enc::test

@@ -4,11 +4,13 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/input/app/program.h"
 #include "tests/support/bytes_of.h"
+#include "tests/support/plant_loop.h"
 
 namespace enc::tests {
 namespace {
@@ -60,6 +62,35 @@ TEST_F(Program, FitRefusesBadLoopsInOneLine) {
     EXPECT_THAT(r.err, HasSubstr(says));
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
   }
+}
+
+// The force has an offset, contact begins at 2 mm and the way out is fast: both are told, and no number is
+// none.
+TEST_F(Program, FitSaysWhatItPutRight) {
+  write("off.csv",
+        test::law_loop_csv(
+            {.out_mm_s = 80.0, .hold_s = 0.5, .zero_N = 0.6, .begin_mm = 2.0, .marks_all = true}, 1));
+  const Result fit = run_program({"fit", path("off.csv"), "--out", path("off.toml")});
+  ASSERT_EQ(fit.code, 0) << fit.err;
+  EXPECT_THAT(fit.out,
+              AllOf(HasSubstr("\nnote        before contact the force is 0.60 N: subtracted\n"),
+                    HasSubstr("\nnote        contact begins at 2.00 mm: shifted\n"),
+                    testing::ContainsRegex(" 11\\.8[789]\\+-0\\.0[0-9]+ N at 1, 2"),
+                    testing::ContainsRegex(" 8\\.7[0-3]\\+-0\\.0[0-9]+ N at 1, 2"), Not(HasSubstr("nan"))));
+  EXPECT_THAT(bytes_of(path("off.toml")),
+              HasSubstr("the force is 0.60 N: subtracted; contact begins at 2.00 mm: shifted; to 6 mm"));
+}
+
+TEST_F(Program, ABallNeedsSecondsInItsLoop) {
+  std::string slow = "time_s,deflection_mm,force_N,repeat\n";
+  for (int i = 1; i < 3000; ++i)
+    slow +=
+        fmt::format("{},{:.3f},{:.3f},1\n", i, 0.004 * std::min(i, 3000 - i), 0.008 * std::min(i, 3000 - i));
+  write("slow.csv", slow);
+  EXPECT_EQ(run_program({"fit", path("slow.csv")}).code, 0) << "a response does not ask for time";
+  const Result ball = run_program({"fit", path("slow.csv"), "--ball"});
+  EXPECT_EQ(ball.code, 2);
+  EXPECT_THAT(ball.err, HasSubstr("slow.csv:1:1: rows are 1 s apart: milliseconds?"));
 }
 
 TEST_F(Program, StopsThatAFileDoesNotHaveAreMissed) {

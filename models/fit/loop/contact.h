@@ -1,0 +1,45 @@
+// What the readings before and after contact tell of a loop: the zero of its force, and where contact begins.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "models/fit/loop/loop_rows.h"
+#include "models/fit/loop/onset.h"
+
+namespace enc::models {
+
+// Mean force while nothing touches, N, with its standard deviation; unset without such readings.
+struct ForceZero {
+  double time = kUnset, force = kUnset, error = kUnset;
+  [[nodiscard]] bool known() const { return !std::isnan(force); }
+};
+
+// Of one press. Between its two zeros the force's zero is a straight line in time.
+struct PressZero {
+  ForceZero before, after;
+  [[nodiscard]] bool known() const { return before.known() || after.known(); }
+  [[nodiscard]] double at(double time) const;  // N; 0 where neither is known
+  [[nodiscard]] double error() const;          // N
+};
+
+struct Contact {
+  std::vector<PressZero> zeros;  // one for each press
+  Onset onset;
+  // What has to be corrected, beyond chance and beyond a thousandth of the force or of the depth.
+  bool subtract = false, shift = false;
+
+  [[nodiscard]] double zero_at(std::size_t press, double time) const {
+    return subtract ? zeros[press].at(time) : 0.0;
+  }
+  [[nodiscard]] double begin() const { return shift ? onset.at : 0.0; }  // m
+  [[nodiscard]] double zero_error() const;                               // N, of the mean over the presses
+  [[nodiscard]] double begin_error() const { return shift ? onset.error : 0.0; }  // m
+  // "before contact the force is 0.60 N: subtracted", "contact begins at 2.00 mm: shifted"
+  [[nodiscard]] std::vector<std::string> notes() const;
+};
+
+[[nodiscard]] Contact find_contact(std::span<const LoopRow> rows, std::span<const PressRows> presses);
+
+}  // namespace enc::models

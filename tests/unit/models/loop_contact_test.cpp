@@ -1,0 +1,195 @@
+// What readings outside of contact put right, and how a press is split: by hand, on loops without noise.
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "models/fit/loop_csv.h"
+
+namespace enc::models {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kLimit = 6e-3;
+
+// Deflection over time, s and mm, straight from one to the next, read at 1 kHz.
+struct Turn {
+  double time, deflection;
+};
+double place(const std::vector<Turn>& turns, double t) {
+  std::size_t k = 1;
+  while (k + 1 < turns.size() && t > turns[k].time) ++k;
+  const Turn &a = turns[k - 1], &b = turns[k];
+  return a.deflection + (t - a.time) / (b.time - a.time) * (b.deflection - a.deflection);
+}
+
+using Force = std::function<double(double deflection, double time)>;  // mm, s, N
+std::string csv(const std::vector<std::vector<Turn>>& presses, const Force& force, bool marks_all = true) {
+  std::string text = "time_s,deflection_mm,force_N,repeat\n";
+  double start = 0.0;
+  int repeat = 0;
+  for (const auto& turns : presses) {
+    ++repeat;
+    for (double t = 0.0; t <= turns.back().time; t += 1e-3) {
+      const double d = place(turns, t);
+      text += fmt::format("{:.3f},{:.6f},{:.6f},{}\n", start + t, d, force(d, start + t),
+                          marks_all || d > 0.0 ? repeat : 0);
+    }
+    start += turns.back().time + 1.0;
+  }
+  return text;
+}
+const std::vector<Turn> kPress{{0, -2}, {2, 6}, {4, -2}};
+
+// 1 N/mm, and how it differs from that.
+LoopData read(const std::vector<std::vector<Turn>>& presses, const Force& force, bool marks_all = true) {
+  return parse_loop(csv(presses, force, marks_all), "loop.csv", kLimit);
+}
+double line(double d) { return std::max(0.0, d); }
+
+std::string refusal(const std::string& text) {
+  try {
+    static_cast<void>(parse_loop(text, "loop.csv", kLimit));
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+void expect_line(const LoopData& loop, double near = 1e-3) {
+  for (const auto& press : loop.moving)
+    for (const LoopPoint& p : press) ASSERT_NEAR(p.force, 1e3 * p.deflection, near) << p.time;
+}
+
+TEST(LoopContact, WhatIsRightIsLeftAsItIs) {
+  const LoopData loop = read({kPress, kPress}, [](double d, double) { return line(d); });
+  EXPECT_THAT(loop.notes, IsEmpty());
+  EXPECT_EQ(loop.zero_error, 0.0);
+  EXPECT_EQ(loop.begin_error, 0.0);
+  ASSERT_EQ(loop.presses.size(), 2U);
+  expect_line(loop, 1e-9);
+}
+
+TEST(LoopContact, AForceBeforeContactIsSubtracted) {
+  const LoopData loop = read({kPress, kPress}, [](double d, double) { return line(d) + 0.6; });
+  EXPECT_THAT(loop.notes, ElementsAre("before contact the force is 0.60 N: subtracted"));
+  expect_line(loop);
+}
+
+// From 0.1 N on it rises by 0.05 N/s: the zero is a line between before and after each press.
+TEST(LoopContact, AZeroThatDriftsIsSubtractedAtEachTime) {
+  const LoopData loop = read(
+      {kPress, kPress}, [](double d, double t) { return line(d) + 0.1 + 0.05 * t; }, false);
+  ASSERT_EQ(loop.notes.size(), 1U);
+  EXPECT_THAT(loop.notes[0], testing::MatchesRegex("before contact the force is 0.1[0-9] to 0.3[0-9] N: "
+                                                   "subtracted"));
+  expect_line(loop, 5e-3);
+}
+
+TEST(LoopContact, ContactThatBeginsElsewhereIsShifted) {
+  for (const double begin : {-0.5, 0.2, 2.0}) {
+    const std::vector<Turn> press{{0, begin - 2}, {2, begin + 6}, {4, begin - 2}};
+    for (const bool marks_all : {true, false}) {
+      const LoopData loop = read(
+          {press, press}, [&](double d, double) { return line(d - begin); }, marks_all);
+      EXPECT_THAT(loop.notes, ElementsAre(fmt::format("contact begins at {:.2f} mm: shifted", begin)));
+      expect_line(loop, 3e-3);
+      double deepest = 0.0;
+      for (const LoopPoint& p : loop.presses[0]) deepest = std::max(deepest, p.deflection);
+      EXPECT_NEAR(deepest, 6e-3, 3e-6);
+    }
+  }
+}
+
+// A force that leaves its zero slowly does not say where: nothing is shifted.
+TEST(LoopContact, ASoftBeginIsNoOffset) {
+  const LoopData loop = read({kPress}, [](double d, double) { return std::pow(line(d), 1.5); });
+  EXPECT_THAT(loop.notes, IsEmpty());
+}
+
+TEST(LoopContact, AFileThatBeginsInContactHasToBeginAtZero) {
+  const std::vector<Turn> press{{0, 0.004}, {1.5, 6}, {3, 0.004}};
+  EXPECT_EQ(refusal(csv({press}, [](double d, double) { return line(d); })), "accepted");
+  EXPECT_THAT(
+      refusal(csv({press}, [](double d, double) { return line(d) + 0.6; })),
+      AllOf(HasSubstr("at 0 mm the force is 0.60 N, and no reading from before contact tells its zero"),
+            HasSubstr("record from before contact on")));
+  const std::vector<Turn> gap{{0, 2.004}, {1.5, 8}, {3, 2.004}};
+  EXPECT_THAT(refusal(csv({gap}, [](double d, double) { return line(d - 2.0); })),
+              HasSubstr("contact begins at 2.00 mm, and no reading from before it tells the zero"));
+}
+
+TEST(LoopContact, ALengthInAnotherUnitIsAskedFor) {
+  const auto in_unit = [](double factor) {
+    std::string text = "time_s,deflection_mm,force_N,repeat\n";
+    for (int i = 0; i < 600; ++i) {
+      const double d = 0.02 * std::min(i, 600 - i);
+      text += fmt::format("{:.3f},{:.7f},{:.4f},1\n", i * 1e-3, factor * d, d);
+    }
+    return refusal(text);
+  };
+  EXPECT_THAT(in_unit(1e-3), HasSubstr("if deflection_mm is in m, multiply it by 1000"));
+  EXPECT_THAT(in_unit(1e3), HasSubstr("if deflection_mm is in micrometres, multiply it by 0.001"));
+}
+
+TEST(LoopContact, AClockThatBeginsAnewIsNotUnsorted) {
+  std::string text = "time_s,deflection_mm,force_N,repeat\n";
+  for (int repeat = 1; repeat <= 2; ++repeat)
+    for (int i = 0; i < 10; ++i) text += fmt::format("{},{},{},{}\n", i, i, i, repeat);
+  EXPECT_THAT(refusal(text),
+              AllOf(HasSubstr("loop.csv:12:1: the time 0 s comes after 9 s: time begins anew at repeat 2"),
+                    HasSubstr("add the last time"), testing::Not(HasSubstr("sort"))));
+  EXPECT_THAT(refusal("time_s,deflection_mm,force_N,repeat\n0,0,0,1\n1,0,0,1\n2,0,0,1\n1.5,0,0,1\n"),
+              AllOf(HasSubstr("loop.csv:5:1:"), HasSubstr("sort the rows")));
+}
+
+// A press that overshoots, waits, settles, and goes back fast: neither branch has a reading of the hold.
+TEST(LoopBranches, AHoldBelongsToNeither) {
+  const std::vector<Turn> press{{0, -2}, {2, 6.04}, {2.1, 6}, {12, 6}, {12.2, -2}};
+  LoopData loop = read({press}, [](double d, double t) {
+    return t <= 2.0 ? line(d) : t < 12.0 ? 5.5 : 0.5 * line(d);
+  });
+  int pressing = 0, releasing = 0;
+  for (const LoopPoint& p : loop.moving.at(0)) {
+    ASSERT_NEAR(p.force, (p.pressing ? 1e3 : 0.5e3) * p.deflection, 1e-6) << p.time;
+    ++(p.pressing ? pressing : releasing);
+  }
+  EXPECT_GT(pressing, 1400);  // of 1510
+  EXPECT_GT(releasing, 120);  // of 150
+  EXPECT_GT(loop.presses.at(0).size(), 11000U);
+  for (const LoopPoint& p : loop.presses[0]) ASSERT_TRUE(p.held || p.force != 5.5) << p.time;
+}
+
+// In, part of the way back and in again: that piece is on neither curve.
+TEST(LoopBranches, AMinorLoopBelongsToNeither) {
+  const std::vector<Turn> press{{0, -2}, {1.5, 4}, {2, 2}, {3, 6}, {4, 2}, {4.5, 4}, {6, -2}};
+  const LoopData loop = read({press}, [](double d, double t) {
+    const bool minor = (t > 1.5 && t < 2.5) || (t > 4.0 && t < 5.0);
+    return minor ? 0.0 : line(d);
+  });
+  for (const LoopPoint& p : loop.moving.at(0))
+    EXPECT_TRUE(p.force > 0.0 || std::abs(p.deflection - (p.pressing ? 4e-3 : 2e-3)) < 0.1e-3) << p.time;
+  EXPECT_GT(loop.moving[0].size(), 2500U);
+}
+
+TEST(LoopBranches, PressesUnderOneNumberAreCountedSingly) {
+  std::string text = csv({kPress, kPress, kPress}, [](double d, double) { return line(d); });
+  for (const char* repeat : {",2\n", ",3\n"})
+    for (std::size_t at = text.find(repeat); at != std::string::npos; at = text.find(repeat, at))
+      text.replace(at, 3, ",1\n");
+  const LoopData loop = parse_loop(text, "loop.csv", kLimit);
+  EXPECT_EQ(loop.presses.size(), 3U);
+  expect_line(loop);
+}
+
+}  // namespace
+}  // namespace enc::models
