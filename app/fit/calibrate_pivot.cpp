@@ -10,6 +10,7 @@
 #include "app/fit/commands.h"
 #include "app/modules/units.h"
 #include "core/error.h"
+#include "models/fit/pivot/pivot_doubts.h"
 #include "models/fit/pivot/pivot_log.h"
 #include "models/schema/wording.h"
 
@@ -41,6 +42,8 @@ std::string pivot_notes(const PivotLog& log, const PivotFit& fit) {
     out += fmt::format("note        the tool rested for {:.1f} s, most of the log: {:.1f} s tell the tip\n",
                        fit.rested, fit.turned);
   if (models::looks_like_metres(log, fit)) out += fmt::format("note        {}\n", kMetres);
+  if (const models::Inversion inverted = models::doubt_of_direction(fit); inverted.doubted)
+    out += fmt::format("note        {}\n", inverted.text);
   return out;
 }
 
@@ -89,15 +92,24 @@ Json pivot_json(const PivotLog& log, const PivotFit& fit) {
   json["rested_s"] = fit.rested;
   json["method"] = fit.neighbours ? "neighbours" : "least_squares";
   if (models::looks_like_metres(log, fit)) json["note"] = kMetres;
+  if (const models::Inversion inverted = models::doubt_of_direction(fit); inverted.doubted)
+    json["note"] = inverted.text;
   return json;
 }
 
 PivotFit fit_of(const PivotLog& log, const std::string& name) {
+  PivotFit fit;
   try {
-    return models::fit_pivot(log.poses);
+    fit = models::fit_pivot(log.poses);
   } catch (const Error& error) {
-    throw Error(fmt::format("{}:{}:1: {}", name, log.line, error.what()));
+    throw Error(
+        fmt::format("{}:{}:1: {}{}", name, log.line, error.what(), models::other_convention(log.poses)));
   }
+  if (const models::Inversion inverted = models::doubt_of_direction(fit); inverted.sure)
+    throw Error(
+        fmt::format("{}:{}:1: {}; expected poses of the markers in the tracker's frame; invert each pose",
+                    name, log.line, inverted.text));
+  return fit;
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ std::vector<LoopRow> read(CsvReader& row, std::string& remark) {
 std::vector<LoopPoint> in_contact(std::span<const LoopRow> rows, const PressRows& press, std::size_t which,
                                   const Contact& contact) {
   std::vector<LoopPoint> points;
-  // Where contact begins elsewhere than at 0, the file's marks do not say which rows are in contact.
+  // If contact begins elsewhere than at 0, the file's marks may be wrong about the rows in contact.
   const std::size_t from = contact.shift ? press.from : press.first;
   const std::size_t to = contact.shift ? press.to : press.last;
   for (std::size_t i = from; i <= to; ++i) {
@@ -120,7 +120,7 @@ Rise rise_of(const std::vector<std::vector<LoopPoint>>& moving, double limit) {
   return {slope * limit, std::sqrt(std::max(0.0, ff - f * f / n - slope * slope * spread) / n)};
 }
 
-// What the force is at 0 mm, by the first readings of the presses.
+// The force at 0 mm, by the first readings of the presses.
 struct Start {
   double force = 0.0, error = kUnset;  // N
   double slope = 0.0;                  // N/m
@@ -160,12 +160,12 @@ void check_start(const CsvReader& where, const LoopData& loop, double limit, dou
   if (!(std::abs(start.force) > std::max(kMost * rise, kBeyondChance * start.error))) return;
   if (start.force < 0.0 && start.slope > 0.0)
     where.fail_line(fmt::format(
-        "contact begins at {:.2f} mm, and no reading from before it tells the zero of the force; expected "
-        "contact to begin at 0 mm; record from before contact on, or take {:.2f} mm away from deflection_mm",
+        "contact begins at {:.2f} mm, and no reading from before it gives the zero of the force; expected "
+        "contact to begin at 0 mm; record from before contact, or take {:.2f} mm away from deflection_mm",
         -start.force / start.slope * 1e3, -start.force / start.slope * 1e3));
   where.fail_line(fmt::format(
-      "at 0 mm the force is {:.2f} N, and no reading from before contact tells its zero; expected 0 N; "
-      "record from before contact on, or correct the zero of force_N or of deflection_mm",
+      "at 0 mm the force is {:.2f} N, and no reading from before contact gives its zero; expected 0 N; "
+      "record from before contact, or correct the zero of force_N or of deflection_mm",
       start.force));
 }
 

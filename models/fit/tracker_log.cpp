@@ -1,6 +1,7 @@
 #include "models/fit/tracker_log.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -14,6 +15,7 @@ namespace {
 constexpr std::size_t kFewestRows = 10;  // rows, and packets
 constexpr double kFarthest = 10.0;       // m: nothing of this kind is larger
 constexpr double kLongestPeriod = 0.1;   // s, of the rows: between them the tip is interpolated
+constexpr double kMilliseconds = 0.5;    // s, of the rows: so seldom comes only a time in another unit
 constexpr double kLongestGap = 0.1;      // s, of lost cycles; likewise
 constexpr double kRounding = 1e-6;       // s
 constexpr double kWhole = 0.25;          // of a period: a gap is a whole number of them to within this
@@ -51,6 +53,7 @@ class LogReader {
     check_tip_stamps();
     check_rows(rate);
     check_packets();
+    check_tool_stamps();
     return std::move(log_);
   }
 
@@ -82,12 +85,42 @@ class LogReader {
     const double before = log_.tip_time.empty() ? kUnset : log_.tip_time.back();
     const double stamp = row_.text(kTipStamp).empty() ? kUnset : row_.number(kTipStamp);
     // Of a machine that is not heard of the last stands on.
-    if (!(stamp <= before) && std::abs(stamp - log_.time.back()) > kFarStamp)
-      row_.fail(kTipStamp,
-                fmt::format("the tip's stamp {} is {:.3g} s from the row's time; expected one clock; "
-                            "leave the column out",
-                            row_.text(kTipStamp), std::abs(stamp - log_.time.back())));
+    const double time = log_.time.back();
+    if (!(stamp <= before) && std::abs(stamp - time) > kFarStamp) {
+      const bool other_unit = stamp > time && is_unit(stamp / time);
+      row_.fail(
+          kTipStamp,
+          fmt::format("the tip's stamp {} is {:.3g} s from the row's time; expected one clock; {}",
+                      row_.text(kTipStamp), std::abs(stamp - time),
+                      other_unit ? "is tip_time_s in milliseconds? give seconds" : "leave the column out"));
+    }
     log_.tip_time.push_back(stamp);
+  }
+
+  // A thousand, or a thousand times that: another unit of time.
+  static bool is_unit(double factor) {
+    constexpr std::array<double, 3> kUnits{1e3, 1e6, 1e9};
+    return std::any_of(kUnits.begin(), kUnits.end(),
+                       [&](double unit) { return std::abs(factor / unit - 1.0) < 0.05; });
+  }
+
+  // Stamps may be of another clock, but not of another unit.
+  void check_tool_stamps() const {
+    const TrackerPacket *first = nullptr, *last = nullptr;
+    for (const TrackerPacket& packet : log_.packets) {
+      if (std::isnan(packet.stamp)) continue;
+      if (first == nullptr) first = &packet;
+      last = &packet;
+    }
+    if (first == last) return;
+    const double factor = (last->stamp - first->stamp) / (last->time - first->time);
+    if (is_unit(factor))
+      row_.fail_line(lines_[1], fmt::format("tool_time_s runs {:.4g} times as fast as time_s; expected "
+                                            "seconds in both; is tool_time_s in {}? divide it by that number",
+                                            factor,
+                                            factor < 1e4   ? "milliseconds"
+                                            : factor < 1e7 ? "microseconds"
+                                                           : "nanoseconds"));
   }
 
   void check_tip_stamps() {
@@ -130,6 +163,10 @@ class LogReader {
       row_.fail_line(lines_[1], fmt::format("the rows come at {:.4g} Hz; expected {:.4g} Hz; give the log's "
                                             "own rate with --rate-Hz",
                                             1.0 / log_.period, rate));
+    if (log_.period >= kMilliseconds)
+      row_.fail_line(lines_[1], fmt::format("rows are {:.3g} s apart: milliseconds? expected at least {:g} "
+                                            "rows a second; give time_s in seconds",
+                                            log_.period, 1.0 / kLongestPeriod));
     if (log_.period > kLongestPeriod)
       row_.fail_line(lines_[1], fmt::format("the rows come every {:.3g} s; expected at least {:g} rows a "
                                             "second; record each cycle of the loop",

@@ -96,7 +96,7 @@ Motion motion_in(std::span<const double> depth, const Branch& branch, const Wind
   return motion;
 }
 
-// What runs over ground that the branch has covered before.
+// Leaves out readings over ground that the branch has covered before.
 void leave_minor_loops(std::span<const double> depth, const Branch& branch, double margin,
                        std::vector<bool>& moves) {
   double covered = -INFINITY;
@@ -107,12 +107,12 @@ void leave_minor_loops(std::span<const double> depth, const Branch& branch, doub
   }
 }
 
-// Where the press turns, and the readings around it that belong to neither branch: first to last.
+// The middle of a press, and the readings around it that belong to neither branch: first to last.
 struct Turn {
   std::size_t at = 0, first = 0, last = 0;
 
-  // A turn without a hold, at like speeds. There the windows that span it lead nowhere, so they leave out
-  // already what is near.
+  // A turn without a hold, at like speeds: the windows that span it show no travel, so the readings near
+  // to it are left out already.
   [[nodiscard]] bool sharp(const Window& in, const Window& out, double margin) const {
     constexpr double kAlike = 1.25, kSpare = 2.0;
     const double readings = margin / in.step + margin / out.step;

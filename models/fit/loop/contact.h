@@ -1,4 +1,4 @@
-// What the readings before and after contact tell of a loop: the zero of its force, and where contact begins.
+// The zero of a loop's force and the begin of contact, from readings before and after contact.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ struct ForceZero {
   [[nodiscard]] bool known() const { return !std::isnan(force); }
 };
 
-// Of one press. Between its two zeros the force's zero is a straight line in time.
+// The zeros around one press. Between them the force's zero is a straight line in time.
 struct PressZero {
   ForceZero before, after;
   [[nodiscard]] bool known() const { return before.known() || after.known(); }
@@ -27,7 +27,7 @@ struct PressZero {
 struct Contact {
   std::vector<PressZero> zeros;  // one for each press
   Onset onset;
-  // What has to be corrected, beyond chance and beyond a thousandth of the force or of the depth.
+  // A correction is needed: the value is beyond chance, and more than a thousandth of the force or depth.
   bool subtract = false, shift = false;
 
   [[nodiscard]] double zero_at(std::size_t press, double time) const {

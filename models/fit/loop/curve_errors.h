@@ -1,5 +1,5 @@
-// What may be wrong with a fitted curve beside noise: repeats differ, the zero of the force and the begin of
-// contact are not known exactly, and a polynomial does not follow every curve.
+// Errors of a fitted curve beside noise: repeats differ, the zero of the force and the begin of contact are
+// uncertain, and a polynomial does not follow every curve.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,10 @@ namespace enc::models {
 
 class CurveErrors {
  public:
-  // Of one branch.
   CurveErrors(const LoopData& loop, const Response& response, bool pressing);
 
-  // Half of the 95 % interval at a deflection, N, out of that of noise. The polynomial's misfit is no matter
-  // of chance, so it is added as it is.
+  // Half of the 95 % interval at a deflection, N; `noise`: half of the interval from noise alone. The
+  // polynomial's misfit is no matter of chance, so it is added as it is.
   [[nodiscard]] double half(double deflection, double noise) const;
 
  private:

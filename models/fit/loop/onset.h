@@ -1,4 +1,4 @@
-// Where contact begins on the way to the deepest reading: there the force leaves its zero.
+// The begin of contact on the way to the deepest reading: there the force leaves its zero.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ struct Approach {
   std::vector<double> deflection, force;  // m, N: of any zero
 };
 
-// Unset where the approaches do not tell: they begin in contact, or shortly before it.
+// Unset if the approaches begin in contact, or shortly before it.
 struct Onset {
   double at = kUnset;     // m
   double error = kUnset;  // m, one standard deviation, and what the shape of the curve leaves open
@@ -21,7 +21,7 @@ struct Onset {
 };
 
 // Before contact the force of each approach is a constant of its own, after it a parabola of all, in three
-// windows: the first 30, 15 and 7 % of the force. Where they agree the largest counts, else the smallest. How
+// windows: the first 30, 15 and 7 % of the force. The largest counts if all agree, else the smallest. How
 // far they lie apart is a part of the error: a curve that begins softly is no parabola, and its onset is
 // found too late.
 [[nodiscard]] Onset find_onset(std::span<const Approach> approaches);

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "models/fit/pivot/pivot_doubts.h"
 #include "models/order_statistics.h"
 
 namespace enc::models {
@@ -55,6 +56,7 @@ class PivotSolver {
     find_rests();
     check_time();
     check_swing();
+    check_motion(0.0);
     leave_out();
     check_stay();
     check_swing();  // of what is left: it may have turned about one axis alone
@@ -123,6 +125,11 @@ class PivotSolver {
 
   // Neither a gap nor a rest tells anything of the tip, however long it is. A rest is worth one short block.
   void check_time() {
+    if (const std::string doubt = doubt_of_time(poses_); !doubt.empty())
+      throw Error(
+          fmt::format("{} so slow a motion does not tell the tip; expected a swing of {:g} s or more; give "
+                      "time_s in seconds",
+                      doubt, kLeastPivotTime));
     const double gap = std::max(kGap, 4.0 * usual_step());
     double gaps = 0.0;
     for (std::size_t i = 1; i < size(); ++i) {
@@ -139,13 +146,16 @@ class PivotSolver {
       throw Error(
           fmt::format("the poses of the tool are of {:.3g} s; expected at least {:g} s; record longer", all,
                       kLeastPivotTime));
-    // What never turned is not told here, but by its swing.
-    if (fit_.turned >= kLongStand && fit_.turned + static_cast<double>(stands_) * kShort < kLeastPivotTime)
-      throw Error(
-          fmt::format("the tool rested for most of the log: it turned for {:.3g} s of {:.3g} s; expected at "
-                      "least {:g} s; "
-                      "swing it about its tip for longer",
-                      fit_.turned, all, kLeastPivotTime));
+    check_motion(kLongStand);  // what never turned is not told here, but by its swing
+  }
+
+  // Checks logs in which the tool turned for at least so long.
+  void check_motion(double least) const {
+    if (fit_.turned < least || fit_.turned + static_cast<double>(stands_) * kShort >= kLeastPivotTime) return;
+    throw Error(
+        fmt::format("the tool rested for most of the log: it turned for {:.3g} s of {:.3g} s; expected at "
+                    "least {:g} s; swing it about its tip for longer",
+                    fit_.turned, fit_.turned + fit_.rested, kLeastPivotTime));
   }
 
   double usual_step() const {

@@ -1,4 +1,4 @@
-// What readings outside of contact put right, and how a press is split: by hand, on loops without noise.
+// The zero, the begin of contact and the branches of a press: by hand, on loops without noise.
 #include <cmath>
 #include <functional>
 #include <string>
@@ -121,11 +121,11 @@ TEST(LoopContact, AFileThatBeginsInContactHasToBeginAtZero) {
   EXPECT_EQ(refusal(csv({press}, [](double d, double) { return line(d); })), "accepted");
   EXPECT_THAT(
       refusal(csv({press}, [](double d, double) { return line(d) + 0.6; })),
-      AllOf(HasSubstr("at 0 mm the force is 0.60 N, and no reading from before contact tells its zero"),
-            HasSubstr("record from before contact on")));
+      AllOf(HasSubstr("at 0 mm the force is 0.60 N, and no reading from before contact gives its zero"),
+            HasSubstr("record from before contact, or")));
   const std::vector<Turn> gap{{0, 2.004}, {1.5, 8}, {3, 2.004}};
   EXPECT_THAT(refusal(csv({gap}, [](double d, double) { return line(d - 2.0); })),
-              HasSubstr("contact begins at 2.00 mm, and no reading from before it tells the zero"));
+              HasSubstr("contact begins at 2.00 mm, and no reading from before it gives the zero"));
 }
 
 TEST(LoopContact, ALengthInAnotherUnitIsAskedFor) {

@@ -162,6 +162,72 @@ TEST_F(CalibratePivot, DoubtsMetresInColumnsOfMillimetres) {
   EXPECT_THAT(told["note"].get<std::string>(), HasSubstr("if the log is in metres"));
 }
 
+// Each row of the log with other numbers: its time, place (mm) and rotation.
+std::string reread(const std::function<void(double& time, Vec3& place, Quat& turn)>& change) {
+  std::istringstream in(rows(about_two_axes));
+  std::string text = kHead;
+  for (std::string row; std::getline(in, row);) {
+    std::vector<double> cells;
+    std::istringstream parts(row);
+    for (std::string cell; std::getline(parts, cell, ',');)
+      cells.push_back(cell == "pen" ? 0.0 : std::stod(cell));
+    Vec3 place(cells[2], cells[3], cells[4]);
+    Quat turn(cells[8], cells[5], cells[6], cells[7]);
+    change(cells[0], place, turn);
+    text += fmt::format("{:.6g},pen,{:.4f},{:.4f},{:.4f},{:.7f},{:.7f},{:.7f},{:.7f}\n", cells[0], place.x(),
+                        place.y(), place.z(), turn.x(), turn.y(), turn.z(), turn.w());
+  }
+  return text;
+}
+
+// Poses of the tracker in the tool leave no residual: the tip and its dimple change places.
+TEST_F(CalibratePivot, RefusesInvertedPoses) {
+  const std::string log = write("i.csv", reread([](double&, Vec3& place, Quat& turn) {
+                                  turn = turn.conjugate();
+                                  place = -(turn * place);
+                                }));
+  EXPECT_THAT(
+      line({"calibrate", log}),
+      testing::ContainsRegex("i.csv:1:1: the tip is 1.09 m from the markers and the dimple 0.12 m from "
+                             "the tracker; are these poses inverted. then the tip is "
+                             "\\[3.0, -2.0, -120.0\\] mm; expected poses of the markers"));
+}
+
+// A tip farther from the markers than the dimple from the tracker may be so: told, and not refused.
+TEST_F(CalibratePivot, DoubtsALongToolNearItsTracker) {
+  const std::string log = write("n.csv", reread([](double&, Vec3& place, Quat& turn) {
+                                  place += turn * Vec3(0, 0, 280) - kDimple + Vec3(0, 0, 150);
+                                }));
+  const Result r = run_program({"calibrate", log});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out,
+              HasSubstr("\nnote        the tip is 0.40 m from the markers and the dimple 0.15 m from the "
+                        "tracker; are these poses inverted?"));
+  const auto told = nlohmann::json::parse(run_program({"calibrate", log, "--json"}).out);
+  EXPECT_THAT(told["note"].get<std::string>(), HasSubstr("are these poses inverted?"));
+}
+
+TEST_F(CalibratePivot, ATimeInAnotherUnitIsAskedFor) {
+  const auto in_unit = [&](double factor) {
+    return line({"calibrate", write("u.csv", reread([&](double& time, Vec3&, Quat&) { time *= factor; }))});
+  };
+  EXPECT_THAT(in_unit(1e3), HasSubstr("u.csv:1:1: rows are 20 s apart: milliseconds?"));
+  EXPECT_THAT(in_unit(1e6), HasSubstr("rows are 2e+04 s apart: microseconds?"));
+}
+
+// A quaternion that is read otherwise than it was written leaves a residual; one that fits is told.
+TEST_F(CalibratePivot, TellsWhichQuaternionWouldFit) {
+  const auto written = [&](const std::function<Quat(const Quat&)>& as) {
+    return line({"calibrate", write("q.csv", reread([&](double&, Vec3&, Quat& turn) { turn = as(turn); }))});
+  };
+  EXPECT_THAT(written([](const Quat& q) { return q.conjugate(); }),
+              AllOf(HasSubstr("the tip did not stay"),
+                    HasSubstr("; with qx, qy, qz negated, so the rotation is inverted it stays within 0.0")));
+  EXPECT_THAT(
+      written([](const Quat& q) { return Quat(q.z(), q.w(), q.x(), q.y()); }),
+      AllOf(HasSubstr("q.csv:1:1: "), HasSubstr("; with qw first, in the column qx it stays within 0.0")));
+}
+
 TEST_F(CalibratePivot, RefusesMotionThatDoesNotTellTheTip) {
   const auto refused = [&](const std::string& text) {
     return line({"calibrate", write("m.csv", kHead + text)});

@@ -14,10 +14,12 @@
 
 #include "tests/input/app/calibrate/calibrate_files.h"
 #include "tests/support/built.h"
+#include "tests/support/replaced.h"
 
 namespace enc::tests {
 namespace {
 
+using test::replaced;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
@@ -104,6 +106,16 @@ TEST_F(Calibrate, RefusesBadLogsInOneLine) {
   EXPECT_THAT(line({"calibrate", write("gap.csv", good.substr(0, at(3000)) + good.substr(at(3100)))}),
               HasSubstr("gap.csv:3002:1: rows are missing from 2.999 to 3.1 s"));
   EXPECT_THAT(line({"calibrate", write("short.csv", good.substr(0, at(5)))}), HasSubstr("there are 5 rows"));
+  std::string milliseconds = head;
+  for (int n = 0; n < 100; ++n) milliseconds += fmt::format("{},0,0,0,0,0,0\n", n);
+  EXPECT_THAT(line({"calibrate", write("ms.csv", milliseconds)}),
+              HasSubstr("ms.csv:3:1: rows are 1 s apart: milliseconds?"));
+  for (const char* stamp : {"tool_time_s", "tip_time_s"}) {
+    std::string text = replaced(head, "tool_z_mm", std::string("tool_z_mm,") + stamp);
+    for (int n = 0; n < 100; ++n) text += fmt::format("{:.3f},0,0,0,{},0,0,{}\n", 0.01 * n, n, 10 * n);
+    EXPECT_THAT(line({"calibrate", write("stamp.csv", text)}),
+                HasSubstr(fmt::format("is {} in milliseconds?", stamp)));
+  }
   EXPECT_THAT(line({"calibrate", write("few.csv", good.substr(0, at(50)))}),
               HasSubstr("there are 5 packets"));
   EXPECT_THAT(line({"calibrate", write("l.csv", good), "--rate-Hz", "500"}), HasSubstr("expected 500 Hz"));
