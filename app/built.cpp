@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/process.h"
+#include "core/text/counted.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {
@@ -13,7 +14,7 @@ namespace {
 
 std::string arm_name(const models::Setup& setup) {
   const ArmMachine& machine = setup.rig.arm.machine;
-  return machine.kind == ArmKind::phantom ? "PHANToM" : fmt::format("{} joints", machine.links.size());
+  return machine.kind == ArmKind::phantom ? "PHANToM" : counted(machine.links.size(), "joint");
 }
 
 std::string prop_name(const PropSpec& prop) {
@@ -47,13 +48,13 @@ std::vector<Part> parts_of(const models::Setup& setup) {
   const auto millimetres = [](double metres) { return std::round(metres * 1e6) * 1e-3; };
   part("probe", scene.probe.has_value(),
        !scene.probe ? ""
-                    : fmt::format("{:g} mm radius, {} pushes of {:g} mm", millimetres(scene.probe->radius),
-                                  scene.probe->repeats, millimetres(scene.probe->depth)));
+                    : fmt::format("{:g} mm radius, {} of {:g} mm", millimetres(scene.probe->radius),
+                                  counted(scene.probe->repeats, "push"), millimetres(scene.probe->depth)));
   part("pusher", scene.pusher.has_value(),
-       !scene.pusher
-           ? ""
-           : fmt::format("{:g} N/mm, {} pushes of {:g} mm or {:g} N", setup.twin.pusher.stiffness * 1e-3,
-                         scene.pusher->repeats, millimetres(scene.pusher->depth), scene.pusher->force));
+       !scene.pusher ? ""
+                     : fmt::format("{:g} N/mm, {} of {:g} mm or {:g} N", setup.twin.pusher.stiffness * 1e-3,
+                                   counted(scene.pusher->repeats, "push"), millimetres(scene.pusher->depth),
+                                   scene.pusher->force));
   part("travel", scene.travel.has_value(),
        !scene.travel
            ? ""
@@ -74,10 +75,9 @@ std::string parts_text(const models::Setup& setup) {
     std::string& line = p.built ? built : left_out;
     line += (line.empty() ? "" : ", ") + p.name + (p.built ? " (" + p.what + ")" : "");
   }
-  return fmt::format(
-      "built       {}; {} object{}, {} thread{}\nleft out    {}: the scene does not name them\n", built,
-      setup.scene.objects.size(), setup.scene.objects.size() == 1 ? "" : "s", thread_count(),
-      thread_count() == 1 ? "" : "s", left_out.empty() ? "nothing" : left_out);
+  return fmt::format("built       {}; {}, {}\nleft out    {}: the scene does not name them\n", built,
+                     counted(setup.scene.objects.size(), "object"), counted(thread_count(), "thread"),
+                     left_out.empty() ? "nothing" : left_out);
 }
 
 std::string devices_text(const std::vector<trial::DeviceWords>& devices) {

@@ -8,6 +8,7 @@
 #include "app/options.h"
 #include "app/seen_again.h"
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "trial/prepare.h"
 
 namespace enc::app {
@@ -26,21 +27,21 @@ int replay(const ReplayOptions& options) {
     fmt::print("differs from tick {} on: {}\n", result.first_difference, result.what);
     return 1;
   }
-  fmt::print("{} ticks run again, equal to the bit; state hash {:016x}{}\n", result.ticks, result.hash,
+  fmt::print("{} run again, equal to the bit; state hash {:016x}{}\n", counted(result.ticks, "tick"),
+             result.hash,
              record.sealed()           ? ""
              : record.damage().empty() ? " (record not sealed: it was cut off)"
                                        : "; damaged behind that, and not read: " + record.damage());
   if (const auto ledger = record.end_texts().find("ledger"); ledger != record.end_texts().end()) {
     const auto contacts = std::count(ledger->second.begin(), ledger->second.end(), '\n') - 1;
-    fmt::print("energy ledger of {} contact{}, as the run had it: export --ledger\n", contacts,
-               contacts == 1 ? "" : "s");
+    fmt::print("energy ledger of {}, as the run had it: export --ledger\n", counted(contacts, "contact"));
   }
   if (again && again->first_difference >= 0) {
     fmt::print("vision differs from tick {} on: {}\n", again->first_difference, again->what);
     for (const std::string& line : again->said) fmt::print(stderr, "{}\n", line);
     return 1;
   }
-  if (again) fmt::print("vision told {} times what it told then, equal to the bit\n", again->told);
+  if (again) fmt::print("vision told {} what it told then, equal to the bit\n", counted(again->told, "time"));
   return record.damage().empty() ? 0 : 1;
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/modules/modules.h"
 #include "app/process.h"
+#include "core/text/counted.h"
 #include "trial/trial.h"
 
 namespace enc::app {
@@ -49,9 +50,9 @@ std::string process_text() {
   const bool gl = among(libraries, "libGL") || among(libraries, "libEGL") || among(libraries, "libOSMesa");
   const int threads = thread_count();
   return fmt::format(
-      "  process   {} thread{}, {} libraries, {:.0f} MiB at most so far; OpenGL {}; modules {}; not loaded "
+      "  process   {}, {} libraries, {:.0f} MiB at most so far; OpenGL {}; modules {}; not loaded "
       "{}\n",
-      threads, threads == 1 ? "" : "s", libraries.size(), peak_memory_mb(), gl ? "loaded" : "not loaded",
+      counted(threads, "thread"), libraries.size(), peak_memory_mb(), gl ? "loaded" : "not loaded",
       loaded.empty() ? "none" : fmt::format("{}", fmt::join(loaded, ", ")),
       left.empty() ? "none" : fmt::format("{}", fmt::join(left, ", ")));
 }

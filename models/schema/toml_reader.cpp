@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 
@@ -141,7 +142,7 @@ class Value {
     const toml::array* array = node.as_array();
     if (array == nullptr) wrong_type(node, part);
     if (size != 0 && array->size() != size) {
-      fail(fmt::format("has {} elements", array->size()), part.empty() ? wanted_ : "3 numbers in every place",
+      fail("has " + counted(array->size(), "element"), part.empty() ? wanted_ : "3 numbers in every place",
            part);
     }
     return *array;

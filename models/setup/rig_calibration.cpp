@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "models/files.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/toml_reader.h"
@@ -139,14 +140,14 @@ std::string doubt_of(const CalibrationRig& calibration, std::chrono::sys_days to
   const std::int64_t age = (today - *day).count();
   if (age < -1)
     return fmt::format(
-        "this rig was calibrated on {}, which is {} days from now; expected a day that has been; "
+        "this rig was calibrated on {}, which is {} from now; expected a day that has been; "
         "see to the date, and to the clock of this PC",
-        calibration.date, -age);
+        calibration.date, counted(-age, "day"));
   if (age > calibration.valid)
     return fmt::format(
-        "this rig was calibrated on {}, {} days ago; expected {} at most; calibrate it again "
+        "this rig was calibrated on {}, {} ago; expected {} at most; calibrate it again "
         "(docs/guide/laboratory.md), or raise rig.calibration.valid_days if nothing was moved",
-        calibration.date, age, calibration.valid);
+        calibration.date, counted(age, "day"), calibration.valid);
   return {};
 }
 

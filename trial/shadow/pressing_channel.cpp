@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/counted.h"
 #include "sim/world_spec.h"
 #include "trial/shadow/block_fit.h"
 #include "trial/shadow/bounds.h"
@@ -149,9 +150,9 @@ void see_pressing(const Tape& tape, const std::vector<SeenPacket>& recorded, Sha
   see_ages(tape, recorded, ages.packets(), !told || !found.stamps.known(), shadow);
   if (!told)
     return cannot_judge(shadow, Channel::tool,
-                        fmt::format("{} packets came of a tool that pressed the tip, and the machine carried "
+                        fmt::format("{} came of a tool that pressed the tip, and the machine carried "
                                     "none; expected {}: where it should be seen is not known",
-                                    found.packets, kFewest));
+                                    counted(found.packets, "packet"), kFewest));
   std::vector<double> away, stamps, gives;
   for (std::vector<double>* one : {&away, &stamps, &gives}) one->reserve(kTwins);
   for (const std::vector<SeenPacket>& packets : trackers.packets()) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/counted.h"
 #include "trial/shadow/block_fit.h"
 #include "trial/shadow/bounds.h"
 #include "trial/shadow/channels.h"
@@ -275,9 +276,8 @@ void see_probed(const Tape& tape, Shadow& shadow) {
     add(shadow, Channel::force, Quantity::force_rest, beside_twins({found.rms, 0.0}, rest),
         bounds::kForceRest);
   shadow.facts.push_back(
-      {Channel::force,
-       fmt::format("{} pushes; what is left of the force is {:.3f} N rms, of the twin's {:.3f} N",
-                   rows.pushes, found.rms, of_twins(rest).value)});
+      {Channel::force, fmt::format("{}; what is left of the force is {:.3f} N rms, of the twin's {:.3f} N",
+                                   counted(rows.pushes, "push"), found.rms, of_twins(rest).value)});
 }
 
 }  // namespace enc::trial

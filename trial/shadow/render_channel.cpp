@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/step.h"
+#include "core/text/counted.h"
 #include "trial/shadow/block_fit.h"
 #include "trial/shadow/bounds.h"
 #include "trial/shadow/channels.h"
@@ -81,9 +82,8 @@ void see_rendered(const Tape& tape, Shadow& shadow) {
   const models::Interval& deeper = found.values[kDeeper];
   const models::Interval stiffer{1.0 / deeper.value - 1.0, deeper.half / (deeper.value * deeper.value)};
   add(shadow, Channel::rendering, Quantity::rendered, stiffer, bounds::kRendered);
-  shadow.facts.push_back(
-      {Channel::rendering,
-       fmt::format("{} contacts; what is left of the depth is {:.3f} mm rms", contacts, 1e3 * found.rms)});
+  shadow.facts.push_back({Channel::rendering, fmt::format("{}; what is left of the depth is {:.3f} mm rms",
+                                                          counted(contacts, "contact"), 1e3 * found.rms)});
 }
 
 }  // namespace enc::trial

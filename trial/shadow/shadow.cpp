@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "trial/prepare.h"
 #include "trial/shadow/bounds.h"
 #include "trial/shadow/channels.h"
@@ -93,7 +94,8 @@ Shadow shadow(RecordReader& record, const std::string& path, const models::Setup
     throw Error(models::place_of(twin, e.key()) + ": " + e.what());
   }
   if (tape.missed > 0)
-    result.facts.push_back({Channel::clock, fmt::format("{} cycles were lost", tape.missed)});
+    result.facts.push_back({Channel::clock, fmt::format("{} {} lost", counted(tape.missed, "cycle"),
+                                                        tape.missed == 1 ? "was" : "were")});
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/counted.h"
 #include "models/fit/latency_fit.h"
 #include "models/order_statistics.h"
 #include "trial/shadow/block_fit.h"
@@ -146,8 +147,8 @@ void see_carried(const Tape& tape, const std::vector<SeenPacket>& recorded, Shad
       return diverges_grossly(shadow, Channel::tool,
                               "its stamps are of another time than that in which its packets came");
     return cannot_judge(shadow, Channel::tool,
-                        fmt::format("where the machine was is known for {} of its {} packets; expected {}",
-                                    known.size(), recorded.size(), kFewestPackets));
+                        fmt::format("where the machine was is known for {} of its {}; expected {}",
+                                    known.size(), counted(recorded.size(), "packet"), kFewestPackets));
   }
   const models::LatencyFit found = models::fit_latency(with_packets(rows, tape.scene, known));
   const bool carried = goes_along(found);
@@ -188,9 +189,9 @@ void see_tool(const Tape& tape, Shadow& shadow) {
                         "it is seen by a camera: see `encounter replay --frames` for vision");
   const std::vector<SeenPacket> recorded = recorded_packets(tape);
   if (recorded.size() < kFewestPackets)
-    return cannot_judge(
-        shadow, Channel::tool,
-        fmt::format("it was seen {} times; expected at least {}", recorded.size(), kFewestPackets));
+    return cannot_judge(shadow, Channel::tool,
+                        fmt::format("it was seen {}; expected at least {}", counted(recorded.size(), "time"),
+                                    kFewestPackets));
   if (tape.scene.clamped_tool >= 0 && !tape.twin.scene.user) return see_carried(tape, recorded, shadow);
   see_pressing(tape, recorded, shadow);
 }

@@ -67,7 +67,7 @@ TEST(StereoFile, KeysSayTheirUnits) {
 
 TEST(StereoFile, MistakesAreRefusedWithTheirPlace) {
   EXPECT_THAT(refused_change("focal_px = [533.7123, 533.7]", "focal_px = [533.7123]"),
-              AllOf(StartsWith("head.toml:9:"), HasSubstr("has 1 elements; expected 2 positive numbers")));
+              AllOf(StartsWith("head.toml:9:"), HasSubstr("has 1 element; expected 2 positive numbers")));
   EXPECT_THAT(refused_change("focal_px = [533.7123, 533.7]", "focal_px = [-533.7, 533.7]"),
               AllOf(StartsWith("head.toml:9:"), HasSubstr("positive")));
   EXPECT_THAT(refused_change("width_px", "widht_px"),
