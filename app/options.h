@@ -81,6 +81,7 @@ int replay(const ReplayOptions& options);
 int export_record(const ExportOptions& options);
 int params(const ParamsOptions& options);
 int doctor();
+int scenes();
 int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
 int fit(const FitOptions& options);

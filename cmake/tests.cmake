@@ -53,7 +53,7 @@ set(runs_scenes
     unit/sim/rig_test unit/sim/session_world unit/trial/ball_fit unit/trial/carried/ unit/trial/jitter unit/trial/ledger/
     unit/trial/measure/ unit/trial/precision/ unit/trial/seen_measure unit/trial/shadow/ unit/trial/shipped unit/trial/touch_measure
     unit/trial/trial_dent unit/trial/trial_fault unit/trial/trial_press input/app/calibrate/calibrate_machine
-    input/app/calibrate/calibrate_test input/app/check_test input/app/limits_input input/app/rig_test input/app/shadow_input
+    input/app/calibrate/calibrate_test input/app/check_test input/app/limits_input input/app/rig_test input/app/scenes/ input/app/shadow_input
     input/app/stop_test input/app/verdict_input)
 set(long_loops unit/core/safety/certificate/)
 set(slow ${draws} ${runs_scenes} ${long_loops})
@@ -82,6 +82,9 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
   endif()
   if(NOT ENCOUNTER_VISION)
     list(FILTER sources EXCLUDE REGEX "${needs_vision}")
+  endif()
+  if(NOT TARGET enc_picture)
+    list(FILTER sources EXCLUDE REGEX "/tests/.*/picture/")
   endif()
   if(NOT TARGET enc_calibration)
     list(FILTER sources EXCLUDE REGEX "/tests/.*/calibration/")

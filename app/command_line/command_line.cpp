@@ -22,7 +22,8 @@ namespace enc::app {
 namespace {
 
 void scene_options(CLI::App* command, SceneOptions& options) {
-  command->add_option("scene", options.scene, "scene file (models/scenes/*.toml)")->required();
+  command->add_option("scene", options.scene, "scene file, or the name of a shipped scene (encounter scenes)")
+      ->required();
   command->add_option("--rig", options.rig, "rig: sim, a name in models/rigs, or a file")
       ->capture_default_str();
   command->add_option("--set", options.set,
@@ -274,6 +275,9 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   questionnaire_command->add_flag("--json", questionnaire_options.json, "one JSON object instead of text");
   force_option(questionnaire_command, questionnaire_options.force);
   questionnaire_command->callback([&] { code = questionnaire(questionnaire_options); });
+
+  CLI::App* scenes_command = app.add_subcommand("scenes", "the shipped scenes, a line each");
+  scenes_command->callback([&] { code = scenes(); });
 
   CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
   doctor_command->callback([&] { code = doctor(); });

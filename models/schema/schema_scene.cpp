@@ -45,7 +45,8 @@ void describe(Visitor& v, ObjectSpec& o) {
             &o.thickness);
   }
   v.value({"behaviour",
-           "how it pushes back: an entry of models/behaviours.toml; empty: a real thing, for [probe] alone",
+           "how it pushes back: a [[behaviour]] of this file or an entry of models/behaviours.toml; empty: a "
+           "real thing, for [probe] alone",
            kAuthor, chosen},
           &o.behaviour);
   v.value({"limit_mm", "deflection limit that the device holds; unset: the behaviour's", "[VHMR 4.2]", chosen,

@@ -197,10 +197,9 @@ std::string advice(std::string_view word, const std::vector<std::string>& names)
   const std::string name = nearest_name(word, names);
   if (!name.empty()) return fmt::format("did you mean {}?", quoted(name));
   if (names.empty()) return "nothing has a name here";
-  constexpr std::size_t kMost = 12;
   std::string list;
-  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) list += (i == 0 ? "" : ", ") + quoted(names[i]);
-  return fmt::format("the names here are {}{}", list, names.size() > kMost ? ", ..." : "");
+  for (const std::string& offered : names) list += (list.empty() ? "" : ", ") + quoted(offered);
+  return fmt::format("the names here are {}", list);
 }
 
 }  // namespace enc::models

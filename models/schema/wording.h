@@ -31,7 +31,7 @@ std::string quoted_toml(const std::string& text);
 // ("radius_cm") is near to the key with the right one ("radius_mm").
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
-// "did you mean 'radius_mm'?", or else "the names here are 'a', 'b'" (at most 12 of them).
+// "did you mean 'radius_mm'?", or else "the names here are 'a', 'b'", all of them.
 std::string advice(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace enc::models

@@ -19,6 +19,7 @@
 #include "models/setup/directions.h"
 #include "models/setup/driver_table.h"
 #include "models/setup/scene_check.h"
+#include "models/setup/scene_names.h"
 #include "models/sizes/scene_sizes.h"
 
 namespace enc::models {
@@ -51,31 +52,16 @@ bool has_behaviours(const fs::path& folder) {
   return fs::exists(folder / "behaviours.toml", ignored);
 }
 
-// `names` as paths from here, so that they can be typed again.
-std::vector<std::string> paths_to(const fs::path& folder, std::vector<std::string> names) {
-  for (std::string& name : names) name = (folder / fmt::format("{}.toml", name)).lexically_normal().string();
-  return names;
-}
-
 void read_scene(Setup& setup) {
   std::string why;
   const std::string text = read_file(setup.scene_path, kLongest, why);
-  if (!why.empty()) {
-    const fs::path folder = fs::path(models_dir()) / "scenes";
-    const std::vector<std::string> names = files_in(folder.parent_path().string(), "scenes");
-    const std::string near = nearest_name(fs::path(setup.scene_path).stem().string(), names);
-    const std::vector<std::string> offered =
-        near.empty() ? paths_to(folder, names) : paths_to(folder, {near});
-    throw Error(
-        fmt::format("{}:1:1: cannot read this scene: {}; expected a TOML file; {}", setup.scene_path, why,
-                    near.empty() ? advice("", offered) : fmt::format("did you mean '{}'?", offered.front())));
-  }
+  if (!why.empty()) refuse_scene(setup.scene_path, why);
   setup.places = read_toml(text, setup.scene_path, [&](Visitor& visitor) {
     describe(visitor, setup.scene);
-    // A file that stands alone, as `encounter check --resolved` prints it.
-    if (!table_if(visitor, "rig", false, [&] { describe(visitor, setup.rig); })) return;
-    describe_behaviours(visitor, setup.scene.behaviours, true);
-    table(visitor, "truth", [&] { describe(visitor, setup.twin); });
+    // A file that stands alone, as `encounter check --resolved` prints it, has its response curves, too.
+    const bool alone = table_if(visitor, "rig", false, [&] { describe(visitor, setup.rig); });
+    describe_behaviours(visitor, setup.scene.behaviours, alone);
+    if (alone) table(visitor, "truth", [&] { describe(visitor, setup.twin); });
   });
 }
 
@@ -126,36 +112,77 @@ void read_rig_of(Setup& setup, const std::string& rig) {
   clear_absent_drivers(setup);
 }
 
+// The entries of models/behaviours.toml, and where they stand.
+struct BehaviourList {
+  std::string path;
+  std::vector<BehaviourSpec> all;
+  Places places;
+};
+
+BehaviourList shipped_behaviours() {
+  BehaviourList list;
+  list.path = (fs::path(models_dir()) / "behaviours.toml").lexically_normal().string();
+  const std::string text = text_of_file(list.path, "list of behaviours", {});
+  list.places =
+      read_toml(text, list.path, [&](Visitor& visitor) { describe_behaviours(visitor, list.all, false); });
+  return list;
+}
+
+const BehaviourSpec* named(const std::vector<BehaviourSpec>& behaviours, const std::string& name) {
+  const auto found = std::find_if(behaviours.begin(), behaviours.end(),
+                                  [&](const BehaviourSpec& b) { return b.name == name; });
+  return found == behaviours.end() ? nullptr : &*found;
+}
+
+// One name means one behaviour, in every scene.
+void refuse_second_meaning(const Setup& setup, const BehaviourList& shipped) {
+  for (const BehaviourSpec& own : setup.scene.behaviours) {
+    if (named(shipped.all, own.name) == nullptr) continue;
+    const std::string key = fmt::format("behaviour.{}.name", own.name);
+    throw Error(
+        fmt::format("{}: behaviour {} has the name of an entry of {} ({}); expected a name of its own; "
+                    "rename it and the objects that name it",
+                    place_of(setup, key), quoted(own.name), shipped.path, shipped.places.at(key)));
+  }
+}
+
+// Objects take behaviours of their scene file and of models/behaviours.toml.
 void read_behaviours(Setup& setup) {
   std::vector<BehaviourSpec>& used = setup.scene.behaviours;
+  // check() says where an empty one is wrong.
   const auto is_there = [&](const ObjectSpec& o) {
-    return o.behaviour.empty() || std::any_of(used.begin(), used.end(),
-                                              [&](const BehaviourSpec& b) { return b.name == o.behaviour; });
+    return o.behaviour.empty() || named(used, o.behaviour) != nullptr;
   };
   if (has_rig(setup) && std::all_of(setup.scene.objects.begin(), setup.scene.objects.end(), is_there)) return;
-  const std::string path = (fs::path(models_dir()) / "behaviours.toml").lexically_normal().string();
-  const std::string text = text_of_file(path, "list of behaviours", {});
-  std::vector<BehaviourSpec> all;
-  const Places places =
-      read_toml(text, path, [&](Visitor& visitor) { describe_behaviours(visitor, all, false); });
+  const BehaviourList shipped = shipped_behaviours();
+  if (!has_rig(setup)) refuse_second_meaning(setup, shipped);
   std::vector<std::string> names;
-  names.reserve(all.size());
-  for (const BehaviourSpec& b : all) names.push_back(b.name);
+  names.reserve(used.size() + shipped.all.size());
+  for (const BehaviourSpec& b : used) names.push_back(b.name);
+  for (const BehaviourSpec& b : shipped.all) names.push_back(b.name);
   for (const ObjectSpec& object : setup.scene.objects) {
-    if (is_there(object)) continue;  // check() says where an empty one is wrong
-    const auto named = [&](const BehaviourSpec& b) { return b.name == object.behaviour; };
-    const auto found = std::find_if(all.begin(), all.end(), named);
-    if (found == all.end()) {
-      throw Error(fmt::format("{}: there is no behaviour {}; expected an entry of {}; {}",
-                              place_of(setup, fmt::format("object.{}.behaviour", object.name)),
-                              quoted(object.behaviour), path, advice(object.behaviour, names)));
+    if (is_there(object)) continue;
+    const BehaviourSpec* found = named(shipped.all, object.behaviour);
+    if (found == nullptr) {
+      throw Error(fmt::format(
+          "{}: there is no behaviour {}; expected an entry of {} or a [[behaviour]] of this scene; {}",
+          place_of(setup, fmt::format("object.{}.behaviour", object.name)), quoted(object.behaviour),
+          shipped.path, advice(object.behaviour, names)));
     }
     used.push_back(*found);
   }
-  setup.places.insert(places.begin(), places.end());  // what the scene file says of them is there already
+  setup.places.insert(shipped.places.begin(),
+                      shipped.places.end());  // what the scene file says of them is there already
 }
 
 }  // namespace
+
+SceneSpec read_scene_alone(const std::string& path) {
+  Setup setup;
+  setup.scene_path = path;
+  read_scene(setup);
+  return setup.scene;
+}
 
 std::vector<std::string> files_in(const std::string& models_dir, const std::string& folder) {
   std::vector<std::string> names;
@@ -316,7 +343,7 @@ void check_made_for(const Setup& setup) {
 
 Setup load(const std::string& scene_path, const std::string& rig, const std::vector<std::string>& overrides) {
   Setup setup;
-  setup.scene_path = scene_path;
+  setup.scene_path = scene_file_of(scene_path);
   read_scene(setup);
   check_made_for(setup);
   read_rig_of(setup, rig);

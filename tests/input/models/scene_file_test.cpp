@@ -19,8 +19,10 @@ using test::kResponse;
 using test::kScene;
 using test::replaced;
 using test::SceneFile;
+using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 TEST_F(SceneFile, is_fine_as_it_stands) {
@@ -37,12 +39,10 @@ TEST_F(SceneFile, unknown_key) {
   EXPECT_EQ(scene_said("radius_mm", "radus_mm"),
             "scenes/ball.toml:6:1: unknown key 'radus_mm'; expected a key of [[object]] 'ball'; did you mean "
             "'radius_mm'?");
-  EXPECT_EQ(
-      scene_said("depth_mm = 6.3", "  colour = 3"),
-      "scenes/ball.toml:17:3: unknown key 'colour'; expected a key of [user]; the names here are "
-      "'kind', 'object', 'tool', "
-      "'azimuth_deg', 'polar_deg', 'offset_mm', 'depth_mm', 'depths_mm', 'push_N', 'press_s', 'hold_s', "
-      "'release_s', ...");
+  EXPECT_THAT(scene_said("depth_mm = 6.3", "  colour = 3"),
+              AllOf(StartsWith("scenes/ball.toml:17:3: unknown key 'colour'; expected a key of [user]; the "
+                               "names here are 'kind', 'object', 'tool', 'azimuth_deg', "),
+                    HasSubstr("'release_s', 'rest_s', 'approach_mm_s', "), Not(HasSubstr("..."))));
   EXPECT_EQ(scene_said("[force]", "[forces]"),
             "scenes/ball.toml:14:2: unknown key 'forces'; expected a key of the file; did you mean 'force'?");
   EXPECT_THAT(rig_said("filter_hz = 5", "filtre_hz = 5"),

@@ -34,6 +34,16 @@ TEST(Wording, NamesOfAFileAreShownAsTheyMayBe) {
             "unknown key 'kin'; expected a key of [behaviour.\\t]; did you mean 'kind'?");
 }
 
+TEST(Wording, AllNamesAreOffered) {
+  std::vector<std::string> names;
+  std::string list;
+  for (int i = 0; i < 30; ++i) {
+    names.push_back("name_number_" + std::to_string(i));
+    list += (i == 0 ? "'" : ", '") + names.back() + "'";
+  }
+  EXPECT_EQ(advice("quite_another", names), "the names here are " + list);
+}
+
 // Letter by letter two names of this length would take hours.
 TEST(Wording, AVeryLongNameIsNearToNone) {
   const std::string one(1'000'000, 'a'), other(1'000'000, 'b');
