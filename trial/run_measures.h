@@ -10,6 +10,7 @@
 #include "trial/measure/probe_measure.h"
 #include "trial/measure/seen_measure.h"
 #include "trial/measure/touch_measure.h"
+#include "trial/travel/travel_measure.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -40,6 +41,7 @@ struct RunMeasures {
     presses.see(glance);
     felt.see(glance);
     pushes.see(glance);
+    travel.see(glance);
     fingers.see(glance);
     touches.see(glance);
     seen.see(glance);
@@ -50,6 +52,7 @@ struct RunMeasures {
   PressMeasure presses;
   FeltMeasure felt;
   ProbeMeasure pushes;
+  TravelMeasure travel;
   FingerMeasure fingers;
   TouchMeasure touches;
   SeenMeasure seen;

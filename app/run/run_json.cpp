@@ -69,6 +69,8 @@ Json presses_json(const trial::PressMeasure& measure) {
                     {"contacts", p.contacts},
                     {"peak_force_N", number(p.peak_force)},
                     {"force_at_limit_N", number(p.force_at_limit)},
+                    {"limit_mm", number(p.limit * 1e3)},
+                    {"object", p.object},
                     {"peak_deflection_mm", number(p.peak_deflection * 1e3)}});
   }
   return list;
@@ -83,6 +85,20 @@ Json pushes_json(const trial::ProbeMeasure& measure) {
                     {"work_out_mJ", number(p.work_out * 1e3)},
                     {"loss_percent", number(p.loss() * 100.0)}});
   return list;
+}
+
+Json travel_json(const trial::TravelSums& sums) {
+  Json all = Json::array();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    trial::ErrorSum moving = sums.forward[axis];
+    moving.add(sums.back[axis]);
+    if (moving.size() + sums.stopped[axis].size() == 0) continue;
+    all.push_back({{"axis", std::string(1, "xyz"[axis])},
+                   {"stops_rms_mm", number(sums.stopped[axis].errors().rmse * 1e3)},
+                   {"moving_rms_mm", number(moving.errors().rmse * 1e3)},
+                   {"packets", sums.stopped[axis].size() + moving.size()}});
+  }
+  return all;
 }
 
 Json rows_json(const std::vector<certificate::Row>& rows) {
@@ -192,6 +208,7 @@ std::string run_json(const RunReport& r) {
     json["repeats_within_N"] = number(r.measured.pushes.spread());
     json["force_error_N"] = number(r.measured.pushes.force_error());
   }
+  if (r.scene.travel() != nullptr) json["tracking"] = travel_json(r.measured.travel.sums());
   if (!r.scene.impedance()) press_figures(json, r.measured.presses);
   json["step_ns"] = times_json(r.result.step_ns, 1.0);
   if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns, 1.0);

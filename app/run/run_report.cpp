@@ -1,6 +1,7 @@
 #include "app/run/run_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "app/process.h"
 #include "app/run/percentiles.h"
 #include "app/stability_text.h"
+#include "core/text/counted.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {
@@ -41,15 +43,45 @@ double peak(const std::vector<trial::PressFigures>& presses, double trial::Press
   return most;
 }
 
-std::string range_text(const std::vector<trial::PressFigures>& presses) {
+// The force range of the presses that reached the limit, and how many did.
+std::string at_limit_text(const std::vector<trial::PressFigures>& presses) {
   double low = INFINITY;
   double high = -INFINITY;
+  std::size_t met = 0, reached = 0;
   for (const trial::PressFigures& press : presses) {
+    if (std::isnan(press.miss)) continue;
+    ++met;
     if (std::isnan(press.force_at_limit)) continue;
+    ++reached;
     low = std::min(low, press.force_at_limit);
     high = std::max(high, press.force_at_limit);
   }
-  return high < low ? "limit not reached" : fmt::format("{:.2f}..{:.2f} N at the limit", low, high);
+  if (reached == 0) return "limit not reached";
+  const std::string range =
+      reached == 1 ? fmt::format("{:.2f}", low) : fmt::format("{:.2f}..{:.2f}", low, high);
+  return range + " N at the limit" +
+         (reached < met ? fmt::format(" in {} of {}", reached, counted(met, "press")) : "");
+}
+
+// "limit 6 mm"; where the presses had several, each with its object.
+std::string limit_text(const RunReport& r) {
+  std::vector<std::pair<std::int32_t, double>> limits;
+  for (const trial::PressFigures& press : r.measured.presses.presses())
+    if (press.object >= 0 &&
+        std::find(limits.begin(), limits.end(), std::pair(press.object, press.limit)) == limits.end())
+      limits.emplace_back(press.object, press.limit);
+  const auto millimetres = [](double limit) { return std::round(limit * 1e9) * 1e-6; };
+  if (limits.empty()) return "no contact";
+  if (limits.size() == 1) return fmt::format("limit {:g} mm", millimetres(limits.front().second));
+  const bool one_object = std::all_of(limits.begin(), limits.end(),
+                                      [&](const auto& l) { return l.first == limits.front().first; });
+  std::string text = "limits";
+  for (const auto& [object, limit] : limits)
+    text += fmt::format(
+        "{} {:g} mm{}", text == "limits" ? "" : ",", millimetres(limit),
+        one_object ? ""
+                   : fmt::format(" ('{}')", r.setup.scene.objects[static_cast<std::size_t>(object)].name));
+  return text;
 }
 
 std::string press_lines(const RunReport& r) {
@@ -63,10 +95,9 @@ std::string press_lines(const RunReport& r) {
   const auto met = [](const trial::PressFigures& p) { return !std::isnan(p.miss); };
   if (std::none_of(presses.begin(), presses.end(), met)) return "";
   std::string text;
-  text += fmt::format(
-      "force       peak {:.2f} N, {} (true); deflection peak {:.3f} mm (true), limit {:.1f} mm\n",
-      peak(presses, &trial::PressFigures::peak_force), range_text(presses),
-      peak(presses, &trial::PressFigures::peak_deflection) * 1e3, r.scene.objects.front().limit * 1e3);
+  text += fmt::format("force       peak {:.2f} N, {} (true); deflection peak {:.3f} mm (true), {}\n",
+                      peak(presses, &trial::PressFigures::peak_force), at_limit_text(presses),
+                      peak(presses, &trial::PressFigures::peak_deflection) * 1e3, limit_text(r));
   const auto newtons = [](double x) {
     return std::isnan(x) ? std::string("none") : fmt::format("{:.3f} N", x);
   };
@@ -130,6 +161,36 @@ std::string push_lines(const RunReport& r) {
   return text;
 }
 
+// Root mean square, m, of each axis of W that was travelled: "0.107 / 0.094 / 0.083 mm, norm 0.165 mm".
+std::string axes_text(const std::array<trial::ErrorSum, 3>& sums) {
+  std::string text;
+  double square = 0.0;
+  for (const trial::ErrorSum& sum : sums) {
+    const double rmse = sum.errors().rmse;
+    square += rmse * rmse;
+    text += (text.empty() ? "" : " / ") +
+            (sum.size() == 0 ? std::string("-") : fmt::format("{:.3f}", rmse * 1e3));
+  }
+  return text + (std::isnan(square) ? " mm" : fmt::format(" mm, norm {:.3f} mm", std::sqrt(square) * 1e3));
+}
+
+// A tool that the machine carries past the tracker [VHMR 4.1, Table 1].
+std::string travel_lines(const RunReport& r) {
+  if (r.scene.travel() == nullptr) return "";
+  const trial::TravelSums& sums = r.measured.travel.sums();
+  if (sums.size() == 0) return "tracking    not measured: the tracker reported no tool on the way\n";
+  std::array<trial::ErrorSum, 3> moving = sums.forward;
+  for (std::size_t axis = 0; axis < moving.size(); ++axis) moving[axis].add(sums.back[axis]);
+  return fmt::format(
+             "tracking    error along each travelled axis of W, rms, x / y / z: tracked tool tip less where "
+             "the machine says it is; {}\n",
+             counted(sums.size(), "packet")) +
+         fmt::format("  stops     {}\n", axes_text(sums.stopped)) +
+         fmt::format("  moving    {}, at {:g} mm/s\n", axes_text(moving),
+                     std::round(r.setup.scene.travel->speed * 1e6) * 1e-3) +
+         fmt::format("  largest   {:.3f} mm, of any packet and direction\n", sums.largest * 1e3);
+}
+
 // One entry for each time that the arm was told to prepare.
 template <class F>
 std::string each_meeting(const std::vector<trial::Meeting>& meetings, const F& figure) {
@@ -180,7 +241,7 @@ std::string passivity_line(const RunReport& r) {
   const trial::PassivityFigures all = r.measured.passivity.worst();
   const auto acted =
       std::count_if(contacts.begin(), contacts.end(), [](const auto& c) { return c.acted > 0.0; });
-  const std::string of = fmt::format("{} contact{}", contacts.size(), contacts.size() == 1 ? "" : "s");
+  const std::string of = counted(contacts.size(), "contact");
   std::string text =
       acted == 0 ? fmt::format("passivity   the controller left the law's {} as it is, in all of {}",
                                arm ? "force" : "way", of)
@@ -210,8 +271,7 @@ std::string finger_lines(const RunReport& r) {
       fmt::format("far         tip speed at most {:.3f} mm/s\n", r.measured.fingers.far_speed() * 1e3);
   const auto touched =
       std::count_if(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); });
-  text += fmt::format("prepare     {} time{}, {} followed by a touch\n", meetings.size(),
-                      meetings.size() == 1 ? "" : "s", touched);
+  text += fmt::format("prepare     {}, {} followed by a touch\n", counted(meetings.size(), "time"), touched);
   if (touched == 0) return text;
   using trial::Meeting;
   text += fmt::format(
@@ -278,10 +338,6 @@ std::string made_line(const RunReport& r) {
   return models::printable(text) + "\n";
 }
 
-std::string counted(std::int64_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 // The first three, and how many more there were.
 std::string hold_lines(const trial::TrialResult& result) {
   constexpr std::size_t kShown = 3;
@@ -300,8 +356,8 @@ std::string hold_lines(const trial::TrialResult& result) {
 std::string pushed_lines(const RunReport& r) {
   if (!r.setup.scene.pusher || !r.measured.felt.truth) return "";
   const auto& pushes = r.measured.presses.presses();
-  return fmt::format("pushed      {} of {} times from outside; at most {:.2f} N and {:.3f} mm deep (true)\n",
-                     pushes.size(), r.setup.scene.pusher->repeats,
+  return fmt::format("pushed      {} of {} from outside; at most {:.2f} N and {:.3f} mm deep (true)\n",
+                     pushes.size(), counted(r.setup.scene.pusher->repeats, "time"),
                      peak(pushes, &trial::PressFigures::peak_force),
                      peak(pushes, &trial::PressFigures::peak_deflection) * 1e3);
 }
@@ -334,8 +390,8 @@ std::string run_text(const RunReport& r) {
   text += fmt::format("modes       {}; {}\n", modes_line(r.result), counted(r.result.contacts, "contact"));
   text += hold_lines(r.result);
   if (r.result.withheld > 0)
-    text += fmt::format("dry         {} commands were withheld from the machine; --armed sends them\n",
-                        r.result.withheld);
+    text += fmt::format("dry         {} {} withheld from the machine; --armed sends them\n",
+                        counted(r.result.withheld, "command"), r.result.withheld == 1 ? "was" : "were");
   for (const trial::LostLink& link : r.result.links)
     text += fmt::format("link        {} {} at {:.3f} s\n", link.role,
                         link.by_hand ? "stopped by hand" : "lost", seconds(link.t.time_since_epoch()));
@@ -355,7 +411,7 @@ std::string run_text(const RunReport& r) {
   for (const trial::ArmStrength& at : r.strengths)
     if (const std::string beyond = trial::beyond_text(at); !beyond.empty())
       text += "beyond      " + beyond + "\n";
-  text += press_lines(r) + push_lines(r) + pushed_lines(r);
+  text += press_lines(r) + push_lines(r) + pushed_lines(r) + travel_lines(r);
   text += finger_lines(r);
   if (!r.scene.impedance()) text += passivity_line(r);
   text += ledger_line(r);
@@ -370,7 +426,7 @@ std::string run_text(const RunReport& r) {
       "time        {:.2f} s simulated in {:.3f} s: {:.0f} x real time; started in {:.0f} ms, {:.0f} MiB\n",
       r.result.simulated, r.result.wall, r.result.wall > 0.0 ? r.result.simulated / r.result.wall : 0.0,
       r.started * 1e3, peak_memory_mb());
-  text += fmt::format("state hash  {:016x} after {} ticks\n", r.result.hash, r.result.ticks);
+  text += fmt::format("state hash  {:016x} after {}\n", r.result.hash, counted(r.result.ticks, "tick"));
   return text;
 }
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text/counted.h"
+
 namespace enc::app {
 namespace {
 
@@ -23,12 +25,12 @@ void add_swings(const RunReport& r, Lines& lines) {
   const auto widest = std::max_element(swings.begin(), swings.end(),
                                        [](const auto& a, const auto& b) { return a.way < b.way; });
   lines.push_back(
-      fmt::format("{} swung against what pushed it, {} time{}: from {:.2f} s to {:.2f} s by {:.2g} mm at "
+      fmt::format("{} swung against what pushed it, {}: from {:.2f} s to {:.2f} s by {:.2g} mm at "
                   "{:.1f} Hz; it is softer than this machine holds still (check names the softest), or add "
                   "admittance.damping "
                   "= \"observed\"",
-                  name_of(r, widest->object), swings.size(), swings.size() == 1 ? "" : "s", widest->from,
-                  widest->until, widest->way * 1e3, widest->frequency));
+                  name_of(r, widest->object), counted(swings.size(), "time"), widest->from, widest->until,
+                  widest->way * 1e3, widest->frequency));
 }
 
 // The paper's user feels what the core calls a contact. By the truth where there is one.
@@ -36,9 +38,10 @@ void add_empty(const RunReport& r, Lines& lines) {
   const auto& empty = r.measured.touches.empty();
   if (empty.empty()) return;
   lines.push_back(
-      fmt::format("nothing was {} in {} of {} contacts, first at {:.2f} s: the tool is not where the tracker "
+      fmt::format("nothing was {} in {} of {}, first at {:.2f} s: the tool is not where the tracker "
                   "says, or the machine did not get there",
-                  r.scene.impedance() ? "touched" : "felt", empty.size(), r.result.contacts, empty.front()));
+                  r.scene.impedance() ? "touched" : "felt", empty.size(),
+                  counted(r.result.contacts, "contact"), empty.front()));
 }
 
 std::string last_notice(const RunReport& r) {
@@ -52,8 +55,9 @@ void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) 
   const auto n = std::count_if(tried.begin(), tried.end(), is);
   if (n == 0) return;
   const auto first = std::find_if(tried.begin(), tried.end(), is);
-  lines.push_back(fmt::format("{} of {} presses {}, first the one from {:.2f} s on{}", n, tried.size(), text,
-                              first->began, r.result.contacts == 0 ? "; " + last_notice(r) : ""));
+  lines.push_back(fmt::format("{} of {} {}, first the one from {:.2f} s on{}", n,
+                              counted(tried.size(), "press"), text, first->began,
+                              r.result.contacts == 0 ? "; " + last_notice(r) : ""));
 }
 
 // At 20 Hz an arm loses a finger and finds it again within one press (docs/reference/reaching.md).
@@ -61,9 +65,9 @@ void add_repeated(const RunReport& r, Lines& lines) {
   const auto n = static_cast<std::int64_t>(r.measured.touches.plan().tried().size());
   if (r.scene.impedance() || n == 0 || r.result.contacts <= n) return;
   lines.push_back(
-      fmt::format("{} contacts of {} press{}: force was felt where nothing pushed, or the tip lost what "
+      fmt::format("{} of {}: force was felt where nothing pushed, or the tip lost what "
                   "pushed it",
-                  r.result.contacts, n, n == 1 ? "" : "es"));
+                  counted(r.result.contacts, "contact"), counted(n, "press")));
 }
 
 // By the truth where there is one.
@@ -94,9 +98,8 @@ void add_beside(const RunReport& r, Lines& lines) {
       std::count_if(meetings.begin(), meetings.end(), [](const auto& m) { return !std::isnan(m.touched); });
   const auto first = std::find_if(meetings.begin(), meetings.end(), beside);
   lines.push_back(fmt::format(
-      "{} of {} touches were beside the prop, the first at {:.2f} s by {:.2f} mm, where its front "
-      "ends at {:.2f} mm",
-      n, touched, first->touched, first->miss * 1e3, half * 1e3));
+      "{} of {} {} beside the prop, the first at {:.2f} s by {:.2f} mm, where its front ends at {:.2f} mm", n,
+      counted(touched, "touch"), n == 1 ? "was" : "were", first->touched, first->miss * 1e3, half * 1e3));
 }
 
 void add_misses(const RunReport& r, Lines& lines) {
@@ -106,9 +109,31 @@ void add_misses(const RunReport& r, Lines& lines) {
   const auto n = std::count_if(presses.begin(), presses.end(), missed);
   if (n == 0) return;
   const auto first = std::find_if(presses.begin(), presses.end(), missed);
-  lines.push_back(fmt::format(
-      "{} of {} touches missed by more than rig and hand allow, the first by {:.2f} mm of {:.2f} mm", n,
-      presses.size(), first->miss * 1e3, first->miss_bound * 1e3));
+  lines.push_back(
+      fmt::format("{} of {} missed by more than rig and hand allow, the first by {:.2f} mm of {:.2f} mm", n,
+                  counted(presses.size(), "touch"), first->miss * 1e3, first->miss_bound * 1e3));
+}
+
+// A hard object pushes back with newtons already at the inset, where the tip is at the touch.
+std::string departure_cause(const RunReport& r, const trial::Departure& worst) {
+  const double inset = r.setup.scene.follow.inset;
+  const auto steep = std::max_element(
+      r.scene.objects.begin(), r.scene.objects.end(),
+      [&](const auto& a, const auto& b) { return a.response.press(inset) < b.response.press(inset); });
+  const double waits_at = steep->response.press(inset);
+  if (worst.lasted < trial::PressMeasure::kLasting)
+    return fmt::format(
+        "the tip came out of its inset of {:g} mm, where '{}' pushes back with {:.1f} N; make "
+        "follow.inset_mm smaller",
+        std::round(inset * 1e9) * 1e-6,
+        r.setup.scene.objects[static_cast<std::size_t>(steep - r.scene.objects.begin())].name, waits_at);
+  // In the contact in which that was.
+  const auto& contacts = r.measured.passivity.contacts();
+  const auto after = std::find_if(contacts.begin(), contacts.end(),
+                                  [&](const auto& one) { return one.began > worst.from + worst.lasted; });
+  const bool held = after != contacts.begin() && std::prev(after)->acted > 0.0;
+  return fmt::format("{}the sensor does not measure what pushes, or the machine does not follow it",
+                     held ? "the passivity controller held the tip back (line 'passivity'), or " : "");
 }
 
 void add_departures(const RunReport& r, Lines& lines) {
@@ -116,17 +141,10 @@ void add_departures(const RunReport& r, Lines& lines) {
   if (off.empty()) return;
   const auto& worst =
       *std::max_element(off.begin(), off.end(), [](const auto& a, const auto& b) { return a.away < b.away; });
-  // In the contact in which that was.
-  const auto& contacts = r.measured.passivity.contacts();
-  const auto after = std::find_if(contacts.begin(), contacts.end(),
-                                  [&](const auto& one) { return one.began > worst.from + worst.lasted; });
-  const bool held = after != contacts.begin() && std::prev(after)->acted > 0.0;
-  lines.push_back(
-      fmt::format("the true force was none of the object's for {:.2f} s, from {:.2f} s on: at most {:.2f} N "
-                  "at {:.3f} mm, {:.2f} N from its response; {}the sensor does not "
-                  "measure what pushes, or the machine does not follow it",
-                  worst.lasted, worst.from, worst.force, worst.deflection * 1e3, worst.away,
-                  held ? "the passivity controller held the tip back (line 'passivity'), or " : ""));
+  lines.push_back(fmt::format(
+      "the true force was none of the object's for {:.2f} s, from {:.2f} s on: at most {:.2f} N at {:.3f} "
+      "mm, {:.2f} N from its response; {}",
+      worst.lasted, worst.from, worst.force, worst.deflection * 1e3, worst.away, departure_cause(r, worst)));
 }
 
 void add_motors(const RunReport& r, Lines& lines) {
@@ -152,12 +170,12 @@ void add_moved(const RunReport& r, Lines& lines) {
       r.setup.scene.camera ? std::hypot(found.error, trial::SeenMeasure::kThroughImages) : found.error;  // m
   const std::string unknown =
       found.ways < 3 ? fmt::format("; {}", kUnknown.at(static_cast<std::size_t>(found.ways - 1))) : "";
-  lines.push_back(
-      fmt::format("the {} is not where it was registered: {} presses from {:.2f} s on say that it has moved "
-                  "by [{:.1f}, {:.1f}, "
-                  "{:.1f}] mm in W, +- {:.1f} mm{}; register it again by encounter calibrate",
-                  r.setup.scene.camera ? "camera" : "tracker", found.presses, found.since, rounded(mm.x()),
-                  rounded(mm.y()), rounded(mm.z()), 1e3 * known, unknown));
+  lines.push_back(fmt::format(
+      "the {} is not where it was registered: {} from {:.2f} s on {} that it has moved by [{:.1f}, {:.1f}, "
+      "{:.1f}] mm in W, +- {:.1f} mm{}; register it again by encounter calibrate",
+      r.setup.scene.camera ? "camera" : "tracker", counted(found.presses, "press"), found.since,
+      found.presses == 1 ? "says" : "say", rounded(mm.x()), rounded(mm.y()), rounded(mm.z()), 1e3 * known,
+      unknown));
 }
 
 // What is beyond its bound was rendered: a contact with the object, of whichever none is known. A tip that

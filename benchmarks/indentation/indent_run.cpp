@@ -9,11 +9,10 @@
 #include "benchmarks/kit/parallel.h"
 #include "core/task/walk.h"
 #include "sim/random.h"
+#include "trial/measure/press_measure.h"
 
 namespace enc::bench::indentation {
 namespace {
-
-constexpr double kNearLimit = 0.05e-3;  // m (sources/hand 3)
 
 // Looks at one press: the recorded deflection needs the point that the core has buffered at the first touch.
 class Recorder {
@@ -31,7 +30,8 @@ class Recorder {
     filtered.add(recorded, -glance.out.force.xyz[2]);
     truth.add(deflection, force);
     greatest = std::max(greatest, deflection);
-    if (std::isnan(force_at_limit) && deflection >= object.limit - kNearLimit) force_at_limit = force;
+    if (std::isnan(force_at_limit) && deflection >= object.limit - trial::near_limit(object.limit))
+      force_at_limit = force;
     limit = object.limit;
   }
   Branch sensor, filtered, truth;
@@ -64,7 +64,7 @@ Errors errors_of(const Branch& branch, const Response& reference, bool press) {
 
 Recording split(const Branch& contact, double limit) {
   const std::vector<double>& d = contact.deflection;
-  const auto near = [&](double x) { return x >= limit - kNearLimit; };
+  const auto near = [&](double x) { return x >= limit - trial::near_limit(limit); };
   auto end = std::find_if(d.begin(), d.end(), near);
   auto begin = std::find_if(d.rbegin(), d.rend(), near).base();
   if (end == d.end()) end = begin = std::max_element(d.begin(), d.end());

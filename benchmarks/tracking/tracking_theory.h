@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "trial/travel/travel_measure.h"
+
 namespace enc::bench::tracking {
 
 struct ChainSpec {
@@ -32,12 +34,9 @@ struct MovesSpec {
   double step = 1e-3;                                          // s, of the servo's simulation
 };
 
-// The machine counts as moving above this speed, m/s.
-inline constexpr double kMoving = 1e-3;
+using trial::Errors;
+using trial::kMoving;
 
-struct Errors {
-  double rmse = 0.0, mae = 0.0, bias = 0.0;  // m; sources/choices 10
-};
 [[nodiscard]] Errors at_stops(double bias, double noise);
 
 // Where the tool was an age ago less where it is, over all moving ticks and ages.

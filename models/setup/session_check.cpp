@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/rotation.h"
+#include "core/text/counted.h"
+#include "core/world/tray.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_check.h"
 
@@ -13,10 +17,9 @@ void check_pair(const Setup& setup, const std::string& table, const std::string&
                 const std::vector<double>& pair) {
   if (pair.size() == 2 && pair[0] <= pair[1]) return;
   fail(setup, table + "." + key,
-       fmt::format(
-           "'{}' has {}; expected the least and the most; write it like '{} = [1, 2]'", key,
-           pair.size() == 2 ? "its first number above its second" : fmt::format("{} numbers", pair.size()),
-           key));
+       fmt::format("'{}' has {}; expected the least and the most; write it like '{} = [1, 2]'", key,
+                   pair.size() == 2 ? "its first number above its second" : counted(pair.size(), "number"),
+                   key));
 }
 
 void check_ranges(const Setup& setup, const std::string& table, const ReachRanges& r) {
@@ -29,6 +32,43 @@ void check_ranges(const Setup& setup, const std::string& table, const ReachRange
                                   {"hold_s", &r.hold},
                                   {"rest_s", &r.rest}})
     check_pair(setup, table, key, *pair);
+}
+
+// Signed distance of a point to an object's surface, m; of a mesh to its nearest vertex, of a button to the
+// ball around it.
+double distance_to(const ObjectSpec& object, const Vec3& point) {
+  const Vec3 from = point - object.position;
+  switch (object.shape) {
+    case ShapeKind::plane:
+      return from.dot(object.normal);
+    case ShapeKind::sphere:
+      return from.norm() - object.radius;
+    case ShapeKind::button:
+      return from.norm() - Vec3(object.width, object.height, object.thickness).norm();
+    case ShapeKind::mesh:
+      break;
+  }
+  double nearest = std::numeric_limits<double>::infinity();  // of a mesh that is not read yet
+  if (object.surface == nullptr) return nearest;
+  const Vec3 at = rotation_xyz(object.rotation).conjugate() * from / object.scale;
+  for (const auto& [x, y, z] : object.surface->vertices)
+    nearest = std::min(nearest, object.scale * (Vec3(x, y, z) - at).norm());
+  return nearest;
+}
+
+// The machine follows a tool to the nearest object, whichever is pressed.
+void check_tray(const Setup& setup, const SessionSpec& s) {
+  for (const ObjectSpec& object : setup.scene.objects)
+    for (const double beside : {0.0, kTrayBeside}) {
+      const double away = distance_to(object, s.tray + beside * Vec3::UnitY());
+      if (away > setup.scene.follow.pause) continue;
+      fail(setup, "user.session.tray_mm",
+           fmt::format("'tray_mm' is {} mm from the surface of {}{}; expected more than 'follow.pause_mm', "
+                       "{} mm, or the machine follows the tool there and loses it; move it away",
+                       mm(std::round(away * 1e5) / 1e5), quoted(object.name),
+                       beside > 0.0 ? ", the other tool's place 80 mm beside it" : "",
+                       mm(setup.scene.follow.pause)));
+    }
 }
 
 // A kind of user that is drawn has a table of its own name; then it presses to a depth.
@@ -97,13 +137,7 @@ void check_session(const Setup& setup) {
          fmt::format("'other_tool' is {}, which is held already; expected another tool; name it, or leave it "
                      "out for no change",
                      quoted(s.other_tool)));
-  const double away = (s.tray - object.position).norm() - object.radius;
-  if (!(away > setup.scene.follow.pause))
-    fail(setup, "user.session.tray_mm",
-         fmt::format(
-             "'tray_mm' is {} mm from the surface of {}; expected more than 'follow.pause_mm', {} mm, or "
-             "the machine would lose a tool that it follows; move it",
-             mm(std::round(away * 1e5) / 1e5), quoted(object.name), mm(setup.scene.follow.pause)));
+  check_tray(setup, s);
 }
 
 }  // namespace enc::models

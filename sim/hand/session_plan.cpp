@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/world/tray.h"
 
 namespace enc::sim {
 namespace {
@@ -15,7 +16,6 @@ constexpr double kSessionClear = 0.002;  // m above the surface where a release 
 constexpr double kTakeUp = 0.15;  // s until the person has answered the touch with force [sources/hand 2]
 constexpr double kCarry = 1.2;    // s, of a tool to the tray or from it
 constexpr double kSwap = 0.8;     // s with an empty hand
-constexpr double kBeside = 0.08;  // m along y of W, from one tool's place on the tray to the other's
 constexpr double kCrosses = 0.7;  // share of a correction's time at which it crosses the surface
 constexpr double kOverlap = 0.8;  // a correction begins when at least so much of the primary's time is over
 
@@ -61,7 +61,7 @@ SessionPlan::SessionPlan(const SceneSpec& scene, const Scene& prepared, const Ha
 std::int32_t SessionPlan::tool(const State& state) const { return state.held < 0 ? -1 : tools_[state.held]; }
 
 Point<'W'> SessionPlan::spot(std::int32_t which) const {
-  return Point<'W'>(Vec3(session_->tray + kBeside * which * Vec3::UnitY()));
+  return Point<'W'>(Vec3(session_->tray + kTrayBeside * which * Vec3::UnitY()));
 }
 
 // A bare finger comes from where no object is near.

@@ -4,39 +4,60 @@
 #include <cmath>
 
 #include "core/task/walk.h"
+#include "core/world/user_spec.h"
 #include "sim/plants/tracker_plant.h"
 
 namespace enc::trial {
 namespace {
 
-constexpr double kNearLimit = 0.05e-3;  // m (sources/hand 3)
+// Errors of a tip that stands still, m: inset, registration, three sigma of the tracker, tremor and drift of
+// the hand within the data's age.
+double still_error(const models::Setup& setup) {
+  const sim::TwinSpec& twin = setup.twin;
+  double noise = twin.tracker.noise.norm();
+  for (const ToolSpec& tool : setup.scene.tools)
+    noise = std::max(noise, sim::with_tool_known(twin.tracker, tool.markers, tool.tip).noise.norm());
+  return setup.scene.follow.inset + twin.tracker.bias.norm() + 3.0 * noise;
+}
+
+// Age of what the tip acts on, at worst, s: a frame, a server slot and its processing, three times the mean
+// network delay, cycles, servo.
+double greatest_age(const models::Setup& setup) {
+  const sim::TwinSpec& twin = setup.twin;
+  return 1.0 / twin.tracker.rate + twin.tracker.latency + 1.0 / twin.tracker.server_rate +
+         twin.tracker.process + 3.0 * twin.tracker.udp_delay +
+         (static_cast<double>(twin.hexapod.delay_cycles) + 2.0) / setup.rig.loop.rate +
+         2.0 * twin.hexapod.damping / (2.0 * M_PI * twin.hexapod.servo);
+}
+
+IdealFollower follower(const models::Setup& setup, IdealFollower::Sees sees) {
+  return {sees, greatest_age(setup), setup.rig.manipulator.speed,
+          stages::kSideShare * setup.rig.manipulator.acceleration, 1.0 / setup.rig.loop.rate};
+}
+
+// Each press has a path of its own, which a plan has drawn.
+bool drawn(const models::Setup& setup) {
+  return setup.scene.user && setup.scene.user->kind != UserKind::press_release;
+}
 
 }  // namespace
+
+PressMeasure::PressMeasure(const models::Setup& setup)
+    : setup_(setup),
+      followers_{follower(setup, IdealFollower::Sees::held),
+                 follower(setup, IdealFollower::Sees::carried_on)} {}
 
 double SquareMean::root() const { return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : kUnset; }
 
 double miss_bound(const models::Setup& setup, double approach_speed) {
-  const sim::TwinSpec& twin = setup.twin;
   const RigSpec& rig = setup.rig;
-  // Still errors: inset, registration, three sigma of the tracker, tremor and drift of the hand within the
-  // data's age.
-  double noise = twin.tracker.noise.norm();
-  for (const ToolSpec& tool : setup.scene.tools)
-    noise = std::max(noise, sim::with_tool_known(twin.tracker, tool.markers, tool.tip).noise.norm());
-  const double still = setup.scene.follow.inset + twin.tracker.bias.norm() + 3.0 * noise;
-  // Age of what the tip acts on, at worst: a frame, a server slot and its processing, three times the mean
-  // network delay, cycles, servo.
-  const double age = 1.0 / twin.tracker.rate + twin.tracker.latency + 1.0 / twin.tracker.server_rate +
-                     twin.tracker.process + 3.0 * twin.tracker.udp_delay +
-                     (static_cast<double>(twin.hexapod.delay_cycles) + 2.0) / rig.loop.rate +
-                     2.0 * twin.hexapod.damping / (2.0 * M_PI * twin.hexapod.servo);
   const double tilt = setup.scene.user ? setup.scene.user->approach_tilt : 0.0;
   const double sideways = approach_speed * std::sin(tilt);
   const double followed = std::min(sideways, rig.manipulator.speed);
   const double braking = followed * followed / (2.0 * stages::kSideShare * rig.manipulator.acceleration);
   const double from = setup.scene.user ? setup.scene.user->approach_from : 0.0;
   const double outrun = (sideways - followed) / std::max(approach_speed, 1e-9) * from;
-  return still + sideways * age + braking + outrun;
+  return still_error(setup) + sideways * greatest_age(setup) + braking + outrun;
 }
 
 double response_lag(const RigSpec& rig) {
@@ -50,7 +71,10 @@ void PressMeasure::meet(const Glance& glance, PressFigures& press, const Vec3& n
     const Vec3 touching = glance.truth.tool_tip.e() - glance.truth.tool_radius * normal;
     const Vec3 touched = glance.truth.tip.e() + glance.truth.tip_radius * normal;
     press.miss = (touching - touched).norm();
-    press.miss_bound = miss_bound(setup_, press.approach_speed);
+    const Vec3 under = glance.truth.tool_tip.e() - (tool_gap + glance.truth.tool_radius) * normal;
+    press.miss_bound = drawn(setup_) ? still_error(setup_) +
+                                           std::max(followers_[0].behind(under), followers_[1].behind(under))
+                                     : miss_bound(setup_, press.approach_speed);
     met_at_ = seconds(glance.truth.t.time_since_epoch());
   }
   if (std::isnan(press.first_force_delay) && !std::isnan(met_at_) && glance.truth.touching)
@@ -60,13 +84,16 @@ void PressMeasure::meet(const Glance& glance, PressFigures& press, const Vec3& n
 void PressMeasure::compare(const Glance& glance, PressFigures& press, const Object& object, double deflection,
                            double force) {
   if (glance.out.mode != Mode::contact || !glance.truth.touching) return;
+  const double limit = object.limit_at(glance.out.contacts);
+  press.object = glance.out.object;
+  press.limit = limit;
   press.peak_force = std::max(press.peak_force, force);
   press.peak_deflection = std::max(press.peak_deflection, deflection);
-  press.over_limit = std::max(press.over_limit, deflection - object.limit);
-  const bool near_limit = deflection >= object.limit - kNearLimit;
-  if (near_limit && std::isnan(press.force_at_limit)) press.force_at_limit = force;
-  reached_ = reached_ || near_limit;
-  if (deflection <= 0.0 || near_limit) return;
+  press.over_limit = std::max(press.over_limit, deflection - limit);
+  const bool at_limit = deflection >= limit - near_limit(limit);
+  if (at_limit && std::isnan(press.force_at_limit)) press.force_at_limit = force;
+  reached_ = reached_ || at_limit;
+  if (deflection <= 0.0 || at_limit) return;
   if (glance.truth.phase == sim::Phase::press && !reached_)
     press_error_.add(force - object.response.press(deflection));
   if (glance.truth.phase == sim::Phase::release)
@@ -81,8 +108,9 @@ void PressMeasure::judge_law(const Glance& glance, const Object& object, double 
   const double share = glance.scene.dt / (glance.scene.dt + response_lag(setup_.rig));
   least_ = std::min(pushed, least_ + share * (pushed - least_));
   most_ = std::max(pushed, most_ + share * (pushed - most_));
+  const double limit = object.limit_at(glance.out.contacts);
   const bool judged =
-      glance.out.mode == Mode::contact && glance.truth.touching && deflection < object.limit - kNearLimit;
+      glance.out.mode == Mode::contact && glance.truth.touching && deflection < limit - near_limit(limit);
   const double depth = std::max(0.0, deflection), rendered = std::max(0.0, deflection - stages::kSkin);
   const auto [low, high] = std::minmax({object.response.press(rendered), object.response.release(rendered),
                                         object.response.press(depth), object.response.release(depth)});
@@ -94,12 +122,14 @@ void PressMeasure::judge_law(const Glance& glance, const Object& object, double 
   const double now = seconds(glance.truth.t.time_since_epoch());
   if (std::isnan(off_.from)) off_.from = now;
   off_.lasted = now - off_.from;
+  const double inset = glance.scene.follow.inset + stages::kSkin;
+  if (low - most_ > kOff && deflection <= inset) off_.impulse += away * glance.scene.dt;
   if (away > off_.away) {
     off_.away = away;
     off_.force = force;
     off_.deflection = deflection;
   }
-  if (off_.lasted < kLasting) return;
+  if (off_.lasted < kLasting && off_.impulse < kOff * kLasting) return;
   if (departures_.empty() || departures_.back().from != off_.from) departures_.emplace_back();
   departures_.back() = off_;
 }
@@ -124,9 +154,19 @@ void PressMeasure::watch_outside(std::int32_t object, double deflection) {
   if (entered_) greatest_outside_ = std::fmax(greatest_outside_, -deflection);
 }
 
+// Only while a tool is held: the machine has nothing to follow otherwise.
+void PressMeasure::follow(const Glance& glance) {
+  const sim::Truth& truth = glance.truth;
+  if (truth.tool < 0 || truth.aim < 0) return;
+  const Object& aim = glance.scene.objects[static_cast<std::size_t>(truth.aim)];
+  const Vec3 under = stages::nearest(aim, truth.tool_tip).point.e();
+  for (IdealFollower& one : followers_) one.see(under);
+}
+
 void PressMeasure::see(const Glance& glance) {
   const sim::Truth& truth = glance.truth;
   if (!glance.simulated || truth.press < 0 || glance.scene.objects.empty()) return;
+  if (drawn(setup_) && !glance.scene.impedance()) follow(glance);
   const std::size_t index = glance.out.object >= 0 ? static_cast<std::size_t>(glance.out.object) : 0;
   const Object& object = glance.scene.objects[index];
   const stages::NearestInWorld at_tip = stages::nearest(object, truth.tip);

@@ -56,7 +56,7 @@ TEST(SessionInput, PairsAreLeastAndMost) {
     EXPECT_THAT(said_session({name + "=[0.9, 0.5]"}),
                 AllOf(HasSubstr(key), HasSubstr("its first number above")));
     EXPECT_THAT(said_session({name + "=[0.5]"}),
-                AllOf(HasSubstr(key), HasSubstr("has 1 numbers; expected the least")));
+                AllOf(HasSubstr(key), HasSubstr("has 1 number; expected the least")));
     EXPECT_THAT(said_session({name + "=[0.1, 0.2, 0.3]"}), HasSubstr("has 3 numbers"));
   }
 }
@@ -74,6 +74,11 @@ TEST(SessionInput, ToolsAndPlaces) {
   EXPECT_THAT(said_session({"user.session.other_tool=stylus"}), HasSubstr("which is held already"));
   EXPECT_THAT(said_session({"user.session.tray_mm=[-80,0,0]"}),
               AllOf(HasSubstr("'tray_mm' is"), HasSubstr("pause_mm")));
+  // By whichever object: the machine follows a tool to the nearest one. And by the second tool's place beside
+  // it.
+  EXPECT_THAT(said_session({"user.session.tray_mm=[-150,0,60]"}, "training"),
+              AllOf(HasSubstr("'tray_mm' is 68 mm from the surface of 'bone'"), HasSubstr("pause_mm")));
+  EXPECT_THAT(said_session({"user.session.tray_mm=[0,-150,0]"}), HasSubstr("the other tool's place"));
   EXPECT_THAT(said_session({"user.push_N=3"}), HasSubstr("expected no 'push_N'"));
   EXPECT_THAT(said_session({"user.session.polar_max_dge=3"}), HasSubstr("polar_max_deg"));
 }

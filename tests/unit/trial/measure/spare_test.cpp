@@ -85,13 +85,13 @@ TEST(TrialSpare, ASessionGivesOutLessThanATenthOfAMillijoule) {
 // nothing is reckoned for that.
 TEST(TrialSpare, ALessonGivesOutLessThanATenthOfAMillijoule) {
   for (const std::uint64_t seed : {15U, 27U, 41U}) {
-    const Pressed on = pressed_in(loaded("training", {}, kControlledHexapod), seed);
+    const Pressed on = pressed_in(loaded("training", {"follow.inset_mm=0.1"}, kControlledHexapod), seed);
     EXPECT_LE(on.surplus, 0.1e-3) << "J, true, seed " << seed;
     EXPECT_GT(on.controller.acted, 0.1) << "s";
   }
 }
 
-// Waiting 0.1 mm inside, the tooth is hardly rendered then; at 0.01 mm it is.
+// Waiting 0.1 mm inside, the tooth is hardly rendered with the controller; at 0.01 mm it is.
 TEST(TrialSpare, ALessonFromTheSurfaceIsFelt) {
   const Set near{"follow.inset_mm=0.01"};
   const Pressed off = pressed_in(loaded("training", near), 3),
