@@ -30,6 +30,17 @@ std::string both(const trial::Accuracy& asked, const std::string& force, const s
 std::string errs_by(const trial::PrecisionPoint& point, const trial::Accuracy& asked) {
   return both(asked, fmt::format("{:.4f} N", point.error), fmt::format("{:.2f} um", point.way * 1e6));
 }
+// The range in which another converged run may put the error.
+std::string spread_of(const trial::Precision& all, const trial::PrecisionPoint& point,
+                      const trial::Accuracy& asked) {
+  const trial::Spread force = all.error_spread(point), way = all.way_spread(point);
+  return both(asked, fmt::format("{:.4f} to {:.4f} N", force.least, force.most),
+              fmt::format("{:.2f} to {:.2f} um", way.least * 1e6, way.most * 1e6));
+}
+bool may_be_more(const trial::Precision& all, const trial::PrecisionPoint& point,
+                 const trial::Accuracy& asked) {
+  return all.error_spread(point).most > asked.force || all.way_spread(point).most > asked.way;
+}
 std::string words(const trial::Accuracy& asked) {
   return both(asked, fmt::format("{:g} N", asked.force), fmt::format("{:g} um", asked.way * 1e6));
 }
@@ -37,11 +48,12 @@ std::string words(const trial::Accuracy& asked) {
 std::string advised(const trial::Precision& all, const trial::Accuracy& asked) {
   const trial::PrecisionPoint* best = cheapest(all.points, asked);
   if (best == nullptr) return fmt::format("advice      none of these errs by less than {}\n", words(asked));
-  std::string text = fmt::format("advice     {}\n            errs by {}, allowed {}, {:.0f} x real time\n",
-                                 (best->shipped ? " as it is:" : "") + settings_text(all, *best),
-                                 errs_by(*best, asked), words(asked), 1.0 / best->cpu);
-  if (all.second.share(asked) > 0.5)
-    text += "            less than twice the floor is asked for: another converged run may judge otherwise\n";
+  std::string text = fmt::format(
+      "advice     {}\n            errs by {}, allowed {}, {:.0f} x real time\n            by another "
+      "converged run {}{}\n",
+      (best->shipped ? " as it is:" : "") + settings_text(all, *best), errs_by(*best, asked), words(asked),
+      1.0 / best->cpu, spread_of(all, *best, asked),
+      may_be_more(all, *best, asked) ? ": that may be more than allowed" : "");
   if (const trial::PrecisionPoint* next = next_cheaper(all.points, *best))
     text += fmt::format("            the next cheaper, {} at {:g} us, errs by {}, {:.0f} x real time\n",
                         next->integrator, next->step * 1e6, errs_by(*next, asked), 1.0 / next->cpu);

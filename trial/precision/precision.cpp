@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "models/order_statistics.h"
 
 namespace enc::trial {
@@ -62,7 +63,8 @@ void judge(const Run& run, const Run& truth, PrecisionPoint& point) {
   const std::size_t ticks = std::min(run.force.size(), truth.force.size());
   constexpr std::size_t kApart = 1000;  // ticks: more is another course
   if (std::max(run.force.size(), truth.force.size()) - ticks > kApart) {
-    point.failure = fmt::format("ends after {} ticks, not after {}", run.force.size(), truth.force.size());
+    point.failure =
+        fmt::format("ends after {}, not after {}", counted(run.force.size(), "tick"), truth.force.size());
     return;
   }
   double force = 0.0, way = 0.0;
@@ -80,6 +82,8 @@ void judge(const Run& run, const Run& truth, PrecisionPoint& point) {
   point.error = truth.quantities ? apart(run.quantities.value(), *truth.quantities)
                                  : std::sqrt(force / static_cast<double>(touched));
   point.way = std::sqrt(way / static_cast<double>(std::max<std::size_t>(ticks, 1)));
+  point.least_error = point.error;
+  point.least_way = point.way;
   if (!std::isfinite(point.error) || !std::isfinite(point.way)) point.failure = "not finite";
 }
 
@@ -91,6 +95,8 @@ void judge_again(const Run& run, const Run& truth, PrecisionPoint& point) {
   PrecisionPoint again = point;
   if (point.failure.empty()) judge(run, truth, again);
   point.failure = again.failure;
+  point.least_error = std::min(point.error, again.error);
+  point.least_way = std::min(point.way, again.way);
   point.error = std::max(point.error, again.error);
   point.way = std::max(point.way, again.way);
 }
@@ -123,6 +129,14 @@ double apart(std::span<const double> some, std::span<const double> truth) {
     largest = std::max(largest, std::abs(truth[i]));
   }
   return finite && largest > 0.0 ? most / largest : kUnset;
+}
+
+Spread Precision::error_spread(const PrecisionPoint& point) const {
+  return {std::max(0.0, point.least_error - second.error), point.error + second.error};
+}
+
+Spread Precision::way_spread(const PrecisionPoint& point) const {
+  return {std::max(0.0, point.least_way - second.way), point.way + second.way};
 }
 
 std::vector<std::string> Precision::settings(const PrecisionPoint& point) const {

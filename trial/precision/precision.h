@@ -29,9 +29,10 @@ struct Accuracy {
 
 struct PrecisionPoint {
   std::string integrator;
-  double step = 0.0;       // s
-  double error = kUnset;   // N rms; unset: it failed
-  double way = kUnset;     // m rms, of the true tip over all ticks
+  double step = 0.0;                                // s
+  double error = kUnset;                            // N rms, by the judge that says more; unset: it failed
+  double way = kUnset;                              // m rms, of the true tip over all ticks
+  double least_error = kUnset, least_way = kUnset;  // by the judge that says less
   double cpu = kUnset;     // s for each second of experiment, the median of some runs
   std::string failure{};   // why it has no error
   double yards = kUnset;   // what a tick cost in yardsticks, the median of some runs
@@ -44,6 +45,10 @@ struct PrecisionPoint {
   [[nodiscard]] bool meets(const Accuracy& most) const { return share(most) <= 1.0; }
 };
 
+struct Spread {
+  double least = kUnset, most = kUnset;
+};
+
 struct Precision {
   std::string table;  // of the rig, where timestep_us and integrator stand: "truth.world"
   std::vector<PrecisionPoint> points;
@@ -53,6 +58,9 @@ struct Precision {
   double tick = 1e-3;        // s
   std::int64_t touched = 0;  // ticks, in the converged run
   [[nodiscard]] std::vector<std::string> settings(const PrecisionPoint& point) const;  // for --set
+  // Range of the error by a third converged run: it may differ from the two judges by the floor, as they do.
+  [[nodiscard]] Spread error_spread(const PrecisionPoint& point) const;  // N rms
+  [[nodiscard]] Spread way_spread(const PrecisionPoint& point) const;    // m rms
 };
 
 // What costs less than so many times as much is as dear: times are not known better.
