@@ -131,20 +131,17 @@ Table overview_table(const Report& report) {
 Table figure_table(const BenchResult& result) {
   Table table{result.name,
               "Figures of " + result.name,
-              {"figure", "paper", "twin", "difference", "difference (%)", "least .. most", "unit", "role",
-               "bounds", "holds", "note"},
+              {"figure", "holds", "paper", "twin", "unit", "bounds", "difference", "difference (%)",
+               "least .. most", "role", "note"},
               {}};
   for (const Figure& f : result.figures) {
     const double difference = f.twin - f.paper;
     const double percent = f.paper != 0.0 ? 100.0 * difference / std::abs(f.paper) : kUnset;
-    table.rows.push_back({f.id, cell(f.paper), twin_cell(f),
+    const char* holds = f.absent ? "" : f.ok() ? "yes" : "NO";
+    table.rows.push_back({f.id, holds, cell(f.paper), twin_cell(f), f.unit, range(f.low, f.high),
                           std::isfinite(difference) ? fmt::format("{:+.3g}", difference) : "",
                           std::isfinite(percent) ? fmt::format("{:+.1f}", percent) : "",
-                          range(f.least, f.most), f.unit, role_name(f.role), range(f.low, f.high),
-                          f.absent ? ""
-                          : f.ok() ? "yes"
-                                   : "NO",
-                          f.note});
+                          range(f.least, f.most), role_name(f.role), f.note});
   }
   table.note =
       fmt::format("Scene {}; {}{:.2f} s.{}", result.scene,

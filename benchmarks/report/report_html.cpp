@@ -37,9 +37,16 @@ table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabu
 th, td { padding: .25rem .6rem; text-align: left; vertical-align: top; border-bottom: 1px solid #e5e5e5 }
 th { background: #f4f4f4; white-space: nowrap }
 td.n { text-align: right; white-space: nowrap }
+td:first-child { overflow-wrap: anywhere; min-width: 9rem }
 tr.no td { background: #fdecea }
 .missing { border-left: 4px solid #c00; padding: .5rem 1rem; background: #fdecea }
 .note { font-size: .9rem; color: #444; max-width: 60rem }
+@media screen and (max-width: 48rem) { .wide table, .wide tbody, .wide tr { display: block } .wide thead { display: none }
+  .wide tr { border: 1px solid #ddd; border-radius: 6px; margin-bottom: .6rem; padding: .3rem .6rem }
+  .wide td, .wide td.n { display: grid; grid-template-columns: 7rem 1fr; gap: .6rem; border: 0; padding: .1rem 0; text-align: left;
+    white-space: normal; overflow-wrap: anywhere; min-width: 0 }
+  .wide td::before { content: attr(data-column); color: #555 }
+  .wide td:empty { display: none } }
 @media (max-width: 40rem) { dl { grid-template-columns: 1fr } dd { margin-bottom: .4rem } body { padding: .6rem } }
 @media print { html { font-size: 10pt } body { max-width: none; padding: 0; font-size: 10pt } .wide { overflow: visible } nav { display: none }
   table { font-size: 7pt } th { white-space: normal } tr, figure { break-inside: avoid } h2, h3 { break-after: avoid }
@@ -88,8 +95,10 @@ std::string html_table(const Table& t) {
   for (const auto& row : t.rows) {
     const bool no = std::find(row.begin(), row.end(), "NO") != row.end();
     text += no ? "<tr class=\"no\">" : "<tr>";
-    for (const std::string& cell : row)
-      text += (is_number(cell) ? "<td class=\"n\">" : "<td>") + escaped(cell) + "</td>";
+    for (std::size_t i = 0; i < row.size();
+         ++i)  // on a narrow screen each cell stands in a line, with its column's name
+      text += fmt::format("<td{} data-column=\"{}\">{}</td>", is_number(row[i]) ? " class=\"n\"" : "",
+                          i < t.columns.size() ? escaped(t.columns[i]) : "", escaped(row[i]));
     text += "</tr>\n";
   }
   text += "</tbody></table></div>\n";
