@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "core/world/arm_shape.h"
 #include "models/files.h"
+#include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/seen_surface.h"
 #include "sim/view/view.h"
@@ -113,26 +115,42 @@ void add_legs(const Moment& m, sim::ViewRequest& request) {
   request.floor = (X_WR * Point<'R'>(0, 0, -0.020)).xyz[2];
 }
 
-// The rods between the tool's shaft and its markers; MuJoCo turned the tool, so it is asked where they are.
-void add_tool_frame(const Moment& m, sim::ViewRequest& request, Point<'W'>& marker) {
+// The rods between a tool's shaft and its markers; MuJoCo turned the tool, so it is asked where they are.
+// Gives one of its markers, where it has any. `called`: the tool's body, "tool" or "other_tool".
+Point<'W'> add_tool_frame(const Moment& m, sim::ViewRequest& request, const std::string& called) {
   const mjModel* model = m.world.physics().model();
   const mjData* data = m.world.physics().data();
-  const int body = mj_name2id(model, mjOBJ_BODY, "tool");
-  if (body < 0) return;
+  const int body = mj_name2id(model, mjOBJ_BODY, called.c_str());
+  const int tip = mj_name2id(model, mjOBJ_GEOM, (called + "_tip").c_str());
+  if (body < 0 || tip < 0) return {};
+  const auto at = [&](int g) {
+    return Point<'W'>(data->geom_xpos[3 * g], data->geom_xpos[3 * g + 1], data->geom_xpos[3 * g + 2]);
+  };
   std::vector<Point<'W'>> markers;
   Vec3 middle = Vec3::Zero();
   for (int g = model->body_geomadr[body]; g < model->body_geomadr[body] + model->body_geomnum[body]; ++g) {
-    if (model->geom_type[g] != mjGEOM_SPHERE || model->geom_contype[g] != 0) continue;
-    markers.emplace_back(data->geom_xpos[3 * g], data->geom_xpos[3 * g + 1], data->geom_xpos[3 * g + 2]);
+    if (g == tip || model->geom_type[g] != mjGEOM_SPHERE || model->geom_contype[g] != 0) continue;
+    markers.push_back(at(g));
     middle += markers.back().e();
   }
-  if (markers.empty()) return;
+  if (markers.empty()) return {};
   middle /= static_cast<double>(markers.size());
   const Point<'W'> top(middle);
-  for (const Point<'W'>& at : markers) request.rods.push_back({top, at, 0.0018, kMarkerArm});
-  const Vec<'W'> shaft = top - m.world.truth().tool_tip;  // with a handle on its upper half
+  for (const Point<'W'>& marker : markers) request.rods.push_back({top, marker, 0.0018, kMarkerArm});
+  const Vec<'W'> shaft = top - at(tip);  // with a handle on its upper half
   request.rods.push_back({top - 0.5 * shaft, top - 0.08 * shaft, 0.0075, kHandle});
-  marker = markers.front();
+  return markers.front();
+}
+
+// Draws the frames of both tools of a session; gives a marker of the held one.
+Point<'W'> add_tool_frames(const Moment& m, sim::ViewRequest& request) {
+  const std::optional<UserSpec>& user = m.setup.scene.user;
+  const Point<'W'> first = add_tool_frame(m, request, "tool");
+  const Point<'W'> other = add_tool_frame(m, request, "other_tool");
+  const std::int32_t held = m.world.truth().tool;
+  const bool changed = user && user->session && held >= 0 &&
+                       m.setup.scene.tools[static_cast<std::size_t>(held)].name == user->session->other_tool;
+  return changed ? other : first;
 }
 
 // Both arrows stand beside what they are about, to the viewer's right and left: tool and tip hide what is on
@@ -264,6 +282,10 @@ void check(const ViewOptions& options) {
   if (options.shot.empty())
     throw Error(
         "encounter view draws a picture into a file for now; a window comes later: add --shot picture.png");
+  const std::string ending = models::lower_case(std::filesystem::path(options.shot).extension().string());
+  if (!ending.empty() && ending != ".png")
+    throw Error(
+        fmt::format("{}: --shot writes a PNG; expected a name that ends in .png; choose one", options.shot));
   if (options.at && !(*options.at >= 0.0 && *options.at <= 3600.0))
     throw Error("--at-s is a time from 0 to 3600 s");
 }
@@ -298,9 +320,8 @@ int picture(const ViewOptions& options, Look look) {
   if (!close_up)
     request.title =
         fmt::format("{}, at {:.2f} s", setup.scene.title, seconds(moment.now.t.time_since_epoch()));
-  Point<'W'> marker;
   add_legs(moment, request);
-  add_tool_frame(moment, request, marker);
+  const Point<'W'> marker = add_tool_frames(moment, request);
   add_arrows(moment, request, close_up ? 0.5 : 1.0);
   add_labels(moment, request, marker);
   file.write(module->shot(request));

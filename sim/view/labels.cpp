@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/picture/label_rows.h"
+
 namespace enc::sim {
 namespace {
 
 constexpr Ink kText{35, 40, 50};
 constexpr Ink kLine{120, 128, 140};
-
-struct Placed {
-  std::string text;
-  bool left = false;
-  double x = 0, y = 0;  // of the thing, pixels, y downwards
-  double row = 0;       // of the text's middle
-};
 
 // Where a point of W is in the picture.
 Eigen::Vector2d projected(const mjvScene& scene, const Point<'W'>& p, int width, int height) {
@@ -38,24 +33,6 @@ int text_width(const std::string& text, const mjrContext& context) {
   return width;
 }
 
-// One margin's labels in the order of what they name, no two closer than `pitch`.
-void spread(std::vector<Placed>& labels, bool left, double pitch, double top, double bottom) {
-  std::vector<Placed*> column;
-  for (Placed& label : labels)
-    if (label.left == left) column.push_back(&label);
-  std::sort(column.begin(), column.end(), [](const Placed* a, const Placed* b) { return a->y < b->y; });
-  double lowest = top;
-  for (Placed* label : column) {
-    label->row = std::max(lowest, label->y);
-    lowest = label->row + pitch;
-  }
-  double highest = bottom;
-  for (auto label = column.rbegin(); label != column.rend(); ++label) {
-    (*label)->row = std::min(highest, (*label)->row);
-    highest = (*label)->row - pitch;
-  }
-}
-
 void write(const std::string& text, double x, double middle, const Image& picture,
            const mjrContext& context) {
   const double base = middle + 0.3 * context.charHeightBig;
@@ -69,23 +46,26 @@ void letter(Image& picture, const mjvScene& scene, const mjrContext& context, co
             int finer) {
   const double margin = 14.0 * finer;
   const double pitch = 1.5 * context.charHeightBig;
-  std::vector<Placed> labels;
+  std::vector<LabelRow> rows;
   for (const ViewLabel& label : request.labels) {
     const Eigen::Vector2d at = projected(scene, label.at, picture.width, picture.height);
-    labels.push_back({label.text, label.left, at.x(), at.y(), at.y()});
+    rows.push_back({label.left, at.x(), at.y(), at.y()});
   }
-  const double top = (request.title.empty() ? 1.0 : 3.0) * pitch;
-  for (const bool left : {true, false}) spread(labels, left, pitch, top, picture.height - pitch);
+  const double clear = request.title.empty() ? 0.0 : 2.0 * pitch;  // the title's
+  spread_rows(rows, pitch, clear + pitch, picture.height - pitch);
 
   const mjrRect all{0, 0, picture.width, picture.height};
   mjr_rectangle(all, 0, 0, 0, 1);
   if (!request.title.empty()) write(request.title, margin, pitch, picture, context);
-  for (const Placed& label : labels) {
-    const double width = text_width(label.text, context);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    LabelRow& label = rows[i];
+    const std::string& text = request.labels[i].text;
+    const double width = text_width(text, context);
     const double x = label.left ? margin : picture.width - margin - width;
     const double end = label.left ? x + width + 5.0 * finer : x - 5.0 * finer;
-    write(label.text, x, label.row, picture, context);
-    stroke(picture, end, label.row, label.x, label.y, 1.0 * finer, 2.5 * finer, kLine);
+    write(text, x, label.row, picture, context);
+    end_below(label, end, clear);
+    stroke(picture, end, label.row, label.x, label.y, 1.0 * finer, label.dot ? 2.5 * finer : 0.0, kLine);
   }
   Image mask(picture.width, picture.height);
   mjr_readPixels(mask.rgb.data(), nullptr, all, &context);
