@@ -49,8 +49,8 @@ struct TrackerTruth {
   Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
   Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
   double turn_noise = 0.0;                      // rad rms, each frame, about each axis of W
-  // m rms, each frame and axis, of each marker, besides `noise` and `turn_noise` of them all. If set, the tracker
-  // recognises the tool by its markers and computes the pose from them. Unset: the tool is known.
+  // m rms, each frame and axis, of each marker, besides `noise` and `turn_noise` of them all. If set, the
+  // tracker recognises the tool by its markers and computes the pose from them. Unset: the tool is known.
   double marker_noise = kUnset;
   double stamp_error = 0.0;     // s: stamps are this much later than the exposure
   double loss = 0.0;            // share of packets lost

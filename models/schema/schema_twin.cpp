@@ -171,13 +171,14 @@ void describe(Visitor& v, sim::TrackerTruth& t) {
            assumed,
            {0.0, 10.0}},
           &t.turn_noise);
-  v.value({"marker_noise_mm",
-           "rms, each frame and axis, of each marker; unset: the tool is known, not recognised by its markers",
-           "sources/tracking 2",
-           derived,
-           {0.0, 10.0},
-           optional},
-          &t.marker_noise);
+  v.value(
+      {"marker_noise_mm",
+       "rms, each frame and axis, of each marker; unset: the tool is known, not recognised by its markers",
+       "sources/tracking 2",
+       derived,
+       {0.0, 10.0},
+       optional},
+      &t.marker_noise);
   v.value({"stamp_error_ms",
            "how much later than the exposure the stamps are",
            "injected",
