@@ -228,6 +228,11 @@ LoopData parse_loop(const std::string& text, const std::string& name, double lim
   for (std::size_t k = 0; k < presses.size(); ++k) {
     std::vector<LoopPoint> press = in_contact(rows, presses[k], k, contact);
     if (press.empty()) continue;
+    for (const LoopPoint& p : press)
+      if (!std::isfinite(p.force) || !std::isfinite(p.deflection))
+        reader.fail_line(
+            "a reading is too large for a number once its zero is subtracted; expected readings of a rig; "
+            "correct or remove the row");
     loop.moving.push_back(split_branches(press));
     loop.presses.push_back(std::move(press));
   }

@@ -82,7 +82,8 @@ class ContactFinder {
     for (const std::size_t i : which) zero.time += rows_[i].time / n, zero.force += rows_[i].force / n;
     for (const std::size_t i : which) zero.error += std::pow(rows_[i].force - zero.force, 2);
     zero.error = std::sqrt(zero.error / (n - 1.0) / n);
-    return zero;
+    return std::isfinite(zero.time) && std::isfinite(zero.force) && std::isfinite(zero.error) ? zero
+                                                                                              : ForceZero{};
   }
 
   void take_zeros() {

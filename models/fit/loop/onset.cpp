@@ -46,11 +46,12 @@ Bins bins_of(const Approach& a, double share) {
   if (to - from < 5) return {};
   const auto at = [&](std::size_t i) { return a.deflection.begin() + static_cast<std::ptrdiff_t>(i); };
   const auto [low, high] = std::minmax_element(at(from), at(to));
-  if (!(*high > *low)) return {};
-  Bins bins(kBins);
+  if (!(*high > *low) || !std::isfinite(*high - *low)) return {};
+  const std::size_t count = std::min(kBins, to - from);
+  Bins bins(count);
   for (std::size_t i = from; i < to; ++i) {
-    const double place = (a.deflection[i] - *low) / (*high - *low) * static_cast<double>(kBins);
-    Bin& bin = bins[std::min(kBins - 1, static_cast<std::size_t>(place))];
+    const double place = (a.deflection[i] - *low) / (*high - *low) * static_cast<double>(count);
+    Bin& bin = bins[std::min(count - 1, static_cast<std::size_t>(place))];
     bin.weight += 1.0;
     bin.deflection += a.deflection[i];
     bin.force += a.force[i];
