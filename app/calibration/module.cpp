@@ -88,19 +88,13 @@ void refuse_names(const CalibrateOptions& options) {
     if (name == "-")
       throw Error(fmt::format("{}: '-' is no name of a file; expected one; choose one", option));
   if (options.picture.empty()) return;
-  const fs::path picture = whole(options.picture), folder = whole(options.log);
+  const fs::path picture = whole(options.picture);
   if (!options.out.empty() && whole(options.out) == picture)
     throw Error(fmt::format(
         "{}: is both --out and --picture; expected two files; choose another name for one", options.picture));
   if (images::is_image_name(options.picture) && models::lower_case(picture.extension().string()) != ".png")
     throw Error(fmt::format("{}: --picture writes a PNG; expected a name that ends in .png; choose one",
                             options.picture));
-  for (const fs::path& of_images : {folder, folder / "left", folder / "right"})
-    if (picture.parent_path() == of_images)
-      throw Error(
-          fmt::format("{}: is among the images, which the next calibration would read with it; expected "
-                      "another folder; choose one",
-                      options.picture));
 }
 
 int calibrate_skin(const CalibrateOptions& options) {
@@ -121,28 +115,47 @@ int calibrate_skin(const CalibrateOptions& options) {
   return 0;
 }
 
+// A picture among the images would be read by the next calibration.
+void refuse_among(const std::string& picture, const images::PairList& list) {
+  if (picture.empty()) return;
+  const fs::path home = whole(picture).parent_path();
+  for (const images::PairFiles& pair : list.pairs)
+    for (const std::string& image : {pair.left, pair.right})
+      if (whole(image).parent_path() == home)
+        throw Error(
+            fmt::format("{}: is among the images, which the next calibration would read with it; expected "
+                        "another folder; choose one",
+                        picture));
+}
+
+std::string file_text(const PairStudy& study, const Board& board, const CalibrateOptions& options) {
+  std::string made = made_by(fmt::format("{} --square-mm {:g} --corners {}x{}", shell_word(options.log),
+                                         *options.square_mm, board.columns, board.rows));
+  for (const std::string& image : study.missed) made += models::printable("# no board in " + image) + "\n";
+  return made + models::stereo_text({study.title, study.found.rig, study.found.rms, study.found.epipolar});
+}
+
+// A head that no rig may use makes no file. Its picture shows why.
 int calibrate_head(const CalibrateOptions& options) {
   images::PairReader reader = open_pairs(options.log);
   const Board board = board_of(options);
+  refuse_among(options.picture, reader.list());
   std::optional<models::OutFile> file, picture;  // refused before the work
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   if (!options.picture.empty()) picture.emplace(options.picture, models::existing(options.force));
   const PairStudy study = study_pairs(reader, options.log, board);
-  if (file) {
-    const models::StereoFile stereo{study.title, study.found.rig, study.found.rms, study.found.epipolar};
-    models::check_stereo(stereo.rig);  // so that what is written can be read
-    std::string made = made_by(fmt::format("{} --square-mm {:g} --corners {}x{}", shell_word(options.log),
-                                           *options.square_mm, board.columns, board.rows));
-    for (const std::string& image : study.missed) made += models::printable("# no board in " + image) + "\n";
-    file->write(made + models::stereo_text(stereo));
+  const bool fit = study.misfit.empty();
+  if (file && fit) {
+    file->write(file_text(study, board, options));
     file->keep();
   }
   if (picture) {
     picture->write(sim::png(study_picture(study)));
     picture->keep();
   }
-  fmt::print("{}{}", options.json ? study_json(study, board) : study_text(study), options.json ? "\n" : "");
-  return 0;
+  fmt::print("{}{}", options.json ? study_json(study) : study_text(study), options.json ? "\n" : "");
+  if (file && !fit && !options.json) fmt::print("not written {}\n", models::printable(options.out));
+  return fit ? 0 : 1;
 }
 
 int calibrate_images(const CalibrateOptions& options) {

@@ -1,6 +1,7 @@
 // A chessboard as calibration sees it: its inner corners, found to a fraction of a pixel.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -21,16 +22,26 @@ struct Board {
 // px, row by row of the board; the centre of the first pixel is (0, 0).
 using Corners = std::vector<Eigen::Vector2d>;
 
-// Nothing where the whole board is not seen.
-[[nodiscard]] std::optional<Corners> find_corners(const ImageView& image, const Board& board);
+// Quick: a tenth of a second for an image without the board. Thorough: up to two seconds, for small and
+// blurred boards, too.
+enum class Search : std::uint8_t { quick, thorough };
+
+// Nothing where the whole board is not seen, or where it has more corners, so that these would be any part.
+[[nodiscard]] std::optional<Corners> find_corners(const ImageView& image, const Board& board,
+                                                  Search search = Search::thorough);
+
+// The board that an image shows, where it has up to two columns and rows more or fewer than `near`, or is
+// plainly seen. Nothing where no whole board is found.
+[[nodiscard]] std::optional<Board> board_in(const ImageView& image, const Board& near);
 
 // One board in both images, in the same order.
 struct PairCorners {
   Corners left, right;
 };
 
-// A finder may begin at either end of a board: turns the right corners round where they run against the left.
-// Two cameras of a head are never rolled by more than 90 deg against each other.
-[[nodiscard]] PairCorners in_one_order(Corners left, Corners right);
+// A finder may begin at either end of a board, and at any corner of a square one: turns the right corners
+// round until they run as the left ones do. Two cameras of a head are never rolled by more than 90 deg
+// against each other (45 deg for a square board).
+[[nodiscard]] PairCorners in_one_order(Corners left, Corners right, const Board& board);
 
 }  // namespace enc

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/vision/calibration/opencv_types.h"
+#include "core/vision/stereo/lens.h"
 
 namespace enc {
 namespace {
@@ -14,20 +15,20 @@ namespace {
 using calibration::camera_matrix;
 using calibration::distortion_of;
 
-const cv::TermCriteria kUndistortUntil(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 1e-10);
-
 struct Rectification {
   std::array<cv::Mat, 2> turn, projection;
 };
 
+// Of cameras without distortion: how a lens bends must not change the size in which rows are compared.
 Rectification rectification_of(const StereoRig& rig) {
+  constexpr double kAsLarge = -1.0;
   const calibration::Extrinsics pose = calibration::extrinsics_of(rig);
   Rectification out;
   cv::Mat depth;
   const cv::Size size(static_cast<int>(rig.width), static_cast<int>(rig.height));
-  cv::stereoRectify(camera_matrix(rig.left), distortion_of(rig.left), camera_matrix(rig.right),
-                    distortion_of(rig.right), size, pose.R, pose.T, out.turn[0], out.turn[1],
-                    out.projection[0], out.projection[1], depth, cv::CALIB_ZERO_DISPARITY, 0.0);
+  cv::stereoRectify(camera_matrix(rig.left), {}, camera_matrix(rig.right), {}, size, pose.R, pose.T,
+                    out.turn[0], out.turn[1], out.projection[0], out.projection[1], depth,
+                    cv::CALIB_ZERO_DISPARITY, kAsLarge);
   return out;
 }
 
@@ -36,22 +37,29 @@ const Corners& corners_of(const PairCorners& pair, std::size_t side) {
   return side == 0 ? pair.left : pair.right;
 }
 
-// Where a camera's corners are once its distortion is taken away; turned and projected if so asked.
-std::vector<cv::Point2d> undistorted(const Lens& lens, const Corners& corners, const cv::Mat& turn,
-                                     const cv::Mat& projection) {
-  std::vector<cv::Point2d> points, out;
-  points.reserve(corners.size());
-  for (const Eigen::Vector2d& c : corners) points.emplace_back(c.x(), c.y());
-  cv::undistortPoints(points, out, camera_matrix(lens), distortion_of(lens), turn, projection,
-                      kUndistortUntil);
-  return out;
+// Rays of corners, by where they meet z = 1 of the camera. OpenCV's own search runs away from a lens that
+// bends much.
+std::vector<Vec3> rays_of(const Lens& lens, const Corners& corners) {
+  std::vector<Vec3> rays;
+  rays.reserve(corners.size());
+  for (const Eigen::Vector2d& c : corners) {
+    const Ray ray = ray_of(lens, {c.x(), c.y()});
+    rays.emplace_back(ray.x, ray.y, 1.0);
+  }
+  return rays;
 }
+// Where they are in the rectified image, px.
 std::vector<cv::Point2d> rectified(const StereoRig& rig, const PairCorners& pair, std::size_t side,
                                    const Rectification& by) {
-  return undistorted(lens_of(rig, side), corners_of(pair, side), by.turn[side], by.projection[side]);
+  std::vector<cv::Point2d> points;
+  const cv::Mat_<double> to = by.projection[side].colRange(0, 3) * by.turn[side];
+  for (const Vec3& ray : rays_of(lens_of(rig, side), corners_of(pair, side))) {
+    const cv::Mat_<double> at = to * (cv::Mat_<double>(3, 1) << ray.x(), ray.y(), ray.z());
+    points.emplace_back(at(0) / at(2), at(1) / at(2));
+  }
+  return points;
 }
 
-Vec3 ray(const cv::Point2d& p) { return {p.x, p.y, 1.0}; }
 Mat3 matrix_of(const Lens& lens) {
   Mat3 matrix;
   matrix << lens.focal_x, 0, lens.centre_x, 0, lens.focal_y, lens.centre_y, 0, 0, 1;
@@ -68,11 +76,10 @@ double epipolar_error(const StereoRig& rig, const PairCorners& pair) {
   cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
   const Mat3 essential = cross * X_DC.q().toRotationMatrix();  // x_D' E x_C = 0
   const Mat3 left = matrix_of(rig.left), right = matrix_of(rig.right);
-  const std::vector<cv::Point2d> in_left = undistorted(rig.left, pair.left, {}, {});
-  const std::vector<cv::Point2d> in_right = undistorted(rig.right, pair.right, {}, {});
+  const std::vector<Vec3> in_left = rays_of(rig.left, pair.left), in_right = rays_of(rig.right, pair.right);
   double sum = 0.0;
   for (std::size_t i = 0; i < in_left.size(); ++i) {
-    const Vec3 c = ray(in_left[i]), d = ray(in_right[i]);
+    const Vec3 &c = in_left[i], &d = in_right[i];
     const Vec3 line_right = right.inverse().transpose() * (essential * c);
     const Vec3 line_left = left.inverse().transpose() * (essential.transpose() * d);
     const double a = distance(right * d, line_right), b = distance(left * c, line_left);
@@ -90,14 +97,13 @@ double row_error(const StereoRig& rig, const PairCorners& pair) {
 }
 
 std::vector<Point<'C'>> triangulated(const StereoRig& rig, const PairCorners& pair) {
-  const std::vector<cv::Point2d> in_left = undistorted(rig.left, pair.left, {}, {});
-  const std::vector<cv::Point2d> in_right = undistorted(rig.right, pair.right, {}, {});
+  const std::vector<Vec3> in_left = rays_of(rig.left, pair.left), in_right = rays_of(rig.right, pair.right);
   const Vec3 base = rig.X_CD.p();
   std::vector<Point<'C'>> places;
   places.reserve(in_left.size());
   for (std::size_t i = 0; i < in_left.size(); ++i) {
     // Nearest points of s u and base + r v.
-    const Vec3 u = ray(in_left[i]), v = rig.X_CD.q() * ray(in_right[i]);
+    const Vec3 u = in_left[i], v = rig.X_CD.q() * in_right[i];
     const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
     const double apart = uu * vv - uv * uv;
     const double s = (vv * u.dot(base) - uv * v.dot(base)) / apart;

@@ -10,6 +10,8 @@
 
 namespace enc {
 
+// Where no ray of the lens meets a corner, because its distortion folds before, these are NaN.
+//
 // px rms, in images without distortion: distances of corners from their partners' epipolar lines, both ways.
 [[nodiscard]] double epipolar_error(const StereoRig& rig, const PairCorners& pair);
 

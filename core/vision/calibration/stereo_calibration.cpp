@@ -6,67 +6,48 @@
 #include <opencv2/calib3d.hpp>
 
 #include "core/error.h"
+#include "core/vision/calibration/lens_solver.h"
 #include "core/vision/calibration/opencv_types.h"
 #include "core/vision/calibration/rectify.h"
 
 namespace enc {
 namespace {
 
+using calibration::board_points;
+using calibration::Cameras;
 using calibration::Extrinsics;
 using calibration::points_of;
-using Views = std::vector<std::vector<cv::Point2f>>;
+using calibration::Views;
 
 constexpr double kDegree = M_PI / 180.0;
-// k3 bends the corner of an image alone and is not to be had from a board that seldom stands there.
-constexpr int kModel = cv::CALIB_FIX_K3;
-const cv::TermCriteria kUntil(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-9);
 
-struct Camera {
-  cv::Mat matrix = cv::Mat::eye(3, 3, CV_64F), distortion = cv::Mat::zeros(1, 5, CV_64F);
-  double focal_deviation = kUnset;  // a share of the focal length
-};
 struct Head {
-  Camera left, right;
+  calibration::Camera left, right;
   Extrinsics pose;
   cv::Mat per_view;  // px rms, a row for each pair
   double rms = kUnset;
 };
 
-std::vector<cv::Point3f> board_points(const Board& board) {
-  std::vector<cv::Point3f> points;
-  const auto side = static_cast<float>(board.square);
-  for (int r = 0; r < board.rows; ++r)
-    for (int c = 0; c < board.columns; ++c)
-      points.emplace_back(static_cast<float>(c) * side, static_cast<float>(r) * side, 0.0F);
-  return points;
-}
-
-Camera one_camera(const std::vector<std::vector<cv::Point3f>>& boards, const Views& views,
-                  const cv::Size& size) {
-  Camera camera;
-  std::vector<cv::Mat> turns, places;
-  cv::Mat deviation, none, errors;
-  cv::calibrateCamera(boards, views, size, camera.matrix, camera.distortion, turns, places, deviation, none,
-                      errors, kModel, kUntil);
-  camera.focal_deviation = std::max(deviation.at<double>(0) / camera.matrix.at<double>(0, 0),
-                                    deviation.at<double>(1) / camera.matrix.at<double>(1, 1));
-  return camera;
-}
-
-// Each by itself, then all numbers of both together, so that they agree on where the boards were.
-Head solve(const std::vector<PairCorners>& pairs, const Board& board, const cv::Size& size) {
-  Views left, right;
+std::pair<Views, Views> views_of(const std::vector<PairCorners>& pairs) {
+  std::pair<Views, Views> views;
   for (const PairCorners& pair : pairs) {
-    left.push_back(points_of(pair.left));
-    right.push_back(points_of(pair.right));
+    views.first.push_back(points_of(pair.left));
+    views.second.push_back(points_of(pair.right));
   }
+  return views;
+}
+
+// All numbers of both together, from those of each, so that they agree on where the boards were.
+Head solve(const std::vector<PairCorners>& pairs, const Board& board, const cv::Size& size,
+           const Cameras& cameras, int steps) {
+  const auto [left, right] = views_of(pairs);
   const std::vector<std::vector<cv::Point3f>> boards(pairs.size(), board_points(board));
-  Head head{one_camera(boards, left, size), one_camera(boards, right, size), {}, {}, kUnset};
+  Head head{cameras.left.copy(), cameras.right.copy(), {}, {}, kUnset};
   cv::Mat essential, fundamental;
-  head.rms =
-      cv::stereoCalibrate(boards, left, right, head.left.matrix, head.left.distortion, head.right.matrix,
-                          head.right.distortion, size, head.pose.R, head.pose.T, essential, fundamental,
-                          head.per_view, kModel | cv::CALIB_USE_INTRINSIC_GUESS, kUntil);
+  head.rms = cv::stereoCalibrate(boards, left, right, head.left.matrix, head.left.distortion,
+                                 head.right.matrix, head.right.distortion, size, head.pose.R, head.pose.T,
+                                 essential, fundamental, head.per_view,
+                                 cameras.model() | cv::CALIB_USE_INTRINSIC_GUESS, calibration::until(steps));
   return head;
 }
 
@@ -113,28 +94,39 @@ void refuse_parallel(const std::vector<PairCorners>& pairs, const Board& board, 
 
 // What no optimum of a stereo head looks like.
 void check_head(const StereoCalibration& found) {
-  constexpr double kLoosest = 0.05;  // of the focal length
   const auto refuse = [](const std::string& what) {
     throw Error(what +
                 "; expected pairs of one head with the board near, tilted and in all corners; take more");
   };
-  if (!(found.focal_deviation < kLoosest)) refuse("the pairs do not tell the focal length");
+  if (!(found.focal_deviation < kLoosestFocal)) refuse("the pairs do not tell the focal length");
   const Vec3 shift = found.rig.X_CD.p();
-  if (!found.rig.X_CD.valid() || !(shift.x() > 0.0) || shift.x() < shift.tail<2>().norm())
+  if (!found.rig.X_CD.valid()) refuse("the pairs do not tell where the second camera stands");
+  if (std::abs(shift.y()) > std::abs(shift.x()) && std::abs(shift.y()) > std::abs(shift.z()))
+    refuse(std::string("the second camera stands ") + (shift.y() > 0.0 ? "below" : "above") +
+           " the first (are the images turned by 90 degrees?)");
+  if (!(shift.x() > 0.0) || shift.x() < shift.tail<2>().norm())
     refuse("the second camera does not stand to the right of the first (are left and right exchanged?)");
 }
 
+// By the board of the same shape that fits best [Umeyama 1991]: a mean over distances of neighbours grows
+// with noise.
 double square_of(const StereoRig& rig, const PairCorners& pair, const Board& board) {
   const std::vector<Point<'C'>> places = triangulated(rig, pair);
-  double sum = 0.0;
-  int sides = 0;
-  for (int r = 0; r < board.rows; ++r)
-    for (int c = 0; c < board.columns; ++c) {
-      const auto at = static_cast<std::size_t>(r * board.columns + c);
-      if (c > 0) sum += (places[at] - places[at - 1]).norm(), ++sides;
-      if (r > 0) sum += (places[at] - places[at - static_cast<std::size_t>(board.columns)]).norm(), ++sides;
-    }
-  return sum / sides;
+  Vec3 middle = Vec3::Zero(), board_middle(board.columns - 1, board.rows - 1, 0);
+  board_middle *= 0.5;
+  for (const Point<'C'>& p : places) middle += p.e() / static_cast<double>(places.size());
+  Mat3 products = Mat3::Zero();
+  double squares = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto at = static_cast<int>(i);
+    const Vec3 on_board = Vec3(at % board.columns, at / board.columns, 0) - board_middle;
+    products += (places[i].e() - middle) * on_board.transpose();
+    squares += on_board.squaredNorm();
+  }
+  if (!products.allFinite()) return kUnset;
+  cv::Mat singular;
+  cv::SVD::compute(cv::Mat(3, 3, CV_64F, products.data()), singular, cv::SVD::NO_UV);
+  return (singular.at<double>(0) + singular.at<double>(1)) / squares;  // the board is flat: the third is 0
 }
 
 double rms_over(const std::vector<PairResidual>& pairs, double PairResidual::*what) {
@@ -157,17 +149,23 @@ StereoCalibration calibrate_stereo(const std::vector<PairCorners>& pairs, const 
                 std::to_string(kFewestBoards) + "; take more");
   const cv::Size size(width, height);
   refuse_parallel(pairs, board, size);
-  const Head head = solve(pairs, board, size);
+  const auto [left, right] = views_of(pairs);
+  const Cameras cameras = calibration::each_camera(left, right, board, size);
+  const Head head = solve(pairs, board, size, cameras, calibration::kMostSteps);
   StereoCalibration found;
   found.rig = rig_of(head, size);
+  found.left = cameras.left.fit;
+  found.right = cameras.right.fit;
+  found.k3 = cameras.k3;
   found.rms = head.rms;
   found.focal_deviation = std::max(head.left.focal_deviation, head.right.focal_deviation);
   found.tilt = largest_tilt(pairs, board, found.rig.left);
-  if (found.rms <= kLargestRms) check_head(found);
+  if (found.rms <= kLargestRms && !found.left.unlike() && !found.right.unlike()) check_head(found);
+  constexpr int kSteps = 30;  // from a solution to that of one pair less: where lenses fit, a few are enough
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     std::vector<PairCorners> others = pairs;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const Head without = solve(others, board, size);
+    const Head without = solve(others, board, size, cameras, kSteps);
     PairResidual residual = residual_of(rig_of(without, size), pairs[i], board);
     residual.rms = without.rms;
     residual.left = head.per_view.at<double>(static_cast<int>(i), 0);

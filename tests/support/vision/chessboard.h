@@ -10,21 +10,32 @@ namespace enc::test {
 // A head with distortion, its right camera turned by a degree or two.
 [[nodiscard]] StereoRig known_head(int width, int height);
 
+// How a lens bends: by its distortion, or as a fisheye, whose distance from the axis is focal length times
+// angle and whose distortion is not asked.
+enum class Bend : std::uint8_t { distortion, fisheye };
+
 // px. `p` in the camera, m.
-[[nodiscard]] Eigen::Vector2d seen(const Lens& lens, const Vec3& p);
+[[nodiscard]] Eigen::Vector2d seen(const Lens& lens, const Vec3& p, Bend bend = Bend::distortion);
 
 // Boards at half a metre or so in all parts of the image, tilted to all sides; the first corner is the
 // origin.
 [[nodiscard]] std::vector<Pose<'C', 'O'>> tilted_boards(const Board& board, std::size_t count);
 
-[[nodiscard]] PairCorners projected(const StereoRig& rig, const Board& board, const Pose<'C', 'O'>& X_CO);
+// Boards that both cameras see whole, with the sheet around them, from the middle into the corners of their
+// images.
+[[nodiscard]] std::vector<Pose<'C', 'O'>> boards_all_over(const StereoRig& rig, const Board& board,
+                                                          std::size_t count, Bend bend = Bend::distortion);
+
+[[nodiscard]] PairCorners projected(const StereoRig& rig, const Board& board, const Pose<'C', 'O'>& X_CO,
+                                    Bend bend = Bend::distortion);
 
 // Each pixel is the mean of 4 x 4 rays.
 [[nodiscard]] Image drawn(const Lens& lens, int width, int height, const Board& board, const Quat& turn,
-                          const Vec3& place);
+                          const Vec3& place, Bend bend = Bend::distortion);
 struct DrawnPair {
   Image left, right;
 };
-[[nodiscard]] DrawnPair drawn(const StereoRig& rig, const Board& board, const Pose<'C', 'O'>& X_CO);
+[[nodiscard]] DrawnPair drawn(const StereoRig& rig, const Board& board, const Pose<'C', 'O'>& X_CO,
+                              Bend bend = Bend::distortion);
 
 }  // namespace enc::test

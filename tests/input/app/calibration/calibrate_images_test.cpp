@@ -55,6 +55,13 @@ class CalibrateImages : public testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words, {});
   }
+  // What a search says with exit code 2, behind lines on how far it is.
+  [[nodiscard]] std::string refusal(const std::vector<std::string>& more) const {
+    const Result r = calibrate(more);
+    EXPECT_EQ(r.code, 2) << r.out;
+    EXPECT_EQ(r.out, "");
+    return r.err;
+  }
   // What one line on stderr says, with exit code 2.
   [[nodiscard]] std::string line(const std::vector<std::string>& more = {}) const {
     return one_line(calibrate(more));
@@ -69,7 +76,9 @@ TEST_F(CalibrateImages, FindsTheHeadAndWritesWhatARigReads) {
   const Result r = calibrate({"--out", out, "--picture", picture});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out, AllOf(HasSubstr("6 pairs of 320 x 240 px, board 9 x 6, squares of 24 mm"),
-                           HasSubstr("left5.png"), HasSubstr("rectified   rows differ by")));
+                           HasSubstr("left5.png"), HasSubstr("rectified   rows differ by"),
+                           HasSubstr(": within 0.6 px"), HasSubstr("squares     are right within"),
+                           HasSubstr("images      left0.png with right0.png, and 5 more")));
   EXPECT_THAT(test::bytes_of(out),
               testing::ContainsRegex("^# Encounter [0-9.]+: ./encounter calibrate " + folder_ +
                                      " --square-mm 24 --corners 9x6\nformat = 1\n"));
@@ -94,6 +103,8 @@ TEST_F(CalibrateImages, JsonIsOneObject) {
   const nlohmann::json json = nlohmann::json::parse(r.out);
   EXPECT_EQ(json["pairs"].size(), 6U);
   EXPECT_LT(json["epipolar_px"], 0.3);
+  EXPECT_EQ(json["within"], true);
+  EXPECT_EQ(json["k3_fitted"], false);
 }
 
 TEST_F(CalibrateImages, AnImageIsNeverWrittenOver) {
@@ -167,8 +178,82 @@ TEST_F(CalibrateImages, BoardsThatAreNotThereAreNamed) {
   for (const char* name : {"left1.png", "right4.png", "left5.png"}) put(name, Image(320, 240));
   EXPECT_THAT(line(), AllOf(HasSubstr("found in 3 pairs; expected at least 4"),
                             HasSubstr("none in left1.png, right4.png, left5.png")));
-  EXPECT_THAT(line({"--corners", "7x7"}), HasSubstr("board of 7 x 7 inner corners"));
   EXPECT_THAT(line({"--corners", "seven"}), HasSubstr("such as 9x6"));
+}
+
+// Whoever counts squares, or one corner too few, is told the number of corners.
+TEST_F(CalibrateImages, ABoardOfAnotherSizeIsNamed) {
+  put_all();
+  for (const char* corners : {"10x7", "8x6", "7x7"})
+    EXPECT_THAT(refusal({"--corners", corners}),
+                AllOf(HasSubstr("left0.png has a board of 9 x 6: count inner corners"),
+                      HasSubstr("give --corners 9x6")))
+        << corners;
+  EXPECT_EQ(calibrate({"--corners", "6x9"}).code, 0);
+}
+
+TEST_F(CalibrateImages, WhereNoPairHasABoardTheSearchEnds) {
+  for (int i = 0; i < 12; ++i)
+    for (const char* side : {"left", "right"}) put(side + std::to_string(i) + ".png", Image(320, 240));
+  EXPECT_THAT(refusal({"--corners", "10x7"}),
+              HasSubstr("a board of 10 x 7 inner corners was found in 0 pairs"));
+}
+
+// A board may come into view late.
+TEST_F(CalibrateImages, TwoPairsWithoutABoardDoNotEndTheSearch) {
+  for (std::size_t i = 0; i < drawn_pairs().size(); ++i) {
+    put("left" + std::to_string(i + 3) + ".png", drawn_pairs()[i].left);
+    put("right" + std::to_string(i + 3) + ".png", drawn_pairs()[i].right);
+  }
+  for (const char* name : {"left0.png", "right0.png", "left1.png", "right1.png", "left2.png", "right2.png"})
+    put(name, Image(320, 240));
+  const Result r = calibrate();
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("6 pairs of 320 x 240 px"));
+}
+
+// Images of one camera, whose names say no side, would be cut through the board.
+TEST_F(CalibrateImages, OneCameraIsNotReadAsTwoHalves) {
+  for (std::size_t i = 0; i < drawn_pairs().size(); ++i)
+    put(std::to_string(i) + ".png", drawn_pairs()[i].left);
+  EXPECT_THAT(refusal({}), AllOf(HasSubstr("0.png shows one board across its middle"),
+                                 HasSubstr("expected images of two cameras")));
+}
+
+// Nothing is called good, and no file is written, where the lens is not of the model.
+TEST_F(CalibrateImages, AFisheyeEndsWithExitCode1AndNoFile) {
+  StereoRig head = test::known_head(480, 360);
+  for (Lens* lens : {&head.left, &head.right}) lens->focal_x *= 0.6, lens->focal_y *= 0.6;
+  const auto boards = test::boards_all_over(head, kBoard, 9, test::Bend::fisheye);
+  for (std::size_t i = 0; i < boards.size(); ++i) {
+    const test::DrawnPair pair = test::drawn(head, kBoard, boards[i], test::Bend::fisheye);
+    put("left" + std::to_string(i) + ".png", pair.left);
+    put("right" + std::to_string(i) + ".png", pair.right);
+  }
+  const std::string out = temporary_.file("head.toml");
+  const Result r = calibrate({"--out", out});
+  EXPECT_EQ(r.code, 1) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("NOT within 0.6 px"), HasSubstr("unfit       rows of left"),
+                           HasSubstr("not written " + out)));
+  EXPECT_FALSE(fs::exists(out));
+  const Result json = calibrate({"--json", "--out", out});
+  EXPECT_EQ(json.code, 1);
+  EXPECT_EQ(nlohmann::json::parse(json.out)["within"], false);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+// A pair that a longer baseline has taken keeps its rows: its squares alone say so.
+TEST_F(CalibrateImages, SquaresThatErrAreNoted) {
+  put_all();
+  StereoRig longer = test::known_head(320, 240);
+  longer.X_CD = Pose<'C', 'D'>(longer.X_CD.q(), Vec3(1.015 * longer.X_CD.p()));
+  const test::DrawnPair pair = test::drawn(longer, kBoard, test::tilted_boards(kBoard, 6)[3]);
+  put("left3.png", pair.left), put("right3.png", pair.right);
+  const Result r = calibrate();
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  EXPECT_THAT(r.out,
+              testing::ContainsRegex(
+                  "note        squares err by more than 0.5 %.*left3.png \\(1\\.[0-9]+ % too small\\)"));
 }
 
 TEST_F(CalibrateImages, PairsThatDoNotGoTogetherAreNamed) {

@@ -131,7 +131,7 @@ TEST(StereoCalibration, CornersOfDrawnBoardsAreFound) {
   const std::optional<Corners> left = find_corners(images.left.view(), kDrawnBoard);
   const std::optional<Corners> right = find_corners(images.right.view(), kDrawnBoard);
   ASSERT_TRUE(left && right);
-  PairCorners found = in_one_order(*left, *right);
+  PairCorners found = in_one_order(*left, *right, kDrawnBoard);
   const PairCorners are = projected(is, kDrawnBoard, X_CO);
   if ((found.left.front() - are.left.front()).norm() > 5.0) {  // from its other end
     std::reverse(found.left.begin(), found.left.end());
@@ -154,8 +154,99 @@ TEST(StereoCalibration, RunsAgainstEachOtherAreTurnedRound) {
   const PairCorners are = projected(known_head(640, 480), kDrawnBoard, tilted_boards(kDrawnBoard, 1)[0]);
   Corners turned = are.right;
   std::reverse(turned.begin(), turned.end());
-  EXPECT_EQ(in_one_order(are.left, turned).right, are.right);
-  EXPECT_EQ(in_one_order(are.left, are.right).right, are.right);
+  EXPECT_EQ(in_one_order(are.left, turned, kDrawnBoard).right, are.right);
+  EXPECT_EQ(in_one_order(are.left, are.right, kDrawnBoard).right, are.right);
+}
+
+// A square board looks alike from all four sides.
+TEST(StereoCalibration, CornersOfASquareBoardAreTurnedRound) {
+  const Board square{5, 5, 0.024};
+  const PairCorners are = projected(known_head(640, 480), square, tilted_boards(square, 1)[0]);
+  Corners turned = are.right;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    EXPECT_EQ(in_one_order(are.left, turned, square).right, are.right) << quarter;
+    const Corners before = turned;
+    for (std::size_t r = 0; r < 5; ++r)
+      for (std::size_t c = 0; c < 5; ++c) turned[r * 5 + c] = before[c * 5 + 4 - r];
+  }
+}
+
+// What a lens with k3 bends is found in noisy corners, and places are right; a lens without has none.
+double largest_place_error(const StereoRig& found, const StereoRig& is,
+                           const std::vector<PairCorners>& pairs) {
+  double largest = 0.0;
+  for (const PairCorners& pair : pairs) {
+    const std::vector<Point<'C'>> a = triangulated(found, pair), b = triangulated(is, pair);
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+  }
+  return largest;
+}
+
+TEST(StereoCalibrationLong, FitsK3WhereALensHasOne) {
+  for (const double k3 : {-0.25, 0.0, 0.3}) {
+    SCOPED_TRACE(k3);
+    StereoRig is = known_head(640, 480);
+    for (Lens* lens : {&is.left, &is.right}) lens->distortion = {-0.02, 0.03, 0.0011, -0.0007, k3};
+    std::vector<PairCorners> exact, pairs;
+    for (const Pose<'C', 'O'>& X_CO : test::boards_all_over(is, kDrawnBoard, 13))
+      exact.push_back(projected(is, kDrawnBoard, X_CO));
+    pairs = exact;
+    blur(pairs, 0.1);
+    const StereoCalibration found = calibrate_stereo(pairs, kDrawnBoard, 640, 480);
+    EXPECT_EQ(found.k3, k3 != 0.0 ? K3::fitted : K3::zero);
+    EXPECT_NEAR(found.rig.left.distortion[4], k3, 0.1);
+    EXPECT_LT(found.rms, 0.16);  // the noise of both coordinates
+    EXPECT_LT(largest_place_error(found.rig, is, exact) * 1e3, 3.0);
+    for (const PairResidual& pair : found.pairs) {
+      EXPECT_LT(pair.rows, 0.3);
+      EXPECT_NEAR(pair.square, kDrawnBoard.square, 0.004 * kDrawnBoard.square);
+    }
+    EXPECT_GT(found.left.reach, 0.7);
+    EXPECT_FALSE(found.left.unlike() || found.right.unlike());
+  }
+}
+
+// No numbers of this model describe a fisheye: pairs that were left out do not fit, and rings of corners lie
+// off.
+TEST(StereoCalibrationLong, AFisheyeDoesNotFit) {
+  StereoRig is = known_head(640, 480);
+  for (Lens* lens : {&is.left, &is.right}) lens->focal_x *= 0.4, lens->focal_y *= 0.4;
+  std::vector<PairCorners> pairs;
+  for (const Pose<'C', 'O'>& X_CO : test::boards_all_over(is, kDrawnBoard, 9, test::Bend::fisheye))
+    pairs.push_back(projected(is, kDrawnBoard, X_CO, test::Bend::fisheye));
+  blur(pairs, 0.1);
+  const StereoCalibration found = calibrate_stereo(pairs, kDrawnBoard, 640, 480);
+  EXPECT_FALSE(found.rows <= 0.6);
+  EXPECT_TRUE(found.left.unlike() && found.right.unlike());
+}
+
+// Images with their long side upright, of cameras side by side.
+TEST(StereoCalibration, UprightImagesAreCalibrated) {
+  const StereoRig is = known_head(480, 640);
+  std::vector<PairCorners> pairs = exact_pairs(is, 8);
+  const StereoCalibration found = calibrate_stereo(pairs, kDrawnBoard, 480, 640);
+  expect_near(found.rig, is, 0.01, 0.01, 0.002, 2e-5);
+}
+
+// Where a board of another size stands, its size is found, and no part of it passes for the board.
+TEST(StereoCalibration, BoardsOfOtherSizesAreMeasured) {
+  for (const Board& board : {Board{9, 6, 0.024}, Board{7, 7, 0.024}}) {
+    SCOPED_TRACE(board.columns);
+    const Image image = drawn(known_head(320, 240), board, tilted_boards(board, 2)[1]).left;
+    for (const auto& [columns, rows] : {std::pair{0, -1}, {-1, -1}, {1, 1}}) {
+      const Board wrong{board.columns + columns, board.rows + rows, 0.024};
+      EXPECT_FALSE(find_corners(image.view(), wrong)) << columns << " " << rows;
+      const std::optional<Board> found = board_in(image.view(), wrong);
+      ASSERT_TRUE(found) << columns << " " << rows;
+      EXPECT_EQ(found->columns, std::max(board.columns, board.rows));
+      EXPECT_EQ(found->rows, std::min(board.columns, board.rows));
+    }
+    EXPECT_TRUE(find_corners(image.view(), board));
+    EXPECT_TRUE(
+        find_corners(image.view(), {board.rows, board.columns, 0.024}));  // rows and columns exchanged
+  }
+  EXPECT_FALSE(board_in(Image(320, 240).view(), kDrawnBoard));
+  EXPECT_FALSE(board_in(Image(1, 1).view(), kDrawnBoard));
 }
 
 TEST(StereoCalibration, RefusesWhatTellsNothing) {
@@ -171,6 +262,9 @@ TEST(StereoCalibration, RefusesWhatTellsNothing) {
   std::vector<PairCorners> exchanged = good;
   for (PairCorners& pair : exchanged) std::swap(pair.left, pair.right);
   EXPECT_THAT(refusal(exchanged), HasSubstr("exchanged"));
+  StereoRig below = is;
+  below.X_CD = Pose<'C', 'D'>(is.X_CD.q(), Vec3(0.0, 0.09, 0.0));
+  EXPECT_THAT(refusal(exact_pairs(below, 6)), HasSubstr("stands below the first"));
 }
 
 // The rays of exact corners meet, in the place of the corner.
