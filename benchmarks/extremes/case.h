@@ -22,6 +22,7 @@ struct Number {
   Bounds bounds{};
   std::string note{};
   double wanted = kUnset;  // a criterion that is not met, and cannot be: by how much is said; no bound
+  bool cost = false;       // Figure::cost
 };
 
 struct Found {

@@ -64,8 +64,10 @@ void run(Bench& bench) {
   Table table{"cases", "Extreme cases", {"case", "what is done", "criterion", "verdict"}};
   double missed = 0.0, stated = 0.0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    for (const Number& n : all[i].numbers)
+    for (const Number& n : all[i].numbers) {
       bench.figure(cases[i].id + "." + n.what, n.value, n.unit, n.bounds, n.note);
+      bench.result.figures.back().cost = n.cost;
+    }
     const std::string verdict = verdict_of(all[i]);
     missed += verdict.starts_with("MISSED") ? 1.0 : 0.0;
     stated += verdict.starts_with("STATED") ? 1.0 : 0.0;

@@ -150,7 +150,8 @@ void judge_tips(Bench& bench, const std::vector<Found>& shots, const std::string
                fmt::format("of {} frames; a tip beyond the cap, and 2 px off at least, counts as not found",
                            shots.size()));
   bench.figure(id + ".error.median", median(off), "px", at_most(most_median), "of the middle of the cap");
-  bench.figure(id + ".error.p95", percentile(off, 0.95), "px", "of the middle of the cap");
+  const Tail tail = tail_of(off, 0.95);
+  bench.figure(id + ".error." + tail.word, tail.value, "px", "of the middle of the cap");
 }
 
 void judge_empty(Bench& bench, const std::vector<Cell>& cells) {

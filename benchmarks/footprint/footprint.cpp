@@ -60,11 +60,11 @@ void run(Bench& bench) {
     table.add(row.scene, row.libraries, row.threads, row.elements, fmt::format("{:.1f}", row.memory),
               fmt::format("{:.1f}", row.start));
     const auto id = [&](const char* what) { return row.scene + "." + what; };
-    bench.figure(id("libraries"), static_cast<double>(row.libraries), "");
+    bench.cost(id("libraries"), static_cast<double>(row.libraries), "");
     bench.figure(id("threads"), row.threads, "", at_most(1.0));
     bench.figure(id("elements"), row.elements, "");
-    bench.figure(id("memory"), row.memory, "MiB", at_most(row.scene == "plane" ? kMostMemory : kUnset));
-    bench.figure(id("start"), row.start, "x");
+    bench.cost(id("memory"), row.memory, "MiB", at_most(row.scene == "plane" ? kMostMemory : kUnset));
+    bench.cost(id("start"), row.start, "x");
     bench.progress(static_cast<double>(table.rows.size()) / static_cast<double>(scenes.size()));
   }
   table.note = "MuJoCo elements: bodies, joints, geoms, sites, sensors, actuators, tendons, equalities";

@@ -102,6 +102,12 @@ void add_figure(BenchResult& result, const std::string& id, double paper, double
   result.figures.push_back({"gravity." + id, paper, twin, unit, role, low, high, note});
 }
 
+void add_cost(BenchResult& result, const std::string& id, double value, const char* unit,
+              const std::string& note, double low, double high) {
+  add_figure(result, id, kUnset, value, unit, note, low, high);
+  result.figures.back().cost = true;
+}
+
 void run(Bench& bench) {
   const BenchContext& context = bench.context;
   BenchResult& result = bench.result;

@@ -57,6 +57,8 @@ struct GravityRig {
 };
 [[nodiscard]] GravityRig gravity_rig(const BenchContext& context);
 
+void add_cost(BenchResult& result, const std::string& id, double value, const char* unit,
+              const std::string& note, double low = kUnset, double high = kUnset);
 void add_figure(BenchResult& result, const std::string& id, double paper, double twin, const char* unit,
                 const std::string& note, double low = kUnset, double high = kUnset);
 

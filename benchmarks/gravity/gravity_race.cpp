@@ -101,22 +101,20 @@ void add_race(const GravityRig& rig, const BenchContext& context, BenchResult& r
   constexpr std::size_t kLap = kPoses / kChunk;
   const Race raced(context.count(10, 2) * kLap, ways, kLap);
   const auto nanoseconds = [&](std::size_t way) { return raced.seconds(way) / kChunk * 1e9; };
-  add_figure(result, "statics.p50", kUnset, nanoseconds(0), "ns",
-             "kinematics, Jacobian, gravity, J^T f of one pose, closed form; over chunks of 250");
-  add_figure(result, "statics.chain.p50", kUnset, nanoseconds(2), "ns",
-             "the same of a chain of three hinges");
-  add_figure(result, "same_over_same.median", kUnset, raced.ratio(1, 0), "x",
-             "ours over ours in the same run: how far the machine can be trusted");
+  add_cost(result, "statics.p50", nanoseconds(0), "ns",
+           "kinematics, Jacobian, gravity, J^T f of one pose, closed form; over chunks of 250");
+  add_cost(result, "statics.chain.p50", nanoseconds(2), "ns", "the same of a chain of three hinges");
+  add_cost(result, "same_over_same.median", raced.ratio(1, 0), "x",
+           "ours over ours in the same run: how far the machine can be trusted");
   if (!kdl) {
     result.note += "no race: Orocos KDL was not there when this was built (./encounter bench installs it). ";
     return;
   }
-  add_figure(result, "statics.kdl.p50", kUnset, nanoseconds(3), "ns",
-             "Orocos KDL, chain of three hinges without the parallelogram's links");
-  add_figure(result, "kdl_ratio.median", kUnset, raced.ratio(3, 0), "x",
-             "KDL over the closed form, chunks of 250 interleaved", 5.0);
-  add_figure(result, "kdl_ratio.chain.median", kUnset, raced.ratio(3, 2), "x",
-             "KDL over our chain, the same machine");
+  add_cost(result, "statics.kdl.p50", nanoseconds(3), "ns",
+           "Orocos KDL, chain of three hinges without the parallelogram's links");
+  add_cost(result, "kdl_ratio.median", raced.ratio(3, 0), "x",
+           "KDL over the closed form, chunks of 250 interleaved", 5.0);
+  add_cost(result, "kdl_ratio.chain.median", raced.ratio(3, 2), "x", "KDL over our chain, the same machine");
   const auto [tip, torque] = apart(chain, theirs);
   add_figure(result, "apart_from_kdl.tip.max", kUnset, tip, "m", "our chain against KDL", kUnset, 1e-12);
   add_figure(result, "apart_from_kdl.torque.max", kUnset, torque, "N m", "our chain against KDL", kUnset,

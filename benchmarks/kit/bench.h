@@ -30,6 +30,7 @@ struct Figure {
   std::string note;
   double least = kUnset, most = kUnset;  // over seeds or repeats, where there are several
   bool absent = false;  // nobody can know it here, such as the truth of a real machine: nothing to hold
+  bool cost = false;    // a time, a ratio of times or memory: it hangs on the machine, and informs
   [[nodiscard]] bool ok() const;
 };
 

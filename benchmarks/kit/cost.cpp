@@ -40,11 +40,6 @@ double Race::more(std::size_t way, std::size_t over) const {
   return trimmed_mean(std::move(apart)).mean;
 }
 
-void Race::add(const Race& race) {
-  for (std::size_t way = 0; way < seconds_.size(); ++way)
-    seconds_[way].insert(seconds_[way].end(), race.seconds_.at(way).begin(), race.seconds_.at(way).end());
-}
-
 TrimmedMean trimmed_mean(std::vector<double> numbers) {
   if (numbers.empty()) return {};
   std::sort(numbers.begin(), numbers.end());

@@ -10,9 +10,6 @@
 
 namespace enc::bench {
 
-// What ships costs at most so many times the cheapest setting that is as accurate as asked.
-inline constexpr double kDearest = 1.25;
-
 // Several ways to do the same, timed in turn, in an order drawn anew each round, so that a slow moment of the
 // machine hits them all. Rounds before the first warm up. CPU time of this thread.
 class Race {
@@ -27,9 +24,8 @@ class Race {
   // two were farthest apart either way: s for each round.
   [[nodiscard]] double more(std::size_t way, std::size_t over) const;
   [[nodiscard]] double spent(std::size_t way, std::size_t round) const { return seconds_.at(way).at(round); }
+  [[nodiscard]] const std::vector<double>& all(std::size_t way) const { return seconds_.at(way); }
   [[nodiscard]] std::size_t rounds() const { return seconds_.empty() ? 0 : seconds_.front().size(); }
-  // The rounds of another race between the same ways count, too.
-  void add(const Race& race);
 
  private:
   std::vector<std::vector<double>> seconds_;  // [way][round]

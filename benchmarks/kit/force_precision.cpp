@@ -120,13 +120,12 @@ void add_force_precision(Bench& bench, const std::vector<std::string>& set, cons
                            shipped->integrator, shipped->step * 1e6, told(all.second.error)));
   if (!bench.context.full) return;
   const trial::PrecisionPoint* best = cheapest(all.points, {accuracy});
-  bench.figure("precision.default_over_cheapest.cpu", best != nullptr ? shipped->yards / best->yards : kUnset,
-               "x", at_most(kDearest),
-               best != nullptr
-                   ? fmt::format("cheapest that holds: {} at {:g} us", best->integrator, best->step * 1e6)
-                   : "nothing holds it");
-  bench.figure("precision.spread.max", shipped->spread, "x",
-               "yardsticks of what ships, the greatest over the least of three runs");
+  bench.cost(
+      "precision.default_over_cheapest.cpu", best != nullptr ? shipped->yards / best->yards : kUnset, "x",
+      best != nullptr ? fmt::format("cheapest that holds: {} at {:g} us", best->integrator, best->step * 1e6)
+                      : "nothing holds it");
+  bench.cost("precision.spread.max", shipped->spread, "x",
+             "yardsticks of what ships, the greatest over the least of three runs");
 }
 
 }  // namespace enc::bench

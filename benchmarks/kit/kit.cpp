@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 #include <string_view>
 
 namespace enc::bench {
@@ -48,6 +49,18 @@ void Bench::figure(const std::string& id, const Value& twin, const char* unit, c
                    Bounds bounds, std::string note) {
   result.figures.push_back({result.name + "." + id, paper.value, twin.middle, unit, paper.role, bounds.low,
                             bounds.high, std::move(note), twin.least, twin.most});
+}
+
+void Bench::cost(const std::string& id, const Value& twin, const char* unit, std::string note) {
+  cost(id, twin, unit, Bounds{}, std::move(note));
+}
+void Bench::cost(const std::string& id, const Value& twin, const char* unit, Bounds bounds,
+                 std::string note) {
+  const bool bounded = !std::isnan(bounds.low) || !std::isnan(bounds.high);
+  if (bounded && std::string_view("s ms us ns").find(unit) != std::string_view::npos)
+    throw std::logic_error(id + " bounds a time; a ratio to another time of the same run may have bounds");
+  figure(id, twin, unit, bounds, std::move(note));
+  result.figures.back().cost = true;
 }
 
 void Bench::absent(const std::string& id, const char* unit, std::string note) {

@@ -87,6 +87,11 @@ class Bench {
               std::string note = {});
   void figure(const std::string& id, const Value& twin, const char* unit, const Paper& paper, Bounds bounds,
               std::string note = {});
+  // A time, a ratio of times or memory. A busy machine decides such a figure, so it has no bounds; only a
+  // ratio of times of one run that holds on a busy machine with room to spare may have them
+  // (docs/reference/report.md).
+  void cost(const std::string& id, const Value& twin, const char* unit, std::string note = {});
+  void cost(const std::string& id, const Value& twin, const char* unit, Bounds bounds, std::string note = {});
   // What only the simulator's truth says, where nobody knows that.
   void absent(const std::string& id, const char* unit, std::string note);
   void plot(Plot plot);

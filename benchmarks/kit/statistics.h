@@ -4,7 +4,10 @@
 #include <cmath>
 #include <ctime>
 #include <numeric>
+#include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "models/order_statistics.h"
 
@@ -12,6 +15,18 @@ namespace enc::bench {
 
 using models::median;
 using models::percentile;
+
+// What stands for a percentile in a figure, and the last token of its id: the percentile itself ("p95"), or
+// of too few values for it the largest ("max"; of a share below a half the smallest, "min").
+struct Tail {
+  double value;
+  std::string word;
+};
+[[nodiscard]] inline Tail tail_of(const std::vector<double>& values, double share) {
+  if (models::has_percentile(values.size(), share))
+    return {percentile(values, share), fmt::format("p{:02.0f}", 100.0 * share)};
+  return share < 0.5 ? Tail{percentile(values, 0.0), "min"} : Tail{percentile(values, 1.0), "max"};
+}
 
 // Root of the mean square, and the mean; NaN of none.
 [[nodiscard]] inline double rms(const std::vector<double>& values) {

@@ -171,7 +171,6 @@ void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const Me
     }
     if (chosen == nullptr) continue;  // --set has put another step in its place
     const std::string id = fmt::format("{}.work_precision.{}.", spec.benchmark, form.name);
-    const bool ships = is_shipped(form);
     const auto floor = all.floor.find(&form);
     // Elastic legs can have a tip take one of some courses: no step is nearer than another converged run.
     const double most = spec.accuracy + (floor == all.floor.end() ? 0.0 : floor->second);
@@ -183,16 +182,16 @@ void add_figures(const WorkSpec& spec, const Extent& extent, bool full, const Me
     if (floor != all.floor.end())
       result.figures.push_back({id + "floor.rms", kUnset, floor->second * 1e6, "um", Role::ours, kUnset,
                                 kUnset, "what two converged runs differ by; the error may be as much more"});
-    // The structural form is chosen for the legs' vibration, which asks for more: benchmark `structure`.
-    const double dearest = ships ? kDearest : kUnset;
     result.figures.push_back(
         {id + "default_over_cheapest.cpu", kUnset,
-         cheapest != nullptr ? chosen->yards / cheapest->yards : kUnset, "x", Role::ours, kUnset, dearest,
+         cheapest != nullptr ? chosen->yards / cheapest->yards : kUnset, "x", Role::ours, kUnset, kUnset,
          cheapest != nullptr ? fmt::format("cheapest that meets {:g} um: {} at {:g} us", spec.accuracy * 1e6,
                                            cheapest->integrator, cheapest->step * 1e6)
                              : "no point meets the accuracy"});
+    result.figures.back().cost = true;
     result.figures.push_back({id + "spread.max", kUnset, chosen->spread, "x", Role::ours, kUnset, kUnset,
                               "yardsticks of the default, the greatest over the least of three runs"});
+    result.figures.back().cost = true;
   }
 }
 

@@ -74,23 +74,23 @@ void run(Bench& bench) {
   const trial::TrialResult& run = runs.front();
   bench.result.simulated = run.simulated;
 
-  bench.figure("load.wall", ready - start, "s",
-               fmt::format("{} triangles, .glb; file, check and search tree", triangles));
-  bench.figure("load.cpu", cpu, "s", "the same, CPU time of its thread");
-  bench.figure("load.file_and_check", checked - start, "s", "of it");
-  bench.figure("tree.bytes_per_triangle",
-               static_cast<double>(tree.memory_bytes()) / static_cast<double>(triangles), "B",
-               "mesh, normals and tree");
-  bench.figure("step.p50", percentile(run.step_ns, 0.5) * 1e-3, "us",
-               "step() of the tennis ball's scene with this mesh as its ball");
-  bench.figure("step.p99_9", percentile(middle_of(runs), 0.999) * 1e-3, "us",
-               fmt::format("the same; of each tick the lower median of {} runs", runs.size()));
-  bench.figure("step.one_run.p99_9", percentile(run.step_ns, 0.999) * 1e-3, "us",
-               "of one run, with the interrupts of the machine");
-  bench.figure("step_over_yardstick.median", percentile(run.step_ns, 0.5) * 1e-9 / yardstick.seconds(), "x",
-               at_most(4.0), "step() over a fixed piece of work of the same run (kit/yardstick.h)");
-  bench.figure("load_over_yardstick.total", cpu / yardstick.seconds(), "x", at_most(8e5),
-               "mesh.load.cpu, likewise");
+  bench.cost("load.wall", ready - start, "s",
+             fmt::format("{} triangles, .glb; file, check and search tree", triangles));
+  bench.cost("load.cpu", cpu, "s", "the same, CPU time of its thread");
+  bench.cost("load.file_and_check", checked - start, "s", "of it");
+  bench.cost("tree.bytes_per_triangle",
+             static_cast<double>(tree.memory_bytes()) / static_cast<double>(triangles), "B",
+             "mesh, normals and tree");
+  bench.cost("step.p50", percentile(run.step_ns, 0.5) * 1e-3, "us",
+             "step() of the tennis ball's scene with this mesh as its ball");
+  bench.cost("step.p99_9", percentile(middle_of(runs), 0.999) * 1e-3, "us",
+             fmt::format("the same; of each tick the lower median of {} runs", runs.size()));
+  bench.cost("step.one_run.p99_9", percentile(run.step_ns, 0.999) * 1e-3, "us",
+             "of one run, with the interrupts of the machine");
+  bench.cost("step_over_yardstick.median", percentile(run.step_ns, 0.5) * 1e-9 / yardstick.seconds(), "x",
+             at_most(4.0), "step() over a fixed piece of work of the same run (kit/yardstick.h)");
+  bench.cost("load_over_yardstick.total", cpu / yardstick.seconds(), "x", at_most(8e5),
+             "mesh.load.cpu, likewise");
   bench.figure("contacts", run.contacts, "", at_least(1.0), "it was pressed");
   bench.figure("hold.time", run.mode_time[static_cast<std::size_t>(Mode::hold)], "s", exactly(0.0),
                "and never held");

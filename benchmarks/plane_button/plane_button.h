@@ -82,6 +82,11 @@ class Report {
   explicit Report(BenchResult& result) : result_(result) {}
   void figure(const std::string& id, double value, const char* unit, const std::string& note,
               double low = kUnset, double high = kUnset) const;
+  void cost(const std::string& id, double value, const char* unit, const std::string& note,
+            double high = kUnset) const {
+    figure(id, value, unit, note, kUnset, high);
+    result_.figures.back().cost = true;
+  }
   [[nodiscard]] BenchResult& result() const { return result_; }
 
  private:

@@ -92,12 +92,12 @@ void add_machine(Bench& bench, const Machine& machine, const std::vector<ForceSt
   const trial::PrecisionPoint* shipped = trial::shipped(all);
   add_plot(bench, machine, all);
   if (shipped == nullptr || bench.context.quick) return;  // of one scene it says nothing
-  bench.figure(fmt::format("{}.default_over_cheapest.cpu", machine.name),
-               best != nullptr ? 1.0 / best->cpu : kUnset, "x", at_most(kDearest),
-               best != nullptr
-                   ? fmt::format("the cheapest setting that all of its scenes hold with: {} at {:g} us",
-                                 best->integrator, best->step * 1e6)
-                   : "no setting holds in all of its scenes");
+  bench.cost(fmt::format("{}.default_over_cheapest.cpu", machine.name),
+             best != nullptr ? 1.0 / best->cpu : kUnset, "x",
+             best != nullptr
+                 ? fmt::format("the cheapest setting that all of its scenes hold with: {} at {:g} us",
+                               best->integrator, best->step * 1e6)
+                 : "no setting holds in all of its scenes");
 }
 
 void run(Bench& bench) {

@@ -55,10 +55,12 @@ void random_figures(const std::vector<ReachRan>& ran, Seen how, bool bounded, co
       "of the reaches at the keypad in which the key that is rendered, when the finger has met the prop, is "
       "the one that was meant");
   const std::vector<ReachOutcome> keys = of_scene(ran, 1);
-  add(key + "felt_after_ms.p95", 1e3 * percentile(felts(keys, &ReachOutcome::felt_after), 0.95), "ms", kUnset,
-      kUnset, "from where the finger passes the place of the key until a key is felt; the same reaches");
-  add(key + "felt_depth_mm.p95", 1e3 * percentile(felts(keys, &ReachOutcome::felt_depth), 0.95), "mm", kUnset,
-      kUnset, "how far the finger has gone beyond that place by then");
+  const Tail after = tail_of(felts(keys, &ReachOutcome::felt_after), 0.95);
+  add(key + "felt_after_ms." + after.word, 1e3 * after.value, "ms", kUnset, kUnset,
+      "from where the finger passes the place of the key until a key is felt; the same reaches");
+  const Tail depth = tail_of(felts(keys, &ReachOutcome::felt_depth), 0.95);
+  add(key + "felt_depth_mm." + depth.word, 1e3 * depth.value, "mm", kUnset, kUnset,
+      "how far the finger has gone beyond that place by then");
   add(key + "contact_percent",
       percent(all, [](const ReachOutcome& r) { return r.contacts == 1 && r.touched; }), "%", kUnset, kUnset,
       "of the reaches that are one contact to the core");
@@ -66,8 +68,9 @@ void random_figures(const std::vector<ReachRan>& ran, Seen how, bool bounded, co
     const std::vector<ReachOutcome> these = of_scene(ran, i);
     add(key + "lead_percent." + kScenes[i], 100.0 * in_time(these), "%", kUnset, kUnset,
         "of the reaches in which the prop is within 2 mm of where it is met before it is met; " + text);
-    add(key + "random_miss_mm." + kScenes[i] + ".p95", 1e3 * percentile(misses(these), 0.95), "mm", kUnset,
-        kUnset, "sideways, when they meet; " + text);
+    const Tail miss = tail_of(misses(these), 0.95);
+    add(key + "random_miss_mm." + kScenes[i] + "." + miss.word, 1e3 * miss.value, "mm", kUnset, kUnset,
+        "sideways, when they meet; " + text);
   }
 }
 
@@ -137,7 +140,7 @@ Speeds steady(const BenchContext& context, BenchResult& result, Seen how) {
       runs.push_back(steady_reaches(v, tilt,
                                     context.quick  ? 1
                                     : context.full ? 12
-                                                   : 3,
+                                                   : 7,  // of three tilts: 21 have a p95
                                     context.seed) +
                      seen(how));
   const std::vector<ReachRan> ran = run_all(context, runs);
@@ -180,12 +183,15 @@ void speed_part(const BenchContext& context, BenchResult& result, const Adder& a
     for (std::size_t i = 0; i < speeds.each.size(); ++i) {
       const double v = speeds.each[i];
       if (v < 0.05 || v > 0.2) continue;
-      add(fmt::format("miss_mm.{}{:.0f}.p95", key_of(how), 1e3 * v),
-          1e3 * percentile(misses(speeds.reaches[i]), 0.95), "mm", kUnset, 2.0,
+      const Tail tail = tail_of(misses(speeds.reaches[i]), 0.95);
+      add(fmt::format("miss_mm.{}{:.0f}.{}", key_of(how), 1e3 * v, tail.word), 1e3 * tail.value, "mm", kUnset,
+          2.0,
           fmt::format("sideways, of a finger that comes with {:.0f} mm/s, 0 to 40 deg from the normal, {}",
                       1e3 * v, name_of(how)));
     }
-    for (const auto& [share, text] : {std::pair{0.5, "median"}, {0.95, "p95"}})
+    const bool enough = models::has_percentile(misses(speeds.reaches.front()).size(), 0.95);
+    for (const auto& [share, text] :
+         {std::pair{0.5, "median"}, {enough ? 0.95 : 1.0, enough ? "p95" : "most"}})
       miss.series.push_back(
           over_speed(fmt::format("{}, {}", name_of(how), text), speeds, share, 1e3, misses));
     impact.series.push_back(over_speed(fmt::format("{}, median", name_of(how)), speeds, 0.5, 1.0, impacts));

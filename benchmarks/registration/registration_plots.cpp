@@ -12,8 +12,10 @@ namespace {
 void add_point(Series& to, double x, const std::vector<double>& values) {
   to.x.push_back(x);
   to.y.push_back(median(values) * kMm);
-  to.low.push_back(percentile(values, 0.025) * kMm);
-  to.high.push_back(percentile(values, 0.975) * kMm);
+  // Of too few seeds for a band of 95 % the least and the most.
+  const double out = models::has_percentile(values.size(), 0.975) ? 0.025 : 0.0;
+  to.low.push_back(percentile(values, out) * kMm);
+  to.high.push_back(percentile(values, 1.0 - out) * kMm);
 }
 
 Series bound(double paper, double from, double to) {

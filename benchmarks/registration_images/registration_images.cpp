@@ -67,7 +67,7 @@ void add_frames(Bench& bench, const std::vector<Seen>& all) {
     bench.figure(fmt::format("frame.bias.{}_px", kNames[i]), rms(bias[i]), "px", at_most(0.15),
                  "rms over places of the mean of a place: what no averaging takes away");
   }
-  bench.figure("find.time.median", median(seconds) * kMm, "ms", "CPU time of finding the ball in a pair");
+  bench.cost("find.time.median", median(seconds) * kMm, "ms", "CPU time of finding the ball in a pair");
 }
 
 Plot over_depth(const std::vector<Seen>& all) {

@@ -55,7 +55,8 @@ Json figure_json(const Figure& f) {
           {"ok", f.ok()},
           {"note", f.note},
           {"least", number(f.least)},
-          {"most", number(f.most)}};
+          {"most", number(f.most)},
+          {"cost", f.cost}};
 }
 
 Json judged_json(const Judged& j) {

@@ -48,16 +48,14 @@ void beside_copy(Bench& bench, Course& course) {
   };
   const Race raced(course.rounds, {on_ring(course.frames, segment), on_ring(course.frames, copy_of),
                                    [&] { segment(0); }, [&] { copy_of(0); }});
-  bench.figure("time.median", raced.seconds(0) * 1e3, "ms",
-               "the published method, a 640x480 frame of a ring of 16");
-  bench.figure(
-      "copies.median", raced.ratio(0, 1), "x", at_most(10.0),
-      fmt::format("the time of a frame over that of copying it, {:.3f} ms; both of a ring of 16, as a "
-                  "camera gives them",
-                  raced.seconds(1) * 1e3));
-  bench.figure(
-      "copies_in_cache.median", raced.ratio(2, 3), "x",
-      "the same with one frame again and again, which no camera gives: its copy stays in the caches");
+  bench.cost("time.median", raced.seconds(0) * 1e3, "ms",
+             "the published method, a 640x480 frame of a ring of 16");
+  bench.cost("copies.median", raced.ratio(0, 1), "x",
+             fmt::format("the time of a frame over that of copying it, {:.3f} ms; both of a ring of 16, as a "
+                         "camera gives them",
+                         raced.seconds(1) * 1e3));
+  bench.cost("copies_in_cache.median", raced.ratio(2, 3), "x",
+             "the same with one frame again and again, which no camera gives: its copy stays in the caches");
 }
 
 // The same frames, the peer's mask judged by the same truth.
@@ -78,10 +76,10 @@ void beside_pipeline(Bench& bench, Course& course) {
                               course.published.segment(course.view(i), course.found.whole(), course.found);
                             }),
                     on_ring(course.frames, [&](std::size_t i) { peer->segment(course.view(i), theirs); })});
-  bench.figure("ratio_to_mog2.median", raced.ratio(1, 0), "x", at_least(8.0),
-               fmt::format("MOG2 + inRange + medianBlur, {:.2f} ms, over the published method; same frames, "
-                           "interleaved",
-                           raced.seconds(1) * 1e3));
+  bench.cost("ratio_to_mog2.median", raced.ratio(1, 0), "x", at_least(8.0),
+             fmt::format("MOG2 + inRange + medianBlur, {:.2f} ms, over the published method; same frames, "
+                         "interleaved",
+                         raced.seconds(1) * 1e3));
   bench.figure("race.wrong.mean", 100.0 * (1.0 - own.correct()), "%", at_most(0.2),
                fmt::format("of the pixels of the race's frames; MOG2 + inRange + medianBlur {:.3f} %",
                            100.0 * (1.0 - other.correct())));
@@ -137,10 +135,10 @@ void beside_parts(Bench& bench, Course& course) {
                             }),
                     on_ring(course.frames,
                             [&](std::size_t i) { histograms->match(course.view(i), spec.match, changed); })});
-  bench.figure("tiles.ratio_to_calc_hist.median", tiled.ratio(1, 0), "x", at_least(40.0),
-               fmt::format("calcHist and compareHist of each tile, {:.1f} ms, over ours, {:.3f} ms, in which "
-                           "skin is judged, too; from RGB both",
-                           tiled.seconds(1) * 1e3, tiled.seconds(0) * 1e3));
+  bench.cost("tiles.ratio_to_calc_hist.median", tiled.ratio(1, 0), "x", at_least(40.0),
+             fmt::format("calcHist and compareHist of each tile, {:.1f} ms, over ours, {:.3f} ms, in which "
+                         "skin is judged, too; from RGB both",
+                         tiled.seconds(1) * 1e3, tiled.seconds(0) * 1e3));
 
   std::vector<Mask> rough;  // what the filter is for: skin before it
   for (std::size_t i = 0; i < kRing; ++i) {
@@ -159,9 +157,9 @@ void beside_parts(Bench& bench, Course& course) {
       course.rounds,
       {on_ring(course.frames, [&](std::size_t i) { majority.filter(rough[i], rough[i].whole(), own); }),
        on_ring(course.frames, [&](std::size_t i) { opencv.median(rough[i], spec.median, theirs); })});
-  bench.figure("median.ratio_to_median_blur.median", filtered.ratio(1, 0), "x", at_least(8.0),
-               fmt::format("medianBlur, {:.2f} ms, over ours, {:.3f} ms; of masks, side {}",
-                           filtered.seconds(1) * 1e3, filtered.seconds(0) * 1e3, spec.median));
+  bench.cost("median.ratio_to_median_blur.median", filtered.ratio(1, 0), "x", at_least(8.0),
+             fmt::format("medianBlur, {:.2f} ms, over ours, {:.3f} ms; of masks, side {}",
+                         filtered.seconds(1) * 1e3, filtered.seconds(0) * 1e3, spec.median));
   bench.figure("median.unlike.count", static_cast<double>(unlike), "masks", exactly(0.0),
                fmt::format("of {} that medianBlur filters to other bits", kRing));
 }

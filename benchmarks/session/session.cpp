@@ -55,7 +55,7 @@ class Figures {
   void add_counts();
   void add_distributions();
   void add_machine();
-  void add_change(double packet_rate);
+  void add_change();
 
  private:
   void add(const std::string& id, double twin, const char* unit, double low, double high,
@@ -115,8 +115,9 @@ void Figures::distribution(const std::string& id, const char* unit, const std::s
   if (values.empty()) return;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   for (const auto& [name, share] : shares)
-    add(id + "." + name, percentile(values, share), unit, kUnset, kUnset,
-        fmt::format("{}; {} presses", note, values.size()), *least, *most);
+    if (models::has_percentile(values.size(), share))
+      add(id + "." + name, percentile(values, share), unit, kUnset, kUnset,
+          fmt::format("{}; {} presses", note, values.size()), *least, *most);
 }
 
 void Figures::add_distributions() {
@@ -156,34 +157,30 @@ void Figures::add_machine() {
       holds == 0 ? "of the time" : "of the time; why: " + why_text(reasons));
 }
 
-void Figures::add_change(double packet_rate) {
-  double periods = kUnset, exposure = kUnset, force = 0.0, given = 0.0;
-  std::int64_t changes = 0, contacts = 0, missed = 0;
+void Figures::add_change() {
+  std::vector<double> late, miss;
+  std::int64_t mistaken = 0;
   for (const SessionRun& run : runs_) {
-    if (std::isnan(run.change.seen_at)) continue;
-    ++changes;
-    if (std::isnan(run.change.switched_at)) {
-      ++missed;
-      continue;
-    }
-    periods = std::fmax(periods, (run.change.switched_at - run.change.seen_at) * packet_rate);
-    exposure = std::fmax(exposure, run.change.switched_at - run.change.exposed_at);
-    force = std::max(force, run.change.force);
-    given = std::max(given, run.change.given);
-    contacts += run.change.contacts;
+    mistaken += run.change.mistaken;
+    if (std::isnan(run.change.taken_at)) continue;  // too short, or the scene has no other tool
+    late.push_back(std::isnan(run.change.shown_at) ? trial::kInfinite
+                                                   : 1e3 * (run.change.shown_at - run.change.taken_at));
+    if (!std::isnan(run.change.miss)) miss.push_back(1e3 * run.change.miss);
   }
-  if (changes == 0) return;  // too short, or the scene has no other tool
-  add("tool_change.periods.max", missed == 0 ? periods : trial::kInfinite, "periods", kUnset, 1,
+  add("mistaken_tool.count", static_cast<double>(mistaken), "ticks", 0, 0,
+      "of touch in which the overlay shows another tool than the hand holds");
+  if (late.empty()) return;
+  const Value shown = median_of(late), first = median_of(miss);
+  add("tool_change.shown_after_ms.max", shown.most, "ms", kUnset, 50.0,
+      fmt::format("from when the hand takes the other tool until the overlay shows it; {} changes",
+                  late.size()),
+      shown.least, shown.most);
+  add("tool_change.miss_mm.max", first.most, "mm", kUnset, 5.0,
       fmt::format(
-          "of the tracker's packets, from the first pose of the new tool at the core to the overlay's "
-          "switch; {} changes",
-          changes));
-  add("tool_change.exposure_ms.max", exposure * 1e3, "ms", kUnset, kUnset,
-      "the same from when that pose was taken: the tracker's chain");
-  add("tool_change.force_N.max", force, "N", 0, 0.2,
-      "true, from laying one tool down until the other is there");
-  add("tool_change.displacement_um.max", given * 1e6, "um", 0, 0, "of the contact, as commanded, meanwhile");
-  add("tool_change.contacts", static_cast<double>(contacts), "", 0, 0, "begun meanwhile");
+          "true tool tip to haptic-tip in the first press with the other tool, inset included; median "
+          "{:.2f}",
+          first.middle),
+      first.least, first.most);
 }
 
 // A hand that does not drift: the path of the machine alone is compared.
@@ -233,7 +230,8 @@ void add_training(Bench& bench, const std::vector<SessionRun>& session) {
     const double single = share([](const SessionPress& press) { return press.contacts == 1; });
     table.add(
         name, runs->size(), presses.size(), fmt::format("{:.1f}", single),
-        fmt::format("{:.2f}", median(impact)), fmt::format("{:.2f}", percentile(impact, 0.95)),
+        fmt::format("{:.2f}", median(impact)),
+        models::has_percentile(impact.size(), 0.95) ? fmt::format("{:.2f}", percentile(impact, 0.95)) : "-",
         fmt::format("{:.2f}", percentile(impact, 1.0)), fmt::format("{:.0f}", 1e3 * median(speed)),
         fmt::format("{:.1f} %", share([](const SessionPress& press) { return press.long_bounces > 0; })));
     if (runs == &training)
@@ -263,8 +261,7 @@ void run(Bench& bench) {
   figures.add_counts();
   figures.add_distributions();
   figures.add_machine();
-  const sim::TrackerTruth& tracker = setup.twin.tracker;
-  figures.add_change(tracker.packets == sim::Packets::polled ? tracker.server_rate : tracker.rate);
+  figures.add_change();
   add_session_plots(runs, drawn, result);
   add_training(bench, runs);
   if (!context.quick) add_precision(context, result);

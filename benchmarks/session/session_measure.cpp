@@ -82,24 +82,22 @@ void SessionMeasure::see_press(const trial::Glance& glance) {
 
 void SessionMeasure::see_change(const trial::Glance& glance) {
   const sim::Truth& truth = glance.truth;
-  const double now = time_of(truth);
-  // The tool that the tracker has shown before; another one is news.
-  const Stamped<TrackedTool>& pose = glance.in.tool;
-  if (pose.health == Health::ok && pose.value.tool != tool_before_) {
-    if (tool_before_ >= 0) {
-      change_.seen_at = now;
-      change_.exposed_at = seconds(pose.t.time_since_epoch());
-    }
-    tool_before_ = pose.value.tool;
+  if (truth.touching && truth.tool >= 0 && glance.out.view.tool != truth.tool) ++change_.mistaken;
+  if (truth.tool < 0) return;
+  if (held_before_ >= 0 && truth.tool != held_before_) {
+    change_.taken_at = time_of(truth);
+    taken_ = truth.tool;
   }
-  if (!std::isnan(change_.seen_at) && std::isnan(change_.switched_at) && glance.out.view.tool == tool_before_)
-    change_.switched_at = now;
-  if (truth.phase == sim::Phase::change) {
-    change_.force = std::max(change_.force, truth.contact_force.norm());
-    change_.given = std::max(change_.given, glance.out.deflection);
-    change_.contacts += glance.out.contacts - contacts_before_;
-  }
-  contacts_before_ = glance.out.contacts;
+  held_before_ = truth.tool;
+  if (taken_ >= 0 && std::isnan(change_.shown_at) && glance.out.view.tool == taken_)
+    change_.shown_at = time_of(truth);
+}
+
+ToolChange SessionMeasure::change() const {
+  ToolChange change = change_;
+  for (const SessionPress& press : presses())
+    if (press.tool == taken_ && !press.aborted && std::isnan(change.miss)) change.miss = press.miss;
+  return change;
 }
 
 void SessionMeasure::see(const trial::Glance& glance) {

@@ -23,14 +23,12 @@ struct SessionPress {
                long_bounces = 0;  // contact lost and regained within 0.2 s; lost for 20 ms or more
 };
 
-// The change of the tool, from laying one down until the first reach with the other.
+// The change of the tool, judged by which one is truly in the hand.
 struct ToolChange {
-  double seen_at = kUnset;      // s: the first pose of the new tool reaches the core
-  double exposed_at = kUnset;   // s: and was taken then
-  double switched_at = kUnset;  // s: the overlay shows it
-  double force = 0.0;           // N, true, largest
-  double given = 0.0;           // m, commanded displacement of the contact, largest
-  std::int32_t contacts = 0;
+  double taken_at = kUnset;   // s: another tool than before is in the hand
+  double shown_at = kUnset;   // s: the overlay shows that one
+  double miss = kUnset;       // m, of the first press with it: PressFigures
+  std::int64_t mistaken = 0;  // ticks of touch in which the overlay shows another tool than the hand holds
 };
 
 class SessionMeasure {
@@ -39,7 +37,7 @@ class SessionMeasure {
   void see(const trial::Glance& glance);
   // All that have begun, the figures of PressMeasure filled in.
   [[nodiscard]] std::vector<SessionPress> presses() const;
-  [[nodiscard]] const ToolChange& change() const { return change_; }
+  [[nodiscard]] ToolChange change() const;
   [[nodiscard]] double tension() const { return presses_.greatest_tension(); }  // N
   [[nodiscard]] std::int64_t beyond_machine() const { return beyond_; }  // ticks with a command beyond it
   [[nodiscard]] std::int64_t holds() const { return holds_; }            // ticks in hold
@@ -58,7 +56,8 @@ class SessionMeasure {
   ToolChange change_;
   double touched_at_ = kUnset, lost_at_ = kUnset;  // s
   bool touching_ = false;
-  std::int32_t tool_before_ = -1, contacts_before_ = 0;
+  std::int32_t held_before_ = -1,
+               taken_ = -1;  // tool that was in the hand last, and the one it was changed for
   Point<'R'> command_;
   Vec3 command_velocity_ = Vec3::Zero();
   std::int64_t beyond_ = 0, holds_ = 0, ticks_ = 0;

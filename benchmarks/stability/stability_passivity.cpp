@@ -178,8 +178,8 @@ void add_cost_of_control(Bench& bench) {
     }
     seconds.push_back((thread_seconds() - start) / kTimes);
   }
-  bench.figure("passivity.time.median", 1e9 * median(seconds), "ns",
-               kept == 0.0 ? "of a tick: nothing was pushed" : "of a tick, observer and controller");
+  bench.cost("passivity.time.median", 1e9 * median(seconds), "ns",
+             kept == 0.0 ? "of a tick: nothing was pushed" : "of a tick, observer and controller");
 }
 
 }  // namespace

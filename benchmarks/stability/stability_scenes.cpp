@@ -59,7 +59,7 @@ void add_scenes(Bench& bench) {
   bench.figure("scenes.beyond.value", beyond, "", at_most(0.0),
                "of them, that are not stable under the hand that the rig expects");
   bench.figure("scenes.unknown.value", unknown, "", at_most(0.0), "of them, of which it is not known");
-  bench.figure("scenes.time.max", 1e3 * most, "ms", "CPU time of all certificates of a scene, at most");
+  bench.cost("scenes.time.max", 1e3 * most, "ms", "CPU time of all certificates of a scene, at most");
 }
 
 }  // namespace enc::bench::stability

@@ -319,6 +319,7 @@ void add_loop(BenchResult& result, const models::Setup& setup, const BenchContex
     plot.series.push_back(std::move(series));
     result.figures.push_back({fmt::format("tracking.predicted.{}.step.p50", kName[k]), kUnset, cost[k] * 1e-3,
                               "us", Role::ours, kUnset, kUnset, "step() on tennis_ball, all stages"});
+    result.figures.back().cost = true;
   }
   plot.caption =
       "True tool tip to haptic-tip, medians over seeds. The rest of the miss is the machine's own lag.";

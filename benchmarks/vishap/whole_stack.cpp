@@ -231,12 +231,14 @@ void tell_objects(Bench& bench, const std::string& scene, const Ran& ran) {
       scene + ".object_percent", 100.0 * right / all, "%",
       "of these: it was chosen already when the finger came to where it is, with the prop or "
       "without; an ideal that is told when the finger touches names 99 % (docs/reference/reaching.md)");
-  const auto p95 = [&](double reaching::ReachOutcome::*what) {
-    return 1e3 * percentile(reaching::felts(ran.reaches, what), 0.95);
+  const auto tail = [&](double reaching::ReachOutcome::*what) {
+    return tail_of(reaching::felts(ran.reaches, what), 0.95);
   };
-  bench.figure(scene + ".felt_after_ms.p95", p95(&reaching::ReachOutcome::felt_after), "ms",
+  const Tail after = tail(&reaching::ReachOutcome::felt_after);
+  bench.figure(scene + ".felt_after_ms." + after.word, 1e3 * after.value, "ms",
                "from where the finger passes the place of the key until a key is felt");
-  bench.figure(scene + ".felt_depth_mm.p95", p95(&reaching::ReachOutcome::felt_depth), "mm",
+  const Tail depth = tail(&reaching::ReachOutcome::felt_depth);
+  bench.figure(scene + ".felt_depth_mm." + depth.word, 1e3 * depth.value, "mm",
                "how far the finger has gone beyond that place by then");
   bench.figure(scene + ".lead_percent", 100.0 * in_time / all, "%", "of these: the prop is there in time");
 }
@@ -279,9 +281,9 @@ void add_whole_stack(Bench& bench) {
   tell_wall(bench, ran[0]);
   plot_felt(bench, "wall", ran[0],
             "Each picture in contact: what was felt at its exposure, over where it sees the finger.");
-  bench.figure("wall.small.real_time", ran[1].simulated / ran[1].cpu, "x",
-               "320 x 240: simulated over CPU seconds of one thread, the drawing of the pictures included");
-  bench.figure("wall.real_time", ran[0].simulated / ran[0].cpu, "x", "640 x 480: the same");
+  bench.cost("wall.small.real_time", ran[1].simulated / ran[1].cpu, "x",
+             "320 x 240: simulated over CPU seconds of one thread, the drawing of the pictures included");
+  bench.cost("wall.real_time", ran[0].simulated / ran[0].cpu, "x", "640 x 480: the same");
   tell_button(bench, ran[2]);
   plot_felt(bench, "button", ran[2], "As for the wall; the key gives way, then its board is met.");
   tell_objects(bench, "keypad", ran[3]);

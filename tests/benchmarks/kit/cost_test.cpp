@@ -54,16 +54,6 @@ TEST(Race, RoundsBeforeTheFirstAreNotTimedAndChunksBeginAnew) {
   EXPECT_THROW((void)race.ratio(0, Race(2, {[] {}}), 0), std::out_of_range);  // not as many rounds
 }
 
-TEST(Race, RoundsOfAnotherRaceCountToo) {
-  Race race(3, {[] { work(100); }, [] { work(200); }});
-  const Race more(4, {[] { work(100); }, [] { work(200); }});
-  const double first = race.spent(1, 0), last = more.spent(1, 3);
-  race.add(more);
-  ASSERT_EQ(race.rounds(), 7U);
-  EXPECT_EQ(race.spent(1, 0), first);
-  EXPECT_EQ(race.spent(1, 6), last);
-}
-
 // Said of one sample: what means of many samples scatter by.
 TEST(TrimmedMean, SaysHowWellItIsKnown) {
   std::mt19937_64 random(7);

@@ -200,5 +200,31 @@ TEST(Kit, PlotsAndTablesBeginWithTheBenchmark) {
   EXPECT_THAT(bench.result.tables.at(0).rows.at(0), ElementsAre("a", "3", "0.5"));
 }
 
+TEST(Kit, ATailOfTooFewValuesIsTheLargest) {
+  std::vector<double> values{5.0, 1.0, 4.0};
+  EXPECT_EQ(tail_of(values, 0.95).word, "max");
+  EXPECT_EQ(tail_of(values, 0.95).value, 5.0);
+  EXPECT_EQ(tail_of(values, 0.05).word, "min");
+  EXPECT_EQ(tail_of(values, 0.05).value, 1.0);
+  values.resize(19, 2.0);
+  EXPECT_EQ(tail_of(values, 0.95).word, "max");
+  values.resize(20, 2.0);
+  EXPECT_EQ(tail_of(values, 0.95).word, "p95");
+  EXPECT_EQ(tail_of(values, 0.95).value, 4.0);
+  EXPECT_EQ(tail_of(values, 0.05).word, "p05");
+}
+
+// A busy machine must not turn a benchmark red.
+TEST(Kit, ACostIsNoBoundOnATime) {
+  const BenchContext context = context_of();
+  Bench bench(kMade, context);
+  bench.cost("time", 3.0, "ms", "informs");
+  bench.cost("ratio", 3.0, "x", at_most(9.0), "to another time of the same run");
+  ASSERT_THAT(bench.result.figures, testing::SizeIs(2));
+  for (const Figure& figure : bench.result.figures) EXPECT_TRUE(figure.cost && figure.ok()) << figure.id;
+  for (const char* unit : {"s", "ms", "us", "ns"})
+    EXPECT_THROW(bench.cost("time", 3.0, unit, at_most(9.0)), std::logic_error) << unit;
+}
+
 }  // namespace
 }  // namespace enc::bench
