@@ -16,6 +16,7 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/report/choice.h"
+#include "benchmarks/report/committed.h"
 #include "benchmarks/report/report.h"
 #include "core/error.h"
 #include "models/files.h"
@@ -58,6 +59,12 @@ std::string command_of(const trial::BenchOptions& options) {
   if (options.fakes) text += " --fakes";
   for (const std::string& set : options.set) text += " --set '" + set + "'";
   return text;
+}
+
+// A run with other settings gives other figures: there is nothing to compare them with.
+bool is_default(const trial::BenchOptions& options) {
+  return !options.quick && !options.full && options.seed == 1 && options.repeats == 0 &&
+         options.set.empty() && options.rig.empty();
 }
 
 // Columns one beside the other; the last one as long as it is.
@@ -178,6 +185,7 @@ class Session {
     for (const Choice& choice : choices_) report_.missing.emplace_back(choice.benchmark->name);
     context_.models = models::models_dir();
     report_.background = load_background(context_.models);
+    if (is_default(options)) committed_ = Committed::load(context_.models);
     context_.seed = options.seed;
     context_.repeats = options.repeats;
     context_.quick = options.quick;
@@ -208,6 +216,9 @@ class Session {
     if (!felt.empty()) fmt::print("errors beside what a person can tell: {}\n", felt);
     if (!options_.out.empty() && !report_.not_drawn.empty())
       fmt::print(stderr, "encounter: not drawn: {}; tables and figures are complete\n", report_.not_drawn);
+    if (!differ_.empty())
+      fmt::print("not as in benchmarks/reference/figures.csv, by more than their spread: {}\n",
+                 fmt::join(differ_, ", "));
     if (fell_short_.empty()) return 0;
     fmt::print("out of bounds: {}\n", fmt::join(fell_short_, ", "));
     return 1;
@@ -258,9 +269,12 @@ class Session {
     for (const Figure& f : result.figures) {
       if (!wanted(choice, f)) continue;
       if (!f.ok()) fell_short_.push_back(f.id);
-      fmt::print("  {:34} {:>10} {:5}{}{}{}\n", f.id, value(f), f.unit,
+      const bool differs = committed_.differs(f);
+      if (differs) differ_.push_back(f.id);
+      fmt::print("  {:34} {:>10} {:5}{}{}{}{}\n", f.id, value(f), f.unit,
                  std::isfinite(f.paper) ? fmt::format(" (paper {:.4g}, {})", f.paper, role_name(f.role)) : "",
-                 bounds(f), f.ok() ? "" : "  OUT OF BOUNDS");
+                 bounds(f), differs ? fmt::format("  was {:.4g}", committed_.find(f.id)->value) : "",
+                 f.ok() ? "" : "  OUT OF BOUNDS");
     }
     for (const Table& table : result.tables)
       if (table.printed && choice.ids.empty()) print_table(table);
@@ -302,6 +316,8 @@ class Session {
   std::atomic<bool> stopping_{false};
   bool confirmed_ = false;               // of the worker
   std::vector<std::string> fell_short_;  // ids
+  Committed committed_;
+  std::vector<std::string> differ_;  // ids
 };
 
 int list_benchmarks() {
