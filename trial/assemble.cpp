@@ -9,6 +9,7 @@
 
 #include "core/devices/roles.h"
 #include "core/error.h"
+#include "core/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
 #include "trial/camera/vision.h"
@@ -216,25 +217,24 @@ struct Comparison {
   }
 };
 
-constexpr double kMm = 1e-3, kDegree = M_PI / 180.0;
 constexpr double kLength = 10e-6;   // m: better than a machine of this kind is measured
 constexpr double kAngle = 1e-4;     // rad
 constexpr double kMassShare = 0.1;  // of a mass: what a sheet and a scale may be apart
 
 void check_machine(const Reach& reach, const ManipulatorRig& rig) {
   const Comparison machine{"machine"};
-  machine.able(reach.speed, rig.speed, "speed in mm/s", "rig.manipulator.speed_mm_s", kMm);
+  machine.able(reach.speed, rig.speed, "speed in mm/s", "rig.manipulator.speed_mm_s", kMillimetre);
   machine.able(reach.acceleration, rig.acceleration, "acceleration in m/s2",
                "rig.manipulator.acceleration_m_s2", 1.0);
   const HexapodGeometry& is = reach.machine.geometry();
   const HexapodGeometry& promised = rig.geometry;
-  machine.able(is.stroke, promised.stroke, "stroke in mm", "rig.manipulator.geometry.stroke_mm", kMm);
+  machine.able(is.stroke, promised.stroke, "stroke in mm", "rig.manipulator.geometry.stroke_mm", kMillimetre);
   machine.able(is.tilt_limit, promised.tilt_limit, "tilt in degrees",
                "rig.manipulator.geometry.tilt_limit_deg", kDegree);
   machine.able(is.yaw_limit, promised.yaw_limit, "yaw in degrees", "rig.manipulator.geometry.yaw_limit_deg",
                kDegree);
   const auto length = [&](double HexapodGeometry::*side, const char* what, const char* key) {
-    machine.same(is.*side, promised.*side, kLength, what, key, kMm);
+    machine.same(is.*side, promised.*side, kLength, what, key, kMillimetre);
   };
   length(&HexapodGeometry::base_radius, "base radius in mm", "rig.manipulator.geometry.base_radius_mm");
   length(&HexapodGeometry::platform_radius, "platform radius in mm",
@@ -257,7 +257,8 @@ void check_arm(const ArmAbility& is, const ArmRig& rig) {
                 ErrorKind::device);
   if (is.machine.kind == ArmKind::phantom) {
     const auto length = [&](double PhantomGeometry::*side, const char* what) {
-      arm.same(is.machine.phantom.*side, promised.phantom.*side, kLength, what, "rig.arm.machine", kMm);
+      arm.same(is.machine.phantom.*side, promised.phantom.*side, kLength, what, "rig.arm.machine",
+               kMillimetre);
     };
     length(&PhantomGeometry::l1, "l1 in mm");
     length(&PhantomGeometry::l2, "l2 in mm");
@@ -275,7 +276,7 @@ void check_arm(const ArmAbility& is, const ArmRig& rig) {
                "rig.arm.machine", 1.0);
   } else {
     arm.same((is.machine.tip - promised.tip).norm(), 0.0, kLength, "the tip's place in mm from it",
-             "rig.arm.machine.tip_mm", kMm);
+             "rig.arm.machine.tip_mm", kMillimetre);
     for (std::size_t i = 0; i < promised.links.size(); ++i) {
       const ChainLink &link = is.machine.links[i], &of = promised.links[i];
       if (link.kind != of.kind)
@@ -284,7 +285,7 @@ void check_arm(const ArmAbility& is, const ArmRig& rig) {
                                 i + 1),
                     {}, ErrorKind::device);
       arm.same((link.origin - of.origin).norm(), 0.0, kLength, "a link's origin in mm from it",
-               "rig.arm.machine", kMm);
+               "rig.arm.machine", kMillimetre);
       arm.same((link.axis.normalized() - of.axis.normalized()).norm(), 0.0, kAngle,
                "a link's axis in degrees from it", "rig.arm.machine", kDegree);
       arm.same(link.mass, of.mass, kMassShare * of.mass, "a link's mass in kg", "rig.arm.machine", 1.0);

@@ -10,8 +10,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/modules/units.h"
+#include "app/modules/axes.h"
 #include "core/error.h"
+#include "core/units.h"
 #include "core/vision/segmentation/kernels/arc.h"
 #include "hw_drivers/images/files/pair_list.h"
 #include "models/files.h"
@@ -23,12 +24,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using segmentation::HueRule;
 
-constexpr int kWhite = 128;                      // of 255, mean of the channels: hand
-constexpr int kFirstGrey = 64, kLastGrey = 191;  // neither: a picture
-constexpr double kMostGrey = 0.05;               // of a mask's pixels: edges, as JPEG blurs them
-constexpr double kLeastSpread = 0.01 / kDeg;     // rad
-constexpr double kWideSpread = 20.0 / kDeg;      // rad; skin of all tones together has less than 8 deg
-constexpr double kManyWithout = 0.1;             // of the hand's pixels
+constexpr int kWhite = 128;                         // of 255, mean of the channels: hand
+constexpr int kFirstGrey = 64, kLastGrey = 191;     // neither: a picture
+constexpr double kMostGrey = 0.05;                  // of a mask's pixels: edges, as JPEG blurs them
+constexpr double kLeastSpread = 0.01 / kDegPerRad;  // rad
+constexpr double kWideSpread = 20.0 / kDegPerRad;   // rad; skin of all tones together has less than 8 deg
+constexpr double kManyWithout = 0.1;                // of the hand's pixels
 constexpr std::array<double, 5> kSigmas{1.5, 2.0, 2.5, 3.0, 3.5};
 
 std::map<std::string, std::string> by_stem(const std::string& folder) {
@@ -115,7 +116,7 @@ SkinModel model_of(const SkinLearner& learner, const std::string& image) {
 
 std::int64_t learned(const SkinStudy& study) { return study.hand.all - study.hand.grey - study.hand.dark; }
 
-double rounded(double angle) { return std::round(angle * kDeg * 1e3) / 1e3; }
+double rounded(double angle) { return std::round(angle * kDegPerRad * 1e3) / 1e3; }
 
 std::string roc_text(const SkinStudy& study) {
   std::string out = fmt::format("{:12}{:>16}{:>16}\n", "skin_sigmas", "of the hand, %", "of the rest, %");
@@ -134,7 +135,7 @@ std::string notes_text(const SkinStudy& study) {
                     fmt::join(study.unlike, ", ")));
   if (study.model.spread > kWideSpread)
     say(fmt::format("a spread of {:.0f} deg is more than skin has: see to the masks",
-                    study.model.spread * kDeg));
+                    study.model.spread * kDegPerRad));
   const double without = 1.0 - static_cast<double>(learned(study)) / static_cast<double>(study.hand.all);
   if (without > kManyWithout)
     say(fmt::format(
@@ -200,7 +201,7 @@ SkinStudy study_skin(const std::vector<HandFiles>& files) {
     throw Error(
         fmt::format("{}: all hands have one hue, {:.2f} deg, without any spread; expected images of a "
                     "camera; take others",
-                    files.front().image, study.model.hue * kDeg));
+                    files.front().image, study.model.hue * kDegPerRad));
   for (std::size_t i = 0; i < files.size(); ++i)
     if (std::abs(std::remainder(means[i] - study.model.hue, 2.0 * std::numbers::pi)) >
         SegmentationSpec{}.skin * study.model.spread)
@@ -217,7 +218,8 @@ std::string skin_text(const SkinStudy& study) {
              "skin        hue {:.3f} deg, spread {:.3f} deg, of {} px\n",
              study.images, study.images == 1 ? "" : "s", study.hand.all, study.hand.all + study.rest.all,
              study.hand.grey + study.hand.dark, study.hand.grey, rule.least_chroma, study.hand.dark,
-             rule.least_value, study.model.hue * kDeg, study.model.spread * kDeg, learned(study)) +
+             rule.least_value, study.model.hue * kDegPerRad, study.model.spread * kDegPerRad,
+             learned(study)) +
          roc_text(study) + notes_text(study) +
          fmt::format(
              "set         rig.vision.skin_hue_deg = {:g}\nset         rig.vision.skin_spread_deg = {:g}\n",

@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/calibration/pair_study.h"
-#include "app/modules/units.h"
+#include "app/modules/axes.h"
 #include "core/rotation.h"
+#include "core/units.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {
@@ -33,7 +34,7 @@ std::string residuals_text(const PairStudy& study) {
     const PairResidual& p = study.found.pairs[i];
     out += fmt::format("{:{}}{:>11.3f}{:>11.3f}{:>14.3f}{:>10.3f}{:>13.3f}\n",
                        models::printable(study.pairs[i].name), widest, p.left, p.right, p.epipolar, p.rows,
-                       p.square * kMm);
+                       p.square * kMmPerM);
   }
   return out + fmt::format("{:{}}{:>22.3f}{:>14.3f}{:>10.3f}\n", "all", widest, study.found.rms,
                            study.found.epipolar, study.found.rows);
@@ -59,7 +60,7 @@ const char* words_for(K3 k3) {
 
 std::string head_text(const PairStudy& study) {
   const StereoRig& rig = study.found.rig;
-  const Vec3 p = rig.X_CD.p() * kMm, turn = angles_xyz(rig.X_CD.q()) * kDeg;
+  const Vec3 p = rig.X_CD.p() * kMmPerM, turn = angles_xyz(rig.X_CD.q()) * kDegPerRad;
   constexpr double kAt = 0.6;  // m
   const double pixel = kAt * kAt / (rig.left.focal_x * rig.X_CD.p().norm());
   return lens_text("left", rig.left) + lens_text("right", rig.right) +
@@ -68,7 +69,7 @@ std::string head_text(const PairStudy& study) {
              "baseline    {:.2f} mm; right camera at {:.2f} {:.2f} {:.2f} mm, turned by {:.3f} {:.3f} {:.3f} "
              "deg\n"
              "depth       a pixel of disparity is {:.1f} mm at {:.0f} mm\n",
-             p.norm(), p.x(), p.y(), p.z(), turn.x(), turn.y(), turn.z(), pixel * kMm, kAt * kMm);
+             p.norm(), p.x(), p.y(), p.z(), turn.x(), turn.y(), turn.z(), pixel * kMmPerM, kAt * kMmPerM);
 }
 
 // By what is worst; what is no number is worse than all.
@@ -144,11 +145,11 @@ std::vector<std::string> notes_of(const PairStudy& study) {
   if (study.pairs.size() < 10)
     say(fmt::format("{} pairs are few: 10 to 20, with the board in all parts of both images",
                     study.pairs.size()));
-  if (found.tilt < 30.0 / kDeg)
+  if (found.tilt < 30.0 / kDegPerRad)
     say(fmt::format(
         "the boards are tilted by no more than {:.0f} deg against each other: the focal length is "
         "known badly; tilt them by 20 to 45 deg to all sides",
-        found.tilt * kDeg));
+        found.tilt * kDegPerRad));
   if (found.focal_deviation > 0.01)
     say(fmt::format("the focal length is known to {:.1f} % only; take pairs that are nearer and more tilted",
                     100.0 * found.focal_deviation));
@@ -195,17 +196,17 @@ std::string study_json(const PairStudy& study) {
   json["images"] = study.images;
   json["width_px"] = found.rig.width;
   json["height_px"] = found.rig.height;
-  json["square_mm"] = study.square * kMm;
+  json["square_mm"] = study.square * kMmPerM;
   json["left"] = lens_json(found.rig.left);
   json["right"] = lens_json(found.rig.right);
-  const Vec3 p = found.rig.X_CD.p() * kMm, turn = angles_xyz(found.rig.X_CD.q()) * kDeg;
+  const Vec3 p = found.rig.X_CD.p() * kMmPerM, turn = angles_xyz(found.rig.X_CD.q()) * kDegPerRad;
   json["right"]["position_mm"] = {p.x(), p.y(), p.z()};
   json["right"]["rotation_deg"] = {turn.x(), turn.y(), turn.z()};
   json["reprojection_px"] = found.rms;
   json["epipolar_px"] = found.epipolar;
   json["rows_px"] = found.rows;
   json["focal_deviation"] = found.focal_deviation;
-  json["tilt_deg"] = found.tilt * kDeg;
+  json["tilt_deg"] = found.tilt * kDegPerRad;
   json["pairs"] = Json::array();
   for (std::size_t i = 0; i < study.pairs.size(); ++i) {
     const PairResidual& r = found.pairs[i];
@@ -214,7 +215,7 @@ std::string study_json(const PairStudy& study) {
                              {"right_px", r.right},
                              {"epipolar_px", r.epipolar},
                              {"rows_px", r.rows},
-                             {"square_mm", r.square * kMm}});
+                             {"square_mm", r.square * kMmPerM}});
   }
   json["not_found"] = study.missed;
   json["k3_fitted"] = found.k3 == K3::fitted;

@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
-#include "app/modules/units.h"
+#include "app/modules/axes.h"
 #include "core/error.h"
+#include "core/units.h"
 #include "models/csv_reader.h"
 #include "models/fit/latency_fit.h"
 #include "models/fit/pivot/pivot_log.h"
@@ -58,10 +59,10 @@ std::string table_text(const TrackerLog& log, const LatencyFit& fit) {
                      "travel, mm", "stops");
   for (std::size_t a = 0; a < 3; ++a) {
     const AxisLatency& x = fit.axes[a];
-    out += fmt::format("{:<6}{:>20}{:>22}{:>12}{:>12.1f}{:>10}\n", kNames[a], text(x.latency, kMs, 2),
-                       text(x.bias, kMm, 4), text(x.noise, kMm, 4), x.travel * kMm, x.stops);
+    out += fmt::format("{:<6}{:>20}{:>22}{:>12}{:>12.1f}{:>10}\n", kNames[a], text(x.latency, kMsPerS, 2),
+                       text(x.bias, kMmPerM, 4), text(x.noise, kMmPerM, 4), x.travel * kMmPerM, x.stops);
   }
-  return out + fmt::format("{:6}{:>20}\n", "all", text(fit.latency, kMs, 2));
+  return out + fmt::format("{:6}{:>20}\n", "all", text(fit.latency, kMsPerS, 2));
 }
 
 std::string scatter_text(const TrackerLog& log, const LatencyFit& fit) {
@@ -69,7 +70,7 @@ std::string scatter_text(const TrackerLog& log, const LatencyFit& fit) {
   const double slot = mean_packet_period(log) / std::sqrt(12.0);
   return fmt::format(
       "scatter     of the age {} ms; waiting for a slot of {:.3g} ms explains up to {:.2f} ms of it\n",
-      text(fit.scatter, kMs, 2), mean_packet_period(log) * kMs, slot * kMs);
+      text(fit.scatter, kMsPerS, 2), mean_packet_period(log) * kMsPerS, slot * kMsPerS);
 }
 
 std::string stamps_text(const LatencyFit& fit) {
@@ -77,10 +78,10 @@ std::string stamps_text(const LatencyFit& fit) {
     return "stamps      none (no tool_time_s): all times are those of arrival\n";
   if (!fit.stamp_error.known())
     return fmt::format(
-        "stamps      tell a mean age of {:.4g} ms: {}\n", fit.stamp_age.value * kMs,
+        "stamps      tell a mean age of {:.4g} ms: {}\n", fit.stamp_age.value * kMsPerS,
         fit.latency.known() ? "they are of another clock" : "nothing moved to compare them with");
   return fmt::format("stamps      tell a mean age of {:.2f} ms; packets are older than that by {} ms\n",
-                     fit.stamp_age.value * kMs, text(fit.stamp_error, kMs, 2));
+                     fit.stamp_age.value * kMsPerS, text(fit.stamp_error, kMsPerS, 2));
 }
 
 // What the log cannot tell, and what it tells beside the numbers.
@@ -97,11 +98,11 @@ std::string remarks_text(const TrackerLog& log, const LatencyFit& fit) {
       say(fmt::format(
           "{} moved one way only: what of its bias changes in motion counts as latency, {:.2g} ms "
           "for each 0.1 mm; move it back, too",
-          name, 0.1e-3 / x.fastest * kMs));
+          name, 0.1e-3 / x.fastest * kMsPerS));
     if (x.adrift)
       say(fmt::format(
           "{} of the tip stood still and {} of the tool moved by {:.1f} mm: its bias is not in this log",
-          name, name, x.wander * kMm));
+          name, name, x.wander * kMmPerM));
     if (scaled(x))
       say(
           fmt::format("{} of the tool moved {:.3g} times as far as {} of the tip: no number here is to be "
@@ -113,12 +114,12 @@ std::string remarks_text(const TrackerLog& log, const LatencyFit& fit) {
       say(fmt::format("{} never stopped and moved one way: its bias is not in this log; stop sometimes",
                       name));
     if (differs_from_zero(x.change) && std::abs(x.change.value) > 5e-6)
-      say(fmt::format("the bias of {} differs in motion by {} mm", name, text(x.change, kMm, 4)));
+      say(fmt::format("the bias of {} differs in motion by {} mm", name, text(x.change, kMmPerM, 4)));
     if (differs_from_zero(x.step) && std::abs(x.step.value) > 0.02e-3)
-      say(fmt::format("{} has a lag that does not grow with speed: {} mm", name, text(x.step, kMm, 4)));
+      say(fmt::format("{} has a lag that does not grow with speed: {} mm", name, text(x.step, kMmPerM, 4)));
     if (x.places > std::max(0.03e-3, 3.0 * x.noise))
       say(fmt::format("the bias of {} depends on the place: stops differ by up to {:.3f} mm", name,
-                      x.places * kMm));
+                      x.places * kMmPerM));
   }
   if (early(fit))
     say("the tool was seen where the tip was not yet: the times of the two are not of one clock, or the sign "
@@ -139,16 +140,16 @@ std::string advice_text(const LatencyFit& fit) {
     out += "set         rig.frames.W_C.position_mm: take away [";
     for (std::size_t a = 0; a < 3; ++a)
       out += fmt::format("{}{:.4f}", a > 0 ? ", " : "",
-                         std::isnan(axes[a].bias.value) ? 0.0 : axes[a].bias.value * kMm);
+                         std::isnan(axes[a].bias.value) ? 0.0 : axes[a].bias.value * kMmPerM);
     out += "] (or from the tool's tip_mm, if the bias turns with the tool)\n";
   }
   if (fit.latency.known() && !early(fit)) {
     const double usual = fit.latency.value + 3.0 * (fit.scatter.known() ? fit.scatter.value : 0.0);
     out += fmt::format("set         rig.tracker.usual_age_ms: above {:.0f}, three scatters over the mean\n",
-                       std::ceil(usual * kMs));
+                       std::ceil(usual * kMsPerS));
   }
   if (differs_from_zero(fit.stamp_error))
-    out += fmt::format("set         rig.tracker.stamp_late_ms = {:.2f}\n", fit.stamp_error.value * kMs);
+    out += fmt::format("set         rig.tracker.stamp_late_ms = {:.2f}\n", fit.stamp_error.value * kMsPerS);
   return out;
 }
 
@@ -168,13 +169,13 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
   for (std::size_t a = 0; a < 3; ++a) {
     const AxisLatency& x = fit.axes[a];
     Json axis;
-    put(axis, "latency", "ms", x.latency, kMs);
-    put(axis, "bias", "mm", x.bias, kMm);
-    axis["noise_mm"] = number(x.noise, kMm);
-    put(axis, "bias_change", "mm", x.change, kMm);
-    put(axis, "lag_step", "mm", x.step, kMm);
-    axis["places_mm"] = number(x.places, kMm);
-    axis["travel_mm"] = x.travel * kMm;
+    put(axis, "latency", "ms", x.latency, kMsPerS);
+    put(axis, "bias", "mm", x.bias, kMmPerM);
+    axis["noise_mm"] = number(x.noise, kMmPerM);
+    put(axis, "bias_change", "mm", x.change, kMmPerM);
+    put(axis, "lag_step", "mm", x.step, kMmPerM);
+    axis["places_mm"] = number(x.places, kMmPerM);
+    axis["travel_mm"] = x.travel * kMmPerM;
     axis["stops"] = x.stops;
     axis["moving"] = x.moving;
     axis["one_way"] = x.one_way;
@@ -182,11 +183,11 @@ std::string json_text(const TrackerLog& log, const LatencyFit& fit) {
     axis["scale"] = number(x.scale, 1.0);
     json["axes"][std::string(1, kNames[a])] = axis;
   }
-  put(json, "latency", "ms", fit.latency, kMs);
-  put(json, "scatter", "ms", fit.scatter, kMs);
+  put(json, "latency", "ms", fit.latency, kMsPerS);
+  put(json, "scatter", "ms", fit.scatter, kMsPerS);
   json["axes_agree"] = fit.axes_agree;
-  json["stamp_age_ms"] = number(fit.stamp_age.value, kMs);
-  put(json, "stamp_late", "ms", fit.stamp_error, kMs);
+  json["stamp_age_ms"] = number(fit.stamp_age.value, kMsPerS);
+  put(json, "stamp_late", "ms", fit.stamp_error, kMsPerS);
   json["notes"] = log.notes;
   return json.dump(2);
 }

@@ -14,10 +14,11 @@
 #include <unistd.h>
 
 #include "app/fit/commands.h"
-#include "app/modules/units.h"
+#include "app/modules/axes.h"
 #include "core/error.h"
 #include "core/rotation.h"
 #include "core/time.h"
+#include "core/units.h"
 #include "models/files.h"
 #include "models/fit/machine/turn.h"
 #include "models/schema/wording.h"
@@ -77,7 +78,7 @@ std::string with(const Vec3& value, const Vec3& half) {
 
 // By how much what is found differs from what the rig believes, about the parent's axes.
 double turned(const Quat& found, const Vec3& believed) {
-  return found.angularDistance(rotation_xyz(believed)) * kDeg;
+  return found.angularDistance(rotation_xyz(believed)) * kDegPerRad;
 }
 
 std::string weight_text(const Found& found) {
@@ -90,11 +91,11 @@ std::string weight_text(const Found& found) {
       "            zero {} N at the end; it walks by {:.4f} N in a second\n"
       "            middle of the weight at {} mm in F; {:.4f} N rms left over, {:.4f} at most\n",
       with(*found.file.mass, fit.mass.half), found.made.tool_mass, rig.force.mass,
-      fmt::format("{:.3f}, {:.3f}, {:.3f}", kDeg * found.file.H_F->x(), kDeg * found.file.H_F->y(),
-                  kDeg * found.file.H_F->z()),
-      list(kDeg * fit.turn_half, digits_of(kDeg * fit.turn_half.minCoeff())),
+      fmt::format("{:.3f}, {:.3f}, {:.3f}", kDegPerRad * found.file.H_F->x(),
+                  kDegPerRad * found.file.H_F->y(), kDegPerRad * found.file.H_F->z()),
+      list(kDegPerRad * fit.turn_half, digits_of(kDegPerRad * fit.turn_half.minCoeff())),
       turned(fit.R_HF, rig.frames.H_F.rotation), with(fit.zero.value, fit.zero.half), fit.walk,
-      list(kMm * fit.middle.e(), 1), fit.rms, fit.most);
+      list(kMmPerM * fit.middle.e(), 1), fit.rms, fit.most);
 }
 
 std::string tracker_text(const Found& found) {
@@ -108,17 +109,19 @@ std::string tracker_text(const Found& found) {
       "what the rig believes\n"
       "            so that what is seen at W's origin is known to {} mm\n"
       "            {:.4f} mm and {:.4f} deg rms left over, {:.4f} mm at most\n",
-      with(kMm * W_C.position, kMm * fit.place_half), kMm * (W_C.position - rig.frames.W_C.position).norm(),
-      list(kDeg * W_C.rotation, digits_of(kDeg * fit.turn_half.minCoeff())),
-      list(kDeg * fit.turn_half, digits_of(kDeg * fit.turn_half.minCoeff())),
+      with(kMmPerM * W_C.position, kMmPerM * fit.place_half),
+      kMmPerM * (W_C.position - rig.frames.W_C.position).norm(),
+      list(kDegPerRad * W_C.rotation, digits_of(kDegPerRad * fit.turn_half.minCoeff())),
+      list(kDegPerRad * fit.turn_half, digits_of(kDegPerRad * fit.turn_half.minCoeff())),
       turned(Quat(fit.X_WC.q()), rig.frames.W_C.rotation),
-      list(kMm * fit.origin_half, digits_of(kMm * fit.origin_half.minCoeff())), kMm * fit.rms,
-      kDeg * fit.rms_turn, kMm * fit.most);
+      list(kMmPerM * fit.origin_half, digits_of(kMmPerM * fit.origin_half.minCoeff())), kMmPerM * fit.rms,
+      kDegPerRad * fit.rms_turn, kMmPerM * fit.most);
   const ToolSpec& tool = found.setup.scene.tools[static_cast<std::size_t>(found.made.clamped_tool)];
   return text + fmt::format(
                     "tool        tip_mm = {} of {} in T, if it stands at the haptic-tip's middle; the "
                     "scene has {}\n",
-                    with(kMm * fit.tip.value, kMm * fit.tip.half), tool.name, list(kMm * tool.tip, 3));
+                    with(kMmPerM * fit.tip.value, kMmPerM * fit.tip.half), tool.name,
+                    list(kMmPerM * tool.tip, 3));
 }
 
 std::string found_text(const Found& found) {
@@ -151,25 +154,25 @@ Json found_json(const Found& found) {
                      {"tool_mass_kg", made.tool_mass},
                      {"zero_N", list_of(fit.zero.value, 1.0)},
                      {"zero_half_N", list_of(fit.zero.half, 1.0)},
-                     {"rotation_deg", list_of(*found.file.H_F, kDeg)},
-                     {"turn_half_deg", list_of(fit.turn_half, kDeg)},
-                     {"middle_mm", list_of(fit.middle.e(), kMm)},
+                     {"rotation_deg", list_of(*found.file.H_F, kDegPerRad)},
+                     {"turn_half_deg", list_of(fit.turn_half, kDegPerRad)},
+                     {"middle_mm", list_of(fit.middle.e(), kMmPerM)},
                      {"walk_N_per_sqrt_s", fit.walk},
                      {"residual_rms_N", fit.rms},
                      {"residual_max_N", fit.most}};
   }
   if (made.hand_eye) {
     const models::HandEyeFit& fit = *made.hand_eye;
-    json["tracker"] = {{"position_mm", list_of(found.file.W_C->position, kMm)},
-                       {"position_half_mm", list_of(fit.place_half, kMm)},
-                       {"rotation_deg", list_of(found.file.W_C->rotation, kDeg)},
-                       {"turn_half_deg", list_of(fit.turn_half, kDeg)},
-                       {"origin_half_mm", list_of(fit.origin_half, kMm)},
-                       {"residual_rms_mm", kMm * fit.rms},
-                       {"residual_rms_deg", kDeg * fit.rms_turn},
-                       {"residual_max_mm", kMm * fit.most},
-                       {"tip_mm", list_of(fit.tip.value, kMm)},
-                       {"tip_half_mm", list_of(fit.tip.half, kMm)}};
+    json["tracker"] = {{"position_mm", list_of(found.file.W_C->position, kMmPerM)},
+                       {"position_half_mm", list_of(fit.place_half, kMmPerM)},
+                       {"rotation_deg", list_of(found.file.W_C->rotation, kDegPerRad)},
+                       {"turn_half_deg", list_of(fit.turn_half, kDegPerRad)},
+                       {"origin_half_mm", list_of(fit.origin_half, kMmPerM)},
+                       {"residual_rms_mm", kMmPerM * fit.rms},
+                       {"residual_rms_deg", kDegPerRad * fit.rms_turn},
+                       {"residual_max_mm", kMmPerM * fit.most},
+                       {"tip_mm", list_of(fit.tip.value, kMmPerM)},
+                       {"tip_half_mm", list_of(fit.tip.half, kMmPerM)}};
   }
   return json;
 }

@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
-#include "app/modules/units.h"
+#include "app/modules/axes.h"
 #include "core/error.h"
+#include "core/units.h"
 #include "models/fit/pivot/pivot_doubts.h"
 #include "models/fit/pivot/pivot_log.h"
 #include "models/schema/wording.h"
@@ -54,8 +55,9 @@ std::string pivot_text(const PivotLog& log, const PivotFit& fit) {
       fit.outliers > 0 ? fmt::format("; {} left out, farther than 6 standard deviations", fit.outliers) : "",
       pivot_notes(log, fit), "axis", "tip in T, mm");
   for (std::size_t a = 0; a < 3; ++a)
-    out += fmt::format("{:<6}{:>24}\n", "xyz"[a],
-                       fmt::format("{:.4f} +- {:.4f}", fit.tip[a].value * kMm, fit.tip[a].half * kMm));
+    out +=
+        fmt::format("{:<6}{:>24}\n", "xyz"[a],
+                    fmt::format("{:.4f} +- {:.4f}", fit.tip[a].value * kMmPerM, fit.tip[a].half * kMmPerM));
   return out +
          fmt::format(
              "residual    {:.3f} mm rms, {:.3f} mm at most; medians of 0.25 s wander by up to {:.3f} mm\n"
@@ -65,9 +67,9 @@ std::string pivot_text(const PivotLog& log, const PivotFit& fit) {
              "note        of a round tip this is the centre of its sphere, as tip_mm wants it\n"
              "intervals   95 % for each axis, of errors that last up to some 0.3 s, from blocks of 0.25 to "
              "2 s, the widest one; by {}\n",
-             fit.rms * kMm, fit.most * kMm, fit.wander * kMm, three(fit.swing, kDeg, 1),
-             three(fit.least_turned.xyz, 1.0, 2), three(fit.dimple.xyz, kMm, 3),
-             three(fit.point().xyz, kMm, 4), three(halves_of(fit), kMm, 4),
+             fit.rms * kMmPerM, fit.most * kMmPerM, fit.wander * kMmPerM, three(fit.swing, kDegPerRad, 1),
+             three(fit.least_turned.xyz, 1.0, 2), three(fit.dimple.xyz, kMmPerM, 3),
+             three(fit.point().xyz, kMmPerM, 4), three(halves_of(fit), kMmPerM, 4),
              fit.neighbours ? "the rotations of neighbours"
                             : "plain least squares, as neighbours turn too unlike");
 }
@@ -80,13 +82,13 @@ Json pivot_json(const PivotLog& log, const PivotFit& fit) {
   json["poses"] = log.poses.size();
   json["time_s"] = length_of(log);
   json["outliers"] = fit.outliers;
-  json["tip_mm"] = list_of(fit.point().xyz, kMm);
-  json["tip_half_mm"] = list_of(halves_of(fit), kMm);
-  json["dimple_mm"] = list_of(fit.dimple.xyz, kMm);
-  json["residual_rms_mm"] = fit.rms * kMm;
-  json["residual_max_mm"] = fit.most * kMm;
-  json["wander_mm"] = fit.wander * kMm;
-  json["swing_deg"] = list_of(fit.swing, kDeg);
+  json["tip_mm"] = list_of(fit.point().xyz, kMmPerM);
+  json["tip_half_mm"] = list_of(halves_of(fit), kMmPerM);
+  json["dimple_mm"] = list_of(fit.dimple.xyz, kMmPerM);
+  json["residual_rms_mm"] = fit.rms * kMmPerM;
+  json["residual_max_mm"] = fit.most * kMmPerM;
+  json["wander_mm"] = fit.wander * kMmPerM;
+  json["swing_deg"] = list_of(fit.swing, kDegPerRad);
   json["least_turned"] = list_of(fit.least_turned.xyz, 1.0);
   json["turned_s"] = fit.turned;
   json["rested_s"] = fit.rested;

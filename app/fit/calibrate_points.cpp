@@ -9,9 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
-#include "app/modules/units.h"
+#include "app/modules/axes.h"
 #include "core/error.h"
 #include "core/rotation.h"
+#include "core/units.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "trial/fit/point_study.h"
@@ -41,24 +42,24 @@ std::string axes_text(const PointSet& places, const PointStudy& s) {
                      "left out, mm", "frame noise, mm", "that stays, mm");
   for (Eigen::Index a = 0; a < 3; ++a)
     out += fmt::format("{:<6}{:>24}{:>12}{:>24}{:>18}{:>17}\n", kNames[a],
-                       number(s.found.mean_error(a), kMm, 4), number(s.found.rms_error(a), kMm, 4),
-                       number(s.left_out[static_cast<std::size_t>(a)], kMm, 4),
-                       number(s.frame_noise(a), kMm, 4), number(s.standing(a), kMm, 4));
+                       number(s.found.mean_error(a), kMmPerM, 4), number(s.found.rms_error(a), kMmPerM, 4),
+                       number(s.left_out[static_cast<std::size_t>(a)], kMmPerM, 4),
+                       number(s.frame_noise(a), kMmPerM, 4), number(s.standing(a), kMmPerM, 4));
   return out;
 }
 
 std::string pose_text(const PointStudy& s) {
-  const Vec3 angles = angles_xyz(s.found.X_WC.q()) * kDeg;
+  const Vec3 angles = angles_xyz(s.found.X_WC.q()) * kDegPerRad;
   const auto halves = [](const std::array<models::Interval, 3>& of, double unit, int digits) {
     return fmt::format("{}, {}, {}", number(of[0].half, unit, digits), number(of[1].half, unit, digits),
                        number(of[2].half, unit, digits));
   };
-  const Vec3 p = s.found.X_WC.p() * kMm;
+  const Vec3 p = s.found.X_WC.p() * kMmPerM;
   return fmt::format(
       "\n[frames.W_C]\nposition_mm = [{:.4f}, {:.4f}, {:.4f}]  # +- {}\n"
       "rotation_deg = [{:.5f}, {:.5f}, {:.5f}]  # turns about W's axes +- {}\n\n",
-      p.x(), p.y(), p.z(), halves(s.position, kMm, 3), angles.x(), angles.y(), angles.z(),
-      halves(s.turn, kDeg, 4));
+      p.x(), p.y(), p.z(), halves(s.position, kMmPerM, 3), angles.x(), angles.y(), angles.z(),
+      halves(s.turn, kDegPerRad, 4));
 }
 
 std::string fewer_text(const PointStudy& s) {
@@ -68,8 +69,8 @@ std::string fewer_text(const PointStudy& s) {
   for (const trial::FewerPoints& f : s.fewer) {
     out += fmt::format("{:>5}{:>8}", f.pairs, f.frames);
     for (Eigen::Index a = 0; a < 3; ++a)
-      out += fmt::format("{:>20}",
-                         fmt::format("{:.3f}, {:.3f}", f.error.median(a) * kMm, f.error.high(a) * kMm));
+      out += fmt::format(
+          "{:>20}", fmt::format("{:.3f}, {:.3f}", f.error.median(a) * kMmPerM, f.error.high(a) * kMmPerM));
     out += "\n";
   }
   return out;
@@ -84,7 +85,7 @@ std::string advice_text(const PointStudy& s) {
   const double left = frame / std::sqrt(s.frames);
   const std::string now =
       fmt::format("a frame scatters by {:.3f} mm, the average of {:.4g} by {:.3f} mm; {:.3f} mm stay",
-                  frame * kMm, s.frames, left * kMm, stays * kMm);
+                  frame * kMmPerM, s.frames, left * kMmPerM, stays * kMmPerM);
   if (left > stays && stays > 0.0)
     return fmt::format("average     more frames: {}; worth it up to some {:.0f}\n", now,
                        std::ceil(std::pow(frame / stays, 2)));
@@ -109,7 +110,7 @@ std::string notes_text(const PointSet& places, const PointStudy& s) {
   if (places.size() > models::kFewestPairs && s.worst_error > 5.0 * s.usual_error && s.worst_error > 1e-4)
     say(fmt::format(
         "pair {} is {:.2f} mm off by the others, which are {:.2f} mm off: measure it again, or leave it out",
-        places[s.worst].number, s.worst_error * kMm, s.usual_error * kMm));
+        places[s.worst].number, s.worst_error * kMmPerM, s.usual_error * kMmPerM));
   if (places.size() < 6)
     say("fewer than 6 pairs: what is left over is small because the pose follows the pairs");
   return out;
@@ -131,22 +132,22 @@ Json study_json(const PointSet& places, const PointStudy& s) {
   json["frames"] = s.frames;
   json["condition"] = s.found.condition;
   json["scale"] = s.found.scale;
-  json["position_mm"] = json_of(s.found.X_WC.p(), kMm);
-  json["position_half_mm"] = json_of(s.position, &models::Interval::half, kMm);
-  json["rotation_deg"] = json_of(angles_xyz(s.found.X_WC.q()), kDeg);
-  json["turn_half_deg"] = json_of(s.turn, &models::Interval::half, kDeg);
-  json["mean_error_mm"] = json_of(s.found.mean_error, kMm);
-  json["rms_error_mm"] = json_of(s.found.rms_error, kMm);
-  json["left_out_mm"] = json_of(s.left_out, &models::Interval::value, kMm);
-  json["left_out_half_mm"] = json_of(s.left_out, &models::Interval::half, kMm);
-  json["frame_noise_mm"] = json_of(s.frame_noise, kMm);
-  json["standing_mm"] = json_of(s.standing, kMm);
+  json["position_mm"] = json_of(s.found.X_WC.p(), kMmPerM);
+  json["position_half_mm"] = json_of(s.position, &models::Interval::half, kMmPerM);
+  json["rotation_deg"] = json_of(angles_xyz(s.found.X_WC.q()), kDegPerRad);
+  json["turn_half_deg"] = json_of(s.turn, &models::Interval::half, kDegPerRad);
+  json["mean_error_mm"] = json_of(s.found.mean_error, kMmPerM);
+  json["rms_error_mm"] = json_of(s.found.rms_error, kMmPerM);
+  json["left_out_mm"] = json_of(s.left_out, &models::Interval::value, kMmPerM);
+  json["left_out_half_mm"] = json_of(s.left_out, &models::Interval::half, kMmPerM);
+  json["frame_noise_mm"] = json_of(s.frame_noise, kMmPerM);
+  json["standing_mm"] = json_of(s.standing, kMmPerM);
   json["fewer"] = Json::array();
   for (const trial::FewerPoints& f : s.fewer)
     json["fewer"].push_back({{"pairs", f.pairs},
                              {"frames", f.frames},
-                             {"median_mm", json_of(f.error.median, kMm)},
-                             {"high_mm", json_of(f.error.high, kMm)}});
+                             {"median_mm", json_of(f.error.median, kMmPerM)},
+                             {"high_mm", json_of(f.error.high, kMmPerM)}});
   return json;
 }
 
@@ -170,7 +171,7 @@ Vec3 scatter_of(const trial::SeenPlace& place) {
 std::string places_text(const trial::GuidedRun& run, std::size_t frames) {
   std::string out;
   for (const trial::SeenPlace& place : run.points) {
-    const Vec3 rms = scatter_of(place) * kMm;
+    const Vec3 rms = scatter_of(place) * kMmPerM;
     out += fmt::format(
         "place {:<6}{} of {} frames found the ball; a frame scatters by {:.3f} {:.3f} {:.3f} mm along C\n",
         place.number, place.frames.size(), frames, rms.x(), rms.y(), rms.z());
@@ -182,7 +183,7 @@ Json places_json(const trial::GuidedRun& run, std::size_t frames) {
   for (const trial::SeenPlace& place : run.points)
     list.push_back({{"found", place.frames.size()},
                     {"frames", frames},
-                    {"scatter_mm", json_of(scatter_of(place), kMm)}});
+                    {"scatter_mm", json_of(scatter_of(place), kMmPerM)}});
   return list;
 }
 
@@ -244,14 +245,15 @@ int calibrate_arm(const CalibrateOptions& options, const trial::DriverSource& mo
   if (options.json) {
     Json json = study_json(run.points, study);
     if (eyes) json["places"] = places_json(run, frames);
-    json["true_error_mm"] = json_of(error, kMm);
-    json["camera_to_arm_error_mm"] = json_of(apart, kMm);
+    json["true_error_mm"] = json_of(error, kMmPerM);
+    json["camera_to_arm_error_mm"] = json_of(apart, kMmPerM);
     json["time_s"] = time;
     fmt::print("{}\n", json.dump(2));
     return 0;
   }
   const auto axes = [](const Vec3& v) {
-    return fmt::format("{} {} {} mm", number(v.x(), kMm, 4), number(v.y(), kMm, 4), number(v.z(), kMm, 4));
+    return fmt::format("{} {} {} mm", number(v.x(), kMmPerM, 4), number(v.y(), kMmPerM, 4),
+                       number(v.z(), kMmPerM, 4));
   };
   fmt::print(
       "{}{}truth       all over the volume in view, mean |error| of x, y, z: {} in W, {} between camera and "

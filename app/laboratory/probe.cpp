@@ -9,6 +9,7 @@
 
 #include "core/devices/roles.h"
 #include "core/error.h"
+#include "core/units.h"
 #include "trial/devices/device_log.h"
 
 namespace enc::app {
@@ -58,17 +59,16 @@ std::string unusable(const Series& of, Time end) {
 std::string words_of(const Vec3& v, double unit) {
   return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", v.x() / unit, v.y() / unit, v.z() / unit);
 }
-constexpr double kMm = 1e-3;
 
 std::string words_of(const Stamped<TipSample>& tip) {
-  return words_of(tip.value.X_RH.p(), kMm) + " mm, of H in R";
+  return words_of(tip.value.X_RH.p(), kMillimetre) + " mm, of H in R";
 }
 std::string words_of(const Stamped<Wrench>& said) {
   return words_of(said.value.force.e(), 1.0) + " N, " + words_of(said.value.torque.e(), 1.0) + " N m, in F" +
          (said.health == Health::ok ? "" : fmt::format(", {}", word_of(said.health)));
 }
 std::string words_of(const Stamped<TrackedTool>& tool) {
-  return words_of(tool.value.X_CT.p(), kMm) + fmt::format(" mm, of tool {} in C", tool.value.tool);
+  return words_of(tool.value.X_CT.p(), kMillimetre) + fmt::format(" mm, of tool {} in C", tool.value.tool);
 }
 template <class Sample>
 std::string words_of(const Stamped<Sample>&) {

@@ -13,6 +13,7 @@
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_trial.h"
 #include "core/rotation.h"
+#include "core/units.h"
 #include "models/fit/machine/turn.h"
 #include "sim/random.h"
 #include "trial/carried/machine_calibration.h"
@@ -24,7 +25,6 @@ using tracking::Cell;
 using tracking::Table1;
 
 constexpr double kPlace = 5e-3, kTurn = 2.0 * M_PI / 180.0, kMass = 0.2;  // what is wrong: m, rad, kg
-constexpr double kMm = 1e3, kDeg = 180.0 / M_PI;
 
 Vec3 some_way(sim::Stream& random, double length) { return length * random.normal3().normalized(); }
 
@@ -139,12 +139,13 @@ void add_coverage(Bench& bench, const std::vector<Tried>& all) {
     const char *id, *unit, *words;
     double scale;
   };
-  constexpr std::array<What, 6> kWhat{{{"position", "mm", "of the tracker, 5 mm off", kMm},
-                                       {"rotation", "deg", "of the tracker, 2 degrees off", kDeg},
-                                       {"sensor", "deg", "rotation of the force sensor, 2 degrees off", kDeg},
-                                       {"zero", "N", "of the force sensor, 0.5 N rms off", 1.0},
-                                       {"tip", "mm", "of the clamped tool in its markers", kMm},
-                                       {"mass", "kg", "behind the sensor, 0.2 kg off", 1.0}}};
+  constexpr std::array<What, 6> kWhat{
+      {{"position", "mm", "of the tracker, 5 mm off", kMmPerM},
+       {"rotation", "deg", "of the tracker, 2 degrees off", kDegPerRad},
+       {"sensor", "deg", "rotation of the force sensor, 2 degrees off", kDegPerRad},
+       {"zero", "N", "of the force sensor, 0.5 N rms off", 1.0},
+       {"tip", "mm", "of the clamped tool in its markers", kMmPerM},
+       {"mass", "kg", "behind the sensor, 0.2 kg off", 1.0}}};
   const double share = 100.0 / static_cast<double>(all.size());
   Table table{"found",
               "What a calibration finds of what was wrong",
@@ -180,8 +181,8 @@ void add_table1(Bench& bench, const std::vector<Tried>& all) {
   Travels found, right;
   for (const Tried& one : all) {
     if (std::isnan(one.before)) continue;
-    before.push_back(kMm * one.before);
-    after.push_back(kMm * one.after);
+    before.push_back(kMmPerM * one.before);
+    after.push_back(kMmPerM * one.after);
     found.slow.add(one.found.slow);
     found.fast.add(one.found.fast);
     right.slow.add(one.right.slow);
@@ -189,20 +190,20 @@ void add_table1(Bench& bench, const std::vector<Tried>& all) {
   }
   bench.figure("rest.before", median_of(before), "mm", "mean error at rest, before the calibration");
   bench.figure(
-      "rest.after", median_of(after), "mm", at_most(kMm * paper[0][3].mae),
+      "rest.after", median_of(after), "mm", at_most(kMmPerM * paper[0][3].mae),
       "and after it, where the calibration is all that leaves an error; bound: what the paper's left");
   const Table1 table = table_of(found), twin = table_of(right);
   double worst = 0.0;
   for (std::size_t s = 0; s < paper.size(); ++s)
     for (std::size_t a = 0; a < paper[s].size(); ++a) {
-      const double value = kMm * paper[s][a].rmse, within = a < 3 ? kEach : kNorm;
+      const double value = kMmPerM * paper[s][a].rmse, within = a < 3 ? kEach : kNorm;
       worst = std::max(worst, std::abs(table[s][a].rmse / twin[s][a].rmse - 1.0));
       bench.figure(fmt::format("rmse.{}.{}", tracking::kTableAxes[a], tracking::kTableSpeeds[s]),
-                   kMm * table[s][a].rmse, "mm", Paper{value, Role::calibrated},
+                   kMmPerM * table[s][a].rmse, "mm", Paper{value, Role::calibrated},
                    between((1.0 - within) * value, (1.0 + within) * value),
                    fmt::format("after the calibration, with the error that the paper's own left; a twin that "
                                "never was wrong: {:.4f} mm",
-                               kMm * twin[s][a].rmse));
+                               kMmPerM * twin[s][a].rmse));
     }
   bench.figure("rmse.worst.percent", 100.0 * worst, "%", at_most(5.0),
                "by which a cell of Table 1 differs from that of a twin that never was wrong");

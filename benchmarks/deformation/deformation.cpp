@@ -10,6 +10,7 @@
 
 #include "benchmarks/deformation/deformation_full.h"
 #include "benchmarks/kit/kit.h"
+#include "core/units.h"
 #include "core/world/scene.h"
 #include "models/setup/scene_file.h"
 
@@ -23,7 +24,7 @@ struct Seen {
 };
 
 void add_depth(BenchResult& result, std::size_t depth, const Seen& probe, const Seen& stylus) {
-  const int mm = static_cast<int>(std::lround(kMm * fig11_depths()[depth]));
+  const int mm = static_cast<int>(std::lround(kMmPerM * fig11_depths()[depth]));
   const Role role = mm == 4 ? Role::predicted : Role::calibrated;
   const std::string from =
       mm == 4 ? "not used in the calibration" : "two constants of the seen ball are from here";
@@ -31,28 +32,28 @@ void add_depth(BenchResult& result, std::size_t depth, const Seen& probe, const 
                        double high, const std::string& note) {
     result.figures.push_back({"deformation." + id, kUnset, twin, unit, how, low, high, note});
   };
-  add(fmt::format("contour.{}.rms_mm", mm), kMm * probe.gap.rms, "mm", role, kUnset, 0.25,
+  add(fmt::format("contour.{}.rms_mm", mm), kMmPerM * probe.gap.rms, "mm", role, kUnset, 0.25,
       fmt::format("seen ball to pressed ball where either is off the undeformed by {:g} mm; {}",
-                  kMm * kDented, from));
-  add(fmt::format("contour.{}.half_rms_mm", mm), kMm * probe.gap.half_rms, "mm", role, kUnset, kUnset,
+                  kMmPerM * kDented, from));
+  add(fmt::format("contour.{}.half_rms_mm", mm), kMmPerM * probe.gap.half_rms, "mm", role, kUnset, kUnset,
       "over the whole visible half");
-  add(fmt::format("contour.{}.max_mm", mm), kMm * probe.gap.largest, "mm", role, kUnset, kUnset, "");
+  add(fmt::format("contour.{}.max_mm", mm), kMmPerM * probe.gap.largest, "mm", role, kUnset, kUnset, "");
   add(fmt::format("dent.{}.iou", mm), probe.common.area, "", role, 0.9, kUnset, "in the section");
   add(fmt::format("volume.{}.iou", mm), probe.common.volume, "", role, 0.9, kUnset,
       "of the solids of revolution");
-  add(fmt::format("stylus.{}.rms_mm", mm), kMm * stylus.gap.rms, "mm", Role::predicted, kUnset, kUnset,
-      fmt::format("the same under a tip of {:g} mm; nothing was fitted to it", kMm * kStylus));
+  add(fmt::format("stylus.{}.rms_mm", mm), kMmPerM * stylus.gap.rms, "mm", Role::predicted, kUnset, kUnset,
+      fmt::format("the same under a tip of {:g} mm; nothing was fitted to it", kMmPerM * kStylus));
 }
 
 void add_reference(BenchResult& result, const std::array<std::vector<PressedShell>, 2>& coarse,
                    const Fig11Contours& reference) {
   const double error =
       std::max(own_error(coarse[0], reference.probe), own_error(coarse[1], reference.stylus));
-  result.figures.push_back({"deformation.reference.error_mm", kUnset, kMm * error, "mm", Role::ours, kUnset,
-                            0.02, "largest distance to elements of double size, over 3"});
+  result.figures.push_back({"deformation.reference.error_mm", kUnset, kMmPerM * error, "mm", Role::ours,
+                            kUnset, 0.02, "largest distance to elements of double size, over 3"});
   const sim::BallPlant plant;
   for (const PressedShell& state : coarse[0])
-    result.figures.push_back({fmt::format("deformation.reference.force.{:g}.ratio", kMm * state.depth),
+    result.figures.push_back({fmt::format("deformation.reference.force.{:g}.ratio", kMmPerM * state.depth),
                               kUnset, state.force / plant.elastic(state.depth), "", Role::ours, 0.9, 1.1,
                               fmt::format("{:.2f} N at rest over that of the rig's ball", state.force)});
 }
@@ -61,8 +62,8 @@ Series line(const std::string& name, const Contour& contour, double radius) {
   Series series{name, {}, {}};
   for (const Vec2& p : contour) {
     if (p[1] < 0.5 * radius) break;
-    series.x.push_back(kMm * p[0]);
-    series.y.push_back(kMm * p[1]);
+    series.x.push_back(kMmPerM * p[0]);
+    series.y.push_back(kMmPerM * p[1]);
   }
   return series;
 }
@@ -89,14 +90,14 @@ void add_plots(BenchResult& result, double radius, const Fig11Contours& referenc
             false,
             {}};
   for (std::size_t d = 0; d < fig11_depths().size(); ++d) {
-    const double mm = kMm * fig11_depths()[d];
+    const double mm = kMmPerM * fig11_depths()[d];
     contours(fmt::format("deformation_fig11_{:g}mm", mm), fmt::format("Fig 11: {:g} mm under the probe", mm),
              reference.probe[d], probe[d]);
     const GapAlong gap = gap_along(probe[d].contour, reference.probe[d]);
     Series series{fmt::format("{:g} mm deep", mm), {}, {}};
     for (std::size_t i = 0; i < gap.length.size(); i += 4) {
-      series.x.push_back(kMm * gap.length[i]);
-      series.y.push_back(kMm * gap.outside[i]);
+      series.x.push_back(kMmPerM * gap.length[i]);
+      series.y.push_back(kMmPerM * gap.outside[i]);
     }
     gaps.series.push_back(std::move(series));
   }

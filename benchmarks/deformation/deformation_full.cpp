@@ -11,6 +11,7 @@
 #include "benchmarks/kit/parallel.h"
 #include "core/dent/dent.h"
 #include "core/error.h"
+#include "core/units.h"
 
 namespace enc::bench::deformation {
 namespace {
@@ -54,23 +55,23 @@ void add_convergence(BenchResult& result) {
             true,
             {}};
   for (std::size_t d = 0; d < fig11_depths().size(); ++d) {
-    Series series{fmt::format("{:g} mm deep", kMm * fig11_depths()[d]), {}, {}};
+    Series series{fmt::format("{:g} mm deep", kMmPerM * fig11_depths()[d]), {}, {}};
     series.mark = Mark::both;
     for (std::size_t i = 0; i + 1 < kMeshes.size(); ++i) {
       const ContourGap gap =
           contour_gap(states[i][d].contour, states.back()[d].contour, sim::BallParameters{}.outer_radius);
-      series.x.push_back(kMm * kMeshes[i].fine);
-      series.y.push_back(kMm * gap.rms);
+      series.x.push_back(kMmPerM * kMeshes[i].fine);
+      series.y.push_back(kMmPerM * gap.rms);
       if (d == 2)
-        table.rows.push_back({fmt::format("{}", kMeshes[i].through),
-                              fmt::format("{:g}", kMm * kMeshes[i].fine),
-                              fmt::format("{:.4f}", states[i][d].force), fmt::format("{:.5f}", kMm * gap.rms),
-                              fmt::format("{:.5f}", kMm * gap.largest)});
+        table.rows.push_back(
+            {fmt::format("{}", kMeshes[i].through), fmt::format("{:g}", kMmPerM * kMeshes[i].fine),
+             fmt::format("{:.4f}", states[i][d].force), fmt::format("{:.5f}", kMmPerM * gap.rms),
+             fmt::format("{:.5f}", kMmPerM * gap.largest)});
     }
     plot.series.push_back(std::move(series));
   }
   table.rows.push_back({fmt::format("{}", kMeshes.back().through),
-                        fmt::format("{:g}", kMm * kMeshes.back().fine),
+                        fmt::format("{:g}", kMmPerM * kMeshes.back().fine),
                         fmt::format("{:.4f}", states.back()[2].force), "", ""});
   plot.caption = "Halving the elements should quarter the distance.";
   result.tables.push_back(std::move(table));
@@ -119,11 +120,11 @@ void add_sensitivity(BenchResult& result, const Surface& ball) {
     for (std::size_t d = 0; d < fig11_depths().size(); ++d)
       row.push_back(fmt::format(
           "{:.3f}",
-          kMm * contour_gap(states[i][d].contour, states[0][d].contour, all[i].ball.outer_radius).rms));
+          kMmPerM * contour_gap(states[i][d].contour, states[0][d].contour, all[i].ball.outer_radius).rms));
     for (std::size_t d = 0; d < fig11_depths().size(); ++d) {
       const Contour seen = seen_contour(ball, all[i].ball.probe_radius, fig11_depths()[d]);
       row.push_back(
-          fmt::format("{:.3f}", kMm * contour_gap(states[i][d].contour, seen, radius_of(ball)).rms));
+          fmt::format("{:.3f}", kMmPerM * contour_gap(states[i][d].contour, seen, radius_of(ball)).rms));
     }
     table.rows.push_back(std::move(row));
   }
@@ -151,8 +152,8 @@ void add_calibration(BenchResult& result, const Surface& ball, const Fig11Contou
               {}};
   for (std::size_t i = 0; i < rms.size(); ++i)
     table.rows.push_back({fmt::format("{:.3f}", kStiff[i / 5]), fmt::format("{:.2f}", kWide[i % 5]),
-                          fmt::format("{:.4f}", kMm * std::hypot(rms[i][0], rms[i][2]) / std::sqrt(2.0)),
-                          fmt::format("{:.4f}", kMm * rms[i][1])});
+                          fmt::format("{:.4f}", kMmPerM * std::hypot(rms[i][0], rms[i][2]) / std::sqrt(2.0)),
+                          fmt::format("{:.4f}", kMmPerM * rms[i][1])});
   table.note = "Calibrated at 2 and 6 mm under the 10 mm probe; 4 mm was left out. Used: 0.116 and 0.80.";
   result.tables.push_back(std::move(table));
 }
@@ -198,7 +199,7 @@ Fig11Contours add_anew(BenchResult& result, const std::string& models) {
                  "largest distance of a point computed anew from the file's"};
   try {
     const Fig11Contours file = load_fig11(models);
-    differs.twin = kMm * std::max(farthest(states[0], file.probe), farthest(states[1], file.stylus));
+    differs.twin = kMmPerM * std::max(farthest(states[0], file.probe), farthest(states[1], file.stylus));
   } catch (const Error& error) {
     differs.note = error.what();  // so that a damaged file can be written anew
   }

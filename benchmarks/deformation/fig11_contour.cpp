@@ -7,6 +7,7 @@
 
 #include "benchmarks/report/reference.h"
 #include "core/error.h"
+#include "core/units.h"
 
 namespace enc::bench::deformation {
 namespace {
@@ -23,20 +24,20 @@ double probe_radius() { return sim::ball_set(sim::BallSet::nominal).probe_radius
 Contour contour_of(const Reference& table, const std::string& name, double tip_radius, double depth) {
   Contour contour;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (std::abs(table.number(row, "tip_radius_mm") - kMm * tip_radius) > 1e-6 ||
-        std::abs(table.number(row, "depth_mm") - kMm * depth) > 1e-6)
+    if (std::abs(table.number(row, "tip_radius_mm") - kMmPerM * tip_radius) > 1e-6 ||
+        std::abs(table.number(row, "depth_mm") - kMmPerM * depth) > 1e-6)
       continue;
-    contour.emplace_back(table.number(row, "r_mm") / kMm, table.number(row, "z_mm") / kMm);
+    contour.emplace_back(table.number(row, "r_mm") / kMmPerM, table.number(row, "z_mm") / kMmPerM);
     const Vec2& p = contour.back();
     if (!(p[0] >= 0.0 && p.norm() > 15e-3 && p.norm() < 50e-3))
       refuse(name, fmt::format("row {} is ({}, {}) mm; expected a point of a pressed ball of 33 mm", row + 1,
-                               kMm * p[0], kMm * p[1]));
+                               kMmPerM * p[0], kMmPerM * p[1]));
   }
   if (contour.size() < 50 || contour.front()[0] > 0.0 || contour.back()[1] > 0.0)
     refuse(name,
            fmt::format("the contour for {} mm under a tip of {} mm is not whole ({} points); expected at "
                        "least 50 from the axis to below the ball's middle",
-                       kMm * depth, kMm * tip_radius, contour.size()));
+                       kMmPerM * depth, kMmPerM * tip_radius, contour.size()));
   return contour;
 }
 
@@ -95,14 +96,15 @@ Table fig11_table(const std::vector<PressedShell>& probe, const std::vector<Pres
       "felt "
       "E_f {:g} MPa (S-nominal).\n"
       "Mesh: {} elements through the wall, {:g} mm long under the probe. Own error (Richardson): {:.4f} mm.",
-      table.id, kClamped, kMm * ball.outer_radius, kMm * ball.wall, kMm * ball.felt,
+      table.id, kClamped, kMmPerM * ball.outer_radius, kMmPerM * ball.wall, kMmPerM * ball.felt,
       1e-6 * ball.rubber_modulus, 1e-3 * ball.pressure, 1e-6 * ball.felt_modulus, kFine.through,
-      kMm * kFine.fine, kMm * error);
+      kMmPerM * kFine.fine, kMmPerM * error);
   const auto add = [&](double radius, const std::vector<PressedShell>& states) {
     for (const PressedShell& state : states)
       for (const Vec2& p : state.contour)
-        table.rows.push_back({fmt::format("{:g}", kMm * radius), fmt::format("{:g}", kMm * state.depth),
-                              fmt::format("{:.4f}", kMm * p[0]), fmt::format("{:.4f}", kMm * p[1])});
+        table.rows.push_back({fmt::format("{:g}", kMmPerM * radius),
+                              fmt::format("{:g}", kMmPerM * state.depth),
+                              fmt::format("{:.4f}", kMmPerM * p[0]), fmt::format("{:.4f}", kMmPerM * p[1])});
   };
   add(probe_radius(), probe);
   add(kStylus, stylus);

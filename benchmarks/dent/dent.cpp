@@ -11,6 +11,7 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
+#include "core/units.h"
 #include "core/world/scene.h"
 #include "models/setup/scene_file.h"
 #include "models/shapes/shapes.h"
@@ -107,7 +108,7 @@ void run(Bench& bench) {
     cloud.update(field);
     const Vec3 before(cloud.before[0][0], cloud.before[1][0], cloud.before[2][0]);
     const Vec3 after(cloud.after[0][0], cloud.after[1][0], cloud.after[2][0]);
-    const auto mm = std::lround(depth * kMm);
+    const auto mm = std::lround(depth * kMmPerM);
     bench.figure(fmt::format("contact_error.{}mm.max", mm), 1e6 * ((before - after) - depth * n).norm(), "um",
                  at_most(1.0), "drawn vertex under the tool against the deflection");
     bench.figure(fmt::format("volume_change.{}mm.value", mm), 100.0 * volume_change(ball, field) / volume,

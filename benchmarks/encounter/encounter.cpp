@@ -6,6 +6,7 @@
 
 #include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
+#include "core/units.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::encounter {
@@ -51,8 +52,8 @@ void run(Bench& bench) {
     };
     const std::vector<double> touched = known(meetings[i], &Meeting::miss);
     const std::vector<double> delays = known(meetings[i], &Meeting::delay);
-    const Value miss = median_of(touched) * kMm;
-    const double bound = trial::miss_bound(setup, kSpeeds[i]) * kMm;
+    const Value miss = median_of(touched) * kMmPerM;
+    const double bound = trial::miss_bound(setup, kSpeeds[i]) * kMmPerM;
     const std::string note = fmt::format("{} seeds at {:.0f} mm/s; bound from rig and twin: {:.2f} mm",
                                          touched.size(), kSpeeds[i] * 1e3, bound);
     bench.figure(id("miss", "median"), miss, "mm", between(0.0, bound), note);
@@ -62,8 +63,8 @@ void run(Bench& bench) {
     bench.figure(id("met", "percent"),
                  100.0 * static_cast<double>(delays.size()) / static_cast<double>(hands), "%", exactly(100.0),
                  "presses in which tool and tip touched");
-    misses.add(kSpeeds[i] * kMm, miss);
-    bounds.add(kSpeeds[i] * kMm, bound);
+    misses.add(kSpeeds[i] * kMmPerM, miss);
+    bounds.add(kSpeeds[i] * kMmPerM, bound);
   }
   bench.plot(
       {.id = "miss",

@@ -8,6 +8,7 @@
 
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/extremes/faults.h"
+#include "core/units.h"
 
 namespace enc::bench::extremes {
 namespace {
@@ -53,11 +54,11 @@ Found dropout(const BenchContext& context, bool arm, double length) {
     held_after += t > again && g.out.mode == Mode::hold ? 1.0 : 0.0;
     before = command;
   });
-  found.numbers = {{"error.max", error * kMm, "mm", at_most(1.5), "of the believed place, 100 ms long"},
+  found.numbers = {{"error.max", error * kMmPerM, "mm", at_most(1.5), "of the believed place, 100 ms long"},
                    {"late.value", held_after, "", exactly(0.0), "ticks of hold once it is seen again"}};
   if (length > lost + kStops)
     found.numbers.push_back(
-        {"speed.max", speed * kMm, "mm/s", at_most(1e-3), "commanded, 200 ms after it is lost"});
+        {"speed.max", speed * kMmPerM, "mm/s", at_most(1e-3), "commanded, 200 ms after it is lost"});
   add_soundness(run, found);
   return found;
 }
@@ -101,9 +102,9 @@ Found network(const BenchContext& context, const char* what, const Network::Faul
               twice ? "the same bits as without" : "rms of the believed place at most 0.13 mm",
               {}};
   found.numbers = {
-      {"rms.value", bad.rms * kMm, "mm", at_most(0.13),
+      {"rms.value", bad.rms * kMmPerM, "mm", at_most(0.13),
        "of the believed place along its worst axis, registered without error"},
-      {"clean_rms.value", clean.rms * kMm, "mm", {}, "the same, nothing lost"},
+      {"clean_rms.value", clean.rms * kMmPerM, "mm", {}, "the same, nothing lost"},
       {"held.value", static_cast<double>(bad.run.judge.held), "", exactly(0.0), "ticks of hold"}};
   if (twice)
     found.numbers.push_back(

@@ -8,6 +8,7 @@
 
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/extremes/faults.h"
+#include "core/units.h"
 
 namespace enc::bench::extremes {
 namespace {
@@ -52,9 +53,9 @@ Found leaves(const BenchContext& context, bool arm) {
     if (hand == 0 || worse) worst = std::move(run);
   }
   found.numbers = {{"clamped.value", unreachable, "", {}, "ticks with a target out of reach"},
-                   {"back.max", back * kMm, "mm", at_most(arm ? 3.0 : 1.0),
+                   {"back.max", back * kMmPerM, "mm", at_most(arm ? 3.0 : 1.0),
                     "from under the tool, 1.2 s later, worst of 4 hands: 50 mm take 1.1 s"},
-                   {"farthest.max", farthest * kMm, "mm", {}, "of the tip, aside"}};
+                   {"farthest.max", farthest * kMmPerM, "mm", {}, "of the tip, aside"}};
   if (arm)
     found.numbers.push_back({"dexterity.min", dexterity, "", at_least(0.9 * setup.rig.arm.least_dexterity),
                              "a tenth for what the arm overshoots"});

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/extremes/case.h"
+#include "core/units.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::extremes {
@@ -34,10 +35,10 @@ Found deep_finger(const BenchContext& context) {
       fastest = std::max(fastest, g.truth.tool_velocity.xyz[2]);
   });
   found.numbers = {
-      {"exit_speed.max", fastest * kMm, "mm/s", {}, "of the finger, outwards", 50.0},
+      {"exit_speed.max", fastest * kMmPerM, "mm/s", {}, "of the finger, outwards", 50.0},
       {"over.max", static_cast<double>(run.judge.over), "", at_most(1.0), "cycles in a row"},
       {"force.max", run.judge.force, "N", at_most(setup.rig.arm.peak * (1.0 + 1e-9)), "commanded"},
-      {"depth.max", deepest * kMm, "mm", {}, "of the finger"}};
+      {"depth.max", deepest * kMmPerM, "mm", {}, "of the finger"}};
   found.words = "the law is a spring wherever the finger is first seen, and gives what nobody has put in";
   add_soundness(run, found);
   return found;
@@ -64,10 +65,11 @@ Found deep_tip(const BenchContext& context) {
     outside = std::max(outside, g.truth.tip_radius - depth);
   });
   constexpr double kStep = 3e-6;  // m: what the machine's own step may take it back
-  found.numbers = {{"start.value", first * kMm, "mm", between(19.9, 20.1), "depth of the tip's centre"},
-                   {"back.max", back * 1e6, "um", at_most(2e6 * kStep), "deeper than it has been before"},
-                   {"outside.max", outside * 1e6, "um", at_most(0.0), "of the tip outside the ball"},
-                   {"speed.max", run.judge.fastest * kMm, "mm/s", at_most(50.0 * (1.0 + 1e-9)), "commanded"}};
+  found.numbers = {
+      {"start.value", first * kMmPerM, "mm", between(19.9, 20.1), "depth of the tip's centre"},
+      {"back.max", back * 1e6, "um", at_most(2e6 * kStep), "deeper than it has been before"},
+      {"outside.max", outside * 1e6, "um", at_most(0.0), "of the tip outside the ball"},
+      {"speed.max", run.judge.fastest * kMmPerM, "mm/s", at_most(50.0 * (1.0 + 1e-9)), "commanded"}};
   add_soundness(run, found);
   return found;
 }
@@ -94,7 +96,7 @@ void see_hit(const trial::Glance& g, bool arm, Hit& hit) {
 // The hand needs its way to be that fast: it has 50 N.
 Found impact(const BenchContext& context, bool arm, double speed) {
   const models::Setup setup = load_scene(context, arm ? "wall" : "tennis_ball",
-                                         {fmt::format("user.approach_mm_s=[{:g}]", speed * kMm),
+                                         {fmt::format("user.approach_mm_s=[{:g}]", speed * kMmPerM),
                                           fmt::format("user.approach_from_mm={:g}", 300.0 * speed),
                                           "user.approach_tilt_deg=0", "user.press_s=1", "user.release_s=1"});
   Found found{fmt::format("{}.toml, touched at {:g} m/s", arm ? "wall" : "tennis_ball", speed),
@@ -111,7 +113,7 @@ Found impact(const BenchContext& context, bool arm, double speed) {
   });
   found.numbers = {
       {"through.value", hit.through, "", exactly(0.0), "times that the tool went through what it touched"},
-      {"into.max", hit.deepest * kMm, "mm", {}, "tool into tip", speed < 2.0 ? 1.5 : kUnset},
+      {"into.max", hit.deepest * kMmPerM, "mm", {}, "tool into tip", speed < 2.0 ? 1.5 : kUnset},
       {"arrives.value", hit.arrives, "m/s", at_least(0.85 * speed), "of the tool, before the first touch"},
       {"touch.max", run.judge.touch, "N", {}, "true force"}};
   if (arm)

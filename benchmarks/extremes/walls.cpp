@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/extremes/case.h"
+#include "core/units.h"
 #include "trial/certificates.h"
 
 namespace enc::bench::extremes {
@@ -51,7 +52,7 @@ Found arm_wall(const BenchContext& context, double stiffness) {
       {"force.max", run.judge.force, "N", at_most(setup.rig.arm.peak * (1.0 + 1e-9)), "commanded"},
       {"over.max", static_cast<double>(run.judge.over), "", at_most(1.0), "cycles in a row"},
       {"touch.max", run.judge.touch, "N", {}, "true force on the finger"},
-      {"swing.max", swing.size() * kMm, "mm", {}, "of the tip, while the finger holds", kStill}};
+      {"swing.max", swing.size() * kMmPerM, "mm", {}, "of the tip, while the finger holds", kStill}};
   if (stiffness > certificate::row_of(wall.certificate, "exact_with_hand").bound)
     found.numbers.push_back(
         {"named.value", beyond.empty() ? 0.0 : 1.0, "", exactly(1.0), "by check and run"});
@@ -75,9 +76,9 @@ Found machine_wall(const BenchContext& context, double stiffness) {
     if (t > 5.0 && t < 8.5) swing.see(g);  // held from 3 s to 9 s
   });
   found.numbers = {
-      {"speed.max", run.judge.fastest * kMm, "mm/s", at_most(50.0 * (1.0 + 1e-9)), "commanded"},
+      {"speed.max", run.judge.fastest * kMmPerM, "mm/s", at_most(50.0 * (1.0 + 1e-9)), "commanded"},
       {"touch.max", run.judge.touch, "N", at_most(100.0), "true force on the tip"},
-      {"swing.max", swing.size() * kMm, "mm", at_most(kStill), "of the tip, while it is held down"}};
+      {"swing.max", swing.size() * kMmPerM, "mm", at_most(kStill), "of the tip, while it is held down"}};
   add_soundness(run, found);
   return found;
 }

@@ -9,6 +9,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/peers/peers.h"
 #include "benchmarks/staged/staged.h"
+#include "core/units.h"
 #include "core/vision/finger/finger_tracker.h"
 #include "sim/camera/skin_tones.h"
 
@@ -184,15 +185,15 @@ void judge_window(Bench& bench, const Walk& windowed, const Walk& whole) {
 void judge_walk(Bench& bench, const Walk& walk) {
   bench.figure("lost.count", static_cast<double>(walk.lost), "frames", exactly(0.0),
                fmt::format("of {} with a finger at 300 mm/s", walk.shown));
-  bench.figure("place.error.rms", rms(walk.place) * kMm, "mm", at_most(2.0),
+  bench.figure("place.error.rms", rms(walk.place) * kMmPerM, "mm", at_most(2.0),
                "the filter's, at the exposure, 520 to 720 mm away");
   bench.figure("covariance.nees.mean", mean(walk.nees), "",
                "squared error of the place in sigmas of the covariance that is told; 3 where that is right");
-  bench.figure("velocity.error.rms", rms(walk.velocity) * kMm, "mm/s", at_most(kVelocityBound),
+  bench.figure("velocity.error.rms", rms(walk.velocity) * kMmPerM, "mm/s", at_most(kVelocityBound),
                "the filter's, at the exposure; the bound was stated before");
   bench.figure("prediction.gain", 100.0 * (1.0 - rms(walk.predicted) / rms(walk.held)), "%", at_least(60.0),
                fmt::format("a frame ahead: {:.2f} mm rms by the filter, {:.2f} mm by the last place",
-                           rms(walk.predicted) * kMm, rms(walk.held) * kMm));
+                           rms(walk.predicted) * kMmPerM, rms(walk.held) * kMmPerM));
 }
 
 // Error against run time.
@@ -209,7 +210,7 @@ void weigh(Bench& bench, const Asked& like) {
         asked.block = block;
         const Walk walk = follow(asked);
         curve.cost.push_back(median(walk.seconds) * 1e3);
-        curve.error.push_back(rms(walk.place) * kMm);
+        curve.error.push_back(rms(walk.place) * kMmPerM);
       }
       curves.push_back(std::move(curve));
     }
@@ -298,7 +299,7 @@ void run(Bench& bench) {
   if (all.size() > 3) {
     bench.figure("never_seen.lost.count", static_cast<double>(walks[3].lost), "frames", exactly(0.0),
                  fmt::format("of {}, on a seed never looked at", walks[3].shown));
-    bench.figure("never_seen.place.error.rms", rms(walks[3].place) * kMm, "mm", at_most(2.0),
+    bench.figure("never_seen.place.error.rms", rms(walks[3].place) * kMmPerM, "mm", at_most(2.0),
                  "on a seed never looked at");
   }
   judge_window(bench, walks[0], walks[1]);

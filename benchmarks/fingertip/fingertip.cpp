@@ -10,6 +10,7 @@
 #include "benchmarks/fingertip/outline.h"
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/staged/staged.h"
+#include "core/units.h"
 #include "core/vision/finger/finger_tracker.h"
 #include "sim/camera/skin_tones.h"
 
@@ -204,8 +205,8 @@ void judge_depth(Bench& bench, const StereoRig& rig, const std::vector<Found>& s
       if (f.depth >= kDepths[i] && f.depth < kDepths[i + 1] && !std::isnan(f.z)) errors.push_back(f.z);
     const double z = 0.5 * (kDepths[i] + kDepths[i + 1]), expected = z * z * sigma / fb;
     worst = std::max(worst, std::abs(rms(errors) / expected - 1.0));
-    seen.add(z * kMm, rms(errors) * kMm);
-    law.add(z * kMm, expected * kMm);
+    seen.add(z * kMmPerM, rms(errors) * kMmPerM);
+    law.add(z * kMmPerM, expected * kMmPerM);
   }
   std::vector<double> near_600;
   for (const Found& f : shots)
@@ -213,7 +214,7 @@ void judge_depth(Bench& bench, const StereoRig& rig, const std::vector<Found>& s
   at_600 = rms(near_600);
   bench.figure("depth.off_law.max", 100.0 * worst, "%", shots.size() < kEnough ? Bounds{} : at_most(30.0),
                "rms error in depth of 100 mm bins, against Z2 sigma / (f B)");
-  bench.figure("place.at_600.rms", at_600 * kMm, "mm", at_most(2.0),
+  bench.figure("place.at_600.rms", at_600 * kMmPerM, "mm", at_most(2.0),
                "in all three directions, 550 to 650 mm");
   bench.plot({.id = "depth",
               .title = "Depth of the fingertip",

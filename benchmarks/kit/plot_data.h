@@ -11,8 +11,6 @@
 
 namespace enc::bench {
 
-inline constexpr double kMm = 1e3;  // per m
-
 // A number, or the middle of several with the least and the most of them.
 struct Value {
   double middle = kUnset, least = kUnset, most = kUnset;

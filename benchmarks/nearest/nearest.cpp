@@ -14,6 +14,7 @@
 #include "benchmarks/peers/peers.h"
 #include "core/mesh/mesh_tree.h"
 #include "core/module.h"
+#include "core/units.h"
 #include "models/shapes/shapes.h"
 
 namespace enc::bench::nearest {
@@ -189,7 +190,7 @@ void run(Bench& bench) {
   against_peer(bench, tree, embree.get(), path, laps);
   bench.progress(0.4);
   const Jumps jumps = largest_jumps(tree, path);
-  bench.figure("ball_100k.point_jump.max", jumps.point * kMm, "mm", at_most(0.1),
+  bench.figure("ball_100k.point_jump.max", jumps.point * kMmPerM, "mm", at_most(0.1),
                "of the point between ticks, beyond the hand's way");
   bench.figure("ball_100k.normal_jump.max", jumps.normal * 180.0 / M_PI, "deg",
                "of the normal between ticks");

@@ -9,6 +9,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/report/reference.h"
+#include "core/units.h"
 #include "trial/guided/driven_arm.h"
 
 namespace enc::bench::registration {
@@ -38,16 +39,16 @@ void add_axes(const std::string& name, const std::vector<Vec3>& errors, const Bo
     const std::vector<double> axis = along(errors, a);
     Figure f{fmt::format("registration.{}{}_mm", name, kAxisNames[a]),
              bounds.paper,
-             median(axis) * kMm,
+             median(axis) * kMmPerM,
              "mm",
              bounds.role,
              kUnset,
              bounds.high,
              models::has_percentile(axis.size(), 0.975)
-                 ? fmt::format("{}; 97.5 % of seeds below {:.3f}", note, percentile(axis, 0.975) * kMm)
+                 ? fmt::format("{}; 97.5 % of seeds below {:.3f}", note, percentile(axis, 0.975) * kMmPerM)
                  : note};
-    f.least = *std::min_element(axis.begin(), axis.end()) * kMm;
-    f.most = *std::max_element(axis.begin(), axis.end()) * kMm;
+    f.least = *std::min_element(axis.begin(), axis.end()) * kMmPerM;
+    f.most = *std::max_element(axis.begin(), axis.end()) * kMmPerM;
     result.figures.push_back(std::move(f));
   }
 }
@@ -71,14 +72,14 @@ void add_figures(const std::vector<Accuracy>& all, double paper, BenchResult& re
                         const std::string& note) {
     result.figures.push_back({"registration." + id, kUnset, value, unit, Role::ours, low, high, note});
   };
-  ours("below.share", 100.0 * share_below(averaged.residual, paper / kMm), "%", 95.0, kUnset,
+  ours("below.share", 100.0 * share_below(averaged.residual, paper / kMmPerM), "%", 95.0, kUnset,
        "of seeds in which every axis is below the paper's bound");
-  ours("single.below.share", 100.0 * share_below(single.residual, paper / kMm), "%", kUnset, kUnset,
+  ours("single.below.share", 100.0 * share_below(single.residual, paper / kMmPerM), "%", kUnset, kUnset,
        "the same with one frame each");
   const std::size_t tenth = std::max<std::size_t>(1, averaged.square.size() / 10);
-  ours("centre.rms_mm", averaged.rms_at(0, tenth) * kMm, "mm", kUnset, kUnset,
+  ours("centre.rms_mm", averaged.rms_at(0, tenth) * kMmPerM, "mm", kUnset, kUnset,
        "length of the error in the tenth of the volume that is nearest to its middle");
-  ours("edge.rms_mm", averaged.rms_at(averaged.square.size() - tenth, averaged.square.size()) * kMm, "mm",
+  ours("edge.rms_mm", averaged.rms_at(averaged.square.size() - tenth, averaged.square.size()) * kMmPerM, "mm",
        kUnset, kUnset, "and in the tenth that is farthest from it");
   ours("turn.rms_deg",
        std::sqrt([&] {
@@ -186,8 +187,8 @@ Table table_of_doubts(const trial::RegistrationRig& rig, const AccuracyStudy& ba
     std::vector<std::string> row{variant.name};
     for (const auto* errors : {&averaged.residual, &averaged.held_out})
       for (std::size_t a = 0; a < 3; ++a)
-        row.push_back(fmt::format("{:.3f}", median(along(*errors, a)) * kMm));
-    row.push_back(fmt::format("{:.3f}", median(worst_axis(accuracy_of(both, kPairs, 1).residual)) * kMm));
+        row.push_back(fmt::format("{:.3f}", median(along(*errors, a)) * kMmPerM));
+    row.push_back(fmt::format("{:.3f}", median(worst_axis(accuracy_of(both, kPairs, 1).residual)) * kMmPerM));
     row.push_back(fmt::format("{:.4f}", median(averaged.scale)));
     table.rows.push_back(std::move(row));
   }
@@ -205,10 +206,10 @@ Table table_of_pairs(const std::vector<Accuracy>& all) {
     std::vector<std::string> row{fmt::format("{}", one.pairs), fmt::format("{}", one.frames)};
     for (const auto* errors : {&one.residual, &one.held_out}) {
       const std::vector<double> worst = worst_axis(*errors);
-      row.push_back(fmt::format("{:.3f}", median(worst) * kMm));
+      row.push_back(fmt::format("{:.3f}", median(worst) * kMmPerM));
       for (const double share : {0.025, 0.975}) {
         const bool known = models::has_percentile(worst.size(), share);
-        row.push_back(known ? fmt::format("{:.3f}", percentile(worst, share) * kMm) : "-");
+        row.push_back(known ? fmt::format("{:.3f}", percentile(worst, share) * kMmPerM) : "-");
       }
     }
     row.push_back(fmt::format("{:.1f}", one.seconds));

@@ -5,17 +5,18 @@
 
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/registration/registration.h"
+#include "core/units.h"
 
 namespace enc::bench::registration {
 namespace {
 
 void add_point(Series& to, double x, const std::vector<double>& values) {
   to.x.push_back(x);
-  to.y.push_back(median(values) * kMm);
+  to.y.push_back(median(values) * kMmPerM);
   // Of too few seeds for a band of 95 % the least and the most.
   const double out = models::has_percentile(values.size(), 0.975) ? 0.025 : 0.0;
-  to.low.push_back(percentile(values, out) * kMm);
-  to.high.push_back(percentile(values, 1.0 - out) * kMm);
+  to.low.push_back(percentile(values, out) * kMmPerM);
+  to.high.push_back(percentile(values, 1.0 - out) * kMmPerM);
 }
 
 Series bound(double paper, double from, double to) {
@@ -95,8 +96,8 @@ Plot distance_plot(const std::vector<Accuracy>& all, const trial::RegistrationPl
     for (std::size_t b = 0; b < kBins; ++b) {
       const std::size_t from = b * one.square.size() / kBins, to = (b + 1) * one.square.size() / kBins;
       if (from == to) continue;
-      series.x.push_back(places.distance[(from + to) / 2] * kMm);
-      series.y.push_back(one.rms_at(from, to) * kMm);
+      series.x.push_back(places.distance[(from + to) / 2] * kMmPerM);
+      series.y.push_back(one.rms_at(from, to) * kMmPerM);
     }
     plot.series.push_back(std::move(series));
   }

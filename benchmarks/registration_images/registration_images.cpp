@@ -8,6 +8,7 @@
 #include "benchmarks/registration_images/images.h"
 #include "benchmarks/report/reference.h"
 #include "benchmarks/staged/staged.h"
+#include "core/units.h"
 #include "trial/guided/driven_arm.h"
 #include "trial/guided/registration_rig.h"
 
@@ -16,12 +17,11 @@ namespace {
 
 constexpr std::size_t kPairs = 8, kFrames = 20, kFewFrames = 5;
 constexpr const char* kAxisNames = "xyz";
-constexpr double kUm = 1e6;
 
 std::vector<double> along(const std::vector<Seen>& all, Vec3 Seen::*what, Eigen::Index axis) {
   std::vector<double> values;
   values.reserve(all.size());
-  for (const Seen& one : all) values.push_back((one.*what)(axis)*kMm);
+  for (const Seen& one : all) values.push_back((one.*what)(axis)*kMmPerM);
   return values;
 }
 
@@ -67,7 +67,7 @@ void add_frames(Bench& bench, const std::vector<Seen>& all) {
     bench.figure(fmt::format("frame.bias.{}_px", kNames[i]), rms(bias[i]), "px", at_most(0.15),
                  "rms over places of the mean of a place: what no averaging takes away");
   }
-  bench.cost("find.time.median", median(seconds) * kMm, "ms", "CPU time of finding the ball in a pair");
+  bench.cost("find.time.median", median(seconds) * kMsPerS, "ms", "CPU time of finding the ball in a pair");
 }
 
 Plot over_depth(const std::vector<Seen>& all) {
@@ -81,9 +81,9 @@ Plot over_depth(const std::vector<Seen>& all) {
   Series aside{.name = "mean of a place, across it, |error|", .mark = Mark::points};
   for (const Seen& one : all)
     for (const PlaceSeen& place : one.places) {
-      scatter.add(place.depth * kMm, place.scatter.z() * kMm);
-      bias.add(place.depth * kMm, std::abs(place.bias.z()) * kMm);
-      aside.add(place.depth * kMm, place.bias.head<2>().norm() * kMm);
+      scatter.add(place.depth * kMmPerM, place.scatter.z() * kMmPerM);
+      bias.add(place.depth * kMmPerM, std::abs(place.bias.z()) * kMmPerM);
+      aside.add(place.depth * kMmPerM, place.bias.head<2>().norm() * kMmPerM);
     }
   plot.series = {bias, aside, scatter};
   return plot;
@@ -205,7 +205,7 @@ void run(Bench& bench) {
   add_axes(bench, "held_out.", seen, &Seen::elsewhere, paper,
            "mean |error| of the same registration all over the volume in view");
   add_frames(bench, seen);
-  bench.figure("still.max", most_motion(visits) * kUm, "um", at_most(5.0),
+  bench.figure("still.max", most_motion(visits) * kUmPerM, "um", at_most(5.0),
                "how far the tip moves at a place: what is drawn once for all of its frames");
   bench.plot(over_depth(seen));
   bench.picture({"pair", "The ball at the tip, as both cameras see it",

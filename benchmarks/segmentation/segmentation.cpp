@@ -7,6 +7,7 @@
 #include "benchmarks/segmentation/score.h"
 #include "benchmarks/segmentation/speed.h"
 #include "benchmarks/segmentation/thresholds.h"
+#include "core/units.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::segmentation {
@@ -219,12 +220,12 @@ void show(Bench& bench, const std::vector<Judged>& paper, const std::vector<Judg
 }
 
 void tell_skin(Bench& bench, const SkinModel& all, const std::vector<SkinModel>& by_tone) {
-  constexpr double kDegrees = 180.0 / M_PI;
   Table table{"skin", "Hue of skin, learned from training seeds", {"skin", "mean (deg)", "spread (deg)"}};
   for (std::size_t i = 0; i < by_tone.size(); ++i)
-    table.add(word_of(sim::kSkinTones[i].tone), fmt::format("{:.2f}", by_tone[i].hue * kDegrees),
-              fmt::format("{:.2f}", by_tone[i].spread * kDegrees));
-  table.add("all", fmt::format("{:.2f}", all.hue * kDegrees), fmt::format("{:.2f}", all.spread * kDegrees));
+    table.add(word_of(sim::kSkinTones[i].tone), fmt::format("{:.2f}", by_tone[i].hue * kDegPerRad),
+              fmt::format("{:.2f}", by_tone[i].spread * kDegPerRad));
+  table.add("all", fmt::format("{:.2f}", all.hue * kDegPerRad),
+            fmt::format("{:.2f}", all.spread * kDegPerRad));
   bench.table(std::move(table));
 }
 

@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 
 #include "benchmarks/session/session.h"
+#include "core/units.h"
 
 namespace enc::bench::session {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Share of the presses with at most x, in percent, over all that touched.
 template <class Of>

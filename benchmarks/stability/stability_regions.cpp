@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/stability/stability.h"
+#include "core/units.h"
 
 namespace enc::bench::stability {
 namespace {
@@ -61,7 +62,7 @@ void add_grid(Bench& bench, const Grid& grid) {
   double still = 0.0;
   Table table{fmt::format("regions_{}", grid.name),
               fmt::format("Let go {:g} mm beside the edge of a wall of {:g} N/mm, counts of {:g} um",
-                          grid.x0 * kMm, grid.stiffness * 1e-3, grid.count * 1e6),
+                          grid.x0 * kMmPerM, grid.stiffness * 1e-3, grid.count * 1e6),
               {"b (N s/m)", "delay (ms)", "foretold", "MuJoCo"}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     const certificate::Rest found = same_as(judged[i].outcome), told = judged[i].predicted;

@@ -8,6 +8,7 @@
 
 #include "benchmarks/stability/maps.h"
 #include "core/machine/steadiness.h"
+#include "core/units.h"
 #include "models/setup/scene_file.h"
 #include "trial/certificates.h"
 #include "trial/prepare.h"
@@ -22,13 +23,13 @@ struct Width {
   const char* kind;  // a series of the plot
 };
 
-constexpr double kPerMm = 1e-3;  // N/mm of N/m
-
 std::vector<Width> width_of_arm(const Bench& bench) {
   const models::Setup setup = models::load(bench.context.models + "/scenes/wall.toml", {});
   const certificate::Certificate wall =
       trial::certificates_of(setup, trial::prepare_setup(setup)).back().certificate;
-  const auto bound = [&](const char* name) { return kPerMm * certificate::row_of(wall, name).bound; };
+  const auto bound = [&](const char* name) {
+    return certificate::row_of(wall, name).bound / kNewtonPerMillimetre;
+  };
   const std::string device = "arm of VisHap, its law", source = "certificate of wall.toml";
   return {{device, "passive, whatever hand", "arm", 0.0, bound("colgate_schenkel"), source, "passive"},
           {device, "stable alone", "arm", 0.0, bound("exact_alone"), source, "stable alone"},
@@ -48,13 +49,13 @@ std::vector<Width> width_of_hexapod(const Bench& bench) {
     stiffest = k;
   }
   const std::string device = "hexapod of VHMR",
-                    hand = fmt::format("{:g} N/mm", loop_of(setup.rig).hand_stiffness * kPerMm);
+                    hand = fmt::format("{:g} N/mm", loop_of(setup.rig).hand_stiffness / kNewtonPerMillimetre);
   return {{device, "linear, with a hand of " + hand, "hexapod",
-           kPerMm * lowest_stable_stiffness(loop_of(setup.rig)), kPerMm * stiffest, "row admittance",
-           "with a hand"},
+           lowest_stable_stiffness(loop_of(setup.rig)) / kNewtonPerMillimetre,
+           stiffest / kNewtonPerMillimetre, "row admittance", "with a hand"},
           {device, "with all limits, pushed in 2 s", "hexapod",
-           kPerMm * loop.softest(15e-3, 30.0, Steadiness::kSlow), kPerMm * stiffest,
-           "core/machine/steadiness.h", "with a hand, all limits"}};
+           loop.softest(15e-3, 30.0, Steadiness::kSlow) / kNewtonPerMillimetre,
+           stiffest / kNewtonPerMillimetre, "core/machine/steadiness.h", "with a hand, all limits"}};
 }
 
 std::vector<Width> published() {

@@ -12,11 +12,10 @@
 #include "benchmarks/kit/work_precision.h"
 #include "benchmarks/report/reference.h"
 #include "benchmarks/stiffness/stiffness_beyond.h"
+#include "core/units.h"
 
 namespace enc::bench::stiffness {
 namespace {
-
-constexpr double kPerMm = 1e3;  // N/m in 1 N/mm
 
 // What the text of the paper says about Fig 3.
 struct Paper {
@@ -53,7 +52,7 @@ Extent extent_of(const BenchContext& context, const Paper& paper) {
   return e;
 }
 
-std::string name_of(double stiffness) { return fmt::format("{:g}", stiffness / kPerMm); }
+std::string name_of(double stiffness) { return fmt::format("{:g}", stiffness / kNewtonPerMillimetre); }
 
 void add_error_figures(const std::vector<Level>& levels, const Paper& paper, BenchResult& result) {
   struct Way {
@@ -66,14 +65,15 @@ void add_error_figures(const std::vector<Level>& levels, const Paper& paper, Ben
                              "the same without the error of the force's zero, true displacement"}}) {
     for (const Level& level : levels) {
       const Spread s = spread(level, way.felt);
-      const bool bound = way.felt == &Push::measured && level.stiffness >= paper.within_from * kPerMm * 0.999;
+      const bool bound =
+          way.felt == &Push::measured && level.stiffness >= paper.within_from * kNewtonPerMillimetre * 0.999;
       const auto add = [&](const char* what, double value, double high) {
         Figure f{fmt::format("stiffness.{}.{}.{}", way.name, name_of(level.stiffness), what),
                  std::isfinite(high) ? paper.within : kUnset, value, "%",
                  // The threshold was assumed such that the knee lies where the paper has it.
-                 !bound                                                 ? Role::ours
-                 : level.stiffness < paper.within_from * kPerMm * 1.001 ? Role::calibrated
-                                                                        : Role::predicted,
+                 !bound                                                               ? Role::ours
+                 : level.stiffness < paper.within_from * kNewtonPerMillimetre * 1.001 ? Role::calibrated
+                                                                                      : Role::predicted,
                  kUnset, high, way.note};
         f.least = s.least;
         f.most = s.most;
@@ -90,8 +90,8 @@ void add_error_figures(const std::vector<Level>& levels, const Paper& paper, Ben
 void add_slope(const std::vector<Level>& levels, const Paper& paper, BenchResult& result) {
   constexpr double kTolerance = 0.15;  // sources/twin 6
   const auto add = [&](const char* id, double Push::*felt, double tolerance, const char* note) {
-    const double slope =
-        error_slope(levels, felt, paper.softest * kPerMm * 0.999, paper.within_from * kPerMm * 1.001);
+    const double slope = error_slope(levels, felt, paper.softest * kNewtonPerMillimetre * 0.999,
+                                     paper.within_from * kNewtonPerMillimetre * 1.001);
     result.figures.push_back({id, kUnset, slope, "", Role::ours, -1.0 - tolerance, -1.0 + tolerance, note});
   };
   add("stiffness.error.slope", &Push::measured, kTolerance,
@@ -146,7 +146,7 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
   StabilityMap map(setup, context.seed + 1000, extent.presses, kShare);
   const double linear = lowest_stable_stiffness(pushed_loop(setup));
   const double at_20 = map.unstable_share(20), at_35 = map.unstable_share(35);
-  const double lowest = map.lowest_stable(paper.softest * kPerMm);
+  const double lowest = map.lowest_stable(paper.softest * kNewtonPerMillimetre);
   const std::string note =
       fmt::format("of {} seeded pushes; the pusher's stiffness was chosen for this", extent.presses);
   result.figures.push_back(
@@ -155,7 +155,7 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
       {"stiffness.unstable.0.035.percent", 0.0, 100.0 * at_35, "%", Role::calibrated, 0, 0, note});
   Figure boundary{"stiffness.lowest_stable_N_per_mm",
                   paper.softest,
-                  lowest / kPerMm,
+                  lowest / kNewtonPerMillimetre,
                   "N/mm",
                   Role::calibrated,
                   0.026,
@@ -164,13 +164,13 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
                   "Interval: from where all are unstable to where none is"};
   for (const auto& [point, ways] : map.seen()) {  // in rising order
     const double k = static_cast<double>(point) * map.grid();
-    if (map.unstable_share(k) == 1.0) boundary.least = k / kPerMm;
-    if (map.unstable_share(k) == 0.0 && std::isnan(boundary.most)) boundary.most = k / kPerMm;
+    if (map.unstable_share(k) == 1.0) boundary.least = k / kNewtonPerMillimetre;
+    if (map.unstable_share(k) == 0.0 && std::isnan(boundary.most)) boundary.most = k / kNewtonPerMillimetre;
   }
   result.figures.push_back(std::move(boundary));
   result.figures.push_back(
-      {"stiffness.linear.lowest_stable_N_per_mm", kUnset, linear / kPerMm, "N/mm", Role::ours, kUnset, kUnset,
-       "of the loop without limits of speed and acceleration (core/machine/loop_model.h)"});
+      {"stiffness.linear.lowest_stable_N_per_mm", kUnset, linear / kNewtonPerMillimetre, "N/mm", Role::ours,
+       kUnset, kUnset, "of the loop without limits of speed and acceleration (core/machine/loop_model.h)"});
   Plot plot{"stiffness_instability",
             "Which stiffness makes the machine unstable",
             "commanded stiffness, N/mm",
@@ -186,9 +186,9 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
   Series seen{fmt::format("twin, {} pushes each", extent.presses), {}, {}, {}, {}, Mark::both};
   for (const auto& [point, ways] : map.seen()) {
     const double k = static_cast<double>(point) * map.grid();
-    seen.x.push_back(k / kPerMm);
+    seen.x.push_back(k / kNewtonPerMillimetre);
     seen.y.push_back(100.0 * map.unstable_share(k));
-    table.rows.push_back({fmt::format("{:.3f}", k / kPerMm), std::to_string(ways.size()),
+    table.rows.push_back({fmt::format("{:.3f}", k / kNewtonPerMillimetre), std::to_string(ways.size()),
                           fmt::format("{:.0f}", map.unstable_share(k) * static_cast<double>(ways.size())),
                           fmt::format("{:.2f}", percentile(ways, 0.0) * 1e3),
                           fmt::format("{:.2f}", median(ways) * 1e3),
@@ -197,7 +197,7 @@ void add_boundary(const BenchContext& context, const Extent& extent, const Paper
   plot.series = {
       {"paper: softest rendered", {paper.softest, paper.softest}, {0, 100}, {}, {}, Mark::line, true},
       std::move(seen),
-      {"linear prediction", {linear / kPerMm, linear / kPerMm}, {0, 100}}};
+      {"linear prediction", {linear / kNewtonPerMillimetre, linear / kNewtonPerMillimetre}, {0, 100}}};
   plot.caption =
       "Pushes that do not come to rest. The linear prediction knows nothing of the machine's limited "
       "acceleration, which adds lag the larger the swing.";
@@ -214,11 +214,11 @@ void add_firm(const BenchContext& context, const Extent& extent, BenchResult& re
   const double linear = lowest_stable_stiffness(pushed_loop(setup));
   StabilityMap map(setup, context.seed + 2000, context.quick ? 1 : 4, 1.0, context.quick ? 4.0 : 1.0);
   const double lowest = map.lowest_stable(linear);
-  result.figures.push_back({"stiffness.firm.lowest_stable_N_per_mm", kUnset, lowest / kPerMm, "N/mm",
-                            Role::ours, kUnset, kUnset,
+  result.figures.push_back({"stiffness.firm.lowest_stable_N_per_mm", kUnset, lowest / kNewtonPerMillimetre,
+                            "N/mm", Role::ours, kUnset, kUnset,
                             "pusher of 1 N/mm, acceleration unlimited in core and machine"});
-  result.figures.push_back({"stiffness.firm.linear_N_per_mm", kUnset, linear / kPerMm, "N/mm", Role::ours,
-                            kUnset, kUnset, "the linear loop's prediction of it"});
+  result.figures.push_back({"stiffness.firm.linear_N_per_mm", kUnset, linear / kNewtonPerMillimetre, "N/mm",
+                            Role::ours, kUnset, kUnset, "the linear loop's prediction of it"});
   result.figures.push_back(
       {"stiffness.firm.boundary_over_linear.ratio", kUnset, lowest / linear, "", Role::ours, 0.9, 1.1,
        "dead time: the machine's 4 cycles, one of the command limiter, less half a cycle of "
@@ -260,7 +260,7 @@ Series bars_of(const std::vector<Level>& levels, double Push::*felt, const char*
   for (const Level& level : levels) {
     if (!level.rendered()) continue;
     const Spread e = spread(level, felt);
-    s.x.push_back(level.stiffness / kPerMm);
+    s.x.push_back(level.stiffness / kNewtonPerMillimetre);
     s.y.push_back(e.mean);
     s.low.push_back(e.least);
     s.high.push_back(e.most);
@@ -280,12 +280,13 @@ void add_error_plots(const std::vector<Level>& levels, const Paper& paper, Bench
   Series apparent{"twin", {}, {}, {}, {}, Mark::points};
   for (const Level& level : levels) {
     if (!level.rendered()) {
-      failed.x.push_back(level.stiffness / kPerMm);
+      failed.x.push_back(level.stiffness / kNewtonPerMillimetre);
       failed.y.push_back(kUnset);
       continue;
     }
-    apparent.x.push_back(level.stiffness / kPerMm);
-    apparent.y.push_back(level.stiffness / kPerMm * (1.0 + spread(level, &Push::measured).mean / 100.0));
+    apparent.x.push_back(level.stiffness / kNewtonPerMillimetre);
+    apparent.y.push_back(level.stiffness / kNewtonPerMillimetre *
+                         (1.0 + spread(level, &Push::measured).mean / 100.0));
   }
   const Series way = bars_of(levels, &Push::measured, "twin: measured force over displacement");
   const Series load = bars_of(levels, &Push::load, "twin: true load over displacement");
@@ -361,8 +362,8 @@ void run(Bench& bench) {
   };
   const models::Setup setup = push_setup(context.models, extent.set);
   std::vector<double> stiffnesses;
-  for (const double k : extent.below) stiffnesses.push_back(k * kPerMm);
-  for (const double k : extent.levels) stiffnesses.push_back(k * kPerMm);
+  for (const double k : extent.below) stiffnesses.push_back(k * kNewtonPerMillimetre);
+  for (const double k : extent.levels) stiffnesses.push_back(k * kNewtonPerMillimetre);
   const std::vector<Level> all = levels_of(setup, stiffnesses, extent.repeats, context.seed,
                                            [&](double done) { tell(0.3 * share * done); });
   result.simulated += static_cast<double>(all.size() * extent.repeats) * push_time(setup);

@@ -17,20 +17,19 @@
 #include "benchmarks/kit/over_rig.h"
 #include "benchmarks/report/reference.h"
 #include "benchmarks/stiffness/stiffness.h"
+#include "core/units.h"
 #include "trial/certificates.h"
 #include "trial/prepare.h"
 
 namespace enc::bench::stiffness {
 namespace {
 
-constexpr double kOneNPerMm = 1e3;  // N/m
-
 struct RigLevel {
   double stiffness;  // N/m
   OnRig on;
   std::string refused{};  // why its certificate refuses it; empty: it is pushed
   Level rig{}, twin{};
-  [[nodiscard]] std::string name() const { return fmt::format("{:g}", stiffness / kOneNPerMm); }
+  [[nodiscard]] std::string name() const { return fmt::format("{:g}", stiffness / kNewtonPerMillimetre); }
 };
 
 // As a run with a real machine does, before anything moves.
@@ -48,7 +47,7 @@ RigLevel planned_level(const BenchContext& context, double stiffness) {
   const SceneSpec& scene = any.setup.scene;
   std::vector<std::string> held{fmt::format("behaviour.{}.stiffness_N_per_mm={:g}",
                                             scene.behaviours[pushed_behaviour(scene)].name,
-                                            stiffness / kOneNPerMm)};
+                                            stiffness / kNewtonPerMillimetre)};
   // Unset, it is the first row of the certificate, which says more. A rig that sets it is not overruled.
   if (std::isnan(any.setup.rig.contact.softest)) held.emplace_back("rig.contact.softest_N_per_mm=0");
   RigLevel level{stiffness, on_rig(context, "stiffness", own, held)};
@@ -90,7 +89,7 @@ class Prompter {
       case PushPart::ramp:
         return fmt::format(
             "push the haptic-tip straight into the surface: {:g} mm, or up to {:g} N, within {:g} s",
-            kMm * pusher_.depth, pusher_.force, pusher_.ramp_time);
+            kMmPerM * pusher_.depth, pusher_.force, pusher_.ramp_time);
       case PushPart::hold:
         break;
     }
@@ -168,7 +167,7 @@ void add_level_figures(Bench& bench, const RigLevel& level, const PaperWords& pa
     for (const std::string& id : {error, load}) bench.absent(id, "%", "refused: " + level.refused);
     return bench.absent(way, "mm", "refused: " + level.refused);
   }
-  const double at = level.stiffness / kOneNPerMm;
+  const double at = level.stiffness / kNewtonPerMillimetre;
   const bool within = at >= paper.from * 0.999;
   // Of the fakes' truth the threshold of force was chosen such that this is so at the knee; of a real rig
   // nothing.
@@ -187,7 +186,7 @@ void add_level_figures(Bench& bench, const RigLevel& level, const PaperWords& pa
   }
   bench.figure(load, worst_of(level.rig, &Push::load), "%",
                "without the error of the force's zero, true displacement");
-  bench.figure(way, kMm * longest_of(level.rig, &Push::peak_to_peak), "mm",
+  bench.figure(way, kMmPerM * longest_of(level.rig, &Push::peak_to_peak), "mm",
                "of the true tip, at the end of the hold");
 }
 
@@ -199,7 +198,7 @@ void add_row(const RigLevel& level, Table& table) {
   if (!level.refused.empty()) return table.add(level.name(), "", "", "", "", "refused: " + level.refused);
   const double way = longest_of(level.rig, &Push::way);
   table.add(level.name(), fmt::format("{:.2f}", level.rig.pushes.front().force), range(level.rig),
-            range(level.twin), fmt::format("{:.3f}", kMm * way),
+            range(level.twin), fmt::format("{:.3f}", kMmPerM * way),
             way <= kWander ? "" : "did not come to rest");
 }
 
@@ -214,7 +213,7 @@ void over_rig(Bench& bench) {
   const std::size_t repeats = context.count(static_cast<std::size_t>(said("repeats")), 1);
   std::vector<RigLevel> levels;
   for (const double k : context.quick ? std::vector<double>{10} : std::vector<double>{0.3, 1, 10, 100, 200})
-    levels.push_back(planned_level(context, k * kOneNPerMm));
+    levels.push_back(planned_level(context, k * kNewtonPerMillimetre));
   push_levels(bench, levels, repeats);
 
   const PaperWords paper{said("within_from_N_per_mm"), said("within_percent")};

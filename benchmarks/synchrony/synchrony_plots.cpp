@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include "benchmarks/synchrony/synchrony.h"
+#include "core/units.h"
 
 namespace enc::bench::synchrony {
 namespace {
 
-constexpr double kMillimetres = 1e3, kMilliseconds = 1e3;
-
-std::string mm(double metres) { return fmt::format("{:.4f}", metres * kMillimetres); }
+std::string mm(double metres) { return fmt::format("{:.4f}", metres * kMmPerM); }
 
 double mean(const SyncGroup& group, SyncErrors SyncSummary::*against, double SyncErrors::*what) {
   return group.over([&](const SyncSummary& s) { return s.*against.*what; }).mean;
@@ -30,11 +29,11 @@ Table pipelines(const SyncStudy& study) {
     table.rows.push_back({plant, g.name, mm(mean(g, &SyncSummary::haptic, &SyncErrors::mae)),
                           mm(mean(g, &SyncSummary::haptic, &SyncErrors::rmse)),
                           mm(mean(g, &SyncSummary::haptic, &SyncErrors::bias)),
-                          fmt::format("{:.1f}", mean_lag(g, &SyncSummary::lag) * kMilliseconds),
+                          fmt::format("{:.1f}", mean_lag(g, &SyncSummary::lag) * kMsPerS),
                           mm(mean(g, &SyncSummary::truth, &SyncErrors::mae)),
                           mm(mean(g, &SyncSummary::truth, &SyncErrors::rmse)),
                           mm(mean(g, &SyncSummary::truth, &SyncErrors::bias)),
-                          fmt::format("{:.1f}", mean_lag(g, &SyncSummary::truth_lag) * kMilliseconds)});
+                          fmt::format("{:.1f}", mean_lag(g, &SyncSummary::truth_lag) * kMsPerS)});
   };
   for (const SyncGroup* g : {&study.paper, &study.later, &study.predicted, &study.late_fused, &study.fused})
     row("as the rig is", *g);
@@ -80,10 +79,10 @@ Table sweep(const SyncStudy& study) {
       const double mae = mean(g, &SyncSummary::haptic, &SyncErrors::mae);
       const double rmse = mean(g, &SyncSummary::haptic, &SyncErrors::rmse);
       table.rows.push_back({kBiasSides[side], fmt::format("{:g}", g.setup.scene.user->press_time),
-                            fmt::format("{:.1f}", peak * kMillimetres), mm(mae), mm(rmse),
+                            fmt::format("{:.1f}", peak * kMmPerM), mm(mae), mm(rmse),
                             fmt::format("{:.2f}", rmse / mae),
                             mm(mean(g, &SyncSummary::haptic, &SyncErrors::bias)),
-                            fmt::format("{:.1f}", mean_lag(g, &SyncSummary::lag) * kMilliseconds)});
+                            fmt::format("{:.1f}", mean_lag(g, &SyncSummary::lag) * kMsPerS)});
     }
   table.rows.push_back({"paper", "", "", mm(study.paper_mae), mm(study.paper_rmse),
                         fmt::format("{:.2f}", study.paper_rmse / study.paper_mae), "", ""});
@@ -104,7 +103,7 @@ Table rates(const SyncStudy& study) {
     table.rows.push_back({fmt::format("{:g}", g.setup.twin.display.rate),
                           mm(mean(g, &SyncSummary::haptic, &SyncErrors::mae)),
                           mm(mean(g, &SyncSummary::haptic, &SyncErrors::rmse)),
-                          fmt::format("{:.1f}", mean_lag(g, &SyncSummary::lag) * kMilliseconds)});
+                          fmt::format("{:.1f}", mean_lag(g, &SyncSummary::lag) * kMsPerS)});
   return table;
 }
 
@@ -115,7 +114,7 @@ Series line(const char* name, const std::vector<SyncSample>& samples, double Syn
     const SyncSample& s = samples[i];
     if (s.t < from || s.t > to) continue;
     series.x.push_back(s.t);
-    series.y.push_back(s.*what * kMillimetres);
+    series.y.push_back(s.*what * kMmPerM);
   }
   return series;
 }
@@ -176,7 +175,7 @@ Plot errors(const SyncStudy& study) {
     for (std::size_t i = 0; i < run.samples.size(); i += 4) {
       const SyncSample& s = run.samples[i];
       series.x.push_back(s.t);
-      series.y.push_back(s.contact ? (s.visual - s.*judge) * kMillimetres : kUnset);
+      series.y.push_back(s.contact ? (s.visual - s.*judge) * kMmPerM : kUnset);
     }
     plot.series.push_back(std::move(series));
   };
@@ -190,7 +189,7 @@ Plot errors(const SyncStudy& study) {
 }
 
 Series paper_line(const char* name, double value, double from, double to) {
-  return {name, {from, to}, {value * kMillimetres, value * kMillimetres}, {}, {}, Mark::line, true};
+  return {name, {from, to}, {value * kMmPerM, value * kMmPerM}, {}, {}, Mark::line, true};
 }
 
 Plot press_plot(const SyncStudy& study) {
@@ -208,9 +207,9 @@ Plot press_plot(const SyncStudy& study) {
     for (const SyncGroup& g : study.presses[side]) {
       const OverSeeds over = g.over([](const SyncSummary& s) { return s.haptic.rmse; });
       series.x.push_back(g.setup.scene.user->press_time);
-      series.y.push_back(over.mean * kMillimetres);
-      series.low.push_back(over.least * kMillimetres);
-      series.high.push_back(over.most * kMillimetres);
+      series.y.push_back(over.mean * kMmPerM);
+      series.low.push_back(over.least * kMmPerM);
+      series.high.push_back(over.most * kMmPerM);
     }
     plot.series.push_back(std::move(series));
   }
@@ -227,9 +226,9 @@ Plot rate_plot(const SyncStudy& study) {
     for (const SyncGroup& g : study.rates) {
       const OverSeeds over = g.over([&](const SyncSummary& s) { return s.haptic.*what; });
       series.x.push_back(g.setup.twin.display.rate);
-      series.y.push_back(over.mean * kMillimetres);
-      series.low.push_back(over.least * kMillimetres);
-      series.high.push_back(over.most * kMillimetres);
+      series.y.push_back(over.mean * kMmPerM);
+      series.low.push_back(over.least * kMmPerM);
+      series.high.push_back(over.most * kMmPerM);
     }
     plot.series.push_back(std::move(series));
   };

@@ -9,6 +9,7 @@
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/tracking/motion.h"
 #include "benchmarks/tracking/tracking_fit.h"
+#include "core/units.h"
 #include "models/setup/scene_file.h"
 #include "sim/plants/tracker_plant.h"
 #include "sim/random.h"
@@ -17,7 +18,6 @@ namespace enc::bench::tracking {
 namespace {
 
 constexpr double kPeriod = 1e-3;  // s [VHMR 2]
-constexpr double kMillimetre = 1e-3, kMillisecond = 1e-3;
 
 std::vector<Motion> motions_of(const LogSpec& spec) {
   std::vector<Motion> all;

@@ -6,13 +6,12 @@
 #include <fmt/format.h>
 
 #include "core/frames.h"
+#include "core/units.h"
 
 namespace enc::bench::tracking {
 namespace {
 
-constexpr double kMillimetres = 1e3;
-
-std::string fine_mm(double metres) { return fmt::format("{:.4f}", metres * kMillimetres); }
+std::string fine_mm(double metres) { return fmt::format("{:.4f}", metres * kMmPerM); }
 std::string percent(double ratio) { return fmt::format("{:+.1f}", (ratio - 1.0) * 100.0); }
 
 struct Statistic {
@@ -126,16 +125,16 @@ Plot table_plot(const Pictures& p, const Statistic& statistic) {
       plot.x_names.push_back(fmt::format("{} {}", kTableAxes[a], kTableSpeeds[s]));
       const auto put = [&](Series& series, double at, double value) {
         series.x.push_back(at);
-        series.y.push_back(value * kMillimetres);
+        series.y.push_back(value * kMmPerM);
       };
       put(paper, x, p.paper[s][a].*statistic.what);
       put(twin, x, p.twin.table[s][a].*statistic.what);
-      twin.low.push_back(p.twin.least[s][a].*statistic.what * kMillimetres);
-      twin.high.push_back(p.twin.most[s][a].*statistic.what * kMillimetres);
+      twin.low.push_back(p.twin.least[s][a].*statistic.what * kMmPerM);
+      twin.high.push_back(p.twin.most[s][a].*statistic.what * kMmPerM);
       if (s < 2) continue;
       put(predicted, x, prediction.median[s][a].*statistic.what);
-      predicted.low.push_back(prediction.low[s][a].*statistic.what * kMillimetres);
-      predicted.high.push_back(prediction.high[s][a].*statistic.what * kMillimetres);
+      predicted.low.push_back(prediction.low[s][a].*statistic.what * kMmPerM);
+      predicted.high.push_back(prediction.high[s][a].*statistic.what * kMmPerM);
     }
   plot.series = {twin, predicted, paper};
   plot.caption =
@@ -161,9 +160,9 @@ Plot move_plot(const Pictures& p) {
   for (const PacketError& packet : p.packets) {
     if (packet.axis != 0 || packet.t < from - kAround || packet.t > to + kAround) continue;
     error.x.push_back(packet.t - from);
-    error.y.push_back(packet.error * kMillimetres);
+    error.y.push_back(packet.error * kMmPerM);
     place.x.push_back(packet.t - from);
-    place.y.push_back(packet.position * kMillimetres / 100.0);
+    place.y.push_back(packet.position * kMmPerM / 100.0);
   }
   return {
       "tracking_move",
@@ -220,12 +219,12 @@ Plot predictive_plot(const Pictures& p) {
     const std::vector<double>& values = p.fits.prediction[side].norm_rmse;
     Series series{kNames[side], {}, {}, {}, {}, Mark::line};
     for (std::size_t i = values.size() / 200; i < values.size() - values.size() / 200; i += 20) {
-      series.x.push_back(values[i] * kMillimetres);
+      series.x.push_back(values[i] * kMmPerM);
       series.y.push_back(static_cast<double>(i) / static_cast<double>(values.size()));
     }
     plot.series.push_back(std::move(series));
   }
-  const double value = p.paper[2][3].rmse * kMillimetres;
+  const double value = p.paper[2][3].rmse * kMmPerM;
   plot.series.push_back({"paper", {value, value}, {0.0, 1.0}, {}, {}, Mark::line, true});
   plot.caption =
       "What columns 0 and 20 leave open about 40 mm/s, for each side of the lag on which the bias may be.";

@@ -12,6 +12,7 @@
 #include "benchmarks/kit/over_rig.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_trial.h"
+#include "core/units.h"
 #include "trial/prepare.h"
 
 namespace enc::bench::tracking {
@@ -52,8 +53,8 @@ void run_travels(Bench& bench, std::vector<RigTravel>& travels) {
       if (attended(context, setup)) {
         options.seconds = travel.length + kSpare;
         tell(fmt::format("encounter: for {:.0f} s the machine travels {:g} mm along {}, at {} mm/s",
-                         options.seconds, kMm * setup.scene.travel->stops.back(), setup.scene.travel->axes,
-                         travel.speed));
+                         options.seconds, kMmPerM * setup.scene.travel->stops.back(),
+                         setup.scene.travel->axes, travel.speed));
       }
       {
         const std::unique_ptr<Companion> fakes = fakes_of(context, travel.on, seed);
@@ -105,14 +106,14 @@ void add_column(Bench& bench, int speed, const std::vector<std::size_t>& rows, c
   const Role role = bench.context.fakes ? Role::calibrated : Role::predicted;
   for (const std::size_t a : rows) {
     const auto figure = [&](const char* statistic, double Cell::*what) {
-      bench.figure(fmt::format("rig.{}.{}.{}", statistic, kTableAxes[a], speed), measured[a].*what * kMm,
-                   "mm", Paper{paper[s][a].*what * kMm, role},
-                   bounds_of(bench.context, simulated[a].*what * kMm),
-                   fmt::format("of the rig; twin without wires {:.4f} mm", simulated[a].*what * kMm));
+      bench.figure(fmt::format("rig.{}.{}.{}", statistic, kTableAxes[a], speed), measured[a].*what * kMmPerM,
+                   "mm", Paper{paper[s][a].*what * kMmPerM, role},
+                   bounds_of(bench.context, simulated[a].*what * kMmPerM),
+                   fmt::format("of the rig; twin without wires {:.4f} mm", simulated[a].*what * kMmPerM));
     };
     figure("rmse", &Cell::rmse);
     figure("mae", &Cell::mae);
-    const auto text = [](double metres) { return fmt::format("{:.4f}", metres * kMm); };
+    const auto text = [](double metres) { return fmt::format("{:.4f}", metres * kMmPerM); };
     table.add(kTableAxes[a], speed, text(paper[s][a].rmse), text(measured[a].rmse), text(simulated[a].rmse),
               text(paper[s][a].mae), text(measured[a].mae), text(simulated[a].mae));
   }

@@ -8,6 +8,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/vishap/arm_play.h"
 #include "benchmarks/vishap/vishap.h"
+#include "core/units.h"
 #include "core/vision/augment/facets.h"
 #include "core/vision/finger/finger_tracker.h"
 #include "core/vision/stereo/triangulate.h"
@@ -326,13 +327,13 @@ void tell_tracker(Bench& bench, const std::vector<Cell>& cells) {
       const char* drawn = arm == 0 ? "with" : "without";
       table.add(row.words, drawn, seen.frames, fmt::format("{:.1f}", percent(seen.found, seen.frames)),
                 fmt::format("{:.1f}", percent(seen.elsewhere, seen.frames)),
-                fmt::format("{:.2f}", mean(seen.pixels)), fmt::format("{:.2f}", mean(seen.place) * kMm),
+                fmt::format("{:.2f}", mean(seen.pixels)), fmt::format("{:.2f}", mean(seen.place) * kMmPerM),
                 fmt::format("{} of {}", seen.mistaken, seen.nobody));
       const std::string id = fmt::format("arm_in_view.{}.{}", drawn, row.id);
       bench.figure(id + ".found_percent", percent(seen.found, seen.frames), "%",
                    arm == 0 && row.which == &Cell::open ? at_least(95.0) : Bounds{},
                    fmt::format("fingertips found within the cap, of {}: {}", seen.frames, row.words));
-      bench.figure(id + ".place.mean", mean(seen.place) * kMm, "mm", "from the true middle of the cap");
+      bench.figure(id + ".place.mean", mean(seen.place) * kMmPerM, "mm", "from the true middle of the cap");
     }
   const Seen nobody = all_of(cells, &Cell::seen, 0);
   bench.figure(

@@ -13,6 +13,7 @@
 #include "benchmarks/reaching/reaching.h"
 #include "benchmarks/vishap/vishap.h"
 #include "core/error.h"
+#include "core/units.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/frame_force.h"
 #include "trial/prepare.h"
@@ -167,7 +168,7 @@ void tell_wall(Bench& bench, const Ran& ran) {
     }
     if (n == 0.0) continue;  // not asked for
     bench.figure(
-        fmt::format("wall.miss_mm.{:.0f}.max", v), most * kMm, "mm", v <= 200.0 ? at_most(2.0) : Bounds{},
+        fmt::format("wall.miss_mm.{:.0f}.max", v), most * kMmPerM, "mm", v <= 200.0 ? at_most(2.0) : Bounds{},
         fmt::format("from the prop's middle to the finger, along the wall, of {:.0f} touches at {:.0f} mm/s; "
                     "640 x 480 at 20 Hz",
                     n, v));
@@ -184,11 +185,11 @@ void tell_wall(Bench& bench, const Ran& ran) {
       "wall.force_step.tick.max", ran.step, "N",
       "of Lambda f along the normal from tick to tick in contact, mostly the finger's own doing: at 300 "
       "mm/s the wall's spring alone gains 0.18 N in each");
-  bench.figure("wall.far_speed.max", ran.far_speed * kMm, "mm/s", at_most(0.1),
+  bench.figure("wall.far_speed.max", ran.far_speed * kMmPerM, "mm/s", at_most(0.1),
                "of the arm's tip while the finger is far, from a second after it went");
-  bench.figure("wall.place.rms", rms(ran.off) * kMm, "mm",
+  bench.figure("wall.place.rms", rms(ran.off) * kMmPerM, "mm",
                "told fingertip against the true one at its exposure");
-  bench.figure("wall.place_normal.mean", mean(ran.off_normal) * kMm, "mm",
+  bench.figure("wall.place_normal.mean", mean(ran.off_normal) * kMmPerM, "mm",
                "the same along the normal, in the mean");
   bench.figure("wall.frames.rate", ran.result.vision.rate(), "Hz", "that the haptic loop was told of");
   bench.figure(
@@ -197,14 +198,14 @@ void tell_wall(Bench& bench, const Ran& ran) {
           ? kUnset
           : (*std::max_element(ran.result.vision.intervals.begin(), ran.result.vision.intervals.end()) -
              *std::min_element(ran.result.vision.intervals.begin(), ran.result.vision.intervals.end())) *
-                kMm,
+                kMmPerM,
       "ms", "longest less shortest interval of them");
 }
 
 void plot_felt(Bench& bench, const std::string& scene, const Ran& ran, const std::string& caption) {
   Series felt{"twin", {}, {}};
   felt.mark = Mark::points;
-  for (std::size_t i = 0; i < ran.seen.size(); ++i) felt.add(ran.seen[i] * kMm, ran.felt[i]);
+  for (std::size_t i = 0; i < ran.seen.size(); ++i) felt.add(ran.seen[i] * kMmPerM, ran.felt[i]);
   bench.plot({.id = "fig5_" + scene,
               .title = "Normal force over distance, " + scene + " (VisHap Fig 5)",
               .x_label = "distance that vision sees (mm)",

@@ -13,12 +13,12 @@
 #include "benchmarks/tracking/tracking_trial.h"
 #include "benchmarks/wires/parts.h"
 #include "benchmarks/wires/wired_trial.h"
+#include "core/units.h"
 #include "hw_drivers/wires/tight_times.h"
 
 namespace enc::bench::wires {
 namespace {
 
-constexpr double kPerMilli = 1e3;                   // N/m of 1 N/mm
 constexpr std::array kStiffnesses{0.1, 0.3, 10.0};  // N/mm: where Fig 3 errs, where it begins to hold, stiff
 
 // ms between set-points; 0: no wires.
@@ -75,7 +75,7 @@ Cycled with_cycle(const Bench& bench, int cycle, std::uint64_t seed) {
   const models::Setup push =
       on_fakes(bench, "stiffness", cycle, {"rig.force.tare=start", "rig.contact.softest_N_per_mm=0"});
   for (std::size_t i = 0; i < kStiffnesses.size(); ++i) {
-    const models::Setup one = stiffness::with_stiffness(push, kStiffnesses[i] * kPerMilli);
+    const models::Setup one = stiffness::with_stiffness(push, kStiffnesses[i] * kNewtonPerMillimetre);
     const stiffness::Push felt =
         through(one, cycle, [&](const trial::TrialOptions& options, const models::Setup& with) {
           return stiffness::push_once(with, seed, nullptr, options);

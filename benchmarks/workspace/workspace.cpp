@@ -9,13 +9,12 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/workspace/reach_volume.h"
+#include "core/units.h"
 #include "core/world/press_check.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::bench::workspace {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 void add(BenchResult& result, const std::string& id, double paper, double twin, const char* unit, Role role,
          double low, double high, const std::string& note, double error = kUnset) {
@@ -31,10 +30,10 @@ void add_box(BenchResult& result, const ReachVolume& reach) {
   const Vec3 size = e.high - e.low;
   for (Eigen::Index a = 0; a < 3; ++a) {
     const double paper = kPaper[static_cast<std::size_t>(a)];
-    add(result, fmt::format("box.{}.extent", "xyz"[a]), paper, size(a) * kMm, "mm", Role::calibrated,
+    add(result, fmt::format("box.{}.extent", "xyz"[a]), paper, size(a) * kMmPerM, "mm", Role::calibrated,
         0.95 * paper, 1.05 * paper,
-        fmt::format("from {:.1f} to {:.1f} mm, the other two free, straight axes", e.low(a) * kMm,
-                    e.high(a) * kMm));
+        fmt::format("from {:.1f} to {:.1f} mm, the other two free, straight axes", e.low(a) * kMmPerM,
+                    e.high(a) * kMmPerM));
   }
   add(result, "box.volume", 1.12e-3, size.prod(), "m3", Role::calibrated, 0.95 * 1.12e-3, 1.05 * 1.12e-3,
       "product of the three: a box around the reach, most of which is not reached");
@@ -45,13 +44,13 @@ template <class Volume>
 std::array<double, 3> converged(Table& table, const char* what, double step, int halvings, Volume volume) {
   double before = kUnset, now = volume(step);
   for (int i = 0; i < halvings; ++i) {
-    table.rows.push_back({what, fmt::format("{:g}", step * kMm), fmt::format("{:.4e}", now),
+    table.rows.push_back({what, fmt::format("{:g}", step * kMmPerM), fmt::format("{:.4e}", now),
                           i == 0 ? "" : fmt::format("{:.2f}", 100.0 * (now / before - 1.0))});
     step /= 2.0;
     before = now;
     now = volume(step);
   }
-  table.rows.push_back({what, fmt::format("{:g}", step * kMm), fmt::format("{:.4e}", now),
+  table.rows.push_back({what, fmt::format("{:g}", step * kMmPerM), fmt::format("{:.4e}", now),
                         fmt::format("{:.2f}", 100.0 * (now / before - 1.0))});
   return {now, std::abs(now - before), step};
 }
@@ -72,14 +71,14 @@ void add_volumes(const BenchContext& context, BenchResult& result, const ReachVo
   add(result, "straight.volume", kUnset, straight[0], "m3", Role::ours, kUnset, kUnset,
       fmt::format("where the tip gets with W's axes, which is how it is commanded; {:g} mm grid, range: "
                   "change at the last halving",
-                  straight[2] * kMm),
+                  straight[2] * kMmPerM),
       straight[1]);
   add(result, "straight_of_box.percent", kUnset, 100.0 * straight[0] / box, "%", Role::ours, kUnset, kUnset,
       "the true volume is that share of the box; the paper's 1.12e-3 m3 is the box");
   add(result, "turned.volume", kUnset, turned[0], "m3", Role::ours, kUnset, kUnset,
       fmt::format(
           "with the best tilt and yaw within the machine's limits, {:g} mm grid; not used by the core",
-          turned[2] * kMm),
+          turned[2] * kMmPerM),
       turned[1]);
   result.tables.push_back(std::move(table));
 }
@@ -96,7 +95,7 @@ void add_tracker(BenchResult& result, const models::Setup& setup, const Scene& s
       fmt::format(
           "from C to the farthest corner of rig.tracker.volume_mm, {:g} x {:g} x {:g}; 0.09 mm accuracy "
           "holds up to 1.4 m [VHMR 2]",
-          size.x() * kMm, size.y() * kMm, size.z() * kMm));
+          size.x() * kMmPerM, size.y() * kMmPerM, size.z() * kMmPerM));
 }
 
 // Directions from which a sphere is pressed, to its full depth.
@@ -206,8 +205,8 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
       const double at = i * 0.5e-3;  // m
       const auto c = along_x ? reach.column(at, 0.0) : reach.column(0.0, at);
       if (c.high < c.low) continue;
-      edge.x.push_back(at * kMm), edge.y.push_back(c.high * kMm);
-      lower.push_back({at * kMm, c.low * kMm});
+      edge.x.push_back(at * kMmPerM), edge.y.push_back(c.high * kMmPerM);
+      lower.push_back({at * kMmPerM, c.low * kMmPerM});
     }
     for (auto p = lower.rbegin(); p != lower.rend(); ++p)
       edge.x.push_back((*p)[0]), edge.y.push_back((*p)[1]);
@@ -217,7 +216,7 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
         const double at = i * 5e-3;  // m
         const double z = j * 5e-3;
         const Vec3 p = along_x ? Vec3(at, 0, z) : Vec3(0, at, z);
-        if (reach.turned_slack(p) >= 0.0) turned.x.push_back(at * kMm), turned.y.push_back(z * kMm);
+        if (reach.turned_slack(p) >= 0.0) turned.x.push_back(at * kMmPerM), turned.y.push_back(z * kMmPerM);
       }
     Series box{"paper's box", {-half, half, half, -half, -half}, {-25, -25, 25, 25, -25}};
     box.paper = true;
@@ -243,7 +242,7 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
             {},
             "Horizontal slices. Below -13 mm they fall into pieces, see the sections."};
   for (const double z : {-0.010, 0.0, 0.010, 0.020}) {
-    Series edge{fmt::format("z = {:g} mm", z * kMm), {}, {}};
+    Series edge{fmt::format("z = {:g} mm", z * kMmPerM), {}, {}};
     for (int degree = 0; degree <= 360; degree += 2) {
       const Vec3 out(std::cos(degree * kDegree), std::sin(degree * kDegree), 0.0);
       double in = 0.0;  // the slice is one piece around the axis: walk out until it ends
@@ -252,7 +251,7 @@ void add_slices(BenchResult& result, const ReachVolume& reach) {
         if (z < c.low || z > c.high) break;
         in += 0.25e-3;
       }
-      edge.x.push_back(in * out.x() * kMm), edge.y.push_back(in * out.y() * kMm);
+      edge.x.push_back(in * out.x() * kMmPerM), edge.y.push_back(in * out.y() * kMmPerM);
     }
     plan.series.push_back(std::move(edge));
   }

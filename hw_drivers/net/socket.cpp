@@ -19,12 +19,11 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "hw_drivers/net/steady.h"
 
 namespace enc::net {
 namespace {
-
-constexpr int kMilliseconds = 1'000'000;  // ns in one
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
@@ -55,7 +54,7 @@ void switch_on(int descriptor, int level, int option) {
 void send_at_once(int descriptor) { switch_on(descriptor, IPPROTO_TCP, TCP_NODELAY); }
 
 void forget_after(int descriptor, Duration time) {
-  const auto ms = static_cast<unsigned>(std::max<std::int64_t>(1, time.count() / kMilliseconds));
+  const auto ms = static_cast<unsigned>(std::max<std::int64_t>(1, time.count() / kNsPerMs));
   setsockopt(descriptor, IPPROTO_TCP, TCP_USER_TIMEOUT, &ms, sizeof ms);
 }
 
@@ -105,8 +104,7 @@ std::string advice_of(int error, Duration timeout) {
     case ECONNREFUSED:
       return "nobody listens there; see that the device is on, and the port in the rig file";
     case ETIMEDOUT:
-      return fmt::format("no answer within {} ms; see power, cable and address",
-                         timeout.count() / kMilliseconds);
+      return fmt::format("no answer within {} ms; see power, cable and address", timeout.count() / kNsPerMs);
     case ENETUNREACH:
     case EHOSTUNREACH:
       return "no way leads there; see cable, network and address";

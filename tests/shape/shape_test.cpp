@@ -209,6 +209,14 @@ TEST(Shape, TheCoreNeitherWaitsNorPrintsNorKnowsMillimetres) {
     if (source.folder == "core") expect_no_word(source, kWords, "not in the core");
 }
 
+// A factor that two files define has two meanings sooner or later.
+TEST(Shape, UnitFactorsStandInOneHeader) {
+  static const std::regex kDefined(
+      R"(\bk(Mm|Um|Ms|Us|Deg|Degs|Degrees?|Milli\w*|Micro\w*|Kilo\w*|Mega\w*|\w*Per(M|S|Rad|Mm|Ms|Milli\w*)) *= *(1e-?[36]|1000|1'000'000|180\.0 */|M_PI */|std::numbers::pi */))");
+  for (const Source& source : sources_and_tests())
+    if (source.name != "core/units.h") expect_no_word(source, kDefined, "unit factors are in core/units.h");
+}
+
 TEST(Shape, WallTimeIsInItsPlaces) {
   static const std::regex kWords(
       R"(\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday|nanosleep|clock_nanosleep)\b)");

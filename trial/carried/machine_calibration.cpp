@@ -7,11 +7,11 @@
 
 #include "core/error.h"
 #include "core/rotation.h"
+#include "core/units.h"
 
 namespace enc::trial {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kTilt = 10.0 * kDegree, kTurn = 20.0 * kDegree;
 constexpr double kAside = 0.015, kUp = 0.008;  // m, of the tip to each side
 constexpr std::size_t kFewestPackets = 20;     // of a stand

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/mode.h"
 #include "core/task/meet/guide.h"
+#include "core/units.h"
 
 namespace enc::trial {
 namespace {
@@ -16,7 +17,6 @@ constexpr double kNear = 10e-3;     // m: less than the margin that places keep 
 constexpr double kStill = 0.1e-3;   // m: some counts of the encoders
 constexpr double kStillTime = 0.5;  // s that a tip at rest has been within that
 constexpr double kPatience = 3.0;   // s beyond what the target's way takes
-constexpr double kMm = 1e3;
 
 // The arm alone. That the core asks for a tracker does not mean that there is a finger.
 models::Setup bare(models::Setup rig) {
@@ -28,7 +28,7 @@ models::Setup bare(models::Setup rig) {
 }
 
 std::string in_mm(const Point<'W'>& p) {
-  return fmt::format("[{:.1f}, {:.1f}, {:.1f}]", p.xyz[0] * kMm, p.xyz[1] * kMm, p.xyz[2] * kMm);
+  return fmt::format("[{:.1f}, {:.1f}, {:.1f}]", p.xyz[0] * kMmPerM, p.xyz[1] * kMmPerM, p.xyz[2] * kMmPerM);
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ void DrivenArm::give_up(const Point<'W'>& at, double after) const {
       "{}: the tip did not come to rest for place {}, at {} mm in W: after {:.1f} s it {} {:.1f} mm away{}; "
       "expected it within {:.0f} mm, and {:.1f} s long within {:.1f} mm; {}",
       models::place_of(trial_.setup(), "rig.arm"), places_, in_mm(at), after, far ? "is" : "still moves,",
-      away * kMm, holds, kNear * kMm, kStillTime, kStill * kMm,
+      away * kMmPerM, holds, kNear * kMmPerM, kStillTime, kStill * kMmPerM,
       far ? "raise rig.arm.stiffness_N_per_m, or see rig.arm.gravity and what the motors of truth.arm can"
           : "lower rig.arm.stiffness_N_per_m, or see friction and counts of truth.arm, which let it rest"));
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -93,13 +94,12 @@ std::string_view RecordTable::header() {
 }
 
 std::string RecordTable::row(const Tick& tick, const Inputs& in, const Outputs& out) {
-  constexpr double kMillimetres = 1e3;
   std::string row = fmt::format("{},{}", seconds(tick.t.time_since_epoch()), mode_name(out.mode));
   const Point<'W'> tip =
       scene_.X_WR * (scene_.impedance() != nullptr ? in.arm.value.tip : in.tip.value.X_RH.origin());
-  for (const double x : tip.xyz) add(row, kMillimetres * x);
+  for (const double x : tip.xyz) add(row, kMmPerM * x);
   for (const double x : out.felt.xyz) add(row, x);
-  add(row, kMillimetres * out.deflection);
+  add(row, kMmPerM * out.deflection);
   add(row, pressing(scene_, out));
   const std::int32_t number = repeat(out);
   row += fmt::format(",{}", number);

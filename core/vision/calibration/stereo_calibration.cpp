@@ -6,6 +6,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "core/vision/calibration/lens_solver.h"
 #include "core/vision/calibration/opencv_types.h"
 #include "core/vision/calibration/rectify.h"
@@ -19,7 +20,6 @@ using calibration::Extrinsics;
 using calibration::points_of;
 using calibration::Views;
 
-constexpr double kDegree = M_PI / 180.0;
 
 struct Head {
   calibration::Camera left, right;

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/units.h"
+
 namespace enc::gcs {
 namespace {
 
-constexpr double kMillimetre = 1e-3, kDegree = std::numbers::pi / 180.0;
 constexpr double unit(std::size_t axis) { return axis < 3 ? kMillimetre : kDegree; }
 
 }  // namespace

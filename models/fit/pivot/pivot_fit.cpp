@@ -13,18 +13,18 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/units.h"
 #include "models/fit/pivot/pivot_doubts.h"
 #include "models/order_statistics.h"
 
 namespace enc::models {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr double kShort = 0.25;                                   // s
 constexpr std::array<double, 4> kLengths{kShort, 0.5, 1.0, 2.0};  // s, of blocks: the widest interval counts
 constexpr double kFewestBlocks = 2.0;    // of a length that counts: freedom of Student's t
 constexpr double kGap = 0.5;             // s, and 4 usual steps: with more between them, poses have a gap
-constexpr double kSame = 2.0 * kDeg;     // the tool rests while it stays so near to how it stood at first,
+constexpr double kSame = 2.0 * kDegree;  // the tool rests while it stays so near to how it stood at first,
 constexpr double kLongStand = 1.0;       // s, for so long
 constexpr double kApart = 0.05;          // s: neighbours so far apart have errors of their own
 constexpr double kStrong = 0.5;          // neighbours have to turn by so much of what the poses do
@@ -185,12 +185,12 @@ class PivotSolver {
           "the tool hardly turned{}: no direction of it by more than {:.2g} deg rms; expected at "
           "least {:g} deg of each; swing it about its tip by 20 deg or more to either side, about "
           "two axes{}",
-          without, fit_.swing[2] / kDeg, kLeastSwing / kDeg, kept_in(without)));
+          without, fit_.swing[2] / kDegree, kLeastSwing / kDegree, kept_in(without)));
     throw Error(fmt::format(
         "the tool turned about one axis alone, [{:.2f}, {:.2f}, {:.2f}] in T{}: this direction turned by "
         "{:.1f} deg rms, so the tip's place along it is not known; expected at least {:g} deg; swing the "
         "tool about a second axis as well, by 20 deg or more to either side{}",
-        least.x(), least.y(), least.z(), without, fit_.swing[0] / kDeg, kLeastSwing / kDeg,
+        least.x(), least.y(), least.z(), without, fit_.swing[0] / kDegree, kLeastSwing / kDegree,
         kept_in(without)));
   }
   static std::string_view kept_in(const std::string& without) {

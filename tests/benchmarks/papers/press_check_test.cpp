@@ -8,12 +8,12 @@
 
 #include "benchmarks/workspace/reach_volume.h"
 #include "core/error.h"
+#include "core/units.h"
 #include "tests/support/scenes.h"
 
 namespace enc {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 Vec<'W'> from(double polar) { return {std::sin(polar * kDegree), 0.0, std::cos(polar * kDegree)}; }
 
 // Tips of 5 and 2 mm stand 7 mm apart. Below the tip, the tool's centre must be 4 + 2 mm off the stem's axis:

@@ -7,6 +7,7 @@
 
 #include "benchmarks/synchrony/lag.h"
 #include "core/track/fuse.h"
+#include "core/units.h"
 #include "core/world/contact_limits.h"
 #include "sim/plants/display_plant.h"
 #include "tests/support/scenes.h"
@@ -15,8 +16,6 @@ namespace enc {
 namespace {
 
 using test::Loop;
-
-constexpr double kMillimetre = 1e-3, kMillisecond = 1e-3;
 
 TEST(ContactLimits, TheKthContactTakesTheKthAndTheLastStays) {
   const std::vector<double> limits{6 * kMillimetre, 4 * kMillimetre, 2 * kMillimetre};

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/machine/arm.h"
 #include "core/rotation.h"
+#include "core/units.h"
 #include "models/fit/machine/hand_eye.h"
 #include "models/fit/machine/turn.h"
 #include "models/fit/machine/weight_fit.h"
@@ -21,8 +22,6 @@ namespace {
 using models::EyeStand;
 using models::WeightStand;
 using testing::HasSubstr;
-
-constexpr double kDegree = M_PI / 180.0;
 
 Vec3 anywhere(sim::Stream& random, double size) {
   Vec3 v;

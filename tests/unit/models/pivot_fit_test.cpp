@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/rotation.h"
+#include "core/units.h"
 #include "models/fit/pivot/pivot_log.h"
 
 namespace enc {
@@ -22,7 +23,6 @@ using models::PivotPose;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr double kDeg = M_PI / 180.0;
 const Vec3 kTip(0.003, -0.002, -0.120), kDimple(0.1, -0.9, 0.6);  // in T and in C, m
 
 // `count` poses at 50 Hz that swing to either side by these angles about x, y and z.
@@ -48,7 +48,7 @@ std::string refusal_of(const std::vector<PivotPose>& poses) {
 
 TEST(PivotFit, ExactPosesGiveTheTip) {
   for (const Vec3& sides : {Vec3(30, 30, 0), Vec3(30, 0, 30), Vec3(20, 20, 170)}) {
-    const PivotFit fit = models::fit_pivot(swung(kDeg * sides));
+    const PivotFit fit = models::fit_pivot(swung(kDegree * sides));
     EXPECT_LT((fit.point().e() - kTip).norm(), 1e-12);
     EXPECT_LT((fit.dimple.e() - kDimple).norm(), 1e-12);
     EXPECT_LT(fit.most, 1e-12);
@@ -63,12 +63,12 @@ TEST(PivotFit, TellsByHowMuchTheDirectionsTurned) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 400; ++i) {
     const double x = i % 2 == 0 ? 20 : -20, y = i / 2 % 2 == 0 ? 10 : -10;
-    const Quat q = rotation_xyz(kDeg * Vec3(x, y, 0));
+    const Quat q = rotation_xyz(kDegree * Vec3(x, y, 0));
     poses.push_back({0.02 * i, {q, Vec3(kDimple - q * kTip)}});
   }
   const PivotFit fit = models::fit_pivot(poses);
   EXPECT_NEAR(fit.least_turned.e().cwiseAbs().x(), 1.0, 1e-6);
-  EXPECT_NEAR(fit.swing[0], 10 * kDeg, 1e-6);  // x, by the turning about y
+  EXPECT_NEAR(fit.swing[0], 10 * kDegree, 1e-6);  // x, by the turning about y
   EXPECT_LT(fit.swing[1], fit.swing[2]);
   EXPECT_LT((fit.point().e() - kTip).norm(), 1e-12);
 }
@@ -76,7 +76,7 @@ TEST(PivotFit, TellsByHowMuchTheDirectionsTurned) {
 // The tip hangs on differences alone; where the camera is believed to be moves the dimple.
 TEST(PivotFit, AConstantBiasMovesTheDimpleAndNotTheTip) {
   const Vec3 bias(0.0779e-3, 0.0659e-3, 0.1192e-3);
-  std::vector<PivotPose> poses = swung(kDeg * Vec3(30, 30, 0));
+  std::vector<PivotPose> poses = swung(kDegree * Vec3(30, 30, 0));
   for (PivotPose& pose : poses)
     for (std::size_t a = 0; a < 3; ++a) pose.X_CT.xyz[a] += bias(static_cast<Eigen::Index>(a));
   const PivotFit fit = models::fit_pivot(poses);
@@ -88,7 +88,7 @@ TEST(PivotFit, AConstantBiasMovesTheDimpleAndNotTheTip) {
 TEST(PivotFit, TheSwingOfWhatIsLeftHasToTellTheTip) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 1000; ++i) {
-    const double t = 0.02 * i, angle = 30 * kDeg * std::sin(3.0 * t);
+    const double t = 0.02 * i, angle = 30 * kDegree * std::sin(3.0 * t);
     const bool out = t >= 16.5;
     const Quat q = rotation_xyz(out ? Vec3(0, angle, 0) : Vec3(angle, 0, 0));
     const Vec3 noise = 0.05e-3 * Vec3(i % 7 - 3, i % 5 - 2, i % 11 - 5);
@@ -105,7 +105,7 @@ TEST(PivotFit, TheSwingOfWhatIsLeftHasToTellTheTip) {
 TEST(PivotFit, TellsTheSwingOfWhatIsLeft) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 1000; ++i) {
-    const double t = 0.02 * i, angle = 25 * kDeg * std::sin(3.0 * t);
+    const double t = 0.02 * i, angle = 25 * kDegree * std::sin(3.0 * t);
     const bool out = t >= 17.0;
     const Quat q = rotation_xyz(t >= 13.5 ? Vec3(0, angle, 0) : Vec3(angle, 0, 0));
     poses.push_back({t, {q, Vec3(kDimple - q * kTip + (out ? Vec3(0, 0, 0.03) : Vec3::Zero()))}});
@@ -114,7 +114,7 @@ TEST(PivotFit, TellsTheSwingOfWhatIsLeft) {
   EXPECT_EQ(fit.outliers, 150U);
   poses.resize(850);
   const PivotFit left = models::fit_pivot(poses);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(fit.swing[k], left.swing[k], 0.1 * kDeg);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(fit.swing[k], left.swing[k], 0.1 * kDegree);
   EXPECT_LT((fit.point().e() - kTip).norm(), 1e-9);
 }
 
@@ -124,7 +124,7 @@ TEST(PivotFit, OneShortTurnHasNoInterval) {
   for (int i = 0; i < 1000; ++i) {
     const double t = 0.02 * i;
     const bool aside = t >= 10.0 && t < 10.4;
-    const Quat q = rotation_xyz(kDeg * Vec3(30 * std::sin(3.0 * t), aside ? 60 : 0, 0));
+    const Quat q = rotation_xyz(kDegree * Vec3(30 * std::sin(3.0 * t), aside ? 60 : 0, 0));
     poses.push_back({t, {q, Vec3(kDimple - q * kTip)}});
   }
   EXPECT_THAT(refusal_of(poses), AllOf(HasSubstr("how well the log tells the tip along x is not known"),
@@ -133,7 +133,7 @@ TEST(PivotFit, OneShortTurnHasNoInterval) {
 
 // A tip that slips out for a tenth of the time by 5 mm, and poses that are nowhere.
 TEST(PivotFit, ASlipIsLeftOutAndCounted) {
-  std::vector<PivotPose> poses = swung(kDeg * Vec3(30, 30, 0));
+  std::vector<PivotPose> poses = swung(kDegree * Vec3(30, 30, 0));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     poses[i].X_CT.xyz[i % 3] += 0.05e-3 * static_cast<double>(i % 7) - 0.15e-3;
     if (i >= 200 && i < 250) poses[i].X_CT.xyz[2] += 5e-3;
@@ -150,7 +150,7 @@ TEST(PivotFit, ASlipIsLeftOutAndCounted) {
 TEST(PivotFit, PosesThatAreFarApartDo) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 40; ++i) {
-    const Quat q = rotation_xyz(kDeg * Vec3(i % 2 == 0 ? 25 : -25, i / 2 % 2 == 0 ? 25 : -25, 7 * i));
+    const Quat q = rotation_xyz(kDegree * Vec3(i % 2 == 0 ? 25 : -25, i / 2 % 2 == 0 ? 25 : -25, 7 * i));
     poses.push_back({static_cast<double>(i), {q, Vec3(kDimple - q * kTip)}});
   }
   EXPECT_LT((models::fit_pivot(poses).point().e() - kTip).norm(), 1e-12);
@@ -160,13 +160,13 @@ TEST(PivotFit, TellsWhatItWeighedPosesWith) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 100; ++i) {
     const double phase = 0.7 * i * i;  // unlike the one before and the one after
-    const Quat q = rotation_xyz(25 * kDeg * Vec3(std::sin(phase), std::cos(1.9 * phase), 0));
+    const Quat q = rotation_xyz(25 * kDegree * Vec3(std::sin(phase), std::cos(1.9 * phase), 0));
     poses.push_back({static_cast<double>(i), {q, Vec3(kDimple - q * kTip)}});
   }
   const PivotFit fit = models::fit_pivot(poses);
   EXPECT_LT((fit.point().e() - kTip).norm(), 1e-12);
   EXPECT_FALSE(fit.neighbours);
-  EXPECT_TRUE(models::fit_pivot(swung(kDeg * Vec3(30, 30, 0))).neighbours);
+  EXPECT_TRUE(models::fit_pivot(swung(kDegree * Vec3(30, 30, 0))).neighbours);
 }
 
 // At rest for so long, with a tenth of the noise, and then swung; and 30 mm off for the last `slip` seconds.
@@ -174,7 +174,7 @@ std::vector<PivotPose> rested(double rest, double slip = 0.0) {
   std::vector<PivotPose> poses;
   for (int i = 0; i < 1000; ++i) {
     const double t = 0.02 * i, moved = std::max(0.0, t - rest);
-    const Quat q = rotation_xyz(30 * kDeg * Vec3(std::sin(3.0 * moved), std::sin(2.0 * moved), 0));
+    const Quat q = rotation_xyz(30 * kDegree * Vec3(std::sin(3.0 * moved), std::sin(2.0 * moved), 0));
     const Vec3 noise = (t < rest ? 1e-5 : 1e-4) * Vec3(i % 7 - 3, i % 5 - 2, i % 11 - 5);
     const Vec3 off(0, 0, t >= 20.0 - slip ? 0.03 : 0.0);
     poses.push_back({t, {q, Vec3(kDimple - q * kTip + noise + off)}});
@@ -201,7 +201,7 @@ TEST(PivotFit, RefusesALogThatIsMostlyRest) {
 }
 
 TEST(PivotFit, CountsTheTimeOfPosesAlone) {
-  const Vec3 both = kDeg * Vec3(30, 30, 0);
+  const Vec3 both = kDegree * Vec3(30, 30, 0);
   EXPECT_THAT(refusal_of(swung(both, 196)), HasSubstr("are of 3.9 s; expected at least 4 s; record longer"));
   EXPECT_EQ(refusal_of(swung(both, 206)), "accepted");
   std::vector<PivotPose> poses = swung(both, 102);
@@ -212,18 +212,18 @@ TEST(PivotFit, CountsTheTimeOfPosesAlone) {
 }
 
 TEST(PivotFit, RefusesWhatDoesNotTellTheTip) {
-  const Vec3 both = kDeg * Vec3(30, 30, 0);
+  const Vec3 both = kDegree * Vec3(30, 30, 0);
   EXPECT_THAT(refusal_of(swung(both, 29)), HasSubstr("there are 29 poses of the tool; expected at least 30"));
   EXPECT_THAT(refusal_of(swung(both, 100)), HasSubstr("are of 1.98 s; expected at least 4 s"));
-  EXPECT_THAT(refusal_of(swung(kDeg * Vec3(0.5, 0.5, 0.5))),
+  EXPECT_THAT(refusal_of(swung(kDegree * Vec3(0.5, 0.5, 0.5))),
               AllOf(HasSubstr("the tool hardly turned: no direction of it by more than 0.5"),
                     HasSubstr("expected at least 5 deg of each; swing it")));
-  EXPECT_THAT(refusal_of(swung(kDeg * Vec3(0, 30, 0))),
+  EXPECT_THAT(refusal_of(swung(kDegree * Vec3(0, 30, 0))),
               AllOf(HasSubstr("about one axis alone, [0.00, 1.00, 0.00] in T"),
                     HasSubstr("this direction turned by 0.0 deg rms"), HasSubstr("second axis")));
-  EXPECT_THAT(refusal_of(swung(kDeg * Vec3(5, 30, 0))),
+  EXPECT_THAT(refusal_of(swung(kDegree * Vec3(5, 30, 0))),
               HasSubstr("about one axis alone, [0.02, 1.00, 0.00]"));
-  EXPECT_EQ(refusal_of(swung(kDeg * Vec3(10, 30, 0))), "accepted");
+  EXPECT_EQ(refusal_of(swung(kDegree * Vec3(10, 30, 0))), "accepted");
   std::vector<PivotPose> poses = swung(both);
   poses[7].X_CT.xyz[1] = kUnset;
   EXPECT_THAT(refusal_of(poses), HasSubstr("pose 8 is none"));
@@ -233,12 +233,12 @@ TEST(PivotFit, RefusesWhatDoesNotTellTheTip) {
 }
 
 TEST(PivotFit, RefusesATipThatDidNotStay) {
-  std::vector<PivotPose> poses = swung(kDeg * Vec3(30, 30, 0));
+  std::vector<PivotPose> poses = swung(kDegree * Vec3(30, 30, 0));
   for (std::size_t i = 0; i < poses.size(); ++i)
     poses[i].X_CT.xyz[0] += 0.05 * static_cast<double>(i) / static_cast<double>(poses.size());
   EXPECT_THAT(refusal_of(poses), AllOf(testing::ContainsRegex("it wandered by up to [23][0-9.]+ mm"),
                                        HasSubstr("expected at most 2 mm rms and 20 %")));
-  poses = swung(kDeg * Vec3(30, 30, 0));
+  poses = swung(kDegree * Vec3(30, 30, 0));
   for (std::size_t i = 0; i < 150; ++i) poses[i].X_CT.xyz[0] += 0.03;
   EXPECT_THAT(refusal_of(poses), AllOf(HasSubstr("it wandered by up to 30 mm"), HasSubstr("30 % more")));
 }
@@ -296,7 +296,7 @@ TEST(PivotLog, RefusesANameThatIsNotUtf8) {
 
 TEST(PivotLog, DoubtsMetresInColumnsOfMillimetres) {
   models::PivotLog log;
-  log.poses = swung(kDeg * Vec3(30, 30, 0));
+  log.poses = swung(kDegree * Vec3(30, 30, 0));
   EXPECT_FALSE(models::looks_like_metres(log, models::fit_pivot(log.poses)));
   for (PivotPose& pose : log.poses)
     for (double& x : pose.X_CT.xyz) x *= 1e-3;

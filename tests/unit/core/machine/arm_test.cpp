@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/units.h"
 
 namespace enc {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kStall = 0.129, kContinuous = 0.0286;  // of a motor, N m (sources/arm 3)
 
 // The model 1.5, whose numbers are published (sources/arm 2, sources/arm 3: Cavusoglu's set).

@@ -6,6 +6,8 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
+#include "core/units.h"
+
 namespace enc {
 namespace {
 
@@ -21,8 +23,6 @@ HexapodGeometry published() {
   g.stroke = 0.024;
   return g;
 }
-
-constexpr double kDeg = M_PI / 180.0;
 
 // H as the platform is moved by `shift` and turned by `turn` about the catalogue's pivot, 30 mm above the
 // platform joints.
@@ -77,7 +77,7 @@ TEST(Hexapod, AllStrutsAreOfOneLengthAtZero) {
   EXPECT_LT((machine.inverse(machine.zero()).array() - machine.zero_length()).abs().maxCoeff(), 1e-15);
   EXPECT_NEAR(machine.zero().p().z(), 0.340, 1e-15);
   // Strut tilt 21.39 degrees: cos = 150 / L0.
-  EXPECT_NEAR(std::acos(0.150 / machine.zero_length()) / kDeg, 21.39, 0.005);
+  EXPECT_NEAR(std::acos(0.150 / machine.zero_length()) / kDegree, 21.39, 0.005);
 }
 
 TEST(Hexapod, StrutsMoveAtTheCatalogueTravelsAsTheTableSays) {
@@ -89,9 +89,9 @@ TEST(Hexapod, StrutsMoveAtTheCatalogueTravelsAsTheTableSays) {
   const std::array<Row, 6> rows{{{"X", 0.050, -10.4, 23.8, 0.0503},
                                  {"Y", 0.050, -10.0, 23.5, 0.0509},
                                  {"Z", 0.025, -23.0, 23.5, 0.0255},
-                                 {"tX", 15 * kDeg, -18.0, 23.2, 15.5 * kDeg},
-                                 {"tY", 15 * kDeg, -19.4, 23.1, 15.5 * kDeg},
-                                 {"tZ", 30 * kDeg, -3.9, 23.5, 30.6 * kDeg}}};
+                                 {"tX", 15 * kDegree, -18.0, 23.2, 15.5 * kDegree},
+                                 {"tY", 15 * kDegree, -19.4, 23.1, 15.5 * kDegree},
+                                 {"tZ", 30 * kDegree, -3.9, 23.5, 30.6 * kDegree}}};
   for (int axis = 0; axis < 6; ++axis) {
     const Row& row = rows[static_cast<std::size_t>(axis)];
     const Excursion e = excursion(machine, axis, row.travel);
@@ -111,11 +111,11 @@ TEST(Hexapod, LimitsAreNamed) {
   EXPECT_EQ(machine.limit(machine.zero()), ReachLimit::none);
   EXPECT_EQ(machine.limit(about_pivot(Vec3(0, 0, 0.0254))), ReachLimit::none);
   EXPECT_EQ(machine.limit(about_pivot(Vec3(0, 0, 0.0260))), ReachLimit::stroke);
-  EXPECT_EQ(machine.limit(about_pivot({0, 0, 0}, Quat(Eigen::AngleAxisd(15.1 * kDeg, Vec3::UnitX())))),
+  EXPECT_EQ(machine.limit(about_pivot({0, 0, 0}, Quat(Eigen::AngleAxisd(15.1 * kDegree, Vec3::UnitX())))),
             ReachLimit::tilt);
-  EXPECT_EQ(machine.limit(about_pivot({0, 0, 0}, Quat(Eigen::AngleAxisd(30.1 * kDeg, Vec3::UnitZ())))),
+  EXPECT_EQ(machine.limit(about_pivot({0, 0, 0}, Quat(Eigen::AngleAxisd(30.1 * kDegree, Vec3::UnitZ())))),
             ReachLimit::yaw);
-  EXPECT_EQ(machine.limit(about_pivot({0, 0, 0}, Quat(Eigen::AngleAxisd(29.9 * kDeg, Vec3::UnitZ())))),
+  EXPECT_EQ(machine.limit(about_pivot({0, 0, 0}, Quat(Eigen::AngleAxisd(29.9 * kDegree, Vec3::UnitZ())))),
             ReachLimit::none);
   EXPECT_NE(machine.limit(Pose<'R', 'H'>{}), ReachLimit::none);  // NaN
 }
