@@ -248,11 +248,10 @@ int check(const CheckOptions& options) {
     fmt::print("{}\n{}", models::printable(made), models::built_scene(setup));
     return 0;
   }
-  const std::string sizes = models::sizes_text(setup);
-  fmt::print("{}\n{}{}\nframes\n{}{}{}\nlimits\n{}{}", setup.scene.title, parts_text(setup),
+  fmt::print("{}\n{}{}\nframes\n{}\nlimits\n{}{}", setup.scene.title,
+             parts_text(setup) + models::sizes_text(setup),
              devices_text(trial::ask_drivers(setup, load_module)) + questionnaire_text(setup),
-             frames_text(setup, scene), sizes.empty() ? "" : "\nsizes\n", sizes,
-             scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
+             frames_text(setup, scene), scene.impedance() ? arm_limits(setup, scene) : limits(setup, scene),
              stability_text(setup, trial::certificates_of(setup, scene, true)));
   fmt::print("{}", costs_text(setup, options.seed, ready));
   return asked ? advise(options, *asked) : 0;

@@ -10,6 +10,7 @@
 namespace enc::models {
 namespace {
 
+constexpr std::size_t kMostOpen = 4'000'000;
 constexpr std::size_t kMostWeldPairs = 100'000'000;  // of corners: some seconds
 constexpr std::size_t kMostMeasured = 9'000'001;  // pairs of edges: 3,000 with each other, or fewer with more
 constexpr double kBeside = 4.0;                   // times the widest gap: a corner that far from all others
@@ -180,6 +181,7 @@ Edges edges_of(const Mesh& mesh) {
 }
 
 Weld weld_open(Mesh& mesh, const std::vector<OpenEdge>& open, int steps) {
+  if (open.size() > kMostOpen) return {};
   const std::vector<std::int32_t> ends = ends_of(open);
   const Vec3 reach = steps * (1.0 + 1e-9) * Bounds(mesh).float_step();
   if (!(reach.minCoeff() > std::numeric_limits<double>::min())) return {};

@@ -134,19 +134,23 @@ void note_sizes(Setup& setup) {
 
 std::string sizes_text(const Setup& setup) {
   std::string text;
+  const auto add = [&](const std::string& line) {
+    text += fmt::format("{:12}{}\n", text.empty() ? "sizes" : "", line);
+  };
   for (const ToolSpec& tool : setup.scene.tools) {
-    text += fmt::format("  tool {}: tip radius {}", quoted(tool.name), length_text(tool.tip_radius));
+    std::string markers;
     if (!tool.markers.empty())
-      text += fmt::format(", {} from the middle of its {} markers, up to {} apart",
-                          length_text(lever_of(tool)), tool.markers.size(), length_text(span_of(tool)));
-    text += fmt::format("; {:g} g\n", tool.mass * 1e3);
+      markers = fmt::format(", {} from the middle of its {} markers, up to {} apart",
+                            length_text(lever_of(tool)), tool.markers.size(), length_text(span_of(tool)));
+    add(fmt::format("tool {}: tip radius {}{}; {:g} g", quoted(tool.name), length_text(tool.tip_radius),
+                    markers, tool.mass * 1e3));
   }
   for (const ObjectSpec& object : setup.scene.objects) {
     if (object.shape != ShapeKind::mesh) continue;
     const MeshSize size = size_in_world(object);
-    text += fmt::format("  mesh {} ({}): {}, middle at {} of W, volume {}, {} faces\n", quoted(object.name),
-                        printable(object.mesh), extent_text(size.extent), place_text(size.middle),
-                        volume_text(size.volume), size.faces);
+    add(fmt::format("mesh {} ({}): {}, middle at {} of W, volume {}, {} faces", quoted(object.name),
+                    printable(object.mesh), extent_text(size.extent), place_text(size.middle),
+                    volume_text(size.volume), size.faces));
   }
   return text;
 }

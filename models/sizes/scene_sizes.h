@@ -11,8 +11,8 @@ namespace enc::models {
 // Adds a warning to the setup's notes for each tool, mesh and ball of a size that is out of the ordinary.
 void note_sizes(Setup& setup);
 
-// A line for each tool and each mesh: "  mesh 'hare' (hare.glb): 67 x 50 x 40 mm, ...". Empty where the scene
-// has neither.
+// A line for each tool and each mesh, the first one after "sizes": "mesh 'hare' (hare.glb): 67 x 50 x 40 mm,
+// ...". Empty where the scene has neither.
 [[nodiscard]] std::string sizes_text(const Setup& setup);
 
 // Ends the refusal of a mesh that is out of reach or out of the user's way: its extent and middle in W, and
