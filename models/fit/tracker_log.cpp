@@ -51,7 +51,8 @@ class LogReader {
     }
     log_.repeated = filled_ > 0 && !holes_;
     check_tip_stamps();
-    check_rows(rate);
+    check_rate(rate);
+    check_rows();
     check_packets();
     check_tool_stamps();
     return std::move(log_);
@@ -154,7 +155,7 @@ class LogReader {
 
   double step_to(std::size_t i) const { return log_.time[i] - log_.time[i - 1]; }
 
-  void check_rows(double rate) {
+  void check_rate(double rate) {
     if (log_.time.size() < kFewestRows)
       row_.fail_line(fmt::format("there are {} rows; expected at least {}; record longer", log_.time.size(),
                                  kFewestRows));
@@ -171,6 +172,9 @@ class LogReader {
       row_.fail_line(lines_[1], fmt::format("the rows come every {:.3g} s; expected at least {:g} rows a "
                                             "second; record each cycle of the loop",
                                             log_.period, 1.0 / kLongestPeriod));
+  }
+
+  void check_rows() {
     std::vector<std::size_t> odd;
     for (std::size_t i = 1; i < log_.time.size(); ++i)
       if (std::abs(step_to(i) - log_.period) > kUneven * log_.period) odd.push_back(i);
