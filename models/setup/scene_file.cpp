@@ -13,13 +13,13 @@
 #include "core/devices/roles.h"
 #include "core/error.h"
 #include "models/files.h"
+#include "models/scene_names.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/directions.h"
 #include "models/setup/driver_table.h"
 #include "models/setup/scene_check.h"
-#include "models/setup/scene_names.h"
 #include "models/sizes/scene_sizes.h"
 
 namespace enc::models {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/world/tray.h"
+#include "sim/hand/tray.h"
 
 namespace enc::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "trial/lists/room.h"
-#include "trial/measure/ideal_follower.h"
+#include "trial/travel/ideal_follower.h"
 #include "trial/trial.h"
 
 namespace enc::trial {
@@ -26,8 +26,7 @@ struct PressFigures {
   double approach_speed = kUnset;  // m/s, planned
   double miss = kUnset;  // m: touching point of the tool's tip to that of the haptic-tip, when the tool meets
                          // the surface
-  // m: what inset, registration, latency and the machine's speed allow: miss_bound(); of a drawn reach by the
-  // hand's own path, IdealFollower
+  // m: what rig and hand allow: miss_bound(); of a drawn reach by the hand's own path, IdealFollower
   double miss_bound = kUnset;
   double first_force_delay = kUnset;  // s from meeting the surface to the first true contact force
   double peak_force = 0.0;            // N, along the normal

@@ -48,7 +48,6 @@ struct PrecisionPoint {
 struct Spread {
   double least = kUnset, most = kUnset;
 };
-
 struct Precision {
   std::string table;  // of the rig, where timestep_us and integrator stand: "truth.world"
   std::vector<PrecisionPoint> points;

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "models/scene_names.h"
 #include "models/setup/scene_file.h"
-#include "models/setup/scene_names.h"
 #include "tests/input/app/program.h"
 #include "tests/support/built.h"
 

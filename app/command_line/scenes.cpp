@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "models/scene_names.h"
 #include "models/schema/printable.h"
 #include "models/setup/scene_file.h"
-#include "models/setup/scene_names.h"
 
 namespace enc::app {
 
