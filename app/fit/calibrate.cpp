@@ -279,14 +279,15 @@ int calibrate_command(const CalibrateOptions& options, const trial::DriverSource
   const TrackerLog log = models::parse_tracker_log(csv, options.log, options.rate.value_or(kUnset));
   const LatencyFit fit = models::fit_latency(log);
   check_carried(fit, options.log);
+  const int code = scaled(fit) || early(fit) ? 1 : 0;  // no rig may take these numbers
   if (options.json) {
     fmt::print("{}\n", json_text(log, fit));
-    return 0;
+    return code;
   }
   fmt::print("{}{}{}{}{}intervals   95 %, from blocks of 0.25 s: neighbouring errors are alike\n",
              table_text(log, fit), scatter_text(log, fit), stamps_text(fit), remarks_text(log, fit),
              advice_text(fit));
-  return 0;
+  return code;
 }
 
 }  // namespace enc::app

@@ -172,10 +172,12 @@ TEST_F(Calibrate, AScaleThatIsWrongAndATimeThatCannotBeAreSaid) {
       return fmt::format("{:.4f},{:.4f},{:.4f}", scale * swing(t - late) + noise, noise, noise);
     };
   };
-  const auto told = [&](double scale, double late) {
-    return run_program({"calibrate", write("k.csv", made_log(swing, tool(scale, late)))}, kShipped).out;
+  const auto told = [&](double scale, double late, int code) {
+    const Result r = run_program({"calibrate", write("k.csv", made_log(swing, tool(scale, late)))}, kShipped);
+    EXPECT_EQ(r.code, code) << r.err;
+    return r.out;
   };
-  const std::string large = told(1.3, 0.03), early = told(1.0, -0.09), good = told(1.0, 0.03);
+  const std::string large = told(1.3, 0.03, 1), early = told(1.0, -0.09, 1), good = told(1.0, 0.03, 0);
   EXPECT_THAT(large, AllOf(HasSubstr("times as far as x of the tip"), testing::Not(HasSubstr("\nset "))));
   EXPECT_THAT(early, AllOf(HasSubstr("where the tip was not yet"), testing::Not(HasSubstr("usual_age_ms"))));
   EXPECT_THAT(good, AllOf(HasSubstr("usual_age_ms: above 3"), testing::Not(HasSubstr("as far as"))));
