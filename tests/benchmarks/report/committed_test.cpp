@@ -16,9 +16,18 @@ const Committed& kept() {
       "figures.csv");
   return kAll;
 }
+Figure figure_of(const std::string& id, double value) {
+  Figure figure;
+  figure.id = id;
+  figure.twin = value;
+  return figure;
+}
 bool differs(const std::string& id, double value, double least = kUnset, double most = kUnset,
              double high = kUnset) {
-  Figure figure{.id = id, .twin = value, .high = high, .least = least, .most = most};
+  Figure figure = figure_of(id, value);
+  figure.high = high;
+  figure.least = least;
+  figure.most = most;
   return kept().differs(figure);
 }
 
@@ -43,10 +52,10 @@ TEST(Committed, AValueThatIsNewlyThereOrGoneDiffers) {
 
 TEST(Committed, WhatHasNoCounterpartAndWhatHangsOnTheMachineNeverDiffers) {
   EXPECT_FALSE(differs("x.new", 1.0));
-  Figure cost{.id = "x.single", .twin = 20.0};
+  Figure cost = figure_of("x.single", 20.0);
   cost.cost = true;
   EXPECT_FALSE(kept().differs(cost));
-  Figure absent{.id = "x.single"};
+  Figure absent = figure_of("x.single", kUnset);
   absent.absent = true;
   EXPECT_FALSE(kept().differs(absent));
 }
