@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kLimit = 6e-3;
+constexpr double kPressedTo = 6e-3;
 
 // Deflection over time, s and mm, straight from one to the next, read at 1 kHz.
 struct Turn {
@@ -52,13 +52,13 @@ const std::vector<Turn> kPress{{0, -2}, {2, 6}, {4, -2}};
 
 // 1 N/mm, and how it differs from that.
 LoopData read(const std::vector<std::vector<Turn>>& presses, const Force& force, bool marks_all = true) {
-  return parse_loop(csv(presses, force, marks_all), "loop.csv", kLimit);
+  return parse_loop(csv(presses, force, marks_all), "loop.csv", kPressedTo);
 }
 double line(double d) { return std::max(0.0, d); }
 
 std::string refusal(const std::string& text) {
   try {
-    static_cast<void>(parse_loop(text, "loop.csv", kLimit));
+    static_cast<void>(parse_loop(text, "loop.csv", kPressedTo));
   } catch (const Error& e) {
     return e.what();
   }
@@ -186,7 +186,7 @@ TEST(LoopBranches, PressesUnderOneNumberAreCountedSingly) {
   for (const char* repeat : {",2\n", ",3\n"})
     for (std::size_t at = text.find(repeat); at != std::string::npos; at = text.find(repeat, at))
       text.replace(at, 3, ",1\n");
-  const LoopData loop = parse_loop(text, "loop.csv", kLimit);
+  const LoopData loop = parse_loop(text, "loop.csv", kPressedTo);
   EXPECT_EQ(loop.presses.size(), 3U);
   expect_line(loop);
 }
