@@ -16,7 +16,7 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/report/choice.h"
-#include "benchmarks/report/committed.h"
+#include "benchmarks/commands/committed.h"
 #include "benchmarks/report/report.h"
 #include "core/error.h"
 #include "models/files.h"

@@ -33,6 +33,7 @@ struct SessionSpec : ReachRanges {
   std::vector<double> change{0.4, 0.6};  // of the duration: after which the next pause is the change
   // In W, m: where the first tool's tip lies while it is not held; the other's is beside it (session_plan.h).
   Vec3 tray{-0.150, 0.0, 0.060};
+  static constexpr double kTrayBeside = 0.080;  // m along y of W, from the first tool's place to the other's
 };
 
 // Reaches of a bare finger from far away to random places of the objects of a scene, each object as often

@@ -8,7 +8,6 @@
 #include "core/text/counted.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_check.h"
-#include "sim/hand/tray.h"
 
 namespace enc::models {
 namespace {
@@ -59,7 +58,7 @@ double distance_to(const ObjectSpec& object, const Vec3& point) {
 // The machine follows a tool to the nearest object, whichever is pressed.
 void check_tray(const Setup& setup, const SessionSpec& s) {
   for (const ObjectSpec& object : setup.scene.objects)
-    for (const double beside : {0.0, sim::kTrayBeside}) {
+    for (const double beside : {0.0, SessionSpec::kTrayBeside}) {
       const double away = distance_to(object, s.tray + beside * Vec3::UnitY());
       if (away > setup.scene.follow.pause) continue;
       fail(setup, "user.session.tray_mm",

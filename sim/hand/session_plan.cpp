@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "sim/hand/tray.h"
 
 namespace enc::sim {
 namespace {
@@ -61,7 +60,7 @@ SessionPlan::SessionPlan(const SceneSpec& scene, const Scene& prepared, const Ha
 std::int32_t SessionPlan::tool(const State& state) const { return state.held < 0 ? -1 : tools_[state.held]; }
 
 Point<'W'> SessionPlan::spot(std::int32_t which) const {
-  return Point<'W'>(Vec3(session_->tray + kTrayBeside * which * Vec3::UnitY()));
+  return Point<'W'>(Vec3(session_->tray + SessionSpec::kTrayBeside * which * Vec3::UnitY()));
 }
 
 // A bare finger comes from where no object is near.

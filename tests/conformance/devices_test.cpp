@@ -153,7 +153,7 @@ TEST(Devices, APoseThatIsRepeatedToTheBitIsNoTracking) {
                                 HasSubstr("NOT USABLE: all poses are equal to the bit")));
 }
 
-struct Pressed final : ForceSensor {
+struct Steady final : ForceSensor {
   Stamped<Wrench> read(Time now) noexcept override {
     return {{Vec<'F'>(0, 0, newtons), Vec<'F'>::zero()}, now, Health::ok};
   }
@@ -173,7 +173,7 @@ struct ForceServer {
     set.insert(set.end(), more.begin(), more.end());
     return devices(set, "0.6");
   }
-  Pressed sensor;
+  Steady sensor;
   netft::Server server{sensor, netft::gamma(), "127.0.0.1", netft::Ports{}};
 };
 

@@ -10,8 +10,6 @@
 #include <functional>
 #include <future>
 #include <mutex>
-#include <regex>
-#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -25,6 +23,7 @@
 #include "core/record/record.h"
 #include "tests/conformance/laboratory.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/terminal/run_record.h"
 #include "tests/terminal/terminal.h"
 
 namespace enc::test {
@@ -61,26 +60,6 @@ approach_from_mm = 30
 approach_mm_s = [50]
 repeats = 20
 )";
-
-// s of the fakes' world: when the machine was commanded to stop, by a run that is over.
-std::vector<double> stops_in(const std::string& log) {
-  static const std::regex kLine("stops, in s:((?: [0-9.]+)+)");
-  std::vector<double> all;
-  for (std::sregex_iterator found(log.begin(), log.end(), kLine), end; found != end; ++found) {
-    std::istringstream times((*found)[1]);
-    for (double t = 0.0; times >> t;) all.push_back(t);
-  }
-  return all;
-}
-
-std::string last_mode(const std::string& record) {
-  RecordReader reader(record);  // throws where it is damaged
-  EXPECT_TRUE(reader.sealed());
-  RecordedTick tick;
-  Mode mode = Mode::away;
-  while (reader.next(tick)) mode = tick.out.mode;
-  return std::string(mode_name(mode));
-}
 
 // Fakes in this process, a terminal, and an armed run in it.
 class Attended {

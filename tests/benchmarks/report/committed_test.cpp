@@ -1,5 +1,5 @@
 // Which figures of a run are not those that the repository keeps.
-#include "benchmarks/report/committed.h"
+#include "benchmarks/commands/committed.h"
 
 #include <gtest/gtest.h>
 

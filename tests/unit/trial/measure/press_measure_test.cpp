@@ -59,7 +59,8 @@ TEST(PressMeasure, ALimitIsReachedWhereTheDeflectionComesToIt) {
   EXPECT_DOUBLE_EQ(near_limit(6e-3), 0.05e-3);
   EXPECT_DOUBLE_EQ(near_limit(0.15e-3), 0.0015e-3) << "not a third of it";
   const models::Setup training = shipped("training");
-  for (const PressFigures& press : measured(training, 1).presses()) {
+  const PressMeasure slight = measured(training, 1);
+  for (const PressFigures& press : slight.presses()) {
     if (std::isnan(press.miss)) continue;
     EXPECT_DOUBLE_EQ(press.limit, 0.15e-3);
     EXPECT_EQ(press.object, 0);

@@ -1,4 +1,4 @@
-#include "benchmarks/report/committed.h"
+#include "benchmarks/commands/committed.h"
 
 #include <algorithm>
 #include <cmath>
