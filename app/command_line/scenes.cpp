@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "core/error.h"
 #include "models/scene_names.h"
 #include "models/schema/printable.h"
 #include "models/setup/scene_file.h"
@@ -20,7 +21,12 @@ int scenes() {
                                                     : fmt::format("{} (rig {})", scene.title, scene.rig);
     fmt::print("{:<{}}  {}\n", models::printable(scene.name), widest, models::printable(text));
   }
-  return listed.empty() ? 2 : 0;
+  if (listed.empty())
+    throw Error(
+        fmt::format("{}/scenes: there are no scenes; expected the models of Encounter; see to "
+                    "ENCOUNTER_MODELS, or leave it unset",
+                    models::models_dir()));
+  return 0;
 }
 
 }  // namespace enc::app

@@ -152,12 +152,19 @@ Start start_of(const LoopData& loop, double limit) {
   return {x[0], std::sqrt(variance * inverse(0, 0)), (x[1] + 2.0 * x[2] * least / limit) / limit};
 }
 
-// A file that begins in contact has no zero of its own: its force has to begin at 0 N and 0 mm.
-void check_start(const CsvReader& where, const LoopData& loop, double limit, double rise) {
+// A file that begins in contact has no zero of its own: its force has to begin at 0 N and 0 mm. Returns a
+// note where it begins near to that, but not by chance.
+std::string check_start(const CsvReader& where, const LoopData& loop, double limit, double rise) {
   constexpr double kMost = 0.04;         // of the rise
+  constexpr double kWorthANote = 0.002;  // of the rise
   constexpr double kBeyondChance = 6.0;  // standard deviations
   const Start start = start_of(loop, limit);
-  if (!(std::abs(start.force) > std::max(kMost * rise, kBeyondChance * start.error))) return;
+  if (!(std::abs(start.force) > std::max(kWorthANote * rise, kBeyondChance * start.error))) return "";
+  if (!(std::abs(start.force) > kMost * rise))
+    return fmt::format(
+        "at 0 mm the force is {:.2f} N, and no reading from before contact gives its zero: the curve "
+        "may be off by as much",
+        start.force);
   if (start.force < 0.0 && start.slope > 0.0)
     where.fail_line(fmt::format(
         "contact begins at {:.2f} mm, and no reading from before it gives the zero of the force; expected "
@@ -183,6 +190,11 @@ void check_depth(const CsvReader& where, const LoopData& loop, double limit) {
         fmt::format("the deepest deflection is {:.4g} mm; expected about {:g} mm; if deflection_mm is in {}, "
                     "multiply it by {:g}",
                     deepest * 1e3, limit * 1e3, metres ? "m" : "micrometres", metres ? kUnit : 1.0 / kUnit));
+  if (deepest < 0.01 * limit)
+    where.fail_line(
+        fmt::format("the deepest deflection is {:.3f} mm; expected {:g} mm, the limit; see to the sign "
+                    "and the column of deflection_mm: into the object it is positive",
+                    deepest * 1e3, limit * 1e3));
   if (deepest < limit - kNear)
     where.fail_line(
         fmt::format("the deepest deflection is {:.3f} mm; expected {:g} mm, the limit; press deeper, or "
@@ -191,7 +203,7 @@ void check_depth(const CsvReader& where, const LoopData& loop, double limit) {
 }
 
 // What the whole file must say; `where` is its end.
-void check(const CsvReader& where, const LoopData& loop, double limit, bool zero_known) {
+void check(const CsvReader& where, LoopData& loop, double limit, bool zero_known) {
   constexpr std::ptrdiff_t kFewest = 20;
   constexpr double kLeastForce = 1e-3;  // N: less is no reading of a force sensor
   std::ptrdiff_t pressing = 0;
@@ -214,7 +226,9 @@ void check(const CsvReader& where, const LoopData& loop, double limit, bool zero
         "pressed to {:g} mm the force rises by {:.3f} N and scatters by {:.3f} N; expected a force "
         "that rises with the deflection; see to the sign and the column of force_N",
         limit * 1e3, rise.force, rise.scatter));
-  if (!zero_known) check_start(where, loop, limit, rise.force);
+  if (zero_known) return;
+  const std::string note = check_start(where, loop, limit, rise.force);
+  if (!note.empty()) loop.notes.push_back(note);
 }
 
 }  // namespace

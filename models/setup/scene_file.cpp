@@ -188,7 +188,8 @@ std::vector<std::string> files_in(const std::string& models_dir, const std::stri
   std::vector<std::string> names;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(fs::path(models_dir) / folder, none)) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".toml" && entry.is_regular_file(none))
+      names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -282,6 +283,12 @@ void fill_curves(Setup& setup, const std::string& models_dir) {
       continue;
     }
     if (has_curves(setup, b)) continue;
+    if (b.response.find('/') != std::string::npos)  // a scene names no file outside of models/
+      throw Error(fmt::format("{}: 'response' is {}; expected the name of a file in {}, without a path; {}",
+                              place_of(setup, fmt::format("behaviour.{}.response", b.name)),
+                              quoted(b.response),
+                              (fs::path(models_dir) / "responses").lexically_normal().string(),
+                              advice(b.response, files_in(models_dir, "responses"))));
     std::error_code none;
     const fs::path directions = fs::path(models_dir) / "directions" / (b.response + ".toml");
     if (fs::exists(directions, none)) {

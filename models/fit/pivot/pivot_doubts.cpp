@@ -26,8 +26,8 @@ constexpr std::array<TimeUnit, 3> kUnits{
 std::string doubt_of_time(std::span<const PivotPose> poses) {
   constexpr double kSeldom = 0.2;                // s from row to row: a tracker sends more often
   constexpr double kSeldomest = 60.0;            // s: nor does anybody take poses singly so slowly
-  constexpr double kFastest = 0.2;               // s from row to row, of what a tracker sends
-  constexpr double kSlow = 0.5 * M_PI / 180.0;   // rad/s, in the mean: no swing
+  constexpr double kFastest = 1.0;               // s from row to row, of what a tracker sends
+  constexpr double kSlow = 3.0 * M_PI / 180.0;   // rad/s, in the mean: no swing
   constexpr double kSmall = 3.0 * M_PI / 180.0;  // rad from row to row: not taken singly
   if (poses.size() < 2) return "";
   std::vector<double> steps, turns;
@@ -40,8 +40,9 @@ std::string doubt_of_time(std::span<const PivotPose> poses) {
   const double step = median(steps), lasts = poses.back().time - poses.front().time;
   if (step < kSeldom) return "";
   if (step < kSeldomest && (median(turns) > kSmall || path > kSlow * lasts)) return "";
+  if (std::abs(step - 1.0) < 1e-3) return "rows are 1 s apart: frame numbers?";
   for (const TimeUnit& unit : kUnits)
-    if (step * unit.seconds < kFastest) return fmt::format("rows are {:.3g} s apart: {}?", step, unit.name);
+    if (step * unit.seconds <= kFastest) return fmt::format("rows are {:.3g} s apart: {}?", step, unit.name);
   return fmt::format("rows are {:.3g} s apart", step);
 }
 

@@ -123,6 +123,9 @@ TEST(LoopContact, AFileThatBeginsInContactHasToBeginAtZero) {
       refusal(csv({press}, [](double d, double) { return line(d) + 0.6; })),
       AllOf(HasSubstr("at 0 mm the force is 0.60 N, and no reading from before contact gives its zero"),
             HasSubstr("record from before contact, or")));
+  const LoopData slight = read({press}, [](double d, double) { return line(d) + 0.1; });
+  EXPECT_THAT(slight.notes, ElementsAre(HasSubstr("at 0 mm the force is 0.10 N")));
+  EXPECT_THAT(read({press}, [](double d, double) { return line(d); }).notes, IsEmpty());
   const std::vector<Turn> gap{{0, 2.004}, {1.5, 8}, {3, 2.004}};
   EXPECT_THAT(refusal(csv({gap}, [](double d, double) { return line(d - 2.0); })),
               HasSubstr("contact begins at 2.00 mm, and no reading from before it gives the zero"));

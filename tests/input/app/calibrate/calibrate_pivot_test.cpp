@@ -213,6 +213,8 @@ TEST_F(CalibratePivot, ATimeInAnotherUnitIsAskedFor) {
   };
   EXPECT_THAT(in_unit(1e3), HasSubstr("u.csv:1:1: rows are 20 s apart: milliseconds?"));
   EXPECT_THAT(in_unit(1e6), HasSubstr("rows are 2e+04 s apart: microseconds?"));
+  EXPECT_THAT(in_unit(1e4), HasSubstr("rows are 200 s apart: milliseconds?"));
+  EXPECT_THAT(in_unit(50), HasSubstr("rows are 1 s apart: frame numbers?"));
 }
 
 // A quaternion that is read otherwise than it was written leaves a residual; one that fits is told.

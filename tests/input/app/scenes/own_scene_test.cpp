@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "models/scene_names.h"
 #include "models/setup/scene_file.h"
@@ -94,6 +95,17 @@ TEST_F(OwnScene, ABehaviourWithAMistakeIsNamedWithItsPlace) {
   edit("models/scenes/plane.toml", "stiffness_N_per_mm = 0.8", "stiffness_N_per_mm = -0.8");
   EXPECT_THAT(scene_refused(plane()),
               StartsWith(plane() + ":" + line_and_column(text_of(plane()), "stiffness_N_per_mm") + ": "));
+}
+
+// A scene names no file outside of models/, and reading a list of scenes waits for nothing.
+TEST_F(OwnScene, NamesNoFileByItsPath) {
+  edit("models/scenes/plane.toml", "behaviour = \"wall\"", "behaviour = \"sponge\"");
+  edit("models/scenes/plane.toml", "[[object]]",
+       "[[behaviour]]\nname = \"sponge\"\nresponse = \"../rigs/sim\"\nlimit_mm = 5\n\n[[object]]");
+  EXPECT_THAT(scene_refused(plane()),
+              AllOf(HasSubstr("'response' is '../rigs/sim'"), HasSubstr("without a path")));
+  ASSERT_EQ(mkfifo(path("models/scenes/pipe.toml").c_str(), 0600), 0);
+  EXPECT_THAT(run_program({"scenes"}).out, Not(HasSubstr("pipe")));
 }
 
 TEST_F(OwnScene, ScenesAreListedWithTheirTitles) {
