@@ -1,6 +1,6 @@
-// Factors between SI, which is in memory, and the units that people read and devices send: the only place that
-// defines them. A factor with the name of a unit is that unit in SI: `5.0 * kMillimetre` is 5 mm in metres. One
-// named "A per B" takes the other way: `metres * kMmPerM` is a number of millimetres.
+// Factors between SI, which is in memory, and the units that people read and devices send: the only place
+// that defines them. A factor with the name of a unit is that unit in SI: `5.0 * kMillimetre` is 5 mm in
+// metres. One named "A per B" takes the other way: `metres * kMmPerM` is a number of millimetres.
 #pragma once
 
 #include <cmath>

@@ -14,9 +14,9 @@
 #include <unistd.h>
 
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/commands/committed.h"
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/report/choice.h"
-#include "benchmarks/commands/committed.h"
 #include "benchmarks/report/report.h"
 #include "core/error.h"
 #include "models/files.h"

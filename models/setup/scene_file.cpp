@@ -286,7 +286,7 @@ void fill_curves(Setup& setup, const std::string& models_dir) {
     if (b.response.find('/') != std::string::npos)  // a scene names no file outside of models/
       throw Error(fmt::format("{}: 'response' is {}; expected the name of a file in {}, without a path; {}",
                               place_of(setup, fmt::format("behaviour.{}.response", b.name)),
-                              quoted(b.response),
+                              models::quoted(b.response),
                               (fs::path(models_dir) / "responses").lexically_normal().string(),
                               advice(b.response, files_in(models_dir, "responses"))));
     std::error_code none;

@@ -61,8 +61,10 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
     now.outside_dent = false;
     return;
   }
+  // A fused tip is drawn ahead by the lead: tool and tip may stop or turn in that time, too.
+  const double unsure = old + (rig.tip == SeenTip::fused ? rig.lead : 0.0);
   // The margin shrinks with each new frame: what was outside counts as inside again only well within it.
-  const double margin = (rig.margin + rig.margin_speed * old) * (now.outside_dent ? 0.7 : 1.0);
+  const double margin = (rig.margin + rig.margin_speed * unsure) * (now.outside_dent ? 0.7 : 1.0);
   // On the way in, the tip is rightly outside. A dent moves the surface by its depth at most: mostly that is
   // answer enough.
   const bool maybe = state.entered && distance + now.dent.value.depth > margin;

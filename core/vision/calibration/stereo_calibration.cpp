@@ -20,7 +20,6 @@ using calibration::Extrinsics;
 using calibration::points_of;
 using calibration::Views;
 
-
 struct Head {
   calibration::Camera left, right;
   Extrinsics pose;

@@ -38,6 +38,16 @@ TEST(ShippedBall, IsOneContactAHit) {
   }
 }
 
+// What the display draws holds no machine that follows its tool.
+TEST(ShippedDisplay, HoldsNoMachine) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(tests::thorough(6, 20)); ++seed) {
+    trial::Trial trial(shipped("tennis_ball"), seeded(seed));
+    while (trial.tick()) {
+    }
+    EXPECT_EQ(trial.result().times_held, 0) << "seed " << seed;
+  }
+}
+
 // The twin with the controller, contact and admittance settings of the laboratory rig, whose set-points come
 // each 10 ms.
 TEST(ShippedLaboratory, RendersTheTennisBall) {
