@@ -47,7 +47,7 @@ struct TrackerTruth {
   double process = 0.0092;                      // s, in the server's application, from its tick to the packet
   double udp_delay = 0.0005;                    // s, mean of the exponential part (process and network)
   Vec3 bias{0.0779e-3, 0.0659e-3, 0.1192e-3};   // m, of registration, in W
-  Vec3 noise{0.0191e-3, 0.0115e-3, 0.0109e-3};  // m rms, each frame, in W
+  Vec3 noise{0.0166e-3, 0.0069e-3, 0.0108e-3};  // m rms, each frame, in W
   double turn_noise = 0.0;                      // rad rms, each frame, about each axis of W
   // m rms, each frame and axis, of each marker, besides `noise` and `turn_noise` of them all. If set, the
   // tracker recognises the tool by its markers and computes the pose from them. Unset: the tool is known.

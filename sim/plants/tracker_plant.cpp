@@ -32,7 +32,6 @@ TrackerPlant::TrackerPlant(const TrackerTruth& truth, const Pose<'W', 'C'>& X_WC
     : truth_(truth), X_CW_(X_WC.inverse()), markers_(std::move(markers)) {
   if (truth.latency * truth.rate > 60.0)
     throw Error("at most 60 frames can be on their way at once", "truth.tracker.latency");
-  if (markers_.empty()) truth_.marker_noise = kUnset;
   state_.noise = Stream(seed, "tracker");
   if (truth.process * truth.server_rate > 60.0)
     throw Error("at most 60 packets can be on their way at once", "truth.tracker.process");
@@ -63,8 +62,11 @@ void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT
   if (truth_.turn_noise > 0.0)  // else nothing is drawn, and other noise stays what it is
     turned = rotation_xyz(truth_.turn_noise * state_.noise.normal3()) * turned;
   const Pose<'W', 'T'> shifted(turned, Vec3(X_WT.p() + error));
-  const TrackedTool seen =
-      std::isnan(truth_.marker_noise) ? TrackedTool{tool, X_CW_ * shifted} : by_markers(tool, shifted);
+  const bool has_markers = static_cast<std::size_t>(tool) < markers_.size() &&
+                           markers_[static_cast<std::size_t>(tool)].size() >= 3;  // a finger has none
+  const TrackedTool seen = has_markers && !std::isnan(truth_.marker_noise)
+                               ? by_markers(tool, shifted)
+                               : TrackedTool{tool, X_CW_ * shifted};
   if (seen.tool < 0) return;
   put(state_.exposed, {seen, at + from_seconds(truth_.stamp_error), Health::ok},
       at + from_seconds(truth_.latency));

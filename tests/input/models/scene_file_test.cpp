@@ -127,8 +127,8 @@ TEST_F(SceneFile, number_that_is_not_finite_or_out_of_range) {
               HasSubstr("'mass_kg' is nan; expected a finite number"));
   EXPECT_THAT(rig_said("timestep_us = 1000", "timestep_us = 5001"),
               HasSubstr("'timestep_us' is 5001; expected a number above 0 and at most 5000 in us"));
-  EXPECT_THAT(rig_said("[0.0191, ", "[-0.0191, "),
-              HasSubstr("'noise_mm[0]' is -0.0191; expected a not negative number"));
+  EXPECT_THAT(rig_said("[0.0166, ", "[-0.0166, "),
+              HasSubstr("'noise_mm[0]' is -0.0166; expected a not negative number"));
   write("rigs/sim.toml", rig_);
   write("behaviours.toml", replaced(kBehaviours, "= 2", "= -2"));
   EXPECT_THAT(
