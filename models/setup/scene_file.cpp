@@ -146,8 +146,9 @@ void refuse_second_meaning(const Setup& setup, const BehaviourList& shipped) {
   }
 }
 
-// Objects take behaviours of their scene file and of models/behaviours.toml.
-void read_behaviours(Setup& setup) {
+// Objects take behaviours of their scene file and of models/behaviours.toml. `alone`: of a file that holds a
+// rig, as `check --resolved` prints it, with the behaviours that were in use.
+void read_behaviours(Setup& setup, bool alone) {
   std::vector<BehaviourSpec>& used = setup.scene.behaviours;
   // check() says where an empty one is wrong.
   const auto is_there = [&](const ObjectSpec& o) {
@@ -155,7 +156,7 @@ void read_behaviours(Setup& setup) {
   };
   if (has_rig(setup) && std::all_of(setup.scene.objects.begin(), setup.scene.objects.end(), is_there)) return;
   const BehaviourList shipped = shipped_behaviours();
-  if (!has_rig(setup)) refuse_second_meaning(setup, shipped);
+  if (!alone) refuse_second_meaning(setup, shipped);
   std::vector<std::string> names;
   names.reserve(used.size() + shipped.all.size());
   for (const BehaviourSpec& b : used) names.push_back(b.name);
@@ -353,6 +354,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
   setup.scene_path = scene_file_of(scene_path);
   read_scene(setup);
   check_made_for(setup);
+  const bool alone = has_rig(setup);
   read_rig_of(setup, rig);
   // Behaviours come second, because --set may name another one for an object.
   const auto of_behaviour = [](const std::string& text) { return text.starts_with("behaviour."); };
@@ -360,7 +362,7 @@ Setup load(const std::string& scene_path, const std::string& rig, const std::vec
     if (!of_behaviour(text)) set(setup, text);
   }
   settle_drivers(setup);
-  read_behaviours(setup);
+  read_behaviours(setup, alone);
   for (const std::string& text : overrides) {
     if (of_behaviour(text)) set(setup, text);
   }

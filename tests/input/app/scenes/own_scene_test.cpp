@@ -94,7 +94,7 @@ TEST_F(OwnScene, ABehaviourWithAMistakeIsNamedWithItsPlace) {
   edit("models/scenes/plane.toml", "spunge", "sponge");
   edit("models/scenes/plane.toml", "stiffness_N_per_mm = 0.8", "stiffness_N_per_mm = -0.8");
   EXPECT_THAT(scene_refused(plane()),
-              StartsWith(plane() + ":" + line_and_column(text_of(plane()), "stiffness_N_per_mm") + ": "));
+              StartsWith(plane() + ":" + line_and_column(text_of(plane()), "-0.8") + ": "));
 }
 
 // A scene names no file outside of models/, and reading a list of scenes waits for nothing.
