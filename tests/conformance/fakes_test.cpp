@@ -290,7 +290,7 @@ TEST(Fakes, DevicesSaysWhatAnswersAndHowOften) {
   const Result result = run_program(words);
   EXPECT_EQ(result.code, 0) << result.err;
   for (const char* part : {"manipulator  C-887", "force        Net F/T at 127.0.0.1",
-                           "tracker      tool data of", " samples a second, "})
+                           "tracker      tool data of", " samples a second; "})
     EXPECT_THAT(result.out, HasSubstr(part));
   for (const char* said :
        {"referenced (a fake)\n", "its command interface agrees (a fake)\n", "answered (a fake)\n"})

@@ -55,7 +55,7 @@ def keys(messages):
 data = open(sys.argv[2], "rb").read()
 reader = make_reader(io.BytesIO(data), validate_crcs=True)
 header, summary = reader.get_header(), reader.get_summary()
-expect(header.profile == "" and header.library.startswith("encounter "), f"header {header}")
+expect(header.profile == "" and header.library.startswith("Encounter "), f"header {header}")
 messages = list(reader.iter_messages())
 times = [message.log_time for _, _, message in messages]
 counts = collections.Counter(message.channel_id for _, _, message in messages)

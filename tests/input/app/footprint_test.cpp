@@ -52,7 +52,8 @@ TEST(Footprint, APlaneMapsNoModuleAndHasOneThread) {
 TEST(Footprint, VersionIsOneLine) {
   const Result result = run_program({"--version"});
   EXPECT_EQ(result.code, 0);
-  EXPECT_THAT(result.out, testing::MatchesRegex("encounter [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(result.out,
+              testing::MatchesRegex("Encounter [0-9]+\\.[0-9]+\\.[0-9]+, commit [-0-9a-z]+ of [-0-9a-z]+\n"));
 }
 
 }  // namespace

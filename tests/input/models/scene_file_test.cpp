@@ -189,7 +189,8 @@ TEST_F(SceneFile, two_of_one_name) {
 
 TEST_F(SceneFile, name_that_does_not_exist) {
   EXPECT_EQ(scene_said("behaviour = \"tennis_ball\"", "behaviour = \"tenis_ball\""),
-            "scenes/ball.toml:8:1: there is no behaviour 'tenis_ball'; expected an entry of behaviours.toml; "
+            "scenes/ball.toml:8:1: there is no behaviour 'tenis_ball'; expected an entry of behaviours.toml "
+            "or a [[behaviour]] of this scene; "
             "did you mean 'tennis_ball'?");
   EXPECT_EQ(scene_said("depth_mm", "object = \"bal\"\ndepth_mm"),
             "scenes/ball.toml:17:1: there is no object 'bal'; expected the name of a [[object]]; did you "

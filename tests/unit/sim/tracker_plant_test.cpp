@@ -19,6 +19,7 @@ TrackerTruth with_noise(double noise) {
   TrackerTruth truth;
   truth.packets = Packets::event;
   truth.bias = Vec3(0.1e-3, 0.2e-3, 0.3e-3);
+  truth.noise = Vec3::Zero();
   truth.marker_noise = noise;
   return truth;
 }

@@ -12,6 +12,7 @@ namespace {
 models::Setup still_setup() {
   models::Setup setup = models::load(tests::source_dir() + "/models/scenes/plane.toml", "sim");
   setup.twin.tracker.bias = setup.twin.tracker.noise = Vec3::Zero();
+  setup.twin.tracker.marker_noise = 0.0;
   setup.twin.force.zero = setup.twin.force.drift = setup.twin.force.noise = 0.0;
   setup.twin.hand.tremor = setup.twin.hand.drift = 0.0;  // the hand stands still while it waits: 0.6 s
   return setup;
