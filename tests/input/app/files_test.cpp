@@ -67,7 +67,9 @@ TEST_F(ProgramFiles, AnInputIsNeverAnOutputEvenWithForce) {
   std::vector<Words> all{{"run", p, "--for-s", "0.1", "--record", p},
                          {"fit", csv, "--out", csv},
                          {"export", record, "--csv", record}};
-  if (std::filesystem::exists(view)) all.push_back({"view", p, "--at-s", "0.1", "--shot", p});
+  const std::string picture = path("scene.png");  // a scene of such a name
+  std::filesystem::copy_file(p, picture);
+  if (std::filesystem::exists(view)) all.push_back({"view", picture, "--at-s", "0.1", "--shot", picture});
   for (Words& args : all) {
     const std::string file = args.back(), before = bytes_of(file);
     args.emplace_back("--force");

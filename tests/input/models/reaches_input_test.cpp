@@ -35,7 +35,7 @@ TEST(ReachesInput, PairsAreLeastAndMost) {
     const std::string name = std::string("user.reaches.").append(key);
     EXPECT_THAT(said_reaching({name + "=[0.9, 0.5]"}),
                 AllOf(HasSubstr(key), HasSubstr("its first number above")));
-    EXPECT_THAT(said_reaching({name + "=[0.5]"}), AllOf(HasSubstr(key), HasSubstr("has 1 numbers")));
+    EXPECT_THAT(said_reaching({name + "=[0.5]"}), AllOf(HasSubstr(key), HasSubstr("has 1 number;")));
   }
 }
 
