@@ -31,7 +31,8 @@ double greatest_age(const models::Setup& setup) {
 }
 
 IdealFollower follower(const models::Setup& setup, IdealFollower::Sees sees) {
-  return {sees, greatest_age(setup), setup.rig.manipulator.speed,
+  constexpr double kOldest = 1.0;  // s: data that are older say nothing, and each tick of them is kept
+  return {sees, std::min(greatest_age(setup), kOldest), setup.rig.manipulator.speed,
           stages::kSideShare * setup.rig.manipulator.acceleration, 1.0 / setup.rig.loop.rate};
 }
 
