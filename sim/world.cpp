@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/rotation.h"
+#include "core/track/markers.h"
 #include "sim/bodies/model.h"
 
 namespace enc::sim {
@@ -28,11 +29,7 @@ std::vector<std::vector<Vec3>> markers_of(const std::vector<ToolSpec>& tools) {
 }
 
 // From the tool's tip to the middle of its markers, in T.
-Vec3 shaft_of(const ToolSpec& tool) {
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& marker : tool.markers) middle += marker / static_cast<double>(tool.markers.size());
-  return middle - tool.tip;
-}
+Vec3 shaft_of(const ToolSpec& tool) { return middle_of(tool.markers) - tool.tip; }
 
 // The person points the tool along the surface normal: tip towards the surface, markers away from it.
 Quat pointed(const Vec3& shaft_T, const Vec3& normal) {

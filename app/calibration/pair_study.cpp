@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "models/files.h"
 #include "models/setup/stereo_file.h"
 
@@ -127,10 +128,10 @@ void refuse_too_few(const PairStudy& study, const images::PairList& list, const 
                     const Board& board) {
   if (study.pairs.size() >= kFewestBoards) return;
   throw Error(fmt::format(
-      "{}: a board of {} x {} inner corners was found in {} pair{}{}; expected at least {}; {}see to "
+      "{}: a board of {} x {} inner corners was found in {}{}; expected at least {}; {}see to "
       "--corners "
       "and that the whole board is seen",
-      folder, board.columns, board.rows, study.pairs.size(), study.pairs.size() == 1 ? "" : "s",
+      folder, board.columns, board.rows, counted(study.pairs.size(), "pair"),
       list.layout == images::Layout::side_by_side ? " of images side by side" : "", kFewestBoards,
       study.missed.empty() ? "take more pairs, " : fmt::format("none in {}; ", some_of(study.missed))));
 }

@@ -12,6 +12,7 @@
 
 #include "app/modules/axes.h"
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "core/units.h"
 #include "core/vision/segmentation/kernels/arc.h"
 #include "hw_drivers/images/files/pair_list.h"
@@ -212,11 +213,11 @@ SkinStudy study_skin(const std::vector<HandFiles>& files) {
 std::string skin_text(const SkinStudy& study) {
   const HueRule rule;
   return fmt::format(
-             "{} image{}; {} of {} px are hand\n"
+             "{}; {} of {} px are hand\n"
              "left out    {} px of the hand that have no hue: {} grey (chroma below {} of 255), {} dark "
              "(brightest channel below {})\n"
              "skin        hue {:.3f} deg, spread {:.3f} deg, of {} px\n",
-             study.images, study.images == 1 ? "" : "s", study.hand.all, study.hand.all + study.rest.all,
+             counted(study.images, "image"), study.hand.all, study.hand.all + study.rest.all,
              study.hand.grey + study.hand.dark, study.hand.grey, rule.least_chroma, study.hand.dark,
              rule.least_value, study.model.hue * kDegPerRad, study.model.spread * kDegPerRad,
              learned(study)) +
@@ -248,12 +249,11 @@ std::string skin_json(const SkinStudy& study) {
 
 std::string skin_toml(const SkinStudy& study) {
   return fmt::format(
-      "# Of a rig's file: skin in {} image{}, {} px.\n"
+      "# Of a rig's file: skin in {}, {} px.\n"
       "[vision]\n"
       "skin_hue_deg = {:g}\n"
       "skin_spread_deg = {:g}\n",
-      study.images, study.images == 1 ? "" : "s", learned(study), rounded(study.model.hue),
-      rounded(study.model.spread));
+      counted(study.images, "image"), learned(study), rounded(study.model.hue), rounded(study.model.spread));
 }
 
 }  // namespace enc::app

@@ -5,6 +5,7 @@
 
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/registration/registration.h"
+#include "core/text/counted.h"
 #include "core/units.h"
 
 namespace enc::bench::registration {
@@ -62,7 +63,7 @@ Plot frames_plot(const char* id, const char* title, const char* x_label, const s
   Plot plot{id, title, x_label, "mean |error| elsewhere, worst axis (mm)", false, true, {}};
   double from = 1e300, to = 0.0, aside = bands ? -0.15 : 0.0;
   for (const std::size_t frames : {1UL, 5UL, 20UL, 100UL}) {
-    Series series{fmt::format("{} frame{} of each", frames, frames == 1 ? "" : "s"), {}, {}};
+    Series series{counted(frames, "frame") + " of each", {}, {}};
     series.mark = Mark::both;
     for (const Accuracy& one : all) {
       if (one.frames != frames) continue;
@@ -91,7 +92,7 @@ Plot distance_plot(const std::vector<Accuracy>& all, const trial::RegistrationPl
   constexpr std::size_t kBins = 8;
   for (const std::size_t frames : {1UL, 20UL, 100UL}) {
     const Accuracy& one = accuracy_of(all, 8, frames);
-    Series series{fmt::format("{} frame{} of each", frames, frames == 1 ? "" : "s"), {}, {}};
+    Series series{counted(frames, "frame") + " of each", {}, {}};
     series.mark = Mark::both;
     for (std::size_t b = 0; b < kBins; ++b) {
       const std::size_t from = b * one.square.size() / kBins, to = (b + 1) * one.square.size() / kBins;

@@ -98,10 +98,14 @@ RecognisedTool recognise(std::span<const Vec3> seen, std::span<const std::vector
   return best;
 }
 
-Mat3 point_covariance(std::span<const Vec3> markers, const Vec3& point) {
-  const auto count = static_cast<double>(markers.size());
+Vec3 middle_of(std::span<const Vec3> markers) {
   Vec3 middle = Vec3::Zero();
-  for (const Vec3& marker : markers) middle += marker / count;
+  for (const Vec3& marker : markers) middle += marker / static_cast<double>(markers.size());
+  return middle;
+}
+
+Mat3 point_covariance(std::span<const Vec3> markers, const Vec3& point) {
+  const Vec3 middle = middle_of(markers);
   Mat3 turning = Mat3::Zero();  // the inverse of the covariance of a small turn
   for (const Vec3& marker : markers) {
     const Vec3 arm = marker - middle;
@@ -110,7 +114,8 @@ Mat3 point_covariance(std::span<const Vec3> markers, const Vec3& point) {
   const Vec3 lever = point - middle;
   Mat3 cross;
   cross << 0, -lever.z(), lever.y(), lever.z(), 0, -lever.x(), -lever.y(), lever.x(), 0;
-  return Mat3::Identity() / count + cross * turning.inverse() * cross.transpose();
+  return Mat3::Identity() / static_cast<double>(markers.size()) +
+         cross * turning.inverse() * cross.transpose();
 }
 
 bool alike(std::span<const Vec3> markers, std::span<const Vec3> other) {

@@ -10,6 +10,7 @@
 
 namespace enc {
 
+inline constexpr std::size_t kFewestMarkers = 3;  // of a tool whose pose they give
 inline constexpr std::size_t kMostMarkers = 16;
 
 // What a marker is known to at worst: rms, each axis. A distance of two is known to 0.42 mm.
@@ -35,8 +36,10 @@ struct RecognisedTool {
 // `seen`: places of one tool's markers in C, in any order, none missing. `tools`: of each its markers in T.
 [[nodiscard]] RecognisedTool recognise(std::span<const Vec3> seen, std::span<const std::vector<Vec3>> tools);
 
-// Covariance of a point of the tool, in T, m^2, when each of at least 3 markers has white noise of 1 m along
-// each axis: of the least-squares pose, for small turns.
+// Their mean, m; zero without markers.
+[[nodiscard]] Vec3 middle_of(std::span<const Vec3> markers);
+// Covariance of a point of the tool, in T, m^2, when each of at least kFewestMarkers markers has white noise
+// of 1 m along each axis: of the least-squares pose, for small turns.
 [[nodiscard]] Mat3 point_covariance(std::span<const Vec3> markers, const Vec3& point);
 
 // Whether the markers of one can be taken for those of the other, in some order, by their distances. Mirror

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/frames.h"
 #include "core/mesh/mesh_tree.h"
+#include "core/text/counted.h"
 #include "models/mesh_files/mesh_edges.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/mesh_files/mesh_parts.h"
@@ -126,8 +127,8 @@ class Checker {
     }
     if (all.corners == 0) return;
     note(fmt::format("joined {} with others at most {} away, {:.1g} of the mesh's size",
-                     all.corners == 1 ? "1 corner" : fmt::format("{} corners", all.corners),
-                     length_text(all.farthest), all.farthest / size_of(mesh_).extent.maxCoeff()));
+                     counted(all.corners, "corner"), length_text(all.farthest),
+                     all.farthest / MeshBox(mesh_).size()));
   }
 
   void refuse_crowded() const {
@@ -306,7 +307,7 @@ class Checker {
   [[nodiscard]] std::string depth_text(const Touching& touching) const {
     if (!(touching.depth > 0.0)) return {};
     return fmt::format(" (each by at most {}, {:.1g} of the mesh's size)", length_text(touching.depth),
-                       touching.depth / size_of(mesh_).extent.maxCoeff());
+                       touching.depth / MeshBox(mesh_).size());
   }
   void check_touching() {
     if (mesh_.triangles.size() > kMostTouchTested)

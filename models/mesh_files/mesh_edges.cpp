@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "models/sizes/mesh_size.h"
+
 namespace enc::models {
 namespace {
 
@@ -20,19 +22,11 @@ Vec3 place(const Mesh& mesh, std::int32_t vertex) {
   return Vec3(mesh.vertices[static_cast<std::size_t>(vertex)].data());
 }
 
-struct Bounds {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  explicit Bounds(const Mesh& mesh) {
-    for (const auto& vertex : mesh.vertices) {
-      low = low.cwiseMin(Vec3(vertex.data()));
-      high = high.cwiseMax(Vec3(vertex.data()));
-    }
-  }
-  [[nodiscard]] double size() const { return (high - low).maxCoeff(); }
-  [[nodiscard]] Vec3 float_step() const {
-    return std::numeric_limits<float>::epsilon() * low.cwiseAbs().cwiseMax(high.cwiseAbs()).cwiseMax(size());
-  }
-};
+// How far apart two floats are that are as large as the largest coordinate, or as the mesh.
+Vec3 float_step(const MeshBox& box) {
+  return std::numeric_limits<float>::epsilon() *
+         box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).cwiseMax(box.size());
+}
 
 std::vector<std::int32_t> ends_of(const std::vector<OpenEdge>& open) {
   std::vector<std::int32_t> ends;
@@ -183,7 +177,7 @@ Edges edges_of(const Mesh& mesh) {
 Weld weld_open(Mesh& mesh, const std::vector<OpenEdge>& open, int steps) {
   if (open.size() > kMostOpen) return {};
   const std::vector<std::int32_t> ends = ends_of(open);
-  const Vec3 reach = steps * (1.0 + 1e-9) * Bounds(mesh).float_step();
+  const Vec3 reach = steps * (1.0 + 1e-9) * float_step(MeshBox(mesh));
   if (!(reach.minCoeff() > std::numeric_limits<double>::min())) return {};
   Grid grid(reach, ends.size());
   Sets sets(ends.size());
@@ -245,7 +239,7 @@ Gap widest_gap(const Mesh& mesh, const std::vector<OpenEdge>& open) {
   }
   gap.beside_edge = std::any_of(ends.begin(), ends.end(),
                                 [&](const Sample& s) { return s.to_corner > kBeside * gap.width; });
-  gap.of_size = gap.width / Bounds(mesh).size();
+  gap.of_size = gap.width / MeshBox(mesh).size();
   return gap;
 }
 

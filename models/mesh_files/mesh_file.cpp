@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 
@@ -86,8 +87,7 @@ void MeshBytes::fail_at_text(std::size_t byte, const std::string& what) const {
 }
 
 std::string rest_note(const MeshBytes& file, std::size_t rest, const std::string& after) {
-  return fmt::format("{}: passed over {} after {}", file.path,
-                     rest == 1 ? "1 byte" : fmt::format("{} bytes", rest), after);
+  return fmt::format("{}: passed over {} after {}", file.path, counted(rest, "byte"), after);
 }
 
 bool read_number(std::string_view word, double& number) {

@@ -139,8 +139,7 @@ void check_behaviour(const Setup& setup, const BehaviourSpec& b) {
 
 // Of the line that the markers are nearest to: root of the sum of the squares of their distances from it, m.
 double off_the_line(const std::vector<Vec3>& markers) {
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& marker : markers) middle += marker / static_cast<double>(markers.size());
+  const Vec3 middle = middle_of(markers);
   Mat3 scatter = Mat3::Zero();
   for (const Vec3& marker : markers) scatter += (marker - middle) * (marker - middle).transpose();
   const Vec3 along = Eigen::SelfAdjointEigenSolver<Mat3>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
@@ -156,12 +155,11 @@ void check_tool(const Setup& setup, const ToolSpec& tool) {
   if (tool.tip_shape != TipShape::sphere)
     check_unit(setup, fmt::format("tool.{}.tip_axis", tool.name), tool.tip_axis);
   const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
-  if (tool.markers.size() < 3) {
-    fail(
-        setup, key,
-        fmt::format(
-            "tool {} has {} markers; expected at least 3, or its pose is not known; add some to 'markers_mm'",
-            quoted(tool.name), tool.markers.size()));
+  if (tool.markers.size() < kFewestMarkers) {
+    fail(setup, key,
+         fmt::format("tool {} has {} markers; expected at least {}, or its pose is not known; add some to "
+                     "'markers_mm'",
+                     quoted(tool.name), tool.markers.size(), kFewestMarkers));
   }
   if (tool.markers.size() > kMostMarkers)
     fail(setup, key,

@@ -42,13 +42,9 @@ MeshSize size_of(const Mesh& mesh) {
   size.faces = mesh.triangles.size();
   if (mesh.vertices.empty()) return size;
   const auto at = [&](std::int32_t i) { return Vec3(mesh.vertices[static_cast<std::size_t>(i)].data()); };
-  Vec3 low = at(0), high = at(0);
-  for (const auto& vertex : mesh.vertices) {
-    low = low.cwiseMin(Vec3(vertex.data()));
-    high = high.cwiseMax(Vec3(vertex.data()));
-  }
-  size.extent = high - low;
-  size.middle = 0.5 * (low + high);
+  const MeshBox box(mesh);
+  size.extent = box.extent();
+  size.middle = 0.5 * (box.low + box.high);
   for (const auto& t : mesh.triangles) {
     const Vec3 a = at(t[0]) - size.middle, b = at(t[1]) - size.middle, c = at(t[2]) - size.middle;
     size.volume += a.dot(b.cross(c)) / 6.0;

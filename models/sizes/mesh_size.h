@@ -2,12 +2,26 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "core/frames.h"
 #include "core/mesh/mesh.h"
 
 namespace enc::models {
+
+// The box around its vertices, in the mesh's own axes, m. Without a vertex low is above high.
+struct MeshBox {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  explicit MeshBox(const Mesh& mesh) {
+    for (const auto& vertex : mesh.vertices) {
+      low = low.cwiseMin(Vec3(vertex.data()));
+      high = high.cwiseMax(Vec3(vertex.data()));
+    }
+  }
+  [[nodiscard]] Vec3 extent() const { return high - low; }
+  [[nodiscard]] double size() const { return extent().maxCoeff(); }
+};
 
 struct MeshSize {
   Vec3 extent = Vec3::Zero();  // of the box around it, m

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/track/markers.h"
 #include "core/world/object.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_check.h"
@@ -37,11 +38,6 @@ constexpr auto kMeshUnits =
     std::to_array<Factor>({{1e-3, "mm"}, {1e-2, "cm"}, {0.0254, "inches"}, {1e3, "km"}});
 constexpr auto kKeyUnits = std::to_array<Factor>({{1e3, "m"}, {10.0, "cm"}, {1e-3, "um"}});
 
-Vec3 middle_of(const std::vector<Vec3>& markers) {
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& marker : markers) middle += marker / static_cast<double>(markers.size());
-  return middle;
-}
 double lever_of(const ToolSpec& tool, double factor = 1.0) {
   return (factor * tool.tip - middle_of(tool.markers)).norm();
 }
@@ -52,14 +48,14 @@ double span_of(const ToolSpec& tool) {
   return span;
 }
 
-MeshSize size_in_world(const ObjectSpec& object) {
+Mesh in_world(const ObjectSpec& object) {
   const Pose<'W', 'O'> X_WO = place_of(object);
   Mesh mesh = *object.surface;
   for (auto& vertex : mesh.vertices) {
     const Vec3 at = (X_WO * Point<'O'>(Vec3(object.scale * Vec3(vertex.data())))).e();
     vertex = {at.x(), at.y(), at.z()};
   }
-  return size_of(mesh);
+  return mesh;
 }
 
 // "is the file in mm? then write scale = 0.001": the units that would give a mesh a usual size; empty: none.
@@ -110,7 +106,7 @@ void note_tool(Setup& setup, const ToolSpec& tool) {
 }
 
 void note_mesh(Setup& setup, const ObjectSpec& object) {
-  const Vec3 extent = size_in_world(object).extent;
+  const Vec3 extent = MeshBox(in_world(object)).extent();
   if (kObject.has(extent.maxCoeff())) return;
   const std::string advice = scale_advice(object, extent.maxCoeff());
   warn(setup, "object." + object.name + ".mesh",
@@ -147,7 +143,7 @@ std::string sizes_text(const Setup& setup) {
   }
   for (const ObjectSpec& object : setup.scene.objects) {
     if (object.shape != ShapeKind::mesh) continue;
-    const MeshSize size = size_in_world(object);
+    const MeshSize size = size_of(in_world(object));
     add(fmt::format("mesh {} ({}): {}, middle at {} of W, volume {}, {} faces", quoted(object.name),
                     printable(object.mesh), extent_text(size.extent), place_text(size.middle),
                     volume_text(size.volume), size.faces));
@@ -167,7 +163,7 @@ std::string mesh_advice(const Setup& setup, const std::string& key) {
   };
   const auto object = std::find_if(objects.begin(), objects.end(), is_meant);
   if (object == objects.end() || object->shape != ShapeKind::mesh) return {};
-  const MeshSize size = size_in_world(*object);
+  const MeshSize size = size_of(in_world(*object));
   const double longest = size.extent.maxCoeff();
   std::string advice;
   if (!kObject.has(longest)) advice = scale_advice(*object, longest);

@@ -62,8 +62,9 @@ void TrackerPlant::expose(Time at, std::int32_t tool, const Pose<'W', 'T'>& X_WT
   if (truth_.turn_noise > 0.0)  // else nothing is drawn, and other noise stays what it is
     turned = rotation_xyz(truth_.turn_noise * state_.noise.normal3()) * turned;
   const Pose<'W', 'T'> shifted(turned, Vec3(X_WT.p() + error));
-  const bool has_markers = static_cast<std::size_t>(tool) < markers_.size() &&
-                           markers_[static_cast<std::size_t>(tool)].size() >= 3;  // a finger has none
+  const bool has_markers =
+      static_cast<std::size_t>(tool) < markers_.size() &&
+      markers_[static_cast<std::size_t>(tool)].size() >= kFewestMarkers;  // a finger has none
   const TrackedTool seen = has_markers && !std::isnan(truth_.marker_noise)
                                ? by_markers(tool, shifted)
                                : TrackedTool{tool, X_CW_ * shifted};
@@ -139,7 +140,7 @@ bool TrackerPlant::poll(Stamped<TrackedTool>& newest) noexcept {
 }
 
 TrackerTruth with_tool_known(TrackerTruth truth, std::span<const Vec3> markers, const Vec3& tip) {
-  if (!std::isnan(truth.marker_noise) && markers.size() >= 3) {
+  if (!std::isnan(truth.marker_noise) && markers.size() >= kFewestMarkers) {
     const Vec3 squares = truth.marker_noise * truth.marker_noise * point_covariance(markers, tip).diagonal();
     truth.noise = (truth.noise.cwiseAbs2() + squares).cwiseSqrt();
   }

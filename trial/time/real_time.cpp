@@ -64,7 +64,6 @@ std::string real_time_refusal(int error, const RealTimeRights& rights) {
 
 RealTime::RealTime(bool wanted) {
   if (!wanted) return;
-  const RealTimeRights rights = real_time_rights();
   sched_param before{};
   const bool known = pthread_getschedparam(pthread_self(), &policy_before_, &before) == 0;
   priority_before_ = before.sched_priority;
@@ -73,6 +72,7 @@ RealTime::RealTime(bool wanted) {
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &now);
   first_ = known && error == 0;
   locked_ = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+  const RealTimeRights rights = first_ && locked_ ? RealTimeRights{} : real_time_rights();
   if (!first_) refusal_ = real_time_refusal(error, rights);
   words_ = first_ ? fmt::format("SCHED_FIFO {}", kPriority) : fmt::format("not first ({})", refusal_);
   words_ += locked_            ? ", memory locked"

@@ -75,8 +75,8 @@ void IgtlTracker::first_answer() {
   for (Duration until = net::steady_now() + from_seconds(settings_.timeout);;) {
     Message answer;
     const std::span<const std::byte> bytes = line_.next();
-    const bool came = !bytes.empty() && read(bytes, answer) == Wrong::nothing;
-    if (!bytes.empty() && !came) why = read(bytes, answer);
+    if (!bytes.empty()) why = read(bytes, answer);
+    const bool came = !bytes.empty() && why == Wrong::nothing;
     if (came && answer.type.view() == "STATUS") {
       fake_ = answer.device.view() == kFakeName;
       return;

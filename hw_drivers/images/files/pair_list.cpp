@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "hw_drivers/images/files/pair_names.h"
 
 namespace enc::images {
@@ -56,7 +57,7 @@ std::string words_for(const PairList& list, const std::string& folder, std::size
                           ? fmt::format("{} with {}", short_name(first.left), short_name(first.right))
                           : fmt::format("the left and the right half of {}", short_name(first.left));
   if (list.pairs.size() > 1) words += fmt::format(", and {} more", list.pairs.size() - 1);
-  if (others > 0) words += fmt::format("; {} image{} of no side left aside", others, others == 1 ? "" : "s");
+  if (others > 0) words += fmt::format("; {} of no side left aside", counted(others, "image"));
   return words;
 }
 

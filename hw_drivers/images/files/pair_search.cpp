@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "hw_drivers/images/files/image_file.h"
 #include "hw_drivers/images/files/pair_names.h"
 
@@ -278,12 +279,11 @@ std::string contents_of(const fs::path& folder) {
   constexpr std::size_t kMost = 6;
   std::vector<std::string> words;
   if (const std::size_t images = found_in(folder).size(); images > 0)
-    words.push_back(fmt::format("{} image{} whose names say no side", images, images == 1 ? "" : "s"));
+    words.push_back(fmt::format("{} whose names say no side", counted(images, "image")));
   std::vector<std::string> folders;
   for (const EyeFolder& in : eye_folders(folder))
     if (folders.size() < kMost)
-      folders.push_back(
-          fmt::format("{} ({} image{})", in.name, in.images.size(), in.images.size() == 1 ? "" : "s"));
+      folders.push_back(fmt::format("{} ({})", in.name, counted(in.images.size(), "image")));
   if (!folders.empty())
     words.push_back(fmt::format("the folder{} {}", folders.size() == 1 ? "" : "s", fmt::join(folders, ", ")));
   return fmt::format("{}", fmt::join(words, " and "));
