@@ -107,24 +107,29 @@ void judge_overlay(const ArmPlay& play, const models::Setup& setup, const Augmen
     corner[i] = {there.column, there.row, 0.0};
   }
   const double turn = (corner[1] - corner[0]).cross(corner[2] - corner[0]).z() > 0.0 ? 1.0 : -1.0;
-  std::array<double, 4> pixels{};
+  std::array<double, 8> pixels{};  // two halves of each edge: a turned edge is off to both sides
   const Image &with = view.augmented(), &without = view.removed();
   for (int y = 0; y < with.height; ++y)
     for (int x = 0; x < with.width; ++x) {
       double inside = HUGE_VAL;  // px to the nearest edge; negative outside
-      std::size_t nearest = 0;
+      std::size_t nearest = 0, half = 0;
       for (std::size_t i = 0; i < 4; ++i) {
-        const Vec3 along = (corner[(i + 1) % 4] - corner[i]).normalized();
-        const double distance = turn * along.cross(Vec3(x, y, 0.0) - corner[i]).z();
-        if (distance < inside) inside = distance, nearest = i;
+        const Vec3 edge = corner[(i + 1) % 4] - corner[i], way = Vec3(x, y, 0.0) - corner[i];
+        const double distance = turn * edge.normalized().cross(way).z();
+        if (!(distance < inside)) continue;
+        inside = distance;
+        nearest = i;
+        half = edge.dot(way) > 0.5 * edge.squaredNorm() ? 1 : 0;
       }
       const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(with.width) +
                                   static_cast<std::size_t>(x));
       const bool drawn = !std::equal(&with.rgb[at], &with.rgb[at] + 3, &without.rgb[at]);
-      if (drawn != (inside >= 0.0)) pixels[nearest] += drawn ? 1.0 : -1.0;
+      if (drawn != (inside >= 0.0)) pixels[2 * nearest + half] += drawn ? 1.0 : -1.0;
     }
-  for (std::size_t i = 0; i < 4; ++i)
-    removal.overlay.push_back(std::abs(pixels[i]) / (corner[(i + 1) % 4] - corner[i]).norm());
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double half = 0.5 * (corner[(i + 1) % 4] - corner[i]).norm();
+    removal.overlay.push_back(0.5 * (std::abs(pixels[2 * i]) + std::abs(pixels[2 * i + 1])) / half);
+  }
 }
 
 // Of the skin that shows the cap where nothing is before it: what the arm hides.
