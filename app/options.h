@@ -25,6 +25,7 @@ struct RunOptions : SceneOptions {
   std::optional<double> seconds;  // length; none: until the user or the probe is done
   std::string record;
   std::string frames;  // folder in which what its camera sees is kept
+  std::string hand;    // record whose steered hand moves in place of the scene's own; empty: none
   bool json = false;
   bool armed = false;
   bool lockstep = false;
@@ -36,10 +37,10 @@ struct CheckOptions : SceneOptions {
   bool advise = false;    // and how fine the twin need step, for
   std::optional<double> error_N, error_um;
 };
-struct ViewOptions : SceneOptions {
-  std::string shot;
-  std::optional<double> at;  // s; none: in the middle of the first hold
-  bool close_up = false, force = false;
+struct ViewOptions : RunOptions {  // of a window: a run
+  std::string shot;                // file; empty: a window
+  std::optional<double> at;        // s; none: in the middle of the first hold
+  bool close_up = false;
   std::string through_camera;  // "raw", "removed", "augmented"; empty: the world from beside
 };
 struct ReplayOptions {

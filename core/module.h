@@ -24,6 +24,7 @@ struct ModuleInfo {
   const char* name = "";  // "view", "sample"
   const DriverModule* driver = nullptr;
   const void* view = nullptr;         // sim::ViewModule, of the view module only
+  const void* window = nullptr;       // sim::WindowModule, of the window module only
   const void* vision = nullptr;       // VisionModule, of the vision module only
   const void* camera = nullptr;       // sim::CameraModule, of the camera module only
   const void* frames = nullptr;       // FrameFiles, of the images module only

@@ -242,6 +242,10 @@ void World::observe(Time t) {
   if (user_->turns()) q_WT_ = pointed(in_hand_->shaft_T, user_->shaft(seconds(t.time_since_epoch())).e());
 }
 
+void World::steer(const Point<'W'>& place) {
+  if (user_) user_->steer(place, truth_.tool_tip);
+}
+
 Vec<'W'> World::pointing() const {
   if (!user_) return Vec<'W'>(0, 0, -1);
   return Vec<'W'>(Vec3(-user_->shaft(seconds(truth_.t.time_since_epoch())).e().normalized()));

@@ -1,5 +1,4 @@
-// The twin: one MuJoCo world with the plants of the devices that a scene names. It owns time; the roles are
-// views on it.
+// The twin: one MuJoCo world with the plants of a scene's devices. It owns time; the roles are views on it.
 #pragma once
 
 #include <cstddef>
@@ -40,6 +39,7 @@ class World {
   Tick advance();
 
   [[nodiscard]] const Truth& truth() const { return truth_; }
+  void steer(const Point<'W'>& place);  // the hand's tip; see User::steer; ignored without a hand
   [[nodiscard]] bool user_done() const { return !user_ || user_->done(); }
   // s, of what the user, the probe, the pusher or the travel does; 10 where nobody does anything.
   [[nodiscard]] double programme_time() const { return programme_time_; }

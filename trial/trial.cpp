@@ -207,6 +207,8 @@ bool Trial::tick() {
     gate_.halt(rig_, now_.t);
   else if (hand == Hand::resume)
     gate_.resume();
+  if (options_.steer && world_)
+    if (const auto place = options_.steer(result_.ticks)) world_->steer(*place);
   now_ = rig_.clock->next();
   gate_.unmark(in_);
   rig_.read(now_.t, in_);

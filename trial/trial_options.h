@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/devices/stereo_camera.h"
@@ -47,6 +48,9 @@ struct TrialOptions {
   bool certify = false;          // computes certificates(), whether or not a machine is armed
   std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
   std::function<Hand()> hand{};  // asked before each tick
+  // Likewise, with the tick's index: where in W the tip of the tool is wanted by somebody who steers the
+  // twin's hand; nothing: no news.
+  std::function<std::optional<Point<'W'>>(std::int64_t)> steer{};
   // Called once, when all that can be computed beforehand is: before a device is connected or a file is made.
   std::function<void()> begins{};
   // Hooks, in the order of a tick; an empty one is not called.

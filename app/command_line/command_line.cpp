@@ -50,6 +50,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
       ->add_option("--frames", run_options.frames,
                    "keep what the scene's camera sees in this new folder, as PNG images")
       ->check(unnamed);
+  run_command
+      ->add_option("--hand", run_options.hand,
+                   "record of a view: the hand that was steered there moves, for as long as it did")
+      ->check(unnamed);
   run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
   device_options(run_command, run_options);
   force_option(run_command, run_options.force);
@@ -146,9 +150,17 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   export_command->callback([&] { code = export_record(export_options); });
 
   ViewOptions view_options;
-  CLI::App* view_command = app.add_subcommand("view", "picture of a scene at a moment");
+  CLI::App* view_command = app.add_subcommand(
+      "view", "run a scene in a window, where the mouse is the hand; or draw it into a file");
   scene_options(view_command, view_options);
-  view_command->add_option("--shot", view_options.shot, "PNG file to write")->check(unnamed);
+  CLI::Option* view_record =
+      view_command
+          ->add_option("--record", view_options.record,
+                       "of a window: write inputs and outputs of every tick, and the hand, to this file")
+          ->check(unnamed);
+  view_command->add_option("--shot", view_options.shot, "PNG file to write; no window is opened")
+      ->check(unnamed)
+      ->excludes(view_record);
   view_command->add_option(
       "--at-s", view_options.at,
       "moment, s of experiment; default: the first press at its deepest, or 4 s through the camera");
@@ -160,6 +172,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
                    "arm; or augmented, with the virtual objects in its place")
       ->check(CLI::IsMember({"raw", "removed", "augmented"}))
       ->excludes(close_up);
+  device_options(view_command, view_options);
   force_option(view_command, view_options.force);
   view_command->callback([&] { code = view(view_options); });
 

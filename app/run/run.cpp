@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "app/process.h"
 #include "app/run/console.h"
 #include "app/run/run_report.h"
+#include "app/run/run_window.h"
 #include "app/run/verdict.h"
 #include "app/stability_text.h"
 #include "core/error.h"
@@ -23,6 +25,7 @@
 #include "trial/operator/operator.h"
 #include "trial/provenance/provenance.h"
 #include "trial/run_measures.h"
+#include "trial/steered/steering_log.h"
 #include "trial/time/record_thread.h"
 #include "trial/trial.h"
 
@@ -153,13 +156,84 @@ class Shown {
   std::optional<Console> console_;
 };
 
+// Whoever looks on and acts beside the terminal is asked first.
+void join(const RunWindow& window, trial::TrialOptions& options) {
+  if (window.watch)
+    options.watch = [counts = std::move(options.watch), &window](const trial::Glance& glance) {
+      counts(glance);
+      window.watch(glance);
+    };
+  if (window.stop)
+    options.stop = [asked = std::move(options.stop), &window] {
+      do
+        if (asked() || window.stop()) return true;
+      while (window.waits && window.waits());
+      return false;
+    };
+  if (window.hand)
+    options.hand = [asked = std::move(options.hand), &window] {
+      const trial::Hand hand = asked();
+      return hand == trial::Hand::none ? window.hand() : hand;
+    };
+  options.draw_all = true;
+  if (std::isnan(options.seconds)) options.seconds = std::numeric_limits<double>::infinity();
+}
+
+// The hand of a window or of a record, and what of it the record of this run keeps.
+class Steering {
+ public:
+  Steering(const RunOptions& options, const RunWindow* window, trial::TrialOptions& how) {
+    if (!options.hand.empty()) {
+      trial::SteeredRun played = trial::steered_run(options.hand);
+      if (!options.seconds) how.seconds = played.duration;
+      played_ = std::move(played.log);
+      how.steer = [this](std::int64_t tick) { return kept(tick, played_.at(tick)); };
+    } else if (window != nullptr && window->steer) {
+      how.steer = [this, window](std::int64_t tick) { return kept(tick, window->steer(tick)); };
+    }
+  }
+  Steering(const Steering&) = delete;
+  Steering& operator=(const Steering&) = delete;
+  [[nodiscard]] const trial::SteeringLog& log() const { return log_; }
+
+ private:
+  std::optional<Point<'W'>> kept(std::int64_t tick, const std::optional<Point<'W'>>& place) {
+    if (place) log_.add(tick, *place);
+    return place;
+  }
+  trial::SteeringLog played_, log_;
+};
+
+// Whoever watches holds the trial from here on.
+struct Watched {
+  Watched(const RunWindow* by, trial::Trial& trial) : window(by) {
+    if (window != nullptr && window->begins) window->begins(trial);
+  }
+  ~Watched() {
+    if (window != nullptr && window->ends) window->ends();
+  }
+  Watched(const Watched&) = delete;
+  Watched& operator=(const Watched&) = delete;
+  const RunWindow* window;
+};
+
+RecordTexts end_texts(const std::string& ledger, const trial::SteeringLog& hand) {
+  RecordTexts texts;
+  if (!ledger.empty()) texts["ledger"] = ledger;
+  if (!hand.empty()) texts["hand"] = hand.text();
+  return texts;
+}
+
 }  // namespace
 
-int run(const RunOptions& options) {
+int run(const RunOptions& options) { return run(options, nullptr); }
+
+int run(const RunOptions& options, const RunWindow* window) {
   using trial::Answer;
   using trial::Operator;
   Operator person;
-  const models::Setup setup = load_setup(options);
+  models::Setup setup = load_setup(options);
+  if (window != nullptr && window->adapts) window->adapts(setup);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
     throw Error("--for-s: expected a positive number of seconds below a million");
   const bool moves = options.armed && trial::moves_device(setup);
@@ -168,10 +242,12 @@ int run(const RunOptions& options) {
   if (attended) person.stops_when_suspended();
   trial::TrialOptions how = trial_options(options, person);
   trial::RunMeasures measured(setup, how);
+  if (window != nullptr) join(*window, how);
+  const Steering steering(options, window, how);
   std::optional<Shown> shown;
   if (moves) shown.emplace(how, person);
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal && !shown) how.progress = show_progress;
+  if (terminal && !shown && window == nullptr) how.progress = show_progress;
   trial::Trial trial(setup, how);  // everything that can be refused is refused here, before a record is begun
   print_notes(setup.notes);        // of a scene that is not refused
   print_notes(beyond(setup, trial.certificates()));
@@ -188,11 +264,14 @@ int run(const RunOptions& options) {
   trial.record_to(record ? &record->writer : nullptr);
   person.listen();
   if (shown) shown->begin(setup);
+  const Watched watched(window, trial);
   const double started = cpu_seconds();
   const trial::TrialResult result = trial.run();
   if (record) {
-    if (const auto contacts = measured.ledger.contacts(); !contacts.empty())
-      record->writer.end_with({{"ledger", trial::ledger_table(contacts)}});
+    const auto contacts = measured.ledger.contacts();
+    const RecordTexts texts =
+        end_texts(contacts.empty() ? std::string() : trial::ledger_table(contacts), steering.log());
+    if (!texts.empty()) record->writer.end_with(texts);
     record->end();  // before anything is printed, which a terminal may keep waiting
   }
   person.end_listening();

@@ -76,31 +76,29 @@ mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, doubl
   return add_seen(spec, object, vertices, triangles);
 }
 
-void shift_seen(Physics& physics, std::size_t object, const Vec<'W'>& shift) {
-  const int geom = mj_name2id(physics.model(), mjOBJ_GEOM, seen_name(object).c_str());
+void shift_seen(const mjModel* model, mjData* data, std::size_t object, const Vec<'W'>& shift) {
+  const int geom = mj_name2id(model, mjOBJ_GEOM, seen_name(object).c_str());
   if (geom < 0) return;
-  for (int k = 0; k < 3; ++k)
-    physics.data()->geom_xpos[3 * geom + k] += shift.xyz[static_cast<std::size_t>(k)];
+  for (int k = 0; k < 3; ++k) data->geom_xpos[3 * geom + k] += shift.xyz[static_cast<std::size_t>(k)];
 }
 
-void dent_seen(Physics& physics, const Scene& scene, std::size_t object, const Tip<'W'>& tip) {
-  mjModel* m = physics.model();
+int dent_seen(mjModel* m, const mjData* data, const Scene& scene, std::size_t object, const Tip<'W'>& tip) {
   const int geom = mj_name2id(m, mjOBJ_GEOM, seen_name(object).c_str());
-  if (geom < 0 || m->geom_type[geom] != mjGEOM_MESH) return;
+  if (geom < 0 || m->geom_type[geom] != mjGEOM_MESH) return -1;
   const Object& seen = scene.objects[object];
   const Pose<'O', 'W'> X_OW = seen.X_WO.inverse();
   const DentField<double> field =
       dent_field(seen.surface, dent_of(seen.surface, static_cast<std::int32_t>(object), X_OW * tip));
   // MuJoCo keeps a mesh in its own axes of inertia.
   using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Vec3 p = Vec3::Map(physics.data()->geom_xpos + static_cast<std::ptrdiff_t>(3) * geom);
-  const Mat3 turned = RowMajor::Map(physics.data()->geom_xmat + static_cast<std::ptrdiff_t>(9) * geom);
+  const Vec3 p = Vec3::Map(data->geom_xpos + static_cast<std::ptrdiff_t>(3) * geom);
+  const Mat3 turned = RowMajor::Map(data->geom_xmat + static_cast<std::ptrdiff_t>(9) * geom);
   const Pose<'O', 'W'> X_OM(X_OW.q() * Quat(turned), Vec3(X_OW.q() * p + X_OW.p()));
   const Pose<'W', 'O'> X_MO = X_OM.inverse();
   const int mesh = m->geom_dataid[geom];
   float* vertex = m->mesh_vert + static_cast<std::ptrdiff_t>(3) * m->mesh_vertadr[mesh];
   float* normal = m->mesh_normal + static_cast<std::ptrdiff_t>(3) * m->mesh_normaladr[mesh];
-  if (m->mesh_normalnum[mesh] != m->mesh_vertnum[mesh]) return;
+  if (m->mesh_normalnum[mesh] != m->mesh_vertnum[mesh]) return -1;
   for (int i = 0; i < m->mesh_vertnum[mesh]; ++i, vertex += 3, normal += 3) {
     const Displaced to = displaced(field, X_OM * Point<'W'>(vertex[0], vertex[1], vertex[2]),
                                    X_OM * Vec<'W'>(Vec3(normal[0], normal[1], normal[2]).normalized()));
@@ -111,6 +109,7 @@ void dent_seen(Physics& physics, const Scene& scene, std::size_t object, const T
       normal[k] = static_cast<float>(n.xyz[static_cast<std::size_t>(k)]);
     }
   }
+  return mesh;
 }
 
 }  // namespace enc::sim

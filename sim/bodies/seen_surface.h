@@ -15,10 +15,10 @@ mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, doubl
 [[nodiscard]] std::string seen_name(std::size_t object);
 
 // In the picture alone, until the physics steps again.
-void shift_seen(Physics& physics, std::size_t object, const Vec<'W'>& shift);
+void shift_seen(const mjModel* model, mjData* data, std::size_t object, const Vec<'W'>& shift);
 
-// Displaces vertices and normals of that mesh by a tip. Does nothing where the object has no such mesh. To be
-// done once, and before the model is given to a renderer.
-void dent_seen(Physics& physics, const Scene& scene, std::size_t object, const Tip<'W'>& tip);
+// Displaces vertices and normals of that mesh by a tip. Gives the index of the mesh; -1 where the object has
+// none, or one that cannot be displaced. To be done once, before the model is given to a renderer.
+int dent_seen(mjModel* m, const mjData* data, const Scene& scene, std::size_t object, const Tip<'W'>& tip);
 
 }  // namespace enc::sim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.h"
@@ -51,7 +52,11 @@ void draw_band(const HandTruth& hand, Stream draws, User::State& state) {
 }  // namespace
 
 User::User(const SceneSpec& scene, const Scene& prepared, const HandTruth& hand, std::uint64_t seed)
-    : spec_(*scene.user), hand_(hand), tool_(held_tool(scene)), press_(enc::press_point(scene, spec_)) {
+    : spec_(*scene.user),
+      scene_(prepared),
+      hand_(hand),
+      tool_(held_tool(scene)),
+      press_(enc::press_point(scene, spec_)) {
   const bool drawn = spec_.kind != UserKind::press_release;
   const Vec3 n = press_.normal.e();
   const Vec3 side = Vec3::UnitX() - n * n.x();
@@ -83,6 +88,7 @@ double User::wanted_depth() const {
 }
 
 bool User::done() const {
+  if (state_.steered.on) return false;
   if (session_) return state_.session.finished;
   return state_.press >=
          static_cast<std::int32_t>(spec_.approach.size() * static_cast<std::size_t>(spec_.repeats));
@@ -240,8 +246,51 @@ Vec3 User::drift(double t) {
 // Of a step h from t on.
 Vec3 User::unsteadiness(double t, double h) { return tremor(t, h) + drift(t + h); }
 
+Vec3 User::grip(const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity) const {
+  return hand_.grip_stiffness * (state_.hand - tool_tip).e() +
+         hand_.grip_damping * (state_.hand_velocity - tool_velocity).e();
+}
+
+Vec3 User::arm(const HandPlan& plan, const Vec3& intent) const {
+  return hand_.stiffness * (intent - state_.hand.e()) +
+         hand_.damping * (plan.velocity - state_.hand_velocity.e()) + hand_.mass * plan.acceleration;
+}
+
+void User::move(double h, const Vec3& arm, const Vec3& grip) {
+  const Vec3 velocity = state_.hand_velocity.e() + h * (arm - grip) / hand_.mass;
+  state_.hand_velocity = Vec<'W'>(velocity);
+  state_.hand = state_.hand + Vec<'W'>(Vec3(h * velocity));
+}
+
+// Of the nearest object.
+Vec<'W'> User::normal_at(const Point<'W'>& tip) const {
+  Vec<'W'> normal(0, 0, 1);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Object& object : scene_.objects) {
+    const Nearest near = object.surface.nearest(object.X_WO.inverse() * tip);
+    if (!(near.distance < least)) continue;
+    least = near.distance;
+    normal = object.X_WO * near.normal;
+  }
+  return normal;
+}
+
+Vec<'W'> User::act_steered(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
+                           bool touching) {
+  if (touching && !state_.steered.touched) state_.steered.touch(tool_tip, normal_at(tool_tip));
+  const HandPlan p = state_.steered.advance(h, tool_tip, touching, hand_.stiffness, hand_.integral_time);
+  const Vec3 gripped = grip(tool_tip, tool_velocity);
+  Vec3 pulled = arm(p, p.position + unsteadiness(t, h));
+  const double most = touching ? std::min(hand_.strength, SteeredPlan::kStrongest) : hand_.strength;
+  pulled *= std::min(1.0, most / std::max(1e-9, pulled.norm()));
+  move(h, pulled, gripped);
+  state_.touching = touching;
+  return Vec<'W'>(gripped);
+}
+
 Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
                    bool touching) {
+  if (state_.steered.on) return act_steered(t, h, tool_tip, tool_velocity, touching);
   const HandPlan p = planned(t);
   const Vec<'W'>& normal = session_ ? state_.session.press.at.normal : press_.normal;
   const Point<'W'>& touch = session_ ? state_.session.press.touch : touch_;
@@ -262,10 +311,8 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
   const double expected = pressing ? p.load * std::max(0.0, p.depth) * stiffness / series : 0.0;
   const Vec3 intent = p.position + unsteadiness(t, h) - n * (expected + state_.integral);
 
-  const Vec3 grip = hand_.grip_stiffness * (state_.hand - tool_tip).e() +
-                    hand_.grip_damping * (state_.hand_velocity - tool_velocity).e();
-  Vec3 arm = hand_.stiffness * (intent - state_.hand.e()) +
-             hand_.damping * (p.velocity - state_.hand_velocity.e()) + hand_.mass * p.acceleration;
+  const Vec3 gripped = grip(tool_tip, tool_velocity);
+  Vec3 pulled = arm(p, intent);
   if (pushing) {
     const double since = t - state_.phase_start;
     const double share = state_.phase == Phase::press ? MinimumJerk(since / spec_.press_time).x
@@ -274,19 +321,18 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
                              : 1.0;
     // Along the normal the arm is no longer a spring to a place but a force, damped.
     const double free = std::min(1.0, 4.0 * share);
-    arm -= n * (free * (n.dot(arm) + hand_.damping * n.dot(state_.hand_velocity.e())) + spec_.push * share);
+    pulled -=
+        n * (free * (n.dot(pulled) + hand_.damping * n.dot(state_.hand_velocity.e())) + spec_.push * share);
   }
   // Who pushes with all strength does not push harder because the depth is not reached.
-  const double effort = arm.norm();
+  const double effort = pulled.norm();
   if (effort > hand_.strength) {
-    arm *= hand_.strength / effort;
+    pulled *= hand_.strength / effort;
     state_.integral = before;
   }
-  const Vec3 velocity = state_.hand_velocity.e() + h * (arm - grip) / hand_.mass;
-  state_.hand_velocity = Vec<'W'>(velocity);
-  state_.hand = state_.hand + Vec<'W'>(Vec3(h * velocity));
+  move(h, pulled, gripped);
   state_.touching = touching;
-  return Vec<'W'>(grip);
+  return Vec<'W'>(gripped);
 }
 
 }  // namespace enc::sim

@@ -12,6 +12,7 @@
 #include "core/world/scene.h"
 #include "sim/hand/hand_plan.h"
 #include "sim/hand/session_plan.h"
+#include "sim/hand/steered_plan.h"
 #include "sim/random.h"
 #include "sim/truth.h"
 #include "sim/twin_spec.h"
@@ -35,6 +36,7 @@ class User {
     Vec<'W'> drift_from = Vec<'W'>::zero(),
              drift = Vec<'W'>::zero();  // the last but one that was drawn, and it
     SessionPlan::State session;
+    SteeredPlan steered;  // on: in place of all that is planned
   };
 
   // `prepared` must outlive it.
@@ -44,7 +46,9 @@ class User {
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] std::int32_t press() const { return session_ ? state_.session.count : state_.press; }
   [[nodiscard]] std::int32_t object() const { return session_ ? state_.session.press.object : object_; }
-  [[nodiscard]] Phase phase() const { return session_ ? state_.session.phase : state_.phase; }
+  [[nodiscard]] Phase phase() const {
+    return state_.steered.on ? Phase::wait : session_ ? state_.session.phase : state_.phase;
+  }
   [[nodiscard]] bool aborted() const { return session_ && state_.session.press.aborted; }
   // The tool in the hand, index in the scene; -1: none. The tool that it may change to, -1: none, and where
   // that lies until then.
@@ -56,8 +60,10 @@ class User {
   [[nodiscard]] Vec<'W'> shaft(double t) const {
     return session_ ? session_->shaft(t, state_.session) : press_.normal;
   }
+  // From here on the hand goes where it is told, and plans nothing by itself. `place`: of the tip's centre.
+  void steer(const Point<'W'>& place, const Point<'W'>& tip) { state_.steered.steer(place, tip); }
   void restore(const State& state) { state_ = state; }
-  [[nodiscard]] bool done() const;  // every press made, tool back and at rest
+  [[nodiscard]] bool done() const;  // every press made, tool back and at rest; never of one that is steered
   [[nodiscard]] double approach_speed() const;
   [[nodiscard]] double duration() const;  // s, of the whole programme
 
@@ -75,8 +81,16 @@ class User {
   void next_phase(double t);
   [[nodiscard]] Vec3 drift(double t);
   Vec3 unsteadiness(double t, double h);
+  [[nodiscard]] Vec3 grip(const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity) const;
+  [[nodiscard]] Vec3 arm(const HandPlan& plan, const Vec3& intent) const;
+  void move(double h, const Vec3& arm, const Vec3& grip);
+  Vec<'W'> act_steered(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
+                       bool touching);
+
+  [[nodiscard]] Vec<'W'> normal_at(const Point<'W'>& tip) const;
 
   UserSpec spec_;
+  const Scene& scene_;  // prepared
   HandTruth hand_;
   std::int32_t tool_;  // index in the scene
   PressPoint press_;

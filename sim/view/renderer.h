@@ -1,4 +1,5 @@
-// MuJoCo's classic renderer and its scene, drawing off the screen into the OpenGL context that is current.
+// MuJoCo's classic renderer and its scene, drawing into the OpenGL context that is current: into its window,
+// or off the screen.
 #pragma once
 
 #include "sim/bodies/mujoco.h"
@@ -10,12 +11,17 @@ struct Renderer {
   mjvScene scene;
   mjrContext context;
 
-  // `room`: of geoms, most. Pixels.
-  Renderer(const mjModel* model, int room, mjtFontScale letters, int width, int height) {
+  // Into the window. `room`: of geoms, most.
+  Renderer(const mjModel* model, int room, mjtFontScale letters) {
     mjv_defaultScene(&scene);
     mjr_defaultContext(&context);
     mjv_makeScene(model, &scene, room);
     mjr_makeContext(model, &context, letters);
+    mjr_setBuffer(mjFB_WINDOW, &context);
+  }
+  // Off the screen. Pixels.
+  Renderer(const mjModel* model, int room, mjtFontScale letters, int width, int height)
+      : Renderer(model, room, letters) {
     mjr_resizeOffscreen(width, height, &context);
     mjr_setBuffer(mjFB_OFFSCREEN, &context);
   }

@@ -1,8 +1,10 @@
-// The view module: draws a picture of a simulated world off screen, as the bytes of a PNG. It is a shared
-// object of its own, so that nothing but `encounter view` maps OpenGL.
+// What is drawn of a simulated world, and the view module, which draws it off screen, as the bytes of a PNG.
+// The window module draws the same (window.h). Both are shared objects of their own, so that nothing but
+// `encounter view` maps OpenGL.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,18 @@ struct ViewLabel {  // written in the margin, with a line to what it names
   bool left = false;  // margin
 };
 
+// A strip chart in the corner of a window.
+struct ViewLine {
+  std::string name;
+  std::vector<float> xy;  // x, y, x, y...; at most 1000 points are drawn
+};
+struct ViewChart {
+  std::string title;
+  std::vector<ViewLine> lines;
+  std::array<float, 2> across{0, 1};  // of x
+  std::array<float, 2> up{0, 0};      // of y, at least
+};
+
 struct Camera {
   double azimuth = 2.0;     // rad; direction of sight about z of W, 0 looks along +x
   double elevation = -0.2;  // rad; negative looks down
@@ -53,6 +67,11 @@ struct ViewRequest {
   std::vector<ViewArrow> arrows;
   std::vector<ViewLabel> labels;
   std::string title;  // top left; may be empty
+  // Dents a mesh of the picture's own copy of the model; gives its index, -1: none is dented.
+  std::function<int(mjModel_*)> dent;
+  // In a window alone: names and what they are, a line each; the same of a help page, else empty; charts.
+  std::string names, values, help_keys, help;
+  std::vector<ViewChart> charts;
 };
 
 struct ViewModule {

@@ -1,0 +1,30 @@
+// The hooks by which the window of `encounter view` watches and steers a run. All are called on the run's
+// thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "app/options.h"
+#include "trial/trial.h"
+
+namespace enc::app {
+
+struct RunWindow {
+  std::function<void(models::Setup&)> adapts{};  // changes the setup before anything is built
+  // Called before the first tick, unless the run is refused.
+  std::function<void(trial::Trial&)> begins{};
+  // Called once after begins(), however the run ended. The trial is destroyed afterwards.
+  std::function<void()> ends{};
+  std::function<void(const trial::Glance&)> watch{};  // after each tick; it must not block
+  std::function<bool()> stop{};
+  std::function<bool()> waits{};  // true: the next tick is not due; it may sleep briefly
+  std::function<trial::Hand()> hand{};
+  std::function<std::optional<Point<'W'>>(std::int64_t)> steer{};  // see TrialOptions::steer
+};
+
+// `encounter run` with hooks; null: without.
+int run(const RunOptions& options, const RunWindow* window);
+
+}  // namespace enc::app

@@ -1,0 +1,235 @@
+#include "app/view/depict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/built.h"
+#include "core/task/push/moving.h"
+#include "core/world/arm_shape.h"
+#include "models/setup/scene_file.h"
+#include "sim/bodies/seen_surface.h"
+
+namespace enc::app {
+namespace {
+
+constexpr sim::Colour kForce{0.85F, 0.10F, 0.15F, 1.0F};
+constexpr sim::Colour kNormal{0.10F, 0.55F, 0.35F, 1.0F};
+constexpr sim::Colour kLeg{0.82F, 0.84F, 0.87F, 1.0F};
+constexpr sim::Colour kJacket{0.30F, 0.34F, 0.42F, 1.0F};
+constexpr sim::Colour kMarkerArm{0.35F, 0.38F, 0.45F, 1.0F};
+constexpr sim::Colour kHandle{0.16F, 0.42F, 0.72F, 1.0F};
+constexpr double kForceScale = 0.005;  // m of arrow for each N
+
+sim::Colour colour_of(Material material) {
+  switch (material) {
+    case Material::metal:
+      return {0.72F, 0.74F, 0.78F, 1.0F};
+    case Material::dark:
+      return {0.20F, 0.22F, 0.26F, 1.0F};
+    case Material::painted:
+      return {0.30F, 0.42F, 0.62F, 1.0F};
+    case Material::plate:
+      break;
+  }
+  return {0.90F, 0.55F, 0.20F, 1.0F};
+}
+
+// Links and base as rods. Its prop is a body of the simulated world.
+void add_arm(const Moment& m, sim::ViewRequest& request) {
+  for (const ArmPart& part : arm_shape(m.setup.twin.arm.machine, m.truth.joints, m.X_WR)) {
+    const Vec<'W'> half(Vec3(part.half.z() * part.axes.col(2)));
+    request.rods.push_back({part.middle - half, part.middle + half, part.half.x(), colour_of(part.material),
+                            part.form == PartForm::cylinder});
+  }
+}
+
+// Each leg as a rod in a jacket, from its base joint to its platform joint.
+void add_legs(const Moment& m, sim::ViewRequest& request) {
+  if (m.machine == nullptr) {
+    add_arm(m, request);
+    request.floor = (m.X_WR * Point<'R'>(0, 0, -0.200)).xyz[2];
+    return;
+  }
+  const Hexapod& machine = *m.machine;
+  const Pose<'W', 'R'>& X_WR = m.X_WR;
+  const Pose<'W', 'H'> X_WH = X_WR * m.platform;
+  for (int leg = 0; leg < 6; ++leg) {
+    const Point<'W'> from = X_WR * Point<'R'>(machine.base_joint(leg));
+    const Point<'W'> to = X_WH * Point<'H'>(machine.platform_joint(leg));
+    request.rods.push_back({from, to, 0.0055, kLeg});
+    request.rods.push_back({from, from + 0.55 * (to - from), 0.0105, kJacket});
+    request.rods.push_back({from, from, 0.0145, kMarkerArm});  // joints, as balls
+    request.rods.push_back({to, to, 0.0125, kMarkerArm});
+  }
+  request.floor = (X_WR * Point<'R'>(0, 0, -0.020)).xyz[2];
+}
+
+// The rods between a tool's shaft and its markers; MuJoCo turned the tool, so it is asked where they are.
+// Gives one of its markers, where it has any. `called`: the tool's body, "tool" or "other_tool".
+Point<'W'> add_tool_frame(const Moment& m, sim::ViewRequest& request, const std::string& called) {
+  const mjModel* model = m.model;
+  const mjData* data = m.data;
+  const int body = mj_name2id(model, mjOBJ_BODY, called.c_str());
+  const int tip = mj_name2id(model, mjOBJ_GEOM, (called + "_tip").c_str());
+  if (body < 0 || tip < 0) return {};
+  const auto at = [&](int g) {
+    return Point<'W'>(data->geom_xpos[3 * g], data->geom_xpos[3 * g + 1], data->geom_xpos[3 * g + 2]);
+  };
+  std::vector<Point<'W'>> markers;
+  Vec3 middle = Vec3::Zero();
+  for (int g = model->body_geomadr[body]; g < model->body_geomadr[body] + model->body_geomnum[body]; ++g) {
+    if (g == tip || model->geom_type[g] != mjGEOM_SPHERE || model->geom_contype[g] != 0) continue;
+    markers.push_back(at(g));
+    middle += markers.back().e();
+  }
+  if (markers.empty()) return {};
+  middle /= static_cast<double>(markers.size());
+  const Point<'W'> top(middle);
+  for (const Point<'W'>& marker : markers) request.rods.push_back({top, marker, 0.0018, kMarkerArm});
+  const Vec<'W'> shaft = top - at(tip);  // with a handle on its upper half
+  request.rods.push_back({top - 0.5 * shaft, top - 0.08 * shaft, 0.0075, kHandle});
+  return markers.front();
+}
+
+// Draws the frames of both tools of a session; gives a marker of the held one.
+Point<'W'> add_tool_frames(const Moment& m, sim::ViewRequest& request) {
+  const std::optional<UserSpec>& user = m.setup.scene.user;
+  const Point<'W'> first = add_tool_frame(m, request, "tool");
+  const Point<'W'> other = add_tool_frame(m, request, "other_tool");
+  const std::int32_t held = m.truth.tool;
+  const bool changed = user && user->session && held >= 0 &&
+                       m.setup.scene.tools[static_cast<std::size_t>(held)].name == user->session->other_tool;
+  return changed ? other : first;
+}
+
+// Both arrows stand beside what they are about, to the viewer's right and left: tool and tip hide what is on
+// their axis.
+void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
+  const sim::Truth& truth = m.truth;
+  const double azimuth = request.camera.azimuth;
+  const Vec<'W'> right(0.020 * scale * std::sin(azimuth), -0.020 * scale * std::cos(azimuth), 0);
+  if (touching(m)) {
+    const Vec<'W'> along = scale * kForceScale * truth.contact_force;
+    const Point<'W'> to = truth.tip + right;
+    request.arrows.push_back({to - along, along, 0.0035 * scale, kForce});
+    request.labels.push_back({fmt::format("force of the {}: {:.1f} N",
+                                          m.scene.probe()                  ? "ball"
+                                          : m.pushed                       ? "pusher"
+                                          : m.scene.impedance() != nullptr ? "finger"
+                                                                           : "tool",
+                                          truth.contact_force.norm()),
+                              to - 0.6 * along, false});
+  }
+  const Contact& contact = contact_of(m.state);
+  if (m.out.mode != Mode::contact || !contact.X_WN.valid()) return;
+  const Vec<'W'> normal = contact.X_WN * Vec<'N'>(0, 0, scale * 0.06);
+  const Point<'W'> from = contact.X_WN.origin() - right;
+  request.arrows.push_back({from, normal, 0.0030 * scale, kNormal});
+  request.labels.push_back({"normal of the surface (N)", from + 0.6 * normal, true});
+}
+
+// The point of an object that shows best: on its flank, away from tool and arrows.
+Point<'W'> flank(const Moment& m, std::size_t object) {
+  const ObjectSpec& spec = m.setup.scene.objects[object];
+  const Pose<'W', 'O'>& X_WO = m.scene.objects[object].X_WO;
+  const Vec<'W'> shift = shift_of(m.scene.objects[object], moved_in(m.state));
+  if (spec.shape == ShapeKind::mesh) {
+    const Ball around = m.scene.objects[object].surface.bound();
+    const Point<'O'> aside = around.centre + Vec<'O'>(Vec3(0.4 * around.radius * Vec3(0.75, -0.6, 0.1)));
+    return X_WO * m.scene.objects[object].surface.nearest(aside).point + shift;
+  }
+  if (spec.shape == ShapeKind::sphere)
+    return X_WO * Point<'O'>(Vec3(0.8 * spec.radius * Vec3(0.75, -0.6, 0.1))) + shift;
+  const bool button = spec.shape == ShapeKind::button;
+  return X_WO * Point<'O'>(button ? 0.4 * spec.width : 0.07, button ? -0.4 * spec.height : -0.07, 0) + shift;
+}
+
+// Names what is at a place; a part that the scene does not have has no words.
+void label(sim::ViewRequest& request, const std::string& words, const Point<'W'>& at, bool left) {
+  if (!words.empty()) request.labels.push_back({words, at, left});
+}
+
+// An arm, its prop and the finger that meets it.
+void add_arm_labels(const Moment& m, sim::ViewRequest& request) {
+  const sim::Truth& truth = m.truth;
+  const SeenParts seen = seen_parts(m.setup.scene);
+  label(request, seen.prop, truth.tip, false);
+  for (std::size_t i = 0; i < std::min<std::size_t>(m.scene.objects.size(), 4); ++i)
+    request.labels.push_back(
+        {fmt::format("{} (virtual)", m.setup.scene.objects[i].name), flank(m, i), false});
+  if (truth.tool_tip.finite()) label(request, seen.tool, truth.tool_tip, true);
+  if (!request.title.empty()) request.labels.push_back({"arm", m.X_WR * Point<'R'>(0, 0, 0), true});
+}
+
+void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& marker) {
+  const sim::Truth& truth = m.truth;
+  if (m.machine == nullptr) return add_arm_labels(m, request);
+  const auto in_H = [&](double x, double y, double z) { return m.X_WR * m.platform * Point<'H'>(x, y, z); };
+  request.labels.push_back({m.scene.probe() ? "probe" : "haptic-tip", truth.tip, false});
+  for (std::size_t i = 0; i < m.setup.scene.objects.size(); ++i)
+    request.labels.push_back(
+        {fmt::format("{} ({})", m.setup.scene.objects[i].name,
+                     m.scene.probe() && m.scene.probe()->object == static_cast<int>(i) ? "real" : "virtual"),
+         flank(m, i), false});
+  if (truth.tool_tip.finite()) request.labels.push_back({"tool's tip", truth.tool_tip, true});
+  if (request.title.empty()) return;  // a close-up
+  const SeenParts seen = seen_parts(m.setup.scene);
+  if (marker.finite()) label(request, seen.tool, marker, true);
+  label(request, seen.gripper, in_H(0.02, -0.022, -0.09), true);
+  label(request, seen.force_sensor, in_H(0.03, -0.025, -0.1437), false);
+  request.labels.push_back({"platform", in_H(-0.09, -0.07, -0.186), true});
+  const Hexapod& machine = *m.machine;
+  const Vec3 base = machine.base_joint(0);
+  const Point<'W'> leg = m.X_WR * Point<'R'>(base);
+  request.labels.push_back({"six legs (hexapod)", leg + 0.4 * (in_H(0, 0, -0.19) - leg), false});
+}
+
+}  // namespace
+
+void shift_objects(const Moment& m, mjData* data) {
+  for (std::size_t i = 0; i < m.scene.objects.size(); ++i)
+    sim::shift_seen(m.model, data, i, shift_of(m.scene.objects[i], moved_in(m.state)));
+}
+
+int dent_object(const Moment& m, mjModel* model) {
+  if (m.out.object < 0 || m.out.view.tool < 0 || !m.truth.tool_tip.finite()) return -1;
+  const Tip<'T'>& tip = m.scene.tools[static_cast<std::size_t>(m.out.view.tool)].tip;
+  const Pose<'W', 'T'> turned(m.q_WT, Vec3(0, 0, 0));
+  const Vec<'W'> shift = shift_of(m.scene.objects[static_cast<std::size_t>(m.out.object)], moved_in(m.state));
+  const Pose<'W', 'T'> X_WT(m.q_WT, m.truth.tool_tip - shift - turned * Vec<'T'>(Vec3(tip.centre.e())));
+  return sim::dent_seen(model, m.data, m.scene, static_cast<std::size_t>(m.out.object), X_WT * tip);
+}
+
+sim::Camera camera_for(const Moment& m, bool close_up) {
+  sim::Camera camera;
+  camera.azimuth = 1.75;                        // from the front and a little from the right
+  camera.elevation = close_up ? -0.38 : -0.22;  // down into the dent
+  camera.distance = close_up ? 0.22 : 1.18;
+  if (m.machine == nullptr) {  // an arm is smaller, and stands behind its tip
+    camera.azimuth = 2.2;
+    camera.distance = close_up ? 0.22 : 0.75;
+    camera.opening = 0.52;
+    camera.look_at = m.truth.tip + Vec<'W'>(close_up ? 0.0 : -0.06, 0, close_up ? 0.0 : 0.05);
+    return camera;
+  }
+  camera.opening = 0.52;
+  camera.look_at = close_up ? m.truth.tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.090);
+  return camera;
+}
+
+sim::ViewRequest depict(const Moment& m, const sim::Camera& camera, bool close_up) {
+  sim::ViewRequest request;
+  request.model = m.model;
+  request.camera = camera;
+  if (!close_up)
+    request.title = fmt::format("{}, at {:.2f} s", m.setup.scene.title, seconds(m.now.t.time_since_epoch()));
+  add_legs(m, request);
+  const Point<'W'> marker = add_tool_frames(m, request);
+  add_arrows(m, request, close_up ? 0.5 : 1.0);
+  add_labels(m, request, marker);
+  return request;
+}
+
+}  // namespace enc::app

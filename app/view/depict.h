@@ -1,0 +1,20 @@
+// Turns a moment of a run into a picture: machine, tool, force, normal, names.
+#pragma once
+
+#include "app/view/moment.h"
+#include "sim/view/view.h"
+
+namespace enc::app {
+
+// The default camera: the whole machine, or a close-up of the contact.
+[[nodiscard]] sim::Camera camera_for(const Moment& m, bool close_up);
+// The caller sets `data`, which may be another copy than the moment's.
+[[nodiscard]] sim::ViewRequest depict(const Moment& m, const sim::Camera& camera, bool close_up);
+
+// Moves pushed objects to where they are now.
+void shift_objects(const Moment& m, mjData* data);
+// Dents the touched surface by the true tool, as the eye should see it. `model`: the picture's own, not
+// dented yet. Returns the index of the mesh, or -1.
+int dent_object(const Moment& m, mjModel* model);
+
+}  // namespace enc::app

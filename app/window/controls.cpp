@@ -1,0 +1,189 @@
+#include "app/window/controls.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace enc::app {
+namespace {
+
+using sim::Key;
+using sim::WindowEvent;
+
+constexpr double kFiner = 0.1;   // of each way, with Shift
+constexpr double kStep = 0.002;  // m, of a key or a click of the wheel
+constexpr double kTurn = 0.006;  // rad for each px
+constexpr double kClick = 4.0;   // px: a press that moves less is a click
+constexpr double kSlowest = 0.01, kFastest = 1.0;
+constexpr double kNearest = 0.03, kFarthest = 5.0;  // m, of the camera
+
+bool is(std::int32_t code, Key key) { return code == static_cast<std::int32_t>(key); }
+
+}  // namespace
+
+Mat3 Controls::axes() const {
+  const double a = camera_.azimuth, e = camera_.elevation;
+  const Vec3 away(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+  const Vec3 right(std::sin(a), -std::cos(a), 0.0);
+  Mat3 axes;
+  axes << right, right.cross(away), away;
+  return axes;
+}
+
+double Controls::metres_per_pixel(const Point<'W'>& at, const Surroundings& around) const {
+  const Vec3 away = axes().col(2);
+  const double depth = std::max(0.01, camera_.distance + away.dot((at - camera_.look_at).e()));
+  return 2.0 * depth * std::tan(0.5 * camera_.opening) / std::max(1.0, around.height);
+}
+
+void Controls::move_hand(const Vec3& by, const Surroundings& around) {
+  if (!around.steerable || !around.tip.finite()) return;
+  const Point<'W'> from = wishes_.hand.value_or(around.tip);
+  wishes_.hand = from + Vec<'W'>(Vec3(axes() * by));
+}
+
+void Controls::see(const WindowEvent& event, const Surroundings& around) {
+  switch (event.kind) {
+    case WindowEvent::Kind::key:
+      if (event.down) see_key(event, around);
+      break;
+    case WindowEvent::Kind::button:
+      see_button(event, around);
+      break;
+    case WindowEvent::Kind::move:
+      see_move(event, around);
+      break;
+    case WindowEvent::Kind::wheel:
+      see_wheel(event, around);
+      break;
+  }
+}
+
+void Controls::see_button(const WindowEvent& event, const Surroundings& around) {
+  if (event.code == WindowEvent::kRight) right_ = event.down;
+  if (event.code == WindowEvent::kMiddle) middle_ = event.down;
+  if (event.code != WindowEvent::kLeft) return;
+  left_ = event.down;
+  if (event.down) {
+    dragged_ = false;
+    pressed_x_ = x_ = event.x;
+    pressed_y_ = y_ = event.y;
+  } else if (!dragged_ && around.steerable && around.above) {
+    if (const auto place = around.above(event.x, event.y)) wishes_.hand = *place;
+  }
+}
+
+void Controls::see_move(const WindowEvent& event, const Surroundings& around) {
+  const double dx = event.x - x_, dy = event.y - y_;
+  x_ = event.x;
+  y_ = event.y;
+  dragged_ = dragged_ || std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kClick;
+  if (right_) {
+    camera_.azimuth -= kTurn * dx;
+    camera_.elevation = std::clamp(camera_.elevation - kTurn * dy, -1.5, 1.5);
+  } else if (middle_) {
+    const double metres = metres_per_pixel(camera_.look_at, around);
+    camera_.look_at = camera_.look_at + Vec<'W'>(Vec3(axes() * Vec3(-metres * dx, metres * dy, 0.0)));
+    follows_ = false;
+  } else if (grabbed_ || (left_ && dragged_)) {
+    const double metres =
+        metres_per_pixel(wishes_.hand.value_or(around.tip), around) * (event.shift ? kFiner : 1.0);
+    move_hand(Vec3(metres * dx, -metres * dy, 0.0), around);
+  }
+}
+
+void Controls::see_wheel(const WindowEvent& event, const Surroundings& around) {
+  if (grabbed_ || left_)
+    move_hand(Vec3(0, 0, event.wheel * kStep * (event.shift ? kFiner : 1.0)), around);
+  else
+    camera_.distance = std::clamp(camera_.distance * std::pow(0.9, event.wheel), kNearest, kFarthest);
+}
+
+void Controls::see_time_key(std::int32_t code) {
+  switch (code) {
+    case ' ':
+      wishes_.paused = !wishes_.paused;
+      wishes_.to_event = false;
+      break;
+    case '.':
+      wishes_.paused = true;
+      ++wishes_.ticks;
+      break;
+    case 'N':
+      wishes_.paused = false;
+      wishes_.to_event = true;
+      break;
+    case '[':
+      wishes_.speed = std::max(kSlowest, 0.5 * wishes_.speed);
+      break;
+    case ']':
+      wishes_.speed = std::min(kFastest, 2.0 * wishes_.speed);
+      break;
+    default:
+      if (is(code, Key::backspace)) wishes_.restarts = true;
+  }
+}
+
+void Controls::see_key(const WindowEvent& event, const Surroundings& around) {
+  const std::int32_t code = event.code;
+  const double step = kStep * (event.shift ? kFiner : 1.0);
+  if (is(code, Key::left)) move_hand(Vec3(-step, 0, 0), around);
+  if (is(code, Key::right)) move_hand(Vec3(step, 0, 0), around);
+  if (is(code, Key::up)) move_hand(Vec3(0, step, 0), around);
+  if (is(code, Key::down)) move_hand(Vec3(0, -step, 0), around);
+  if (is(code, Key::page_up)) move_hand(Vec3(0, 0, step), around);
+  if (is(code, Key::page_down)) move_hand(Vec3(0, 0, -step), around);
+  if (is(code, Key::f1) || code == 'H') help_ = !help_;
+  if (is(code, Key::escape) || code == 'Q') wishes_.ends = true;
+  if (code == 'G' && around.steerable) grabbed_ = !grabbed_;
+  if (code == 'C') charts_ = !charts_;
+  if (code == 'F') frozen_ = !frozen_;
+  if (code == 'V') {
+    follows_ = !follows_;
+    camera_ = home_;
+    if (follows_) camera_.distance = 0.3;
+  }
+  if (around.real) {
+    if (code == ' ') wishes_.stops = true;
+    if (code == 'R') wishes_.resumes = true;
+  } else {
+    see_time_key(code);
+  }
+}
+
+void Controls::follow(const Point<'W'>& tip) {
+  if (follows_ && tip.finite()) camera_.look_at = tip;
+}
+
+Wishes Controls::take_wishes() {
+  const Wishes now = wishes_;
+  wishes_.ticks = 0;
+  wishes_.restarts = wishes_.stops = wishes_.resumes = false;
+  return now;
+}
+
+std::vector<Controls::Help> Controls::help_lines(bool real) {
+  static constexpr std::array kAlways{Help{"left drag", "move the tool; Shift: ten times finer"},
+                                      Help{"click", "the tool goes above that place"},
+                                      Help{"G", "grab: the tool follows the mouse, until G"},
+                                      Help{"wheel", "grabbed: tool away and near; else zoom"},
+                                      Help{"arrows, page", "move the tool"},
+                                      Help{"right, middle drag", "turn the view, shift it"},
+                                      Help{"V", "follow the tip, or the whole machine"},
+                                      Help{"C, F", "charts, freeze them"},
+                                      Help{"H", "this page"},
+                                      Help{"Q", "end"}};
+  static constexpr std::array kReal{Help{"space, R", "stop the machine, resume"}};
+  static constexpr std::array kSimulated{
+      Help{"space", "pause"}, Help{".", "one tick"}, Help{"N", "on to the next change of mode"},
+      Help{"[ ]", "slower, faster"}, Help{"backspace", "from the beginning"}};
+  std::vector<Help> lines(kAlways.begin(), kAlways.end());
+  if (real)
+    lines.insert(lines.end(), kReal.begin(), kReal.end());
+  else
+    lines.insert(lines.end(), kSimulated.begin(), kSimulated.end());
+  return lines;
+}
+
+}  // namespace enc::app

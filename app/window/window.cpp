@@ -1,0 +1,400 @@
+#include "app/window/window.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "app/modules/modules.h"
+#include "app/run/percentiles.h"
+#include "app/run/run_window.h"
+#include "app/view/depict.h"
+#include "app/window/controls.h"
+#include "app/window/feed.h"
+#include "core/error.h"
+#include "core/latest.h"
+#include "sim/window/window.h"
+#include "trial/operator/consent.h"
+
+namespace enc::app {
+namespace {
+
+using Wall = std::chrono::steady_clock;
+using std::chrono::duration;
+using std::chrono::milliseconds;
+
+constexpr int kWidth = 1280, kHeight = 720;  // px
+constexpr milliseconds kPicture{16};         // between two pictures
+constexpr float kChartTime = 6.0F;           // s
+constexpr double kHover = 0.015;             // m above a place that was clicked
+
+// Connects the run's thread and the window's thread. The run never waits for a picture.
+class Link {
+ public:
+  // ---- the window's side
+  void wish(const Wishes& wishes) {
+    if (wishes.hand && !(wishes.hand->xyz == told_.xyz)) {
+      told_ = *wishes.hand;
+      hand_.write(told_);
+    }
+    paused_ = wishes.paused;
+    speed_ = wishes.speed;
+    to_event_ = wishes.to_event;
+    ticks_ += wishes.ticks;
+    ends_ = ends_ || wishes.ends || wishes.restarts;
+    if (wishes.stops) machine_ = trial::Hand::halt;
+    if (wishes.resumes) machine_ = trial::Hand::resume;
+  }
+  [[nodiscard]] bool take_event() { return event_.exchange(false); }
+  void end() { ends_ = true; }
+  // Blocks until the run is about to begin; false: it ended without beginning.
+  [[nodiscard]] bool wait_for_begin() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return begun_ || over_; });
+    return begun_;
+  }
+  void let_go() { set(drawing_, true); }
+  // Ends the run before its first tick, without a record or a report.
+  void refuse() {
+    const std::lock_guard lock(mutex_);
+    refused_ = drawing_ = true;
+    changed_.notify_all();
+  }
+  [[nodiscard]] bool ended() {
+    const std::lock_guard lock(mutex_);
+    return ended_;
+  }
+  void closed() { set(closed_, true); }
+
+  // ---- the run's side
+  // Blocks until the window is open; false: it could not be opened.
+  [[nodiscard]] bool begin(bool wall) {
+    wall_ = wall;
+    std::unique_lock lock(mutex_);
+    begun_ = true;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return drawing_; });
+    return !refused_;
+  }
+  // Blocks until the window draws nothing of the run any more.
+  void wait_for_close() {
+    std::unique_lock lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return closed_; });
+  }
+  void over() { set(over_, true); }
+  void see(const trial::Glance& glance) {
+    if (to_event_ && glance.out.mode != mode_) {
+      to_event_ = false;
+      paused_ = true;
+      event_ = true;
+    }
+    mode_ = glance.out.mode;
+  }
+  [[nodiscard]] bool ends() const { return ends_; }
+  [[nodiscard]] trial::Hand machine() { return machine_.exchange(trial::Hand::none); }
+  [[nodiscard]] std::optional<Point<'W'>> hand() {
+    Point<'W'> place;
+    return hand_.read(place) ? std::optional(place) : std::nullopt;
+  }
+  // True: the next tick is not due yet; sleeps for a short while. Always false for a run on the wall clock.
+  [[nodiscard]] bool waits(double dt) {
+    if (wall_) return false;
+    const Wall::time_point now = Wall::now();
+    if (paused_) {
+      due_ = now;
+      if (ticks_ > 0) {
+        --ticks_;
+        return false;
+      }
+      std::this_thread::sleep_for(milliseconds(2));
+      return true;
+    }
+    if (now < due_) {
+      std::this_thread::sleep_until(std::min(due_, now + milliseconds(20)));
+      if (Wall::now() < due_) return true;
+    }
+    due_ = std::max(due_, now - milliseconds(50)) +
+           std::chrono::duration_cast<Wall::duration>(duration<double>(dt / speed_));
+    return false;
+  }
+
+ private:
+  void set(bool& what, bool value) {
+    const std::lock_guard lock(mutex_);
+    what = value;
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool begun_ = false, drawing_ = false, ended_ = false, closed_ = false, over_ = false, refused_ = false;
+  bool wall_ = false;        // the run keeps the wall clock
+  Point<'W'> told_;          // newest place that the window sent
+  Latest<Point<'W'>> hand_;  // window to run, as all below
+  std::atomic<bool> paused_ = false, to_event_ = false, ends_ = false, event_ = false;
+  std::atomic<double> speed_ = 1.0;
+  std::atomic<int> ticks_ = 0;
+  std::atomic<trial::Hand> machine_ = trial::Hand::none;
+  Mode mode_ = Mode::away;
+  Wall::time_point due_{};
+};
+
+// Draws one run and passes on the user's wishes.
+class Show {
+ public:
+  Show(Feed& feed, sim::ViewWindow& window, bool real) : feed_(feed), window_(window), real_(real) {}
+
+  // Draws until the run ends or the window is closed. True: the user wants a restart.
+  bool run(Link& link) {
+    std::vector<sim::WindowEvent> events;
+    Wall::time_point next = Wall::now();
+    while (!link.ended()) {
+      if (!window_.poll(events)) link.end();
+      if (feed_.take()) shift_objects(feed_.moment(), feed_.newest().data.get());
+      if (!controls_ && feed_.newest().now.t != Time{}) controls_.emplace(camera_for(feed_.moment(), false));
+      if (!controls_) {
+        std::this_thread::sleep_for(milliseconds(2));
+        continue;
+      }
+      for (const sim::WindowEvent& event : events) controls_->see(event, around());
+      if (link.take_event()) controls_->paused_at_event();
+      const Wishes wishes = controls_->take_wishes();
+      link.wish(wishes);
+      if (wishes.restarts) return true;
+      draw(wishes);
+      next = std::max(next + kPicture, Wall::now());
+      std::this_thread::sleep_until(next);
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] Surroundings around() {
+    Surroundings around;
+    around.width = window_.width();
+    around.height = window_.height();
+    around.tip = feed_.newest().truth.tool_tip;
+    around.steerable = feed_.newest().truth.tool >= 0;
+    around.real = real_;
+    around.above = [this](double x, double y) { return above(x, y); };
+    return around;
+  }
+  // The place kHover above the object seen at (x, y).
+  [[nodiscard]] std::optional<Point<'W'>> above(double x, double y) {
+    const auto seen = window_.seen_at(x, y);
+    if (!seen) return {};
+    const Moment m = feed_.moment();
+    std::optional<Point<'W'>> place;
+    double least = 0.01;  // m: a point farther from every object belongs to the machine
+    for (const Object& object : m.scene.objects) {
+      const Nearest near = object.surface.nearest(object.X_WO.inverse() * *seen);
+      if (!(std::abs(near.distance) < least)) continue;
+      least = std::abs(near.distance);
+      place = object.X_WO * near.point + kHover * (object.X_WO * near.normal);
+    }
+    return place;
+  }
+
+  void draw(const Wishes& wishes) {
+    const Moment m = feed_.moment();
+    controls_->follow(m.truth.tool_tip);
+    sim::ViewRequest request = depict(m, controls_->camera(), false);
+    request.labels.clear();
+    request.data = feed_.newest().data.get();
+    request.dent = [&m](mjModel* model) { return dent_object(m, model); };
+    write(m, wishes, request);
+    chart(request);
+    window_.draw(request);
+  }
+
+  void write(const Moment& m, const Wishes& wishes, sim::ViewRequest& request) {
+    const auto row = [&](const std::string& name, const std::string& value) {
+      request.names += (request.names.empty() ? "" : "\n") + name;
+      request.values += (request.values.empty() ? "" : "\n") + value;
+    };
+    const std::uint32_t why = m.out.why & kHoldReasons;
+    row("mode", std::string(mode_name(m.out.mode)) + (why != 0 ? ": " + why_text(why) : ""));
+    const double force = m.out.mode == Mode::contact ? -m.out.force.xyz[2] : 0.0;
+    row("force", fmt::format("{:.2f} N{}", force == 0.0 ? 0.0 : force, m.truth.touching ? ", felt" : ""));
+    row("deflection", m.out.mode == Mode::contact ? fmt::format("{:.2f} mm", 1e3 * m.out.deflection) : "-");
+    row("gap", std::isfinite(m.out.gap) ? fmt::format("{:.1f} mm", 1e3 * m.out.gap) : "-");
+    row("hand", !m.truth.tool_tip.finite() || m.truth.tool < 0 ? "holds nothing"
+                : wishes.hand ? (controls_->grabbed() ? "yours (G lets go)" : "yours")
+                              : "the scene's: drag to take it");
+    const Snapshot& s = feed_.newest();
+    const std::vector<std::uint32_t> ns(s.periods_ns.begin(),
+                                        s.periods_ns.begin() + static_cast<std::ptrdiff_t>(s.periods));
+    if (const Percentiles of = percentiles_of(ns); !std::isnan(of.p99))
+      row("period p99", fmt::format("{:.2f} ms", 1e-6 * of.p99));
+    if (s.missed > 0) row("missed", std::to_string(s.missed));
+    row("time", time_text(m, wishes));
+    row("drawn by", window_.renderer());
+    row("help", "H");
+    if (!controls_->help()) return;
+    for (const Controls::Help& line : Controls::help_lines(real_)) {
+      request.help_keys += fmt::format("{}{}", request.help_keys.empty() ? "" : "\n", line.key);
+      request.help += fmt::format("{}{}", request.help.empty() ? "" : "\n", line.what);
+    }
+  }
+
+  std::string time_text(const Moment& m, const Wishes& wishes) {
+    if (wishes.paused) return "paused";
+    const double t = seconds(m.now.t.time_since_epoch());
+    const double wall = duration<double>(Wall::now() - paced_from_).count();
+    if (wall > 0.5) {
+      pace_ = (t - paced_at_) / wall;
+      paced_from_ = Wall::now();
+      paced_at_ = t;
+    }
+    return fmt::format("{:.2f} x real time", pace_);
+  }
+
+  // Strip charts of the last kChartTime seconds.
+  void chart(sim::ViewRequest& request) {
+    for (ChartSample one; feed_.next(one);) {
+      if (controls_->frozen()) continue;
+      samples_.push_back(one);
+    }
+    while (!samples_.empty() && samples_.front().t < samples_.back().t - kChartTime) samples_.pop_front();
+    if (!controls_->charts() || samples_.empty()) return;
+    const float end = samples_.back().t;
+    const auto line = [&](const char* name, float ChartSample::*what) {
+      sim::ViewLine drawn{name, {}};
+      const std::size_t each = samples_.size() / 1000 + 1;
+      for (std::size_t i = 0; i < samples_.size(); i += each) {
+        drawn.xy.push_back(samples_[i].t - end);
+        drawn.xy.push_back(samples_[i].*what);
+      }
+      return drawn;
+    };
+    request.charts = {{"deflection and gap, mm",
+                       {line("deflection", &ChartSample::deflection), line("gap", &ChartSample::gap)},
+                       {-kChartTime, 0},
+                       {0, 10}},
+                      {"force, N",
+                       {line("measured", &ChartSample::measured), line("filtered", &ChartSample::filtered),
+                        line("true", &ChartSample::true_force)},
+                       {-kChartTime, 0},
+                       {0, 5}}};
+  }
+
+  Feed& feed_;
+  sim::ViewWindow& window_;
+  bool real_;
+  Wall::time_point paced_from_ = Wall::now();
+  double paced_at_ = 0.0, pace_ = 1.0;
+  std::optional<Controls> controls_;
+  std::deque<ChartSample> samples_;
+};
+
+// Thrown on the run's thread when its window could not be opened.
+struct NotShown {};
+
+// One run on its own thread.
+class Run {
+ public:
+  Run(const RunOptions& options) : options_(options) {
+    hooks_.adapts = [](models::Setup& setup) {
+      if (!setup.scene.camera) return;
+      setup.scene.camera.reset();
+      setup.notes.emplace_back("drawn without vision: the finger is tracked as [tracker] of the rig says");
+    };
+    hooks_.begins = [this](trial::Trial& trial) {
+      real_ = trial.result().keeps_wall_time || trial::moves_device(trial.setup());
+      dt_ = trial.scene().dt;
+      feed_.emplace(trial);
+      if (!link_.begin(trial.result().keeps_wall_time)) throw NotShown{};
+    };
+    hooks_.ends = [this] { link_.wait_for_close(); };
+    hooks_.watch = [this](const trial::Glance& glance) {
+      link_.see(glance);
+      feed_->see(glance);
+    };
+    hooks_.stop = [this] { return link_.ends(); };
+    hooks_.waits = [this] { return link_.waits(dt_); };
+    hooks_.hand = [this] { return link_.machine(); };
+    hooks_.steer = [this](std::int64_t) { return link_.hand(); };
+    thread_ = std::thread([this] {
+      try {
+        code_ = app::run(options_, &hooks_);
+      } catch (const NotShown&) {  // the window's thread reports it
+      } catch (...) {
+        failed_ = std::current_exception();
+      }
+      link_.over();
+    });
+  }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+  ~Run() { join(); }
+
+  [[nodiscard]] Link& link() { return link_; }
+  [[nodiscard]] Feed& feed() { return *feed_; }
+  [[nodiscard]] bool real() const { return real_; }
+  // Ends the run and waits until its record is sealed and its report is printed.
+  void join() {
+    if (!thread_.joinable()) return;
+    link_.end();
+    link_.let_go();
+    link_.closed();
+    thread_.join();
+  }
+  // The exit code; rethrows the run's exception.
+  int code() {
+    join();
+    if (failed_) std::rethrow_exception(failed_);
+    return code_;
+  }
+
+ private:
+  RunOptions options_;
+  RunWindow hooks_;
+  Link link_;
+  std::optional<Feed> feed_;
+  bool real_ = false;
+  double dt_ = 1e-3;
+  int code_ = 0;
+  std::exception_ptr failed_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+int window(const ViewOptions& options) {
+  const auto* module = static_cast<const sim::WindowModule*>(load_module("window").window);
+  module->look();
+  Run* shown = nullptr;
+  const auto lost = [&shown] {
+    if (shown != nullptr) shown->join();
+    fmt::print(stderr, "encounter: the display is lost; the run was ended, its record is whole\n");
+    std::fflush(nullptr);
+  };
+  std::unique_ptr<sim::ViewWindow> window;
+  for (;;) {
+    Run run(options);
+    if (!run.link().wait_for_begin()) return run.code();
+    shown = &run;
+    try {
+      if (!window) window = module->open("Encounter: " + options.scene, kWidth, kHeight, lost);
+    } catch (...) {
+      run.link().refuse();
+      throw;
+    }
+    run.link().let_go();
+    const bool again = Show(run.feed(), *window, run.real()).run(run.link());
+    if (!again) window.reset();
+    const int code = run.code();
+    shown = nullptr;
+    if (!again) return code;
+  }
+}
+
+}  // namespace enc::app

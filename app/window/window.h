@@ -1,0 +1,11 @@
+// encounter view without --shot: a run in a window, in which the mouse is the hand.
+#pragma once
+
+#include "app/options.h"
+
+namespace enc::app {
+
+// Prints the report of `encounter run` and gives its exit code once the window is closed or the run ends.
+int window(const ViewOptions& options);
+
+}  // namespace enc::app

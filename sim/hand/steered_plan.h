@@ -1,0 +1,43 @@
+// A hand that is steered from outside, by a mouse for instance. The wanted place may leap; the hand follows
+// at a person's speed. In contact it pushes along the surface's normal, as people do, unless dragged clearly
+// sideways.
+#pragma once
+
+#include "core/frames.h"
+#include "sim/hand/hand_plan.h"
+
+namespace enc::sim {
+
+struct SteeredPlan {
+  static constexpr double kFastest = 0.5;     // m/s, speed of an unhurried reach (assumed)
+  static constexpr double kQuickest = 8.0;    // m/s^2 (assumed: a reach of 0.2 m in 0.6 s)
+  static constexpr double kRate = 20.0;       // rad/s: settles within 0.2 s (assumed)
+  static constexpr double kStrongest = 12.0;  // N, most force in contact (assumed)
+  static constexpr double kLeft = 0.002;      // m above the surface, where the contact has ended
+  bool on = false, touched = false;
+  Point<'W'> to;                         // wanted place of the tip's centre
+  Point<'W'> at;                         // where the plan is by now
+  Vec<'W'> velocity = Vec<'W'>::zero();  // m/s, rate of `at`
+  Vec<'W'> beyond = Vec<'W'>::zero();    // m, how far the arm aims beyond `at` to push
+  Point<'W'> anchor;                     // tip's centre at the touch
+  Vec<'W'> normal = Vec<'W'>::zero();    // unit, outward normal of the surface there
+
+  void steer(const Point<'W'>& place, const Point<'W'>& tip) {
+    if (!on) at = tip;
+    on = true;
+    to = place;
+  }
+  void touch(const Point<'W'>& tip, const Vec<'W'>& normal_there) {
+    touched = true;
+    anchor = tip;
+    normal = normal_there;
+  }
+  // Advances by h, s. In contact the hand pushes harder until `tip` is at the wanted place. `stiffness`: the
+  // arm's, N/m; `integral_time`: of the rising push, s.
+  HandPlan advance(double h, const Point<'W'>& tip, bool touching, double stiffness, double integral_time);
+
+ private:
+  [[nodiscard]] Vec3 meant() const;
+};
+
+}  // namespace enc::sim

@@ -1,0 +1,223 @@
+// Every key and mouse action on the window's help page, without a window.
+#include "app/window/controls.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace enc::app {
+namespace {
+
+using sim::Key;
+using sim::WindowEvent;
+
+class WindowControls : public testing::Test {
+ protected:
+  // The camera looks along +x of W from 1 m away: y of W is left in the picture, z is up.
+  WindowControls() {
+    camera_.azimuth = 0.0;
+    camera_.elevation = 0.0;
+    camera_.distance = 1.0;
+    controls_.emplace(camera_);
+    around_.width = 1000;
+    around_.height = 500;
+    around_.tip = {0, 0, 0};
+    around_.steerable = true;
+    around_.above = [](double x, double) {
+      return x < 500 ? std::optional(Point<'W'>(0.1, 0.2, 0.3)) : std::nullopt;
+    };
+  }
+  void key(std::int32_t code, bool shift = false) {
+    controls_->see({.kind = WindowEvent::Kind::key, .code = code, .down = true, .shift = shift}, around_);
+    controls_->see({.kind = WindowEvent::Kind::key, .code = code, .down = false, .shift = shift}, around_);
+  }
+  void key(Key code, bool shift = false) { key(static_cast<std::int32_t>(code), shift); }
+  void button(std::int32_t code, bool down, double x, double y) {
+    controls_->see({.kind = WindowEvent::Kind::button, .code = code, .down = down, .x = x, .y = y}, around_);
+  }
+  void move(double x, double y, bool shift = false) {
+    controls_->see({.kind = WindowEvent::Kind::move, .shift = shift, .x = x, .y = y}, around_);
+  }
+  void wheel(double clicks, bool shift = false) {
+    controls_->see({.kind = WindowEvent::Kind::wheel, .shift = shift, .wheel = clicks}, around_);
+  }
+  Vec3 hand() { return controls_->take_wishes().hand.value_or(Point<'W'>()).e(); }
+  // Size of a pixel at the hand, 1 m away, in m.
+  [[nodiscard]] double pixel() const { return 2.0 * std::tan(0.5 * camera_.opening) / 500.0; }
+
+  sim::Camera camera_;
+  std::optional<Controls> controls_;
+  Surroundings around_;
+};
+
+TEST_F(WindowControls, ALeftDragMovesTheToolAsFarAsTheMouse) {
+  EXPECT_FALSE(controls_->take_wishes().hand) << "the scene's own hand moves until somebody takes it";
+  button(WindowEvent::kLeft, true, 500, 250);
+  move(510, 240);
+  EXPECT_NEAR((hand() - Vec3(0, -10 * pixel(), 10 * pixel())).norm(), 0.0, 1e-12);
+  move(510, 230, true);  // ten times finer
+  EXPECT_NEAR((hand() - Vec3(0, -10 * pixel(), 11 * pixel())).norm(), 0.0, 1e-12);
+  wheel(1);  // away
+  EXPECT_NEAR(hand().x(), 0.002, 1e-12);
+  button(WindowEvent::kLeft, false, 510, 230);
+  const Vec3 let_go = hand();
+  move(700, 100);
+  EXPECT_EQ(hand(), let_go);
+}
+
+TEST_F(WindowControls, AClickPutsTheToolAboveWhatIsThere) {
+  button(WindowEvent::kLeft, true, 100, 100);
+  button(WindowEvent::kLeft, false, 101, 100);
+  EXPECT_EQ(hand(), Vec3(0.1, 0.2, 0.3));
+  button(WindowEvent::kLeft, true, 900, 100);  // the background
+  button(WindowEvent::kLeft, false, 900, 100);
+  EXPECT_EQ(hand(), Vec3(0.1, 0.2, 0.3));
+}
+
+TEST_F(WindowControls, AGrabbedToolFollowsTheMouseUntilG) {
+  move(500, 250);
+  key('G');
+  EXPECT_TRUE(controls_->grabbed());
+  move(500, 240);
+  EXPECT_NEAR(hand().z(), 10 * pixel(), 1e-12);
+  wheel(-2, true);
+  EXPECT_NEAR(hand().x(), -0.0004, 1e-12);
+  key('G');
+  move(500, 100);
+  EXPECT_NEAR(hand().z(), 10 * pixel(), 1e-12);
+}
+
+TEST_F(WindowControls, ArrowsAndPagesMoveTheTool) {
+  key(Key::up);
+  EXPECT_NEAR(hand().z(), 0.002, 1e-12);
+  key(Key::down);
+  EXPECT_NEAR(hand().z(), 0.0, 1e-12);
+  key(Key::left);
+  EXPECT_NEAR(hand().y(), 0.002, 1e-12);
+  key(Key::right, true);
+  EXPECT_NEAR(hand().y(), 0.0018, 1e-12);
+  key(Key::page_up);
+  EXPECT_NEAR(hand().x(), 0.002, 1e-12);
+  key(Key::page_down);
+  EXPECT_NEAR(hand().x(), 0.0, 1e-12);
+}
+
+TEST_F(WindowControls, NothingIsSteeredWhereNoHandIs) {
+  around_.steerable = false;
+  key(Key::up);
+  key('G');
+  button(WindowEvent::kLeft, true, 100, 100);
+  button(WindowEvent::kLeft, false, 100, 100);
+  move(300, 300);
+  EXPECT_FALSE(controls_->take_wishes().hand);
+  EXPECT_FALSE(controls_->grabbed());
+}
+
+TEST_F(WindowControls, TheOtherButtonsTurnAndShiftTheView) {
+  move(0, 0);
+  button(WindowEvent::kRight, true, 0, 0);
+  move(100, 0);
+  button(WindowEvent::kRight, false, 100, 0);
+  EXPECT_NEAR(controls_->camera().azimuth, -0.6, 1e-12);
+  move(0, 10'000);  // not over the top
+  button(WindowEvent::kRight, true, 0, 10'000);
+  move(0, -10'000);
+  EXPECT_LE(std::abs(controls_->camera().elevation), 1.5);
+  button(WindowEvent::kRight, false, 0, -10'000);
+  key('V');
+  key('V');  // home
+  EXPECT_EQ(controls_->camera().azimuth, 0.0);
+  button(WindowEvent::kMiddle, true, 0, -10'000);
+  move(100, -10'000);
+  EXPECT_NEAR(controls_->camera().look_at.xyz[1], 100 * pixel(), 1e-12);
+  EXPECT_FALSE(controls_->take_wishes().hand);
+}
+
+TEST_F(WindowControls, TheWheelZoomsAndVFollowsTheTip) {
+  wheel(1);
+  EXPECT_NEAR(controls_->camera().distance, 0.9, 1e-12);
+  for (int i = 0; i < 100; ++i) wheel(1);
+  EXPECT_GT(controls_->camera().distance, 0.02);
+  key('V');
+  EXPECT_TRUE(controls_->follows());
+  controls_->follow({1, 2, 3});
+  EXPECT_EQ(controls_->camera().look_at.e(), Vec3(1, 2, 3));
+  key('V');
+  EXPECT_FALSE(controls_->follows());
+}
+
+TEST_F(WindowControls, TimeOfASimulatedRunIsTheUsers) {
+  key(' ');
+  EXPECT_TRUE(controls_->take_wishes().paused);
+  key(' ');
+  EXPECT_FALSE(controls_->take_wishes().paused);
+  key('.');
+  key('.');
+  Wishes wishes = controls_->take_wishes();
+  EXPECT_TRUE(wishes.paused);
+  EXPECT_EQ(wishes.ticks, 2);
+  EXPECT_EQ(controls_->take_wishes().ticks, 0) << "asked for once";
+  key('N');
+  wishes = controls_->take_wishes();
+  EXPECT_TRUE(wishes.to_event && !wishes.paused);
+  controls_->paused_at_event();
+  wishes = controls_->take_wishes();
+  EXPECT_TRUE(!wishes.to_event && wishes.paused);
+  key('[');
+  EXPECT_EQ(controls_->take_wishes().speed, 0.5);
+  for (int i = 0; i < 20; ++i) key('[');
+  EXPECT_EQ(controls_->take_wishes().speed, 0.01);
+  for (int i = 0; i < 20; ++i) key(']');
+  EXPECT_EQ(controls_->take_wishes().speed, 1.0);
+  key(Key::backspace);
+  EXPECT_TRUE(controls_->take_wishes().restarts);
+  EXPECT_FALSE(controls_->take_wishes().restarts);
+}
+
+// Space stops the machine instead of pausing time.
+TEST_F(WindowControls, ARealMachineIsStoppedAndResumed) {
+  around_.real = true;
+  key(' ');
+  Wishes wishes = controls_->take_wishes();
+  EXPECT_TRUE(wishes.stops && !wishes.paused && !wishes.resumes);
+  key('R');
+  wishes = controls_->take_wishes();
+  EXPECT_TRUE(wishes.resumes && !wishes.stops);
+  for (const char c : {'.', 'N', '[', ']'}) key(c);
+  key(Key::backspace);
+  wishes = controls_->take_wishes();
+  EXPECT_TRUE(!wishes.paused && !wishes.to_event && wishes.speed == 1.0 && wishes.ticks == 0 &&
+              !wishes.restarts);
+}
+
+TEST_F(WindowControls, ChartsHelpAndEnd) {
+  EXPECT_TRUE(controls_->charts());
+  key('C');
+  EXPECT_FALSE(controls_->charts());
+  key('F');
+  EXPECT_TRUE(controls_->frozen());
+  key('H');
+  EXPECT_TRUE(controls_->help());
+  key(Key::f1);
+  EXPECT_FALSE(controls_->help());
+  key('Q');
+  EXPECT_TRUE(controls_->take_wishes().ends);
+  Controls other(camera_);
+  other.see({.kind = WindowEvent::Kind::key, .code = 256, .down = true}, around_);
+  EXPECT_TRUE(other.take_wishes().ends) << "escape";
+}
+
+// A key that is added to the page must be added to a test above, and to this list.
+TEST_F(WindowControls, TheHelpPageNamesWhatIsTestedHere) {
+  const std::set<std::string_view> tested{
+      "left drag", "click", "G", "wheel", "arrows, page", "right, middle drag", "V",       "C, F", "H",
+      "Q",         "space", ".", "N",     "[ ]",          "backspace",          "space, R"};
+  for (const bool real : {false, true})
+    for (const Controls::Help& line : Controls::help_lines(real))
+      EXPECT_TRUE(tested.contains(line.key)) << line.key;
+}
+
+}  // namespace
+}  // namespace enc::app
