@@ -11,6 +11,7 @@
 #include "models/csv_reader.h"
 #include "models/files.h"
 #include "models/fit/loop_fit.h"
+#include "models/schema/printable.h"
 #include "models/setup/response_file.h"
 #include "models/setup/scene_file.h"
 
@@ -84,6 +85,31 @@ std::string energy_text(const models::LoopData& loop) {
       out * 1e3, in * 1e3);
 }
 
+// The constraints may make of the readings what nobody measured.
+std::string moved_text(const LoopFit& fit) {
+  // The curve may be moved by this share of the force at the limit.
+  constexpr double kMost = 0.05;
+  // A hand presses with this force at most, N.
+  constexpr double kHardest = 100.0;
+  const models::ResponseFit& curves = fit.curves;
+  const double limit = fit.response.limit, end = curves.measured_end;
+  if (!(std::abs(curves.fitted - curves.measured) > kMost * std::abs(end))) return "";
+  std::string why =
+      "no curve that a scene plays rises so slowly, or has its release above its press: see to the "
+      "zero of the force, or to a force that comes late";
+  if (end < fit.floor * limit)
+    why = fmt::format("the object is softer than this rig renders, {:.3f} N/mm; give another --rig{}",
+                      fit.floor * 1e-3,
+                      1e3 * end >= fit.floor * limit && 1e3 * end <= kHardest
+                          ? ", or, if force_N is in kN, multiply it by 1000"
+                          : "");
+  return fmt::format(
+      "note        at {:.2f} mm the {} is {:.3f} N by the readings and {:.3f} N by the curve, which is kept "
+      "within "
+      "what can be rendered: {}\n",
+      curves.moved_at * 1e3, curves.moved_press ? "press" : "release", curves.measured, curves.fitted, why);
+}
+
 std::string notes_text(const models::LoopData& loop) {
   std::string text;
   for (const std::string& note : loop.notes) text += fmt::format("note        {}\n", note);
@@ -136,7 +162,11 @@ int fit_loop(const FitOptions& options) {
     throw Error(
         fmt::format("{}:1:1: {}; record the loop again, or give another --limit-mm", file_name, e.what()));
   }
-  fmt::print("{}{}", report(fit, loop), energy_text(loop));
+  const std::string moved = moved_text(fit);
+  const bool doubted = loop.doubted || !moved.empty();
+  fmt::print("{}{}{}", report(fit, loop), energy_text(loop), moved);
+  if (doubted && file) fmt::print("not written {}: see the notes\n", models::printable(options.out));
+  if (doubted) return 1;
   if (!file) return 0;
   file->write(models::response_text(fit.response, fit.source));
   file->keep();

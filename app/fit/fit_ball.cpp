@@ -71,12 +71,13 @@ double usual_step(const trial::Pushes& pushes) {
   return models::median(steps);
 }
 
-trial::Pushes read(const std::string& file, double limit, std::vector<std::string>& notes) {
+trial::Pushes read(const std::string& file, double limit, std::vector<std::string>& notes, bool& doubted) {
   constexpr double kDeepest = 8e-3;  // m, of the law's table
   constexpr double kSlowest = 0.5;   // s: the ball's relaxation is over between two readings
   models::LoopData loop = models::parse_loop(
       read_table(file, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"), file, limit);
   for (const std::string& note : loop.notes) notes.push_back(fmt::format("{}: {}", file, note));
+  doubted = doubted || loop.doubted;
   trial::Pushes pushes = std::move(loop.presses);
   if (const double step = usual_step(pushes); step >= kSlowest)
     throw Error(
@@ -202,7 +203,9 @@ int fit_ball(const FitOptions& options) {
   std::vector<trial::Pushes> runs;
   runs.reserve(options.loops.size());
   std::vector<std::string> notes;
-  for (const std::string& file : options.loops) runs.push_back(read(file, options.limit_mm * 1e-3, notes));
+  bool doubted = false;
+  for (const std::string& file : options.loops)
+    runs.push_back(read(file, options.limit_mm * 1e-3, notes, doubted));
   const trial::BallLoops loops(std::move(runs));
   BallFit fit;
   try {
@@ -211,7 +214,7 @@ int fit_ball(const FitOptions& options) {
     throw Error(fmt::format("{}:1:1: {}", options.loops.front(), e.what()));
   }
   fmt::print("{}", options.json ? json_text(loops, fit, notes) + "\n" : report(loops, fit, notes));
-  return 0;
+  return doubted ? 1 : 0;
 }
 
 }  // namespace enc::app

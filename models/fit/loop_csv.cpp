@@ -1,9 +1,11 @@
 #include "models/fit/loop_csv.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "models/csv_reader.h"
 #include "models/fit/loop/branches.h"
 #include "models/fit/loop/contact.h"
+#include "models/fit/loop/plateau.h"
 #include "models/schema/wording.h"
 
 namespace enc::models {
@@ -71,7 +74,7 @@ std::vector<LoopRow> read(CsvReader& row, std::string& remark) {
   bool sourced = false;
   while (row.next()) {
     const std::int64_t which = repeat_of(row);
-    LoopRow reading{clock.next(row, which), 0.0, kUnset, which};
+    LoopRow reading{clock.next(row, which), 0.0, kUnset, which, row.line()};
     // A rig that has not found its zero yet has no force to tell; outside of a press nothing is lost by that.
     const auto given = [&](std::size_t column) { return which != 0 || !row.text(column).empty(); };
     if (given(kForce)) reading.force = row.number(kForce);
@@ -120,23 +123,23 @@ Rise rise_of(const std::vector<std::vector<LoopPoint>>& moving, double limit) {
   return {slope * limit, std::sqrt(std::max(0.0, ff - f * f / n - slope * slope * spread) / n)};
 }
 
-// The force at 0 mm, by the first readings of the presses.
+// The force at 0 mm, by the outermost readings of one branch of the presses.
 struct Start {
   double force = 0.0, error = kUnset;  // N
   double slope = 0.0;                  // N/m
 };
-Start start_of(const LoopData& loop, double limit) {
+Start start_of(const LoopData& loop, double limit, bool pressing) {
   constexpr double kFirst = 0.1;  // of the limit
   double least = INFINITY;
   for (const auto& press : loop.moving)
     for (const LoopPoint& p : press)
-      if (p.pressing) least = std::min(least, p.deflection);
+      if (p.pressing == pressing) least = std::min(least, p.deflection);
   Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   double squares = 0.0, n = 0.0;
   for (const auto& press : loop.moving)
     for (const LoopPoint& p : press) {
-      if (!p.pressing || p.deflection > least + kFirst * limit) continue;
+      if (p.pressing != pressing || p.deflection > least + kFirst * limit) continue;
       const double u = p.deflection / limit;
       const Eigen::Vector3d row(1.0, u, u * u);
       gram += row * row.transpose();
@@ -158,7 +161,7 @@ std::string check_start(const CsvReader& where, const LoopData& loop, double lim
   constexpr double kMost = 0.04;         // of the rise
   constexpr double kWorthANote = 0.002;  // of the rise
   constexpr double kBeyondChance = 6.0;  // standard deviations
-  const Start start = start_of(loop, limit);
+  const Start start = start_of(loop, limit, true);
   if (!(std::abs(start.force) > std::max(kWorthANote * rise, kBeyondChance * start.error))) return "";
   if (!(std::abs(start.force) > kMost * rise))
     return fmt::format(
@@ -174,6 +177,26 @@ std::string check_start(const CsvReader& where, const LoopData& loop, double lim
       "at 0 mm the force is {:.2f} N, and no reading from before contact gives its zero; expected 0 N; "
       "record from before contact, or correct the zero of force_N or of deflection_mm",
       start.force));
+}
+
+// Nor has such a file a zero after contact: a release that ends with another force than the press began with
+// has drifted, or clings. Returns a note.
+std::string check_end(const LoopData& loop, double limit, double rise) {
+  // The ends may differ by this share of the rise, or by so many standard deviations.
+  constexpr double kMost = 0.04, kBeyondChance = 6.0;
+  const Start start = start_of(loop, limit, true), end = start_of(loop, limit, false);
+  const double apart = end.force - start.force;
+  // A force that is almost nothing has no sign.
+  const auto rounded = [](double force) { return std::round(force * 1e2) / 1e2 + 0.0; };
+  if (!(std::abs(apart) > std::max(kMost * rise, kBeyondChance * std::hypot(start.error, end.error))))
+    return "";
+  return fmt::format(
+      "the press begins with {:.2f} N at 0 mm and the release ends with {:.2f} N: the zero of the force "
+      "drifts, "
+      "or the object clings, and no reading from outside of contact tells which: the release may be off by "
+      "as "
+      "much; record from before contact until after it",
+      rounded(start.force), rounded(end.force));
 }
 
 void check_depth(const CsvReader& where, const LoopData& loop, double limit) {
@@ -202,6 +225,31 @@ void check_depth(const CsvReader& where, const LoopData& loop, double limit) {
                     deepest * 1e3, limit * 1e3, std::floor(deepest * 1e4) / 10.0));
 }
 
+// What no hand presses is in another unit than newtons.
+void check_force(const CsvReader& where, const LoopData& loop, double limit) {
+  // No hand and no machine of a table presses with more, N.
+  constexpr double kMost = 300.0;
+  struct Unit {
+    double in_newtons;
+    std::string_view name;
+  };
+  constexpr std::array<Unit, 2> kUnits{{{1e-3, "mN"}, {9.80665e-3, "gram-force"}}};
+  double most = 0.0;
+  for (const auto& press : loop.presses)
+    for (const LoopPoint& point : press)
+      if (point.deflection <= limit) most = std::max(most, std::abs(point.force));
+  if (!(most > kMost)) return;
+  std::string advice;
+  for (const Unit& unit : kUnits)
+    if (unit.in_newtons * most <= kMost)
+      advice += fmt::format("{} {}, multiply it by {:g}", advice.empty() ? "if force_N is in" : "; if in",
+                            unit.name, unit.in_newtons);
+  where.fail_line(
+      fmt::format("the force reaches {:.0f} N within {:g} mm; expected at most {:g} N, as hands and haptic "
+                  "machines press; {}",
+                  most, limit * 1e3, kMost, advice.empty() ? "see to the unit of force_N" : advice));
+}
+
 // What the whole file must say; `where` is its end.
 void check(const CsvReader& where, LoopData& loop, double limit, bool zero_known) {
   constexpr std::ptrdiff_t kFewest = 20;
@@ -215,6 +263,7 @@ void check(const CsvReader& where, LoopData& loop, double limit, bool zero_known
         "no reading belongs to a press; expected rows with repeat 1, 2, ... and deflection_mm above 0; "
         "fill the column 'repeat'");
   check_depth(where, loop, limit);
+  check_force(where, loop, limit);
   if (pressing < kFewest || releasing < kFewest)
     where.fail_line(fmt::format(
         "there are {} readings while {}; expected at least {} on either branch; record the "
@@ -229,6 +278,23 @@ void check(const CsvReader& where, LoopData& loop, double limit, bool zero_known
   if (zero_known) return;
   const std::string note = check_start(where, loop, limit, rise.force);
   if (!note.empty()) loop.notes.push_back(note);
+  const std::string end = check_end(loop, limit, rise.force);
+  if (end.empty()) return;
+  loop.notes.push_back(end);
+  loop.doubted = true;
+}
+
+// A sensor at its limit says no more than that the force is larger.
+[[noreturn]] void fail_at_limit(const CsvReader& where, std::span<const LoopRow> rows, const Plateau& flat) {
+  const auto row = std::lower_bound(rows.begin(), rows.end(), flat.time,
+                                    [](const LoopRow& one, double time) { return one.time < time; });
+  where.fail_line(
+      row->line,
+      fmt::format(
+          "from {:.2f} mm on the force stays at {:.2f} N while it is pressed deeper: the sensor is at "
+          "its limit, or the object yields; expected a force that rises up to the deepest reading; "
+          "take a larger range of the sensor, or give --limit-mm {:g}",
+          flat.from * 1e3, row->force, std::floor(flat.from * 1e4) / 10.0));
 }
 
 }  // namespace
@@ -248,9 +314,12 @@ LoopData parse_loop(const std::string& text, const std::string& name, double lim
             "a reading is too large for a number once its zero is subtracted; expected readings of a rig; "
             "correct or remove the row");
     loop.moving.push_back(split_branches(press));
+    if (const Plateau flat = plateau_of(loop.moving.back()); flat.from <= limit)
+      fail_at_limit(reader, rows, flat);
     loop.presses.push_back(std::move(press));
   }
   loop.notes = contact.notes();
+  loop.doubted = contact.doubted();
   loop.zero_error = contact.zero_error();
   loop.begin_error = contact.begin_error();
   check(reader, loop, limit, std::any_of(contact.zeros.begin(), contact.zeros.end(), [](const PressZero& z) {

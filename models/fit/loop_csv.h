@@ -20,6 +20,8 @@ struct LoopData {
   // What was put right before all else, and how well that is known (one standard deviation): a force that is
   // not 0 before contact, and contact that does not begin at 0.
   std::vector<std::string> notes;
+  // One of the notes says why the curves are not to be believed.
+  bool doubted = false;
   double zero_error = 0.0;   // N
   double begin_error = 0.0;  // m
 };

@@ -57,6 +57,21 @@ double rmse(std::span<const LoopPoint> loop, double limit, const Eigen::VectorXd
   return std::sqrt(sum / count);
 }
 
+void find_moved(const Eigen::VectorXd& free, const Eigen::VectorXd& x, double limit, ResponseFit& fit) {
+  constexpr int kSteps = 100;
+  for (const bool pressing : {true, false})
+    for (int i = 1; i <= kSteps; ++i) {
+      const double u = static_cast<double>(i) / kSteps;
+      const auto force = [&](const Eigen::VectorXd& of) {
+        return powers(u).dot(of.segment<kTerms>(offset(pressing)));
+      };
+      const double measured = force(free), fitted = force(x);
+      if (i == kSteps && pressing) fit.measured_end = measured;
+      if (std::abs(fitted - measured) <= std::abs(fit.fitted - fit.measured)) continue;
+      fit.moved_at = u * limit, fit.measured = measured, fit.fitted = fitted, fit.moved_press = pressing;
+    }
+}
+
 double parsed(const std::string& text) {
   double value = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -130,6 +145,7 @@ ResponseFit fit_response(std::span<const LoopPoint> loop, double limit, double l
   fit.rmse_release = rmse(loop, limit, x, false);
   fit.rmse_press_free = rmse(loop, limit, free, true);
   fit.rmse_release_free = rmse(loop, limit, free, false);
+  find_moved(free, x, limit, fit);
   static_cast<void>(Response(fit.spec, lowest_slope));  // throws if, against the above, it would be refused
   return fit;
 }

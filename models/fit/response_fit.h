@@ -26,6 +26,12 @@ struct ResponseFit {
   ResponseSpec spec;
   double rmse_press = 0.0, rmse_release = 0.0;
   double rmse_press_free = 0.0, rmse_release_free = 0.0;
+  // The constraints move a curve most at this deflection, m: the press or the release. The force there is
+  // `measured` without them and `fitted` with them, N.
+  double moved_at = 0.0, measured = 0.0, fitted = 0.0;
+  bool moved_press = false;
+  // The press without constraints has this force at the limit, N.
+  double measured_end = 0.0;
 };
 
 // Least squares over all readings with deflection in [0, limit], each of equal weight. limit: m.

@@ -20,6 +20,7 @@
 #include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
+#include "models/sizes/scene_sizes.h"
 
 namespace enc::models {
 namespace {
@@ -155,6 +156,8 @@ void check_tool(const Setup& setup, const ToolSpec& tool) {
   if (tool.tip_shape != TipShape::sphere)
     check_unit(setup, fmt::format("tool.{}.tip_axis", tool.name), tool.tip_axis);
   const std::string key = fmt::format("tool.{}.markers_mm", tool.name);
+  const std::string unit = markers_advice(tool);
+  const std::string advice = unit.empty() ? "move one of 'markers_mm'" : unit;
   if (tool.markers.size() < kFewestMarkers) {
     fail(setup, key,
          fmt::format("tool {} has {} markers; expected at least {}, or its pose is not known; add some to "
@@ -170,23 +173,22 @@ void check_tool(const Setup& setup, const ToolSpec& tool) {
     fail(setup, key,
          fmt::format(
              "the markers of tool {} are on a line, or almost: they are {:.2f} mm rms off it; expected "
-             "at least {:.2f} mm, or nobody knows how it is turned about the line; move one of "
-             "'markers_mm'",
-             quoted(tool.name), 1e3 * share * off, 1e3 * share * kLeastOffLine));
+             "at least {:.2f} mm, or nobody knows how it is turned about the line; {}",
+             quoted(tool.name), 1e3 * share * off, 1e3 * share * kLeastOffLine, advice));
   }
   if (has_two_poses(tool.markers))
     fail(setup, key,
          fmt::format(
              "the markers of tool {} look the same in another order, so that it has two poses; expected "
-             "distances that differ by {} mm; move one of 'markers_mm'",
-             quoted(tool.name), mm(kMarkersApart)));
+             "distances that differ by {} mm; {}",
+             quoted(tool.name), mm(kMarkersApart), advice));
   for (const ToolSpec& other : setup.scene.tools) {
     if (&other == &tool) return;
     if (!alike(tool.markers, other.markers)) continue;
     fail(setup, key,
          fmt::format("tools {} and {} have the same marker geometry; expected distances that differ by {} "
-                     "mm; move one of 'markers_mm'",
-                     quoted(other.name), quoted(tool.name), mm(kMarkersApart)));
+                     "mm; {}",
+                     quoted(other.name), quoted(tool.name), mm(kMarkersApart), advice));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -27,8 +28,10 @@ struct Ordinary {
 constexpr Ordinary kLever{0.020, 1.0};    // from the middle of a tool's markers to its tip
 constexpr Ordinary kSpan{0.020, 0.5};     // the longest way between two markers
 constexpr Ordinary kTip{0.00005, 0.030};  // the radius of a tip that is no point
-constexpr Ordinary kObject{0.005, 2.0};   // the longest side of a mesh, and a ball's diameter
-constexpr Ordinary kUsual{0.010, 1.0};    // the same, where a unit is guessed
+constexpr Ordinary kObject{0.005, 2.0};   // the longest side of a mesh and of a face, and a ball's diameter
+// The solid behind a button's face is so thick.
+constexpr Ordinary kThick{0.001, 1.0};
+constexpr Ordinary kUsual{0.010, 1.0};  // the same, where a unit is guessed
 
 struct Factor {
   double value;  // from this unit to the one that is expected
@@ -38,14 +41,34 @@ constexpr auto kMeshUnits =
     std::to_array<Factor>({{1e-3, "mm"}, {1e-2, "cm"}, {0.0254, "inches"}, {1e3, "km"}});
 constexpr auto kKeyUnits = std::to_array<Factor>({{1e3, "m"}, {10.0, "cm"}, {1e-3, "um"}});
 
-double lever_of(const ToolSpec& tool, double factor = 1.0) {
-  return (factor * tool.tip - middle_of(tool.markers)).norm();
+double lever_of(const ToolSpec& tool, double of_tip = 1.0, double of_markers = 1.0) {
+  return (of_tip * tool.tip - of_markers * middle_of(tool.markers)).norm();
 }
 double span_of(const ToolSpec& tool) {
   double span = 0.0;
   for (const Vec3& a : tool.markers)
     for (const Vec3& b : tool.markers) span = std::max(span, (a - b).norm());
   return span;
+}
+
+// "is 'radius_mm' in m? then write radius_mm = 33; or in cm? then ...": each unit of a key of millimetres
+// that gives an ordinary size; else "correct 'radius_mm'". `then`: what to do, for a factor.
+std::string unit_advice(std::string_view key, const std::function<bool(double)>& ordinary,
+                        const std::function<std::string(double)>& then) {
+  std::string text;
+  for (const Factor& factor : kKeyUnits)
+    if (ordinary(factor.value))
+      text += fmt::format("{} {}? then {}", text.empty() ? fmt::format("is '{}' in", key) : "; or in",
+                          factor.unit, then(factor.value));
+  return text.empty() ? fmt::format("correct '{}'", key) : text;
+}
+
+// The advice for a key with one length, m; `across`: how many of it make the size that is judged.
+std::string length_advice(std::string_view key, const Ordinary& ordinary, double length,
+                          double across = 1.0) {
+  return unit_advice(
+      key, [&](double factor) { return ordinary.has(across * factor * length); },
+      [&](double factor) { return fmt::format("write {} = {:g}", key, factor * length * 1e3); });
 }
 
 Mesh in_world(const ObjectSpec& object) {
@@ -80,29 +103,84 @@ void warn(Setup& setup, const std::string& key, const std::string& what) {
   setup.notes.push_back(fmt::format("{}: warning: {}", place_of(setup, key), what));
 }
 
+// The first unit in which the markers would be of an ordinary size, as a factor: 1 where they are or no unit
+// helps.
+double scale_of_markers(const ToolSpec& tool) {
+  const double span = span_of(tool);
+  if (kSpan.has(span)) return 1.0;
+  const auto* const meant = std::find_if(kKeyUnits.begin(), kKeyUnits.end(),
+                                         [&](const Factor& unit) { return kSpan.has(unit.value * span); });
+  return meant == kKeyUnits.end() ? 1.0 : meant->value;
+}
+
+void note_markers(Setup& setup, const ToolSpec& tool) {
+  if (kSpan.has(span_of(tool))) return;
+  const std::string advice = markers_advice(tool);
+  warn(setup, "tool." + tool.name + ".markers",
+       fmt::format("the markers of tool {} are up to {} apart; {}; {}", quoted(tool.name),
+                   length_text(span_of(tool)), kSpan.text(),
+                   advice.empty() ? "correct 'markers_mm'" : advice));
+}
+
 void note_tool(Setup& setup, const ToolSpec& tool) {
   const std::string key = "tool." + tool.name;
   if (tool.tip_radius > 0.0 && !kTip.has(tool.tip_radius))
     warn(setup, key + ".tip_radius",
-         fmt::format("the tip of tool {} has a radius of {}; {}; correct 'tip_radius_mm'", quoted(tool.name),
-                     length_text(tool.tip_radius), kTip.text()));
+         fmt::format("the tip of tool {} has a radius of {}; {}; {}", quoted(tool.name),
+                     length_text(tool.tip_radius), kTip.text(),
+                     length_advice("tip_radius_mm", kTip, tool.tip_radius)));
   if (tool.markers.empty()) return;
-  if (const double span = span_of(tool); !kSpan.has(span))
-    warn(setup, key + ".markers",
-         fmt::format("the markers of tool {} are up to {} apart; {}; correct 'markers_mm'", quoted(tool.name),
-                     length_text(span), kSpan.text()));
-  const double lever = lever_of(tool);
+  note_markers(setup, tool);
+  const double scale = scale_of_markers(tool);
+  const double lever = lever_of(tool, 1.0, scale);
   if (kLever.has(lever)) return;
-  std::string advice = "correct 'tip_mm'";
-  for (const Factor& factor : kKeyUnits)
-    if (tool.tip.norm() > 0.0 && kLever.has(lever_of(tool, factor.value))) {
-      advice = fmt::format("is 'tip_mm' in {}? then write tip_mm = {}", factor.unit,
-                           millimetres(factor.value * tool.tip));
-      break;
-    }
+  const std::string advice = unit_advice(
+      "tip_mm",
+      [&](double factor) { return tool.tip.norm() > 0.0 && kLever.has(lever_of(tool, factor, scale)); },
+      [&](double factor) { return fmt::format("write tip_mm = {}", millimetres(factor * tool.tip)); });
   warn(setup, key + ".tip",
-       fmt::format("the tip of tool {} is {} from the middle of its markers; {}; {}", quoted(tool.name),
-                   length_text(lever), kLever.text(), advice));
+       fmt::format("the tip of tool {} is {} from the middle of its markers{}; {}; {}", quoted(tool.name),
+                   length_text(lever), scale == 1.0 ? "" : " once these are in mm", kLever.text(), advice));
+}
+
+void note_ball(Setup& setup, const ObjectSpec& object) {
+  const double diameter = 2.0 * object.radius;
+  if (kObject.has(diameter)) return;
+  warn(setup, "object." + object.name + ".radius",
+       fmt::format("ball {} has a diameter of {}; {}; {}", quoted(object.name), length_text(diameter),
+                   kObject.text(), length_advice("radius_mm", kUsual, object.radius, 2.0)));
+}
+
+void note_button(Setup& setup, const ObjectSpec& object) {
+  struct Side {
+    const char *name, *key;
+    double length;
+    const Ordinary& ordinary;
+  };
+  for (const Side& side :
+       {Side{"width", "width_mm", object.width, kObject}, Side{"height", "height_mm", object.height, kObject},
+        Side{"thickness", "thickness_mm", object.thickness, kThick}})
+    if (!side.ordinary.has(side.length))
+      warn(setup, fmt::format("object.{}.{}", object.name, side.name),
+           fmt::format("button {} has a {} of {}; {}; {}", quoted(object.name), side.name,
+                       length_text(side.length), side.ordinary.text(),
+                       length_advice(side.key, side.ordinary, side.length)));
+}
+
+// An object's origin may be beyond the reach of any machine.
+void note_place(Setup& setup, const ObjectSpec& object) {
+  // No machine of a laboratory reaches so far, m.
+  constexpr double kFarthest = 10.0;
+  const double away = object.position.norm();
+  if (away <= kFarthest) return;
+  const Factor& unit = kKeyUnits.back();
+  warn(setup, "object." + object.name + ".position",
+       fmt::format("object {} is {} from the origin of W; expected at most {}; {}", quoted(object.name),
+                   length_text(away), length_text(kFarthest),
+                   unit.value * away <= kFarthest
+                       ? fmt::format("is 'position_mm' in {}? then write position_mm = {}", unit.unit,
+                                     millimetres(unit.value * object.position))
+                       : "correct 'position_mm'"));
 }
 
 void note_mesh(Setup& setup, const ObjectSpec& object) {
@@ -121,11 +199,18 @@ void note_sizes(Setup& setup) {
   for (const ToolSpec& tool : setup.scene.tools) note_tool(setup, tool);
   for (const ObjectSpec& object : setup.scene.objects) {
     if (object.shape == ShapeKind::mesh) note_mesh(setup, object);
-    if (object.shape == ShapeKind::sphere && !kObject.has(2.0 * object.radius))
-      warn(setup, "object." + object.name + ".radius",
-           fmt::format("ball {} has a diameter of {}; {}; correct 'radius_mm'", quoted(object.name),
-                       length_text(2.0 * object.radius), kObject.text()));
+    if (object.shape == ShapeKind::sphere) note_ball(setup, object);
+    if (object.shape == ShapeKind::button) note_button(setup, object);
+    if (object.shape != ShapeKind::mesh) note_place(setup, object);
   }
+}
+
+std::string markers_advice(const ToolSpec& tool) {
+  const double span = span_of(tool);
+  if (kSpan.has(span) || scale_of_markers(tool) == 1.0) return "";
+  return unit_advice(
+      "markers_mm", [&](double factor) { return kSpan.has(factor * span); },
+      [](double factor) { return fmt::format("multiply each number of it by {:g}", factor); });
 }
 
 std::string sizes_text(const Setup& setup) {

@@ -8,8 +8,13 @@
 
 namespace enc::models {
 
-// Adds a warning to the setup's notes for each tool, mesh and ball of a size that is out of the ordinary.
+// Adds a warning to the setup's notes for each tool, mesh, ball and button of a size that is out of the
+// ordinary, and for what stands farther from W than any machine reaches: with the unit that would explain it.
 void note_sizes(Setup& setup);
+
+// "is 'markers_mm' in m? then multiply each number of it by 1000": the units that give the markers of a tool
+// an ordinary size; empty where they have one, or no unit helps.
+[[nodiscard]] std::string markers_advice(const ToolSpec& tool);
 
 // A line for each tool and each mesh, the first one after "sizes": "mesh 'hare' (hare.glb): 67 x 50 x 40 mm,
 // ...". Empty where the scene has neither.

@@ -25,8 +25,8 @@ class CounterRate {
   [[nodiscard]] double measured() const noexcept;
   // What it should be, Hz.
   [[nodiscard]] double expected() const noexcept { return set_ > 0.0 ? set_ : kNetBoxRate; }
-  // The set rate, or that of a known box, where the measured one is within 1 % of it, Hz; else unset. With a
-  // wrong rate the age of records would grow without end.
+  // The set rate, or that of a known box, where the measured one is within 0.3 % of it, Hz; else unset. With
+  // a wrong rate the age of records would grow without end.
   [[nodiscard]] double known() const noexcept;
 
  private:

@@ -23,14 +23,15 @@ NetftSensor::NetftSensor(const Offer& offer, const NetftSettings& settings)
       socket_(net::connect_udp(settings.address, static_cast<std::uint16_t>(settings.port))),
       arrival_(!offer.waits),
       period_(offer.period),
-      lockstep_(offer.lockstep) {
+      lockstep_(offer.lockstep),
+      wall_clock_(!offer.lockstep && !offer.waits) {
   if (settings_.command_port != 0)
     if (const std::vector<std::byte> answer = ask_calibration(settings_); !answer.empty()) {
       agree(answer, found_, settings_);
       agreed_ = true;
     }
   first_record();
-  if (!lockstep_ && !offer.waits) find_counter_rate();
+  if (wall_clock_) find_counter_rate();
   if (!lockstep_) ask(Command::stop);  // until the run begins: what fills the socket before is old then
 }
 
@@ -132,6 +133,15 @@ std::vector<std::string> NetftSensor::remarks() const {
                   1e3 * std::max(counts.longest_gap, silence()));
   if (counts.beyond > 0) line += fmt::format("; {} beyond the rating of an axis (cfgmr)", counts.beyond);
   if (counts.status != 0) line += "; " + status_words(counts.status);
+  // Two quartzes differ by a tenth of this share of the rate.
+  constexpr double kRight = 1e-3;
+  const double counted = wall_clock_ ? session_.counted() : kUnset;
+  if (std::abs(counted - counter_rate_) > kRight * counter_rate_)
+    line += fmt::format(
+        "; its counter ran at {:.1f}/s, not {:.1f}: with each second its records seem {:.1f} ms {}; "
+        "set driver.netft.counter_Hz to its sampling rate",
+        counted, counter_rate_, 1e3 * std::abs(counted / counter_rate_ - 1.0),
+        counted < counter_rate_ ? "older" : "younger");
   if (const std::string clock = net::words(session_.clock()); !clock.empty()) line += "; " + clock;
   return {line};
 }

@@ -48,7 +48,9 @@ class NetftSensor final : public ForceSensor {
   std::array<std::byte, 256> datagram_{};  // longer ones are no records
   std::size_t size_ = 0;
   Time begun_{}, heard_{}, read_{};
-  bool lockstep_, reading_ = false, linked_ = true;
+  // A run that does not keep the wall clock has our fake.
+  bool lockstep_, wall_clock_;
+  bool reading_ = false, linked_ = true;
   bool agreed_ = false;  // the command interface was asked, too
 };
 

@@ -34,6 +34,7 @@ bool Session::believed(const Record& record) noexcept {
     return false;
   }
   tie_.forget();  // another box, or this one began anew
+  begun_anew_ = true;
   number_ = record.number;
   return true;
 }
@@ -58,7 +59,8 @@ void Session::take(std::span<const std::byte> datagram, Time now) noexcept {
     if (record.number > number_) counts_.missing += record.number - number_ - 1;
     counts_.longest_gap = std::max(counts_.longest_gap, age(now, last_));
   }
-  begun_ = true;
+  if (!begun_ || begun_anew_) since_ = now, since_samples_ = samples_;
+  begun_ = true, begun_anew_ = false;
   sample_ = record.sample;
   number_ = record.number;
   last_ = now;
@@ -76,6 +78,13 @@ void Session::take(std::span<const std::byte> datagram, Time now) noexcept {
   newest_ = {{Vec<'F'>(force(0), force(1), force(2)), Vec<'F'>(torque(3), torque(4), torque(5))},
              std::max(t, newest_.t),
              health};
+}
+
+double Session::counted() const noexcept {
+  // One record that came 10 ms late changes the rate of so many seconds by 0.03 %.
+  constexpr double kLeast = 30.0;
+  const double lasts = begun_ ? age(last_, since_) : 0.0;
+  return lasts >= kLeast ? static_cast<double>(samples_ - since_samples_) / lasts : kUnset;
 }
 
 }  // namespace enc::netft

@@ -37,12 +37,15 @@ class Session {
     return tie_.estimate();
   }  // 0 at its first record
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
+  // Counter over arrival since the first record, Hz; unset below half a minute, in which a late record
+  // counts.
+  [[nodiscard]] double counted() const noexcept;
 
  private:
   Configuration of_;
   net::ClockTie tie_;
   double counter_rate_;
-  bool lockstep_, begun_ = false;
+  bool lockstep_, begun_ = false, begun_anew_ = false;
   Counts counts_;
   [[nodiscard]] bool within_rating(const Record& record) const noexcept;
   [[nodiscard]] bool believed(const Record& record) noexcept;  // counts it where not
@@ -51,6 +54,9 @@ class Session {
   std::uint32_t far_sample_ = 0;  // of the last that was far
   bool was_far_ = false;
   std::int64_t samples_ = 0;  // since the first, as it never goes round
+  // Samples and time of the first record, or of the first after the box began anew.
+  std::int64_t since_samples_ = 0;
+  Time since_{};
   Stamped<Wrench> newest_;
   Time last_{};  // when a record came
 };

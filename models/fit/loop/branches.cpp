@@ -96,11 +96,48 @@ Motion motion_in(std::span<const double> depth, const Branch& branch, const Wind
   return motion;
 }
 
+// The readings at which the way turns by more than `least`, and the first and the last.
+std::vector<std::size_t> turns_in(std::span<const double> depth, double least) {
+  std::vector<std::size_t> turns{0};
+  std::size_t low = 0, high = 0;
+  int way = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (depth[i] < depth[low]) low = i;
+    if (depth[i] > depth[high]) high = i;
+    if (way >= 0 && depth[i] < depth[high] - least) {
+      turns.push_back(high);
+      way = -1, low = i;
+    } else if (way <= 0 && depth[i] > depth[low] + least) {
+      turns.push_back(low);
+      way = 1, high = i;
+    }
+  }
+  turns.push_back(depth.size() - 1);
+  return turns;
+}
+
+// A hand that holds a depth trembles about it: its strokes are too short for a press.
+std::vector<bool> tremor_in(std::span<const double> depth, double least, double deepest) {
+  // A stroke of a tremor is no longer than this, m, and than this share of the depth.
+  constexpr double kLongest = 0.8e-3, kShare = 0.25;
+  const double most = std::min(kLongest, kShare * deepest);
+  std::vector<bool> trembles(depth.size(), false);
+  const std::vector<std::size_t> turns = turns_in(depth, least);
+  for (std::size_t k = 1; k < turns.size(); ++k) {
+    // The first and the last stroke are of a press.
+    const bool inner = k > 1 && k + 1 < turns.size();
+    if (!inner || std::abs(depth[turns[k]] - depth[turns[k - 1]]) > most) continue;
+    for (std::size_t i = turns[k - 1]; i <= turns[k]; ++i) trembles[i] = true;
+  }
+  return trembles;
+}
+
 // Leaves out readings over ground that the branch has covered before.
 void leave_minor_loops(std::span<const double> depth, const Branch& branch, double margin,
-                       std::vector<bool>& moves) {
+                       const std::vector<bool>& trembles, std::vector<bool>& moves) {
   double covered = -INFINITY;
   for (std::size_t i = branch.from; i < branch.to; ++i) {
+    if (trembles[i]) continue;
     const double along = branch.sign * depth[i];
     if (along < covered - margin) moves[i] = false;
     covered = std::max(covered, along);
@@ -144,12 +181,14 @@ std::vector<LoopPoint> split_branches(std::vector<LoopPoint>& press) {
   const Branch in{0, turn.at + 1, 1.0}, out{turn.at, press.size(), -1.0};
   const Window window_in = window_of(depth, in, top, noise), window_out = window_of(depth, out, top, noise);
   const bool sharp = turn.sharp(window_in, window_out, margin);
+  const double wobble = std::max(margin, kSameGround * top);
+  const std::vector<bool> trembles = tremor_in(depth, wobble, top);
   std::vector<bool> kept(press.size(), false);
   for (const Branch& branch : {in, out}) {
     Motion motion = motion_in(depth, branch, branch.sign > 0.0 ? window_in : window_out);
-    leave_minor_loops(depth, branch, std::max(margin, kSameGround * top), motion.moves);
+    leave_minor_loops(depth, branch, wobble, trembles, motion.moves);
     for (std::size_t i = branch.from; i < branch.to; ++i) {
-      press[i].held = motion.held[i] || (!sharp && i >= turn.first && i <= turn.last);
+      press[i].held = motion.held[i] || trembles[i] || (!sharp && i >= turn.first && i <= turn.last);
       kept[i] = motion.moves[i] && !press[i].held;
     }
   }

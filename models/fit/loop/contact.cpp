@@ -10,6 +10,8 @@ namespace enc::models {
 namespace {
 
 constexpr double kLeast = 1e-3;  // of the force's rise, of the depth: less is not worth a correction
+// A zero that differs by more than this share of the rise bends the curve.
+constexpr double kOtherForce = 0.05;
 
 class ContactFinder {
  public:
@@ -80,22 +82,74 @@ class ContactFinder {
     const auto n = static_cast<double>(which.size());
     ForceZero zero{0.0, 0.0, 0.0};
     for (const std::size_t i : which) zero.time += rows_[i].time / n, zero.force += rows_[i].force / n;
-    for (const std::size_t i : which) zero.error += std::pow(rows_[i].force - zero.force, 2);
-    zero.error = std::sqrt(zero.error / (n - 1.0) / n);
+    double tt = 0.0, tf = 0.0, ff = 0.0;
+    for (const std::size_t i : which) {
+      const double t = rows_[i].time - zero.time, f = rows_[i].force - zero.force;
+      tt += t * t, tf += t * f, ff += f * f;
+    }
+    zero.error = std::sqrt(ff / (n - 1.0) / n);
+    zero.rate = tf / tt;
+    zero.rate_error = std::sqrt(std::max(0.0, ff - tf * zero.rate) / (n - 2.0) / tt);
     return std::isfinite(zero.time) && std::isfinite(zero.force) && std::isfinite(zero.error) ? zero
                                                                                               : ForceZero{};
   }
 
+  double rise_of(std::size_t press) const {
+    return std::abs(rows_[presses_[press].deepest].force - contact_.zeros[press].before.force);
+  }
+
   void take_zeros() {
-    constexpr double kOtherForce = 0.05;  // of the rise: what differs by more is no zero, such as adhesion
     for (std::size_t k = 0; k < presses_.size(); ++k) {
       const PressRows& press = presses_[k];
-      PressZero& zero = contact_.zeros[k];
-      zero = {zero_of(press, press.from, press.deepest), zero_of(press, press.deepest, press.to)};
-      if (!zero.before.known() || !zero.after.known()) continue;
-      const double rise = std::abs(rows_[press.deepest].force - zero.before.force);
-      if (std::abs(zero.after.force - zero.before.force) > kOtherForce * rise) zero.after = {};
+      contact_.zeros[k] = {zero_of(press, press.from, press.deepest),
+                           zero_of(press, press.deepest, press.to)};
     }
+    find_drift();
+  }
+
+  // The zero after a press is one where it is like that before, or where a drift leads from the one to the
+  // other. Else it is another force, such as adhesion.
+  void find_drift() {
+    contact_.drift = 0.0, contact_.other_press = 0, contact_.untold_drift = false;
+    const std::vector<PressZero> found = contact_.zeros;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const auto& [before, after] = found[k];
+      if (!before.known()) continue;
+      const double most = kOtherForce * rise_of(k);
+      const ForceZero next = k + 1 < found.size() ? found[k + 1].before : ForceZero{};
+      if (!after.known()) {
+        contact_.untold_drift = contact_.untold_drift || std::abs(next.force - before.force) > most;
+        continue;
+      }
+      const double moved = after.force - before.force;
+      if (!(std::abs(moved) > most)) continue;
+      if (drifts(found, k)) {
+        const double rate = moved / (after.time - before.time);
+        if (std::abs(rate) > std::abs(contact_.drift)) contact_.drift = rate;
+        continue;
+      }
+      contact_.zeros[k].after = {};
+      if (contact_.other_press == 0) contact_.other_press = k + 1, contact_.other_force = moved;
+    }
+  }
+
+  // What the zero does on the way to the press, and from one press to the next, tells a drift.
+  static bool drifts(std::span<const PressZero> zeros, std::size_t k) {
+    // A rate has to be known to the first share of the change, and to be like it within the second.
+    constexpr double kSure = 0.25, kLike = 0.5;
+    const ForceZero &before = zeros[k].before, &after = zeros[k].after;
+    const double lasts = after.time - before.time, moved = after.force - before.force;
+    const auto explains = [&](double rate, double error) {
+      return error * lasts <= kSure * std::abs(moved) &&
+             std::abs(rate * lasts - moved) <= kLike * std::abs(moved);
+    };
+    const auto from_to = [&](const ForceZero& a, const ForceZero& b) {
+      const double apart = b.time - a.time;
+      return explains((b.force - a.force) / apart, std::hypot(a.error, b.error) / apart);
+    };
+    return explains(before.rate, before.rate_error) ||
+           (k + 1 < zeros.size() && from_to(before, zeros[k + 1].before)) ||
+           (k > 0 && from_to(zeros[k - 1].before, before));
   }
 
   void judge() {
@@ -169,6 +223,22 @@ std::vector<std::string> Contact::notes() const {
     notes.push_back(
         fmt::format("{} contact the force is {}: subtracted", all_before ? "before" : "outside of", of));
   if (shift) notes.push_back(fmt::format("contact begins at {:.2f} mm: shifted", onset.at * 1e3));
+  if (drift != 0.0)
+    notes.push_back(fmt::format(
+        "the zero of the force drifts by {:.2g} N/s: taken for a straight line in time from before "
+        "each press to after it",
+        drift));
+  if (other_press > 0)
+    notes.push_back(fmt::format(
+        "after press {} the force is {:.2f} N, against the zero before it: what clings to the probe, or a "
+        "zero "
+        "that moved; only the one before is subtracted, so the curves may be off by as much; record on "
+        "until the force is at rest, far outside",
+        other_press, other_force));
+  if (untold_drift)
+    notes.push_back(
+        "the zero of the force moves from press to press, and no reading after a press tells by how much "
+        "within one: the curves may be off by as much; record until after contact");
   return notes;
 }
 

@@ -13,6 +13,8 @@ namespace enc::models {
 // Mean force while nothing touches, N, with its standard deviation; unset without such readings.
 struct ForceZero {
   double time = kUnset, force = kUnset, error = kUnset;
+  // The line through these readings rises by this, N/s, with its standard deviation.
+  double rate = kUnset, rate_error = kUnset;
   [[nodiscard]] bool known() const { return !std::isnan(force); }
 };
 
@@ -36,6 +38,17 @@ struct Contact {
   [[nodiscard]] double begin() const { return shift ? onset.at : 0.0; }  // m
   [[nodiscard]] double zero_error() const;                               // N, of the mean over the presses
   [[nodiscard]] double begin_error() const { return shift ? onset.error : 0.0; }  // m
+  // A zero moves by so much during a press that it bends the curve: the fastest of them, N/s.
+  double drift = 0.0;
+  // The force after this press, counted from 1, is another and no drift explains it; 0: there is none.
+  std::size_t other_press = 0;
+  // The force there is so much above the zero before it, N.
+  double other_force = kUnset;
+  // The zero moves from press to press, and no reading after contact tells by how much within one.
+  bool untold_drift = false;
+
+  // A curve that is bent by what nobody knows is not to be believed.
+  [[nodiscard]] bool doubted() const { return other_press > 0 || untold_drift; }
   // "before contact the force is 0.60 N: subtracted", "contact begins at 2.00 mm: shifted"
   [[nodiscard]] std::vector<std::string> notes() const;
 };

@@ -15,6 +15,8 @@ struct LoopRow {
   double deflection = 0.0;  // m, as in the file
   double force = kUnset;    // N, as in the file; unset: the file has none, which only a row outside may lack
   std::int64_t repeat = 0;  // 0: outside of a press
+  // The row stands in this line of the file.
+  std::size_t line = 0;
 };
 
 // Indices of rows, all included. The approach is `from` to `deepest`, the retreat `deepest` to `to`. Rows

@@ -15,14 +15,16 @@ namespace enc::models {
 
 // Poses of the tracker in the tool swap tip and dimple and leave the same residual. `doubted`: the tip is
 // farther from the markers than a hand-held tool is long, and farther than the dimple is from the tracker.
-// `sure`: no tool and no tracker is like that.
+// `sure`: no tool and no tracker is like that. Poses may be in a frame that has its origin at the dimple:
+// then the distances say less.
 struct Inversion {
   bool doubted = false, sure = false;
   std::string text;  // both distances, and the tip if the poses are inverted
 };
 [[nodiscard]] Inversion doubt_of_direction(const PivotFit& fit);
 
-// Of poses whose tip did not stay: "; ..." where it stays with the quaternion read otherwise; else empty.
+// Looks at poses whose tip did not stay: "; ..." where it stays with the quaternion read otherwise, in each
+// of two parts of the log, or with the places of other rows; else empty.
 [[nodiscard]] std::string other_convention(std::span<const PivotPose> poses);
 
 }  // namespace enc::models

@@ -81,6 +81,35 @@ TEST_F(Program, FitSaysWhatItPutRight) {
               HasSubstr("the force is 0.60 N: subtracted; contact begins at 2.00 mm: shifted; to 6 mm"));
 }
 
+// An object of 0.04 N/mm is not rendered by a rig that renders 0.125: three times as much came out of the
+// fit.
+TEST_F(Program, FitDoesNotBelieveACurveThatItHadToRaise) {
+  const auto of = [&](double newtons_per_mm, const std::string& name) {
+    std::string text = "time_s,deflection_mm,force_N,repeat\n";
+    for (int i = 1; i < 3000; ++i) {
+      const double d = 0.004 * std::min(i, 3000 - i);
+      text +=
+          fmt::format("{:.3f},{:.3f},{:.5f},1\n", i * 1e-3, d, (i < 1500 ? 1.0 : 0.9) * newtons_per_mm * d);
+    }
+    write(name, text);
+    return run_program({"fit", path(name), "--force", "--out", path("soft.toml")});
+  };
+  const Result soft = of(0.04, "soft.csv");
+  EXPECT_EQ(soft.code, 1);
+  EXPECT_THAT(
+      soft.out,
+      AllOf(HasSubstr("\nnote        at 6.00 mm the release is 0.216 N by the readings and 0.750 N by "
+                      "the curve"),
+            HasSubstr("softer than this rig renders, 0.125 N/mm; give another --rig\n"),
+            HasSubstr("\nnot written ")));
+  EXPECT_EQ(bytes_of(path("soft.toml")), "");
+  EXPECT_THAT(of(0.001, "kn.csv").out, HasSubstr("or, if force_N is in kN, multiply it by 1000"));
+  const Result good = of(0.2, "good.csv");
+  EXPECT_EQ(good.code, 0) << good.out;
+  EXPECT_THAT(good.out, Not(HasSubstr("note")));
+  EXPECT_NE(bytes_of(path("soft.toml")), "");
+}
+
 TEST_F(Program, ABallNeedsSecondsInItsLoop) {
   std::string slow = "time_s,deflection_mm,force_N,repeat\n";
   for (int i = 1; i < 3000; ++i)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -107,6 +108,61 @@ TEST(ToolSizes, ATipInMetresIsWarnedOf) {
               ElementsAre(HasSubstr("has a radius of 2 um; expected 50 um to 30 mm")));
   EXPECT_THAT(notes("tool.stylus.markers_mm=[[0, 0, 0], [5200, 0, 0], [0, 4100, 0], [-1700, -3000, 1200]]"),
               Not(IsEmpty()));
+}
+
+// Markers in m or cm are too near to one another to be told apart, so the scene is refused.
+TEST(ToolSizes, MarkersInAnotherUnitAreAskedFor) {
+  const auto said = [](const std::string& markers, const std::string& tip) -> std::string {
+    try {
+      const auto notes = models::load(shipped_scene("plane"), "sim",
+                                      {"tool.stylus.markers_mm=" + markers, "tool.stylus.tip_mm=" + tip})
+                             .notes;
+      return fmt::format("{}", fmt::join(notes, "\n"));
+    } catch (const Error& e) {
+      return e.what();
+    }
+  };
+  EXPECT_THAT(said("[[0, 0, 0], [0.052, 0, 0], [0, 0.041, 0], [-0.017, -0.03, 0.012]]", "[0, 0, -120]"),
+              AllOf(HasSubstr("are on a line, or almost"),
+                    HasSubstr("; is 'markers_mm' in m? then multiply each number of it by 1000")));
+  for (const char* markers : {"[[0, 0, 0], [5.2, 0, 0], [0, 4.1, 0], [-1.7, -3, 1.2]]",
+                              "[[0, 0, 0], [9, 0, 0], [0, 3, 0], [-7, -9, 2]]"})
+    EXPECT_THAT(said(markers, "[0, 0, -12]"),
+                HasSubstr("; is 'markers_mm' in cm? then multiply each number of it by 10"));
+  const std::string micrometres = "[[0, 0, 0], [52000, 0, 0], [0, 41000, 0], [-17000, -30000, 12000]]";
+  EXPECT_THAT(
+      said(micrometres, "[0, 0, -120]"),
+      AllOf(HasSubstr("the markers of tool 'stylus' are up to 76.2 m apart; expected 20 mm to 500 mm; is "
+                      "'markers_mm' in um? then multiply each number of it by 0.001"),
+            Not(HasSubstr("'tip_mm'"))));
+  EXPECT_THAT(said(micrometres, "[0, 0, -120000]"),
+              HasSubstr("is 'tip_mm' in um? then write tip_mm = [0, 0, -120]"));
+  EXPECT_THAT(said("[[0, 0, 0], [60, 0, 0], [130, 0, 0]]", "[0, 0, -120]"), HasSubstr("; move one of"));
+}
+
+TEST(ObjectSizes, ABallOrAButtonInAnotherUnitIsWarnedOf) {
+  const auto notes = [](const std::string& scene, const std::string& set) {
+    return models::load(shipped_scene(scene), "", {set}).notes;
+  };
+  EXPECT_THAT(
+      notes("tennis_ball", "object.ball.radius_mm=0.0335"),
+      ElementsAre(HasSubstr("has a diameter of 67 um; expected 5 mm to 2 m; is 'radius_mm' in m? then write "
+                            "radius_mm = 33.5")));
+  EXPECT_THAT(notes("tennis_ball", "object.ball.radius_mm=1"),
+              ElementsAre(HasSubstr("is 'radius_mm' in cm? then write radius_mm = 10")));
+  EXPECT_THAT(
+      notes("button", "object.button.width_mm=0.015"),
+      ElementsAre(HasSubstr("button 'button' has a width of 15 um; expected 5 mm to 2 m; is 'width_mm' in m? "
+                            "then write width_mm = 15")));
+  EXPECT_THAT(notes("button", "object.button.height_mm=1.5"),
+              ElementsAre(HasSubstr("is 'height_mm' in m? then write height_mm = 1500; or in cm? then write "
+                                    "height_mm = 15")));
+  EXPECT_THAT(notes("button", "object.button.thickness_mm=0.05"),
+              ElementsAre(HasSubstr("a thickness of 50 um; expected 1 mm to 1 m; is 'thickness_mm' in m?")));
+  EXPECT_THAT(
+      notes("plane", "object.wall.position_mm=[0, 0, 100000]"),
+      ElementsAre(AllOf(HasSubstr("object 'wall' is 100 m from the origin of W; expected at most 10 m"),
+                        HasSubstr("is 'position_mm' in um? then write position_mm = [0, 0, 100]"))));
 }
 
 TEST(ToolSizes, ShippedScenesAreOrdinary) {

@@ -95,6 +95,88 @@ TEST(LoopContact, AZeroThatDriftsIsSubtractedAtEachTime) {
   expect_line(loop, 5e-3);
 }
 
+// A drift of 0.2 N/s moves the zero by 0.8 N during a press of 4 s, of 6 N.
+TEST(LoopContact, AZeroThatDriftsFarWithinAPressIsSubtracted) {
+  for (const std::size_t presses : {1U, 2U, 3U})
+    for (const double rate : {0.2, -0.2, 1.0})
+      for (const bool marks_all : {true, false}) {
+        const LoopData loop = read(
+            std::vector(presses, kPress), [&](double d, double t) { return line(d) + rate * t; }, marks_all);
+        EXPECT_THAT(loop.notes,
+                    testing::Contains(
+                        AllOf(HasSubstr(fmt::format("the zero of the force drifts by {:g} N/s: ", rate)),
+                              HasSubstr("a straight line in time from before each press to after it"))));
+        EXPECT_FALSE(loop.doubted);
+        expect_line(loop, 5e-3);
+      }
+}
+
+// The object holds on to the probe with 0.5 N: that is no zero, and nothing moves it.
+TEST(LoopContact, AnotherForceAfterAPressIsToldAndNotSubtracted) {
+  const auto clings = [](double d, double t) {
+    return std::fmod(t, 5.0) > 2.0 ? d > 0.0 ? d : -0.5 : line(d);
+  };
+  const LoopData loop = read({kPress, kPress}, clings);
+  EXPECT_THAT(loop.notes, ElementsAre(AllOf(
+                              HasSubstr("after press 1 the force is -0.50 N, against the zero before it"),
+                              HasSubstr("only the one before is subtracted"), HasSubstr("record on until"))));
+  EXPECT_TRUE(loop.doubted);
+  expect_line(loop, 1e-9);
+}
+
+TEST(LoopContact, AZeroThatMovesFromPressToPressIsToldWhereNothingSaysWhen) {
+  const std::vector<Turn> ends_in_contact{{0, -2}, {2, 6}, {3.4, 0.4}};
+  const LoopData loop =
+      read({ends_in_contact, ends_in_contact}, [](double d, double t) { return line(d) + 0.2 * t; });
+  EXPECT_THAT(loop.notes, testing::Contains(HasSubstr("no reading after a press tells by how much")));
+  EXPECT_TRUE(loop.doubted);
+  EXPECT_FALSE(read({ends_in_contact, ends_in_contact}, [](double d, double) { return line(d); }).doubted);
+}
+
+TEST(LoopContact, WithoutAZeroAReleaseHasToEndWhereThePressBegan) {
+  const std::vector<Turn> press{{0, 0.004}, {1.5, 6}, {3, 0.004}};
+  const LoopData loop = read({press}, [](double d, double t) { return line(d) + 0.2 * t; });
+  EXPECT_THAT(loop.notes, ElementsAre(HasSubstr("the press begins with 0.00 N at 0 mm and the release ends "
+                                                "with 0.60 N")));
+  EXPECT_TRUE(loop.doubted);
+  EXPECT_FALSE(read({press}, [](double d, double) { return line(d); }).doubted);
+}
+
+// A force sensor that goes up to 4 N, with its noise before its limit or after it.
+TEST(LoopContact, ASensorAtItsLimitIsRefused) {
+  const auto noise = [](double t) { return 0.02 * std::sin(1e6 * t); };
+  for (const bool after : {true, false}) {
+    const auto clipped = [&](double d, double t) {
+      return after ? std::min(4.0, line(d)) + noise(t) : std::min(4.0, line(d) + noise(t));
+    };
+    const std::string said = refusal(csv({kPress, kPress}, clipped));
+    EXPECT_THAT(said, testing::MatchesRegex("loop.csv:1[45][0-9][0-9]:1: from (3.9|4.0)[0-9] mm on the force "
+                                            "stays at (3.9|4.0)[0-9] N while it is pressed deeper: .*limit.* "
+                                            "give --limit-mm (3.9|4)"));
+    EXPECT_EQ(parse_loop(csv({kPress, kPress}, clipped), "loop.csv", 3.9e-3).notes.size(), 0U);
+  }
+  // An edge that is barely cut is no plateau.
+  for (const double depth : {0.3, 0.05, 0.0})
+    EXPECT_EQ(refusal(csv({kPress},
+                          [&](double d, double t) { return std::min(6.0 - depth, line(d)) + noise(t); })) ==
+                  "accepted",
+              depth < 0.1)
+        << depth;
+  const auto in_steps = [](double d, double) { return 0.1 * std::round(10.0 * line(d)); };
+  EXPECT_EQ(refusal(csv({kPress}, in_steps)), "accepted");
+}
+
+TEST(LoopContact, AForceInAnotherUnitIsAskedFor) {
+  const auto in_unit = [](double factor) {
+    return refusal(csv({kPress}, [&](double d, double) { return factor * line(d); }));
+  };
+  EXPECT_THAT(in_unit(1e3), AllOf(HasSubstr("the force reaches 6000 N within 6 mm; expected at most 300 N"),
+                                  HasSubstr("if force_N is in mN, multiply it by 0.001"),
+                                  HasSubstr("; if in gram-force, multiply it by 0.00980665")));
+  EXPECT_THAT(in_unit(1e5), HasSubstr("see to the unit of force_N"));
+  EXPECT_EQ(in_unit(40), "accepted");
+}
+
 TEST(LoopContact, ContactThatBeginsElsewhereIsShifted) {
   for (const double begin : {-0.5, 0.2, 2.0}) {
     const std::vector<Turn> press{{0, begin - 2}, {2, begin + 6}, {4, begin - 2}};
@@ -170,6 +252,38 @@ TEST(LoopBranches, AHoldBelongsToNeither) {
   EXPECT_GT(releasing, 120);  // of 150
   EXPECT_GT(loop.presses.at(0).size(), 11000U);
   for (const LoopPoint& p : loop.presses[0]) ASSERT_TRUE(p.held || p.force != 5.5) << p.time;
+}
+
+// A hand that holds a depth trembles, here at 9 Hz: its strokes are neither a press nor a release, at the
+// deepest place or on the way in.
+TEST(LoopBranches, ATremorOfAHoldBelongsToNeither) {
+  for (const double held_at : {6.0, 3.0})
+    for (const double size : {0.1, 0.2, 0.3}) {
+      const auto way = [&](double t) {
+        const double reached = (held_at + 2.0) / 4.0;
+        if (t < reached) return -2.0 + 4.0 * t;
+        if (t < reached + 10.0) return held_at + size * std::sin(2.0 * M_PI * 9.0 * (t - reached));
+        return t < 12.0 ? -2.0 + 4.0 * (t - 10.0) : 6.0 - 4.0 * (t - 12.0);
+      };
+      std::string text = "time_s,deflection_mm,force_N,repeat\n";
+      for (int i = 0; i <= 14000; ++i) {
+        const double t = 1e-3 * i, d = way(t), from = (held_at + 2.0) / 4.0;
+        // The first stroke up to its turn still is of the press.
+        const bool holds = t > from + 0.03 && t < from + 10.0;
+        text += fmt::format("{:.3f},{:.6f},{:.6f},1\n", t, d,
+                            holds      ? 5.0
+                            : t < 12.0 ? line(d)
+                                       : 0.5 * line(d));
+      }
+      int pressing = 0, releasing = 0;
+      const LoopData loop = parse_loop(text, "loop.csv", kPressedTo);
+      for (const LoopPoint& p : loop.moving.at(0)) {
+        ASSERT_NEAR(p.force, (p.pressing ? 1e3 : 0.5e3) * p.deflection, 1e-6) << p.time << ' ' << size;
+        ++(p.pressing ? pressing : releasing);
+      }
+      EXPECT_GT(pressing, 1300) << held_at << ' ' << size;
+      EXPECT_GT(releasing, 1300) << held_at << ' ' << size;
+    }
 }
 
 // In, part of the way back and in again: that piece is on neither curve.

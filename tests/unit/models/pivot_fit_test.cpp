@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/rotation.h"
 #include "core/units.h"
+#include "models/fit/pivot/pivot_doubts.h"
 #include "models/fit/pivot/pivot_log.h"
 
 namespace enc {
@@ -241,6 +242,26 @@ TEST(PivotFit, RefusesATipThatDidNotStay) {
   poses = swung(kDegree * Vec3(30, 30, 0));
   for (std::size_t i = 0; i < 150; ++i) poses[i].X_CT.xyz[0] += 0.03;
   EXPECT_THAT(refusal_of(poses), AllOf(HasSubstr("it wandered by up to 30 mm"), HasSubstr("30 % more")));
+}
+
+// A reference in the dimple is the origin of all poses: a tool of 0.4 m is no inverted one, and one of 1.1 m
+// is doubted and not refused.
+TEST(PivotDoubts, AFrameWithItsOriginAtTheDimpleIsNotInverted) {
+  const auto of_length = [](double more, const Vec3& dimple) {
+    std::vector<PivotPose> poses = swung(kDegree * Vec3(30, 30, 0));
+    for (PivotPose& pose : poses)
+      pose.X_CT = {pose.X_CT.q(), Vec3(pose.X_CT.p() + pose.X_CT.q() * Vec3(0, 0, more) - kDimple + dimple)};
+    return models::doubt_of_direction(models::fit_pivot(poses));
+  };
+  const Vec3 at_origin(0, 0, 0.002), near_it(0, 0, 0.1);
+  EXPECT_FALSE(of_length(0.28, at_origin).doubted);
+  EXPECT_TRUE(of_length(0.28, near_it).doubted);
+  EXPECT_TRUE(of_length(1.0, at_origin).doubted);
+  EXPECT_FALSE(of_length(1.0, at_origin).sure);
+  EXPECT_TRUE(of_length(1.0, near_it).sure);
+  EXPECT_THAT(
+      of_length(1.0, at_origin).text,
+      HasSubstr("inverted? If the origin of the poses is at the dimple, all is well; if not, then the tip"));
 }
 
 const std::string kPoseHead = "time_s,tool,tool_x_mm,tool_y_mm,tool_z_mm,tool_qx,tool_qy,tool_qz,tool_qw\n";

@@ -207,6 +207,39 @@ TEST_F(CalibratePivot, DoubtsALongToolNearItsTracker) {
   EXPECT_THAT(told["note"].get<std::string>(), HasSubstr("are these poses inverted?"));
 }
 
+// The tracker is moved and turned at 6 s.
+TEST_F(CalibratePivot, TellsWhenTheFrameMoved) {
+  const Quat turned = rotation_xyz(M_PI / 180.0 * Vec3(0, 0, 5));
+  const std::string log = write("f.csv", reread([&](double& time, Vec3& place, Quat& turn) {
+                                  if (time < 5.999) return;
+                                  turn = turned * turn;
+                                  place = turned * place + Vec3(3, 0, 0);
+                                }));
+  EXPECT_THAT(line({"calibrate", log}),
+              AllOf(HasSubstr("f.csv:1:1: the tip did not stay"),
+                    testing::ContainsRegex(
+                        "; from 6\\.00 s on it stays within 0\\.0[0-9]+ mm rms again, 8[0-9]\\.[0-9] mm "
+                        "from where it stayed before: the dimple, the tracker or its "
+                        "reference was moved; keep one part")));
+}
+
+TEST_F(CalibratePivot, TellsThatPlacesAreOfOtherRows) {
+  for (const int late : {2, -3}) {
+    std::vector<Vec3> places;
+    (void)reread([&](double&, Vec3& place, Quat&) { places.push_back(place); });
+    int row = 0;
+    const std::string log = write("s.csv", reread([&](double&, Vec3& place, Quat&) {
+                                    const int of =
+                                        std::clamp(row++ - late, 0, static_cast<int>(places.size()) - 1);
+                                    place = places[static_cast<std::size_t>(of)];
+                                  }));
+    EXPECT_THAT(line({"calibrate", log}),
+                AllOf(HasSubstr("the tip did not stay"),
+                      HasSubstr(fmt::format("; with each place taken from {} rows {} it stays within 0.0",
+                                            std::abs(late), late > 0 ? "later" : "earlier"))));
+  }
+}
+
 TEST_F(CalibratePivot, ATimeInAnotherUnitIsAskedFor) {
   const auto in_unit = [&](double factor) {
     return line({"calibrate", write("u.csv", reread([&](double& time, Vec3&, Quat&) { time *= factor; }))});

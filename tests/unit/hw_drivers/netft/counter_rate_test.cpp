@@ -48,6 +48,15 @@ TEST(NetftCounterRate, AnUnknownOneIsMeasuredAndIsKnownWhereItIsSet) {
   EXPECT_TRUE(std::isnan(watched(3906.25, 1e-3, 7000.0).known())) << "not what the rig file has";
 }
 
+// A box that is 0.7 % slow gives records that grow older by 7 ms each second.
+TEST(NetftCounterRate, AlmostAKnownOneIsNotKnown) {
+  for (const double rate : {6950.0, 7050.0, 3880.0})
+    EXPECT_TRUE(std::isnan(watched(rate, 1e-3).known())) << rate;
+  EXPECT_TRUE(std::isnan(watched(6950.0, 1e-3, 7000.0).known()));
+  EXPECT_EQ(watched(6950.0, 1e-3, 6950.0).known(), 6950.0);
+  EXPECT_EQ(watched(7000.7, 5e-3).known(), 7000.0) << "a quartz";
+}
+
 TEST(NetftCounterRate, WithoutRecordsOrWithACounterThatStandsThereIsNone) {
   EXPECT_TRUE(std::isnan(CounterRate().known()));
   EXPECT_EQ(CounterRate().watched(), 0.0);
