@@ -10,10 +10,12 @@ constexpr double kThinnest = 0.008, kThickest = 0.025;  // m, of fingertips
 constexpr double kVaguest = 0.007;                      // m rms: three times as much is 20 mm
 constexpr double kLongest = 0.115;                      // m
 constexpr double kThin = 7.5;                           // widths: a rod is longer
-constexpr double kMostAslant = 1.3;                     // tangent: beyond it little is seen of a finger
-constexpr double kPalmBehind = 0.9;                     // of the finger's length
-constexpr int kFlanked = 3;                             // of eight sides
-constexpr double kDepthOff = 0.015;                     // m
+constexpr double kMostAslant = 0.95;                    // tangent: beyond it little is seen of a finger
+constexpr double kBent = 0.6;        // tangent: as much may the hand slope otherwise than its finger
+constexpr double kFarHand = 0.158;   // m, from the fingertip to the palm of a large hand
+constexpr double kPalmBehind = 0.9;  // of the finger's length
+constexpr int kFlanked = 3;          // of eight sides
+constexpr double kDepthOff = 0.015;  // m
 
 // docs/notes/fingertip.md: of fingers that point all but a few have 8.4 or more, of thumbs none.
 constexpr double kTrusted = 8.35;
@@ -50,8 +52,9 @@ Doubt doubt_of(const FingerEvidence& e, const FingerLimits& limits) {
   if (e.end == FormEnd::nothing || e.flanks >= kFlanked) return Doubt::shape;
   if (e.end == FormEnd::border && lengths > kBorderLength && e.cap < kBorderWidth * 2.0 * limits.radius)
     return Doubt::no;
-  // The palm is behind the finger, not beside it.
-  if (e.hand < kPalmBehind * e.length) return Doubt::shape;
+  // The palm is behind the finger, not beside it; what is thick and farther off is a forearm.
+  if (e.hand < kPalmBehind * e.length || e.hand > kFarHand) return Doubt::shape;
+  if (std::abs(e.hand_slope - e.slope) > kBent) return Doubt::hand;
   return trust_of(e, limits) >= kTrusted ? Doubt::no : Doubt::hand;
 }
 

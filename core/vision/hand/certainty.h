@@ -33,6 +33,8 @@ struct FingerEvidence {
   double cap = kUnset;                          // width of the cap
   double width = kUnset, length = kUnset;       // of the finger, its slope taken into account
   double slope = kUnset;                        // the finger's, against the image: tangent
+  bool slope_known = false;                     // else it is 0
+  double hand_slope = kUnset;                   // of the way from the tip to the palm; NaN: not known
   FormEnd end = FormEnd::nothing;
   int flanks = 0;             // of four places of the finger: sides where something is as near as it
   double depth_off = kUnset;  // by which the finger behind says that its tip is farther

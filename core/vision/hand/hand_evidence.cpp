@@ -120,6 +120,7 @@ void HandScene::weigh_finger(const FingerForm& form, Seen& seen) {
                                     .e();
   e.length = way.norm() + tip.outline * each;
   e.slope = way.z() / std::max(1e-6, std::hypot(way.x(), way.y()));
+  e.slope_known = true;
   e.depth_off = e.depth * (seen.disparity / spots.disparity(0.0) - 1.0);
 }
 
@@ -142,10 +143,14 @@ void HandScene::weigh_hand(const StereoFrame& frame, double width, Seen& seen) {
       const float there = matcher_.at(grey_left_, grey_right_, x + dx, y + dy, &skin_).pixels;
       if (there > 0.0F) found[count++] = static_cast<double>(there);
     }
-  // Skin of little detail may be matched nowhere: then the palm is thought to be as far as the tip.
-  const double disparity = count < kFewest ? seen.disparity : middle_of_some(found, count);
-  seen.evidence.palm = triangulate(pair(), {palm.column, palm.row, disparity});
-  seen.evidence.hand = (seen.evidence.palm - seen.evidence.tip).norm();
+  // Skin of little detail may be matched nowhere, and a finger of which the slope is not known is as long as
+  // the image shows: then its hand is as far off as the image shows, too.
+  FingerEvidence& e = seen.evidence;
+  const bool told = e.slope_known && count >= kFewest;
+  e.palm = triangulate(pair(), {palm.column, palm.row, told ? middle_of_some(found, count) : seen.disparity});
+  const Vec3 way = pair().turn.transpose() * (e.palm - e.tip).e();
+  e.hand = way.norm();
+  if (told) e.hand_slope = way.z() / std::max(1e-6, std::hypot(way.x(), way.y()));
 }
 
 void HandScene::weigh(Seen& seen, const StereoFrame& frame, bool hand_too) {

@@ -51,9 +51,11 @@ TEST(Certainty, EachDoubtHasItsCause) {
   EXPECT_EQ(doubt_with([](auto& e) { e.cap = e.width = 0.0251; }), Doubt::size);
   EXPECT_EQ(doubt_with([](auto& e) { e.end = FormEnd::nothing; }), Doubt::shape);
   EXPECT_EQ(doubt_with([](auto& e) { e.flanks = 3; }), Doubt::shape);
-  EXPECT_EQ(doubt_with([](auto& e) { e.slope = -1.4; }), Doubt::shape);
+  EXPECT_EQ(doubt_with([](auto& e) { e.slope = -1.0; }), Doubt::shape);
+  EXPECT_EQ(doubt_with([](auto& e) { e.hand_slope = -0.6; }), Doubt::hand);
   EXPECT_EQ(doubt_with([](auto& e) { e.length = 0.130; }), Doubt::shape);
   EXPECT_EQ(doubt_with([](auto& e) { e.hand = 0.05; }), Doubt::shape);
+  EXPECT_EQ(doubt_with([](auto& e) { e.hand = 0.165; }), Doubt::shape);
   EXPECT_EQ(doubt_with([](auto& e) { e.hand = kUnset; }), Doubt::hand);
 }
 
