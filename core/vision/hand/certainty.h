@@ -25,7 +25,7 @@ constexpr auto words(Doubt) {
   return enum_words("no", "outline", "depth", "size", "shape", "hand", "fingers", "speed");
 }
 
-// What the images tell of a find. m
+// Measurements of a find in the images. m
 struct FingerEvidence {
   bool matched = false;                         // the cap's pixels, left and right
   bool outlined = false;                        // a cap's circle fits the edge of the skin
@@ -51,7 +51,7 @@ struct FingerLimits {
 // from the palm, less where it is wider than the finger that is looked for, and where it is seen aslant.
 [[nodiscard]] double trust_of(const FingerEvidence& evidence, const FingerLimits& limits);
 [[nodiscard]] Doubt doubt_of(const FingerEvidence& evidence, const FingerLimits& limits);
-// Of a find where a followed finger is expected, whose cap was `cap` wide: it need not show its hand.
+// The same where a followed finger is expected, whose cap was `cap` wide: it need not show its hand.
 [[nodiscard]] Doubt doubt_of_followed(const FingerEvidence& evidence, const FingerLimits& limits, double cap);
 
 }  // namespace enc
