@@ -18,7 +18,7 @@ constexpr std::array kDoubts{
     "",
     "no fingertip's outline fits them",
     "left and right do not agree on their distance, or it is out of reach",
-    "they are narrower than 8 mm, wider than 25 mm, or not as wide as the finger that was followed",
+    "they are not as wide as the finger of the scene, or as the one that was followed",
     "what they are the end of does not have the shape of a finger with its hand",
     "they are as near to their hand as a thumb",
     "their hand has three or more straight fingers; point with one",

@@ -26,8 +26,9 @@ struct FingerTracker::Parts {
   LookStats stats;
   std::optional<Time> newest;
   Time last_seen{};
-  Point<'C'> last_place;                    // where it was seen last; NaN: nowhere
-  double cap = kUnset, found_cap = kUnset;  // m, widths of the caps that is followed and that was found
+  Point<'C'> last_place;  // where it was seen last; NaN: nowhere
+  // m, widths when they were recognised: of the cap that is followed, and of the one that was found.
+  double cap = kUnset, found_cap = kUnset;
 
   [[nodiscard]] Refused usable(const StereoFrame& frame, Time exposed) const;
   [[nodiscard]] Region window() const;
@@ -99,7 +100,7 @@ bool FingerTracker::Parts::look(const StereoFrame& frame, Time exposed, Triplet&
   variance = {place, place, track.disparity_noise * track.disparity_noise + seen.variance};
   stats.found = at;
   stats.variance = variance;
-  found_cap = seen.evidence.cap;
+  found_cap = seen.followed ? cap : seen.evidence.cap;
   return seen.doubt == Doubt::no;
 }
 

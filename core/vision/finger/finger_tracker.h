@@ -29,7 +29,7 @@ struct LookStats {
   std::int64_t pixels = 0;   // segmented
   std::int64_t cells_sought = 0, cells_matched = 0;
   StepCounts steps;
-  Fingertip tip;            // as found in the image, the filter not yet asked; not found where it is doubtful
+  Fingertip tip;            // as found in the image: neither the filter nor a doubt has been asked yet
   Doubt doubt = Doubt::no;  // why the fingertip that there was is not believed
   FingerEvidence evidence;  // of that or of the one that is believed
   Triplet found;            // the same, with its disparity

@@ -281,6 +281,7 @@ void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
   if (cap.good && seen.tip.fitted) confirm(seen.tip, frame, expected, cap);
   const auto surface = static_cast<double>(disparity_.at(seen.tip.x, seen.tip.y));
   seen.evidence.matched = cap.good;
+  seen.evidence.cap_slope = std::tan(cap.slope);
   seen.disparity = cap.good ? cap.disparity : middle_of(surface, seen.tip.outline, pair().focal);
   seen.variance = cap.good ? cap.variance : kUnrefined * kUnrefined;
 }

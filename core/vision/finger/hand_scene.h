@@ -34,12 +34,13 @@ class HandScene {
     double disparity = kUnset, variance = kUnset;  // px, px^2, of the middle of the cap
     FingerEvidence evidence;
     Doubt doubt = Doubt::no;  // why the tip is not believed; then another one is not, either
+    bool followed = false;    // it goes on with the finger that is followed, and was not recognised anew
     std::int64_t pixels = 0;  // segmented
   };
   // A finger that was seen in the frames before.
   struct Followed {
     Triplet at;           // where it is foreseen, or NaN
-    double cap = kUnset;  // m, its width; NaN where it must be recognised anew
+    double cap = kUnset;  // m, its width when it was recognised; NaN where it must be recognised anew
   };
   // Candidates are sought within `window`. Where a followed finger is foreseen says which of several fingers
   // is meant, and its disparity how much is segmented at first. Where none is followed the one is taken that
@@ -76,11 +77,15 @@ class HandScene {
   // hand_evidence.cpp
   void segment_too(const StereoFrame& frame, const Region& wanted);
   void make_ready(const StereoFrame& frame, const Region& part);
-  void weigh(Seen& seen, const StereoFrame& frame, bool hand_too);
-  void weigh_finger(const FingerForm& form, Seen& seen);
+  [[nodiscard]] Vec3 in_image(const Triplet& to, const Triplet& from) const;
+  void weigh_cap(Seen& seen) const;
+  FingerForm form_behind(Seen& seen, const StereoFrame& frame, double reach);
+  void weigh_finger(const FingerForm& form, const StereoFrame& frame, Seen& seen);
   [[nodiscard]] int flanks(const Pixel& at, const Fingertip& tip, double width, double disparity);
   void weigh_hand(const StereoFrame& frame, double width, Seen& seen);
-  void judge(Seen& seen, const StereoFrame& frame, const Followed& followed);
+  [[nodiscard]] double disparity_around(const StereoFrame& frame, const Pixel& at);
+  bool goes_on(Seen& seen, const StereoFrame& frame, const Followed& followed);
+  void recognise(Seen& seen, const StereoFrame& frame);
   [[nodiscard]] static bool near_many(const Seen& one, std::span<const Seen> all);
   Seen choose(const StereoFrame& frame, const Followed& followed);
   void look_for_finger_in_background(const StereoFrame& frame);

@@ -15,9 +15,9 @@ enum class Doubt : std::uint8_t {
   no,
   outline,  // no cap fits the edge of the skin
   depth,    // left and right do not agree on a depth, or it is out of reach
-  size,     // narrower than 8 mm, wider than 25 mm, or not as wide as the finger that is followed
+  size,     // of another width than the finger of the scene, or than the one that is followed
   shape,    // not the form of a finger: too short, too long, no hand behind it, at its sides the same surface
-  hand,     // as far from the hand as a thumb, not as a finger that points
+  hand,     // as near to the palm as a thumb, or not on one line with it
   fingers,  // one of three or more straight fingers of a hand
   speed,    // no hand is so fast
 };
@@ -31,15 +31,15 @@ struct FingerEvidence {
   bool outlined = false;                        // a cap's circle fits the edge of the skin
   double depth = kUnset, depth_noise = kUnset;  // of the middle of the cap; rms
   double cap = kUnset;                          // width of the cap
-  double width = kUnset, length = kUnset;       // of the finger, its slope taken into account
-  double slope = kUnset;                        // the finger's, against the image: tangent
-  bool slope_known = false;                     // else it is 0
-  double hand_slope = kUnset;                   // of the way from the tip to the palm; NaN: not known
+  double width = kUnset, length = kUnset;       // of the finger, the latter at least
+  double cap_slope = kUnset;                    // against the image: tangent, as the match of the cap says
+  double slope = kUnset;                        // likewise, as the finger behind it says; NaN: not known
+  double hand_slope = kUnset;                   // likewise, of the way from the tip to the palm
   FormEnd end = FormEnd::nothing;
   int flanks = 0;             // of four places of the finger: sides where something is as near as it
   double depth_off = kUnset;  // by which the finger behind says that its tip is farther
   Point<'C'> tip, palm;
-  double hand = kUnset;  // from the tip to the palm
+  double hand = kUnset;  // from the tip to the palm, at least
 };
 
 struct FingerLimits {
@@ -47,11 +47,13 @@ struct FingerLimits {
   double radius = 0.008;                  // m, of the finger that is looked for
 };
 
-// How sure it is that a finger points, and not a thumb: how many widths it is long and how many it is away
-// from the palm, less where it is wider than the finger that is looked for, and where it is seen aslant.
-[[nodiscard]] double trust_of(const FingerEvidence& evidence, const FingerLimits& limits);
+// The finger alone, before anything is known of its hand.
+[[nodiscard]] Doubt doubt_of_finger(const FingerEvidence& evidence, const FingerLimits& limits);
+// All of it: what a find needs that no frame before foresaw.
 [[nodiscard]] Doubt doubt_of(const FingerEvidence& evidence, const FingerLimits& limits);
-// The same where a followed finger is expected, whose cap was `cap` wide: it need not show its hand.
+// The same where a followed finger is foreseen, whose cap was `cap` wide: it need not show its hand.
 [[nodiscard]] Doubt doubt_of_followed(const FingerEvidence& evidence, const FingerLimits& limits, double cap);
+// Widths from the tip to the palm: of several finds that are believed the farthest is the finger.
+[[nodiscard]] double reach_of(const FingerEvidence& evidence);
 
 }  // namespace enc

@@ -10,9 +10,12 @@ namespace enc {
 namespace {
 
 constexpr double kReach = 16.0;         // radii of the cap: a finger and the first of its hand
-constexpr double kFollowedReach = 6.0;  // of a finger that is followed less is asked
+constexpr double kFollowedReach = 3.0;  // likewise, where less is asked of a finger that is followed
 constexpr double kHandReach = 9.0;      // widths of the finger, from its tip to its palm
-constexpr std::size_t kFirstSpot = 2;   // of the finger's middle line: not the cap itself
+// What comes nearer looks larger: where its slope is not known a finger may be so much shorter than the image
+// shows.
+constexpr double kUnsloped = 0.9;
+constexpr std::size_t kFirstSpot = 2;  // of the finger's middle line: not the cap itself
 
 template <std::size_t N>
 double middle_of_some(std::array<double, N>& values, std::size_t count) {
@@ -22,6 +25,15 @@ double middle_of_some(std::array<double, N>& values, std::size_t count) {
   return *middle;
 }
 
+// How a way goes away from the camera, for each length along the image.
+double slope_along(const Vec3& way) { return way.z() / std::max(1e-6, std::hypot(way.x(), way.y())); }
+
+// Longer than a thumb.
+bool is_straight(const FingerEvidence& e) {
+  constexpr double kStraight = 3.2;  // widths
+  return e.length > kStraight * e.width;
+}
+
 // Places along a finger, with what blocks there say of its depth. Skin of little detail is matched anywhere:
 // only places that lie on one line count.
 class Spots {
@@ -29,7 +41,7 @@ class Spots {
   void add(double off, double disparity) { at_[count_++] = {off, disparity}; }
   // Disparity is even along a straight line [Theil].
   void fit() {
-    constexpr double kOff = 0.004;  // of the disparity
+    constexpr double kOff = 0.004, kBlockOff = 0.4;  // of the disparity; px
     std::array<double, FingerForm::kSpots * FingerForm::kSpots> rates{};
     std::array<double, FingerForm::kSpots> starts{};
     std::size_t rate_count = 0;
@@ -40,10 +52,11 @@ class Spots {
     rate_ = middle_of_some(rates, rate_count);
     for (std::size_t i = 0; i < count_; ++i) starts[i] = at_[i].disparity - rate_ * at_[i].off;
     start_ = middle_of_some(starts, count_);
-    good_ = count_ + 1 >= FingerForm::kSpots - kFirstSpot &&
-            std::all_of(at_.begin(), at_.begin() + static_cast<std::ptrdiff_t>(count_), [&](const At& at) {
-              return std::abs(start_ + rate_ * at.off - at.disparity) < kOff * at.disparity;
-            });
+    good_ =
+        count_ + 1 >= FingerForm::kSpots - kFirstSpot &&
+        std::all_of(at_.begin(), at_.begin() + static_cast<std::ptrdiff_t>(count_), [&](const At& at) {
+          return std::abs(start_ + rate_ * at.off - at.disparity) < std::max(kBlockOff, kOff * at.disparity);
+        });
   }
   [[nodiscard]] bool good() const { return good_; }
   [[nodiscard]] double disparity(double off) const { return start_ + rate_ * off; }
@@ -77,8 +90,9 @@ void HandScene::make_ready(const StereoFrame& frame, const Region& part) {
 // On how many sides of the finger something is as near as the finger there: then it is part of a surface.
 int HandScene::flanks(const Pixel& at, const Fingertip& tip, double width, double disparity) {
   constexpr double kBeyond = 0.9;   // radii
+  constexpr double kClear = 6.0;    // px: a block of 8 px beside the finger has nothing of it
   constexpr double kAsNear = 0.04;  // of the distance
-  const double aside = 0.5 * width + kBeyond * tip.outline;
+  const double aside = 0.5 * width + std::max(kBeyond * tip.outline, kClear);
   int count = 0;
   for (const double side : {-aside, aside}) {
     const auto x = static_cast<int>(at.column - side * tip.along_y);
@@ -89,12 +103,39 @@ int HandScene::flanks(const Pixel& at, const Fingertip& tip, double width, doubl
   return count;
 }
 
-// Length and slope of the finger, and what it says of the depth of its tip. Where blocks do not tell how it
-// slopes it is as long as the image shows.
-void HandScene::weigh_finger(const FingerForm& form, Seen& seen) {
+// The way from one place to another along the axes of the rectified image, m.
+Vec3 HandScene::in_image(const Triplet& to, const Triplet& from) const {
+  return pair().turn.transpose() * (triangulate(pair(), to) - triangulate(pair(), from)).e();
+}
+
+// What the cap tells, which is measured anyway.
+void HandScene::weigh_cap(Seen& seen) const {
+  FingerEvidence& e = seen.evidence;
+  e.outlined = seen.tip.fitted;
+  e.tip = triangulate(pair(), {seen.tip.column, seen.tip.row, seen.disparity});
+  if (!seen.tip.fitted || !(seen.disparity > 0.0)) return;
+  e.depth = pair().focal * pair().baseline / seen.disparity;
+  e.depth_noise = e.depth / seen.disparity * std::sqrt(seen.variance);
+  e.cap = 2.0 * seen.tip.outline * pair().baseline / seen.disparity;
+}
+
+// The finger behind the tip, as the mask shows it.
+FingerForm HandScene::form_behind(Seen& seen, const StereoFrame& frame, double reach) {
+  const Region part = form_region(seen.tip, reach, this->frame());
+  segment_too(frame, part);
+  const FingerForm form = form_of(skin_, seen.tip, reach);
+  const double each = pair().baseline / seen.disparity;  // m that a pixel is wide at the tip
+  seen.evidence.width = form.width * each;
+  seen.evidence.length = form.length * each;
+  seen.evidence.end = form.end;
+  return form;
+}
+
+// Length and slope of the finger, and what it says of the depth of its tip.
+void HandScene::weigh_finger(const FingerForm& form, const StereoFrame& frame, Seen& seen) {
   FingerEvidence& e = seen.evidence;
   const Fingertip& tip = seen.tip;
-  const double each = pair().baseline / seen.disparity;  // m that a pixel is wide at the tip
+  make_ready(frame, form_region(tip, kReach, this->frame()));
   Spots spots;
   for (std::size_t i = kFirstSpot; i < FingerForm::kSpots; ++i) {
     const Pixel& at = form.spots[i];
@@ -107,20 +148,16 @@ void HandScene::weigh_finger(const FingerForm& form, Seen& seen) {
     spots.add(off, middle_of(surface, tip.outline * surface / seen.disparity, pair().focal));
   }
   spots.fit();
-  e.width = form.width * each;
-  e.end = form.end;
-  e.slope = 0.0;
-  e.length = form.length * each;
   const double pixels = form.length - tip.outline;
+  if (!spots.good() || !(spots.disparity(pixels) > 0.0)) {
+    e.length *= kUnsloped;
+    return;
+  }
   const Pixel& last = form.spots.back();
-  if (!spots.good() || !(spots.disparity(pixels) > 0.0)) return;
   const Vec3 way =
-      pair().turn.transpose() * (triangulate(pair(), {last.column, last.row, spots.disparity(pixels)}) -
-                                 triangulate(pair(), {tip.column, tip.row, spots.disparity(0.0)}))
-                                    .e();
-  e.length = way.norm() + tip.outline * each;
-  e.slope = way.z() / std::max(1e-6, std::hypot(way.x(), way.y()));
-  e.slope_known = true;
+      in_image({last.column, last.row, spots.disparity(pixels)}, {tip.column, tip.row, spots.disparity(0.0)});
+  e.length = way.norm() + 0.5 * e.cap;
+  e.slope = slope_along(way);
   e.depth_off = e.depth * (seen.disparity / spots.disparity(0.0) - 1.0);
 }
 
@@ -132,9 +169,27 @@ void HandScene::weigh_hand(const StereoFrame& frame, double width, Seen& seen) {
   }
   const Pixel palm = palm_.near({seen.tip.column, seen.tip.row}, kHandReach * width);
   if (!(palm.column >= 0.0)) return;
+  constexpr double kSteepest = 2.0;  // tangent: what is steeper is skin of little detail, matched elsewhere
+  const Triplet tip{seen.tip.column, seen.tip.row, seen.disparity};
+  Triplet at{palm.column, palm.row, disparity_around(frame, palm)};
+  Vec3 way = in_image(at, tip);
+  FingerEvidence& e = seen.evidence;
+  if (std::abs(slope_along(way)) < kSteepest) {
+    e.hand = way.norm();
+    e.hand_slope = slope_along(way);
+  } else {
+    at.disparity = tip.disparity;
+    way = in_image(at, tip);
+    e.hand = kUnsloped * way.norm();
+  }
+  e.palm = triangulate(pair(), at);
+}
+
+// px, the middle one of some blocks of skin; NaN where too few are matched.
+double HandScene::disparity_around(const StereoFrame& frame, const Pixel& at) {
   constexpr int kAround = 2, kStep = 6, kFewest = 4;  // blocks to each side; px; blocks
-  const auto x = static_cast<int>(palm.column), y = static_cast<int>(palm.row);
   constexpr int kFar = kAround * kStep;
+  const auto x = static_cast<int>(at.column), y = static_cast<int>(at.row);
   make_ready(frame, Region{x - kFar, y - kFar, x + kFar + 1, y + kFar + 1}.cut(this->frame()));
   std::array<double, (2 * kAround + 1) * (2 * kAround + 1)> found{};
   std::size_t count = 0;
@@ -143,56 +198,34 @@ void HandScene::weigh_hand(const StereoFrame& frame, double width, Seen& seen) {
       const float there = matcher_.at(grey_left_, grey_right_, x + dx, y + dy, &skin_).pixels;
       if (there > 0.0F) found[count++] = static_cast<double>(there);
     }
-  // Skin of little detail may be matched nowhere, and a finger of which the slope is not known is as long as
-  // the image shows: then its hand is as far off as the image shows, too.
-  FingerEvidence& e = seen.evidence;
-  const bool told = e.slope_known && count >= kFewest;
-  e.palm = triangulate(pair(), {palm.column, palm.row, told ? middle_of_some(found, count) : seen.disparity});
-  const Vec3 way = pair().turn.transpose() * (e.palm - e.tip).e();
-  e.hand = way.norm();
-  if (told) e.hand_slope = way.z() / std::max(1e-6, std::hypot(way.x(), way.y()));
+  return count >= kFewest ? middle_of_some(found, count) : kUnset;
 }
 
-void HandScene::weigh(Seen& seen, const StereoFrame& frame, bool hand_too) {
-  FingerEvidence& e = seen.evidence;
-  const Fingertip& tip = seen.tip;
-  const bool matched = e.matched;
-  e = {};
-  e.matched = matched;
-  e.outlined = tip.fitted;
-  e.tip = triangulate(pair(), {tip.column, tip.row, seen.disparity});
-  if (!tip.fitted || !(seen.disparity > 0.0)) return;
-  e.depth = pair().focal * pair().baseline / seen.disparity;
-  e.depth_noise = e.depth / seen.disparity * std::sqrt(seen.variance);
-  e.cap = 2.0 * tip.outline * pair().baseline / seen.disparity;
-  const double reach = hand_too ? kReach : kFollowedReach;
-  const Region part = form_region(tip, reach, this->frame());
-  segment_too(frame, part);
-  make_ready(frame, part);
-  const FingerForm form = form_of(skin_, tip, reach);
-  if (!(form.width > 0.0)) return;
-  weigh_finger(form, seen);
-  if (hand_too) weigh_hand(frame, std::max(form.width, 2.0 * tip.outline), seen);
+// Whether a find is the finger that is followed: where that is foreseen, of the same width, and straight. Of
+// the images nothing more is asked than they were asked already.
+bool HandScene::goes_on(Seen& seen, const StereoFrame& frame, const Followed& followed) {
+  constexpr double kNear = 0.020;  // m: what is farther off may be another finger of the hand
+  if (!(followed.cap > 0.0)) return false;
+  if (!((seen.evidence.tip - triangulate(pair(), followed.at)).norm() < kNear)) return false;
+  if (seen.tip.fitted) (void)form_behind(seen, frame, kFollowedReach);
+  seen.followed = doubt_of_followed(seen.evidence, limits_, followed.cap) == Doubt::no;
+  return seen.followed;
 }
 
-void HandScene::judge(Seen& seen, const StereoFrame& frame, const Followed& followed) {
-  constexpr double kNear = 0.025;  // m: farther off it may be another finger of the hand
-  const Point<'C'> foreseen = triangulate(pair(), followed.at);
-  if (followed.cap > 0.0) {
-    weigh(seen, frame, false);
-    if ((seen.evidence.tip - foreseen).norm() < kNear) {
-      seen.doubt = doubt_of_followed(seen.evidence, limits_, followed.cap);
-      if (seen.doubt == Doubt::no) return;
-    }
+void HandScene::recognise(Seen& seen, const StereoFrame& frame) {
+  if (seen.tip.fitted && seen.disparity > 0.0) {
+    const FingerForm form = form_behind(seen, frame, kReach);
+    if (form.width > 0.0) weigh_finger(form, frame, seen);
+    seen.doubt = doubt_of_finger(seen.evidence, limits_);
+    if (seen.doubt != Doubt::no && !is_straight(seen.evidence)) return;
+    weigh_hand(frame, std::max(form.width, 2.0 * seen.tip.outline), seen);
   }
-  weigh(seen, frame, true);
   seen.doubt = doubt_of(seen.evidence, limits_);
 }
 
-// Near the palm of a hand that has three or more straight fingers: which of them points cannot be known.
+// Whether a hand near the find has three or more straight fingers: which of them points cannot be known.
 bool HandScene::near_many(const Seen& one, std::span<const Seen> all) {
   constexpr double kSameHand = 5.0, kOfHand = 9.0;  // widths of the finger: between palms; from tip to palm
-  constexpr double kStraight = 3.2;                 // widths: so long is a thumb at most
   constexpr std::ptrdiff_t kMany = 3;
   const double cap = one.evidence.cap;
   return std::any_of(all.begin(), all.end(), [&](const Seen& hand) {
@@ -200,35 +233,33 @@ bool HandScene::near_many(const Seen& one, std::span<const Seen> all) {
     if (!((palm - one.evidence.tip).norm() < kOfHand * cap)) return false;
     return std::count_if(all.begin(), all.end(), [&](const Seen& finger) {
              const FingerEvidence& e = finger.evidence;
-             return e.length > kStraight * e.width && (e.palm - palm).norm() < kSameHand * cap;
+             return is_straight(e) && (e.palm - palm).norm() < kSameHand * cap;
            }) >= kMany;
   });
 }
 
-// Of the finder's fingertips the first that is believed where one is followed, else the surest. Where none
-// is, the first with its doubt.
+// The followed finger where one of the finder's fingertips goes on with it, else the one that is believed and
+// farthest from its palm. Where none is believed, the first with its doubt.
 HandScene::Seen HandScene::choose(const StereoFrame& frame, const Followed& followed) {
-  Seen best;
   std::array<Seen, FingertipFinder::kMost> seen;
-  std::size_t count = 0;
-  for (; count < finder_.count(); ++count) {
-    Seen& one = seen[count];
-    one.tip = finder_.tip(skin_, count);
+  const std::span<Seen> all(seen.data(), finder_.count());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Seen& one = all[i];
+    one.tip = finder_.tip(skin_, i);
     if (one.tip.fitted) sharpen(one.tip);
     measure(one, frame, followed.at.disparity);
-    judge(one, frame, followed);
-    if (one.doubt == Doubt::no && !std::isnan(followed.at.column)) return one;
+    weigh_cap(one);
+    if (goes_on(one, frame, followed)) return one;
   }
-  const std::span<Seen> all(seen.data(), count);
+  for (Seen& one : all) recognise(one, frame);
   for (Seen& one : all)
     if (one.doubt == Doubt::no && near_many(one, all)) one.doubt = Doubt::fingers;
-  if (!all.empty()) best = all.front();
-  for (const Seen& one : all) {
-    if (one.doubt != Doubt::no) continue;
-    if (best.doubt != Doubt::no || trust_of(one.evidence, limits_) > trust_of(best.evidence, limits_))
-      best = one;
-  }
-  return best;
+  const auto surer = [](const Seen& a, const Seen& b) {
+    if (a.doubt != Doubt::no || b.doubt != Doubt::no) return b.doubt == Doubt::no && a.doubt != Doubt::no;
+    return reach_of(a.evidence) < reach_of(b.evidence);
+  };
+  const auto best = std::max_element(all.begin(), all.end(), surer);
+  return best == all.end() ? Seen{} : *best;
 }
 
 }  // namespace enc

@@ -1,5 +1,6 @@
 #include "tests/support/vision/hand_sequences.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -129,6 +130,18 @@ void add_second(Writer& to) {
     }
 }
 
+// The finger becomes one of a fist.
+void add_folding(Writer& to) {
+  for (std::size_t tone = 0; tone < kTones; ++tone)
+    for (const double thumb : {0.1, 0.9}) {
+      Sequence& sequence = to.add("folds", tone, WallKind::office, false);
+      Hand one = hand(to.dice(), sides()[tone % sides().size()].along);
+      one.thumb = thumb;
+      sequence.hands = {one};
+      sequence.folds = true;
+    }
+}
+
 }  // namespace
 
 StereoRig head() { return {}; }
@@ -143,6 +156,7 @@ std::vector<Hand> hands_at(const Sequence& sequence, int frame) {
   for (Hand& hand : hands) {
     hand.tip += sign * Vec3(way.x(), way.y(), std::abs(sign) * way.z());
     hand.along = (hand.along + 0.12 * sign * Vec3(std::sin(0.6 * u), std::sin(0.5 * u), 0)).normalized();
+    if (sequence.folds) hand.fold = std::clamp((frame - 4) / 6.0, 0.0, 1.0);
     sign = -0.4;
   }
   return hands;
@@ -158,6 +172,7 @@ std::vector<Sequence> sequences() {
     add_sides(all, wall, where);
   add_leaning(all);
   add_second(all);
+  add_folding(all);
   std::vector<Sequence> mixed;  // 97 has no divisor in common with their number
   for (std::size_t i = 0; i < all.all.size(); ++i) mixed.push_back(all.all[i * 97 % all.all.size()]);
   return mixed;
@@ -166,7 +181,10 @@ std::vector<Sequence> sequences() {
 std::vector<TipShown> tips_in(const Painter& painter, const std::vector<Hand>& hands) {
   std::vector<TipShown> tips;
   for (const Hand& hand : hands)
-    if (hand.fingers == Fingers::pointing) tips.push_back({hand.tip, painter.shown(hand, hand.tip)});
+    if (hand.fingers == Fingers::pointing) {
+      const Vec3 tip = fingertips_of(hand).front();
+      tips.push_back({tip, painter.shown(hand, tip)});
+    }
   return tips;
 }
 

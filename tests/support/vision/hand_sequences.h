@@ -1,6 +1,6 @@
 // Sequences of painted hands by which vision is judged: five colours of skin, light from before and from
 // below, walls with and without the hue of skin, the finger from each side, towards the camera and away from
-// it, arms with and without a sleeve, a second hand.
+// it, arms with and without a sleeve, a second hand, a finger that folds.
 #pragma once
 
 #include <string>
@@ -17,6 +17,7 @@ struct Sequence {
   std::vector<Hand> hands;       // about which they sway
   Vec3 sway{0.045, 0.03, 0.04};  // m
   double phase = 0.0;            // rad
+  bool folds = false;            // the finger that points, from the fifth frame to the eleventh
 };
 
 // 640 x 480 px, focal length 721 px, baseline 90 mm.

@@ -43,8 +43,10 @@ constexpr std::array<double, 3> kStraight{0.0, 0.0, 0.0}, kFolded{1.35, 3.05, 4.
 std::array<Vec3, 4> finger_joints(const Hand& hand, std::size_t finger) {
   const Root& root = roots()[finger];
   if (hand.fingers == Fingers::open) return joints(root, root.spread, kStraight);
-  const bool straight = finger == 0 && hand.fingers == Fingers::pointing;
-  return joints(root, 0.0, straight ? kStraight : kFolded);
+  const bool points = finger == 0 && hand.fingers == Fingers::pointing;
+  std::array<double, 3> down = kFolded;
+  for (double& angle : down) angle *= points ? hand.fold : 1.0;
+  return joints(root, 0.0, down);
 }
 
 void add_finger(const Hand& hand, std::size_t finger, std::vector<Cone>& parts) {
@@ -103,7 +105,8 @@ Placed placed(const Hand& hand) {
   to.axes.col(0) = hand.size * along;
   to.axes.col(1) = (hand.left ? -hand.size : hand.size) * back.cross(along);
   to.axes.col(2) = hand.size * back;
-  to.origin = hand.tip - to.axes * finger_joints(hand, 0)[3];
+  to.origin = hand.tip - to.axes * joints(roots()[0], hand.fingers == Fingers::open ? roots()[0].spread : 0.0,
+                                          kStraight)[3];
   return to;
 }
 

