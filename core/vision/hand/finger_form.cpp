@@ -28,7 +28,7 @@ class Walk {
         radius_(tip.outline) {}
 
   [[nodiscard]] const Pixel& at() const { return at_; }
-  // Along the finger. False where the image, or what of it counts, ends.
+  // One step along the finger. False where the image, or what of it counts, ends.
   bool step() {
     at_ = {at_.column + kStep * radius_ * along_x_, at_.row + kStep * radius_ * along_y_};
     return part_.contains(x_of(at_), y_of(at_));
@@ -40,7 +40,7 @@ class Walk {
     seen.right = side(1.0, seen.cut);
     return seen;
   }
-  // To the middle of what is across, and the direction with it: half as far, because edges are rough.
+  // Moves to the middle of what is across, and turns with it: half as far, because edges are rough.
   void centre(const Across& seen) {
     const double off = 0.25 * (seen.right - seen.left);
     at_ = {at_.column - off * along_y_, at_.row + off * along_x_};

@@ -87,7 +87,7 @@ void HandScene::make_ready(const StereoFrame& frame, const Region& part) {
   to_grey(rectified(Side::right, frame.right, right), right, grey_right_);
 }
 
-// On how many sides of the finger something is as near as the finger there: then it is part of a surface.
+// Counts the sides of the finger where something is as near as the finger: then it is part of a surface.
 int HandScene::flanks(const Pixel& at, const Fingertip& tip, double width, double disparity) {
   constexpr double kBeyond = 0.9;   // radii
   constexpr double kClear = 6.0;    // px: a block of 8 px beside the finger has nothing of it

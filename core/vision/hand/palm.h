@@ -15,7 +15,7 @@ class PalmFinder {
 
   // How far it is from each place of the grid to the next without skin, or to the image's border.
   void measure(const Mask& skin);
-  // Of the places within `far` px of the tip that are about as thick as the thickest of them, the nearest.
+  // The nearest of the places within `far` px of the tip that are about as thick as the thickest of them.
   // NaN where there is no skin.
   [[nodiscard]] Pixel near(const Pixel& tip, double far) const;
 

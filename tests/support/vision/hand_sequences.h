@@ -23,7 +23,7 @@ struct Sequence {
 // 640 x 480 px, focal length 721 px, baseline 90 mm.
 [[nodiscard]] StereoRig head();
 [[nodiscard]] std::vector<Hand> hands_at(const Sequence& sequence, int frame);
-// In an order in which neighbours differ, so that every n-th is a fair choice of all.
+// Neighbours differ, so that every n-th is a fair choice of all.
 [[nodiscard]] std::vector<Sequence> sequences();
 
 // A fingertip that a frame shows, of any hand that points.

@@ -52,7 +52,7 @@ class Painter {
   Painter(const StereoRig& rig, const Room& room);
 
   void paint(const std::vector<Hand>& hands, std::size_t tone, std::uint64_t frame, Picture& picture);
-  // Of the last picture: what it shows of the cap at `tip` of the hand, whose cone is a tip's.
+  // What the last picture shows of the cap at `tip` of the hand, whose cone is a tip's.
   [[nodiscard]] Shown shown(const Hand& hand, const Vec3& tip) const;
 
  private:
