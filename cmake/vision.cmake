@@ -6,7 +6,7 @@ if(NOT ENCOUNTER_VISION)
   return()
 endif()
 
-enc_library(enc_vision "core/vision;core/vision/augment;core/vision/ball;core/vision/finger;core/vision/segmentation;core/vision/segmentation/kernels;core/vision/stereo" enc_core)
+enc_library(enc_vision "core/vision;core/vision/augment;core/vision/ball;core/vision/finger;core/vision/hand;core/vision/segmentation;core/vision/segmentation/kernels;core/vision/stereo" enc_core)
 enc_precompile(enc_vision ${enc_standard_headers} ${enc_eigen_headers})
 # Kernels for processors that have AVX2, chosen at run time. They share nothing inline with the rest.
 file(GLOB_RECURSE sources CONFIGURE_DEPENDS core/vision/*_avx2.cpp)

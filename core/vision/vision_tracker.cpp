@@ -13,6 +13,18 @@ constexpr std::array kReasons{"", "another size than the rig file's", "an image 
                               "a stamp not after the last one, or to come",
                               "left and right are exchanged; exchange the two cables or files"};
 
+// Of Doubt.
+constexpr std::array kDoubts{
+    "",
+    "no fingertip's outline fits them",
+    "left and right do not agree on their distance, or it is out of reach",
+    "they are not as wide as the finger of the scene, or as the one that was followed",
+    "what they are the end of does not have the shape of a finger with its hand",
+    "they are as near to their hand as a thumb",
+    "their hand has three or more straight fingers; point with one",
+    "no hand is as fast as that"};
+static_assert(kDoubts.size() == kWords<Doubt>.size());
+
 std::string text_of(const ImageSize& size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height) + " px";
 }
@@ -60,6 +72,10 @@ std::vector<std::string> VisionTracker::remarks() const {
   for (std::size_t i = 1; i < refused_.size(); ++i)
     if (refused_[i] > 0)
       lines.push_back("vision: " + std::to_string(refused_[i]) + " frames were not used: " + kReasons[i]);
+  for (std::size_t i = 1; i < doubtful_.size(); ++i)
+    if (doubtful_[i] > 0)
+      lines.push_back("vision: " + std::to_string(doubtful_[i]) +
+                      " finds were not taken for the fingertip: " + kDoubts[i]);
   return lines;
 }
 
@@ -74,6 +90,7 @@ void VisionTracker::take(Time now, const Stamped<StereoFrame>& frame) {
   }
   background_ += finger.state == FingerState::learning ? 1 : 0;
   looked_ += finger.state == FingerState::learning ? 0 : 1;
+  ++doubtful_[static_cast<std::size_t>(tracker_.stats().doubt)];
   seen_ += finger.state == FingerState::seen ? 1 : 0;
   if (count_ == line_.size()) {  // loses the oldest, as a socket's buffer would
     first_ = (first_ + 1) % line_.size();

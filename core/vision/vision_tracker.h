@@ -28,8 +28,8 @@ class VisionTracker : public PoseTracker {
   bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
   [[nodiscard]] std::string describe() const override;
   [[nodiscard]] bool linked() const noexcept override { return camera_->linked(); }
-  // A background that was not learned, a finger in it or in no frame at all, frames that could not be used;
-  // and the camera's own.
+  // A background that was not learned, a finger in it or in no frame at all, frames that could not be used,
+  // finds that were doubtful; and the camera's own.
   [[nodiscard]] std::vector<std::string> remarks() const override;
 
   // What the newest poll() that said true is about: with velocity and covariance.
@@ -50,6 +50,7 @@ class VisionTracker : public PoseTracker {
   Stamped<StereoFrame> frame_;
   bool said_stale_ = false;
   std::array<int, kWords<Refused>.size()> refused_{};  // frames
+  std::array<int, kWords<Doubt>.size()> doubtful_{};   // frames
   int background_ = 0, looked_ = 0, seen_ = 0;         // frames; seen: that showed a finger
 };
 

@@ -26,10 +26,15 @@ struct FingerTracker::Parts {
   LookStats stats;
   std::optional<Time> newest;
   Time last_seen{};
+  Point<'C'> last_place;  // where it was seen last; NaN: nowhere
+  // m, widths when they were recognised: of the cap that is followed, and of the one that was found.
+  double cap = kUnset, found_cap = kUnset;
 
   [[nodiscard]] Refused usable(const StereoFrame& frame, Time exposed) const;
   [[nodiscard]] Region window() const;
-  [[nodiscard]] bool look(const StereoFrame& frame, Triplet& at, Vec3& variance);
+  [[nodiscard]] HandScene::Followed followed() const;
+  [[nodiscard]] bool look(const StereoFrame& frame, Time exposed, Triplet& at, Vec3& variance);
+  [[nodiscard]] bool too_fast(const HandScene::Seen& seen, Time exposed) const;
   void forget_nonsense();
   void take(bool found, Time exposed, const Triplet& at, const Vec3& variance);
   [[nodiscard]] Finger told(Time exposed) const;
@@ -64,8 +69,26 @@ Region FingerTracker::Parts::window() const {
   return window.empty() ? search : window;  // it has gone out of the image: it comes back anywhere
 }
 
-bool FingerTracker::Parts::look(const StereoFrame& frame, Triplet& at, Vec3& variance) {
-  const HandScene::Seen seen = scene.look(frame, stats.window, stats.whole_frame ? Triplet{} : filter.at());
+// After more than two frames without it a finger has to be recognised anew.
+HandScene::Followed FingerTracker::Parts::followed() const {
+  constexpr int kMisses = 2;
+  if (stats.whole_frame) return {};
+  return {filter.at(), stats.misses <= kMisses ? cap : kUnset};
+}
+
+// For a hand to have come there from where it was seen last. Whoever comes long after is another one.
+bool FingerTracker::Parts::too_fast(const HandScene::Seen& seen, Time exposed) const {
+  constexpr double kFastest = 3.0, kVague = 0.02, kForgotten = 0.5;  // m/s, m, s
+  const double since = age(exposed, last_seen);
+  if (!last_place.finite() || since > kForgotten) return false;
+  return (seen.evidence.tip - last_place).norm() > kVague + kFastest * since;
+}
+
+bool FingerTracker::Parts::look(const StereoFrame& frame, Time exposed, Triplet& at, Vec3& variance) {
+  HandScene::Seen seen = scene.look(frame, stats.window, followed());
+  if (seen.doubt == Doubt::no && seen.tip.found && too_fast(seen, exposed)) seen.doubt = Doubt::speed;
+  stats.doubt = seen.doubt;
+  stats.evidence = seen.evidence;
   stats.pixels = seen.pixels;
   stats.cells_sought = scene.disparity().sought();
   stats.cells_matched = scene.disparity().found();
@@ -77,7 +100,8 @@ bool FingerTracker::Parts::look(const StereoFrame& frame, Triplet& at, Vec3& var
   variance = {place, place, track.disparity_noise * track.disparity_noise + seen.variance};
   stats.found = at;
   stats.variance = variance;
-  return true;
+  found_cap = seen.followed ? cap : seen.evidence.cap;
+  return seen.doubt == Doubt::no;
 }
 
 void FingerTracker::Parts::take(bool found, Time exposed, const Triplet& at, const Vec3& variance) {
@@ -94,6 +118,8 @@ void FingerTracker::Parts::take(bool found, Time exposed, const Triplet& at, con
   }
   stats.misses = 0;
   last_seen = exposed;
+  last_place = triangulate(scene.pair(), at);
+  cap = found_cap;
   if (filter.known())
     filter.correct(at, variance);
   else
@@ -144,7 +170,10 @@ const RectifiedPair& FingerTracker::pair() const { return parts_->scene.pair(); 
 const Mask& FingerTracker::skin() const { return parts_->scene.skin(); }
 bool FingerTracker::finger_in_background() const { return parts_->scene.finger_in_background(); }
 bool FingerTracker::learned() const { return parts_->scene.learned(); }
-void FingerTracker::forget() { parts_->filter.forget(); }
+void FingerTracker::forget() {
+  parts_->filter.forget();
+  parts_->last_place = {};
+}
 
 Finger FingerTracker::see(const StereoFrame& frame, Time exposed) noexcept {
   Parts& p = *parts_;
@@ -169,7 +198,7 @@ Finger FingerTracker::see(const StereoFrame& frame, Time exposed) noexcept {
   p.stats.window = p.stats.whole_frame ? p.search : p.window();
   Triplet at;
   Vec3 variance = Vec3::Constant(kUnset);
-  const bool found = p.look(frame, at, variance);
+  const bool found = p.look(frame, exposed, at, variance);
   if (found && lost) p.filter.forget();  // so much has happened meanwhile that nothing is foreseen any more
   p.take(found, exposed, at, variance);
   p.forget_nonsense();

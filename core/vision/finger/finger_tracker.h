@@ -11,6 +11,7 @@
 #include "core/vision/finger/finger.h"
 #include "core/vision/finger/fingertip.h"
 #include "core/vision/finger/triplet_filter.h"
+#include "core/vision/hand/certainty.h"
 #include "core/vision/segmentation/segmenter.h"
 #include "core/vision/stereo/match.h"
 
@@ -28,8 +29,10 @@ struct LookStats {
   std::int64_t pixels = 0;   // segmented
   std::int64_t cells_sought = 0, cells_matched = 0;
   StepCounts steps;
-  Fingertip tip;  // as found in the image, the filter not yet asked
-  Triplet found;  // the same, with its disparity
+  Fingertip tip;            // as found in the image: neither the filter nor a doubt has been asked yet
+  Doubt doubt = Doubt::no;  // why the fingertip that there was is not believed
+  FingerEvidence evidence;  // of that or of the one that is believed
+  Triplet found;            // the same, with its disparity
   Vec3 variance = Vec3::Constant(kUnset);
   bool beyond_gate = false;  // there was one, but too far from where the finger can be
   int misses = 0;            // frames in a row without a finger

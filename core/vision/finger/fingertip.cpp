@@ -176,6 +176,7 @@ Fingertip FingertipFinder::find(const Mask& skin, const DisparityMap& disparity,
                                 const Triplet& expected) {
   counts_ = {};
   candidates_.clear();
+  top_count_ = 0;
   const Region frame{0, 0, width_, height_};
   const Region cut = search.cut(frame);
   if (cut.empty() || skin.width != width_ || skin.height != height_) return {};
@@ -183,42 +184,45 @@ Fingertip FingertipFinder::find(const Mask& skin, const DisparityMap& disparity,
   sum(skin, Region{cut.x0 - far, cut.y0 - far, cut.x1 + far, cut.y1 + far}.cut(frame));
   for (int y = cut.y0; y < cut.y1; ++y)
     for (int x = cut.x0; x < cut.x1; ++x) look_at(skin, disparity, x, y);
-  return best(skin, expected);
+  choose(expected);
+  return tip(skin, 0);
 }
 
-// The best one; of some that are about as good and so far apart that they are other fingers, the nearest.
-const FingertipFinder::Candidate& FingertipFinder::chosen(const Triplet& expected) const {
+// The best one and others that are about as good and so far apart that they are other fingers: by score, or
+// by how near they are to where the finger is foreseen.
+void FingertipFinder::choose(const Triplet& expected) {
   constexpr double kApart = 3.0;        // radii
   constexpr float kAboutAsGood = 0.1F;  // of score
-  std::array<const Candidate*, 8> tops{};
-  std::size_t count = 0;
+  top_count_ = 0;
   const auto less = [](const Candidate& a, const Candidate& b) {
     return a.straight == b.straight ? a.score < b.score : b.straight;
   };
-  tops[count++] = &*std::max_element(candidates_.begin(), candidates_.end(), less);
-  if (std::isnan(expected.column)) return *tops[0];
   const auto other = [&](const Candidate& one) {
-    if (one.score < tops[0]->score - kAboutAsGood) return false;
-    return std::all_of(tops.begin(), tops.begin() + static_cast<std::ptrdiff_t>(count), [&](const auto* top) {
-      return std::hypot(one.x - top->x, one.y - top->y) > kApart * static_cast<double>(top->radius);
-    });
+    if (top_count_ > 0 && one.score < tops_[0].score - kAboutAsGood) return false;
+    return std::all_of(
+        tops_.begin(), tops_.begin() + static_cast<std::ptrdiff_t>(top_count_), [&](const Candidate& top) {
+          return std::hypot(one.x - top.x, one.y - top.y) > kApart * static_cast<double>(top.radius);
+        });
   };
-  for (const Candidate* next = tops[0]; next != nullptr && count < tops.size();) {
-    next = nullptr;
+  while (top_count_ < tops_.size()) {
+    const Candidate* next = nullptr;
     for (const Candidate& one : candidates_)
       if ((next == nullptr || less(*next, one)) && other(one)) next = &one;
-    if (next != nullptr) tops[count++] = next;
+    if (next == nullptr) break;
+    tops_[top_count_++] = *next;
   }
-  const auto off = [&](const Candidate* one) {
-    return std::hypot(one->x - expected.column, one->y - expected.row);
+  if (std::isnan(expected.column)) return;
+  const auto off = [&](const Candidate& one) {
+    return std::hypot(one.x - expected.column, one.y - expected.row);
   };
-  return **std::min_element(tops.begin(), tops.begin() + static_cast<std::ptrdiff_t>(count),
-                            [&](const auto* a, const auto* b) { return off(a) < off(b); });
+  const auto nearer = [&](const Candidate& a, const Candidate& b) { return off(a) < off(b); };
+  for (auto* one = tops_.data(); one != tops_.data() + top_count_; ++one)
+    std::rotate(std::upper_bound(tops_.data(), one, *one, nearer), one, one + 1);
 }
 
-Fingertip FingertipFinder::best(const Mask& skin, const Triplet& expected) const {
-  if (candidates_.empty()) return {};
-  const Candidate& top = chosen(expected);
+Fingertip FingertipFinder::tip(const Mask& skin, std::size_t index) const {
+  if (index >= top_count_) return {};
+  const Candidate& top = tops_[index];
   std::int64_t x = 0, y = 0, count = 0;
   for (const Candidate& one : candidates_) {
     const int dx = one.x - top.x, dy = one.y - top.y;

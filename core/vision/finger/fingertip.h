@@ -46,6 +46,10 @@ class FingertipFinder {
   // the one nearest to that is taken.
   Fingertip find(const Mask& skin, const DisparityMap& disparity, const Region& search,
                  const Triplet& expected = {});
+  // How many the last find() had to choose from, and each of them: other fingers, in the order of preference.
+  static constexpr std::size_t kMost = 8;
+  [[nodiscard]] std::size_t count() const { return top_count_; }
+  [[nodiscard]] Fingertip tip(const Mask& skin, std::size_t index) const;
   [[nodiscard]] const StepCounts& counts() const { return counts_; }
   struct Candidate {
     int x, y;
@@ -72,8 +76,7 @@ class FingertipFinder {
   [[nodiscard]] int half_side(double radius) const;
   [[nodiscard]] int stretch(double radius) const;  // px, half a side of the second square
   void look_at(const Mask& skin, const DisparityMap& disparity, int x, int y);
-  [[nodiscard]] const Candidate& chosen(const Triplet& expected) const;
-  [[nodiscard]] Fingertip best(const Mask& skin, const Triplet& expected) const;
+  void choose(const Triplet& expected);
 
   FingertipSpec spec_;
   RectifiedPair pair_;
@@ -84,6 +87,8 @@ class FingertipFinder {
   Region part_;  // of which rows_ and columns_ hold
   StepCounts counts_;
   std::vector<Candidate> candidates_;
+  std::array<Candidate, kMost> tops_{};
+  std::size_t top_count_ = 0;
 };
 
 }  // namespace enc

@@ -55,6 +55,8 @@ HandScene::HandScene(const StereoRig& rig, const SegmentationSpec& segmentation,
       matcher_(match, pair()),
       exchanged_(pair(), rectifier_.width(), rectifier_.height()),
       finder_(finder_with(fingertip)),
+      palm_(rectifier_.width(), rectifier_.height()),
+      limits_{match.nearest, match.farthest, fingertip.radius},
       grey_left_(rectifier_.width(), rectifier_.height()),
       grey_right_(rectifier_.width(), rectifier_.height()),
       skin_(rectifier_.width(), rectifier_.height()),
@@ -148,24 +150,24 @@ int HandScene::farthest_reach(const Region& window) const {
   return finder_.reach(static_cast<double>(most));
 }
 
-HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, const Triplet& expected) {
-  Seen seen;
+HandScene::Seen HandScene::look(const StereoFrame& frame, const Region& window, const Followed& followed) {
+  const Triplet& expected = followed.at;
+  palm_measured_ = false;
   const double thought = expected.disparity > 0.0 ? 1.3 * expected.disparity : 0.0;
   const int first = std::max(DisparityMap::kReach, finder_.reach(thought));
   Region around = grown(window, first).cut(this->frame());
-  Region segmented = segment(segmenter_, frame.left, around);
+  segmented_ = segment(segmenter_, frame.left, around);
   match(frame, window, around);
   // A finger that is nearer than thought needs more round it.
   if (const int reach = farthest_reach(window); reach > first) {
     around = grown(window, reach).cut(this->frame());
-    segmented = segment(segmenter_, frame.left, around);
+    segmented_ = segment(segmenter_, frame.left, around);
     match(frame, window, around);
   }
-  seen.pixels = segmented.pixels();
-  seen.tip = finder_.find(skin_, disparity_, window, expected);
-  if (!seen.tip.found) return seen;
-  if (seen.tip.fitted) sharpen(seen.tip);
-  measure(seen, frame, expected.disparity);
+  (void)finder_.find(skin_, disparity_, window, expected);
+  const std::int64_t pixels = segmented_.pixels();
+  Seen seen = choose(frame, followed);
+  seen.pixels = pixels;
   return seen;
 }
 
@@ -278,6 +280,8 @@ void HandScene::measure(Seen& seen, const StereoFrame& frame, double expected) {
   }
   if (cap.good && seen.tip.fitted) confirm(seen.tip, frame, expected, cap);
   const auto surface = static_cast<double>(disparity_.at(seen.tip.x, seen.tip.y));
+  seen.evidence.matched = cap.good;
+  seen.evidence.cap_slope = std::tan(cap.slope);
   seen.disparity = cap.good ? cap.disparity : middle_of(surface, seen.tip.outline, pair().focal);
   seen.variance = cap.good ? cap.variance : kUnrefined * kUnrefined;
 }

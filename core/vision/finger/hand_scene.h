@@ -10,6 +10,8 @@
 #include "core/vision/finger/cap_match.h"
 #include "core/vision/finger/exchanged.h"
 #include "core/vision/finger/fingertip.h"
+#include "core/vision/hand/certainty.h"
+#include "core/vision/hand/palm.h"
 #include "core/vision/segmentation/segmenter.h"
 #include "core/vision/stereo/rectify.h"
 
@@ -30,11 +32,20 @@ class HandScene {
   struct Seen {
     Fingertip tip;
     double disparity = kUnset, variance = kUnset;  // px, px^2, of the middle of the cap
-    std::int64_t pixels = 0;                       // segmented
+    FingerEvidence evidence;
+    Doubt doubt = Doubt::no;  // why the tip is not believed; then another one is not, either
+    bool followed = false;    // it goes on with the finger that is followed, and was not recognised anew
+    std::int64_t pixels = 0;  // segmented
   };
-  // Candidates are sought within `window`. `expected`: where a finger that is followed is foreseen, or NaN.
-  // It says which of several fingers is meant, and its disparity how much is segmented at first.
-  Seen look(const StereoFrame& frame, const Region& window, const Triplet& expected);
+  // A finger that was seen in the frames before.
+  struct Followed {
+    Triplet at;           // where it is foreseen, or NaN
+    double cap = kUnset;  // m, its width when it was recognised; NaN where it must be recognised anew
+  };
+  // Candidates are sought within `window`. Where a followed finger is foreseen says which of several fingers
+  // is meant, and its disparity how much is segmented at first. Where none is followed the one is taken that
+  // is most surely a finger that points.
+  Seen look(const StereoFrame& frame, const Region& window, const Followed& followed);
 
   [[nodiscard]] Region frame() const { return {0, 0, rectifier_.width(), rectifier_.height()}; }
   [[nodiscard]] const RectifiedPair& pair() const { return rectifier_.pair(); }
@@ -62,6 +73,21 @@ class HandScene {
   // From a disparity of the cap's middle.
   [[nodiscard]] CapDisparity match_from(const Fingertip& tip, double middle) const;
   void measure(Seen& seen, const StereoFrame& frame, double expected);
+
+  // hand_evidence.cpp
+  void segment_too(const StereoFrame& frame, const Region& wanted);
+  void make_ready(const StereoFrame& frame, const Region& part);
+  [[nodiscard]] Vec3 in_image(const Triplet& to, const Triplet& from) const;
+  void weigh_cap(Seen& seen) const;
+  FingerForm form_behind(Seen& seen, const StereoFrame& frame, double reach);
+  void weigh_finger(const FingerForm& form, const StereoFrame& frame, Seen& seen);
+  [[nodiscard]] int flanks(const Pixel& at, const Fingertip& tip, double width, double disparity);
+  void weigh_hand(const StereoFrame& frame, double width, Seen& seen);
+  [[nodiscard]] double disparity_around(const StereoFrame& frame, const Pixel& at);
+  bool goes_on(Seen& seen, const StereoFrame& frame, const Followed& followed);
+  void recognise(Seen& seen, const StereoFrame& frame);
+  [[nodiscard]] static bool near_many(const Seen& one, std::span<const Seen> all);
+  Seen choose(const StereoFrame& frame, const Followed& followed);
   void look_for_finger_in_background(const StereoFrame& frame);
 
   Rectifier rectifier_;
@@ -71,6 +97,10 @@ class HandScene {
   Matcher matcher_;
   Exchanged exchanged_;
   FingertipFinder finder_;
+  PalmFinder palm_;
+  bool palm_measured_ = false;  // of this frame
+  Region segmented_;            // of this frame's left image
+  FingerLimits limits_;
   Image left_, right_;
   Grey grey_left_, grey_right_;
   Mask skin_, right_skin_;  // the latter by hue alone, where a tip may be

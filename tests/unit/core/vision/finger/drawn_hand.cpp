@@ -66,7 +66,7 @@ Shade wall(const Vec3& from, const Vec3& ray) {
 Shade shade(const HandAt* hand, const Vec3& from, const Vec3& ray) {
   if (hand == nullptr) return wall(from, ray);
   const Vec3 axis = hand->along.normalized(), knuckle = hand->tip - hand->length * axis;
-  const Vec3 fist = knuckle - 0.03 * axis;
+  const Vec3 fist = knuckle - (hand->palm - 0.005) * axis;
   double least = 1e9;
   Vec3 normal(0, 0, -1);
   const auto nearer = [&](std::optional<double> t, const Vec3& centre, bool round) {
@@ -78,7 +78,7 @@ Shade shade(const HandAt* hand, const Vec3& from, const Vec3& ray) {
   };
   nearer(ball(from, ray, hand->tip, hand->radius), hand->tip, true);
   nearer(tube(from, ray, hand->tip, axis, hand->length, hand->radius), hand->tip, false);
-  if (hand->fist) nearer(ball(from, ray, fist, 0.035), fist, true);
+  if (hand->fist) nearer(ball(from, ray, fist, hand->palm), fist, true);
   if (least > 1e8) return wall(from, ray);
   const Vec3 p = from + least * ray;
   const double light = 0.55 + 0.45 * std::max(0.0, normal.dot(Vec3(0.3, -0.5, -0.81)));

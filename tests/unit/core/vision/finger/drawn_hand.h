@@ -17,6 +17,7 @@ struct HandAt {
   double radius = 0.008;  // m
   double length = 0.07;   // m, to the fist
   bool fist = true;
+  double palm = 0.035;  // m, radius of the fist
   double marks = 0.15;  // contrast of the skin
 };
 

@@ -21,7 +21,7 @@ TEST(HandScene, AFingerNearerThanForeseenIsSeenAsWell) {
     const Triplet at = seen_at(scene.pair(), Point<'C'>(hand.tip));
     const int x = static_cast<int>(at.column), y = static_cast<int>(at.row);
     return scene.look(pair.frame(), all ? scene.frame() : Region{x - 7, y - 4, x + 8, y + 13},
-                      {at.column, at.row, expected});
+                      {.at = {at.column, at.row, expected}});
   };
   for (const double expected : {kUnset, 70.0, 81.0, 90.0}) {
     const HandScene::Seen whole = look(true, expected);

@@ -46,8 +46,8 @@ drawn::HandAt palm_at(double x, double y, double z, double radius = 0.008) {
   hand.tip = {x, y, z};
   hand.along = {0.2, -1, 0.1};
   hand.radius = radius;
-  hand.fist = false;    // two fists would hide each other's finger
-  hand.length = 0.250;  // its end is below the image
+  hand.palm = 0.0155;  // two whole fists would hide each other's finger
+  hand.length = 0.090;
   return hand;
 }
 double off(const Finger& finger, const drawn::HandAt& hand) {

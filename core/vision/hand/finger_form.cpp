@@ -1,0 +1,136 @@
+#include "core/vision/hand/finger_form.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace enc {
+namespace {
+
+constexpr double kAside = 5.0;          // radii: how far to either side is looked
+constexpr double kWidens = 1.55;        // times the finger's width: there it ends in a hand
+constexpr double kStep = 0.25;          // radii
+constexpr std::size_t kMostSteps = 96;  // steps
+
+struct Across {
+  double left = 0.0, right = 0.0;  // px of skin to either side of the middle line
+  bool cut = false;                // skin goes on to the image's border
+  [[nodiscard]] double width() const { return left + right; }
+};
+
+class Walk {
+ public:
+  Walk(const Mask& skin, const Fingertip& tip, const Region& part)
+      : skin_(skin),
+        part_(part),
+        at_{tip.column, tip.row},
+        along_x_(tip.along_x),
+        along_y_(tip.along_y),
+        radius_(tip.outline) {}
+
+  [[nodiscard]] const Pixel& at() const { return at_; }
+  // One step along the finger. False where the image, or what of it counts, ends.
+  bool step() {
+    at_ = {at_.column + kStep * radius_ * along_x_, at_.row + kStep * radius_ * along_y_};
+    return part_.contains(x_of(at_), y_of(at_));
+  }
+  [[nodiscard]] Across across() const {
+    Across seen;
+    if (!on(0.0)) return seen;
+    seen.left = side(-1.0, seen.cut);
+    seen.right = side(1.0, seen.cut);
+    return seen;
+  }
+  // Moves to the middle of what is across, and turns with it: half as far, because edges are rough.
+  void centre(const Across& seen) {
+    const double off = 0.25 * (seen.right - seen.left);
+    at_ = {at_.column - off * along_y_, at_.row + off * along_x_};
+    const double turn = 0.3 * off / radius_;
+    const double x = along_x_ - turn * along_y_, y = along_y_ + turn * along_x_,
+                 norm = std::sqrt(x * x + y * y);
+    along_x_ = x / norm;
+    along_y_ = y / norm;
+  }
+
+ private:
+  static int x_of(const Pixel& p) { return static_cast<int>(std::lround(p.column)); }
+  static int y_of(const Pixel& p) { return static_cast<int>(std::lround(p.row)); }
+  [[nodiscard]] Pixel aside(double far) const {
+    return {at_.column - far * along_y_, at_.row + far * along_x_};
+  }
+  [[nodiscard]] bool on(double far) const {
+    const Pixel p = aside(far);
+    return part_.contains(x_of(p), y_of(p)) && skin_.at(x_of(p), y_of(p));
+  }
+  [[nodiscard]] double side(double sign, bool& cut) const {
+    const double most = kAside * radius_;
+    double far = 0.0;
+    while (far < most && on(sign * (far + 1.0))) far += 1.0;
+    const Pixel beyond = aside(sign * (far + 1.0));
+    cut = cut || !skin_.whole().contains(x_of(beyond), y_of(beyond));
+    return far + 0.5;
+  }
+
+  const Mask& skin_;
+  const Region& part_;
+  Pixel at_;
+  double along_x_, along_y_, radius_;
+};
+
+double middle_one(std::array<double, kMostSteps>& values, std::size_t count) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
+  return *middle;
+}
+
+}  // namespace
+
+Region form_region(const Fingertip& tip, double reach, const Region& image) {
+  const double r = tip.outline, x = tip.column + reach * r * tip.along_x,
+               y = tip.row + reach * r * tip.along_y;
+  const double aside = (kAside + 1.0) * r;
+  return Region{static_cast<int>(std::min(tip.column, x) - aside),
+                static_cast<int>(std::min(tip.row, y) - aside),
+                static_cast<int>(std::max(tip.column, x) + aside) + 1,
+                static_cast<int>(std::max(tip.row, y) + aside) + 1}
+      .cut(image);
+}
+
+FingerForm form_of(const Mask& skin, const Fingertip& tip, double reach) {
+  FingerForm form;
+  const Region part = form_region(tip, reach, skin.whole());
+  Walk walk(skin, tip, part);
+  std::array<double, kMostSteps> widths{};
+  std::array<Pixel, kMostSteps> line{};
+  std::size_t count = 0;
+  double usual = 2.0 * tip.outline;
+  const auto steps = std::min(kMostSteps, static_cast<std::size_t>(reach / kStep));
+  for (std::size_t i = 0; i < steps; ++i) {
+    if (!walk.step()) {
+      form.end = skin.whole().contains(static_cast<int>(std::lround(walk.at().column)),
+                                       static_cast<int>(std::lround(walk.at().row)))
+                     ? form.end
+                     : FormEnd::border;
+      break;
+    }
+    const Across seen = walk.across();
+    if (seen.width() <= 0.0) break;
+    if (seen.width() > kWidens * usual) {
+      form.hand = std::max(form.hand, seen.width());
+      form.end = FormEnd::hand;
+      continue;
+    }
+    if (form.end == FormEnd::hand) continue;
+    line[count] = walk.at();
+    widths[count++] = seen.width();
+    walk.centre(seen);
+    usual = 0.9 * usual + 0.1 * seen.width();
+  }
+  if (count == 0) return form;
+  for (std::size_t i = 0; i < FingerForm::kSpots; ++i)
+    form.spots[i] = line[i * (count - 1) / (FingerForm::kSpots - 1)];
+  form.length = tip.outline + std::hypot(line[count - 1].column - tip.column, line[count - 1].row - tip.row);
+  form.width = middle_one(widths, count);
+  return form;
+}
+
+}  // namespace enc
