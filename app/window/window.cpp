@@ -1,12 +1,9 @@
 #include "app/window/window.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <thread>
 
 #include <fmt/format.h>
@@ -17,8 +14,8 @@
 #include "app/view/depict.h"
 #include "app/window/controls.h"
 #include "app/window/feed.h"
+#include "app/window/link.h"
 #include "core/error.h"
-#include "core/latest.h"
 #include "sim/window/window.h"
 #include "trial/operator/consent.h"
 
@@ -33,119 +30,6 @@ constexpr int kWidth = 1280, kHeight = 720;  // px
 constexpr milliseconds kPicture{16};         // between two pictures
 constexpr float kChartTime = 6.0F;           // s
 constexpr double kHover = 0.015;             // m above a place that was clicked
-
-// Connects the run's thread and the window's thread. The run never waits for a picture.
-class Link {
- public:
-  // ---- the window's side
-  void wish(const Wishes& wishes) {
-    if (wishes.hand && !(wishes.hand->xyz == told_.xyz)) {
-      told_ = *wishes.hand;
-      hand_.write(told_);
-    }
-    paused_ = wishes.paused;
-    speed_ = wishes.speed;
-    to_event_ = wishes.to_event;
-    ticks_ += wishes.ticks;
-    ends_ = ends_ || wishes.ends || wishes.restarts;
-    if (wishes.stops) machine_ = trial::Hand::halt;
-    if (wishes.resumes) machine_ = trial::Hand::resume;
-  }
-  [[nodiscard]] bool take_event() { return event_.exchange(false); }
-  void end() { ends_ = true; }
-  // Blocks until the run is about to begin; false: it ended without beginning.
-  [[nodiscard]] bool wait_for_begin() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return begun_ || over_; });
-    return begun_;
-  }
-  void let_go() { set(drawing_, true); }
-  // Ends the run before its first tick, without a record or a report.
-  void refuse() {
-    const std::lock_guard lock(mutex_);
-    refused_ = drawing_ = true;
-    changed_.notify_all();
-  }
-  [[nodiscard]] bool ended() {
-    const std::lock_guard lock(mutex_);
-    return ended_;
-  }
-  void closed() { set(closed_, true); }
-
-  // ---- the run's side
-  // Blocks until the window is open; false: it could not be opened.
-  [[nodiscard]] bool begin(bool wall) {
-    wall_ = wall;
-    std::unique_lock lock(mutex_);
-    begun_ = true;
-    changed_.notify_all();
-    changed_.wait(lock, [&] { return drawing_; });
-    return !refused_;
-  }
-  // Blocks until the window draws nothing of the run any more.
-  void wait_for_close() {
-    std::unique_lock lock(mutex_);
-    ended_ = true;
-    changed_.notify_all();
-    changed_.wait(lock, [&] { return closed_; });
-  }
-  void over() { set(over_, true); }
-  void see(const trial::Glance& glance) {
-    if (to_event_ && glance.out.mode != mode_) {
-      to_event_ = false;
-      paused_ = true;
-      event_ = true;
-    }
-    mode_ = glance.out.mode;
-  }
-  [[nodiscard]] bool ends() const { return ends_; }
-  [[nodiscard]] trial::Hand machine() { return machine_.exchange(trial::Hand::none); }
-  [[nodiscard]] std::optional<Point<'W'>> hand() {
-    Point<'W'> place;
-    return hand_.read(place) ? std::optional(place) : std::nullopt;
-  }
-  // True: the next tick is not due yet; sleeps for a short while. Always false for a run on the wall clock.
-  [[nodiscard]] bool waits(double dt) {
-    if (wall_) return false;
-    const Wall::time_point now = Wall::now();
-    if (paused_) {
-      due_ = now;
-      if (ticks_ > 0) {
-        --ticks_;
-        return false;
-      }
-      std::this_thread::sleep_for(milliseconds(2));
-      return true;
-    }
-    if (now < due_) {
-      std::this_thread::sleep_until(std::min(due_, now + milliseconds(20)));
-      if (Wall::now() < due_) return true;
-    }
-    due_ = std::max(due_, now - milliseconds(50)) +
-           std::chrono::duration_cast<Wall::duration>(duration<double>(dt / speed_));
-    return false;
-  }
-
- private:
-  void set(bool& what, bool value) {
-    const std::lock_guard lock(mutex_);
-    what = value;
-    changed_.notify_all();
-  }
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool begun_ = false, drawing_ = false, ended_ = false, closed_ = false, over_ = false, refused_ = false;
-  bool wall_ = false;        // the run keeps the wall clock
-  Point<'W'> told_;          // newest place that the window sent
-  Latest<Point<'W'>> hand_;  // window to run, as all below
-  std::atomic<bool> paused_ = false, to_event_ = false, ends_ = false, event_ = false;
-  std::atomic<double> speed_ = 1.0;
-  std::atomic<int> ticks_ = 0;
-  std::atomic<trial::Hand> machine_ = trial::Hand::none;
-  Mode mode_ = Mode::away;
-  Wall::time_point due_{};
-};
 
 // Draws one run and passes on the user's wishes.
 class Show {
@@ -182,7 +66,7 @@ class Show {
     around.width = window_.width();
     around.height = window_.height();
     around.tip = feed_.newest().truth.tool_tip;
-    around.steerable = feed_.newest().truth.tool >= 0;
+    around.steerable = !real_ && feed_.newest().truth.tool >= 0;
     around.real = real_;
     around.above = [this](double x, double y) { return above(x, y); };
     return around;
@@ -226,9 +110,7 @@ class Show {
     row("force", fmt::format("{:.2f} N{}", force == 0.0 ? 0.0 : force, m.truth.touching ? ", felt" : ""));
     row("deflection", m.out.mode == Mode::contact ? fmt::format("{:.2f} mm", 1e3 * m.out.deflection) : "-");
     row("gap", std::isfinite(m.out.gap) ? fmt::format("{:.1f} mm", 1e3 * m.out.gap) : "-");
-    row("hand", !m.truth.tool_tip.finite() || m.truth.tool < 0 ? "holds nothing"
-                : wishes.hand ? (controls_->grabbed() ? "yours (G lets go)" : "yours")
-                              : "the scene's: drag to take it");
+    row("hand", hand_text(m, wishes));
     const Snapshot& s = feed_.newest();
     const std::vector<std::uint32_t> ns(s.periods_ns.begin(),
                                         s.periods_ns.begin() + static_cast<std::ptrdiff_t>(s.periods));
@@ -243,6 +125,13 @@ class Show {
       request.help_keys += fmt::format("{}{}", request.help_keys.empty() ? "" : "\n", line.key);
       request.help += fmt::format("{}{}", request.help.empty() ? "" : "\n", line.what);
     }
+  }
+
+  std::string hand_text(const Moment& m, const Wishes& wishes) {
+    if (real_) return "at the real devices";
+    if (m.truth.tool < 0) return "none";
+    if (!wishes.hand) return "the scene's: drag to take it";
+    return controls_->grabbed() ? "yours (G lets go)" : "yours";
   }
 
   std::string time_text(const Moment& m, const Wishes& wishes) {
@@ -308,6 +197,11 @@ class Run {
       setup.notes.emplace_back("drawn without vision: the finger is tracked as [tracker] of the rig says");
     };
     hooks_.begins = [this](trial::Trial& trial) {
+      if (!trial.has_world())
+        throw Error(
+            "no device of this rig is simulated, so there is nothing to draw; expected a rig with a "
+            "simulated "
+            "device, such as the display; use encounter run");
       real_ = trial.result().keeps_wall_time || trial::moves_device(trial.setup());
       dt_ = trial.scene().dt;
       feed_.emplace(trial);

@@ -67,7 +67,8 @@ TEST(Check, NamesNoPartThatIsNotThere) {
     only_with(!s.objects.empty(), "X_WO");
     only_with(s.arm.has_value(), "law: ");
     only_with(s.manipulator && s.force, "softest spring that stands still");
-    EXPECT_THAT(answer, Not(HasSubstr("window")));
+    // The last line lists modules by name; one of them is called so.
+    EXPECT_THAT(answer.substr(0, answer.find("\n  process")), Not(HasSubstr("window")));
 
     const app::SeenParts seen = app::seen_parts(s);
     EXPECT_EQ(!seen.prop.empty(), s.prop.has_value()) << name;

@@ -85,8 +85,8 @@ TEST(View, WhatIsRefusedIsSaidWithItsPlace) {
   EXPECT_THAT(result.err, HasSubstr("--set " + far + ": the arm does not get"));
 }
 
-TEST(View, WithoutShotSaysSo) {
-  const tests::Result result = tests::run_program({"view", kScene});
+TEST(View, APictureWithoutItsFileSaysSo) {
+  const tests::Result result = tests::run_program({"view", kScene, "--close-up"});
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("--shot"));
 }

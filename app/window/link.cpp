@@ -1,0 +1,107 @@
+#include "app/window/link.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace enc::app {
+
+using std::chrono::milliseconds;
+
+void Link::set(bool& what, bool value) {
+  const std::lock_guard lock(mutex_);
+  what = value;
+  changed_.notify_all();
+}
+
+void Link::wish(const Wishes& wishes) {
+  if (wishes.hand && wishes.hand->xyz != told_.xyz) {
+    told_ = *wishes.hand;
+    hand_.write(told_);
+  }
+  paused_ = wishes.paused;
+  speed_ = wishes.speed;
+  to_event_ = wishes.to_event;
+  ticks_ += wishes.ticks;
+  if (wishes.ends || wishes.restarts) ends_ = true;
+  if (wishes.stops) machine_ = trial::Hand::halt;
+  if (wishes.resumes) machine_ = trial::Hand::resume;
+}
+
+// The run stands still until here, so no wish of a moment ago lets it pass the event.
+bool Link::take_event() {
+  if (!event_) return false;
+  paused_ = true;
+  to_event_ = false;
+  event_ = false;
+  return true;
+}
+
+bool Link::wait_for_begin() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return begun_ || over_; });
+  return begun_;
+}
+
+void Link::let_go() { set(drawing_, true); }
+
+void Link::refuse() {
+  const std::lock_guard lock(mutex_);
+  refused_ = drawing_ = true;
+  changed_.notify_all();
+}
+
+bool Link::ended() {
+  const std::lock_guard lock(mutex_);
+  return ended_;
+}
+
+void Link::closed() { set(closed_, true); }
+
+bool Link::begin(bool wall) {
+  wall_ = wall;
+  std::unique_lock lock(mutex_);
+  begun_ = true;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return drawing_; });
+  return !refused_;
+}
+
+void Link::wait_for_close() {
+  std::unique_lock lock(mutex_);
+  ended_ = true;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return closed_; });
+}
+
+void Link::over() { set(over_, true); }
+
+std::optional<Point<'W'>> Link::hand() {
+  Point<'W'> place;
+  return hand_.read(place) ? std::optional(place) : std::nullopt;
+}
+
+bool Link::waits(double dt) {
+  using Clock = std::chrono::steady_clock;
+  constexpr milliseconds kNap{2}, kSlice{20};  // while paused, and while the next tick is to come
+  constexpr milliseconds kLate{50};            // the rest of a longer delay is never made up
+  if (wall_) return false;
+  const Clock::time_point now = Clock::now();
+  if (paused_ || event_) {
+    due_ = now;
+    if (ticks_ > 0 && !event_) {
+      --ticks_;
+      return false;
+    }
+    std::this_thread::sleep_for(kNap);
+    return true;
+  }
+  if (now < due_) {
+    std::this_thread::sleep_until(std::min(due_, now + kSlice));
+    if (Clock::now() < due_) return true;
+  }
+  const std::chrono::duration<double> period(dt / speed_);
+  due_ = std::max(due_, now - kLate) + std::chrono::duration_cast<Clock::duration>(period);
+  return false;
+}
+
+}  // namespace enc::app

@@ -1,0 +1,63 @@
+// Connects the run's thread and the window's thread: wishes go one way, begin and end both. The run never
+// waits for a picture.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+#include "app/window/controls.h"
+#include "core/latest.h"
+#include "trial/trial_options.h"
+
+namespace enc::app {
+
+class Link {
+ public:
+  // ---- window's side
+  void wish(const Wishes& wishes);
+  [[nodiscard]] bool take_event();  // true: the awaited change of mode came, and the run is paused
+  void end() { ends_ = true; }
+  // Blocks until the run is about to begin; false: it ended without beginning.
+  [[nodiscard]] bool wait_for_begin();
+  void let_go();  // the run may begin
+  void refuse();  // the run ends before its first tick, without a record or a report
+  [[nodiscard]] bool ended();
+  void closed();  // nothing of the run is drawn any more
+
+  // ---- run's side
+  // Blocks until the window is open; false: it could not be opened. `wall`: the run keeps the wall clock.
+  [[nodiscard]] bool begin(bool wall);
+  void wait_for_close();  // until closed()
+  void over();            // the last call
+  void see(const trial::Glance& glance) {
+    if (to_event_ && glance.out.mode != mode_) event_ = true;
+    mode_ = glance.out.mode;
+  }
+  [[nodiscard]] bool ends() const { return ends_; }
+  [[nodiscard]] trial::Hand machine() { return machine_.exchange(trial::Hand::none); }
+  [[nodiscard]] std::optional<Point<'W'>> hand();  // where the tip is wanted, if that is news
+  // True: the next tick is not due yet; sleeps for a short while. Always false for a run on the wall clock.
+  [[nodiscard]] bool waits(double dt);
+
+ private:
+  void set(bool& what, bool value);
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool begun_ = false, drawing_ = false, ended_ = false, closed_ = false, over_ = false, refused_ = false;
+  bool wall_ = false;        // the run keeps the wall clock
+  Point<'W'> told_;          // newest place that the window sent
+  Latest<Point<'W'>> hand_;  // window to run, as all below but event_
+  std::atomic<bool> paused_ = false, to_event_ = false, ends_ = false;
+  std::atomic<bool> event_ = false;  // run to window; the run stands still while it is set
+  std::atomic<double> speed_ = 1.0;
+  std::atomic<int> ticks_ = 0;
+  std::atomic<trial::Hand> machine_ = trial::Hand::none;
+  Mode mode_ = Mode::away;
+  std::chrono::steady_clock::time_point due_{};
+};
+
+}  // namespace enc::app
