@@ -190,7 +190,7 @@ struct NotShown {};
 // One run on its own thread.
 class Run {
  public:
-  Run(const RunOptions& options) : options_(options) {
+  explicit Run(const RunOptions& options) : options_(options) {
     hooks_.adapts = [](models::Setup& setup) {
       if (!setup.scene.camera) return;
       setup.scene.camera.reset();
