@@ -157,7 +157,7 @@ class Shown {
 };
 
 // Whoever looks on and acts beside the terminal is asked first.
-void join(const RunWindow& window, trial::TrialOptions& options) {
+void join(const RunWindow& window, trial::Operator& person, trial::TrialOptions& options) {
   if (window.watch)
     options.watch = [counts = std::move(options.watch), &window](const trial::Glance& glance) {
       counts(glance);
@@ -171,20 +171,40 @@ void join(const RunWindow& window, trial::TrialOptions& options) {
       return false;
     };
   if (window.hand)
-    options.hand = [asked = std::move(options.hand), &window] {
+    options.hand = [asked = std::move(options.hand), &window, &person] {
       const trial::Hand hand = asked();
-      return hand == trial::Hand::none ? window.hand() : hand;
+      if (hand != trial::Hand::none) return hand;
+      const trial::Hand here = window.hand();
+      if (here != trial::Hand::none && person.acts) person.acts(here, false);
+      return here;
     };
   options.draw_all = true;
   if (std::isnan(options.seconds)) options.seconds = std::numeric_limits<double>::infinity();
 }
 
+// A played hand needs a simulated hand, and the ticks of its record.
+void check_played(const RunOptions& options, const models::Setup& setup, const trial::SteeredRun& played) {
+  if (!setup.scene.user || trial::moves_device(setup))
+    throw Error(options.hand +
+                ": is played by a simulated hand, and this run has none; expected a scene with [user] on a "
+                "simulated rig; leave --hand out");
+  if (std::abs(played.period * setup.rig.loop.rate - 1.0) > 1e-6)
+    throw Error(
+        fmt::format("{}: was steered at {:.6g} Hz and this rig's loop runs at {:.6g} Hz; expected the "
+                    "same; set rig.loop.rate_hz",
+                    options.hand, 1.0 / played.period, setup.rig.loop.rate));
+  if (played.seed != std::to_string(options.seed))
+    print_notes({"the hand of " + options.hand + " was steered with --seed " + played.seed});
+}
+
 // The hand of a window or of a record, and what of it the record of this run keeps.
 class Steering {
  public:
-  Steering(const RunOptions& options, const RunWindow* window, trial::TrialOptions& how) {
+  Steering(const RunOptions& options, const models::Setup& setup, const RunWindow* window,
+           trial::TrialOptions& how) {
     if (!options.hand.empty()) {
       trial::SteeredRun played = trial::steered_run(options.hand);
+      check_played(options, setup, played);
       if (!options.seconds) how.seconds = played.duration;
       played_ = std::move(played.log);
       how.steer = [this](std::int64_t tick) { return kept(tick, played_.at(tick)); };
@@ -242,8 +262,8 @@ int run(const RunOptions& options, const RunWindow* window) {
   if (attended) person.stops_when_suspended();
   trial::TrialOptions how = trial_options(options, person);
   trial::RunMeasures measured(setup, how);
-  if (window != nullptr) join(*window, how);
-  const Steering steering(options, window, how);
+  if (window != nullptr) join(*window, person, how);
+  const Steering steering(options, setup, window, how);
   std::optional<Shown> shown;
   if (moves) shown.emplace(how, person);
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -291,7 +311,8 @@ int run(const RunOptions& options, const RunWindow* window) {
                    !options.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0,
                    trial.has_world() ? trial.world().physics().elements() : 0,
                    started,
-                   begun};
+                   begun,
+                   !steering.log().empty()};
   report.crossed = crossed(report);
   const std::string text = options.json ? run_json(report) : run_text(report);
   std::fwrite(text.data(), 1, text.size(), stdout);

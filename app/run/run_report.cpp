@@ -199,6 +199,8 @@ std::string made_line(const RunReport& r) {
       fmt::format("made by     {}, {} {}: {}, rig {}, seed {}", trial::program_words(),
                   wall ? "started" : "on", wall ? trial::time_text(r.begun) : trial::day_text(r.begun),
                   r.setup.scene_path, r.setup.rig_path, r.asked.seed);
+  if (!r.asked.hand.empty()) text += ", --hand " + r.asked.hand;
+  if (r.steered && r.asked.hand.empty()) text += ", steered by hand";
   if (r.asked.armed) text += ", --armed";
   if (r.asked.lockstep) text += ", --lockstep";
   if (r.asked.seconds) text += fmt::format(", --for-s {}", *r.asked.seconds);

@@ -27,6 +27,7 @@ struct RunReport {
   int elements = 0;         // of the simulated world
   double started = 0.0;     // CPU s from the start of the process to the first tick
   trial::WallTime begun{};  // when the first tick was due
+  bool steered = false;     // somebody steered the hand, so the scene's plan says nothing of it
   std::vector<std::string> crossed{};  // verdict.h
 };
 

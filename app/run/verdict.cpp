@@ -63,7 +63,7 @@ void add_tried(const RunReport& r, const F& is, const char* text, Lines& lines) 
 // At 20 Hz an arm loses a finger and finds it again within one press (docs/reference/reaching.md).
 void add_repeated(const RunReport& r, Lines& lines) {
   const auto n = static_cast<std::int64_t>(r.measured.touches.plan().tried().size());
-  if (r.scene.impedance() || n == 0 || r.result.contacts <= n) return;
+  if (r.steered || r.scene.impedance() || n == 0 || r.result.contacts <= n) return;
   lines.push_back(
       fmt::format("{} of {}: force was felt where nothing pushed, or the tip lost what "
                   "pushed it",
@@ -73,6 +73,7 @@ void add_repeated(const RunReport& r, Lines& lines) {
 // By the truth where there is one.
 void add_untouched(const RunReport& r, Lines& lines) {
   using trial::Tried;
+  if (r.steered) return;
   const auto& tried = r.measured.touches.plan().tried();
   const auto missed = [](const Tried& t) { return t.missed(); };
   const bool never = tried.empty() ? r.result.contacts == 0 && r.setup.scene.user && r.whole
@@ -103,6 +104,7 @@ void add_beside(const RunReport& r, Lines& lines) {
 }
 
 void add_misses(const RunReport& r, Lines& lines) {
+  if (r.steered) return;  // the bound is of the plan's speed
   if (r.scene.impedance()) return add_beside(r, lines);
   const auto& presses = r.measured.presses.presses();
   const auto missed = [](const trial::PressFigures& p) { return p.miss > p.miss_bound; };

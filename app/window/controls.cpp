@@ -100,7 +100,7 @@ void Controls::see_wheel(const WindowEvent& event, const Surroundings& around) {
     camera_.distance = std::clamp(camera_.distance * std::pow(0.9, event.wheel), kNearest, kFarthest);
 }
 
-void Controls::see_time_key(std::int32_t code) {
+void Controls::see_time_key(std::int32_t code, bool recording) {
   switch (code) {
     case ' ':
       wishes_.paused = !wishes_.paused;
@@ -121,7 +121,7 @@ void Controls::see_time_key(std::int32_t code) {
       wishes_.speed = std::min(kFastest, 2.0 * wishes_.speed);
       break;
     default:
-      if (is(code, Key::backspace)) wishes_.restarts = true;
+      if (is(code, Key::backspace) && !recording) wishes_.restarts = true;
   }
 }
 
@@ -148,7 +148,7 @@ void Controls::see_key(const WindowEvent& event, const Surroundings& around) {
     if (code == ' ') wishes_.stops = true;
     if (code == 'R') wishes_.resumes = true;
   } else {
-    see_time_key(code);
+    see_time_key(code, around.recording);
   }
 }
 
@@ -177,7 +177,7 @@ std::vector<Controls::Help> Controls::help_lines(bool real) {
   static constexpr std::array kReal{Help{"space, R", "stop the machine, resume"}};
   static constexpr std::array kSimulated{
       Help{"space", "pause"}, Help{".", "one tick"}, Help{"N", "on to the next change of mode"},
-      Help{"[ ]", "slower, faster"}, Help{"backspace", "from the beginning"}};
+      Help{"[ ]", "slower, faster"}, Help{"backspace", "from the beginning (not while recording)"}};
   std::vector<Help> lines(kAlways.begin(), kAlways.end());
   if (real)
     lines.insert(lines.end(), kReal.begin(), kReal.end());

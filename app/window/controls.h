@@ -13,7 +13,7 @@ namespace enc::app {
 
 // Requests to the run. Pausing, stepping and speed apply to simulated runs only.
 struct Wishes {
-  std::optional<Point<'W'>> hand;  // wanted place of the tool's tip; unset: the scene's own hand moves
+  std::optional<Point<'W'>> hand{};  // wanted place of the tool's tip; unset: the scene's own hand moves
   bool paused = false;
   double speed = 1.0;     // experiment time per wall time
   int ticks = 0;          // single ticks to run while paused
@@ -26,6 +26,7 @@ struct Surroundings {
   double width = 1.0, height = 1.0;  // px, size of the window
   Point<'W'> tip;                    // tip of the tool; NaN: no tool
   bool steerable = false;            // the twin's hand holds a tool
+  bool recording = false;            // a restart would replace the record
   bool real = false;                 // a real device keeps the time, or moves
   // A place for the tip above the object seen at (x, y); unset: no object there.
   std::function<std::optional<Point<'W'>>(double x, double y)> above{};
@@ -59,7 +60,7 @@ class Controls {
 
  private:
   void see_key(const sim::WindowEvent& event, const Surroundings& around);
-  void see_time_key(std::int32_t code);
+  void see_time_key(std::int32_t code, bool recording);
   void see_button(const sim::WindowEvent& event, const Surroundings& around);
   void see_move(const sim::WindowEvent& event, const Surroundings& around);
   void see_wheel(const sim::WindowEvent& event, const Surroundings& around);

@@ -36,6 +36,9 @@ void Feed::copy(const trial::Glance& glance) {
   if (world.machine) to.platform = world.machine->state().pose;
   to.q_WT = world.q_WT();
   to.missed = missed_;
+  to.simulated = glance.simulated;
+  to.truth.touching = to.truth.touching && glance.simulated;
+  to.halted = glance.gate != nullptr && glance.gate->halted();
   to.periods_ns = periods_ns_;
   to.periods = periods_;
 }

@@ -32,6 +32,8 @@ struct Snapshot {
   Pose<'R', 'H'> platform;
   Quat q_WT = Quat::Identity();
   std::int64_t missed = 0;
+  bool simulated = true;                         // every device: the truth knows what is touched
+  bool halted = false;                           // by hand
   std::array<std::uint32_t, 1000> periods_ns{};  // the last periods, unordered
   std::size_t periods = 0;
 };

@@ -23,8 +23,12 @@ void Link::wish(const Wishes& wishes) {
   to_event_ = wishes.to_event;
   ticks_ += wishes.ticks;
   if (wishes.ends || wishes.restarts) ends_ = true;
-  if (wishes.stops) machine_ = trial::Hand::halt;
-  if (wishes.resumes) machine_ = trial::Hand::resume;
+  // A stop comes before a resume, also before one that the run has not taken yet.
+  trial::Hand none = trial::Hand::none;
+  if (wishes.stops)
+    machine_ = trial::Hand::halt;
+  else if (wishes.resumes)
+    machine_.compare_exchange_strong(none, trial::Hand::resume);
 }
 
 // The run stands still until here, so no wish of a moment ago lets it pass the event.

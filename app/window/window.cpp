@@ -34,14 +34,18 @@ constexpr double kHover = 0.015;             // m above a place that was clicked
 // Draws one run and passes on the user's wishes.
 class Show {
  public:
-  Show(Feed& feed, sim::ViewWindow& window, bool real) : feed_(feed), window_(window), real_(real) {}
+  Show(Feed& feed, sim::ViewWindow& window, bool real, bool recording)
+      : feed_(feed), window_(window), real_(real), recording_(recording) {
+    window_.forget();
+  }
 
   // Draws until the run ends or the window is closed. True: the user wants a restart.
   bool run(Link& link) {
-    std::vector<sim::WindowEvent> events;
+    std::vector<sim::WindowEvent> news, events;  // kept until there is something to see
     Wall::time_point next = Wall::now();
     while (!link.ended()) {
-      if (!window_.poll(events)) link.end();
+      if (!window_.poll(news)) link.end();
+      events.insert(events.end(), news.begin(), news.end());
       if (feed_.take()) shift_objects(feed_.moment(), feed_.newest().data.get());
       if (!controls_ && feed_.newest().now.t != Time{}) controls_.emplace(camera_for(feed_.moment(), false));
       if (!controls_) {
@@ -49,6 +53,7 @@ class Show {
         continue;
       }
       for (const sim::WindowEvent& event : events) controls_->see(event, around());
+      events.clear();
       if (link.take_event()) controls_->paused_at_event();
       const Wishes wishes = controls_->take_wishes();
       link.wish(wishes);
@@ -68,12 +73,13 @@ class Show {
     around.tip = feed_.newest().truth.tool_tip;
     around.steerable = !real_ && feed_.newest().truth.tool >= 0;
     around.real = real_;
+    around.recording = recording_;
     around.above = [this](double x, double y) { return above(x, y); };
     return around;
   }
   // The place kHover above the object seen at (x, y).
   [[nodiscard]] std::optional<Point<'W'>> above(double x, double y) {
-    const auto seen = window_.seen_at(x, y);
+    const auto seen = window_.seen_at(x, y, feed_.newest().data.get());
     if (!seen) return {};
     const Moment m = feed_.moment();
     std::optional<Point<'W'>> place;
@@ -105,7 +111,9 @@ class Show {
       request.values += (request.values.empty() ? "" : "\n") + value;
     };
     const std::uint32_t why = m.out.why & kHoldReasons;
-    row("mode", std::string(mode_name(m.out.mode)) + (why != 0 ? ": " + why_text(why) : ""));
+    row("mode", feed_.newest().halted
+                    ? std::string("STOPPED BY HAND (R resumes)")
+                    : std::string(mode_name(m.out.mode)) + (why != 0 ? ": " + why_text(why) : ""));
     const double force = m.out.mode == Mode::contact ? -m.out.force.xyz[2] : 0.0;
     row("force", fmt::format("{:.2f} N{}", force == 0.0 ? 0.0 : force, m.truth.touching ? ", felt" : ""));
     row("deflection", m.out.mode == Mode::contact ? fmt::format("{:.2f} mm", 1e3 * m.out.deflection) : "-");
@@ -169,15 +177,16 @@ class Show {
                        {-kChartTime, 0},
                        {0, 10}},
                       {"force, N",
-                       {line("measured", &ChartSample::measured), line("filtered", &ChartSample::filtered),
-                        line("true", &ChartSample::true_force)},
+                       {line("measured", &ChartSample::measured), line("filtered", &ChartSample::filtered)},
                        {-kChartTime, 0},
                        {0, 5}}};
+    if (feed_.newest().simulated)
+      request.charts.back().lines.push_back(line("true", &ChartSample::true_force));
   }
 
   Feed& feed_;
   sim::ViewWindow& window_;
-  bool real_;
+  bool real_, recording_;
   Wall::time_point paced_from_ = Wall::now();
   double paced_at_ = 0.0, pace_ = 1.0;
   std::optional<Controls> controls_;
@@ -283,7 +292,7 @@ int window(const ViewOptions& options) {
       throw;
     }
     run.link().let_go();
-    const bool again = Show(run.feed(), *window, run.real()).run(run.link());
+    const bool again = Show(run.feed(), *window, run.real(), !options.record.empty()).run(run.link());
     if (!again) window.reset();
     const int code = run.code();
     shown = nullptr;

@@ -26,7 +26,8 @@ Vec3 SteeredPlan::meant() const {
 
 HandPlan SteeredPlan::advance(double h, const Point<'W'>& tip, bool touching, double stiffness,
                               double integral_time) {
-  if (touched && dot(tip - anchor, normal) > kLeft) touched = false;
+  apart = touching ? 0.0 : apart + h;
+  if (dot(tip - anchor, normal) > kLeft || apart > kApart) touched = false;
   // A critically damped second-order follower with limits on speed and acceleration.
   const Vec3 before = velocity.e();
   const Vec3 wanted = at_most(0.5 * kRate * (meant() - at.e()), kFastest);

@@ -13,7 +13,8 @@ struct SteeredPlan {
   static constexpr double kQuickest = 8.0;    // m/s^2 (assumed: a reach of 0.2 m in 0.6 s)
   static constexpr double kRate = 20.0;       // rad/s: settles within 0.2 s (assumed)
   static constexpr double kStrongest = 12.0;  // N, most force in contact (assumed)
-  static constexpr double kLeft = 0.002;      // m above the surface, where the contact has ended
+  // The contact has ended so far above the surface, or so long after the last touch: m, s.
+  static constexpr double kLeft = 0.002, kApart = 0.05;
   bool on = false, touched = false;
   Point<'W'> to;                         // wanted place of the tip's centre
   Point<'W'> at;                         // where the plan is by now
@@ -21,6 +22,7 @@ struct SteeredPlan {
   Vec<'W'> beyond = Vec<'W'>::zero();    // m, how far the arm aims beyond `at` to push
   Point<'W'> anchor;                     // tip's centre at the touch
   Vec<'W'> normal = Vec<'W'>::zero();    // unit, outward normal of the surface there
+  double apart = 0.0;                    // s since the last touch
 
   void steer(const Point<'W'>& place, const Point<'W'>& tip) {
     if (!on) at = tip;

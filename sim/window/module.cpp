@@ -2,6 +2,7 @@
 #include "core/module.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cstring>
 #include <memory>
@@ -37,6 +38,12 @@ std::string& said() {
   return why;
 }
 
+// Set by an error of X, such as a window that another program destroyed.
+std::atomic<bool>& failed() {
+  static std::atomic<bool> is = false;
+  return is;
+}
+
 // Initialises GLFW; it stays until the process ends.
 void look() {
   glfwSetErrorCallback([](int, const char* why) {
@@ -65,16 +72,15 @@ class Drawn {
     add_backdrop(renderer_.scene);
     add_extras(renderer_.scene, request);
     mjr_render(all, &renderer_.scene, &renderer_.context);
-    data_ = request.data;
   }
   [[nodiscard]] const mjrContext& context() const { return renderer_.context; }
-  [[nodiscard]] std::optional<Point<'W'>> seen_at(double across, double up, double aspect) const {
-    if (data_ == nullptr) return {};
+  [[nodiscard]] std::optional<Point<'W'>> seen_at(double across, double up, double aspect,
+                                                  const mjData* data) const {
     mjvOption option;
     mjv_defaultOption(&option);
     mjtNum at[3];
     int geom = -1, flex = -1, skin = -1;
-    if (mjv_select(model_.get(), data_, &option, aspect, across, up, &renderer_.scene, at, &geom, &flex,
+    if (mjv_select(model_.get(), data, &option, aspect, across, up, &renderer_.scene, at, &geom, &flex,
                    &skin) < 0)
       return {};
     return Point<'W'>(at[0], at[1], at[2]);
@@ -109,7 +115,6 @@ class Drawn {
   const mjModel* of_;
   ModelPtr model_;
   Renderer renderer_;
-  const mjData* data_ = nullptr;  // drawn last
   std::vector<float> whole_vertices_, whole_normals_;
   int dented_ = -1;  // mesh
 };
@@ -162,6 +167,10 @@ class GlfwWindow final : public ViewWindow {
     listen();
     // Xlib would exit at once, without sealing a record. A Wayland session gives no X display.
     XSetIOErrorHandler([](::Display*) { return 0; });
+    XSetErrorHandler([](::Display*, XErrorEvent*) {
+      failed() = true;
+      return 0;
+    });
     if (::Display* display = glfwGetX11Display(); display != nullptr)
       XSetIOErrorExitHandler(
           display,
@@ -175,7 +184,7 @@ class GlfwWindow final : public ViewWindow {
     events_.clear();
     glfwPollEvents();
     events = events_;
-    return glfwWindowShouldClose(window_.get()) == GLFW_FALSE;
+    return glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !failed();
   }
   void draw(const ViewRequest& request) override {
     mjrRect all{0, 0, 0, 0};
@@ -189,10 +198,11 @@ class GlfwWindow final : public ViewWindow {
     letter(request, all);
     glfwSwapBuffers(window_.get());
   }
-  std::optional<Point<'W'>> seen_at(double x, double y) override {
+  std::optional<Point<'W'>> seen_at(double x, double y, const mjData* data) override {
     const double w = std::max(1, width()), h = std::max(1, height());
-    return drawn_ ? drawn_->seen_at(x / w, 1.0 - y / h, w / h) : std::nullopt;
+    return drawn_ ? drawn_->seen_at(x / w, 1.0 - y / h, w / h, data) : std::nullopt;
   }
+  void forget() override { drawn_.reset(); }
   [[nodiscard]] int width() const override { return size().first; }
   [[nodiscard]] int height() const override { return size().second; }
   [[nodiscard]] std::string renderer() const override { return renderer_; }
@@ -246,6 +256,8 @@ class GlfwWindow final : public ViewWindow {
       of(w).tell({.kind = Kind::wheel, .wheel = clicks});
     });
     glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int key, int scan, int action, int) {
+      const bool moves = key >= GLFW_KEY_RIGHT && key <= GLFW_KEY_PAGE_DOWN;
+      if (action == GLFW_REPEAT && !moves) return;  // a key that is held asks for one thing
       // Letters follow the user's keyboard layout.
       const char* name = key < GLFW_KEY_ESCAPE ? glfwGetKeyName(key, scan) : nullptr;
       const bool letter = name != nullptr && name[0] != '\0' && name[1] == '\0';

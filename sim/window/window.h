@@ -46,8 +46,9 @@ class ViewWindow {
   // Events since the last call, in order. False: the window was closed.
   virtual bool poll(std::vector<WindowEvent>& events) = 0;
   virtual void draw(const ViewRequest& request) = 0;
-  // The point drawn at (x, y) in the last picture; unset: background.
-  [[nodiscard]] virtual std::optional<Point<'W'>> seen_at(double x, double y) = 0;
+  // The point of the model at (x, y), with these data and the last picture's camera; unset: background.
+  [[nodiscard]] virtual std::optional<Point<'W'>> seen_at(double x, double y, const mjData_* data) = 0;
+  virtual void forget() = 0;                    // the model and all that was drawn of it, before another run
   [[nodiscard]] virtual int width() const = 0;  // px
   [[nodiscard]] virtual int height() const = 0;
   [[nodiscard]] virtual std::string renderer() const = 0;  // OpenGL's name for it

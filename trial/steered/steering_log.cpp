@@ -48,13 +48,17 @@ SteeredRun steered_run(const std::string& record) {
     throw Error(record +
                 ": nobody steered the hand in this record; expected one of `encounter view SCENE --record "
                 "FILE`; leave --hand out, and the scene's own hand moves");
-  SteeredRun run{SteeringLog::read(hand->second, record)};
+  SteeredRun run;
+  run.log = SteeringLog::read(hand->second, record);
   RecordedTick tick;
   Time first{}, last{};
   for (bool any = false; reader.next(tick); any = true) {
     if (!any) first = tick.tick.t;
     last = tick.tick.t;
+    run.period = seconds(tick.tick.dt);
   }
+  const auto seed = reader.texts().find("seed");
+  run.seed = seed == reader.texts().end() ? "" : seed->second;
   run.duration = seconds(last - first);
   return run;
 }

@@ -35,7 +35,8 @@ class SteeringLog {
 // The steering in a record, and how long that run took.
 struct SteeredRun {
   SteeringLog log;
-  double duration = 0.0;  // s
+  double duration = 0.0, period = 0.0;  // s: of the run, and of its ticks
+  std::string seed;
 };
 // Throws Error (kind input) for a file that is not a record, or a record without steering.
 [[nodiscard]] SteeredRun steered_run(const std::string& record);

@@ -118,7 +118,8 @@ class ContactFinder {
       const double most = kOtherForce * rise_of(k);
       const ForceZero next = k + 1 < found.size() ? found[k + 1].before : ForceZero{};
       if (!after.known()) {
-        contact_.untold_drift = contact_.untold_drift || std::abs(next.force - before.force) > most;
+        contact_.untold_drift = contact_.untold_drift || std::abs(next.force - before.force) > most ||
+                                leads_away(before, k, most);
         continue;
       }
       const double moved = after.force - before.force;
@@ -131,6 +132,17 @@ class ContactFinder {
       contact_.zeros[k].after = {};
       if (contact_.other_press == 0) contact_.other_press = k + 1, contact_.other_force = moved;
     }
+    // A drift that was found goes on in presses without rows after them, where nothing subtracts it.
+    const auto open = [](const PressZero& zero) { return zero.before.known() && !zero.after.known(); };
+    if (contact_.drift != 0.0 && std::any_of(found.begin(), found.end(), open)) contact_.untold_drift = true;
+  }
+
+  // The zero moves before the press so fast that it is another one at its deepest reading.
+  [[nodiscard]] bool leads_away(const ForceZero& before, std::size_t k, double most) const {
+    constexpr double kSure = 0.25;  // of the change
+    const double lasts = rows_[presses_[k].deepest].time - before.time;
+    const double moved = std::abs(before.rate) * lasts;
+    return moved > most && before.rate_error * lasts <= kSure * moved;
   }
 
   // What the zero does on the way to the press, and from one press to the next, tells a drift.

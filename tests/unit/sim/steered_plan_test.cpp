@@ -53,6 +53,10 @@ TEST(SteeredPlan, LeavesTheSurface) {
   EXPECT_TRUE(plan.touched);
   (void)plan.advance(kStep, {0, 0, 0.0021}, false, 250.0, 0.05);
   EXPECT_FALSE(plan.touched);
+  // A tip that slid off a ball is in free air below the plane of its touch, too.
+  plan.touch({0, 0, 0}, {0, 0, 1});
+  for (int i = 0; i < 60; ++i) (void)plan.advance(kStep, {0.1, 0, -0.02}, false, 250.0, 0.05);
+  EXPECT_FALSE(plan.touched);
 }
 
 }  // namespace

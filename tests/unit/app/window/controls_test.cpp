@@ -174,6 +174,9 @@ TEST_F(WindowControls, TimeOfASimulatedRunIsTheUsers) {
   key(Key::backspace);
   EXPECT_TRUE(controls_->take_wishes().restarts);
   EXPECT_FALSE(controls_->take_wishes().restarts);
+  around_.recording = true;
+  key(Key::backspace);
+  EXPECT_FALSE(controls_->take_wishes().restarts) << "it would replace the record";
 }
 
 // Space stops the machine instead of pausing time.

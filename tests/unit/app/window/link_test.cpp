@@ -71,6 +71,18 @@ TEST_F(WindowLink, ThePlaceOfTheHandIsNewsOnce) {
   EXPECT_FALSE(link_.hand());
 }
 
+TEST_F(WindowLink, AStopComesBeforeAResume) {
+  link_.wish({.stops = true, .resumes = true});
+  EXPECT_EQ(link_.machine(), trial::Hand::halt);
+  link_.wish({.resumes = true});
+  link_.wish({.stops = true});
+  EXPECT_EQ(link_.machine(), trial::Hand::halt);
+  link_.wish({.stops = true});
+  link_.wish({.resumes = true});
+  EXPECT_EQ(link_.machine(), trial::Hand::halt) << "not taken yet";
+  EXPECT_EQ(link_.machine(), trial::Hand::none);
+}
+
 TEST_F(WindowLink, ARunWithoutItsWindowIsRefused) {
   link_.refuse();
   EXPECT_FALSE(link_.begin(false));
