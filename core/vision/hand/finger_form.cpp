@@ -107,8 +107,7 @@ FingerForm form_of(const Mask& skin, const Fingertip& tip, double reach) {
   for (std::size_t i = 0; i < steps; ++i) {
     if (!walk.step()) {
       form.end = skin.whole().contains(static_cast<int>(std::lround(walk.at().column)),
-                                       static_cast<int>(std::lround(walk.at().row))) ||
-                         form.end != FormEnd::nothing
+                                       static_cast<int>(std::lround(walk.at().row)))
                      ? form.end
                      : FormEnd::border;
       break;
