@@ -88,7 +88,8 @@ bool module_there(const std::string& name) {
 
 std::vector<std::string> drivers_there() {
   std::vector<std::string> names = modules_there();
-  std::erase_if(names, [](const std::string& name) { return ours(name) || name == "view"; });
+  std::erase_if(names,
+                [](const std::string& name) { return ours(name) || name == "view" || name == "window"; });
   return names;
 }
 
