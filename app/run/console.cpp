@@ -86,14 +86,9 @@ std::string status_text(const RunStatus& status, bool keys) {
   const double force = std::abs(status.force) < 0.005 ? 0.0 : status.force;  // without a sign
   if (std::isfinite(force)) text += fmt::format("  {:.2f} N", force);
   if (std::isfinite(status.gap)) text += fmt::format("  gap {:.2f} mm", 1e3 * status.gap);
-  const std::size_t periods = std::min(status.periods, RunStatus::kPeriods);
-  if (periods > 0) {
-    const std::vector<std::uint32_t> ns(status.periods_ns.begin(),
-                                        status.periods_ns.begin() + static_cast<std::ptrdiff_t>(periods));
-    const Percentiles of = percentiles_of(ns);
+  if (const Percentiles of = periods_of(status); !std::isnan(of.most))
     text += std::isnan(of.p99) ? fmt::format("  max {:.2f} ms", 1e-6 * of.most)
                                : fmt::format("  p99 {:.2f} ms", 1e-6 * of.p99);
-  }
   text += fmt::format("  missed {}", status.missed);
   return text;
 }

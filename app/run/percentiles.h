@@ -1,6 +1,7 @@
 // Percentiles of what a run measured many times, as text. One that there are too few values for is left out.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "models/order_statistics.h"
+#include "trial/operator/run_watch.h"
 
 namespace enc::app {
 
@@ -20,6 +22,13 @@ template <class T>
 [[nodiscard]] Percentiles percentiles_of(const std::vector<T>& values) {
   return {models::known_percentile(values, 0.5), models::known_percentile(values, 0.99),
           models::known_percentile(values, 0.999), models::percentile(values, 1.0)};
+}
+
+// The last periods of a run, ns.
+[[nodiscard]] inline Percentiles periods_of(const trial::RunStatus& status) {
+  const std::size_t count = std::min(status.periods, trial::RunStatus::kPeriods);
+  return percentiles_of(std::vector<std::uint32_t>(
+      status.periods_ns.begin(), status.periods_ns.begin() + static_cast<std::ptrdiff_t>(count)));
 }
 
 // "p50 0.66, p99 1.23, p99.9 1.68, max 73.8". `scale`: from the unit of the values. Of no values "none".

@@ -27,6 +27,8 @@ struct Moment {
   const Tick& now;
 };
 
+// A picture of a scene with a camera needs no images. Adds a note.
+void leave_out_vision(models::Setup& setup);
 // Valid for a trial with a twin, after a tick.
 [[nodiscard]] Moment moment_of(trial::Trial& trial);
 

@@ -51,6 +51,12 @@ bool run_until(trial::Trial& trial, bool waits_for_hold) {
 
 }  // namespace
 
+void leave_out_vision(models::Setup& setup) {
+  if (!setup.scene.camera) return;
+  setup.scene.camera.reset();
+  setup.notes.emplace_back("drawn without vision: the finger is tracked as [tracker] of the rig says");
+}
+
 Moment moment_of(trial::Trial& trial) {
   sim::World& world = trial.world();
   return {trial.setup(),
@@ -91,10 +97,7 @@ int picture(const ViewOptions& options, Look look) {
   check(options);
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
   models::Setup setup = models::load(options.scene, options.rig, options.set);
-  if (setup.scene.camera) {
-    setup.scene.camera.reset();
-    setup.notes.emplace_back("drawn without vision: the finger is tracked as [tracker] of the rig says");
-  }
+  leave_out_vision(setup);
   const bool person = setup.scene.user.has_value() && !setup.scene.tools.empty();
   models::OutFile file(options.shot, models::existing(options.force));
   trial::Trial trial(setup, options_of(options, setup.rig.loop.rate, person));

@@ -1,6 +1,8 @@
 #include "app/window/feed.h"
 
-#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
 
 namespace enc::app {
 namespace {
@@ -30,25 +32,17 @@ void Feed::copy(const trial::Glance& glance) {
   mjv_copyData(to.data.get(), world.physics().model(), world.physics().data());
   to.truth = glance.truth;
   to.state = *glance.state;
-  to.in = glance.in;
   to.out = glance.out;
   to.now = glance.tick;
   if (world.machine) to.platform = world.machine->state().pose;
   to.q_WT = world.q_WT();
-  to.missed = missed_;
+  to.status = watch_.status();
   to.simulated = glance.simulated;
   to.truth.touching = to.truth.touching && glance.simulated;
-  to.halted = glance.gate != nullptr && glance.gate->halted();
-  to.periods_ns = periods_ns_;
-  to.periods = periods_;
 }
 
 void Feed::see(const trial::Glance& glance) {
-  missed_ += glance.in.missed;
-  if (glance.period_ns > 0) {
-    periods_ns_[static_cast<std::size_t>(ticks_) % periods_ns_.size()] = glance.period_ns;
-    periods_ = std::min(periods_ + 1, periods_ns_.size());
-  }
+  watch_.see(glance);
   if (ticks_++ % kSampleEach == 0) {
     const auto N_of = [](const Vec<'N'>& f) { return or_zero(-f.xyz[2]); };
     const bool touched = glance.out.mode == Mode::contact;

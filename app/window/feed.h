@@ -2,16 +2,13 @@
 // run copies a snapshot only after the window took the last one, and it never waits.
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <mutex>
-#include <optional>
 
 #include "app/view/moment.h"
-#include "core/signals.h"
 #include "trial/operator/queue.h"
+#include "trial/operator/run_watch.h"
 
 namespace enc::app {
 
@@ -26,16 +23,12 @@ struct Snapshot {
   sim::DataPtr data;
   sim::Truth truth;
   State state;
-  Inputs in;
   Outputs out;
   Tick now;
   Pose<'R', 'H'> platform;
   Quat q_WT = Quat::Identity();
-  std::int64_t missed = 0;
-  bool simulated = true;                         // every device: the truth knows what is touched
-  bool halted = false;                           // by hand
-  std::array<std::uint32_t, 1000> periods_ns{};  // the last periods, unordered
-  std::size_t periods = 0;
+  trial::RunStatus status;
+  bool simulated = true;  // every device: the truth knows what is touched
 };
 
 class Feed {
@@ -61,9 +54,8 @@ class Feed {
   std::unique_ptr<Snapshot> front_, back_;
   std::mutex mutex_;
   bool full_ = false;  // back_ has not been taken yet
-  std::int64_t ticks_ = 0, missed_ = 0;
-  std::array<std::uint32_t, 1000> periods_ns_{};
-  std::size_t periods_ = 0;
+  std::int64_t ticks_ = 0;
+  trial::RunWatch watch_;  // run's thread
   trial::Queue<ChartSample, 8192> samples_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <exception>
 #include <thread>
 
@@ -111,7 +112,7 @@ class Show {
       request.values += (request.values.empty() ? "" : "\n") + value;
     };
     const std::uint32_t why = m.out.why & kHoldReasons;
-    row("mode", feed_.newest().halted
+    row("mode", feed_.newest().status.halted
                     ? std::string("STOPPED BY HAND (R resumes)")
                     : std::string(mode_name(m.out.mode)) + (why != 0 ? ": " + why_text(why) : ""));
     const double force = m.out.mode == Mode::contact ? -m.out.force.xyz[2] : 0.0;
@@ -119,12 +120,10 @@ class Show {
     row("deflection", m.out.mode == Mode::contact ? fmt::format("{:.2f} mm", 1e3 * m.out.deflection) : "-");
     row("gap", std::isfinite(m.out.gap) ? fmt::format("{:.1f} mm", 1e3 * m.out.gap) : "-");
     row("hand", hand_text(m, wishes));
-    const Snapshot& s = feed_.newest();
-    const std::vector<std::uint32_t> ns(s.periods_ns.begin(),
-                                        s.periods_ns.begin() + static_cast<std::ptrdiff_t>(s.periods));
-    if (const Percentiles of = percentiles_of(ns); !std::isnan(of.p99))
+    const trial::RunStatus& status = feed_.newest().status;
+    if (const Percentiles of = periods_of(status); !std::isnan(of.p99))
       row("period p99", fmt::format("{:.2f} ms", 1e-6 * of.p99));
-    if (s.missed > 0) row("missed", std::to_string(s.missed));
+    if (status.missed > 0) row("missed", std::to_string(status.missed));
     row("time", time_text(m, wishes));
     row("drawn by", window_.renderer());
     row("help", "H");
@@ -200,11 +199,7 @@ struct NotShown {};
 class Run {
  public:
   explicit Run(const RunOptions& options) : options_(options) {
-    hooks_.adapts = [](models::Setup& setup) {
-      if (!setup.scene.camera) return;
-      setup.scene.camera.reset();
-      setup.notes.emplace_back("drawn without vision: the finger is tracked as [tracker] of the rig says");
-    };
+    hooks_.adapts = leave_out_vision;
     hooks_.begins = [this](trial::Trial& trial) {
       if (!trial.has_world())
         throw Error(

@@ -52,7 +52,8 @@ class RunWatch {
   // Something that the person did.
   void note(RunEvent::Kind kind, int signal = 0) noexcept;
 
-  [[nodiscard]] bool halted() const noexcept { return status_.halted; }  // by hand, on the tick before
+  [[nodiscard]] const RunStatus& status() const noexcept { return status_; }  // after the last tick
+  [[nodiscard]] bool halted() const noexcept { return status_.halted; }       // by hand, on the tick before
 
   // The reader's side, of one other thread.
   bool newest(RunStatus& status) noexcept { return statuses_.read(status); }

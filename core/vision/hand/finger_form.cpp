@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "core/vision/hand/median.h"
 
 namespace enc {
 namespace {
@@ -13,7 +16,6 @@ constexpr std::size_t kMostSteps = 96;  // steps
 
 struct Across {
   double left = 0.0, right = 0.0;  // px of skin to either side of the middle line
-  bool cut = false;                // skin goes on to the image's border
   [[nodiscard]] double width() const { return left + right; }
 };
 
@@ -36,8 +38,8 @@ class Walk {
   [[nodiscard]] Across across() const {
     Across seen;
     if (!on(0.0)) return seen;
-    seen.left = side(-1.0, seen.cut);
-    seen.right = side(1.0, seen.cut);
+    seen.left = side(-1.0);
+    seen.right = side(1.0);
     return seen;
   }
   // Moves to the middle of what is across, and turns with it: half as far, because edges are rough.
@@ -61,12 +63,10 @@ class Walk {
     const Pixel p = aside(far);
     return part_.contains(x_of(p), y_of(p)) && skin_.at(x_of(p), y_of(p));
   }
-  [[nodiscard]] double side(double sign, bool& cut) const {
+  [[nodiscard]] double side(double sign) const {
     const double most = kAside * radius_;
     double far = 0.0;
     while (far < most && on(sign * (far + 1.0))) far += 1.0;
-    const Pixel beyond = aside(sign * (far + 1.0));
-    cut = cut || !skin_.whole().contains(x_of(beyond), y_of(beyond));
     return far + 0.5;
   }
 
@@ -75,12 +75,6 @@ class Walk {
   Pixel at_;
   double along_x_, along_y_, radius_;
 };
-
-double middle_one(std::array<double, kMostSteps>& values, std::size_t count) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-  return *middle;
-}
 
 }  // namespace
 
@@ -115,7 +109,6 @@ FingerForm form_of(const Mask& skin, const Fingertip& tip, double reach) {
     const Across seen = walk.across();
     if (seen.width() <= 0.0) break;
     if (seen.width() > kWidens * usual) {
-      form.hand = std::max(form.hand, seen.width());
       form.end = FormEnd::hand;
       continue;
     }
@@ -129,7 +122,7 @@ FingerForm form_of(const Mask& skin, const Fingertip& tip, double reach) {
   for (std::size_t i = 0; i < FingerForm::kSpots; ++i)
     form.spots[i] = line[i * (count - 1) / (FingerForm::kSpots - 1)];
   form.length = tip.outline + std::hypot(line[count - 1].column - tip.column, line[count - 1].row - tip.row);
-  form.width = middle_one(widths, count);
+  form.width = upper_median(std::span(widths.data(), count));
   return form;
 }
 

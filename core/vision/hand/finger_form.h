@@ -15,7 +15,6 @@ struct FingerForm {
   double width = kUnset;   // px, across the finger: the middle one of those behind the cap
   double length = kUnset;  // px, from the far end of the cap to where the finger ends
   FormEnd end = FormEnd::nothing;
-  double hand = 0.0;  // px, the greatest width behind the finger's end
   // Places of the finger's middle line, evenly from the cap to its end.
   static constexpr std::size_t kSpots = 6;
   std::array<Pixel, kSpots> spots;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/vision/finger/hand_scene.h"
+#include "core/vision/hand/median.h"
 
 namespace enc {
 namespace {
@@ -16,14 +17,6 @@ constexpr double kHandReach = 9.0;      // widths of the finger, from its tip to
 // shows.
 constexpr double kUnsloped = 0.9;
 constexpr std::size_t kFirstSpot = 2;  // of the finger's middle line: not the cap itself
-
-template <std::size_t N>
-double middle_of_some(std::array<double, N>& values, std::size_t count) {
-  if (count == 0) return kUnset;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-  return *middle;
-}
 
 // How a way goes away from the camera, for each length along the image.
 double slope_along(const Vec3& way) { return way.z() / std::max(1e-6, std::hypot(way.x(), way.y())); }
@@ -49,9 +42,9 @@ class Spots {
       for (std::size_t j = i + 1; j < count_; ++j)
         if (const double apart = at_[j].off - at_[i].off; apart > 1.0)
           rates[rate_count++] = (at_[j].disparity - at_[i].disparity) / apart;
-    rate_ = middle_of_some(rates, rate_count);
+    rate_ = upper_median(std::span(rates.data(), rate_count));
     for (std::size_t i = 0; i < count_; ++i) starts[i] = at_[i].disparity - rate_ * at_[i].off;
-    start_ = middle_of_some(starts, count_);
+    start_ = upper_median(std::span(starts.data(), count_));
     good_ =
         count_ + 1 >= FingerForm::kSpots - kFirstSpot &&
         std::all_of(at_.begin(), at_.begin() + static_cast<std::ptrdiff_t>(count_), [&](const At& at) {
@@ -198,7 +191,7 @@ double HandScene::disparity_around(const StereoFrame& frame, const Pixel& at) {
       const float there = matcher_.at(grey_left_, grey_right_, x + dx, y + dy, &skin_).pixels;
       if (there > 0.0F) found[count++] = static_cast<double>(there);
     }
-  return count >= kFewest ? middle_of_some(found, count) : kUnset;
+  return count >= kFewest ? upper_median(std::span(found.data(), count)) : kUnset;
 }
 
 // Whether a find is the finger that is followed: where that is foreseen, of the same width, and straight. Of

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text/counted.h"
 #include "models/order_statistics.h"
 
 namespace enc::models {
@@ -105,9 +106,9 @@ std::string rows_apart(std::span<const PivotPose> poses) {
   }
   if (rows == 0) return "";
   return fmt::format(
-      "; with each place taken from {} row{} {} it stays within {:.2g} mm rms: places and rotations "
+      "; with each place taken from {} {} it stays within {:.2g} mm rms: places and rotations "
       "are of different times",
-      std::abs(rows), std::abs(rows) == 1 ? "" : "s", rows > 0 ? "later" : "earlier", least * 1e3);
+      counted(std::abs(rows), "row"), rows > 0 ? "later" : "earlier", least * 1e3);
 }
 
 }  // namespace
