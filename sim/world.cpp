@@ -246,6 +246,10 @@ void World::steer(const Point<'W'>& place) {
   if (user_) user_->steer(place, truth_.tool_tip);
 }
 
+void World::change_tool() {
+  if (user_) user_->change_tool(truth_.tool_tip);
+}
+
 Vec<'W'> World::pointing() const {
   if (!user_) return Vec<'W'>(0, 0, -1);
   return Vec<'W'>(Vec3(-user_->shaft(seconds(truth_.t.time_since_epoch())).e().normalized()));

@@ -39,7 +39,8 @@ class World {
   Tick advance();
 
   [[nodiscard]] const Truth& truth() const { return truth_; }
-  void steer(const Point<'W'>& place);  // the hand's tip; see User::steer; ignored without a hand
+  void steer(const Point<'W'>& place);  // see User; ignored without a hand, as is a change of tools
+  void change_tool();
   [[nodiscard]] bool user_done() const { return !user_ || user_->done(); }
   // s, of what the user, the probe, the pusher or the travel does; 10 where nobody does anything.
   [[nodiscard]] double programme_time() const { return programme_time_; }
@@ -83,8 +84,7 @@ class World {
   void set_up_arm(const WorldSpec& spec);  // world_arm.cpp
   void face_prop(double h);
   void drive_arm(double h);
-  void observe_arm();
-  void observe(Time t);
+  void observe_arm(), observe(Time t);
   [[nodiscard]] Pose<'W', 'T'> held_tool_pose(double t) const;  // s; as its markers stand
   void sense(Time t);
   [[nodiscard]] bool by_own_law() const { return ball || pusher; }  // no contact of MuJoCo's

@@ -152,24 +152,21 @@ Trial::Trial(models::Setup setup, TrialOptions options)
 // How many ticks it takes, and room for what is kept of each.
 void Trial::plan_length(double pace) {
   result_.holds.reserve(TrialResult::kMostHolds);
-  if (std::isinf(options_.seconds)) {
-    last_tick_ = std::numeric_limits<std::int64_t>::max();
-    return;
-  }
+  const bool endless = std::isinf(options_.seconds);
   const double programme = world_ ? world_->programme_time() : programme_of(scene_);
   const double length = std::isnan(options_.seconds) ? programme : options_.seconds;
   constexpr double kLongest = 1e6;  // s
-  if (!(length < kLongest))
+  if (!endless && !(length < kLongest))
     throw Error(
         fmt::format("{}:1:1: the scene lasts {:.3g} s; expected less than {:g} s; shorten or repeat "
                     "less what it does, or give --for-s",
                     setup_.scene_path, length, kLongest));
-  last_tick_ = std::llround(length / scene_.dt);
+  last_tick_ = endless ? std::numeric_limits<std::int64_t>::max() - 1 : std::llround(length / scene_.dt);
   const auto timed =
       static_cast<std::size_t>(std::min<std::int64_t>(last_tick_ + 1, TrialResult::kMostTimed));
   result_.step_ns = with_room<std::uint32_t>(timed);
-  if (pace > 0.0) result_.period_ns = with_room<std::uint32_t>(timed);
-  if (setup_.scene.camera) result_.vision.reserve(length * setup_.rig.camera.rate);
+  if (pace > 0.0 || endless) result_.period_ns = with_room<std::uint32_t>(timed);
+  if (setup_.scene.camera) result_.vision.reserve(std::min(length, 3600.0) * setup_.rig.camera.rate);
 }
 
 void Trial::count() {
@@ -191,6 +188,12 @@ void Trial::count() {
   ++result_.ticks;
 }
 
+void Trial::hear(const HandWord& word) {
+  if (word.place) world_->steer(*word.place);
+  if (word.changes_tool) world_->change_tool();
+  faults_.set(word.faults);
+}
+
 bool Trial::tick() {
   if ((result_.ticks > 0 && now_.index >= last_tick_) || result_.stopped || result_.diverged_at >= 0)
     return false;
@@ -208,13 +211,14 @@ bool Trial::tick() {
   else if (hand == Hand::resume)
     gate_.resume();
   if (options_.steer && world_)
-    if (const auto place = options_.steer(result_.ticks)) world_->steer(*place);
+    if (const auto word = options_.steer(result_.ticks)) hear(*word);
   now_ = rig_.clock->next();
   gate_.unmark(in_);
   rig_.read(now_.t, in_);
   if (setup_.scene.camera) result_.vision.see(now_.t, in_.tool);
   gate_.mark(rig_, now_.t, in_);
   if (leads_ && world_->machine && in_.tip.health != Health::absent) world_->machine->lead(in_.tip.value);
+  faults_.apply(in_);
   if (options_.disturb) options_.disturb(in_);
   const WallClock::time_point before = WallClock::now();
   if (options_.law)

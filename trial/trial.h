@@ -20,6 +20,7 @@
 #include "trial/certificates.h"
 #include "trial/devices/device_log.h"
 #include "trial/gate.h"
+#include "trial/steered/faults.h"
 #include "trial/time/real_time.h"
 #include "trial/trial_options.h"
 #include "trial/trial_result.h"
@@ -61,6 +62,7 @@ class Trial {
  private:
   void count();
   void plan_length(double pace);
+  void hear(const HandWord& word);
 
   models::Setup setup_;
   TrialOptions options_;
@@ -73,6 +75,7 @@ class Trial {
   Gate gate_;
   Tick now_;
   Inputs in_;
+  Faults faults_;  // between devices and core
   Outputs out_;
   State state_;
   StateHash hash_;

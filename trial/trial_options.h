@@ -12,6 +12,7 @@
 #include "sim/truth.h"
 #include "trial/assemble.h"
 #include "trial/gate.h"
+#include "trial/steered/hand_word.h"
 
 namespace enc::trial {
 
@@ -48,9 +49,8 @@ struct TrialOptions {
   bool certify = false;          // computes certificates(), whether or not a machine is armed
   std::function<bool()> stop{};  // asked before each tick, and while the clock waits: true ends the run
   std::function<Hand()> hand{};  // asked before each tick
-  // Likewise, with the tick's index: where in W the tip of the tool is wanted by somebody who steers the
-  // twin's hand; nothing: no news.
-  std::function<std::optional<Point<'W'>>(std::int64_t)> steer{};
+  // Likewise, with the tick's index: what somebody asks for who steers the twin's hand; nothing: no news.
+  std::function<std::optional<HandWord>(std::int64_t)> steer{};
   // Called once, when all that can be computed beforehand is: before a device is connected or a file is made.
   std::function<void()> begins{};
   // Hooks, in the order of a tick; an empty one is not called.

@@ -153,6 +153,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   CLI::App* view_command = app.add_subcommand(
       "view", "run a scene in a window, where the mouse is the hand; or draw it into a file");
   scene_options(view_command, view_options);
+  view_command->get_option("scene")->required(false)->description(
+      "scene file, name of a shipped scene, or record; none: choose in the window");
   CLI::Option* view_record =
       view_command
           ->add_option("--record", view_options.record,

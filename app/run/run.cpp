@@ -163,6 +163,7 @@ void join(const RunWindow& window, trial::Operator& person, trial::TrialOptions&
       counts(glance);
       window.watch(glance);
     };
+  options.look = window.look;
   if (window.stop)
     options.stop = [asked = std::move(options.stop), &window] {
       do
@@ -217,9 +218,9 @@ class Steering {
   [[nodiscard]] const trial::SteeringLog& log() const { return log_; }
 
  private:
-  std::optional<Point<'W'>> kept(std::int64_t tick, const std::optional<Point<'W'>>& place) {
-    if (place) log_.add(tick, *place);
-    return place;
+  std::optional<trial::HandWord> kept(std::int64_t tick, const std::optional<trial::HandWord>& word) {
+    if (word) log_.add(tick, *word);
+    return word;
   }
   trial::SteeringLog played_, log_;
 };

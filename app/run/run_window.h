@@ -17,11 +17,12 @@ struct RunWindow {
   std::function<void(trial::Trial&)> begins{};
   // Called once after begins(), however the run ended. The trial is destroyed afterwards.
   std::function<void()> ends{};
-  std::function<void(const trial::Glance&)> watch{};  // after each tick; it must not block
+  std::function<void(const trial::Glance&)> watch{};        // after each tick; it must not block
+  std::function<void(const Stamped<StereoFrame>&)> look{};  // see TrialOptions::look
   std::function<bool()> stop{};
   std::function<bool()> waits{};  // true: the next tick is not due; it may sleep briefly
   std::function<trial::Hand()> hand{};
-  std::function<std::optional<Point<'W'>>(std::int64_t)> steer{};  // see TrialOptions::steer
+  std::function<std::optional<trial::HandWord>(std::int64_t)> steer{};  // see TrialOptions::steer
 };
 
 // `encounter run` with hooks; null: without.

@@ -10,49 +10,15 @@
 
 #include "app/built.h"
 #include "app/modules/modules.h"
+#include "app/view/believed.h"
 #include "app/view/view.h"
 #include "core/error.h"
-#include "core/task/push/moving.h"
 #include "core/vision/vision_module.h"
 #include "models/files.h"
 #include "sim/view/view.h"
 #include "trial/trial.h"
 
 namespace enc::app {
-namespace {
-
-AugmentedSpec believed(const models::Setup& setup, const Scene& scene) {
-  AugmentedSpec spec;
-  spec.camera = setup.rig.camera;
-  spec.segmentation = setup.rig.vision.segmentation;
-  if (setup.scene.arm) spec.arm = setup.rig.arm.machine;
-  if (setup.scene.prop) spec.prop = setup.scene.prop->size;
-  spec.X_WR = scene.X_WR;
-  spec.X_WC = scene.X_WC;
-  return spec;
-}
-
-// As the core knows it after the tick in which the image came.
-class Believed {
- public:
-  AugmentedMoment of(trial::Trial& trial) {
-    const Scene& scene = trial.scene();
-    AugmentedMoment moment;
-    moment.joints = trial.inputs().arm.value.joints;
-    if (const Contact& contact = contact_of(trial.state()); contact.X_WN.valid()) q_WN_ = contact.X_WN.q();
-    moment.q_WN = q_WN_;
-    const Stamped<TrackedTool>& tool = trial.inputs().tool;
-    if (tool.health == Health::ok && tool.value.tool >= 0) moment.finger = tool.value.X_CT.origin();
-    for (const Object& object : scene.objects)
-      moment.moved.push_back(shift_of(object, moved_in(trial.state())));
-    return moment;
-  }
-
- private:
-  Quat q_WN_ = Quat::Identity();  // of the last surface that was near
-};
-
-}  // namespace
 
 int through_camera(const ViewOptions& options) {
   check(options);
@@ -77,8 +43,8 @@ int through_camera(const ViewOptions& options) {
   };
   trial::Trial trial(setup, how);
   print_notes(setup.notes);
-  const auto view = vision.augmented(believed(setup, trial.scene()), trial.scene().objects);
-  Believed moment;
+  const auto view = vision.augmented(believed_spec(setup, trial.scene()), trial.scene().objects);
+  BelievedMoment moment;
   Image raw;
   double exposed = kUnset;
   while (trial.tick()) {

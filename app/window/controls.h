@@ -20,6 +20,11 @@ struct Wishes {
   bool to_event = false;  // runs to the next change of mode, then pauses
   bool ends = false, restarts = false;
   bool stops = false, resumes = false;  // the machine
+  bool changes_tool = false;
+  std::uint8_t faults = 0;       // bits of trial::Fault
+  std::optional<double> seek{};  // share of the bar of time
+  int stills = 0;                // pictures to go forward; negative: back
+  bool newest = false;           // to the present
 };
 
 struct Surroundings {
@@ -28,8 +33,12 @@ struct Surroundings {
   bool steerable = false;            // the twin's hand holds a tool
   bool recording = false;            // a restart would replace the record
   bool real = false;                 // a real device keeps the time, or moves
+  bool played = false;               // a record; there is no present
+  bool past = false;                 // an earlier moment than the present is shown
   // A place for the tip above the object seen at (x, y); unset: no object there.
   std::function<std::optional<Point<'W'>>(double x, double y)> above{};
+  // A place for the tip above an object of the scene, index from 0; taken modulo their number.
+  std::function<std::optional<Point<'W'>>(int object)> over{};
 };
 
 class Controls {
@@ -44,7 +53,11 @@ class Controls {
   [[nodiscard]] bool grabbed() const { return grabbed_; }
   [[nodiscard]] bool help() const { return help_; }
   [[nodiscard]] bool charts() const { return charts_; }
-  [[nodiscard]] bool frozen() const { return frozen_; }  // the charts
+  // Small pictures besides the large one; the last two only with a camera in the scene.
+  enum class Insets : std::uint8_t { none, contact, sides, pair, augmented };
+  [[nodiscard]] Insets insets(bool camera) const;
+  [[nodiscard]] double x() const { return x_; }  // px, of the mouse
+  [[nodiscard]] double y() const { return y_; }
   [[nodiscard]] bool follows() const { return follows_; }
   // Lasting wishes, and the single requests since the last call.
   [[nodiscard]] Wishes take_wishes();
@@ -56,11 +69,14 @@ class Controls {
   struct Help {
     std::string_view key, what;
   };
-  [[nodiscard]] static std::vector<Help> help_lines(bool real);
+  enum class Of : std::uint8_t { simulated, real, record };
+  [[nodiscard]] static std::vector<Help> help_lines(Of of);
 
  private:
   void see_key(const sim::WindowEvent& event, const Surroundings& around);
-  void see_time_key(std::int32_t code, bool recording);
+  void see_time_key(std::int32_t code, const Surroundings& around);
+  void see_hand_key(const sim::WindowEvent& event, const Surroundings& around);
+  [[nodiscard]] bool seek(const sim::WindowEvent& event, const Surroundings& around);
   void see_button(const sim::WindowEvent& event, const Surroundings& around);
   void see_move(const sim::WindowEvent& event, const Surroundings& around);
   void see_wheel(const sim::WindowEvent& event, const Surroundings& around);
@@ -71,7 +87,10 @@ class Controls {
 
   sim::Camera home_, camera_;
   Wishes wishes_;
-  bool grabbed_ = false, help_ = false, charts_ = true, frozen_ = false, follows_ = false;
+  bool grabbed_ = false, help_ = false, charts_ = true, follows_ = false;
+  bool on_bar_ = false;  // the left button was pressed there
+  int insets_ = 0;       // how often another set was asked for
+  int object_ = -1;      // that the tool was told to go above last
   bool left_ = false, right_ = false, middle_ = false, dragged_ = false;
   double x_ = 0.0, y_ = 0.0, pressed_x_ = 0.0, pressed_y_ = 0.0;  // px
 };

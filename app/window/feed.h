@@ -6,29 +6,16 @@
 #include <memory>
 #include <mutex>
 
-#include "app/view/moment.h"
+#include "app/window/history/still.h"
 #include "trial/operator/queue.h"
 #include "trial/operator/run_watch.h"
 
 namespace enc::app {
 
-struct ChartSample {
-  float t = 0.0F;                                             // s
-  float measured = 0.0F, filtered = 0.0F, true_force = 0.0F;  // N, along the surface's normal
-  float deflection = 0.0F, gap = 0.0F;                        // mm
-};
-
-// A copy of everything that a picture of one tick needs.
+// A still, and what is drawn of the present alone.
 struct Snapshot {
-  sim::DataPtr data;
-  sim::Truth truth;
-  State state;
-  Outputs out;
-  Tick now;
-  Pose<'R', 'H'> platform;
-  Quat q_WT = Quat::Identity();
+  Still still;
   trial::RunStatus status;
-  bool simulated = true;  // every device: the truth knows what is touched
 };
 
 class Feed {
@@ -42,20 +29,17 @@ class Feed {
 
   // Window's thread, as all below. True: newest() is a newer one now.
   bool take();
-  [[nodiscard]] Snapshot& newest() { return *front_; }
-  [[nodiscard]] Moment moment();  // of newest()
+  [[nodiscard]] const Snapshot& newest() const { return *front_; }
   bool next(ChartSample& sample) { return samples_.pop(sample); }
 
  private:
-  void copy(const trial::Glance& glance);
-
-  static constexpr std::int64_t kSampleEach = 5;  // ticks
   trial::Trial& trial_;
   std::unique_ptr<Snapshot> front_, back_;
   std::mutex mutex_;
   bool full_ = false;  // back_ has not been taken yet
   std::int64_t ticks_ = 0;
-  trial::RunWatch watch_;  // run's thread
+  trial::RunWatch watch_;  // run's thread, as
+  Sampler sampler_;
   trial::Queue<ChartSample, 8192> samples_;
 };
 

@@ -18,6 +18,8 @@ void Link::wish(const Wishes& wishes) {
     told_ = *wishes.hand;
     hand_.write(told_);
   }
+  if (wishes.changes_tool) changes_tool_ = true;
+  faults_ = wishes.faults;
   paused_ = wishes.paused;
   speed_ = wishes.speed;
   to_event_ = wishes.to_event;
@@ -79,9 +81,15 @@ void Link::wait_for_close() {
 
 void Link::over() { set(over_, true); }
 
-std::optional<Point<'W'>> Link::hand() {
+std::optional<trial::HandWord> Link::hand() {
+  trial::HandWord word;
   Point<'W'> place;
-  return hand_.read(place) ? std::optional(place) : std::nullopt;
+  if (hand_.read(place)) word.place = place;
+  word.changes_tool = changes_tool_.exchange(false);
+  word.faults = faults_;
+  if (!word.place && !word.changes_tool && word.faults == told_faults_) return {};
+  told_faults_ = word.faults;
+  return word;
 }
 
 bool Link::waits(double dt) {

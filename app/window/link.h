@@ -38,7 +38,7 @@ class Link {
   }
   [[nodiscard]] bool ends() const { return ends_; }
   [[nodiscard]] trial::Hand machine() { return machine_.exchange(trial::Hand::none); }
-  [[nodiscard]] std::optional<Point<'W'>> hand();  // where the tip is wanted, if that is news
+  [[nodiscard]] std::optional<trial::HandWord> hand();  // if there is news
   // True: the next tick is not due yet; sleeps for a short while. Always false for a run on the wall clock.
   [[nodiscard]] bool waits(double dt);
 
@@ -51,6 +51,9 @@ class Link {
   bool wall_ = false;        // the run keeps the wall clock
   Point<'W'> told_;          // newest place that the window sent
   Latest<Point<'W'>> hand_;  // window to run, as all below but event_
+  std::atomic<bool> changes_tool_ = false;
+  std::atomic<std::uint8_t> faults_ = 0;
+  std::uint8_t told_faults_ = 0;  // run's side
   std::atomic<bool> paused_ = false, to_event_ = false, ends_ = false;
   std::atomic<bool> event_ = false;  // run to window; the run stands still while it is set
   std::atomic<double> speed_ = 1.0;

@@ -2,23 +2,25 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <deque>
 #include <exception>
+#include <filesystem>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "app/built.h"
 #include "app/modules/modules.h"
-#include "app/run/percentiles.h"
 #include "app/run/run_window.h"
-#include "app/view/depict.h"
-#include "app/window/controls.h"
 #include "app/window/feed.h"
+#include "app/window/history/playback.h"
 #include "app/window/link.h"
+#include "app/window/show.h"
+#include "app/window/start_page.h"
 #include "core/error.h"
+#include "models/scene_names.h"
 #include "sim/window/window.h"
 #include "trial/operator/consent.h"
+#include "trial/prepare.h"
 
 namespace enc::app {
 namespace {
@@ -29,167 +31,55 @@ using std::chrono::milliseconds;
 
 constexpr int kWidth = 1280, kHeight = 720;  // px
 constexpr milliseconds kPicture{16};         // between two pictures
-constexpr float kChartTime = 6.0F;           // s
-constexpr double kHover = 0.015;             // m above a place that was clicked
 
-// Draws one run and passes on the user's wishes.
-class Show {
+// How often a scene file is looked at for a new version.
+constexpr milliseconds kLook{500};
+// 4096 stills are 68 s at 60 pictures a second, and take some 60 MB.
+constexpr std::size_t kStills = 4096, kSamples = 100'000;
+
+// The next picture is due kPicture after the last, or at once.
+class Pictures {
  public:
-  Show(Feed& feed, sim::ViewWindow& window, bool real, bool recording)
-      : feed_(feed), window_(window), real_(real), recording_(recording) {
-    window_.forget();
-  }
-
-  // Draws until the run ends or the window is closed. True: the user wants a restart.
-  bool run(Link& link) {
-    std::vector<sim::WindowEvent> news, events;  // kept until there is something to see
-    Wall::time_point next = Wall::now();
-    while (!link.ended()) {
-      if (!window_.poll(news)) link.end();
-      events.insert(events.end(), news.begin(), news.end());
-      if (feed_.take()) shift_objects(feed_.moment(), feed_.newest().data.get());
-      if (!controls_ && feed_.newest().now.t != Time{}) controls_.emplace(camera_for(feed_.moment(), false));
-      if (!controls_) {
-        std::this_thread::sleep_for(milliseconds(2));
-        continue;
-      }
-      for (const sim::WindowEvent& event : events) controls_->see(event, around());
-      events.clear();
-      if (link.take_event()) controls_->paused_at_event();
-      const Wishes wishes = controls_->take_wishes();
-      link.wish(wishes);
-      if (wishes.restarts) return true;
-      draw(wishes);
-      next = std::max(next + kPicture, Wall::now());
-      std::this_thread::sleep_until(next);
-    }
-    return false;
+  void wait() {
+    next_ = std::max(next_ + kPicture, Wall::now());
+    std::this_thread::sleep_until(next_);
   }
 
  private:
-  [[nodiscard]] Surroundings around() {
-    Surroundings around;
-    around.width = window_.width();
-    around.height = window_.height();
-    around.tip = feed_.newest().truth.tool_tip;
-    around.steerable = !real_ && feed_.newest().truth.tool >= 0;
-    around.real = real_;
-    around.recording = recording_;
-    around.above = [this](double x, double y) { return above(x, y); };
-    return around;
-  }
-  // The place kHover above the object seen at (x, y).
-  [[nodiscard]] std::optional<Point<'W'>> above(double x, double y) {
-    const auto seen = window_.seen_at(x, y, feed_.newest().data.get());
-    if (!seen) return {};
-    const Moment m = feed_.moment();
-    std::optional<Point<'W'>> place;
-    double least = 0.01;  // m: a point farther from every object belongs to the machine
-    for (const Object& object : m.scene.objects) {
-      const Nearest near = object.surface.nearest(object.X_WO.inverse() * *seen);
-      if (!(std::abs(near.distance) < least)) continue;
-      least = std::abs(near.distance);
-      place = object.X_WO * near.point + kHover * (object.X_WO * near.normal);
-    }
-    return place;
-  }
+  Wall::time_point next_ = Wall::now();
+};
 
-  void draw(const Wishes& wishes) {
-    const Moment m = feed_.moment();
-    controls_->follow(m.truth.tool_tip);
-    sim::ViewRequest request = depict(m, controls_->camera(), false);
-    request.labels.clear();
-    request.data = feed_.newest().data.get();
-    request.dent = [&m](mjModel* model) { return dent_object(m, model); };
-    write(m, wishes, request);
-    chart(request);
-    window_.draw(request);
-  }
-
-  void write(const Moment& m, const Wishes& wishes, sim::ViewRequest& request) {
-    const auto row = [&](const std::string& name, const std::string& value) {
-      request.names += (request.names.empty() ? "" : "\n") + name;
-      request.values += (request.values.empty() ? "" : "\n") + value;
-    };
-    const std::uint32_t why = m.out.why & kHoldReasons;
-    row("mode", feed_.newest().status.halted
-                    ? std::string("STOPPED BY HAND (R resumes)")
-                    : std::string(mode_name(m.out.mode)) + (why != 0 ? ": " + why_text(why) : ""));
-    const double force = m.out.mode == Mode::contact ? -m.out.force.xyz[2] : 0.0;
-    row("force", fmt::format("{:.2f} N{}", force == 0.0 ? 0.0 : force, m.truth.touching ? ", felt" : ""));
-    row("deflection", m.out.mode == Mode::contact ? fmt::format("{:.2f} mm", 1e3 * m.out.deflection) : "-");
-    row("gap", std::isfinite(m.out.gap) ? fmt::format("{:.1f} mm", 1e3 * m.out.gap) : "-");
-    row("hand", hand_text(m, wishes));
-    const trial::RunStatus& status = feed_.newest().status;
-    if (const Percentiles of = periods_of(status); !std::isnan(of.p99))
-      row("period p99", fmt::format("{:.2f} ms", 1e-6 * of.p99));
-    if (status.missed > 0) row("missed", std::to_string(status.missed));
-    row("time", time_text(m, wishes));
-    row("drawn by", window_.renderer());
-    row("help", "H");
-    if (!controls_->help()) return;
-    for (const Controls::Help& line : Controls::help_lines(real_)) {
-      request.help_keys += fmt::format("{}{}", request.help_keys.empty() ? "" : "\n", line.key);
-      request.help += fmt::format("{}{}", request.help.empty() ? "" : "\n", line.what);
+// Tells when a scene file was written, and whether it can be run.
+class SceneFile {
+ public:
+  explicit SceneFile(const RunOptions& options) : options_(options), seen_(written()) {}
+  // True: a new version was saved that can be run. `message` says what is wrong with one that cannot.
+  bool renewed(std::string& message) {
+    if (Wall::now() < next_) return false;
+    next_ = Wall::now() + kLook;
+    const auto now = written();
+    if (!now || now == seen_) return false;
+    seen_ = now;
+    try {
+      models::Setup setup = models::load(options_.scene, options_.rig, options_.set);
+      (void)trial::prepare_setup(setup);
+      return true;
+    } catch (const Error& e) {
+      message = e.what();
+      return false;
     }
   }
 
-  std::string hand_text(const Moment& m, const Wishes& wishes) {
-    if (real_) return "at the real devices";
-    if (m.truth.tool < 0) return "none";
-    if (!wishes.hand) return "the scene's: drag to take it";
-    return controls_->grabbed() ? "yours (G lets go)" : "yours";
+ private:
+  using FileTime = std::optional<std::filesystem::file_time_type>;
+  [[nodiscard]] FileTime written() const {
+    std::error_code none;
+    const auto time = std::filesystem::last_write_time(models::scene_file_of(options_.scene), none);
+    return none ? FileTime() : FileTime(time);
   }
-
-  std::string time_text(const Moment& m, const Wishes& wishes) {
-    if (wishes.paused) return "paused";
-    const double t = seconds(m.now.t.time_since_epoch());
-    const double wall = duration<double>(Wall::now() - paced_from_).count();
-    if (wall > 0.5) {
-      pace_ = (t - paced_at_) / wall;
-      paced_from_ = Wall::now();
-      paced_at_ = t;
-    }
-    return fmt::format("{:.2f} x real time", pace_);
-  }
-
-  // Strip charts of the last kChartTime seconds.
-  void chart(sim::ViewRequest& request) {
-    for (ChartSample one; feed_.next(one);) {
-      if (controls_->frozen()) continue;
-      samples_.push_back(one);
-    }
-    while (!samples_.empty() && samples_.front().t < samples_.back().t - kChartTime) samples_.pop_front();
-    if (!controls_->charts() || samples_.empty()) return;
-    const float end = samples_.back().t;
-    const auto line = [&](const char* name, float ChartSample::*what) {
-      sim::ViewLine drawn{name, {}};
-      const std::size_t each = samples_.size() / 1000 + 1;
-      for (std::size_t i = 0; i < samples_.size(); i += each) {
-        drawn.xy.push_back(samples_[i].t - end);
-        drawn.xy.push_back(samples_[i].*what);
-      }
-      return drawn;
-    };
-    request.charts = {{"deflection and gap, mm",
-                       {line("deflection", &ChartSample::deflection), line("gap", &ChartSample::gap)},
-                       {-kChartTime, 0},
-                       {0, 10}},
-                      {"force, N",
-                       {line("measured", &ChartSample::measured), line("filtered", &ChartSample::filtered)},
-                       {-kChartTime, 0},
-                       {0, 5}}};
-    if (feed_.newest().simulated)
-      request.charts.back().lines.push_back(line("true", &ChartSample::true_force));
-  }
-
-  Feed& feed_;
-  sim::ViewWindow& window_;
-  bool real_, recording_;
-  Wall::time_point paced_from_ = Wall::now();
-  double paced_at_ = 0.0, pace_ = 1.0;
-  std::optional<Controls> controls_;
-  std::deque<ChartSample> samples_;
+  const RunOptions& options_;
+  FileTime seen_;
+  Wall::time_point next_ = Wall::now();
 };
 
 // Thrown on the run's thread when its window could not be opened.
@@ -199,7 +89,10 @@ struct NotShown {};
 class Run {
  public:
   explicit Run(const RunOptions& options) : options_(options) {
-    hooks_.adapts = leave_out_vision;
+    hooks_.adapts = [](models::Setup& setup) {
+      const bool drawn = setup.scene.camera && setup.rig.camera.driver == "sim";
+      if (drawn && !module_there("vision")) leave_out_vision(setup);
+    };
     hooks_.begins = [this](trial::Trial& trial) {
       if (!trial.has_world())
         throw Error(
@@ -208,13 +101,19 @@ class Run {
             "device, such as the display; use encounter run");
       real_ = trial.result().keeps_wall_time || trial::moves_device(trial.setup());
       dt_ = trial.scene().dt;
+      trial_ = &trial;
       feed_.emplace(trial);
+      if (trial.setup().scene.camera && trial.setup().rig.camera.driver == "sim") cameras_.emplace(trial);
       if (!link_.begin(trial.result().keeps_wall_time)) throw NotShown{};
     };
     hooks_.ends = [this] { link_.wait_for_close(); };
     hooks_.watch = [this](const trial::Glance& glance) {
       link_.see(glance);
       feed_->see(glance);
+      if (cameras_) cameras_->see();
+    };
+    hooks_.look = [this](const Stamped<StereoFrame>& frame) {
+      if (cameras_) cameras_->look(frame);
     };
     hooks_.stop = [this] { return link_.ends(); };
     hooks_.waits = [this] { return link_.waits(dt_); };
@@ -236,6 +135,8 @@ class Run {
 
   [[nodiscard]] Link& link() { return link_; }
   [[nodiscard]] Feed& feed() { return *feed_; }
+  [[nodiscard]] CameraFeed* cameras() { return cameras_ ? &*cameras_ : nullptr; }
+  [[nodiscard]] trial::Trial& trial() { return *trial_; }
   [[nodiscard]] bool real() const { return real_; }
   // Ends the run and waits until its record is sealed and its report is printed.
   void join() {
@@ -257,6 +158,8 @@ class Run {
   RunWindow hooks_;
   Link link_;
   std::optional<Feed> feed_;
+  std::optional<CameraFeed> cameras_;
+  trial::Trial* trial_ = nullptr;
   bool real_ = false;
   double dt_ = 1e-3;
   int code_ = 0;
@@ -264,18 +167,113 @@ class Run {
   std::thread thread_;
 };
 
+// Shows a run until it ends or the window is closed. True: the user wants a restart.
+bool show_run(Run& run, Show& show, sim::ViewWindow& window, SceneFile* file) {
+  Feed& feed = run.feed();
+  Link& link = run.link();
+  std::vector<sim::WindowEvent> news, events;  // kept until there is something to see
+  Pictures pictures;
+  std::string message;
+  while (!link.ended()) {
+    if (!window.poll(news)) link.end();
+    events.insert(events.end(), news.begin(), news.end());
+    if (feed.take() && feed.newest().still.now.t != Time{}) show.add(feed.newest().still);
+    for (ChartSample one; feed.next(one);) show.add(one);
+    if (show.empty()) {
+      std::this_thread::sleep_for(milliseconds(2));
+      continue;
+    }
+    if (link.take_event()) show.controls().paused_at_event();
+    const Wishes wishes = show.see(events);
+    events.clear();
+    link.wish(wishes);
+    if (wishes.restarts || (file != nullptr && file->renewed(message))) {
+      link.end();
+      return true;
+    }
+    if (CameraFeed* cameras = run.cameras()) {
+      cameras->want(show.shows_augmented());
+      if (auto made = cameras->take()) show.add(std::move(*made));
+    }
+    show.say(message);
+    show.draw(wishes, &feed.newest().status);
+    pictures.wait();
+  }
+  return false;
+}
+
+// A record from its beginning, until the window is closed.
+int show_record(const std::string& path, const sim::WindowModule& module) {
+  Playback playback(path);
+  print_notes(playback.setup().notes);
+  const auto window = module.open("Encounter: " + path, kWidth, kHeight, [] {
+    fmt::print(stderr, "encounter: the display is lost\n");
+    std::fflush(nullptr);
+  });
+  const std::int64_t each =
+      std::max<std::int64_t>(10, playback.ticks() / static_cast<std::int64_t>(kStills) + 1);
+  const auto samples = static_cast<std::size_t>(playback.ticks() / Sampler::kEach + 1);
+  Show show(
+      playback.trial(), *window,
+      {Controls::Of::record, true, false, static_cast<std::size_t>(playback.ticks() / each + 2), samples});
+  Sampler sampler;
+  Still still;
+  std::int64_t ticks = 0;
+  const auto see = [&](const trial::Glance& glance) {
+    const ChartSample sample = sampler.sample(glance);
+    if (ticks % Sampler::kEach == 0) show.add(sample);
+    if (ticks % each == 0 || ticks + 1 == playback.ticks()) {
+      take_still(playback.trial(), glance, playback.simulated(), still);
+      show.add(still);
+    }
+    ++ticks;
+  };
+  std::vector<sim::WindowEvent> events;
+  while (playback.next(see))
+    if (ticks % 10'000 == 0 && !window->poll(events)) return 0;
+  show.timeline().seek(0.0);
+  Pictures pictures;
+  Wall::time_point before = Wall::now();
+  while (window->poll(events)) {
+    Wishes wishes = show.see(events);
+    if (wishes.ends) break;
+    const Wall::time_point now = Wall::now();
+    if (wishes.to_event) {
+      show.timeline().to_change();
+      show.controls().paused_at_event();
+    } else if (!wishes.paused) {
+      show.timeline().go_on(wishes.speed * duration<double>(now - before).count());
+    }
+    before = now;
+    show.draw(wishes, nullptr);
+    pictures.wait();
+  }
+  return 0;
+}
+
 }  // namespace
 
-int window(const ViewOptions& options) {
+int window(const ViewOptions& asked) {
   const auto* module = static_cast<const sim::WindowModule*>(load_module("window").window);
   module->look();
+  ViewOptions options = asked;
+  if (is_record(options.scene)) return show_record(options.scene, *module);
   Run* shown = nullptr;
   const auto lost = [&shown] {
     if (shown != nullptr) shown->join();
-    fmt::print(stderr, "encounter: the display is lost; the run was ended, its record is whole\n");
+    fmt::print(stderr, "encounter: the display is lost{}\n",
+               shown != nullptr ? "; the run was ended, its record is whole" : "");
     std::fflush(nullptr);
   };
   std::unique_ptr<sim::ViewWindow> window;
+  if (options.scene.empty()) {
+    window = module->open("Encounter", kWidth, kHeight, lost);
+    const auto chosen = choose_scene(*window);
+    if (!chosen) return 0;
+    options.scene = *chosen;
+    window->set_title("Encounter: " + options.scene);
+  }
+  SceneFile file(options);
   for (;;) {
     Run run(options);
     if (!run.link().wait_for_begin()) return run.code();
@@ -287,7 +285,13 @@ int window(const ViewOptions& options) {
       throw;
     }
     run.link().let_go();
-    const bool again = Show(run.feed(), *window, run.real(), !options.record.empty()).run(run.link());
+    const bool recording = !options.record.empty();
+    const bool again = [&] {
+      Show show(run.trial(), *window,
+                {run.real() ? Controls::Of::real : Controls::Of::simulated, recording,
+                 run.cameras() != nullptr, kStills, kSamples});
+      return show_run(run, show, *window, run.real() || recording ? nullptr : &file);
+    }();
     if (!again) window.reset();
     const int code = run.code();
     shown = nullptr;

@@ -11,6 +11,7 @@
 #include "core/vision/augment/augmented_view.h"
 #include "core/vision/ball/ball_finder.h"
 #include "core/vision/rig/vision_rig.h"
+#include "core/vision/seen_painter.h"
 
 namespace enc {
 
@@ -28,6 +29,8 @@ struct VisionModule {
   // As AugmentedView's constructor.
   std::unique_ptr<AugmentedView> (*augmented)(const AugmentedSpec& spec,
                                               std::span<const Object> objects) = nullptr;
+  // Of what its trackers saw through such a camera.
+  std::unique_ptr<SeenPainter> (*painter)(const StereoRig& rig) = nullptr;
   // Of the ball at the arm's tip, with the head as it is believed. Throws Error likewise.
   std::unique_ptr<BallFinder> (*ball)(const StereoRig& rig, const BallSpec& ball) = nullptr;
 };

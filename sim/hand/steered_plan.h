@@ -12,7 +12,7 @@ struct SteeredPlan {
   static constexpr double kFastest = 0.5;     // m/s, speed of an unhurried reach (assumed)
   static constexpr double kQuickest = 8.0;    // m/s^2 (assumed: a reach of 0.2 m in 0.6 s)
   static constexpr double kRate = 20.0;       // rad/s: settles within 0.2 s (assumed)
-  static constexpr double kStrongest = 12.0;  // N, most force in contact (assumed)
+  static constexpr double kStrongest = 15.0;  // N, most force in contact (assumed)
   // The contact has ended so far above the surface, or so long after the last touch: m, s.
   static constexpr double kLeft = 0.002, kApart = 0.05;
   bool on = false, touched = false;

@@ -275,8 +275,43 @@ Vec<'W'> User::normal_at(const Point<'W'>& tip) const {
   return normal;
 }
 
+void User::steer(const Point<'W'>& place, const Point<'W'>& tip) {
+  if (state_.change.stage == ToolChange::Stage::none)
+    state_.steered.steer(place, tip.finite() ? tip : state_.hand);
+  else
+    state_.change.wanted = place;
+}
+
+void User::change_tool(const Point<'W'>& tip) {
+  if (other_tool() < 0 || state_.touching || state_.change.stage != ToolChange::Stage::none ||
+      state_.session.held < 0)
+    return;
+  if (!state_.steered.on) steer(tip, tip);
+  state_.change = {ToolChange::Stage::away, state_.session.held, 0.0, state_.steered.to};
+  state_.steered.to = spot(state_.session.held);
+}
+
+void User::go_on_changing(double h) {
+  ToolChange& change = state_.change;
+  change.since += h;
+  const bool there = (state_.steered.to - state_.hand).norm() < ToolChange::kThere &&
+                     state_.hand_velocity.norm() < ToolChange::kRests;
+  if (!there || (change.stage == ToolChange::Stage::empty && change.since < ToolChange::kSwap)) return;
+  if (change.stage == ToolChange::Stage::away) {
+    change.stage = ToolChange::Stage::empty;
+    change.since = 0.0;
+    state_.session.held = -1;
+    state_.steered.to = spot(1 - change.from);
+  } else {
+    change.stage = ToolChange::Stage::none;
+    state_.session.held = 1 - change.from;
+    state_.steered.to = change.wanted;
+  }
+}
+
 Vec<'W'> User::act_steered(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
                            bool touching) {
+  if (state_.change.stage != ToolChange::Stage::none) go_on_changing(h);
   if (touching && !state_.steered.touched) state_.steered.touch(tool_tip, normal_at(tool_tip));
   const HandPlan p = state_.steered.advance(h, tool_tip, touching, hand_.stiffness, hand_.integral_time);
   const Vec3 gripped = grip(tool_tip, tool_velocity);

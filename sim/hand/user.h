@@ -13,6 +13,7 @@
 #include "sim/hand/hand_plan.h"
 #include "sim/hand/session_plan.h"
 #include "sim/hand/steered_plan.h"
+#include "sim/hand/tool_change.h"
 #include "sim/random.h"
 #include "sim/truth.h"
 #include "sim/twin_spec.h"
@@ -37,6 +38,7 @@ class User {
              drift = Vec<'W'>::zero();  // the last but one that was drawn, and it
     SessionPlan::State session;
     SteeredPlan steered;  // on: in place of all that is planned
+    ToolChange change;    // of a steered hand
   };
 
   // `prepared` must outlive it.
@@ -61,7 +63,10 @@ class User {
     return session_ ? session_->shaft(t, state_.session) : press_.normal;
   }
   // From here on the hand goes where it is told, and plans nothing by itself. `place`: of the tip's centre.
-  void steer(const Point<'W'>& place, const Point<'W'>& tip) { state_.steered.steer(place, tip); }
+  void steer(const Point<'W'>& place, const Point<'W'>& tip);
+  // Lays the held tool down and takes the other one. Nothing happens in a scene with one tool, in contact,
+  // or while it goes on.
+  void change_tool(const Point<'W'>& tip);
   void restore(const State& state) { state_ = state; }
   [[nodiscard]] bool done() const;  // every press made, tool back and at rest; never of one that is steered
   [[nodiscard]] double approach_speed() const;
@@ -86,7 +91,7 @@ class User {
   void move(double h, const Vec3& arm, const Vec3& grip);
   Vec<'W'> act_steered(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
                        bool touching);
-
+  void go_on_changing(double h);
   [[nodiscard]] Vec<'W'> normal_at(const Point<'W'>& tip) const;
 
   UserSpec spec_;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,18 @@ struct ViewChart {
   std::vector<ViewLine> lines;
   std::array<float, 2> across{0, 1};  // of x
   std::array<float, 2> up{0, 0};      // of y, at least
+  std::optional<float> cursor{};      // x of a vertical line
+};
+
+// A bar along the bottom of a window: time, the moment that is shown, marks. Positions are shares, 0 to 1.
+struct ViewBar {
+  struct Mark {
+    float from = 0.0F, to = 0.0F;
+    Colour colour{};
+  };
+  bool shown = false;
+  float at = 0.0F;
+  std::vector<Mark> marks;
 };
 
 struct Camera {
@@ -55,6 +68,13 @@ struct Camera {
   double distance = 1.0;    // m, from look_at
   double opening = 0.6;     // rad, vertical
   Point<'W'> look_at{0, 0, 0};
+};
+
+// A small picture in a window: an image, or the same world by another camera.
+struct ViewInset {
+  std::string name;
+  const Image* image = nullptr;
+  Camera camera{};
 };
 
 struct ViewRequest {
@@ -71,7 +91,10 @@ struct ViewRequest {
   std::function<int(mjModel_*)> dent;
   // In a window alone: names and what they are, a line each; the same of a help page, else empty; charts.
   std::string names, values, help_keys, help;
+  std::string message;  // a mistake, in the middle of the bottom
   std::vector<ViewChart> charts;
+  ViewBar bar;
+  std::vector<ViewInset> insets;
 };
 
 struct ViewModule {

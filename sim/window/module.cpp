@@ -2,9 +2,10 @@
 #include "core/module.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cctype>
-#include <cstring>
+#include <cmath>
 #include <memory>
 
 #include <GLFW/glfw3.h>
@@ -13,8 +14,10 @@
 
 #include "core/error.h"
 #include "sim/bodies/mujoco.h"
+#include "sim/picture/picture.h"
 #include "sim/view/drawing.h"
 #include "sim/view/renderer.h"
+#include "sim/window/overlay.h"
 #include "sim/window/window.h"
 
 // Declared in glfw3native.h, which would include more X headers than are installed.
@@ -119,38 +122,6 @@ class Drawn {
   int dented_ = -1;  // mesh
 };
 
-constexpr float kLineColours[][3] = {
-    {0.85F, 0.10F, 0.15F}, {0.16F, 0.42F, 0.72F}, {0.10F, 0.55F, 0.35F}, {0.90F, 0.55F, 0.20F}};
-
-void draw_chart(const ViewChart& chart, const mjrRect& where, mjvFigure& figure, const mjrContext& context) {
-  mjv_defaultFigure(&figure);
-  std::strncpy(figure.title, chart.title.c_str(), sizeof(figure.title) - 1);
-  figure.flg_legend = 1;
-  figure.flg_extend = 1;
-  figure.flg_ticklabel[0] = figure.flg_ticklabel[1] = 1;
-  figure.linewidth = 1.5F;
-  figure.gridsize[0] = 6;
-  figure.gridsize[1] = 5;
-  std::strncpy(figure.xformat, "%.0f", sizeof(figure.xformat) - 1);
-  std::strncpy(figure.yformat, "%.1f", sizeof(figure.yformat) - 1);
-  for (int i = 0; i < 2; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    figure.range[0][i] = chart.across[at];
-    figure.range[1][i] = chart.up[at];
-  }
-  figure.figurergba[0] = figure.figurergba[1] = figure.figurergba[2] = 0.12F;
-  figure.figurergba[3] = 0.75F;
-  for (std::size_t l = 0; l < std::min(chart.lines.size(), std::size(kLineColours)); ++l) {
-    const ViewLine& line = chart.lines[l];
-    std::strncpy(figure.linename[l], line.name.c_str(), sizeof(figure.linename[l]) - 1);
-    std::copy_n(kLineColours[l], 3, figure.linergb[l]);
-    const std::size_t count = std::min<std::size_t>(line.xy.size() / 2, mjMAXLINEPNT - 1);
-    figure.linepnt[l] = static_cast<int>(count);
-    std::copy_n(line.xy.begin(), 2 * count, figure.linedata[l]);
-  }
-  mjr_figure(where, &figure, &context);
-}
-
 class GlfwWindow final : public ViewWindow {
  public:
   GlfwWindow(const std::string& title, int width, int height, std::function<void()> lost)
@@ -183,6 +154,7 @@ class GlfwWindow final : public ViewWindow {
   bool poll(std::vector<WindowEvent>& events) override {
     events_.clear();
     glfwPollEvents();
+    read_gamepad();
     events = events_;
     return glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !failed();
   }
@@ -195,12 +167,46 @@ class GlfwWindow final : public ViewWindow {
       drawn_ = std::make_unique<Drawn>(request);
     }
     drawn_->draw(request, all);
+    inset(request, all);
     letter(request, all);
     glfwSwapBuffers(window_.get());
   }
+  void draw_page(const ViewPage& page) override {
+    mjrRect all{0, 0, 0, 0};
+    glfwGetFramebufferSize(window_.get(), &all.width, &all.height);
+    if (all.width < kSmallest || all.height < kSmallest) return;
+    if (!letters_) letters_ = std::make_unique<Letters>();
+    draw_tiles(page, all, letters_->context());
+    glfwSwapBuffers(window_.get());
+  }
+  Image snap(const ViewRequest& request, int width, int height) override {
+    Image picture(width, height);
+    const mjrRect all{0, 0, width, height};
+    Drawn drawn(request);
+    drawn.draw(request, all);
+    mjr_readPixels(picture.rgb.data(), nullptr, all, &drawn.context());
+    flip(picture);
+    return picture;
+  }
+  void set_title(const std::string& title) override { glfwSetWindowTitle(window_.get(), title.c_str()); }
   std::optional<Point<'W'>> seen_at(double x, double y, const mjData* data) override {
     const double w = std::max(1, width()), h = std::max(1, height());
     return drawn_ ? drawn_->seen_at(x / w, 1.0 - y / h, w / h, data) : std::nullopt;
+  }
+  std::optional<double> chart_at(double x, double y) const override {
+    std::pair<int, int> pixels;  // of the framebuffer, which may be finer than the window
+    glfwGetFramebufferSize(window_.get(), &pixels.first, &pixels.second);
+    const double px = x * pixels.first / std::max(1, width());
+    const double py = (height() - y) * pixels.second / std::max(1, height());
+    for (const Plot& plot : plots_) {
+      const mjrRect& r = plot.where;
+      if (px < r.left || px > r.left + r.width || py < r.bottom || py > r.bottom + r.height) continue;
+      const double share = (px - r.left - static_cast<double>(plot.from)) /
+                           std::max(1.0, static_cast<double>(plot.to) - static_cast<double>(plot.from));
+      return static_cast<double>(plot.across[0]) +
+             std::clamp(share, 0.0, 1.0) * static_cast<double>(plot.across[1] - plot.across[0]);
+    }
+    return {};
   }
   void forget() override { drawn_.reset(); }
   [[nodiscard]] int width() const override { return size().first; }
@@ -218,15 +224,42 @@ class GlfwWindow final : public ViewWindow {
     const auto get = reinterpret_cast<GetString>(glfwGetProcAddress("glGetString"));
     return get == nullptr ? nullptr : reinterpret_cast<const char*>(get(name));
   }
+  // Side by side above the bar.
+  void inset(const ViewRequest& request, const mjrRect& all) {
+    const mjrContext& context = drawn_->context();
+    const int gap = 6, w = (all.width - 440) / 2 - gap, up = static_cast<int>(kBarHeight + 2.0 * kBarSide);
+    if (w < 64) return;  // no room
+    int x = gap;
+    for (const ViewInset& one : request.insets) {
+      mjrRect where{x, up, w, (5 * w) / 8};
+      if (one.image != nullptr) where.height = w * one.image->height / std::max(1, one.image->width);
+      mjr_rectangle({x - 2, up - 2, w + 4, where.height + 4}, 0.12F, 0.12F, 0.12F, 1.0F);
+      if (one.image != nullptr) {
+        draw_image(resized(*one.image, where.width, where.height), where.left, where.bottom, context);
+      } else {
+        ViewRequest other = request;
+        other.camera = one.camera;
+        drawn_->draw(other, where);
+      }
+      mjr_overlay(mjFONT_NORMAL, mjGRID_TOPLEFT, where, one.name.c_str(), nullptr, &context);
+      x += w + gap;
+    }
+  }
   void letter(const ViewRequest& request, const mjrRect& all) {
     const mjrContext& context = drawn_->context();
     const int w = std::min(all.width / 3, 420), h = std::min(all.height / 4, 190);
-    int y = 10;
+    int y = 10 + (request.bar.shown ? static_cast<int>(kBarHeight + kBarSide) : 0);
+    plots_.clear();
     for (const ViewChart& chart : request.charts) {
       if (y + h > all.height) break;
-      draw_chart(chart, {all.width - w - 10, y, w, h}, figure_, context);
+      const mjrRect where{all.width - w - 10, y, w, h};
+      draw_chart(chart, where, figure_, context);
+      plots_.push_back({where, figure_.xaxispixel[0], figure_.xaxispixel[1], chart.across});
       y += h + 8;
     }
+    if (request.bar.shown) draw_bar(request.bar, all);
+    if (!request.message.empty())
+      mjr_overlay(mjFONT_NORMAL, mjGRID_BOTTOM, all, request.message.c_str(), nullptr, &context);
     if (!request.names.empty())
       mjr_overlay(mjFONT_NORMAL, mjGRID_TOPLEFT, all, request.names.c_str(), request.values.c_str(),
                   &context);
@@ -234,7 +267,28 @@ class GlfwWindow final : public ViewWindow {
       mjr_overlay(mjFONT_NORMAL, mjGRID_TOPRIGHT, all, request.help_keys.c_str(), request.help.c_str(),
                   &context);
     if (!request.title.empty())
-      mjr_overlay(mjFONT_NORMAL, mjGRID_BOTTOMLEFT, all, request.title.c_str(), nullptr, &context);
+      mjr_overlay(mjFONT_NORMAL, mjGRID_TOP, all, request.title.c_str(), nullptr, &context);
+  }
+  // The left stick moves right and up, the right one away; the left bumper is finer, as Shift is.
+  void read_gamepad() {
+    constexpr double kStill = 0.15, kLongest = 0.1;  // of a stick that nobody touches; s
+    const double now = glfwGetTime(), since = std::min(kLongest, now - sticks_read_);
+    sticks_read_ = now;
+    GLFWgamepadstate pad;
+    if (glfwGetGamepadState(GLFW_JOYSTICK_1, &pad) == GLFW_FALSE) return;
+    const auto axis = [&](int which) {
+      const auto value = static_cast<double>(pad.axes[which]);
+      return std::abs(value) < kStill ? 0.0 : value;
+    };
+    const double right = axis(GLFW_GAMEPAD_AXIS_LEFT_X), up = -axis(GLFW_GAMEPAD_AXIS_LEFT_Y);
+    const double away = -axis(GLFW_GAMEPAD_AXIS_RIGHT_Y);
+    if (right == 0.0 && up == 0.0 && away == 0.0) return;
+    events_.push_back({.kind = WindowEvent::Kind::stick,
+                       .shift = pad.buttons[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] == GLFW_PRESS,
+                       .right = right,
+                       .up = up,
+                       .away = away,
+                       .since = since});
   }
   void tell(WindowEvent event) {
     glfwGetCursorPos(window_.get(), &event.x, &event.y);
@@ -270,8 +324,16 @@ class GlfwWindow final : public ViewWindow {
   std::unique_ptr<GLFWwindow, WindowDelete> window_;
   std::string renderer_ = "unknown";
   std::vector<WindowEvent> events_;
-  std::unique_ptr<Drawn> drawn_;  // destroyed before the window: it uses its context
+  double sticks_read_ = 0.0;          // s of GLFW
+  std::unique_ptr<Drawn> drawn_;      // destroyed before the window: it uses its context
+  std::unique_ptr<Letters> letters_;  // likewise
   mjvFigure figure_{};
+  struct Plot {  // a chart as last drawn
+    mjrRect where;
+    int from, to;  // px, ends of the axis of x
+    std::array<float, 2> across;
+  };
+  std::vector<Plot> plots_;
 };
 
 std::unique_ptr<ViewWindow> open(const std::string& title, int width, int height,

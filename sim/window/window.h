@@ -2,6 +2,7 @@
 // its own, it is the only part that maps GLFW.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "core/frames.h"
 #include "sim/view/view.h"
+#include "sim/window/page.h"
 
 namespace enc::sim {
 
@@ -30,7 +32,7 @@ enum class Key : std::int32_t {
 };
 
 struct WindowEvent {
-  enum class Kind : std::uint8_t { key, button, move, wheel };
+  enum class Kind : std::uint8_t { key, button, move, wheel, stick };
   enum Button : std::int32_t { kLeft, kRight, kMiddle };
   Kind kind = Kind::move;
   std::int32_t code = 0;  // key or button
@@ -38,7 +40,18 @@ struct WindowEvent {
   bool shift = false;
   double x = 0.0, y = 0.0;  // px from the window's upper left corner
   double wheel = 0.0;       // clicks; positive: away from the user
+  // Of a gamepad's sticks, while one is out of its middle: -1 to 1, and s since it was read before.
+  double right = 0.0, up = 0.0, away = 0.0, since = 0.0;
 };
+
+// Layout of the bar of time (ViewBar), px from the window's edges.
+inline constexpr double kBarSide = 10.0, kBarHeight = 14.0;
+// The share of the bar at (x, y) of a window of this size; unset: above it. `held`: the drag began on it.
+[[nodiscard]] inline std::optional<double> bar_share(double x, double y, double width, double height,
+                                                     bool held = false) {
+  if (!held && y < height - kBarHeight - kBarSide) return {};
+  return std::clamp((x - kBarSide) / std::max(1.0, width - 2.0 * kBarSide), 0.0, 1.0);
+}
 
 class ViewWindow {
  public:
@@ -46,8 +59,14 @@ class ViewWindow {
   // Events since the last call, in order. False: the window was closed.
   virtual bool poll(std::vector<WindowEvent>& events) = 0;
   virtual void draw(const ViewRequest& request) = 0;
+  virtual void draw_page(const ViewPage& page) = 0;
+  // A picture of its own, px; the window does not show it.
+  [[nodiscard]] virtual Image snap(const ViewRequest& request, int width, int height) = 0;
+  virtual void set_title(const std::string& title) = 0;
   // The point of the model at (x, y), with these data and the last picture's camera; unset: background.
   [[nodiscard]] virtual std::optional<Point<'W'>> seen_at(double x, double y, const mjData_* data) = 0;
+  // x of the chart under (x, y), as last drawn; unset: no chart there.
+  [[nodiscard]] virtual std::optional<double> chart_at(double x, double y) const = 0;
   virtual void forget() = 0;                    // the model and all that was drawn of it, before another run
   [[nodiscard]] virtual int width() const = 0;  // px
   [[nodiscard]] virtual int height() const = 0;

@@ -24,10 +24,10 @@ class Window : public testing::Test {
   }
   // Starts a screen and `view` with these words, then runs the script; $V is the process of `view`, $X that
   // of the screen. The result has the output and the exit code of `view`.
-  tests::Result on_screen(const std::string& words, const std::string& script) const {
+  tests::Result on_screen(const std::string& words, const std::string& script,
+                          const std::string& before = "") const {
     const std::string text =
-        "cd \"" + folder_.path().string() +
-        "\"\n"
+        "cd \"" + folder_.path().string() + "\"\n" + before +
         "Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3> number > /dev/null 2>&1 &\n"
         "X=$!\n"
         "for i in $(seq 100); do [ -s number ] && break; sleep 0.1; done\n"
@@ -72,6 +72,43 @@ TEST_F(Window, TheMousePressesTheBallAndTheRecordReplays) {
   const tests::Result again = tests::run_program({"run", ball_, "--hand", file("r.encrec")});
   EXPECT_EQ(hash_of(again.out), hash_of(r.out));
   EXPECT_NE(hash_of(r.out), "");
+}
+
+// By keys: press to the ball's limit, drag along its surface, release, change the tool, press again; a fault
+// holds the machine and goes. All of it plays again without a window. The record opens in the window, too.
+TEST_F(Window, PressesDragsChangesTheToolAndPressesAgain) {
+  const std::string scene = tests::source_dir() + "/models/scenes/session.toml";
+  const std::string press =
+      "xdotool key o; sleep 2; for i in $(seq 12); do xdotool key Down; sleep 0.1; done\n";
+  const tests::Result r =
+      on_screen("\"" + scene + "\" --record s.encrec",
+                press +
+                    "sleep 2; for i in $(seq 12); do xdotool key Left; sleep 0.1; done; sleep 1\n"
+                    "for i in $(seq 20); do xdotool key Up; sleep 0.05; done; sleep 1\n"
+                    "xdotool key t; sleep 5\n" +
+                    press + "sleep 1; xdotool key 1; sleep 1; xdotool key 1; sleep 0.5; xdotool key q");
+  EXPECT_THAT(r.out, ContainsRegex("hold [0-9.]+ s")) << r.err;
+  EXPECT_THAT(r.out, ContainsRegex("deflection peak (5\\.[89]|6\\.)"));
+  EXPECT_EQ(tests::run_program({"replay", file("s.encrec")}).code, 0);
+  const tests::Result again = tests::run_program({"run", scene, "--hand", file("s.encrec")});
+  EXPECT_EQ(hash_of(again.out), hash_of(r.out));
+  EXPECT_NE(hash_of(r.out), "");
+  const tests::Result seen = on_screen("s.encrec",
+                                       "xdotool key n; sleep 1; xdotool mousemove 640 707 click 1; sleep 1\n"
+                                       "xdotool key comma period BackSpace space; sleep 1; xdotool key q");
+  EXPECT_EQ(seen.code, 0) << seen.err;
+  EXPECT_EQ(seen.out + seen.err, "");
+}
+
+// A scene that is saved while it is shown begins anew; a mistake in it ends nothing.
+TEST_F(Window, ASavedSceneIsLoadedAgain) {
+  const tests::Result r = on_screen(
+      "own.toml",
+      "sed -i 's/^radius_mm = 33/radius_mm = wrong/' own.toml; sleep 2\n"
+      "kill -0 $V && sed -i 's/^radius_mm = wrong/radius_mm = 30/' own.toml; sleep 3; xdotool key q",
+      "cp \"" + ball_ + "\" own.toml\n");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, ContainsRegex("state hash(.|\n)*state hash")) << "two reports";
 }
 
 TEST_F(Window, PausesGoesOnAndBeginsAnew) {

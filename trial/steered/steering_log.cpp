@@ -10,33 +10,52 @@
 
 namespace enc::trial {
 
-std::optional<Point<'W'>> SteeringLog::at(std::int64_t tick) {
-  std::optional<Point<'W'>> place;
-  for (; next_ < steps_.size() && steps_[next_].tick <= tick; ++next_) place = steps_[next_].place;
-  return place;
+std::optional<HandWord> SteeringLog::at(std::int64_t tick) {
+  std::optional<HandWord> all;
+  for (; next_ < steps_.size() && steps_[next_].tick <= tick; ++next_) {
+    const HandWord& word = steps_[next_].word;
+    if (!all) all.emplace();
+    if (word.place) all->place = word.place;
+    all->changes_tool = all->changes_tool || word.changes_tool;
+    all->faults = word.faults;
+  }
+  return all;
 }
 
 std::string SteeringLog::text() const {
-  std::string text = "tick,x_m,y_m,z_m\n";
-  for (const Step& step : steps_)
-    text += fmt::format("{},{},{},{}\n", step.tick, step.place.xyz[0], step.place.xyz[1], step.place.xyz[2]);
+  std::string text = "tick,steered,x_m,y_m,z_m,changes_tool,faults\n";
+  for (const Step& step : steps_) {
+    const Point<'W'> place = step.word.place.value_or(Point<'W'>(0, 0, 0));
+    text += fmt::format("{},{},{},{},{},{},{}\n", step.tick, step.word.place ? 1 : 0, place.xyz[0],
+                        place.xyz[1], place.xyz[2], step.word.changes_tool ? 1 : 0, step.word.faults);
+  }
   return text;
 }
 
 SteeringLog SteeringLog::read(const std::string& text, const std::string& record) {
   constexpr double kMostTicks = 1e12, kFarthest = 10.0;  // m
   models::CsvReader rows(text, record + " (hand)");
-  rows.header({"tick", "x_m", "y_m", "z_m"});
+  rows.header({"tick", "steered", "x_m", "y_m", "z_m", "changes_tool", "faults"});
+  const auto whole = [&](std::size_t column, double most, const char* what) {
+    const double number = rows.number(column);
+    if (!(number >= 0.0 && number <= most && number == std::floor(number)))
+      rows.fail(column, std::string(what) + "; record the run again");
+    return number;
+  };
   SteeringLog log;
   while (rows.next()) {
-    const double tick = rows.number(0);
-    const Vec3 place(rows.number(1), rows.number(2), rows.number(3));
-    const bool after = log.empty() || tick >= static_cast<double>(log.steps_.back().tick);
-    if (!(after && tick >= 0.0 && tick <= kMostTicks && tick == std::floor(tick)))
-      rows.fail(0, "a tick is a whole number, not below the one before; record the run again");
+    const double tick = whole(0, kMostTicks, "a tick is a whole number");
+    if (!log.empty() && tick < static_cast<double>(log.steps_.back().tick))
+      rows.fail(0, "a tick is not below the one before; record the run again");
+    HandWord word;
+    const bool steered = whole(1, 1, "steered is 0 or 1") == 1.0;
+    const Vec3 place(rows.number(2), rows.number(3), rows.number(4));
     if (!(place.cwiseAbs().maxCoeff() <= kFarthest))
-      rows.fail(1, "a hand is within 10 m of the origin of W; record the run again");
-    log.add(static_cast<std::int64_t>(tick), Point<'W'>(place));
+      rows.fail(2, "a hand is within 10 m of the origin of W; record the run again");
+    if (steered) word.place = Point<'W'>(place);
+    word.changes_tool = whole(5, 1, "changes_tool is 0 or 1") == 1.0;
+    word.faults = static_cast<std::uint8_t>(whole(6, 15, "faults are a number from 0 to 15"));
+    log.add(static_cast<std::int64_t>(tick), word);
   }
   return log;
 }

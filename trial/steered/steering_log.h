@@ -1,5 +1,5 @@
-// The steering of the twin's hand in a run: places and the ticks from which they hold. A record keeps it, and
-// a later run plays it back (docs/reference/record.md, "hand").
+// What was asked of a run by somebody who steered it, and the ticks from which it holds. A record keeps it,
+// and a later run plays it back (docs/reference/record.md, "hand").
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
+#include "trial/steered/hand_word.h"
 
 namespace enc::trial {
 
 class SteeringLog {
  public:
-  void add(std::int64_t tick, const Point<'W'>& place) { steps_.push_back({tick, place}); }
+  void add(std::int64_t tick, const HandWord& word) { steps_.push_back({tick, word}); }
   [[nodiscard]] bool empty() const { return steps_.empty(); }
-  // The newest place up to `tick`, or unset without news, as TrialOptions::steer wants it. Ticks must ascend.
-  [[nodiscard]] std::optional<Point<'W'>> at(std::int64_t tick);
+  // All up to `tick` that is new since the last call, or unset, as TrialOptions::steer wants it. Ticks must
+  // ascend.
+  [[nodiscard]] std::optional<HandWord> at(std::int64_t tick);
 
-  // CSV with one line per step: tick and place in W, m. Numbers are read back to the bit.
+  // CSV with one line per step: tick, whether there is a place, the place in W, m, whether the tool is
+  // changed, bits of the faults. Numbers are read back to the bit.
   [[nodiscard]] std::string text() const;
   // Reads the text of a record, which may be corrupt. Throws Error (kind input) with the line.
   static SteeringLog read(const std::string& text, const std::string& record);
@@ -26,7 +28,7 @@ class SteeringLog {
  private:
   struct Step {
     std::int64_t tick = 0;
-    Point<'W'> place;
+    HandWord word;
   };
   std::vector<Step> steps_;
   std::size_t next_ = 0;

@@ -167,6 +167,9 @@ FingerTracker::FingerTracker(FingerTracker&&) noexcept = default;
 
 const LookStats& FingerTracker::stats() const { return parts_->stats; }
 const RectifiedPair& FingerTracker::pair() const { return parts_->scene.pair(); }
+const std::vector<FingertipFinder::Candidate>& FingerTracker::candidates() const {
+  return parts_->scene.finder().candidates();
+}
 const Mask& FingerTracker::skin() const { return parts_->scene.skin(); }
 bool FingerTracker::finger_in_background() const { return parts_->scene.finger_in_background(); }
 bool FingerTracker::learned() const { return parts_->scene.learned(); }

@@ -53,6 +53,7 @@ class FingerTracker {
 
   [[nodiscard]] const LookStats& stats() const;
   [[nodiscard]] const RectifiedPair& pair() const;
+  [[nodiscard]] const std::vector<FingertipFinder::Candidate>& candidates() const;  // of the last look
   [[nodiscard]] const Mask& skin() const;  // valid where the last frame was segmented
   [[nodiscard]] bool learned() const;      // the background
   // A fingertip of the hue of skin stood in some frame from which the background was learned: it has become

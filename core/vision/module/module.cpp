@@ -1,6 +1,7 @@
 // What the program finds in encounter_vision.so.
 #include "core/module.h"
 
+#include "core/vision/rectified_painter.h"
 #include "core/vision/vision_module.h"
 #include "core/vision/vision_tracker.h"
 
@@ -21,7 +22,11 @@ std::unique_ptr<enc::AugmentedView> augmented(const enc::AugmentedSpec& spec,
 std::unique_ptr<enc::BallFinder> ball(const enc::StereoRig& rig, const enc::BallSpec& spec) {
   return std::make_unique<enc::BallFinder>(rig, spec);
 }
-constexpr enc::VisionModule kVision{.tracker = tracker, .augmented = augmented, .ball = ball};
+std::unique_ptr<enc::SeenPainter> painter(const enc::StereoRig& rig) {
+  return std::make_unique<enc::RectifiedPainter>(rig);
+}
+constexpr enc::VisionModule kVision{
+    .tracker = tracker, .augmented = augmented, .painter = painter, .ball = ball};
 
 }  // namespace
 

@@ -104,6 +104,22 @@ TEST_F(WindowControls, ArrowsAndPagesMoveTheTool) {
   EXPECT_NEAR(hand().x(), 0.0, 1e-12);
 }
 
+TEST_F(WindowControls, AGamepadMovesTheToolAsFastAsItsStickIsPushed) {
+  const auto stick = [&](double right, double up, double away, bool finer) {
+    controls_->see({.kind = WindowEvent::Kind::stick,
+                    .shift = finer,
+                    .right = right,
+                    .up = up,
+                    .away = away,
+                    .since = 0.02},
+                   around_);
+  };
+  stick(0, 0.5, 0, false);
+  EXPECT_NEAR(hand().z(), 0.001, 1e-12);
+  stick(-1, 0, 1, true);
+  EXPECT_NEAR((hand() - Vec3(0.0002, 0.0002, 0.001)).norm(), 0.0, 1e-12);
+}
+
 TEST_F(WindowControls, NothingIsSteeredWhereNoHandIs) {
   around_.steerable = false;
   key(Key::up);
@@ -195,12 +211,96 @@ TEST_F(WindowControls, ARealMachineIsStoppedAndResumed) {
               !wishes.restarts);
 }
 
+// Back in time by a key, or by the mouse on the bar at the bottom; space returns to the present.
+TEST_F(WindowControls, EarlierMomentsOfARun) {
+  key(',');
+  key(',');
+  Wishes wishes = controls_->take_wishes();
+  EXPECT_TRUE(wishes.paused);
+  EXPECT_EQ(wishes.stills, -2);
+  EXPECT_EQ(controls_->take_wishes().stills, 0) << "asked for once";
+  around_.past = true;
+  key('.');
+  wishes = controls_->take_wishes();
+  EXPECT_EQ(wishes.stills, 1);
+  EXPECT_EQ(wishes.ticks, 0);
+  key(' ');
+  wishes = controls_->take_wishes();
+  EXPECT_TRUE(wishes.newest && !wishes.paused);
+  around_.past = false;
+  button(WindowEvent::kLeft, true, 500, 495);
+  wishes = controls_->take_wishes();
+  EXPECT_NEAR(*wishes.seek, 0.5, 1e-9);
+  EXPECT_TRUE(wishes.paused);
+  move(745, 100);  // the drag goes on above the bar
+  wishes = controls_->take_wishes();
+  EXPECT_NEAR(*wishes.seek, 0.75, 1e-9);
+  button(WindowEvent::kLeft, false, 100, 100);
+  wishes = controls_->take_wishes();
+  EXPECT_FALSE(wishes.hand) << "that is no click on the ball";
+  EXPECT_FALSE(wishes.seek);
+  move(300, 495);
+  EXPECT_FALSE(controls_->take_wishes().seek);
+  around_.real = true;
+  key(' ');
+  (void)controls_->take_wishes();
+  key(',');
+  button(WindowEvent::kLeft, true, 500, 495);
+  wishes = controls_->take_wishes();
+  EXPECT_EQ(wishes.stills, -1);
+  EXPECT_TRUE(wishes.seek && !wishes.stops && !wishes.resumes) << "looking back does not touch the machine";
+}
+
+TEST_F(WindowControls, ARecordIsPlayed) {
+  around_.played = true;
+  around_.steerable = false;
+  key('.');
+  Wishes wishes = controls_->take_wishes();
+  EXPECT_TRUE(wishes.paused && wishes.stills == 1 && wishes.ticks == 0);
+  key(' ');
+  wishes = controls_->take_wishes();
+  EXPECT_TRUE(!wishes.paused && !wishes.newest);
+  key('N');
+  EXPECT_TRUE(controls_->take_wishes().to_event);
+  controls_->paused_at_event();
+  key(Key::backspace);
+  wishes = controls_->take_wishes();
+  EXPECT_TRUE(!wishes.restarts && wishes.seek && *wishes.seek == 0.0);
+  key('1');
+  key('T');
+  wishes = controls_->take_wishes();
+  EXPECT_TRUE(wishes.faults == 0 && !wishes.changes_tool);
+}
+
+TEST_F(WindowControls, ToolObjectAndFaults) {
+  around_.over = [](int object) { return std::optional(Point<'W'>(object, 0, 0)); };
+  key('T');
+  EXPECT_TRUE(controls_->take_wishes().changes_tool);
+  EXPECT_FALSE(controls_->take_wishes().changes_tool) << "asked for once";
+  key('O');
+  EXPECT_EQ(hand(), Vec3(0, 0, 0));
+  key('O');
+  EXPECT_EQ(hand(), Vec3(1, 0, 0));
+  for (const char c : {'1', '2', '3', '4'}) key(c);
+  EXPECT_EQ(controls_->take_wishes().faults, 15);
+  key('2');
+  EXPECT_EQ(controls_->take_wishes().faults, 13);
+}
+
 TEST_F(WindowControls, ChartsHelpAndEnd) {
+  using Insets = Controls::Insets;
+  EXPECT_EQ(controls_->insets(false), Insets::none);
+  EXPECT_EQ(controls_->insets(true), Insets::pair);
+  key('P');
+  EXPECT_EQ(controls_->insets(false), Insets::contact);
+  EXPECT_EQ(controls_->insets(true), Insets::augmented);
+  key('P');
+  EXPECT_EQ(controls_->insets(false), Insets::sides);
+  key('P');
+  EXPECT_EQ(controls_->insets(false), Insets::none);
   EXPECT_TRUE(controls_->charts());
   key('C');
   EXPECT_FALSE(controls_->charts());
-  key('F');
-  EXPECT_TRUE(controls_->frozen());
   key('H');
   EXPECT_TRUE(controls_->help());
   key(Key::f1);
@@ -215,10 +315,11 @@ TEST_F(WindowControls, ChartsHelpAndEnd) {
 // A key that is added to the page must be added to a test above, and to this list.
 TEST_F(WindowControls, TheHelpPageNamesWhatIsTestedHere) {
   const std::set<std::string_view> tested{
-      "left drag", "click", "G", "wheel", "arrows, page", "right, middle drag", "V",       "C, F", "H",
-      "Q",         "space", ".", "N",     "[ ]",          "backspace",          "space, R"};
-  for (const bool real : {false, true})
-    for (const Controls::Help& line : Controls::help_lines(real))
+      "left drag", "click", "G", "wheel", "arrows, page", "right, middle drag", "V",     "C",       "H", "Q",
+      "space",     ".",     "N", "[ ]",   "backspace",    "space, R",           ", bar", ", . bar", "T", "O",
+      "1 2",       "3 4",   "P"};
+  for (const Controls::Of of : {Controls::Of::simulated, Controls::Of::real, Controls::Of::record})
+    for (const Controls::Help& line : Controls::help_lines(of))
       EXPECT_TRUE(tested.contains(line.key)) << line.key;
 }
 

@@ -67,8 +67,20 @@ TEST_F(WindowLink, ThePlaceOfTheHandIsNewsOnce) {
   EXPECT_FALSE(link_.hand());
   link_.wish({.hand = Point<'W'>(1, 2, 3)});
   link_.wish({.hand = Point<'W'>(1, 2, 3)});
-  EXPECT_EQ(link_.hand()->xyz, (std::array{1.0, 2.0, 3.0}));
+  EXPECT_EQ(link_.hand()->place->xyz, (std::array{1.0, 2.0, 3.0}));
   EXPECT_FALSE(link_.hand());
+}
+
+// A change of tool is asked for once, also when nobody listened to the first wish; faults last.
+TEST_F(WindowLink, ToolAndFaultsReachTheRun) {
+  link_.wish({.changes_tool = true, .faults = 2});
+  link_.wish({.faults = 2});
+  const auto word = link_.hand();
+  ASSERT_TRUE(word);
+  EXPECT_TRUE(word->changes_tool && word->faults == 2 && !word->place);
+  EXPECT_FALSE(link_.hand());
+  link_.wish({});
+  EXPECT_EQ(link_.hand()->faults, 0);
 }
 
 TEST_F(WindowLink, AStopComesBeforeAResume) {

@@ -1,0 +1,59 @@
+#include "app/window/history/charts.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace enc::app {
+namespace {
+
+constexpr std::size_t kPoints = 1000;  // of a line, at most
+
+// The first sample that is not before t.
+std::deque<ChartSample>::const_iterator from(const std::deque<ChartSample>& samples, float t) {
+  return std::lower_bound(samples.begin(), samples.end(), t,
+                          [](const ChartSample& sample, float at) { return sample.t < at; });
+}
+
+}  // namespace
+
+void Charts::add(const ChartSample& sample) {
+  if (samples_.size() == most_) samples_.pop_front();
+  samples_.push_back(sample);
+}
+
+std::vector<sim::ViewChart> Charts::until(double end_time, std::optional<double> cursor, bool truth) const {
+  if (samples_.empty()) return {};
+  const auto end = static_cast<float>(end_time);
+  const auto first = from(samples_, end - kSpan), last = from(samples_, end + 1e-4F);
+  if (first == last) return {};
+  const auto count = static_cast<std::size_t>(last - first);
+  const auto each = static_cast<std::ptrdiff_t>(count / kPoints + 1);
+  const auto read = std::min(from(samples_, end + static_cast<float>(cursor.value_or(0.0))), last - 1);
+  const auto line = [&](const char* name, float ChartSample::*what, int decimals) {
+    sim::ViewLine drawn{fmt::format("{} {:.{}f}", name, (*read).*what, decimals), {}};
+    for (auto i = first; last - i > 0; i += std::min(each, last - i)) {
+      drawn.xy.push_back(i->t - end);
+      drawn.xy.push_back((*i).*what);
+    }
+    return drawn;
+  };
+  const auto chart = [&](const char* title, std::vector<sim::ViewLine> lines, float most) {
+    sim::ViewChart drawn{title, std::move(lines), {-kSpan, 0}, {0, most}, {}};
+    if (cursor) drawn.cursor = read->t - end;
+    return drawn;
+  };
+  std::vector<sim::ViewLine> forces{line("measured", &ChartSample::measured, 2),
+                                    line("filtered", &ChartSample::filtered, 2)};
+  if (truth) forces.push_back(line("true", &ChartSample::true_force, 2));
+  std::vector<sim::ViewChart> charts;
+  if (truth)
+    charts.push_back(chart("energy into the surface, mJ", {line("energy", &ChartSample::energy, 1)}, 5));
+  charts.push_back(chart("deflection and gap, mm",
+                         {line("deflection", &ChartSample::deflection, 2), line("gap", &ChartSample::gap, 2)},
+                         10));
+  charts.push_back(chart("force, N", std::move(forces), 5));
+  return charts;
+}
+
+}  // namespace enc::app

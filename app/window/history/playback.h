@@ -1,0 +1,44 @@
+// A record for the window: the core runs again over what the devices said, beside the twin of the recorded
+// scene, which gives what no device says.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/window/history/still.h"
+#include "core/record/record.h"
+#include "trial/steered/steering_log.h"
+
+namespace enc::app {
+
+class Playback {
+ public:
+  // Throws Error for a record that cannot be read or run again.
+  explicit Playback(const std::string& path);
+  Playback(const Playback&) = delete;
+  Playback& operator=(const Playback&) = delete;
+
+  [[nodiscard]] trial::Trial& trial() { return *trial_; }
+  [[nodiscard]] const models::Setup& setup() const { return trial_->setup(); }
+  [[nodiscard]] std::int64_t ticks() const { return record_.ticks(); }
+  // All devices were simulated: tool, tip and truth are the twin's. Else they are where devices said.
+  [[nodiscard]] bool simulated() const { return simulated_; }
+  [[nodiscard]] const RecordedTick& frame() const { return frame_; }
+
+  // The next tick; false after the last. `see` gets it with the twin as it was.
+  bool next(const std::function<void(const trial::Glance&)>& see);
+
+ private:
+  [[nodiscard]] trial::TrialOptions options();
+
+  RecordReader record_;
+  RecordedTick frame_;
+  trial::SteeringLog hand_;
+  bool simulated_ = true;
+  std::function<void(const trial::Glance&)> see_;
+  std::unique_ptr<trial::Trial> trial_;
+};
+
+}  // namespace enc::app

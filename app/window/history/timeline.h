@@ -1,0 +1,50 @@
+// The stills of a run in order of time, and which of them is shown: the newest, or an earlier one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "app/window/history/still.h"
+#include "sim/view/view.h"
+
+namespace enc::app {
+
+class Timeline {
+ public:
+  // `most`: stills that are kept; the oldest go first.
+  explicit Timeline(std::size_t most) : most_(most) {}
+
+  void add(const Still& still);
+  [[nodiscard]] bool empty() const { return stills_.empty(); }
+  [[nodiscard]] const Still& shown() const { return at(shown_); }
+  [[nodiscard]] const Still& newest() const { return at(end() - 1); }
+  // An earlier one than the newest is shown.
+  [[nodiscard]] bool past() const { return !stills_.empty() && shown_ + 1 < end(); }
+
+  void seek(double share);     // 0: the oldest; 1: the newest, and all that follow
+  void step(int stills);       // forward; negative: back
+  void go_on(double seconds);  // from the shown one; at most to the newest
+  void to_change();            // to the next change of mode; else to the newest
+  void show_newest() { seek(1.0); }
+
+  // Where the shown one is, with contacts and holds as marks.
+  [[nodiscard]] sim::ViewBar bar() const;
+
+ private:
+  // Stills are counted since the first that was ever added.
+  using Number = std::int64_t;
+  [[nodiscard]] Number begin() const { return dropped_; }
+  [[nodiscard]] Number end() const { return dropped_ + static_cast<Number>(stills_.size()); }
+  [[nodiscard]] const Still& at(Number n) const { return stills_[static_cast<std::size_t>(n) % most_]; }
+  void show(Number n);
+
+  std::size_t most_;
+  std::vector<Still> stills_;  // a ring once it is full
+  Number dropped_ = 0, shown_ = 0;
+  double rest_ = 0.0;  // s of go_on() that no still was as long as
+};
+
+[[nodiscard]] inline double seconds_of(const Still& still) { return seconds(still.now.t.time_since_epoch()); }
+
+}  // namespace enc::app

@@ -1,0 +1,222 @@
+#include "app/window/show.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/run/percentiles.h"
+#include "app/view/depict.h"
+#include "core/error.h"
+#include "trial/steered/faults.h"
+
+namespace enc::app {
+namespace {
+
+constexpr double kHover = 0.015;  // m above a place that was clicked
+
+std::string faults_text(std::uint8_t faults) {
+  std::string text;
+  for (const auto& [bit, words] : {std::pair{trial::kFrozenTracker, "tracker frozen"},
+                                   {trial::kDroppedPackets, "packets lost"},
+                                   {trial::kLateClock, "clock late"},
+                                   {trial::kSaturated, "force saturates"}})
+    if ((faults & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(words);
+  return text;
+}
+
+}  // namespace
+
+Show::Show(trial::Trial& trial, sim::ViewWindow& window, const What& what)
+    : trial_(trial),
+      window_(window),
+      what_(what),
+      data_(mj_makeData(trial.world().physics().model())),
+      timeline_(what.most_stills),
+      charts_(what.most_samples) {
+  if (!data_) throw Error("not enough memory for a window", {}, ErrorKind::device);
+  window_.forget();
+}
+
+void Show::add(const Still& still) {
+  timeline_.add(still);
+  if (!controls_) controls_.emplace(camera_for(moment_of(trial_, still, data_.get()), false));
+}
+
+void Show::add(CameraFeed::Pictures&& pictures) {
+  if (pictures.augmented.width > 0)
+    pictures_.augmented = std::move(pictures.augmented);
+  else
+    pictures_.pair = std::move(pictures.pair);
+}
+
+bool Show::shows_augmented() const {
+  return controls_ && controls_->insets(what_.cameras) == Controls::Insets::augmented;
+}
+
+// Small pictures along the bottom: other cameras on the scene, or what the scene's own camera sees.
+void Show::inset(const Moment& m, sim::ViewRequest& request) const {
+  using Insets = Controls::Insets;
+  const auto turned = [&](const char* name, double by) {
+    sim::Camera camera = camera_for(m, false);
+    camera.azimuth += by;
+    request.insets.push_back({name, nullptr, camera});
+  };
+  const auto image = [&](const char* name, const Image& picture) {
+    if (picture.width > 0) request.insets.push_back({name, &picture, {}});
+  };
+  switch (controls_->insets(what_.cameras)) {
+    case Insets::none:
+      break;
+    case Insets::contact:
+      request.insets.push_back({"contact", nullptr, camera_for(m, true)});
+      break;
+    case Insets::sides:
+      turned("left", 0.5 * std::numbers::pi);
+      turned("right", -0.5 * std::numbers::pi);
+      break;
+    case Insets::pair:
+      image("left camera", pictures_.pair.left);
+      image("right camera", pictures_.pair.right);
+      break;
+    case Insets::augmented:
+      image("augmented view", pictures_.augmented);
+      break;
+  }
+}
+
+Wishes Show::see(const std::vector<sim::WindowEvent>& events) {
+  for (const sim::WindowEvent& event : events) controls_->see(event, around());
+  const Wishes wishes = controls_->take_wishes();
+  if (wishes.newest) timeline_.show_newest();
+  if (wishes.seek) timeline_.seek(*wishes.seek);
+  if (wishes.stills != 0) timeline_.step(wishes.stills);
+  return wishes;
+}
+
+Surroundings Show::around() {
+  const Still& shown = timeline_.shown();
+  Surroundings around;
+  around.width = window_.width();
+  around.height = window_.height();
+  around.tip = shown.truth.tool_tip;
+  around.real = what_.of == Controls::Of::real;
+  around.played = what_.of == Controls::Of::record;
+  around.past = timeline_.past();
+  // An empty hand on its way to the other tool hears where that is wanted.
+  const bool hand = trial_.setup().scene.user.has_value() && shown.truth.tool_tip.finite();
+  around.steerable = what_.of == Controls::Of::simulated && hand && !around.past;
+  around.recording = what_.recording;
+  around.above = [this](double x, double y) { return above(x, y); };
+  around.over = [this](int object) { return over(object); };
+  return around;
+}
+
+// The place kHover above the object seen at (x, y).
+std::optional<Point<'W'>> Show::above(double x, double y) {
+  const auto seen = window_.seen_at(x, y, data_.get());
+  if (!seen) return {};
+  std::optional<Point<'W'>> place;
+  double least = 0.01;  // m: a point farther from every object belongs to the machine
+  for (const Object& object : trial_.scene().objects) {
+    const Nearest near = object.surface.nearest(object.X_WO.inverse() * *seen);
+    if (!(std::abs(near.distance) < least)) continue;
+    least = std::abs(near.distance);
+    place = object.X_WO * near.point + kHover * (object.X_WO * near.normal);
+  }
+  return place;
+}
+
+// The place kHover above the point of an object that the simulated hand would press.
+std::optional<Point<'W'>> Show::over(int object) const {
+  const auto& objects = trial_.setup().scene.objects;
+  if (objects.empty() || !trial_.setup().scene.user) return {};
+  UserSpec user = *trial_.setup().scene.user;
+  user.object = objects[static_cast<std::size_t>(object) % objects.size()].name;
+  const PressPoint at = press_point(trial_.setup().scene, user);
+  return at.point + kHover * at.normal;
+}
+
+void Show::draw(const Wishes& wishes, const trial::RunStatus* status) {
+  const Still& shown = timeline_.shown();
+  const Moment m = moment_of(trial_, shown, data_.get());
+  controls_->follow(m.truth.tool_tip);
+  sim::ViewRequest request = depict(m, controls_->camera(), false);
+  request.labels.clear();
+  request.data = data_.get();
+  if (m.out.mode == Mode::contact || m.out.mode == Mode::restore)
+    request.dent = [&m](mjModel* model) { return dent_object(m, model); };
+  write(m, wishes, status, request);
+  if (controls_->charts() && !controls_->help())
+    request.charts =
+        charts_.until(seconds_of(shown), window_.chart_at(controls_->x(), controls_->y()), shown.simulated);
+  inset(m, request);
+  request.bar = timeline_.bar();
+  request.message = message_;
+  window_.draw(request);
+}
+
+void Show::write(const Moment& m, const Wishes& wishes, const trial::RunStatus* status,
+                 sim::ViewRequest& request) {
+  const auto row = [&](const std::string& name, const std::string& value) {
+    request.names += (request.names.empty() ? "" : "\n") + name;
+    request.values += (request.values.empty() ? "" : "\n") + value;
+  };
+  const std::uint32_t why = m.out.why & kHoldReasons;
+  row("mode", timeline_.shown().halted
+                  ? std::string("STOPPED BY HAND (R resumes)")
+                  : std::string(mode_name(m.out.mode)) + (why != 0 ? ": " + why_text(why) : ""));
+  const double force = m.out.mode == Mode::contact ? -m.out.force.xyz[2] : 0.0;
+  row("force", fmt::format("{:.2f} N{}", force == 0.0 ? 0.0 : force, m.truth.touching ? ", felt" : ""));
+  row("deflection", m.out.mode == Mode::contact ? fmt::format("{:.2f} mm", 1e3 * m.out.deflection) : "-");
+  row("gap", std::isfinite(m.out.gap) ? fmt::format("{:.1f} mm", 1e3 * m.out.gap) : "-");
+  row("hand", hand_text(m, wishes));
+  if (wishes.faults != 0) row("fault", faults_text(wishes.faults));
+  if (status != nullptr) {
+    if (const Percentiles of = periods_of(*status); !std::isnan(of.p99))
+      row("period p99", fmt::format("{:.2f} ms", 1e-6 * of.p99));
+    if (status->missed > 0) row("missed", std::to_string(status->missed));
+  }
+  row("time", time_text(m, wishes));
+  row("drawn by", window_.renderer());
+  row("help", "H");
+  if (!controls_->help()) return;
+  for (const Controls::Help& line : Controls::help_lines(what_.of)) {
+    request.help_keys += fmt::format("{}{}", request.help_keys.empty() ? "" : "\n", line.key);
+    request.help += fmt::format("{}{}", request.help.empty() ? "" : "\n", line.what);
+  }
+}
+
+std::string Show::hand_text(const Moment& m, const Wishes& wishes) {
+  if (what_.of == Controls::Of::real) return "at the real devices";
+  if (!trial_.setup().scene.user) return "none";
+  std::string tool;
+  if (m.truth.tool < 0)
+    tool = "empty, ";
+  else if (trial_.scene().tools.size() > 1)
+    tool = trial_.setup().scene.tools[static_cast<std::size_t>(m.truth.tool)].name + ", ";
+  if (what_.of == Controls::Of::record) return tool + "recorded";
+  if (!wishes.hand) return tool + "the scene's: drag to take it";
+  return tool + (controls_->grabbed() ? "yours (G lets go)" : "yours");
+}
+
+std::string Show::time_text(const Moment& m, const Wishes& wishes) {
+  const double t = seconds(m.now.t.time_since_epoch());
+  if (what_.of == Controls::Of::record)
+    return fmt::format("{:.3f} s{}", t,
+                       wishes.paused ? ", stopped" : fmt::format(", x {:.3g}", wishes.speed));
+  if (timeline_.past()) return fmt::format("{:.3f} s, {:.3f} s ago", t, seconds_of(timeline_.newest()) - t);
+  if (wishes.paused) return fmt::format("{:.3f} s, paused", t);
+  const double wall = std::chrono::duration<double>(Wall::now() - paced_from_).count();
+  if (wall > 0.5) {
+    pace_ = (t - paced_at_) / wall;
+    paced_from_ = Wall::now();
+    paced_at_ = t;
+  }
+  return fmt::format("{:.1f} s, {:.2f} x real time", t, pace_);
+}
+
+}  // namespace enc::app

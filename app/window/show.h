@@ -1,0 +1,70 @@
+// What the window shows of a run or of a record: the picture of a moment, status, charts, the bar of time. It
+// turns events into wishes and carries out those that are about the picture itself.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/window/camera_feed.h"
+#include "app/window/controls.h"
+#include "app/window/history/charts.h"
+#include "app/window/history/timeline.h"
+#include "sim/window/window.h"
+#include "trial/operator/run_watch.h"
+
+namespace enc::app {
+
+class Show {
+ public:
+  struct What {
+    Controls::Of of = Controls::Of::simulated;
+    bool recording = false;        // a restart would replace the record
+    bool cameras = false;          // the scene's camera has images
+    std::size_t most_stills = 0;   // that are kept; the oldest go first
+    std::size_t most_samples = 0;  // of the charts, likewise
+  };
+
+  // The trial has a twin. It and the window must outlive this.
+  Show(trial::Trial& trial, sim::ViewWindow& window, const What& what);
+
+  void add(const Still& still);
+  void add(const ChartSample& sample) { charts_.add(sample); }
+  void add(CameraFeed::Pictures&& pictures);
+  [[nodiscard]] bool shows_augmented() const;
+  [[nodiscard]] Timeline& timeline() { return timeline_; }
+  [[nodiscard]] Controls& controls() { return *controls_; }  // not before there is a still
+  [[nodiscard]] bool empty() const { return timeline_.empty(); }
+  void say(const std::string& message) { message_ = message; }  // until the next; empty: nothing
+
+  // In order; then the wishes for the run. Not before there is a still.
+  [[nodiscard]] Wishes see(const std::vector<sim::WindowEvent>& events);
+  // `status`: of the present; null: of a record.
+  void draw(const Wishes& wishes, const trial::RunStatus* status);
+
+ private:
+  using Wall = std::chrono::steady_clock;
+  [[nodiscard]] Surroundings around();
+  [[nodiscard]] std::optional<Point<'W'>> above(double x, double y);
+  [[nodiscard]] std::optional<Point<'W'>> over(int object) const;
+  void inset(const Moment& m, sim::ViewRequest& request) const;
+  void write(const Moment& m, const Wishes& wishes, const trial::RunStatus* status,
+             sim::ViewRequest& request);
+  [[nodiscard]] std::string hand_text(const Moment& m, const Wishes& wishes);
+  [[nodiscard]] std::string time_text(const Moment& m, const Wishes& wishes);
+
+  trial::Trial& trial_;
+  sim::ViewWindow& window_;
+  What what_;
+  sim::DataPtr data_;  // of the moment that is shown
+  Timeline timeline_;
+  Charts charts_;
+  std::optional<Controls> controls_;
+  std::string message_;
+  CameraFeed::Pictures pictures_;  // newest of each
+  Wall::time_point paced_from_ = Wall::now();
+  double paced_at_ = 0.0, pace_ = 1.0;
+};
+
+}  // namespace enc::app

@@ -1,0 +1,34 @@
+// What lies over or beside the picture in a window: charts, the bar of time, images, tiles. Positions are px
+// of the framebuffer, from below.
+#pragma once
+
+#include "sim/bodies/mujoco.h"
+#include "sim/view/renderer.h"
+#include "sim/view/view.h"
+#include "sim/window/window.h"
+
+namespace enc::sim {
+
+// MuJoCo writes with a model's context only: this is one of nothing.
+class Letters {
+ public:
+  Letters()
+      : spec_(mj_makeSpec()),
+        model_(mj_compile(spec_.get(), nullptr)),
+        renderer_(model_.get(), 1, mjFONTSCALE_100) {}
+  [[nodiscard]] const mjrContext& context() const { return renderer_.context; }
+
+ private:
+  SpecPtr spec_;
+  ModelPtr model_;
+  Renderer renderer_;
+};
+
+// Leaves the chart's axes in `figure`.
+void draw_chart(const ViewChart& chart, const mjrRect& where, mjvFigure& figure, const mjrContext& context);
+void draw_bar(const ViewBar& bar, const mjrRect& all);
+void draw_image(const Image& picture, int left, int bottom, const mjrContext& context);
+[[nodiscard]] Image resized(const Image& from, int width, int height);  // by the nearest pixel
+void draw_tiles(const ViewPage& page, const mjrRect& all, const mjrContext& context);
+
+}  // namespace enc::sim

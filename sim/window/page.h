@@ -1,0 +1,57 @@
+// A page of tiles in a window, each a picture with a name, to choose one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/vision/image.h"
+
+namespace enc::sim {
+
+struct ViewTile {
+  Image picture;  // empty: none yet
+  std::string name;
+};
+struct ViewPage {
+  std::string title, line;  // above the tiles and below them
+  std::vector<ViewTile> tiles;
+  std::size_t chosen = 0;
+};
+
+// Where tiles are, px from the window's upper left corner.
+struct TileGrid {
+  static constexpr double kWidest = 1.4;                             // of a tile, over its height
+  static constexpr double kGap = 6.0, kName = 24.0, kMargin = 34.0;  // px; the margin: above and below
+  std::size_t columns = 1;
+  double width = 1.0, height = 1.0;  // of a tile with its name and gap
+
+  TileGrid(std::size_t tiles, double window_width, double window_height) {
+    const double room = std::max(1.0, window_height - 2.0 * kMargin);
+    for (;; ++columns) {
+      const std::size_t rows = std::max<std::size_t>(1, (tiles + columns - 1) / columns);
+      width = window_width / static_cast<double>(columns);
+      height = room / static_cast<double>(rows);
+      if (width <= kWidest * height || columns >= tiles) return;
+    }
+  }
+  [[nodiscard]] double left(std::size_t i) const { return width * static_cast<double>(i % columns); }
+  [[nodiscard]] double top(std::size_t i) const {
+    return kMargin + height * static_cast<double>(i / columns);
+  }
+  // Of the picture in a tile.
+  [[nodiscard]] int picture_width() const { return std::max(1, static_cast<int>(width - kGap)); }
+  [[nodiscard]] int picture_height() const { return std::max(1, static_cast<int>(height - kGap - kName)); }
+  // The tile at (x, y), or `none`.
+  [[nodiscard]] std::size_t at(double x, double y, std::size_t tiles, std::size_t none) const {
+    if (x < 0.0 || y < kMargin) return none;
+    const auto column = static_cast<std::size_t>(x / width),
+               row = static_cast<std::size_t>((y - kMargin) / height);
+    const std::size_t i = row * columns + column;
+    return column < columns && i < tiles ? i : none;
+  }
+};
+
+}  // namespace enc::sim
