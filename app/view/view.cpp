@@ -113,7 +113,7 @@ int picture(const ViewOptions& options, Look look) {
   sim::ViewRequest request = depict(moment, camera_for(moment, close_up), close_up);
   request.data = physics.data();
   request.dent = [&moment](mjModel* model) { return dent_object(moment, model); };
-  file.write(module->shot(request));
+  file.write(module->png(module->open(request, sim::Finish::still)->draw(request)));
   file.keep();
   fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
              seconds(moment.now.t.time_since_epoch()));

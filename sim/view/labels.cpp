@@ -40,6 +40,16 @@ void write(const std::string& text, double x, double middle, const Image& pictur
            static_cast<float>(1.0 - base / picture.height), 1, 1, 1);
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
 }  // namespace
 
 void letter(Image& picture, const mjvScene& scene, const mjrContext& context, const ViewRequest& request,
@@ -51,12 +61,14 @@ void letter(Image& picture, const mjvScene& scene, const mjrContext& context, co
     const Eigen::Vector2d at = projected(scene, label.at, picture.width, picture.height);
     rows.push_back({label.left, at.x(), at.y(), at.y()});
   }
-  const double clear = request.title.empty() ? 0.0 : 2.0 * pitch;  // the title's
+  const std::vector<std::string> title = lines_of(request.title);
+  const double clear = title.empty() ? 0.0 : (1.0 + static_cast<double>(title.size())) * pitch;
   spread_rows(rows, pitch, clear + pitch, picture.height - pitch);
 
   const mjrRect all{0, 0, picture.width, picture.height};
   mjr_rectangle(all, 0, 0, 0, 1);
-  if (!request.title.empty()) write(request.title, margin, pitch, picture, context);
+  for (std::size_t i = 0; i < title.size(); ++i)
+    write(title[i], margin, (1.0 + static_cast<double>(i)) * pitch, picture, context);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     LabelRow& label = rows[i];
     const std::string& text = request.labels[i].text;

@@ -1,10 +1,11 @@
-// What is drawn of a simulated world, and the view module, which draws it off screen, as the bytes of a PNG.
+// What is drawn of a simulated world, and the view module, which draws it off the screen.
 // The window module draws the same (window.h). Both are shared objects of their own, so that nothing but
 // `encounter view` maps OpenGL.
 #pragma once
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,7 @@ struct ViewRequest {
   std::vector<ViewRod> rods;
   std::vector<ViewArrow> arrows;
   std::vector<ViewLabel> labels;
-  std::string title;  // top left; may be empty
+  std::string title;  // top left, one or more lines; may be empty
   // Dents a mesh of the picture's own copy of the model; gives its index, -1: none is dented.
   std::function<int(mjModel_*)> dent;
   // In a window alone: names and what they are, a line each; the same of a help page, else empty; charts.
@@ -74,10 +75,22 @@ struct ViewRequest {
   std::vector<ViewChart> charts;
 };
 
+// Draws pictures off the screen, all with one OpenGL context and one copy of the model.
+class Pictures {
+ public:
+  virtual ~Pictures() = default;
+  // `request` has the model and the size of the first one.
+  virtual Image draw(const ViewRequest& request) = 0;
+};
+
+// A still picture is drawn at three times its size and shrunk; a frame of a film, of which there are
+// hundreds, is drawn at twice its size.
+enum class Finish { still, film };
+
 struct ViewModule {
-  // The PNG. Throws Error of the kind device where there is no EGL or Mesa.
-  std::string (*shot)(const ViewRequest& request) = nullptr;
-  std::string (*png)(const Image& picture) = nullptr;  // of an image that is there
+  // Throws Error of the kind device where there is no EGL or Mesa.
+  std::unique_ptr<Pictures> (*open)(const ViewRequest& first, Finish finish) = nullptr;
+  std::string (*png)(const Image& picture) = nullptr;  // the bytes of a PNG
 };
 
 }  // namespace enc::sim
