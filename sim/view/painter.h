@@ -13,6 +13,7 @@ namespace enc::sim {
 
 struct PaintSettings {
   int shadow_size = 0;  // px of the shadow map; 0: no shadows
+  int stacks = 48;      // of a round body, along its axis
   mjtFontScale letters = mjFONTSCALE_100;
   int width = 0, height = 0;  // px off the screen; 0: into the window
 };
@@ -26,7 +27,7 @@ class Painter {
   [[nodiscard]] bool is_of(const mjModel* model) const { return of_ == model; }
   // Throws Error (kind device) for too many geoms.
   void paint(const ViewRequest& request, const mjrRect& where);
-  // Of the last picture.
+  // The last picture's scene and context.
   [[nodiscard]] const mjvScene& scene() const { return renderer_.scene; }
   [[nodiscard]] const mjrContext& context() const { return renderer_.context; }
   // The point of the model at a share of the width and of the height, with these data and the last picture's

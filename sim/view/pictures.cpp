@@ -40,17 +40,21 @@ void tint_backdrop(Image& picture, const std::vector<float>& depth, const mjvGLC
 struct Fineness {
   int finer;  // drawn so many times larger and shrunk: smooth edges
   int shadow_size;
-  mjtFontScale letters;  // as large in the shrunk picture
+  int stacks;                           // of a round body
+  mjtFontScale letters, small_letters;  // small: of a picture that is less than kLow high
 };
-constexpr Fineness kStill{3, 4096, mjFONTSCALE_300};
-constexpr Fineness kFilm{2, 2048, mjFONTSCALE_200};
+constexpr Fineness kStill{3, 4096, 48, mjFONTSCALE_300, mjFONTSCALE_200};
+constexpr Fineness kFilm{2, 2048, 16, mjFONTSCALE_200, mjFONTSCALE_150};
+constexpr int kLow = 500;  // px
 
 class OffscreenPictures final : public Pictures {
  public:
   OffscreenPictures(const ViewRequest& first, const Fineness& fineness)
       : finer_(fineness.finer),
         all_{0, 0, finer_ * first.width, finer_ * first.height},
-        painter_(first, {fineness.shadow_size, fineness.letters, all_.width, all_.height}),
+        painter_(first,
+                 {fineness.shadow_size, fineness.stacks,
+                  first.height < kLow ? fineness.small_letters : fineness.letters, all_.width, all_.height}),
         depth_(static_cast<std::size_t>(all_.width) * static_cast<std::size_t>(all_.height)) {}
 
   Image draw(const ViewRequest& request) override {

@@ -1,4 +1,4 @@
-// What is drawn of a simulated world, and the view module, which draws it off the screen.
+// The description of a picture of a simulated world, and the view module, which draws it off the screen.
 // The window module draws the same (window.h). Both are shared objects of their own, so that nothing but
 // `encounter view` maps OpenGL.
 #pragma once
@@ -19,12 +19,18 @@ namespace enc::sim {
 
 using Colour = std::array<float, 4>;  // red, green, blue, opacity; 0 to 1
 
-// What is drawn besides the model's own bodies.
+// Things that are drawn besides the model's own bodies.
 struct ViewRod {  // a leg, a strut
   Point<'W'> from, to;
   double radius = 0.002;  // m
   Colour colour{0.7F, 0.7F, 0.7F, 1.0F};
   bool flat = false;  // its ends; else round
+};
+struct ViewBox {
+  Point<'W'> middle;
+  Quat q;     // of its axes in W
+  Vec3 half;  // sizes along them, m
+  Colour colour{0.7F, 0.7F, 0.7F, 1.0F};
 };
 struct ViewArrow {
   Point<'W'> from;
@@ -63,8 +69,9 @@ struct ViewRequest {
   mjData_* data = nullptr;
   int width = 1000, height = 700;  // pixels
   Camera camera;
-  double floor = kUnset;  // m, height of the floor in W; unset: none
+  Point<'W'> floor;  // the middle of a round floor; unset: none
   std::vector<ViewRod> rods;
+  std::vector<ViewBox> boxes;
   std::vector<ViewArrow> arrows;
   std::vector<ViewLabel> labels;
   std::string title;  // top left, one or more lines; may be empty
