@@ -9,6 +9,7 @@
 #include "app/built.h"
 #include "app/modules/modules.h"
 #include "app/view/depict.h"
+#include "app/view/film.h"
 #include "app/window/window.h"
 #include "core/error.h"
 #include "models/files.h"
@@ -49,6 +50,17 @@ bool run_until(trial::Trial& trial, bool waits_for_hold) {
   return true;
 }
 
+int video(const ViewOptions& options) {
+  if (!options.through_camera.empty())
+    throw Error(
+        "--through-camera is of a picture, and a film shows the world from beside; expected --video alone; "
+        "give --shot picture.png for a picture, or run --frames DIR for all that the camera sees");
+  const FilmReport report = film(options);
+  fmt::print("{}", film_text(options.video, report));
+  if (report.signal != 0) return 128 + report.signal;
+  return report.diverged ? 4 : 0;
+}
+
 }  // namespace
 
 void leave_out_vision(models::Setup& setup) {
@@ -75,6 +87,7 @@ Moment moment_of(trial::Trial& trial) {
 }
 
 int view(const ViewOptions& options) {
+  if (!options.video.empty()) return video(options);
   if (options.shot.empty() && options.through_camera.empty() && !options.at && !options.close_up)
     return window(options);
   if (!options.through_camera.empty()) return through_camera(options);
@@ -108,11 +121,8 @@ int picture(const ViewOptions& options, Look look) {
     return 4;
   }
   const Moment moment = moment_of(trial);
-  sim::Physics& physics = trial.world().physics();
-  shift_objects(moment, physics.data());
   sim::ViewRequest request = depict(moment, camera_for(moment, close_up), close_up);
-  request.data = physics.data();
-  request.dent = [&moment](mjModel* model) { return dent_object(moment, model); };
+  show(moment, trial.world().physics().data(), request);
   file.write(module->png(module->open(request, sim::Finish::still)->draw(request)));
   file.keep();
   fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
