@@ -38,10 +38,16 @@ struct CheckOptions : SceneOptions {
   std::optional<double> error_N, error_um;
 };
 struct ViewOptions : RunOptions {  // of a window: a run
-  std::string shot;                // file; empty: a window
-  std::optional<double> at;        // s; none: in the middle of the first hold
+  std::string shot;                // file; empty: a window or a film
+  std::string video;               // file or folder of a film; empty: a window or a picture
+  std::optional<double> at;        // s; none: in the middle of the first hold; of a film: its beginning
   bool close_up = false;
   std::string through_camera;  // "raw", "removed", "augmented"; empty: the world from beside
+};
+struct TourOptions {
+  std::string out = "tour";  // folder
+  double seconds = 20.0;     // of each film
+  bool force = false;
 };
 struct ReplayOptions {
   std::string record;
@@ -85,6 +91,7 @@ int doctor();
 int scenes();
 int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
+int tour(const TourOptions& options);
 int fit(const FitOptions& options);
 int calibrate(const CalibrateOptions& options);
 int shadow(const ShadowOptions& options);

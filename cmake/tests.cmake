@@ -44,7 +44,7 @@ set(optimised heavy property golden fuzz benchmarks hygiene shape terminal)
 # periods. Under ASan they take 10 to 30 times as long, four fifths of all the time there. A new test that takes a second
 # in release belongs here.
 set(draws
-    unit/app/view_test unit/core/dent/ unit/core/vision/augment/ unit/core/vision/ball/ unit/core/vision/calibration/
+    unit/app/view/ unit/core/dent/ unit/core/vision/augment/ unit/core/vision/ball/ unit/core/vision/calibration/
     unit/core/vision/finger/ unit/core/vision/segmentation/[a-z_]*_test unit/core/vision/stereo/match
     unit/core/vision/vision_tracker unit/sim/camera/ unit/trial/camera/faulty unit/trial/guided/
     input/app/calibration/ input/app/camera/ input/app/camera_test)

@@ -21,18 +21,6 @@
 namespace enc::app {
 namespace {
 
-void scene_options(CLI::App* command, SceneOptions& options) {
-  command->add_option("scene", options.scene, "scene file, or the name of a shipped scene (encounter scenes)")
-      ->required();
-  command->add_option("--rig", options.rig, "rig: sim, a name in models/rigs, or a file")
-      ->capture_default_str();
-  command->add_option("--set", options.set,
-                      "override, e.g. object.ball.radius_mm=30 (names: encounter params SCENE)");
-  command->add_option("--seed", options.seed, "seed of all random streams")
-      ->capture_default_str()
-      ->check(bad_seed);
-}
-
 int dispatch(CLI::App& app, int argc, char** argv) {
   int code = 0;
   RunOptions run_options;
@@ -150,33 +138,10 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   export_command->callback([&] { code = export_record(export_options); });
 
   ViewOptions view_options;
-  CLI::App* view_command = app.add_subcommand(
-      "view", "run a scene in a window, where the mouse is the hand; or draw it into a file");
-  scene_options(view_command, view_options);
-  view_command->get_option("scene")->required(false)->description(
-      "scene file, name of a shipped scene, or record; none: choose in the window");
-  CLI::Option* view_record =
-      view_command
-          ->add_option("--record", view_options.record,
-                       "of a window: write inputs and outputs of every tick, and the hand, to this file")
-          ->check(unnamed);
-  view_command->add_option("--shot", view_options.shot, "PNG file to write; no window is opened")
-      ->check(unnamed)
-      ->excludes(view_record);
-  view_command->add_option(
-      "--at-s", view_options.at,
-      "moment, s of experiment; default: the first press at its deepest, or 4 s through the camera");
-  CLI::Option* close_up =
-      view_command->add_flag("--close-up", view_options.close_up, "the contact instead of the whole machine");
-  view_command
-      ->add_option("--through-camera", view_options.through_camera,
-                   "what the scene's left camera sees, not the world from beside: raw; removed, without the "
-                   "arm; or augmented, with the virtual objects in its place")
-      ->check(CLI::IsMember({"raw", "removed", "augmented"}))
-      ->excludes(close_up);
-  device_options(view_command, view_options);
-  force_option(view_command, view_options.force);
-  view_command->callback([&] { code = view(view_options); });
+  add_view(app, view_options)->callback([&] { code = view(view_options); });
+
+  TourOptions tour_options;
+  add_tour(app, tour_options)->callback([&] { code = tour(tour_options); });
 
   ParamsOptions params_options;
   CLI::App* params_command =

@@ -28,6 +28,9 @@ void device_options(CLI::App* command, Options& options) {
   command->add_flag("--not-real-time", options.not_real_time,
                     "move a real machine although the system refuses real-time priority to the loop");
 }
+void scene_options(CLI::App* command, SceneOptions& options);
+CLI::App* add_view(CLI::App& app, ViewOptions& options);
+CLI::App* add_tour(CLI::App& app, TourOptions& options);
 CLI::App* add_calibrate(CLI::App& app, CalibrateOptions& options);
 CLI::App* add_shadow(CLI::App& app, ShadowOptions& options);
 

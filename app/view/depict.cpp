@@ -20,7 +20,10 @@ constexpr sim::Colour kLeg{0.82F, 0.84F, 0.87F, 1.0F};
 constexpr sim::Colour kJacket{0.30F, 0.34F, 0.42F, 1.0F};
 constexpr sim::Colour kMarkerArm{0.35F, 0.38F, 0.45F, 1.0F};
 constexpr sim::Colour kHandle{0.16F, 0.42F, 0.72F, 1.0F};
-constexpr double kForceScale = 0.005;  // m of arrow for each N
+constexpr sim::Colour kProp{0.90F, 0.55F, 0.20F, 1.0F};
+// m of arrow for each N: a hexapod carries 12 N, an arm a few.
+constexpr double kForceScale = 0.005, kArmForceScale = 0.015;
+constexpr std::size_t kMostNamed = 12;  // objects with a label
 
 sim::Colour colour_of(Material material) {
   switch (material) {
@@ -36,6 +39,12 @@ sim::Colour colour_of(Material material) {
   return {0.90F, 0.55F, 0.20F, 1.0F};
 }
 
+Point<'W'> middle_of_objects(const Moment& m) {
+  Vec3 sum = Vec3::Zero();
+  for (const Object& object : m.scene.objects) sum += object.X_WO.p();
+  return Point<'W'>(Vec3(sum / static_cast<double>(std::max<std::size_t>(1, m.scene.objects.size()))));
+}
+
 // Links and base as rods. Its prop is a body of the simulated world.
 void add_arm(const Moment& m, sim::ViewRequest& request) {
   for (const ArmPart& part : arm_shape(m.setup.twin.arm.machine, m.truth.joints, m.X_WR)) {
@@ -45,11 +54,27 @@ void add_arm(const Moment& m, sim::ViewRequest& request) {
   }
 }
 
+// The belt that the drum's prop carries: two rollers, and what runs over them.
+void add_belt(const Moment& m, sim::ViewRequest& request) {
+  const int front = mj_name2id(m.model, mjOBJ_GEOM, "prop_front");
+  if (front < 0 || !m.setup.scene.prop || m.setup.scene.prop->kind != PropKind::drum) return;
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Mat3 axes = RowMajor::Map(m.data->geom_xmat + std::ptrdiff_t{9} * front);
+  const Point<'W'> middle(Vec3(Vec3::Map(m.data->geom_xpos + std::ptrdiff_t{3} * front)));
+  const Vec3 half = 0.5 * m.setup.scene.prop->size;
+  const Vec<'W'> ahead(Vec3((half.x() - half.z()) * axes.col(0))), across(Vec3(half.y() * axes.col(1)));
+  for (const Point<'W'>& roller : {middle - ahead, middle + ahead})
+    request.rods.push_back({roller - across, roller + across, half.z(), kProp, true});
+  request.boxes.push_back({middle, Quat(axes), Vec3(half.x() - half.z(), half.y(), half.z()), kProp});
+}
+
 // Each leg as a rod in a jacket, from its base joint to its platform joint.
 void add_legs(const Moment& m, sim::ViewRequest& request) {
   if (m.machine == nullptr) {
     add_arm(m, request);
-    request.floor = (m.X_WR * Point<'R'>(0, 0, -0.200)).xyz[2];
+    add_belt(m, request);
+    const Vec3 foot = (m.X_WR * Point<'R'>(0, 0, -0.200)).e(), there = middle_of_objects(m).e();
+    request.floor = Point<'W'>(0.5 * (foot.x() + there.x()), 0.5 * (foot.y() + there.y()), foot.z());
     return;
   }
   const Hexapod& machine = *m.machine;
@@ -63,16 +88,17 @@ void add_legs(const Moment& m, sim::ViewRequest& request) {
     request.rods.push_back({from, from, 0.0145, kMarkerArm});  // joints, as balls
     request.rods.push_back({to, to, 0.0125, kMarkerArm});
   }
-  request.floor = (X_WR * Point<'R'>(0, 0, -0.020)).xyz[2];
+  request.floor = X_WR * Point<'R'>(0, 0, -0.020);
 }
 
 // The rods between a tool's shaft and its markers; MuJoCo turned the tool, so it is asked where they are.
-// Gives one of its markers, where it has any. `called`: the tool's body, "tool" or "other_tool".
-Point<'W'> add_tool_frame(const Moment& m, sim::ViewRequest& request, const std::string& called) {
+// Gives one of its markers, where it has any. `called`: the tool's body; `tipped`: the geom at its tip.
+Point<'W'> add_tool_frame(const Moment& m, sim::ViewRequest& request, const char* called,
+                          const char* tipped) {
   const mjModel* model = m.model;
   const mjData* data = m.data;
-  const int body = mj_name2id(model, mjOBJ_BODY, called.c_str());
-  const int tip = mj_name2id(model, mjOBJ_GEOM, (called + "_tip").c_str());
+  const int body = mj_name2id(model, mjOBJ_BODY, called);
+  const int tip = mj_name2id(model, mjOBJ_GEOM, tipped);
   if (body < 0 || tip < 0) return {};
   const auto at = [&](int g) {
     return Point<'W'>(data->geom_xpos[3 * g], data->geom_xpos[3 * g + 1], data->geom_xpos[3 * g + 2]);
@@ -93,11 +119,13 @@ Point<'W'> add_tool_frame(const Moment& m, sim::ViewRequest& request, const std:
   return markers.front();
 }
 
-// Draws the frames of both tools of a session; gives a marker of the held one.
+// Draws the frames of both tools of a session, or of a clamped tool; gives a marker of the held one.
 Point<'W'> add_tool_frames(const Moment& m, sim::ViewRequest& request) {
   const std::optional<UserSpec>& user = m.setup.scene.user;
-  const Point<'W'> first = add_tool_frame(m, request, "tool");
-  const Point<'W'> other = add_tool_frame(m, request, "other_tool");
+  const Point<'W'> clamped = add_tool_frame(m, request, "clamped_tool", "haptic_tip");
+  if (clamped.finite()) return clamped;
+  const Point<'W'> first = add_tool_frame(m, request, "tool", "tool_tip");
+  const Point<'W'> other = add_tool_frame(m, request, "other_tool", "other_tool_tip");
   const std::int32_t held = m.truth.tool;
   const bool changed = user && user->session && held >= 0 &&
                        m.setup.scene.tools[static_cast<std::size_t>(held)].name == user->session->other_tool;
@@ -109,9 +137,11 @@ Point<'W'> add_tool_frames(const Moment& m, sim::ViewRequest& request) {
 void add_arrows(const Moment& m, sim::ViewRequest& request, double scale) {
   const sim::Truth& truth = m.truth;
   const double azimuth = request.camera.azimuth;
-  const Vec<'W'> right(0.020 * scale * std::sin(azimuth), -0.020 * scale * std::cos(azimuth), 0);
+  const double beside = scale * (m.scene.probe() ? 0.048 : 0.020);  // a real ball hides more
+  const Vec<'W'> right(beside * std::sin(azimuth), -beside * std::cos(azimuth), 0);
   if (touching(m)) {
-    const Vec<'W'> along = scale * kForceScale * truth.contact_force;
+    const Vec<'W'> along =
+        scale * (m.machine == nullptr ? kArmForceScale : kForceScale) * truth.contact_force;
     const Point<'W'> to = truth.tip + right;
     request.arrows.push_back({to - along, along, 0.0035 * scale, kForce});
     request.labels.push_back({fmt::format("force of the {}: {:.1f} N",
@@ -143,7 +173,7 @@ Point<'W'> flank(const Moment& m, std::size_t object) {
   if (spec.shape == ShapeKind::sphere)
     return X_WO * Point<'O'>(Vec3(0.8 * spec.radius * Vec3(0.75, -0.6, 0.1))) + shift;
   const bool button = spec.shape == ShapeKind::button;
-  return X_WO * Point<'O'>(button ? 0.4 * spec.width : 0.07, button ? -0.4 * spec.height : -0.07, 0) + shift;
+  return X_WO * Point<'O'>(button ? 0.4 * spec.width : 0.072, button ? -0.4 * spec.height : 0.04, 0) + shift;
 }
 
 // Names what is at a place; a part that the scene does not have has no words.
@@ -151,14 +181,33 @@ void label(sim::ViewRequest& request, const std::string& words, const Point<'W'>
   if (!words.empty()) request.labels.push_back({words, at, left});
 }
 
+// Names the objects, in the right margin. More than four, such as the keys of a keypad, take both margins.
+void add_object_labels(const Moment& m, sim::ViewRequest& request) {
+  const std::size_t count = std::min(m.scene.objects.size(), kMostNamed);
+  const double azimuth = request.camera.azimuth;
+  const auto across = [&](const Point<'W'>& p) {
+    return std::sin(azimuth) * p.xyz[0] - std::cos(azimuth) * p.xyz[1];
+  };
+  std::vector<Point<'W'>> at;
+  double middle = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    at.push_back(count > 4 ? m.scene.objects[i].X_WO.origin() : flank(m, i));
+    middle += across(at[i]) / static_cast<double>(count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool real = m.scene.probe() && m.scene.probe()->object == static_cast<int>(i);
+    const std::string& name = m.setup.scene.objects[i].name;
+    request.labels.push_back({count > 4 ? name : fmt::format("{} ({})", name, real ? "real" : "virtual"),
+                              at[i], count > 4 && across(at[i]) < middle});
+  }
+}
+
 // An arm, its prop and the finger that meets it.
 void add_arm_labels(const Moment& m, sim::ViewRequest& request) {
   const sim::Truth& truth = m.truth;
   const SeenParts seen = seen_parts(m.setup.scene);
   label(request, seen.prop, truth.tip, false);
-  for (std::size_t i = 0; i < std::min<std::size_t>(m.scene.objects.size(), 4); ++i)
-    request.labels.push_back(
-        {fmt::format("{} (virtual)", m.setup.scene.objects[i].name), flank(m, i), false});
+  add_object_labels(m, request);
   if (truth.tool_tip.finite()) label(request, seen.tool, truth.tool_tip, true);
   if (!request.title.empty()) request.labels.push_back({"arm", m.X_WR * Point<'R'>(0, 0, 0), true});
 }
@@ -168,11 +217,7 @@ void add_labels(const Moment& m, sim::ViewRequest& request, const Point<'W'>& ma
   if (m.machine == nullptr) return add_arm_labels(m, request);
   const auto in_H = [&](double x, double y, double z) { return m.X_WR * m.platform * Point<'H'>(x, y, z); };
   request.labels.push_back({m.scene.probe() ? "probe" : "haptic-tip", truth.tip, false});
-  for (std::size_t i = 0; i < m.setup.scene.objects.size(); ++i)
-    request.labels.push_back(
-        {fmt::format("{} ({})", m.setup.scene.objects[i].name,
-                     m.scene.probe() && m.scene.probe()->object == static_cast<int>(i) ? "real" : "virtual"),
-         flank(m, i), false});
+  add_object_labels(m, request);
   if (truth.tool_tip.finite()) request.labels.push_back({"tool's tip", truth.tool_tip, true});
   if (request.title.empty()) return;  // a close-up
   const SeenParts seen = seen_parts(m.setup.scene);
@@ -202,20 +247,30 @@ int dent_object(const Moment& m, mjModel* model) {
   return sim::dent_seen(model, m.data, m.scene, static_cast<std::size_t>(m.out.object), X_WT * tip);
 }
 
+void show(const Moment& m, mjData* data, sim::ViewRequest& request) {
+  shift_objects(m, data);
+  request.data = data;
+  request.dent = [&m](mjModel* model) { return dent_object(m, model); };
+}
+
 sim::Camera camera_for(const Moment& m, bool close_up) {
   sim::Camera camera;
   camera.azimuth = 1.75;                        // from the front and a little from the right
   camera.elevation = close_up ? -0.38 : -0.22;  // down into the dent
-  camera.distance = close_up ? 0.22 : 1.18;
+  camera.distance = close_up ? 0.22 : 1.52;
+  camera.opening = 0.52;
   if (m.machine == nullptr) {  // an arm is smaller, and stands behind its tip
     camera.azimuth = 2.2;
-    camera.distance = close_up ? 0.22 : 0.75;
-    camera.opening = 0.52;
-    camera.look_at = m.truth.tip + Vec<'W'>(close_up ? 0.0 : -0.06, 0, close_up ? 0.0 : 0.05);
+    camera.distance = close_up ? 0.22 : 1.00;
+    camera.look_at = close_up ? m.truth.tip : middle_of_objects(m) + Vec<'W'>(-0.05, 0, 0.04);
     return camera;
   }
-  camera.opening = 0.52;
-  camera.look_at = close_up ? m.truth.tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.090);
+  camera.look_at = close_up ? m.truth.tip + Vec<'W'>(0, 0, 0.012) : Point<'W'>(0, 0, -0.092);
+  const std::optional<UserSpec>& user = m.setup.scene.user;
+  if (!close_up && user && user->session && !user->session->other_tool.empty()) {  // it waits high up
+    camera.distance = 1.78;
+    camera.look_at = Point<'W'>(0, 0, -0.046);
+  }
   return camera;
 }
 
@@ -229,6 +284,16 @@ sim::ViewRequest depict(const Moment& m, const sim::Camera& camera, bool close_u
   const Point<'W'> marker = add_tool_frames(m, request);
   add_arrows(m, request, close_up ? 0.5 : 1.0);
   add_labels(m, request, marker);
+  return request;
+}
+
+sim::ViewRequest depict_frame(const Moment& m, const sim::Camera& camera, bool close_up) {
+  sim::ViewRequest request = depict(m, camera, close_up);
+  request.labels.clear();
+  const char* gap = close_up ? "\n" : "     ";  // a close-up has the tool in its middle
+  const std::string force = touching(m) ? fmt::format("{}{:.1f} N", gap, m.truth.contact_force.norm()) : "";
+  request.title = fmt::format("{}{:.2f} s{}{}{}", close_up ? "" : m.setup.scene.title + "\n",
+                              seconds(m.now.t.time_since_epoch()), gap, mode_name(m.out.mode), force);
   return request;
 }
 

@@ -10,6 +10,12 @@ namespace enc::app {
 [[nodiscard]] sim::Camera camera_for(const Moment& m, bool close_up);
 // The caller sets `data`, which may be another copy than the moment's.
 [[nodiscard]] sim::ViewRequest depict(const Moment& m, const sim::Camera& camera, bool close_up);
+// A frame of a film: no labels, which would jump from frame to frame, but a line with time, mode and force.
+[[nodiscard]] sim::ViewRequest depict_frame(const Moment& m, const sim::Camera& camera, bool close_up);
+
+// Gives a request the poses of a run, with pushed objects where they are now and the touched surface dented.
+// `m` outlives the request.
+void show(const Moment& m, mjData* data, sim::ViewRequest& request);
 
 // Moves pushed objects to where they are now.
 void shift_objects(const Moment& m, mjData* data);

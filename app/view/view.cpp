@@ -9,6 +9,8 @@
 #include "app/built.h"
 #include "app/modules/modules.h"
 #include "app/view/depict.h"
+#include "app/view/film.h"
+#include "app/view/recorded/source.h"
 #include "app/window/window.h"
 #include "core/error.h"
 #include "models/files.h"
@@ -28,25 +30,44 @@ bool deepest(const Moment& m, double& held) {
   return held >= 0.5 * hold_time;
 }
 
-// A picture is of the twin, whatever drives the rig. With a person in it and no moment given, it waits for
-// the press.
-trial::TrialOptions options_of(const ViewOptions& options, double rate, bool person) {
+// A picture is of the twin, whatever drives the rig.
+trial::TrialOptions options_of(const ViewOptions& options) {
+  constexpr double kBeyond = 0.01;  // s: the run goes on after its end, for a later moment
   trial::TrialOptions trial;
   trial.seed = options.seed;
   trial.draw_all = true;
-  // The first tick at or after the moment.
-  if (options.at || !person) trial.seconds = std::ceil(options.at.value_or(4.0) * rate - 1e-6) / rate;
+  if (options.at) trial.seconds = *options.at + kBeyond;
   return trial;
 }
 
-// Runs until its end, or until the person has held the first press for half of its time. False: it diverged.
-bool run_until(trial::Trial& trial, bool waits_for_hold) {
+// To the first tick at or after the moment; without one until the person has held the first press for half of
+// its time. False: it diverged.
+bool run_until(Source& source, std::optional<double> at) {
+  constexpr double kRounding = 1e-9;  // s
   double held = 0.0;
-  while (trial.tick()) {
-    if (trial.world().diverged_at() >= 0) return false;
-    if (waits_for_hold && deepest(moment_of(trial), held)) break;
+  while (source.tick()) {
+    if (source.trial().world().diverged_at() >= 0) return false;
+    if (at ? source.now() >= *at - kRounding : deepest(source.moment(), held)) break;
   }
   return true;
+}
+
+// Unset: when the person has pressed.
+std::optional<double> moment_for(const ViewOptions& options, const Source& source) {
+  if (options.at) return options.at;
+  if (is_record(options.scene)) return deepest_moment(options.scene);
+  return source.person() ? std::nullopt : std::optional(4.0);
+}
+
+int video(const ViewOptions& options) {
+  if (!options.through_camera.empty())
+    throw Error(
+        "--through-camera is of a picture, and a film shows the world from beside; expected --video alone; "
+        "give --shot picture.png for a picture, or run --frames DIR for all that the camera sees");
+  const FilmReport report = film(options);
+  fmt::print("{}", film_text(options.video, report));
+  if (report.signal != 0) return 128 + report.signal;
+  return report.diverged ? 4 : 0;
 }
 
 }  // namespace
@@ -75,6 +96,10 @@ Moment moment_of(trial::Trial& trial) {
 }
 
 int view(const ViewOptions& options) {
+  const bool in_file = !options.shot.empty() || !options.video.empty() || !options.through_camera.empty();
+  if (options.scene.empty() && in_file)
+    throw Error("a picture in a file is of a scene or a record; expected one; name it before the options");
+  if (!options.video.empty()) return video(options);
   if (options.shot.empty() && options.through_camera.empty() && !options.at && !options.close_up)
     return window(options);
   if (!options.through_camera.empty()) return through_camera(options);
@@ -96,24 +121,17 @@ int picture(const ViewOptions& options, Look look) {
   const bool close_up = look == Look::contact;
   check(options);
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
-  models::Setup setup = models::load(options.scene, options.rig, options.set);
-  leave_out_vision(setup);
-  const bool person = setup.scene.user.has_value() && !setup.scene.tools.empty();
   models::OutFile file(options.shot, models::existing(options.force));
-  trial::Trial trial(setup, options_of(options, setup.rig.loop.rate, person));
-  print_notes(setup.notes);
-  if (!run_until(trial, person && !options.at)) {
-    fmt::print(stderr, "encounter: the physics diverged at tick {}: {}\n", trial.world().diverged_at(),
-               trial.world().divergence());
+  Source source(options, options_of(options));
+  if (!run_until(source, moment_for(options, source))) {
+    fmt::print(stderr, "encounter: the physics diverged at tick {}: {}\n",
+               source.trial().world().diverged_at(), source.trial().world().divergence());
     return 4;
   }
-  const Moment moment = moment_of(trial);
-  sim::Physics& physics = trial.world().physics();
-  shift_objects(moment, physics.data());
+  const Moment moment = source.moment();
   sim::ViewRequest request = depict(moment, camera_for(moment, close_up), close_up);
-  request.data = physics.data();
-  request.dent = [&moment](mjModel* model) { return dent_object(moment, model); };
-  file.write(module->shot(request));
+  show(moment, source.data(), request);
+  file.write(module->png(module->open(request, sim::Finish::still)->draw(request)));
   file.keep();
   fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
              seconds(moment.now.t.time_since_epoch()));

@@ -6,7 +6,8 @@
 #include <memory>
 #include <mutex>
 
-#include "app/window/history/still.h"
+#include "app/view/recorded/still.h"
+#include "app/window/history/charts.h"
 #include "trial/operator/queue.h"
 #include "trial/operator/run_watch.h"
 

@@ -12,7 +12,7 @@
 #include "app/modules/modules.h"
 #include "app/run/run_window.h"
 #include "app/window/feed.h"
-#include "app/window/history/playback.h"
+#include "app/view/recorded/playback.h"
 #include "app/window/link.h"
 #include "app/window/show.h"
 #include "app/window/start_page.h"

@@ -62,9 +62,10 @@ void draw_tool(mjsBody* body, const ToolSpec& tool, const Quat& q, const Vec3& t
   set3(shaft->fromto + 3, middle);
 }
 
+constexpr std::array<float, 4> kSkin{0.87F, 0.66F, 0.54F, 1};
+
 // A fingertip is a tool without markers. Its last two joints, slightly bent.
 void draw_finger(mjsBody* body, const Vec3& to_hand, double radius) {
-  constexpr std::array<float, 4> kSkin{0.87F, 0.66F, 0.54F, 1};
   const Vec3 bent = (to_hand + 0.4 * to_hand.unitOrthogonal()).normalized();
   const Vec3 joint = 0.024 * to_hand;
   for (const auto& [from, to] : {std::pair<Vec3, Vec3>{Vec3::Zero(), joint}, {joint, joint + 0.03 * bent}}) {
@@ -155,7 +156,9 @@ void add_tool(mjSpec* spec, const ModelParts& parts, const ToolSpec& tool, const
   hard_contact(tip, parts.twin.world);
   if (!parts.draw_all) return;
   draw_tool(body, tool, parts.q_WT, Vec3::Zero());
-  if (tool.markers.empty()) draw_finger(body, parts.finger, tip->size[0]);
+  if (!tool.markers.empty()) return;
+  draw_finger(body, parts.finger, tip->size[0]);
+  colour(tip, kSkin);
 }
 
 // The only two that can touch: then no others are looked for (3 % of the instructions of a tick). Friction
@@ -186,7 +189,25 @@ mjsGeom* draw_slab(mjSpec* spec, std::size_t index, const ObjectSpec& object, co
   return geom;
 }
 
-mjsGeom* draw_object(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Pose<'W', 'O'>& X_WO) {
+// A drum under its face, which is at z = 0 of O and runs along the behaviour's way.
+mjsGeom* draw_drum(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Object& prepared) {
+  const Pose<'W', 'O'>& X_WO = prepared.X_WO;
+  const Vec3 way = prepared.interaction.way.normalized();
+  const bool across = std::abs(way.x()) > std::abs(way.y());  // the face's width is along the way
+  const double radius = 0.5 * (across ? object.width : object.height);
+  const Vec3 axis = 0.5 * (across ? object.height : object.width) * way.cross(Vec3::UnitZ());
+  mjsGeom* geom = drawn(mjs_findBody(spec, "world"), mjGEOM_CYLINDER, Vec3::Zero(), {radius, 0, 0},
+                        {0.85F, 0.35F, 0.30F, 0.40F});
+  set3(geom->fromto, X_WO.q() * (Vec3(0, 0, -radius) - axis) + X_WO.p());
+  set3(geom->fromto + 3, X_WO.q() * (Vec3(0, 0, -radius) + axis) + X_WO.p());
+  name(geom->element, seen_name(index));
+  return geom;
+}
+
+mjsGeom* draw_object(mjSpec* spec, std::size_t index, const ObjectSpec& object, const Object& prepared) {
+  const Pose<'W', 'O'>& X_WO = prepared.X_WO;
+  if (object.shape == ShapeKind::button && prepared.interaction.kind == Interaction::spin)
+    return draw_drum(spec, index, object, prepared);
   if (object.shape == ShapeKind::button || object.shape == ShapeKind::plane)
     return draw_slab(spec, index, object, X_WO);
   const bool ball = object.shape == ShapeKind::sphere;
@@ -201,8 +222,14 @@ void add_pictures(mjSpec* spec, const ModelParts& parts) {
   mjsBody* world = mjs_findBody(spec, "world");
   for (std::size_t i = 0; i < parts.scene.objects.size(); ++i) {
     const Pose<'W', 'O'>& X_WO = parts.prepared.objects[i].X_WO;
-    set4(draw_object(spec, i, parts.scene.objects[i], X_WO)->quat, Quat(X_WO.q()));
+    mjsGeom* geom = draw_object(spec, i, parts.scene.objects[i], parts.prepared.objects[i]);
+    set4(geom->quat, Quat(X_WO.q()));  // `fromto`, where it is set, comes before it
+    const bool real = parts.prepared.probe() && parts.prepared.probe()->object == static_cast<int>(i);
+    if (real) geom->rgba[3] = 1.0F;
   }
+  // A picture shows a belt on its rollers in place of the box that is touched (app/view/depict.cpp).
+  if (parts.scene.prop && parts.scene.prop->kind == PropKind::drum)
+    mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, "prop_front"))->rgba[3] = 0.0F;
   for (const double side : {-1.0, 1.0}) {
     mjsLight* light = mjs_addLight(world, nullptr);
     set3(light->pos, {0.5 * side, -0.6, 1.2});

@@ -31,6 +31,14 @@ void stroke(Image& picture, double x0, double y0, double x1, double y1, double w
     }
 }
 
+void brighten(Image& picture, double x0, double y0, double x1, double y1) {
+  constexpr std::uint8_t kReadable = 165;
+  const auto whole = [](double v, int most) { return std::clamp(static_cast<int>(v), 0, most); };
+  for (int y = whole(y0, picture.height); y < whole(y1, picture.height); ++y)
+    for (int x = whole(x0, picture.width); x < whole(x1, picture.width); ++x)
+      for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = std::max(picture.at(x, y)[c], kReadable);
+}
+
 void ink_through(Image& picture, const Image& mask, Ink ink) {
   for (std::size_t i = 0; i < std::min(picture.rgb.size(), mask.rgb.size()); ++i)
     picture.rgb[i] =

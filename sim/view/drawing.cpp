@@ -41,13 +41,13 @@ void light(mjvScene& scene) {
 
 }  // namespace
 
-ModelPtr picture_model(const ViewRequest& request, int shadow_size) {
+ModelPtr picture_model(const ViewRequest& request, int shadow_size, int stacks) {
   ModelPtr model(mj_copyModel(nullptr, request.model));
   if (!model) throw Error("not enough memory for a picture", {}, ErrorKind::device);
   model->vis.quality.offsamples = 0;  // the picture is drawn larger instead
   model->vis.quality.shadowsize = shadow_size;
   model->vis.quality.numslices = 64;
-  model->vis.quality.numstacks = 48;
+  model->vis.quality.numstacks = stacks;
   model->vis.global.fovy = static_cast<float>(request.camera.opening * 180.0 / std::numbers::pi);
   model->vis.map.zfar = 8.0F / static_cast<float>(std::max(1e-3, model->stat.extent));
   model->vis.map.shadowclip = 0.5F / static_cast<float>(std::max(1e-3, model->stat.extent));
@@ -64,19 +64,31 @@ void add_extras(mjvScene& scene, const ViewRequest& request) {
     mjv_connector(new_geom(scene, type, rod.colour), type, rod.radius, rod.from.xyz.data(),
                   rod.to.xyz.data());
   }
+  for (const ViewBox& box : request.boxes) {
+    mjvGeom* geom = new_geom(scene, mjGEOM_BOX, box.colour);
+    const Mat3 axes = box.q.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) {
+      geom->pos[i] = static_cast<float>(box.middle.xyz[static_cast<std::size_t>(i)]);
+      geom->size[i] = static_cast<float>(box.half(i));
+      for (int j = 0; j < 3; ++j) geom->mat[3 * i + j] = static_cast<float>(axes(i, j));
+    }
+  }
   for (const ViewArrow& arrow : request.arrows) {
     const Point<'W'> to = arrow.from + arrow.along;
     mjvGeom* geom = new_geom(scene, mjGEOM_ARROW, arrow.colour);
     mjv_connector(geom, mjGEOM_ARROW, arrow.radius, arrow.from.xyz.data(), to.xyz.data());
     geom->size[2] *= 2.0F;  // an arrow is drawn half as long as mjv_connector makes it
     geom->emission = 0.4F;  // readable on its dark side too
+    geom->castshadow = 0;
   }
-  if (std::isnan(request.floor)) return;
+  if (!request.floor.finite()) return;
   mjvGeom* table = new_geom(scene, mjGEOM_CYLINDER, {0.66F, 0.68F, 0.71F, 1});
   const double thick = 0.005;
-  table->size[0] = table->size[1] = 0.32F;
+  table->size[0] = table->size[1] = 0.27F;
   table->size[2] = static_cast<float>(thick);
-  table->pos[2] = static_cast<float>(request.floor - thick);
+  for (int i = 0; i < 3; ++i)
+    table->pos[i] = static_cast<float>(request.floor.xyz[static_cast<std::size_t>(i)]);
+  table->pos[2] -= table->size[2];
   table->specular = 0.0F;
 }
 
@@ -108,6 +120,9 @@ void aim(mjvScene& scene, const mjModel* model, const ViewRequest& request, bool
   std::copy_n(request.camera.look_at.xyz.begin(), 3, camera.lookat);
   mjv_updateScene(model, request.data, &option, nullptr, &camera, mjCAT_ALL, &scene);
   light(scene);
+  // Whatever is drawn translucent is virtual: it is not there, and casts no shadow.
+  for (int i = 0; i < scene.ngeom; ++i)
+    if (scene.geoms[i].rgba[3] < 1.0F) scene.geoms[i].castshadow = 0;
   scene.flags[mjRND_SHADOW] = shadows ? 1 : 0;
   scene.flags[mjRND_REFLECTION] = 0;
 }

@@ -35,9 +35,25 @@ int text_width(const std::string& text, const mjrContext& context) {
 
 void write(const std::string& text, double x, double middle, const Image& picture,
            const mjrContext& context) {
-  const double base = middle + 0.3 * context.charHeightBig;
+  const double base = middle + 0.45 * context.charHeightBig;
   mjr_text(mjFONT_BIG, text.c_str(), &context, static_cast<float>(x / picture.width),
            static_cast<float>(1.0 - base / picture.height), 1, 1, 1);
+}
+
+// The lines of a text; one that is wider than `most` pixels goes on in the next, from a space on.
+std::vector<std::string> lines_of(const std::string& text, double most, const mjrContext& context) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = std::min(text.find('\n', at), text.size());
+    while (text_width(text.substr(at, end - at), context) > most) {
+      const std::size_t space = text.rfind(' ', end - 1);
+      if (space == std::string::npos || space <= at) break;
+      end = space;
+    }
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
 }
 
 }  // namespace
@@ -49,26 +65,35 @@ void letter(Image& picture, const mjvScene& scene, const mjrContext& context, co
   std::vector<LabelRow> rows;
   for (const ViewLabel& label : request.labels) {
     const Eigen::Vector2d at = projected(scene, label.at, picture.width, picture.height);
-    rows.push_back({label.left, at.x(), at.y(), at.y()});
+    const double edge = label.left ? margin : picture.width - margin;
+    const double width = text_width(label.text, context) + 5.0 * finer;
+    rows.push_back({label.left, at.x(), at.y(), at.y(), edge, label.left ? edge + width : edge - width});
   }
-  const double clear = request.title.empty() ? 0.0 : 2.0 * pitch;  // the title's
+  const std::vector<std::string> title = lines_of(request.title, picture.width - 2.0 * margin, context);
+  if (title.empty() && request.labels.empty()) return;
+  const double clear = title.empty() ? 0.0 : (1.0 + static_cast<double>(title.size())) * pitch;
   spread_rows(rows, pitch, clear + pitch, picture.height - pitch);
+  uncross(rows);
 
-  const mjrRect all{0, 0, picture.width, picture.height};
-  mjr_rectangle(all, 0, 0, 0, 1);
-  if (!request.title.empty()) write(request.title, margin, pitch, picture, context);
+  // Without labels only the title's rows are drawn, read and inked.
+  const int high =
+      rows.empty() ? std::min(picture.height, static_cast<int>(clear + 0.5 * pitch)) : picture.height;
+  const mjrRect used{0, picture.height - high, picture.width, high};
+  mjr_rectangle({0, 0, picture.width, picture.height}, 0, 0, 0, 1);  // text has its place in it
+  for (std::size_t i = 0; i < title.size(); ++i)
+    write(title[i], margin, (1.0 + static_cast<double>(i)) * pitch, picture, context);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     LabelRow& label = rows[i];
-    const std::string& text = request.labels[i].text;
-    const double width = text_width(text, context);
-    const double x = label.left ? margin : picture.width - margin - width;
-    const double end = label.left ? x + width + 5.0 * finer : x - 5.0 * finer;
-    write(text, x, label.row, picture, context);
-    end_below(label, end, clear);
-    stroke(picture, end, label.row, label.x, label.y, 1.0 * finer, label.dot ? 2.5 * finer : 0.0, kLine);
+    const double from = label.left ? label.edge : label.end + 5.0 * finer;
+    brighten(picture, std::min(label.edge, label.end), label.row - 0.4 * pitch,
+             std::max(label.edge, label.end), label.row + 0.4 * pitch);
+    write(request.labels[i].text, from, label.row, picture, context);
+    end_below(label, label.end, clear);
+    stroke(picture, label.end, label.row, label.x, label.y, 1.0 * finer, label.dot ? 2.5 * finer : 0.0,
+           kLine);
   }
-  Image mask(picture.width, picture.height);
-  mjr_readPixels(mask.rgb.data(), nullptr, all, &context);
+  Image mask(picture.width, high);
+  mjr_readPixels(mask.rgb.data(), nullptr, used, &context);
   flip(mask);
   ink_through(picture, mask, kText);
 }

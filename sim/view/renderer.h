@@ -11,19 +11,15 @@ struct Renderer {
   mjvScene scene;
   mjrContext context;
 
-  // Into the window. `room`: of geoms, most.
-  Renderer(const mjModel* model, int room, mjtFontScale letters) {
+  // `room`: of geoms, most. `width`, `height`: px off the screen; 0: into the window.
+  Renderer(const mjModel* model, int room, mjtFontScale letters, int width, int height) {
     mjv_defaultScene(&scene);
     mjr_defaultContext(&context);
     mjv_makeScene(model, &scene, room);
     mjr_makeContext(model, &context, letters);
-    mjr_setBuffer(mjFB_WINDOW, &context);
-  }
-  // Off the screen. Pixels.
-  Renderer(const mjModel* model, int room, mjtFontScale letters, int width, int height)
-      : Renderer(model, room, letters) {
-    mjr_resizeOffscreen(width, height, &context);
-    mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    const bool off_screen = width > 0 && height > 0;
+    if (off_screen) mjr_resizeOffscreen(width, height, &context);
+    mjr_setBuffer(off_screen ? mjFB_OFFSCREEN : mjFB_WINDOW, &context);
   }
   ~Renderer() {
     mjr_freeContext(&context);

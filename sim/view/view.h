@@ -1,30 +1,36 @@
-// What is drawn of a simulated world, and the view module, which draws it off screen, as the bytes of a PNG.
+// The description of a picture of a simulated world, and the view module, which draws it off the screen.
 // The window module draws the same (window.h). Both are shared objects of their own, so that nothing but
 // `encounter view` maps OpenGL.
 #pragma once
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/frames.h"
 #include "core/vision/image.h"
+#include "sim/view/chart.h"
 
 struct mjModel_;
 struct mjData_;
 
 namespace enc::sim {
 
-using Colour = std::array<float, 4>;  // red, green, blue, opacity; 0 to 1
-
-// What is drawn besides the model's own bodies.
+// Things that are drawn besides the model's own bodies.
 struct ViewRod {  // a leg, a strut
   Point<'W'> from, to;
   double radius = 0.002;  // m
   Colour colour{0.7F, 0.7F, 0.7F, 1.0F};
   bool flat = false;  // its ends; else round
+};
+struct ViewBox {
+  Point<'W'> middle;
+  Quat q;     // of its axes in W
+  Vec3 half;  // sizes along them, m
+  Colour colour{0.7F, 0.7F, 0.7F, 1.0F};
 };
 struct ViewArrow {
   Point<'W'> from;
@@ -36,30 +42,6 @@ struct ViewLabel {  // written in the margin, with a line to what it names
   std::string text;
   Point<'W'> at;
   bool left = false;  // margin
-};
-
-// A strip chart in the corner of a window.
-struct ViewLine {
-  std::string name;
-  std::vector<float> xy;  // x, y, x, y...; at most 1000 points are drawn
-};
-struct ViewChart {
-  std::string title;
-  std::vector<ViewLine> lines;
-  std::array<float, 2> across{0, 1};  // of x
-  std::array<float, 2> up{0, 0};      // of y, at least
-  std::optional<float> cursor{};      // x of a vertical line
-};
-
-// A bar along the bottom of a window: time, the moment that is shown, marks. Positions are shares, 0 to 1.
-struct ViewBar {
-  struct Mark {
-    float from = 0.0F, to = 0.0F;
-    Colour colour{};
-  };
-  bool shown = false;
-  float at = 0.0F;
-  std::vector<Mark> marks;
 };
 
 struct Camera {
@@ -82,11 +64,12 @@ struct ViewRequest {
   mjData_* data = nullptr;
   int width = 1000, height = 700;  // pixels
   Camera camera;
-  double floor = kUnset;  // m, height of the floor in W; unset: none
+  Point<'W'> floor;  // the middle of a round floor; unset: none
   std::vector<ViewRod> rods;
+  std::vector<ViewBox> boxes;
   std::vector<ViewArrow> arrows;
   std::vector<ViewLabel> labels;
-  std::string title;  // top left; may be empty
+  std::string title;  // top left, one or more lines; may be empty
   // Dents a mesh of the picture's own copy of the model; gives its index, -1: none is dented.
   std::function<int(mjModel_*)> dent;
   // In a window alone: names and what they are, a line each; the same of a help page, else empty; charts.
@@ -97,10 +80,22 @@ struct ViewRequest {
   std::vector<ViewInset> insets;
 };
 
+// Draws pictures off the screen, all with one OpenGL context and one copy of the model.
+class Pictures {
+ public:
+  virtual ~Pictures() = default;
+  // `request` has the model and the size of the first one.
+  virtual Image draw(const ViewRequest& request) = 0;
+};
+
+// A still picture is drawn at three times its size and shrunk; a frame of a film, of which there are
+// hundreds, is drawn at twice its size.
+enum class Finish { still, film };
+
 struct ViewModule {
-  // The PNG. Throws Error of the kind device where there is no EGL or Mesa.
-  std::string (*shot)(const ViewRequest& request) = nullptr;
-  std::string (*png)(const Image& picture) = nullptr;  // of an image that is there
+  // Throws Error of the kind device where there is no EGL or Mesa.
+  std::unique_ptr<Pictures> (*open)(const ViewRequest& first, Finish finish) = nullptr;
+  std::string (*png)(const Image& picture) = nullptr;  // the bytes of a PNG
 };
 
 }  // namespace enc::sim

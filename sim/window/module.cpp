@@ -15,8 +15,7 @@
 #include "core/error.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/picture/picture.h"
-#include "sim/view/drawing.h"
-#include "sim/view/renderer.h"
+#include "sim/view/painter.h"
 #include "sim/window/overlay.h"
 #include "sim/window/window.h"
 
@@ -60,68 +59,6 @@ struct WindowDelete {
   void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
 
-// The picture of one model. A dented mesh is restored before the next picture.
-class Drawn {
- public:
-  explicit Drawn(const ViewRequest& request)
-      : of_(request.model),
-        model_(picture_model(request, kShadows)),
-        renderer_(model_.get(), kRoom, kLetters) {}
-
-  [[nodiscard]] bool is_of(const mjModel* model) const { return of_ == model; }
-  void draw(const ViewRequest& request, const mjrRect& all) {
-    dent(request);
-    aim(renderer_.scene, model_.get(), request, false);
-    add_backdrop(renderer_.scene);
-    add_extras(renderer_.scene, request);
-    mjr_render(all, &renderer_.scene, &renderer_.context);
-  }
-  [[nodiscard]] const mjrContext& context() const { return renderer_.context; }
-  [[nodiscard]] std::optional<Point<'W'>> seen_at(double across, double up, double aspect,
-                                                  const mjData* data) const {
-    mjvOption option;
-    mjv_defaultOption(&option);
-    mjtNum at[3];
-    int geom = -1, flex = -1, skin = -1;
-    if (mjv_select(model_.get(), data, &option, aspect, across, up, &renderer_.scene, at, &geom, &flex,
-                   &skin) < 0)
-      return {};
-    return Point<'W'>(at[0], at[1], at[2]);
-  }
-
- private:
-  static constexpr int kShadows = 256;  // px: shadows are off
-  static constexpr mjtFontScale kLetters = mjFONTSCALE_100;
-
-  void dent(const ViewRequest& request) {
-    const int before = dented_;
-    restore();
-    if (request.dent) {
-      if (whole_vertices_.empty()) keep();
-      dented_ = request.dent(model_.get());
-    }
-    if (before >= 0 && before != dented_) mjr_uploadMesh(model_.get(), &renderer_.context, before);
-    if (dented_ >= 0) mjr_uploadMesh(model_.get(), &renderer_.context, dented_);
-  }
-  void keep() {
-    const mjModel& m = *model_;
-    whole_vertices_.assign(m.mesh_vert, m.mesh_vert + static_cast<std::ptrdiff_t>(3) * m.nmeshvert);
-    whole_normals_.assign(m.mesh_normal, m.mesh_normal + static_cast<std::ptrdiff_t>(3) * m.nmeshnormal);
-  }
-  void restore() {
-    if (dented_ < 0) return;
-    std::copy(whole_vertices_.begin(), whole_vertices_.end(), model_->mesh_vert);
-    std::copy(whole_normals_.begin(), whole_normals_.end(), model_->mesh_normal);
-    dented_ = -1;
-  }
-
-  const mjModel* of_;
-  ModelPtr model_;
-  Renderer renderer_;
-  std::vector<float> whole_vertices_, whole_normals_;
-  int dented_ = -1;  // mesh
-};
-
 class GlfwWindow final : public ViewWindow {
  public:
   GlfwWindow(const std::string& title, int width, int height, std::function<void()> lost)
@@ -162,11 +99,11 @@ class GlfwWindow final : public ViewWindow {
     mjrRect all{0, 0, 0, 0};
     glfwGetFramebufferSize(window_.get(), &all.width, &all.height);
     if (all.width < kSmallest || all.height < kSmallest) return;
-    if (!drawn_ || !drawn_->is_of(request.model)) {
-      drawn_.reset();
-      drawn_ = std::make_unique<Drawn>(request);
+    if (!painter_ || !painter_->is_of(request.model)) {
+      painter_.reset();
+      painter_ = std::make_unique<Painter>(request, PaintSettings{});
     }
-    drawn_->draw(request, all);
+    painter_->paint(request, all);
     inset(request, all);
     letter(request, all);
     glfwSwapBuffers(window_.get());
@@ -182,16 +119,16 @@ class GlfwWindow final : public ViewWindow {
   Image snap(const ViewRequest& request, int width, int height) override {
     Image picture(width, height);
     const mjrRect all{0, 0, width, height};
-    Drawn drawn(request);
-    drawn.draw(request, all);
-    mjr_readPixels(picture.rgb.data(), nullptr, all, &drawn.context());
+    Painter painter(request, PaintSettings{});
+    painter.paint(request, all);
+    mjr_readPixels(picture.rgb.data(), nullptr, all, &painter.context());
     flip(picture);
     return picture;
   }
   void set_title(const std::string& title) override { glfwSetWindowTitle(window_.get(), title.c_str()); }
   std::optional<Point<'W'>> seen_at(double x, double y, const mjData* data) override {
     const double w = std::max(1, width()), h = std::max(1, height());
-    return drawn_ ? drawn_->seen_at(x / w, 1.0 - y / h, w / h, data) : std::nullopt;
+    return painter_ ? painter_->seen_at(x / w, 1.0 - y / h, w / h, data) : std::nullopt;
   }
   std::optional<double> chart_at(double x, double y) const override {
     std::pair<int, int> pixels;  // of the framebuffer, which may be finer than the window
@@ -208,7 +145,7 @@ class GlfwWindow final : public ViewWindow {
     }
     return {};
   }
-  void forget() override { drawn_.reset(); }
+  void forget() override { painter_.reset(); }
   [[nodiscard]] int width() const override { return size().first; }
   [[nodiscard]] int height() const override { return size().second; }
   [[nodiscard]] std::string renderer() const override { return renderer_; }
@@ -226,7 +163,7 @@ class GlfwWindow final : public ViewWindow {
   }
   // Side by side above the bar.
   void inset(const ViewRequest& request, const mjrRect& all) {
-    const mjrContext& context = drawn_->context();
+    const mjrContext& context = painter_->context();
     const int gap = 6, w = (all.width - 440) / 2 - gap, up = static_cast<int>(kBarHeight + 2.0 * kBarSide);
     if (w < 64) return;  // no room
     int x = gap;
@@ -239,14 +176,15 @@ class GlfwWindow final : public ViewWindow {
       } else {
         ViewRequest other = request;
         other.camera = one.camera;
-        drawn_->draw(other, where);
+        painter_->paint_again(other, where);
       }
       mjr_overlay(mjFONT_NORMAL, mjGRID_TOPLEFT, where, one.name.c_str(), nullptr, &context);
       x += w + gap;
     }
+    if (!request.insets.empty()) painter_->look(request);  // for seen_at()
   }
   void letter(const ViewRequest& request, const mjrRect& all) {
-    const mjrContext& context = drawn_->context();
+    const mjrContext& context = painter_->context();
     const int w = std::min(all.width / 3, 420), h = std::min(all.height / 4, 190);
     int y = 10 + (request.bar.shown ? static_cast<int>(kBarHeight + kBarSide) : 0);
     plots_.clear();
@@ -325,7 +263,7 @@ class GlfwWindow final : public ViewWindow {
   std::string renderer_ = "unknown";
   std::vector<WindowEvent> events_;
   double sticks_read_ = 0.0;          // s of GLFW
-  std::unique_ptr<Drawn> drawn_;      // destroyed before the window: it uses its context
+  std::unique_ptr<Painter> painter_;  // destroyed before the window: it uses its context
   std::unique_ptr<Letters> letters_;  // likewise
   mjvFigure figure_{};
   struct Plot {  // a chart as last drawn

@@ -15,7 +15,7 @@ class Letters {
   Letters()
       : spec_(mj_makeSpec()),
         model_(mj_compile(spec_.get(), nullptr)),
-        renderer_(model_.get(), 1, mjFONTSCALE_100) {}
+        renderer_(model_.get(), 1, mjFONTSCALE_100, 0, 0) {}
   [[nodiscard]] const mjrContext& context() const { return renderer_.context; }
 
  private:

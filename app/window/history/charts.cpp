@@ -1,6 +1,7 @@
 #include "app/window/history/charts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,31 @@ std::deque<ChartSample>::const_iterator from(const std::deque<ChartSample>& samp
                           [](const ChartSample& sample, float at) { return sample.t < at; });
 }
 
+// The component along the outward normal of the contact; 0 without a contact.
+double along_normal(const State& state, const Vec<'W'>& force) {
+  const Contact& contact = contact_of(state);
+  return contact.X_WN.valid() ? -dot(force, contact.X_WN * Vec<'N'>(0, 0, 1)) : 0.0;
+}
+
+float or_zero(double x) { return std::isfinite(x) ? static_cast<float>(x) : 0.0F; }
+
 }  // namespace
+
+ChartSample Sampler::sample(const trial::Glance& glance) {
+  const bool touched = glance.out.mode == Mode::contact;
+  const double power = dot(glance.truth.contact_force, glance.truth.tip_velocity);
+  if (std::isfinite(power)) energy_ += power * seconds(glance.tick.dt);
+  ChartSample s;
+  s.t = static_cast<float>(seconds(glance.tick.t.time_since_epoch()));
+  s.true_force = or_zero(along_normal(*glance.state, glance.truth.contact_force));
+  s.gap = or_zero(1e3 * glance.out.gap);
+  s.energy = static_cast<float>(1e3 * energy_);
+  if (!touched) return s;
+  s.measured = or_zero(glance.out.felt.norm());
+  s.filtered = or_zero(-glance.out.force.xyz[2]);
+  s.deflection = or_zero(1e3 * glance.out.deflection);
+  return s;
+}
 
 void Charts::add(const ChartSample& sample) {
   if (samples_.size() == most_) samples_.pop_front();

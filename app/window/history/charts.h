@@ -7,10 +7,28 @@
 #include <string>
 #include <vector>
 
-#include "app/window/history/still.h"
+#include "app/view/recorded/still.h"
 #include "sim/view/view.h"
 
 namespace enc::app {
+
+// What the strip charts show of a tick.
+struct ChartSample {
+  float t = 0.0F;                                             // s
+  float measured = 0.0F, filtered = 0.0F, true_force = 0.0F;  // N, along the surface's normal
+  float deflection = 0.0F, gap = 0.0F;                        // mm
+  float energy = 0.0F;                                        // mJ, of the hand into the contact so far
+};
+
+// Of consecutive ticks.
+class Sampler {
+ public:
+  static constexpr std::int64_t kEach = 5;  // ticks, of the samples that charts show
+  [[nodiscard]] ChartSample sample(const trial::Glance& glance);
+
+ private:
+  double energy_ = 0.0;  // J
+};
 
 class Charts {
  public:

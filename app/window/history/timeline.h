@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/window/history/still.h"
+#include "app/view/recorded/still.h"
 #include "sim/view/view.h"
 
 namespace enc::app {

@@ -40,5 +40,16 @@ TEST(LabelRows, ALineEndsBelowTheTitle) {
   EXPECT_TRUE(below.dot);
 }
 
+// Two labels at the right margin in the order of what they name, the upper of which is farther away: its line
+// would cross the other text. Their rows are exchanged.
+TEST(LabelRows, LinesCrossNeitherLinesNorTexts) {
+  std::vector<LabelRow> labels{{false, 400, 480, 200, 1000, 950}, {false, 750, 250, 230, 1000, 700}};
+  uncross(labels);
+  EXPECT_EQ(labels[0].row, 230.0);
+  EXPECT_EQ(labels[1].row, 200.0);
+  uncross(labels);
+  EXPECT_EQ(labels[0].row, 230.0) << "it stays so";
+}
+
 }  // namespace
 }  // namespace enc::sim

@@ -1,7 +1,6 @@
-#include "app/window/history/still.h"
+#include "app/view/recorded/still.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/view/depict.h"
 
@@ -9,14 +8,6 @@ namespace enc::app {
 namespace {
 
 constexpr double kOutOfSight = 100.0;  // m
-
-// The component along the outward normal of the contact; 0 without a contact.
-double along_normal(const State& state, const Vec<'W'>& force) {
-  const Contact& contact = contact_of(state);
-  return contact.X_WN.valid() ? -dot(force, contact.X_WN * Vec<'N'>(0, 0, 1)) : 0.0;
-}
-
-float or_zero(double x) { return std::isfinite(x) ? static_cast<float>(x) : 0.0F; }
 
 struct PoseArray {
   const mjtNum* (*of)(const mjData* data);
@@ -103,22 +94,6 @@ Moment moment_of(trial::Trial& trial, const Still& still, mjData* data) {
                       still.now};
   shift_objects(moment, data);
   return moment;
-}
-
-ChartSample Sampler::sample(const trial::Glance& glance) {
-  const bool touched = glance.out.mode == Mode::contact;
-  const double power = dot(glance.truth.contact_force, glance.truth.tip_velocity);
-  if (std::isfinite(power)) energy_ += power * seconds(glance.tick.dt);
-  ChartSample s;
-  s.t = static_cast<float>(seconds(glance.tick.t.time_since_epoch()));
-  s.true_force = or_zero(along_normal(*glance.state, glance.truth.contact_force));
-  s.gap = or_zero(1e3 * glance.out.gap);
-  s.energy = static_cast<float>(1e3 * energy_);
-  if (!touched) return s;
-  s.measured = or_zero(glance.out.felt.norm());
-  s.filtered = or_zero(-glance.out.force.xyz[2]);
-  s.deflection = or_zero(1e3 * glance.out.deflection);
-  return s;
 }
 
 }  // namespace enc::app

@@ -1,4 +1,4 @@
-#include "app/window/history/playback.h"
+#include "app/view/recorded/playback.h"
 
 #include <charconv>
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "app/window/history/still.h"
+#include "app/view/recorded/still.h"
 #include "core/record/record.h"
 #include "trial/steered/steering_log.h"
 
@@ -21,6 +21,7 @@ class Playback {
   Playback& operator=(const Playback&) = delete;
 
   [[nodiscard]] trial::Trial& trial() { return *trial_; }
+  [[nodiscard]] const trial::Trial& trial() const { return *trial_; }
   [[nodiscard]] const models::Setup& setup() const { return trial_->setup(); }
   [[nodiscard]] std::int64_t ticks() const { return record_.ticks(); }
   // All devices were simulated: tool, tip and truth are the twin's. Else they are where devices said.

@@ -19,28 +19,10 @@ struct Still {
   std::vector<double> at;  // of all geoms and sites of the model, as mjData has them
 };
 
-// What the strip charts show of a tick.
-struct ChartSample {
-  float t = 0.0F;                                             // s
-  float measured = 0.0F, filtered = 0.0F, true_force = 0.0F;  // N, along the surface's normal
-  float deflection = 0.0F, gap = 0.0F;                        // mm
-  float energy = 0.0F;                                        // mJ, of the hand into the contact so far
-};
-
 // The present moment of a trial with a twin. `simulated`: as in Still. Without it, tool and tip are where
 // devices say, not where the twin has its own.
 void take_still(trial::Trial& trial, const trial::Glance& glance, bool simulated, Still& to);
 // For a picture of it; `data`, of the trial's model, takes the poses.
 [[nodiscard]] Moment moment_of(trial::Trial& trial, const Still& still, mjData* data);
-
-// Of consecutive ticks.
-class Sampler {
- public:
-  static constexpr std::int64_t kEach = 5;  // ticks, of the samples that charts show
-  [[nodiscard]] ChartSample sample(const trial::Glance& glance);
-
- private:
-  double energy_ = 0.0;  // J
-};
 
 }  // namespace enc::app

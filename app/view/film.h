@@ -1,0 +1,25 @@
+// A film of a run, drawn off the screen.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/options.h"
+
+namespace enc::app {
+
+struct FilmReport {
+  int frames = 0;
+  double from = 0.0, to = 0.0;  // s of the experiment: first and last frame
+  double wall = 0.0;            // s
+  int signal = 0;               // that ended it early
+  bool diverged = false;        // the physics, after `to`
+};
+
+// Films the run of options.scene from options.at, or from its beginning, for options.seconds, or to its end,
+// into options.video. Throws Error.
+[[nodiscard]] FilmReport film(const ViewOptions& options);
+// As `encounter view --video` prints it.
+[[nodiscard]] std::string film_text(const std::string& file, const FilmReport& report);
+
+}  // namespace enc::app

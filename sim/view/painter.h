@@ -1,0 +1,54 @@
+// Paints ViewRequests of one model with one renderer: the picture in a file, every frame of a film and the
+// window.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sim/bodies/mujoco.h"
+#include "sim/view/renderer.h"
+#include "sim/view/view.h"
+
+namespace enc::sim {
+
+struct PaintSettings {
+  int shadow_size = 0;  // px of the shadow map; 0: no shadows
+  int stacks = 48;      // of a round body, along its axis
+  mjtFontScale letters = mjFONTSCALE_100;
+  int width = 0, height = 0;  // px off the screen; 0: into the window
+};
+
+// Needs the OpenGL context that was current when it was made.
+class Painter {
+ public:
+  // Throws Error (kind device) where there is not enough memory.
+  Painter(const ViewRequest& request, const PaintSettings& settings);
+
+  [[nodiscard]] bool is_of(const mjModel* model) const { return of_ == model; }
+  // Throws Error (kind device) for too many geoms.
+  void paint(const ViewRequest& request, const mjrRect& where);
+  // By another camera, with the dent of the picture before.
+  void paint_again(const ViewRequest& request, const mjrRect& where);
+  // Sets scene() for a request without painting it.
+  void look(const ViewRequest& request);
+  // The last picture's scene and context.
+  [[nodiscard]] const mjvScene& scene() const { return renderer_.scene; }
+  [[nodiscard]] const mjrContext& context() const { return renderer_.context; }
+  // The point of the model at a share of the width and of the height, with these data and the last picture's
+  // camera; unset: background.
+  [[nodiscard]] std::optional<Point<'W'>> seen_at(double across, double up, double aspect,
+                                                  const mjData* data) const;
+
+ private:
+  void dent(const ViewRequest& request);
+  void restore();
+
+  const mjModel* of_;
+  ModelPtr model_;  // the picture's own, which can be dented
+  bool shadows_;
+  Renderer renderer_;
+  std::vector<float> whole_vertices_, whole_normals_;  // of all meshes, before the first dent
+  int dented_ = -1;                                    // mesh
+};
+
+}  // namespace enc::sim
