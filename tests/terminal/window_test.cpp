@@ -57,7 +57,7 @@ class Window : public testing::Test {
 TEST_F(Window, TheMousePressesTheBallAndTheRecordReplays) {
   const tests::Result r =
       on_screen("\"" + ball_ + "\" --record r.encrec",
-                "xdotool mousemove 640 285 click 1; sleep 3\n"
+                "xdotool mousemove 640 270 click 1; sleep 3\n"
                 "xdotool mousemove 640 200 mousedown 1\n"
                 "for i in $(seq 45); do xdotool mousemove_relative -- 0 1; sleep 0.06; done\n"
                 "sleep 3\n"
