@@ -116,6 +116,15 @@ void say_vision(Doctor& doctor) {
              "apt-get install ffmpeg; folders of images do without");
 }
 
+// ": llvmpipe (LLVM 15.0.6, 256 bits), in software".
+std::string words_of(const std::string& renderer) {
+  if (renderer.empty()) return {};
+  const bool software = renderer.find("llvmpipe") != std::string::npos ||
+                        renderer.find("softpipe") != std::string::npos ||
+                        renderer.find("swrast") != std::string::npos;
+  return ": " + renderer + (software ? ", in software" : "");
+}
+
 // What the twin's camera can draw with: one of them is enough.
 void say_renderers(Doctor& doctor) {
   if (!module_there("camera")) return;
@@ -123,7 +132,8 @@ void say_renderers(Doctor& doctor) {
     const auto* camera = static_cast<const sim::CameraModule*>(load_module("camera").camera);
     for (const auto& [kind, name] : {std::pair{"egl", "EGL"}, {"osmesa", "OSMesa"}})
       doctor.say(camera->renderer_problem(kind).empty(), Need::may,
-                 std::string(name) + " draws for the twin's camera", camera->renderer_problem(kind));
+                 std::string(name) + " draws for the twin's camera" + words_of(camera->renderer_name(kind)),
+                 camera->renderer_problem(kind));
   } catch (const Error& e) {
     doctor.say(false, Need::may, "the twin's camera", e.what());
   }

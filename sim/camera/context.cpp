@@ -109,18 +109,40 @@ std::unique_ptr<DrawingContext> drawing_context() {
   }
 }
 
-std::string renderer_problem(const char* kind) {
+namespace {
+
+std::string name_of(const DrawingContext& context) {
+  constexpr unsigned kRenderer = 0x1F01;  // GL_RENDERER
+  context.make_current();
+  using GetString = const unsigned char* (*)(unsigned);
+  const auto get = reinterpret_cast<GetString>(context.function("glGetString"));
+  const unsigned char* name = get == nullptr ? nullptr : get(kRenderer);
+  return name == nullptr ? "unknown" : reinterpret_cast<const char*>(name);
+}
+
+std::string asked(const char* kind) {
   const auto lock = drawing_lock();
   setenv("LP_NUM_THREADS", "0", 0);
+  return std::string(kind) == "egl" ? name_of(Egl()) : name_of(OsMesa());
+}
+
+}  // namespace
+
+std::string renderer_problem(const char* kind) {
   try {
-    if (std::string(kind) == "egl")
-      const Egl egl;
-    else
-      const OsMesa mesa;
+    (void)asked(kind);
   } catch (const Error& e) {
     return e.what();
   }
   return {};
+}
+
+std::string renderer_name(const char* kind) {
+  try {
+    return asked(kind);
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 }  // namespace enc::sim

@@ -27,5 +27,6 @@ class DrawingContext {
 [[nodiscard]] std::unique_ptr<DrawingContext> drawing_context();
 // As CameraModule has it. Draws nothing.
 [[nodiscard]] std::string renderer_problem(const char* kind);
+[[nodiscard]] std::string renderer_name(const char* kind);
 
 }  // namespace enc::sim

@@ -92,6 +92,7 @@ struct CameraModule {
   std::unique_ptr<StereoCamera> (*camera)(const TwinCameraSpec& spec, Show show) = nullptr;
   // Why EGL ("egl") or OSMesa ("osmesa") cannot draw; empty where it can.
   std::string (*renderer_problem)(const char* kind) = nullptr;
+  std::string (*renderer_name)(const char* kind) = nullptr;  // OpenGL's; empty where it cannot draw
 };
 
 }  // namespace enc::sim

@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/conformance/laboratory.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/terminal/run_record.h"
 
 namespace enc::test {
 namespace {
@@ -130,6 +132,23 @@ TEST_F(Window, ASignalAndALostDisplayAreCleanEnds) {
   EXPECT_EQ(lost.code, 3) << lost.out;
   EXPECT_THAT(lost.err, HasSubstr("the display is lost"));
   EXPECT_EQ(tests::run_program({"replay", file("b.encrec")}).code, 0) << "the record is sealed";
+}
+
+// Over fakes on their real wires: space stops the machine, R resumes, Q ends. Looking back does neither.
+TEST_F(Window, SpaceStopsAnArmedMachineAndRResumes) {
+  Laboratory there(false, {}, {}, ball_);
+  std::string words = "\"" + ball_ + "\" --rig fakes --armed --yes --record m.encrec";
+  for (const std::string& set : there.ports) words += " --set " + set;
+  const tests::Result r =
+      on_screen(words,
+                "sleep 2; xdotool key space; sleep 1; xdotool key comma comma comma; sleep 1\n"
+                "xdotool key r; sleep 2; xdotool key q");
+  EXPECT_THAT(r.err, ContainsRegex("stopped by hand(.|\n)*resumed")) << r.out;
+  EXPECT_THAT(r.out, HasSubstr("stopped     by a signal or by q")) << r.err;
+  EXPECT_GE(stops_in(there.log()).size(), 2U) << "by space, and at the end";
+  EXPECT_EQ(tests::run_program({"replay", file("m.encrec")}).code, 0);
+  const tests::Result seen = on_screen("m.encrec", "xdotool key n; sleep 1; xdotool key q");
+  EXPECT_EQ(seen.code, 0) << seen.err;
 }
 
 // One line, exit code 3, and nothing was begun.

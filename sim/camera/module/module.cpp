@@ -14,7 +14,7 @@ std::unique_ptr<StereoCamera> camera(const TwinCameraSpec& spec, Show show) {
   return std::make_unique<TwinCamera>(spec, std::move(show));
 }
 
-constexpr CameraModule kCamera{stage, camera, renderer_problem};
+constexpr CameraModule kCamera{stage, camera, renderer_problem, renderer_name};
 constexpr ModuleInfo kInfo{.name = "camera", .camera = &kCamera};
 
 }  // namespace
