@@ -7,13 +7,16 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "app/built.h"
 #include "app/modules/modules.h"
 #include "app/run/run_window.h"
-#include "app/window/feed.h"
 #include "app/view/recorded/playback.h"
+#include "app/window/feed.h"
 #include "app/window/link.h"
+#include "app/window/run_thread.h"
 #include "app/window/show.h"
 #include "app/window/start_page.h"
 #include "core/error.h"
@@ -88,7 +91,7 @@ struct NotShown {};
 // One run on its own thread.
 class Run {
  public:
-  explicit Run(const RunOptions& options) : options_(options) {
+  Run(const RunOptions& options, RunThread& thread) : options_(options), thread_(thread) {
     hooks_.adapts = [](models::Setup& setup) {
       const bool drawn = setup.scene.camera && setup.rig.camera.driver == "sim";
       if (drawn && !module_there("vision")) leave_out_vision(setup);
@@ -119,7 +122,7 @@ class Run {
     hooks_.waits = [this] { return link_.waits(dt_); };
     hooks_.hand = [this] { return link_.machine(); };
     hooks_.steer = [this](std::int64_t) { return link_.hand(); };
-    thread_ = std::thread([this] {
+    thread_.begin([this] {
       try {
         code_ = app::run(options_, &hooks_);
       } catch (const NotShown&) {  // the window's thread reports it
@@ -140,11 +143,10 @@ class Run {
   [[nodiscard]] bool real() const { return real_; }
   // Ends the run and waits until its record is sealed and its report is printed.
   void join() {
-    if (!thread_.joinable()) return;
     link_.end();
     link_.let_go();
     link_.closed();
-    thread_.join();
+    thread_.wait();
   }
   // The exit code; rethrows the run's exception.
   int code() {
@@ -164,7 +166,7 @@ class Run {
   double dt_ = 1e-3;
   int code_ = 0;
   std::exception_ptr failed_;
-  std::thread thread_;
+  RunThread& thread_;
 };
 
 // Shows a run until it ends or the window is closed. True: the user wants a restart.
@@ -200,6 +202,12 @@ bool show_run(Run& run, Show& show, sim::ViewWindow& window, SceneFile* file) {
     pictures.wait();
   }
   return false;
+}
+
+// Drawing gives way to the loop: this thread, and those that it makes for OpenGL, take a lower priority.
+void yield() {
+  constexpr int kNice = 10;
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);  // else it competes, no more
 }
 
 // A record from its beginning, until the window is closed.
@@ -258,6 +266,8 @@ int window(const ViewOptions& asked) {
   module->look();
   ViewOptions options = asked;
   if (is_record(options.scene)) return show_record(options.scene, *module);
+  RunThread thread;
+  yield();
   Run* shown = nullptr;
   const auto lost = [&shown] {
     if (shown != nullptr) shown->join();
@@ -275,7 +285,7 @@ int window(const ViewOptions& asked) {
   }
   SceneFile file(options);
   for (;;) {
-    Run run(options);
+    Run run(options, thread);
     if (!run.link().wait_for_begin()) return run.code();
     shown = &run;
     try {
