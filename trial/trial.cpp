@@ -215,10 +215,10 @@ bool Trial::tick() {
   now_ = rig_.clock->next();
   gate_.unmark(in_);
   rig_.read(now_.t, in_);
+  faults_.apply(in_);
   if (setup_.scene.camera) result_.vision.see(now_.t, in_.tool);
   gate_.mark(rig_, now_.t, in_);
   if (leads_ && world_->machine && in_.tip.health != Health::absent) world_->machine->lead(in_.tip.value);
-  faults_.apply(in_);
   if (options_.disturb) options_.disturb(in_);
   const WallClock::time_point before = WallClock::now();
   if (options_.law)

@@ -119,6 +119,7 @@ FilmReport film(const ViewOptions& options) {
         fmt::format("{}: the run ends at {:.3f} s; expected --at-s before that; choose an earlier one",
                     options.scene, source.now()));
   if (report.frames > 0) file->keep();
+  if (!source.doubt().empty()) print_notes({options.scene + ": " + source.doubt()});
   if (report.diverged)
     fmt::print(stderr, "encounter: the physics diverged at tick {}: {}; the film ends there\n",
                source.trial().world().diverged_at(), source.trial().world().divergence());

@@ -47,8 +47,12 @@ bool run_until(Source& source, std::optional<double> at) {
   double held = 0.0;
   while (source.tick()) {
     if (source.trial().world().diverged_at() >= 0) return false;
-    if (at ? source.now() >= *at - kRounding : deepest(source.moment(), held)) break;
+    if (at ? source.now() >= *at - kRounding : deepest(source.moment(), held)) return true;
   }
+  if (at && source.now() < *at - kRounding)
+    throw Error(
+        fmt::format("--at-s {:g}: it ends at {:.3f} s; expected a moment before that; choose an earlier one",
+                    *at, source.now()));
   return true;
 }
 
@@ -68,6 +72,25 @@ int video(const ViewOptions& options) {
   fmt::print("{}", film_text(options.video, report));
   if (report.signal != 0) return 128 + report.signal;
   return report.diverged ? 4 : 0;
+}
+
+// Options that would do nothing.
+void refuse_idle(const ViewOptions& options) {
+  const bool in_file = !options.shot.empty() || !options.video.empty();
+  if (options.scene.empty() && (options.armed || !options.set.empty() || !options.rig.empty()))
+    throw Error("--rig, --set and --armed are of a scene; expected one; name it before the options");
+  if (in_file && options.armed)
+    throw Error("--armed is of a window; a picture in a file is of the twin; leave one of them out");
+  if (!is_record(options.scene)) return;
+  if (!options.rig.empty() || !options.set.empty() || options.armed || !options.record.empty() ||
+      options.seed != SceneOptions{}.seed)
+    throw Error(
+        fmt::format("{}: a record has its rig, numbers and seed, and moves nothing; leave --rig, --set, "
+                    "--seed, --armed and --record out",
+                    options.scene));
+  if (!options.through_camera.empty())
+    throw Error(options.scene +
+                ": a record keeps no images; leave --through-camera out; `run --frames DIR` keeps them");
 }
 
 }  // namespace
@@ -96,6 +119,7 @@ Moment moment_of(trial::Trial& trial) {
 }
 
 int view(const ViewOptions& options) {
+  refuse_idle(options);
   const bool in_file = !options.shot.empty() || !options.video.empty() || !options.through_camera.empty();
   if (options.scene.empty() && in_file)
     throw Error("a picture in a file is of a scene or a record; expected one; name it before the options");
@@ -133,6 +157,7 @@ int picture(const ViewOptions& options, Look look) {
   show(moment, source.data(), request);
   file.write(module->png(module->open(request, sim::Finish::still)->draw(request)));
   file.keep();
+  if (!source.doubt().empty()) print_notes({options.scene + ": " + source.doubt()});
   fmt::print("{}: {} x {} pixels, the world at {:.3f} s\n", options.shot, request.width, request.height,
              seconds(moment.now.t.time_since_epoch()));
   return 0;

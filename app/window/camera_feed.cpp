@@ -16,12 +16,15 @@ CameraFeed::CameraFeed(trial::Trial& trial)
       painter_(vision().painter(trial.setup().rig.camera)),
       view_(vision().augmented(believed_spec(trial.setup(), trial.scene()), trial.scene().objects)) {}
 
-// The view without the machine needs each frame: it learns the background from the first ones.
+// The view without the machine learns the background from the first frames. Later ones cost the run's time
+// only while somebody looks.
 void CameraFeed::see() {
   if (!frame_) return;
   const StereoFrame frame = *frame_;
   frame_.reset();
-  view_->see(frame.left, moment_.of(trial_));
+  const AugmentedMoment moment = moment_.of(trial_);
+  if (augments_ || frames_++ < kBackground) view_->see(frame.left, moment);
+  if (!pairs_ && !augments_) return;
   if (const std::lock_guard lock(mutex_); made_) return;
   Pictures made;
   if (augments_)

@@ -28,7 +28,10 @@ class CameraFeed {
     SeenPair pair;
     Image augmented;
   };
-  void want(bool augmented) { augments_ = augmented; }
+  void want(bool pair, bool augmented) {
+    pairs_ = pair;
+    augments_ = augmented;
+  }
   // Newer ones; unset: there are none.
   [[nodiscard]] std::optional<Pictures> take();
 
@@ -37,8 +40,10 @@ class CameraFeed {
   std::unique_ptr<SeenPainter> painter_;
   std::unique_ptr<AugmentedView> view_;
   BelievedMoment moment_;
-  std::optional<StereoFrame> frame_;  // that was not drawn yet
-  std::atomic<bool> augments_ = false;
+  std::optional<StereoFrame> frame_;      // that was not drawn yet
+  static constexpr int kBackground = 60;  // frames at the beginning, from which the background is known
+  int frames_ = 0;
+  std::atomic<bool> pairs_ = false, augments_ = false;
   std::mutex mutex_;
   std::optional<Pictures> made_;
 };

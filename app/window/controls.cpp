@@ -165,7 +165,10 @@ void Controls::see_hand_key(const WindowEvent& event, const Surroundings& around
   if (is(code, Key::page_down)) move_hand(Vec3(0, 0, -step), around);
   if (!around.steerable) return;
   if (code == 'G') grabbed_ = !grabbed_;
-  if (code == 'T') wishes_.changes_tool = true;
+  if (code == 'T') {
+    if (!wishes_.hand) wishes_.hand = around.tip;
+    wishes_.changes_tool = true;
+  }
   if (code == 'O' && around.over)
     if (const auto place = around.over(++object_)) wishes_.hand = *place;
   if (code >= '1' && code <= '4') wishes_.faults ^= static_cast<std::uint8_t>(1U << (code - '1'));
@@ -175,6 +178,7 @@ void Controls::see_key(const WindowEvent& event, const Surroundings& around) {
   const std::int32_t code = event.code;
   if (is(code, Key::f1) || code == 'H') help_ = !help_;
   if (is(code, Key::escape) || code == 'Q') wishes_.ends = true;
+  if (is(code, Key::enter) && !around.played) wishes_.newest = true;
   if (code == 'C') charts_ = !charts_;
   if (code == 'P') ++insets_;
   if (code == 'V') {
@@ -184,6 +188,7 @@ void Controls::see_key(const WindowEvent& event, const Surroundings& around) {
   }
   see_hand_key(event, around);
   if (!around.real) return see_time_key(code, around);
+  if (code == ' ' || code == 'R') wishes_.newest = true;
   if (code == ' ') wishes_.stops = true;
   if (code == 'R') wishes_.resumes = true;
   if (code == ',') --wishes_.stills;
@@ -226,13 +231,15 @@ std::vector<Controls::Help> Controls::help_lines(Of of) {
                                     Help{"P", "small pictures: contact, sides, the scene's cameras"},
                                     Help{"C", "charts; the cursor reads their values"}};
   static constexpr std::array kReal{Help{"space, R", "stop the machine, resume"},
-                                    Help{", . bar", "look back; the machine goes on"}};
+                                    Help{", . bar", "look back; the machine goes on"},
+                                    Help{"enter", "to the present"}};
   static constexpr std::array kSimulated{Help{"space", "pause, go on"},
                                          Help{".", "one tick"},
-                                         Help{", bar", "back in time; . forward, space to the present"},
+                                         Help{", bar", "back in time; . forward"},
+                                         Help{"enter", "to the present"},
                                          Help{"N", "on to the next change of mode"},
                                          Help{"[ ]", "slower, faster"},
-                                         Help{"backspace", "from the beginning (not while recording)"}};
+                                         Help{"backspace", "from the beginning"}};
   static constexpr std::array kRecord{Help{"space", "stop, play"}, Help{", . bar", "back and forward"},
                                       Help{"N", "on to the next change of mode"},
                                       Help{"[ ]", "slower, faster"}, Help{"backspace", "to the beginning"}};

@@ -10,7 +10,20 @@ void Feed::see(const trial::Glance& glance) {
   const ChartSample sample = sampler_.sample(glance);
   if (ticks_++ % Sampler::kEach == 0) samples_.push(sample);
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock || full_) return;
+  behind_ = !lock || full_;
+  if (!behind_) put(glance);
+}
+
+void Feed::catch_up() {
+  if (!behind_) return;
+  const std::lock_guard lock(mutex_);
+  put({trial_.scene(), trial_.now(), trial_.truth(), trial_.inputs(), trial_.outputs(), simulated_,
+       &trial_.state()});
+  behind_ = false;
+}
+
+void Feed::put(const trial::Glance& glance) {
+  simulated_ = glance.simulated;
   take_still(trial_, glance, glance.simulated, back_->still);
   back_->status = watch_.status();
   back_->still.halted = back_->status.halted;

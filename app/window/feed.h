@@ -28,16 +28,23 @@ class Feed {
   // Run's thread, after each tick.
   void see(const trial::Glance& glance);
 
+  // Run's thread, while the run stands still: the last tick, if the window has an older one.
+  void catch_up();
+
   // Window's thread, as all below. True: newest() is a newer one now.
   bool take();
   [[nodiscard]] const Snapshot& newest() const { return *front_; }
   bool next(ChartSample& sample) { return samples_.pop(sample); }
 
  private:
+  void put(const trial::Glance& glance);
+
   trial::Trial& trial_;
   std::unique_ptr<Snapshot> front_, back_;
   std::mutex mutex_;
-  bool full_ = false;  // back_ has not been taken yet
+  bool full_ = false;      // back_ has not been taken yet
+  bool simulated_ = true;  // of the last glance
+  bool behind_ = false;    // run's thread: the last tick was not copied
   std::int64_t ticks_ = 0;
   trial::RunWatch watch_;  // run's thread, as
   Sampler sampler_;

@@ -16,7 +16,14 @@
 namespace enc::app {
 namespace {
 
+constexpr int kChartsFrom = 850;  // px, width of a window with room for charts
 constexpr double kHover = 0.015;  // m above a place that was clicked
+
+std::string mode_text(const Still& still) {
+  if (still.halted) return "STOPPED BY HAND (R resumes)";
+  const std::uint32_t why = still.out.why & kHoldReasons;
+  return std::string(mode_name(still.out.mode)) + (why != 0 ? ": " + why_text(why) : "");
+}
 
 std::string faults_text(std::uint8_t faults) {
   std::string text;
@@ -53,8 +60,8 @@ void Show::add(CameraFeed::Pictures&& pictures) {
     pictures_.pair = std::move(pictures.pair);
 }
 
-bool Show::shows_augmented() const {
-  return controls_ && controls_->insets(what_.cameras) == Controls::Insets::augmented;
+bool Show::shows(Controls::Insets insets) const {
+  return controls_ && controls_->insets(what_.cameras) == insets && !timeline_.past();
 }
 
 // Small pictures along the bottom: other cameras on the scene, or what the scene's own camera sees.
@@ -66,7 +73,7 @@ void Show::inset(const Moment& m, sim::ViewRequest& request) const {
     request.insets.push_back({name, nullptr, camera});
   };
   const auto image = [&](const char* name, const Image& picture) {
-    if (picture.width > 0) request.insets.push_back({name, &picture, {}});
+    if (picture.width > 0 && !timeline_.past()) request.insets.push_back({name, &picture, {}});
   };
   switch (controls_->insets(what_.cameras)) {
     case Insets::none:
@@ -150,7 +157,8 @@ void Show::draw(const Wishes& wishes, const trial::RunStatus* status) {
   if (m.out.mode == Mode::contact || m.out.mode == Mode::restore)
     request.dent = [&m](mjModel* model) { return dent_object(m, model); };
   write(m, wishes, status, request);
-  if (controls_->charts() && !controls_->help())
+  if (controls_->help()) request.title.clear();
+  if (controls_->charts() && !controls_->help() && window_.width() >= kChartsFrom)
     request.charts =
         charts_.until(seconds_of(shown), window_.chart_at(controls_->x(), controls_->y()), shown.simulated);
   inset(m, request);
@@ -165,10 +173,10 @@ void Show::write(const Moment& m, const Wishes& wishes, const trial::RunStatus* 
     request.names += (request.names.empty() ? "" : "\n") + name;
     request.values += (request.values.empty() ? "" : "\n") + value;
   };
-  const std::uint32_t why = m.out.why & kHoldReasons;
-  row("mode", timeline_.shown().halted
-                  ? std::string("STOPPED BY HAND (R resumes)")
-                  : std::string(mode_name(m.out.mode)) + (why != 0 ? ": " + why_text(why) : ""));
+  // A real machine goes on while somebody looks back: what it does now comes first.
+  const bool real = what_.of == Controls::Of::real;
+  row("mode", mode_text(real ? timeline_.newest() : timeline_.shown()));
+  if (real && timeline_.past()) row("shown", mode_text(timeline_.shown()));
   const double force = m.out.mode == Mode::contact ? -m.out.force.xyz[2] : 0.0;
   row("force", fmt::format("{:.2f} N{}", force == 0.0 ? 0.0 : force, m.truth.touching ? ", felt" : ""));
   row("deflection", m.out.mode == Mode::contact ? fmt::format("{:.2f} mm", 1e3 * m.out.deflection) : "-");

@@ -32,7 +32,7 @@ class Show {
   void add(const Still& still);
   void add(const ChartSample& sample) { charts_.add(sample); }
   void add(CameraFeed::Pictures&& pictures);
-  [[nodiscard]] bool shows_augmented() const;
+  [[nodiscard]] bool shows(Controls::Insets insets) const;  // of the present
   [[nodiscard]] Timeline& timeline() { return timeline_; }
   [[nodiscard]] Controls& controls() { return *controls_; }  // not before there is a still
   [[nodiscard]] bool empty() const { return timeline_.empty(); }

@@ -93,7 +93,11 @@ class Page {
     const sim::TileGrid tiles = grid();
     const auto row = static_cast<std::ptrdiff_t>(tiles.columns);
     const std::size_t under = tiles.at(event.x, event.y, listed_.size(), listed_.size());
-    if (event.kind == WindowEvent::Kind::move && under < listed_.size()) page_.chosen = under;
+    if (event.kind == WindowEvent::Kind::move) {
+      // Where the mouse is at first is nobody's choice.
+      if (moved_ && under < listed_.size()) page_.chosen = under;
+      moved_ = true;
+    }
     if (event.kind == WindowEvent::Kind::button)
       return event.code == WindowEvent::kLeft && !event.down && under < listed_.size();
     if (event.kind != WindowEvent::Kind::key || !event.down) return false;
@@ -107,6 +111,7 @@ class Page {
   }
 
   sim::ViewWindow& window_;
+  bool moved_ = false;  // the mouse
   std::vector<models::ListedScene> listed_;
   sim::ViewPage page_;
 };

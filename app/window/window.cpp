@@ -22,6 +22,7 @@
 #include "core/error.h"
 #include "models/scene_names.h"
 #include "sim/window/window.h"
+#include "trial/assemble.h"
 #include "trial/operator/consent.h"
 #include "trial/prepare.h"
 
@@ -65,7 +66,8 @@ class SceneFile {
     seen_ = now;
     try {
       models::Setup setup = models::load(options_.scene, options_.rig, options_.set);
-      (void)trial::prepare_setup(setup);
+      const Scene scene = trial::prepare_setup(setup);
+      (void)trial::make_world(setup, scene, options_.seed, true);
       return true;
     } catch (const Error& e) {
       message = e.what();
@@ -119,7 +121,11 @@ class Run {
       if (cameras_) cameras_->look(frame);
     };
     hooks_.stop = [this] { return link_.ends(); };
-    hooks_.waits = [this] { return link_.waits(dt_); };
+    hooks_.waits = [this] {
+      if (!link_.waits(dt_)) return false;
+      feed_->catch_up();
+      return true;
+    };
     hooks_.hand = [this] { return link_.machine(); };
     hooks_.steer = [this](std::int64_t) { return link_.hand(); };
     thread_.begin([this] {
@@ -194,7 +200,7 @@ bool show_run(Run& run, Show& show, sim::ViewWindow& window, SceneFile* file) {
       return true;
     }
     if (CameraFeed* cameras = run.cameras()) {
-      cameras->want(show.shows_augmented());
+      cameras->want(show.shows(Controls::Insets::pair), show.shows(Controls::Insets::augmented));
       if (auto made = cameras->take()) show.add(std::move(*made));
     }
     show.say(message);
@@ -209,6 +215,12 @@ void yield() {
   constexpr int kNice = 10;
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);  // else it competes, no more
 }
+
+// Nothing points to a run that is gone.
+struct Forget {
+  Run*& run;
+  ~Forget() { run = nullptr; }
+};
 
 // A record from its beginning, until the window is closed.
 int show_record(const std::string& path, const sim::WindowModule& module) {
@@ -237,10 +249,20 @@ int show_record(const std::string& path, const sim::WindowModule& module) {
     ++ticks;
   };
   std::vector<sim::WindowEvent> events;
-  while (playback.next(see))
-    if (ticks % 10'000 == 0 && !window->poll(events)) return 0;
-  show.timeline().seek(0.0);
   Pictures pictures;
+  Wall::time_point looked = Wall::now();
+  while (playback.next(see)) {
+    if (ticks % 100 != 0 || Wall::now() - looked < kLook) continue;
+    if (!window->poll(events)) return 0;
+    const Wishes wishes = show.see(events);
+    if (wishes.ends) return 0;
+    show.say(fmt::format("reading the record: {:.0f} %",
+                         100.0 * static_cast<double>(ticks) / static_cast<double>(playback.ticks())));
+    show.draw(wishes, nullptr);
+    looked = Wall::now();
+  }
+  show.say(playback.doubt());
+  show.timeline().seek(0.0);
   Wall::time_point before = Wall::now();
   while (window->poll(events)) {
     Wishes wishes = show.see(events);
@@ -267,7 +289,6 @@ int window(const ViewOptions& asked) {
   ViewOptions options = asked;
   if (is_record(options.scene)) return show_record(options.scene, *module);
   RunThread thread;
-  yield();
   Run* shown = nullptr;
   const auto lost = [&shown] {
     if (shown != nullptr) shown->join();
@@ -288,6 +309,8 @@ int window(const ViewOptions& asked) {
     Run run(options, thread);
     if (!run.link().wait_for_begin()) return run.code();
     shown = &run;
+    const Forget forget{shown};
+    if (!run.real()) yield();  // the key that stops a real machine waits for nothing
     try {
       if (!window) window = module->open("Encounter: " + options.scene, kWidth, kHeight, lost);
     } catch (...) {
@@ -304,7 +327,6 @@ int window(const ViewOptions& asked) {
     }();
     if (!again) window.reset();
     const int code = run.code();
-    shown = nullptr;
     if (!again) return code;
   }
 }

@@ -10,7 +10,7 @@
 namespace enc::sim {
 namespace {
 
-constexpr int kRings = 180, kSectors = 256;  // under 0.8 mm apart on a tennis ball
+constexpr int kRings = 96, kSectors = 144;  // under 1.5 mm apart on a tennis ball
 
 std::vector<float> ball_vertices(double radius) {
   std::vector<float> xyz;

@@ -283,12 +283,12 @@ void User::steer(const Point<'W'>& place, const Point<'W'>& tip) {
 }
 
 void User::change_tool(const Point<'W'>& tip) {
-  if (other_tool() < 0 || state_.touching || state_.change.stage != ToolChange::Stage::none ||
-      state_.session.held < 0)
-    return;
+  if (other_tool() < 0 || state_.touching || state_.change.stage != ToolChange::Stage::none) return;
+  const bool empty = state_.session.held < 0;  // it was taken over in the middle of a change: both tools lie
   if (!state_.steered.on) steer(tip, tip);
-  state_.change = {ToolChange::Stage::away, state_.session.held, 0.0, state_.steered.to};
-  state_.steered.to = spot(state_.session.held);
+  state_.change = {empty ? ToolChange::Stage::empty : ToolChange::Stage::away,
+                   empty ? 0 : state_.session.held, 0.0, state_.steered.to};
+  state_.steered.to = spot(empty ? 1 : state_.session.held);
 }
 
 void User::go_on_changing(double h) {

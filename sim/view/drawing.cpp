@@ -41,12 +41,12 @@ void light(mjvScene& scene) {
 
 }  // namespace
 
-ModelPtr picture_model(const ViewRequest& request, int shadow_size, int stacks) {
+ModelPtr picture_model(const ViewRequest& request, int shadow_size, int stacks, int slices) {
   ModelPtr model(mj_copyModel(nullptr, request.model));
   if (!model) throw Error("not enough memory for a picture", {}, ErrorKind::device);
   model->vis.quality.offsamples = 0;  // the picture is drawn larger instead
   model->vis.quality.shadowsize = shadow_size;
-  model->vis.quality.numslices = 64;
+  model->vis.quality.numslices = slices;
   model->vis.quality.numstacks = stacks;
   model->vis.global.fovy = static_cast<float>(request.camera.opening * 180.0 / std::numbers::pi);
   model->vis.map.zfar = 8.0F / static_cast<float>(std::max(1e-3, model->stat.extent));

@@ -11,8 +11,8 @@ inline constexpr int kRoom = 1000;  // geoms
 inline constexpr double kBackdrop = 4.0;
 
 // A copy of the model with settings for pictures; physics never sees it. `shadow_size`: size of the shadow
-// map, px. `stacks`: of a round body, along its axis.
-[[nodiscard]] ModelPtr picture_model(const ViewRequest& request, int shadow_size, int stacks);
+// map, px. `stacks`, `slices`: of a round body, along its axis and around it.
+[[nodiscard]] ModelPtr picture_model(const ViewRequest& request, int shadow_size, int stacks, int slices);
 // Adds the model's bodies, camera and light. Throws Error (kind device) for too many geoms, as all below.
 void aim(mjvScene& scene, const mjModel* model, const ViewRequest& request, bool shadows);
 // Adds a wall that fills the background.

@@ -15,7 +15,7 @@ constexpr int kNoShadows = 256;  // px: MuJoCo makes a shadow map whether or not
 Painter::Painter(const ViewRequest& request, const PaintSettings& settings)
     : of_(request.model),
       model_(picture_model(request, settings.shadow_size > 0 ? settings.shadow_size : kNoShadows,
-                           settings.stacks)),
+                           settings.stacks, settings.slices)),
       shadows_(settings.shadow_size > 0),
       renderer_(model_.get(), kRoom, settings.letters, settings.width, settings.height) {}
 

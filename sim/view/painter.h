@@ -13,7 +13,8 @@ namespace enc::sim {
 
 struct PaintSettings {
   int shadow_size = 0;  // px of the shadow map; 0: no shadows
-  int stacks = 48;      // of a round body, along its axis
+  // Of a round body: parts along its axis, and around it.
+  int stacks = 48, slices = 64;
   mjtFontScale letters = mjFONTSCALE_100;
   int width = 0, height = 0;  // px off the screen; 0: into the window
 };

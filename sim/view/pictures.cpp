@@ -53,7 +53,7 @@ class OffscreenPictures final : public Pictures {
       : finer_(fineness.finer),
         all_{0, 0, finer_ * first.width, finer_ * first.height},
         painter_(first,
-                 {fineness.shadow_size, fineness.stacks,
+                 {fineness.shadow_size, fineness.stacks, PaintSettings{}.slices,
                   first.height < kLow ? fineness.small_letters : fineness.letters, all_.width, all_.height}),
         depth_(static_cast<std::size_t>(all_.width) * static_cast<std::size_t>(all_.height)) {}
 

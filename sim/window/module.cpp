@@ -25,6 +25,9 @@ extern "C" Display* glfwGetX11Display(void);
 namespace enc::sim {
 namespace {
 
+// A window is drawn many times a second, often in software.
+constexpr PaintSettings kQuick{.stacks = 16, .slices = 32};
+constexpr int kSamples = 4;   // of a pixel, with a graphics card
 constexpr int kSmallest = 2;  // px: a smaller window is not drawn
 
 [[noreturn]] void no_window(const char* why) {
@@ -55,23 +58,43 @@ void look() {
   if (glfwInit() == GLFW_FALSE) no_window(said().c_str());
 }
 
+// Of the context that is current.
+std::string renderer_name() {
+  using GetString = const GLubyte* (*)(GLenum);
+  const auto get = reinterpret_cast<GetString>(glfwGetProcAddress("glGetString"));
+  const GLubyte* name = get == nullptr ? nullptr : get(GL_RENDERER);
+  return name == nullptr ? "unknown" : reinterpret_cast<const char*>(name);
+}
+
 struct WindowDelete {
   void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
+
+// In software several samples of a pixel cost three times one.
+bool in_software() {
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  const std::unique_ptr<GLFWwindow, WindowDelete> probe(glfwCreateWindow(1, 1, "", nullptr, nullptr));
+  glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
+  if (!probe) no_window(said().c_str());
+  glfwMakeContextCurrent(probe.get());
+  const std::string name = renderer_name();
+  glfwMakeContextCurrent(nullptr);
+  return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos;
+}
 
 class GlfwWindow final : public ViewWindow {
  public:
   GlfwWindow(const std::string& title, int width, int height, std::function<void()> lost)
       : lost_(std::move(lost)) {
     look();
-    glfwWindowHint(GLFW_SAMPLES, 4);
+    glfwWindowHint(GLFW_SAMPLES, in_software() ? 0 : kSamples);
     glfwWindowHint(GLFW_FOCUSED, GLFW_TRUE);
     window_.reset(glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr));
     if (!window_) no_window(said().c_str());
     glfwSetWindowUserPointer(window_.get(), this);
     glfwMakeContextCurrent(window_.get());
     glfwSwapInterval(0);  // the caller sets the pace
-    if (const auto name = get_string(GL_RENDERER); name != nullptr) renderer_ = name;
+    renderer_ = renderer_name();
     listen();
     // Xlib would exit at once, without sealing a record. A Wayland session gives no X display.
     XSetIOErrorHandler([](::Display*) { return 0; });
@@ -101,7 +124,7 @@ class GlfwWindow final : public ViewWindow {
     if (all.width < kSmallest || all.height < kSmallest) return;
     if (!painter_ || !painter_->is_of(request.model)) {
       painter_.reset();
-      painter_ = std::make_unique<Painter>(request, PaintSettings{});
+      painter_ = std::make_unique<Painter>(request, kQuick);
     }
     painter_->paint(request, all);
     inset(request, all);
@@ -119,7 +142,7 @@ class GlfwWindow final : public ViewWindow {
   Image snap(const ViewRequest& request, int width, int height) override {
     Image picture(width, height);
     const mjrRect all{0, 0, width, height};
-    Painter painter(request, PaintSettings{});
+    Painter painter(request, kQuick);
     painter.paint(request, all);
     mjr_readPixels(picture.rgb.data(), nullptr, all, &painter.context());
     flip(picture);
@@ -156,15 +179,10 @@ class GlfwWindow final : public ViewWindow {
     glfwGetWindowSize(window_.get(), &size.first, &size.second);
     return size;
   }
-  static const char* get_string(GLenum name) {
-    using GetString = const GLubyte* (*)(GLenum);
-    const auto get = reinterpret_cast<GetString>(glfwGetProcAddress("glGetString"));
-    return get == nullptr ? nullptr : reinterpret_cast<const char*>(get(name));
-  }
   // Side by side above the bar.
   void inset(const ViewRequest& request, const mjrRect& all) {
     const mjrContext& context = painter_->context();
-    const int gap = 6, w = (all.width - 440) / 2 - gap, up = static_cast<int>(kBarHeight + 2.0 * kBarSide);
+    const int gap = 6, w = all.width / 4, up = static_cast<int>(kBarHeight + 2.0 * kBarSide);
     if (w < 64) return;  // no room
     int x = gap;
     for (const ViewInset& one : request.insets) {
@@ -201,9 +219,12 @@ class GlfwWindow final : public ViewWindow {
     if (!request.names.empty())
       mjr_overlay(mjFONT_NORMAL, mjGRID_TOPLEFT, all, request.names.c_str(), request.values.c_str(),
                   &context);
-    if (!request.help.empty())
-      mjr_overlay(mjFONT_NORMAL, mjGRID_TOPRIGHT, all, request.help_keys.c_str(), request.help.c_str(),
-                  &context);
+    if (!request.help.empty()) {  // two columns: MuJoCo writes at most 500 characters at once
+      const auto [keys, more_keys] = halves(request.help_keys);
+      const auto [help, more_help] = halves(request.help);
+      mjr_overlay(mjFONT_NORMAL, mjGRID_TOP, all, keys.c_str(), help.c_str(), &context);
+      mjr_overlay(mjFONT_NORMAL, mjGRID_TOPRIGHT, all, more_keys.c_str(), more_help.c_str(), &context);
+    }
     if (!request.title.empty())
       mjr_overlay(mjFONT_NORMAL, mjGRID_TOP, all, request.title.c_str(), nullptr, &context);
   }

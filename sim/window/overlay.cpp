@@ -20,7 +20,7 @@ void draw_chart(const ViewChart& chart, const mjrRect& where, mjvFigure& figure,
   figure.flg_legend = 1;
   figure.flg_extend = 1;
   figure.flg_ticklabel[0] = figure.flg_ticklabel[1] = 1;
-  figure.linewidth = 1.5F;
+  figure.linewidth = 1.0F;
   figure.gridsize[0] = 6;
   figure.gridsize[1] = 5;
   std::strncpy(figure.xformat, "%.0f", sizeof(figure.xformat) - 1);
@@ -75,6 +75,17 @@ Image resized(const Image& from, int width, int height) {
   return to;
 }
 
+std::pair<std::string, std::string> halves(const std::string& text) {
+  const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
+  std::size_t at = 0;
+  for (std::ptrdiff_t i = 0; i < (lines + 1) / 2; ++i) {
+    at = text.find('\n', at);
+    if (at == std::string::npos) return {text, ""};
+    ++at;
+  }
+  return {text.substr(0, at - 1), text.substr(at)};
+}
+
 void draw_tiles(const ViewPage& page, const mjrRect& all, const mjrContext& context) {
   const TileGrid grid(page.tiles.size(), all.width, all.height);
   mjr_rectangle(all, 0.96F, 0.965F, 0.97F, 1.0F);
@@ -87,7 +98,7 @@ void draw_tiles(const ViewPage& page, const mjrRect& all, const mjrContext& cont
     if (i == page.chosen) mjr_rectangle(where, 0.16F, 0.42F, 0.72F, 1.0F);
     const int x = where.left + gap / 2, y = where.bottom + gap / 2;
     if (tile.picture.width > 0)
-      draw_image(tile.picture, x, y + name, context);
+      draw_image(resized(tile.picture, grid.picture_width(), grid.picture_height()), x, y + name, context);
     else
       mjr_rectangle({x, y + name, grid.picture_width(), grid.picture_height()}, 1, 1, 1, 1);
     mjr_overlay(mjFONT_NORMAL, mjGRID_BOTTOMLEFT, {x, y, where.width - gap, name}, tile.name.c_str(), nullptr,

@@ -139,10 +139,10 @@ TEST_F(Window, SpaceStopsAnArmedMachineAndRResumes) {
   Laboratory there(false, {}, {}, ball_);
   std::string words = "\"" + ball_ + "\" --rig fakes --armed --yes --record m.encrec";
   for (const std::string& set : there.ports) words += " --set " + set;
-  const tests::Result r =
-      on_screen(words,
-                "sleep 2; xdotool key space; sleep 1; xdotool key comma comma comma; sleep 1\n"
-                "xdotool key r; sleep 2; xdotool key q");
+  const tests::Result r = on_screen(words,
+                                    "sleep 2; xdotool key comma comma period; sleep 1\n"
+                                    "xdotool key space; sleep 1; xdotool key comma comma comma; sleep 1\n"
+                                    "xdotool key r; sleep 2; xdotool key q");
   EXPECT_THAT(r.err, ContainsRegex("stopped by hand(.|\n)*resumed")) << r.out;
   EXPECT_THAT(r.out, HasSubstr("stopped     by a signal or by q")) << r.err;
   EXPECT_GE(stops_in(there.log()).size(), 2U) << "by space, and at the end";

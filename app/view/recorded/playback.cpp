@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/step.h"
 #include "trial/assemble.h"
@@ -23,7 +25,14 @@ Playback::Playback(const std::string& path) : record_(path, Partial::yes) {
     throw Error(path + ": holds no whole tick; there is nothing to see; record it again");
   models::Setup setup = models::setup_of(record_.texts(), path);
   leave_out_vision(setup);
-  simulated_ = !trial::slots_of(setup).real;
+  if (!record_.damage().empty())
+    doubt_ = "damaged, and not read from there on: " + record_.damage();
+  else if (!record_.sealed())
+    doubt_ = "the record is not sealed: it was cut off";
+  // Whether somebody steered the hand stands at the end of a record.
+  const bool unknown_hand = !record_.sealed() && setup.scene.user.has_value();
+  simulated_ = !trial::slots_of(setup).real && !unknown_hand;
+  if (unknown_hand) doubt_ += "; tool and tip are drawn where the devices said";
   if (const auto hand = record_.end_texts().find("hand"); hand != record_.end_texts().end())
     hand_ = trial::SteeringLog::read(hand->second, path);
   trial_ = std::make_unique<trial::Trial>(setup, options());
@@ -51,7 +60,13 @@ trial::TrialOptions Playback::options() {
 bool Playback::next(const std::function<void(const trial::Glance&)>& see) {
   if (!record_.next(frame_)) return false;
   see_ = see;
-  return trial_->tick();
+  if (!trial_->tick()) return false;
+  if (first_difference_ < 0 && trial_->result().hash != frame_.hash) {
+    first_difference_ = frame_.tick.index;
+    doubt_ += fmt::format("{}the core differs from the record from tick {} on", doubt_.empty() ? "" : "; ",
+                          first_difference_);
+  }
+  return true;
 }
 
 }  // namespace enc::app

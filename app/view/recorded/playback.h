@@ -24,9 +24,13 @@ class Playback {
   [[nodiscard]] const trial::Trial& trial() const { return *trial_; }
   [[nodiscard]] const models::Setup& setup() const { return trial_->setup(); }
   [[nodiscard]] std::int64_t ticks() const { return record_.ticks(); }
-  // All devices were simulated: tool, tip and truth are the twin's. Else they are where devices said.
+  // All devices were simulated, and it is known what the hand did: tool, tip and truth are the twin's. Else
+  // they are where devices said.
   [[nodiscard]] bool simulated() const { return simulated_; }
   [[nodiscard]] const RecordedTick& frame() const { return frame_; }
+
+  // Why the pictures may not be what happened, as far as the record was played; empty: they are.
+  [[nodiscard]] const std::string& doubt() const { return doubt_; }
 
   // The next tick; false after the last. `see` gets it with the twin as it was.
   bool next(const std::function<void(const trial::Glance&)>& see);
@@ -38,6 +42,8 @@ class Playback {
   RecordedTick frame_;
   trial::SteeringLog hand_;
   bool simulated_ = true;
+  std::string doubt_;
+  std::int64_t first_difference_ = -1;  // tick of which the core says otherwise than the record
   std::function<void(const trial::Glance&)> see_;
   std::unique_ptr<trial::Trial> trial_;
 };

@@ -23,9 +23,6 @@ Source::Source(const ViewOptions& options, const trial::TrialOptions& how) : how
     end_ = trial_->world().programme_time();
     return;
   }
-  if (options.rig != SceneOptions{}.rig || !options.set.empty())
-    throw Error(
-        fmt::format("{}: a record has its rig and its numbers; leave --rig and --set out", options.scene));
   playback_ = std::make_unique<Playback>(options.scene);
   print_notes(playback_->setup().notes);
   RecordReader reader(options.scene, Partial::yes);

@@ -23,6 +23,8 @@ class Source {
   [[nodiscard]] mjData* data() { return trial().world().physics().data(); }
   [[nodiscard]] trial::Trial& trial() { return playback_ ? playback_->trial() : *trial_; }
   [[nodiscard]] const trial::Trial& trial() const { return playback_ ? playback_->trial() : *trial_; }
+  // Of a record, as far as it was played (playback.h); else empty.
+  [[nodiscard]] std::string doubt() const { return playback_ ? playback_->doubt() : std::string(); }
   // A person presses in it, and when is for the run to tell.
   [[nodiscard]] bool person() const;
 

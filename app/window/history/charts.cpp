@@ -8,7 +8,7 @@
 namespace enc::app {
 namespace {
 
-constexpr std::size_t kPoints = 1000;  // of a line, at most
+constexpr std::size_t kPoints = 300;  // of a line, at most
 
 // The first sample that is not before t.
 std::deque<ChartSample>::const_iterator from(const std::deque<ChartSample>& samples, float t) {
@@ -33,7 +33,7 @@ ChartSample Sampler::sample(const trial::Glance& glance) {
   ChartSample s;
   s.t = static_cast<float>(seconds(glance.tick.t.time_since_epoch()));
   s.true_force = or_zero(along_normal(*glance.state, glance.truth.contact_force));
-  s.gap = or_zero(1e3 * glance.out.gap);
+  s.gap = static_cast<float>(1e3 * glance.out.gap);
   s.energy = static_cast<float>(1e3 * energy_);
   if (!touched) return s;
   s.measured = or_zero(glance.out.felt.norm());
@@ -58,6 +58,7 @@ std::vector<sim::ViewChart> Charts::until(double end_time, std::optional<double>
   const auto line = [&](const char* name, float ChartSample::*what, int decimals) {
     sim::ViewLine drawn{fmt::format("{} {:.{}f}", name, (*read).*what, decimals), {}};
     for (auto i = first; last - i > 0; i += std::min(each, last - i)) {
+      if (!std::isfinite((*i).*what)) continue;
       drawn.xy.push_back(i->t - end);
       drawn.xy.push_back((*i).*what);
     }

@@ -251,6 +251,17 @@ TEST_F(WindowControls, EarlierMomentsOfARun) {
   EXPECT_TRUE(wishes.seek && !wishes.stops && !wishes.resumes) << "looking back does not touch the machine";
 }
 
+TEST_F(WindowControls, EnterAndTheStopOfAMachineReturnToThePresent) {
+  key(Key::enter);
+  EXPECT_TRUE(controls_->take_wishes().newest);
+  EXPECT_FALSE(controls_->take_wishes().newest);
+  around_.real = true;
+  for (const char c : {' ', 'R'}) {
+    key(c);
+    EXPECT_TRUE(controls_->take_wishes().newest);
+  }
+}
+
 TEST_F(WindowControls, ARecordIsPlayed) {
   around_.played = true;
   around_.steerable = false;
@@ -312,12 +323,24 @@ TEST_F(WindowControls, ChartsHelpAndEnd) {
   EXPECT_TRUE(other.take_wishes().ends) << "escape";
 }
 
+// MuJoCo writes at most 500 characters at once; the page is written in two halves.
+TEST_F(WindowControls, TheHelpPageFits) {
+  for (const Controls::Of of : {Controls::Of::simulated, Controls::Of::real, Controls::Of::record}) {
+    const auto lines = Controls::help_lines(of);
+    std::size_t first = 0, second = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      (i < (lines.size() + 1) / 2 ? first : second) += lines[i].what.size() + 1;
+    EXPECT_LT(first, 500U);
+    EXPECT_LT(second, 500U);
+  }
+}
+
 // A key that is added to the page must be added to a test above, and to this list.
 TEST_F(WindowControls, TheHelpPageNamesWhatIsTestedHere) {
   const std::set<std::string_view> tested{
       "left drag", "click", "G", "wheel", "arrows, page", "right, middle drag", "V",     "C",       "H", "Q",
       "space",     ".",     "N", "[ ]",   "backspace",    "space, R",           ", bar", ", . bar", "T", "O",
-      "1 2",       "3 4",   "P"};
+      "1 2",       "3 4",   "P", "enter"};
   for (const Controls::Of of : {Controls::Of::simulated, Controls::Of::real, Controls::Of::record})
     for (const Controls::Help& line : Controls::help_lines(of))
       EXPECT_TRUE(tested.contains(line.key)) << line.key;
