@@ -222,7 +222,8 @@ class GlfwWindow final : public ViewWindow {
     if (!request.help.empty()) {  // two columns: MuJoCo writes at most 500 characters at once
       const auto [keys, more_keys] = halves(request.help_keys);
       const auto [help, more_help] = halves(request.help);
-      mjr_overlay(mjFONT_NORMAL, mjGRID_TOP, all, keys.c_str(), help.c_str(), &context);
+      const mjrRect middle{all.width / 4, 0, all.width / 2, all.height};
+      mjr_overlay(mjFONT_NORMAL, mjGRID_TOPLEFT, middle, keys.c_str(), help.c_str(), &context);
       mjr_overlay(mjFONT_NORMAL, mjGRID_TOPRIGHT, all, more_keys.c_str(), more_help.c_str(), &context);
     }
     if (!request.title.empty())
