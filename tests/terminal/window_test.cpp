@@ -88,12 +88,12 @@ TEST_F(Window, PressesDragsChangesTheToolAndPressesAgain) {
                     "sleep 2; for i in $(seq 12); do xdotool key Left; sleep 0.1; done; sleep 1\n"
                     "for i in $(seq 20); do xdotool key Up; sleep 0.05; done; sleep 1\n"
                     "xdotool key t; sleep 5\n" +
-                    press + "sleep 1; xdotool key 1; sleep 1; xdotool key 1; sleep 0.5; xdotool key q");
+                    press + "sleep 1; xdotool key 1; sleep 2; xdotool key 1; sleep 1; xdotool key q");
   EXPECT_THAT(r.out, ContainsRegex("hold [0-9.]+ s")) << r.err;
   EXPECT_THAT(r.out, ContainsRegex("deflection peak (5\\.[89]|6\\.)"));
   EXPECT_EQ(tests::run_program({"replay", file("s.encrec")}).code, 0);
   const tests::Result again = tests::run_program({"run", scene, "--hand", file("s.encrec")});
-  EXPECT_EQ(hash_of(again.out), hash_of(r.out));
+  EXPECT_EQ(hash_of(again.out), hash_of(r.out)) << r.out << again.out;
   EXPECT_NE(hash_of(r.out), "");
   const tests::Result seen = on_screen("s.encrec",
                                        "xdotool key n; sleep 1; xdotool mousemove 640 707 click 1; sleep 1\n"
