@@ -98,7 +98,7 @@ void check_replaceable(const std::string& folder, models::Existing existing) {
         folder));
 }
 
-// As for a file: a mistyped path makes no folders.
+// This is as for a file: a mistyped path makes no folders.
 void check_parent(const std::string& path) {
   const fs::path parent = fs::path(path).parent_path();
   std::error_code none;

@@ -65,7 +65,7 @@ void Controls::see(const WindowEvent& event, const Surroundings& around) {
   }
 }
 
-// Of the bar of time. A drag that began on it goes on beyond it.
+// Moves along the bar of time. A drag that began on the bar goes on beyond it.
 bool Controls::seek(const WindowEvent& event, const Surroundings& around) {
   const auto share = sim::bar_share(event.x, event.y, around.width, around.height, on_bar_);
   if (!share) return false;

@@ -18,7 +18,7 @@ class Source {
   bool tick();
   [[nodiscard]] double now() const;  // s of the experiment, of the last tick
   [[nodiscard]] double end() const;  // s, where it ends
-  // After a tick. Refers to this and to data().
+  // Valid after a tick. It refers to this and to data().
   [[nodiscard]] Moment moment();
   [[nodiscard]] mjData* data() { return trial().world().physics().data(); }
   [[nodiscard]] trial::Trial& trial() { return playback_ ? playback_->trial() : *trial_; }

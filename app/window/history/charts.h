@@ -20,7 +20,7 @@ struct ChartSample {
   float energy = 0.0F;                                        // mJ, of the hand into the contact so far
 };
 
-// Of consecutive ticks.
+// Takes consecutive ticks.
 class Sampler {
  public:
   static constexpr std::int64_t kEach = 5;  // ticks, of the samples that charts show
