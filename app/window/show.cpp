@@ -19,6 +19,24 @@ namespace {
 constexpr int kChartsFrom = 850;  // px, width of a window with room for charts
 constexpr double kHover = 0.015;  // m above a place that was clicked
 
+// The thoughts of the core: where it takes the tool's tip to be and the surface under it, the gap between
+// them, and where it sends the haptic-tip.
+void add_core(const Moment& m, sim::ViewRequest& request) {
+  constexpr sim::Colour kTool{0.16F, 0.42F, 0.72F, 0.45F}, kGap{0.35F, 0.38F, 0.45F, 0.8F},
+      kTarget{0.90F, 0.30F, 0.60F, 0.45F};
+  constexpr double kBall = 0.006, kLine = 0.0006;  // m
+  const auto ball = [&](const Point<'W'>& at, const sim::Colour& colour) {
+    request.rods.push_back({at, at, kBall, colour});
+  };
+  const Point<'W'> tool = m.state.last_query, surface = m.state.last_point;
+  if (m.out.view.tool >= 0 && tool.finite()) {
+    ball(tool, kTool);
+    if (surface.finite() && std::isfinite(m.out.gap)) request.rods.push_back({tool, surface, kLine, kGap});
+  }
+  const Point<'W'> target = m.machine != nullptr ? (m.X_WR * m.out.tip).origin() : m.out.wanted;
+  if (target.finite()) ball(target, kTarget);
+}
+
 std::string mode_text(const Still& still) {
   if (still.halted) return "STOPPED BY HAND (R resumes)";
   const std::uint32_t why = still.out.why & kHoldReasons;
@@ -153,6 +171,7 @@ void Show::draw(const Wishes& wishes, const trial::RunStatus* status) {
   controls_->follow(m.truth.tool_tip);
   sim::ViewRequest request = depict(m, controls_->camera(), false);
   request.labels.clear();
+  add_core(m, request);
   request.data = data_.get();
   if (m.out.mode == Mode::contact || m.out.mode == Mode::restore)
     request.dent = [&m](mjModel* model) { return dent_object(m, model); };
