@@ -21,6 +21,8 @@ struct Series {
   Health health = Health::absent;
   std::int64_t faults = 0;              // samples
   std::int64_t repeated = 0;            // poses of a tracker that are equal to the one before, to the bit
+  std::int64_t equal = 0;               // of them those since the last that differed, which
+  Time differed{};                      // came then
   std::vector<double> intervals, ages;  // s
   void add(Time t, Time now) {
     if (any) intervals.push_back(age(t, last));
@@ -41,18 +43,26 @@ bool repeats(const Stamped<TrackedTool>& before, const Stamped<TrackedTool>& now
          before.value.X_CT.xyzw == now.value.X_CT.xyzw;
 }
 
-// Why a run could not use the device. `end`: when the reading ended.
-std::string unusable(const Series& of, Time end) {
+// Why a run could not use the device. `end`: when the reading ended; `refused`: Device::refused().
+std::string unusable(const Series& of, Time end, const std::string& refused) {
+  constexpr double kFrozen = 0.5;  // s; a hand that holds still moves by less than a tracker's noise
   const auto samples = static_cast<std::int64_t>(of.ages.size());
   constexpr std::int64_t kFew = 10;  // equal poses; fewer may be luck
-  if (samples == 0) return "it sent no sample";
+  const std::string because = refused.empty() ? "" : ": " + refused;
+  if (samples == 0) return "it sent no sample" + because;
   if (of.faults > 0) return fmt::format("{} of {} samples report a fault", of.faults, samples);
   if (!of.linked) return "its link was lost";
   if (of.health != Health::ok) return fmt::format("its last sample is {}", word_of(of.health));
   if (age(end, of.came) > 0.5 * age(end, Time{}))
-    return fmt::format("it sent nothing new in the last {:.2f} s", age(end, of.came));
+    return fmt::format("it sent nothing new in the last {:.2f} s{}", age(end, of.came), because);
   if (samples > kFew && of.repeated == samples - 1)
     return "all poses are equal to the bit: it repeats the last pose of a tool that it does not see";
+  if (const double frozen = age(of.came, of.differed); of.equal >= kFew && frozen >= kFrozen)
+    return fmt::format(
+        "the last {} poses, of {:.2f} s, are equal to the bit: it repeats the last pose of a tool that it "
+        "does "
+        "not see",
+        of.equal + 1, frozen);
   return {};
 }
 
@@ -113,7 +123,11 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
       of.health = said.health;
       if (of.any && said.t <= of.last) return;
       if (said.health == Health::fault) ++of.faults;
-      if (of.any && repeats(before.*role.said, said)) ++of.repeated;
+      if (of.any && repeats(before.*role.said, said)) {
+        ++of.repeated, ++of.equal;
+      } else {
+        of.equal = 0, of.differed = now;
+      }
       of.add(said.t, now);
     });
   }
@@ -124,7 +138,7 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
     all[at].remarks = (rig.*role.slot)->remarks();
     Series& of = series[static_cast<std::size_t>(role.id)];
     of.linked = (rig.*role.slot)->linked();
-    all[at].unusable = unusable(of, end);
+    all[at].unusable = unusable(of, end, (rig.*role.slot)->refused());
   });
   for (std::size_t i = 0; i < kRoles; ++i) {
     Series& of = series[i];

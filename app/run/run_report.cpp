@@ -254,6 +254,11 @@ std::string vision_lines(const trial::TrialResult& result) {
 
 }  // namespace
 
+std::string speed_text(double simulated, double wall) {
+  const double speed = wall > 0.0 ? simulated / wall : 0.0;
+  return speed < 10.0 ? fmt::format("{:.2g}", speed) : fmt::format("{:.0f}", speed);
+}
+
 std::string run_text(const RunReport& r) {
   std::string text =
       r.setup.scene.title + "\n" + made_line(r) + parts_text(r.setup) + devices_text(r.result.devices);
@@ -293,9 +298,9 @@ std::string run_text(const RunReport& r) {
   text += vision_lines(r.result);
   text += fmt::format("tick        step() {} us\n", text_of(percentiles_of(r.result.step_ns), 1e-3, 2, 1));
   text += fmt::format(
-      "time        {:.2f} s simulated in {:.3f} s: {:.0f} x real time; started in {:.0f} ms, {:.0f} MiB\n",
-      r.result.simulated, r.result.wall, r.result.wall > 0.0 ? r.result.simulated / r.result.wall : 0.0,
-      r.started * 1e3, peak_memory_mb());
+      "time        {:.2f} s simulated in {:.3f} s: {} x real time; started in {:.0f} ms, {:.0f} MiB\n",
+      r.result.simulated, r.result.wall, speed_text(r.result.simulated, r.result.wall), r.started * 1e3,
+      peak_memory_mb());
   text += fmt::format("state hash  {:016x} after {}\n", r.result.hash, counted(r.result.ticks, "tick"));
   return text;
 }

@@ -31,6 +31,8 @@ struct RunReport {
   std::vector<std::string> crossed{};  // verdict.h
 };
 
+// How many times as fast as the clock: two digits below 10, so that a slow run is not "0 x".
+[[nodiscard]] std::string speed_text(double simulated, double wall);
 [[nodiscard]] std::string run_text(const RunReport& report);
 [[nodiscard]] std::string run_json(const RunReport& report);
 

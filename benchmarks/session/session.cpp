@@ -77,6 +77,10 @@ class Figures {
   BenchResult& result_;
 };
 
+// Seeds 1 to 80 have 3 presses of two contacts in 1,823 (docs/notes/session.md). So their mean in 20 hands
+// is at most 1.9 (95 %), and at most 6 of 462 presses have two (99 %).
+constexpr double kLeastSingle = 98.7;  // %
+
 void Figures::add_counts() {
   std::int64_t presses = 0, single = 0, none = 0, aborted = 0, in_aborted = 0, bounces = 0, longest = 0,
                bounced = 0;
@@ -94,8 +98,9 @@ void Figures::add_counts() {
     bounces = std::max<std::int64_t>(bounces, press.bounces);
   });
   add("presses.one_contact_percent",
-      presses > 0 ? 100.0 * static_cast<double>(single) / static_cast<double>(presses) : kUnset, "%", 100,
-      100, fmt::format("{} presses of {} hands; {} without a contact", presses, runs_.size(), none));
+      presses > 0 ? 100.0 * static_cast<double>(single) / static_cast<double>(presses) : kUnset, "%",
+      kLeastSingle, 100,
+      fmt::format("{} presses of {} hands; {} without a contact", presses, runs_.size(), none));
   add("aborted.contacts", static_cast<double>(in_aborted), "", 0, 0,
       fmt::format("in {} reaches that turn back before the touch", aborted));
   add("bounces.max", static_cast<double>(bounces), "", kUnset, kUnset,

@@ -52,9 +52,16 @@ struct Periods {
 // Both while the fakes keep their time on this machine.
 Periods measured_periods(const BenchContext& context) {
   std::vector<std::string> fakes{"fakes"};
-  std::vector<std::string> run{this_program(), "run",     context.models + "/scenes/tennis_ball.toml",
-                               "--rig",        "fakes",   "--armed",
-                               "--json",       "--for-s", fmt::format("{:g}", kTime)};
+  std::vector<std::string> run{this_program(),
+                               "run",
+                               context.models + "/scenes/tennis_ball.toml",
+                               "--rig",
+                               "fakes",
+                               "--armed",
+                               "--yes",
+                               "--json",
+                               "--for-s",
+                               fmt::format("{:g}", kTime)};
   for (const std::string& port : enc::wires::free_ports()) {
     fakes.insert(fakes.end(), {"--set", port});
     run.insert(run.end(), {"--set", port});

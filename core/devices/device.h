@@ -19,6 +19,8 @@ class Device {
   [[nodiscard]] virtual bool linked() const noexcept { return true; }
   // What a person should know of a run when it is over, a line each.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
+  // Why what comes is not taken, with counts; empty where all of it is. `devices` asks it when it ends.
+  [[nodiscard]] virtual std::string refused() const { return {}; }
 };
 
 }  // namespace enc

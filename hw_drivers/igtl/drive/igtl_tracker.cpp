@@ -163,19 +163,31 @@ bool IgtlTracker::poll(Time now, Stamped<TrackedTool>& newest) noexcept {
   return true;
 }
 
+std::string IgtlTracker::refused() const {
+  const Counts& counts = reception_.counts();
+  std::string text;
+  const auto add = [&text](std::int64_t count, const char* what, const auto&... more) {
+    if (count == 0) return;
+    if (!text.empty()) text += "; ";
+    text += fmt::format(fmt::runtime(what), count, more...);
+  };
+  add(counts.checksum, "{} with a wrong CRC{}",
+      counts.no_checksum == counts.checksum ? ": 0, the server does not compute it" : "");
+  add(counts.unknown, "{} of tools that the scene does not name, such as '{}'; expected {}",
+      shown(counts.stranger), reception_.expected());
+  add(counts.standing, "{} with a stamp that stands still");
+  return text;
+}
+
 std::vector<std::string> IgtlTracker::remarks() const {
   const Counts& counts = reception_.counts();
   std::string text = fmt::format("{}: {} poses, ", describe(), counts.poses);
   if (!settings_.streams()) text += fmt::format("{} datagrams missing, ", counts.missing);
   text += fmt::format("{} old or twice, {} wrong", counts.old, counts.wrong);
-  const auto add = [&text](std::int64_t count, const char* what, const auto&... more) {
-    if (count > 0) text += fmt::format(fmt::runtime(what), count, more...);
+  if (const std::string not_taken = refused(); !not_taken.empty()) text += "; " + not_taken;
+  const auto add = [&text](std::int64_t count, const char* what) {
+    if (count > 0) text += fmt::format(fmt::runtime(what), count);
   };
-  add(counts.checksum, "; {} with a wrong CRC{}",
-      counts.no_checksum == counts.checksum ? ": 0, the server does not compute it" : "");
-  add(counts.unknown, "; {} of tools that the scene does not name, such as '{}'; expected {}",
-      shown(counts.stranger), reception_.expected());
-  add(counts.standing, "; {} with a stamp that stands still");
   add(counts.repeated, "; {} equal to the bit to the pose before");
   add(counts.unseen, "; {} of tools out of view");
   add(counts.aside, "; {} of tools in view that nobody moved");

@@ -26,6 +26,7 @@ class IgtlTracker final : public PoseTracker {
   [[nodiscard]] bool is_fake() const override { return fake_; }
   [[nodiscard]] bool linked() const noexcept override { return linked_; }
   [[nodiscard]] std::vector<std::string> remarks() const override;
+  [[nodiscard]] std::string refused() const override;
   bool poll(Time now, Stamped<TrackedTool>& newest) noexcept override;
 
  private:

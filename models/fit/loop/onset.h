@@ -23,7 +23,7 @@ struct Onset {
 // Before contact the force of each approach is a constant of its own, after it a parabola of all, in three
 // windows: the first 30, 15 and 7 % of the force. The largest counts if all agree, else the smallest. How
 // far they lie apart is a part of the error: a curve that begins softly is no parabola, and its onset is
-// found too late.
+// found too late. Where each smaller window begins earlier, a quarter of the smallest is unsure.
 [[nodiscard]] Onset find_onset(std::span<const Approach> approaches);
 
 }  // namespace enc::models

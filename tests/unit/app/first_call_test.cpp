@@ -59,6 +59,19 @@ TEST_F(FirstCall, VersionAndHelpAnswerWithoutABuild) {
 }
 
 // The script prints a file. The program prints the same.
+// The clone has a folder sim/, and `sim` is a rig: `calibrate sim` needs no OpenCV.
+TEST_F(FirstCall, ARigOfTheNameOfAFolderIsNoFolderOfImages) {
+  fs::create_directories(at() / "sim");
+  fs::create_directories(at() / "models/rigs");
+  std::ofstream(at() / "models/rigs/sim.toml") << "format = 1\n";
+  std::ofstream(at() / "cmake/setup.sh") << "setup_begin() { echo \"${packages[*]}\"; exit 0; }\n";
+  const auto packages = [&](const std::string& words) {
+    return run({"bash", "-c", "cd '" + at().string() + "' && ./encounter calibrate " + words}).out;
+  };
+  EXPECT_EQ(packages("sim"), "\n");
+  EXPECT_EQ(packages("app"), "opencv\n");
+}
+
 TEST_F(FirstCall, TheHelpOfTheScriptIsThatOfTheProgram) {
   EXPECT_EQ(run_program({"--help"}).out, call("--help").out)
       << "build/release/encounter --help >app/command_line/help.txt makes it anew";
