@@ -105,11 +105,11 @@ FilmReport film(const ViewOptions& options) {
   check_film(options);
   const FilmFormat format = film_format(options.video);
   const auto& module = *static_cast<const sim::ViewModule*>(load_module("view").view);
+  Source source(options, trial_options_of(options));  // first: what it reads is never written
   trial::Signals signals;
   signals.begin();  // from here on there is a file to finish
   const std::unique_ptr<FilmFile> file =
       open_film(options.video, format, models::existing(options.force), module.png);
-  Source source(options, trial_options_of(options));
   if (format.folder && !format.ending.empty())
     print_notes({fmt::format(
         "ffmpeg is not installed: {} becomes a folder of PNGs; install ffmpeg for a film", options.video)});

@@ -145,8 +145,8 @@ int picture(const ViewOptions& options, Look look) {
   const bool close_up = look == Look::contact;
   check(options);
   const auto* module = static_cast<const sim::ViewModule*>(load_module("view").view);
+  Source source(options, options_of(options));  // first: what it reads is never written
   models::OutFile file(options.shot, models::existing(options.force));
-  Source source(options, options_of(options));
   if (!run_until(source, moment_for(options, source))) {
     fmt::print(stderr, "encounter: the physics diverged at tick {}: {}\n",
                source.trial().world().diverged_at(), source.trial().world().divergence());

@@ -6,6 +6,7 @@
 
 #include "app/built.h"
 #include "core/error.h"
+#include "models/files.h"
 
 namespace enc::app {
 namespace {
@@ -23,6 +24,7 @@ Source::Source(const ViewOptions& options, const trial::TrialOptions& how) : how
     end_ = trial_->world().programme_time();
     return;
   }
+  models::note_input(options.scene);
   playback_ = std::make_unique<Playback>(options.scene);
   print_notes(playback_->setup().notes);
   RecordReader reader(options.scene, Partial::yes);

@@ -69,7 +69,13 @@ TEST_F(ProgramFiles, AnInputIsNeverAnOutputEvenWithForce) {
                          {"export", record, "--csv", record}};
   const std::string picture = path("scene.png");  // a scene of such a name
   std::filesystem::copy_file(p, picture);
-  if (std::filesystem::exists(view)) all.push_back({"view", picture, "--at-s", "0.1", "--shot", picture});
+  if (std::filesystem::exists(view)) {
+    all.push_back({"view", picture, "--at-s", "0.1", "--shot", picture});
+    all.push_back({"view", picture, "--for-s", "0.1", "--video", picture});
+    const std::string kept = path("record.png");
+    std::filesystem::copy_file(record, kept);
+    all.push_back({"view", kept, "--at-s", "0.05", "--shot", kept});
+  }
   for (Words& args : all) {
     const std::string file = args.back(), before = bytes_of(file);
     args.emplace_back("--force");
