@@ -77,8 +77,8 @@ class Figures {
   BenchResult& result_;
 };
 
-// Seeds 1 to 80 have 3 presses of two contacts in 1,823 (docs/notes/session.md). So their mean in 20 hands
-// is at most 1.9 (95 %), and at most 6 of 462 presses have two (99 %).
+// Seeds 1 to 80 had 3 presses of two contacts in 1,823, one of them by a fault (docs/notes/session.md). So
+// their mean in 20 hands is at most 1.9 (95 %), and at most 6 of 462 presses have two (99 %).
 constexpr double kLeastSingle = 98.7;  // %
 
 void Figures::add_counts() {

@@ -171,11 +171,12 @@ void limit_command(Walk& walk, State& state, Commanded& now, const Walls& walls)
   };
   if (!safe(after) && reach.contains(from)) {
     walk.why |= kUnreachable;
-    // Not where it would have to stay inside of an object, too, nor where it shall stand.
-    const bool free = std::isnan(walls.depth) && !holding(walk);
+    // It does not go along the edge where it shall stand. Inside of an object it stays inside on that way.
+    const bool goes = !holding(walk);
     const double braking_time = dt + after.norm() / (2.0 * acceleration);
-    const Vec3 aside = free ? along_edge(reach.machine, from, after, braking_time) : before;
-    const bool can = free && (aside - before).norm() <= acceleration * dt * (1.0 + 1e-9) && safe(aside);
+    Vec3 aside = goes ? along_edge(reach.machine, from, after, braking_time) : before;
+    if (goes) aside = q_RH * kept_inside(walk, state, now, walls, q_WR * aside);
+    const bool can = goes && (aside - before).norm() <= acceleration * dt * (1.0 + 1e-9) && safe(aside);
     after = can ? aside : slowed(before, acceleration * dt);
   }
   now.command_velocity = Vec<'R'>(after);
