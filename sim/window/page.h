@@ -39,7 +39,8 @@ struct TileGrid {
   }
   [[nodiscard]] double left(std::size_t i) const { return width * static_cast<double>(i % columns); }
   [[nodiscard]] double top(std::size_t i) const {
-    return kMargin + height * static_cast<double>(i / columns);
+    const std::size_t row = i / columns;
+    return kMargin + height * static_cast<double>(row);
   }
   // Of the picture in a tile.
   [[nodiscard]] int picture_width() const { return std::max(1, static_cast<int>(width - kGap)); }
