@@ -71,7 +71,6 @@ TEST_F(ProgramFiles, AnInputIsNeverAnOutputEvenWithForce) {
   std::filesystem::copy_file(p, picture);
   if (std::filesystem::exists(view)) {
     all.push_back({"view", picture, "--at-s", "0.1", "--shot", picture});
-    all.push_back({"view", picture, "--for-s", "0.1", "--video", picture});
     const std::string kept = path("record.png");
     std::filesystem::copy_file(record, kept);
     all.push_back({"view", kept, "--at-s", "0.05", "--shot", kept});
