@@ -130,10 +130,12 @@ void say_renderers(Doctor& doctor) {
   if (!module_there("camera")) return;
   try {
     const auto* camera = static_cast<const sim::CameraModule*>(load_module("camera").camera);
-    for (const auto& [kind, name] : {std::pair{"egl", "EGL"}, {"osmesa", "OSMesa"}})
-      doctor.say(camera->renderer_problem(kind).empty(), Need::may,
+    for (const auto& [kind, name] : {std::pair{"egl", "EGL"}, {"osmesa", "OSMesa"}}) {
+      const std::string problem = camera->renderer_problem(kind);
+      doctor.say(problem.empty(), Need::may,
                  std::string(name) + " draws for the twin's camera" + words_of(camera->renderer_name(kind)),
-                 camera->renderer_problem(kind));
+                 problem);
+    }
   } catch (const Error& e) {
     doctor.say(false, Need::may, "the twin's camera", e.what());
   }

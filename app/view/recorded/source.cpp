@@ -21,14 +21,12 @@ Source::Source(const ViewOptions& options, const trial::TrialOptions& how) : how
     leave_out_vision(setup);
     trial_ = std::make_unique<trial::Trial>(setup, how);
     print_notes(setup.notes);
-    end_ = trial_->world().programme_time();
     return;
   }
   models::note_input(options.scene);
+  record_ = options.scene;
   playback_ = std::make_unique<Playback>(options.scene);
   print_notes(playback_->setup().notes);
-  RecordReader reader(options.scene, Partial::yes);
-  for (RecordedTick frame; reader.next(frame);) end_ = time_of(frame);
 }
 
 bool Source::tick() {
@@ -44,7 +42,13 @@ double Source::now() const {
   return playback_ ? time_of(playback_->frame()) : seconds(trial_->now().t.time_since_epoch());
 }
 
-double Source::end() const { return end_; }
+double Source::end() const {
+  if (!playback_) return trial_->world().programme_time();
+  double end = 0.0;
+  RecordReader reader(record_, Partial::yes);
+  for (RecordedTick frame; reader.next(frame);) end = time_of(frame);
+  return end;
+}
 
 Moment Source::moment() {
   return playback_ ? moment_of(playback_->trial(), still_, data()) : moment_of(*trial_);

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/options.h"
 #include "app/view/recorded/playback.h"
@@ -17,7 +18,7 @@ class Source {
   // False after the last tick.
   bool tick();
   [[nodiscard]] double now() const;  // s of the experiment, of the last tick
-  [[nodiscard]] double end() const;  // s, where it ends
+  [[nodiscard]] double end() const;  // s, where it ends; reads a record to its end
   // Valid after a tick. It refers to this and to data().
   [[nodiscard]] Moment moment();
   [[nodiscard]] mjData* data() { return trial().world().physics().data(); }
@@ -31,8 +32,8 @@ class Source {
  private:
   std::unique_ptr<trial::Trial> trial_;  // of a scene
   std::unique_ptr<Playback> playback_;   // of a record
+  std::string record_;                   // its file
   Still still_;
-  double end_ = 0.0;
   const trial::TrialOptions how_;
 };
 
