@@ -10,7 +10,10 @@ namespace enc::app {
 [[nodiscard]] sim::Camera camera_for(const Moment& m, bool close_up);
 // The caller sets `data`, which may be another copy than the moment's.
 [[nodiscard]] sim::ViewRequest depict(const Moment& m, const sim::Camera& camera, bool close_up);
-// A frame of a film: no labels, which would jump from frame to frame, but a line with time, mode and force.
+// In place of the labels, which would jump from frame to frame: where there are several objects, each has its
+// name on it; where there are more than four, the one that the machine is at.
+void name_objects(const Moment& m, sim::ViewRequest& request);
+// A frame of a film: a line with time, mode and force, and name_objects().
 [[nodiscard]] sim::ViewRequest depict_frame(const Moment& m, const sim::Camera& camera, bool close_up);
 
 // Gives a request the poses of a run, with pushed objects where they are now and the touched surface dented.

@@ -170,7 +170,7 @@ void Show::draw(const Wishes& wishes, const trial::RunStatus* status) {
   const Moment m = moment_of(trial_, shown, data_.get());
   controls_->follow(m.truth.tool_tip);
   sim::ViewRequest request = depict(m, controls_->camera(), false);
-  request.labels.clear();
+  name_objects(m, request);
   add_core(m, request);
   request.data = data_.get();
   if (m.out.mode == Mode::contact || m.out.mode == Mode::restore)

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "core/response/response.h"
 #include "core/text/words.h"
 #include "core/world/interaction.h"
+#include "core/world/surface_material.h"
 
 namespace enc {
 
@@ -49,13 +51,15 @@ struct ObjectSpec {
   double limit = kUnset;                   // deflection limit, m; unset: the behaviour's
   // Instead, m: the k-th contact of the experiment takes the k-th, the last one stays (contact_limits.h).
   std::vector<double> limits{};
+  MaterialName material = MaterialName::unnamed;
 
   // mesh
-  std::string mesh{};                     // file
-  std::string mesh_hash{};                // of its content, 16 hex digits; empty: not known
-  double scale = 1.0;                     // of the file's metres
-  Vec3 rotation{0, 0, 0};                 // of O in W, about the fixed x, then y, then z axis, rad
-  std::shared_ptr<const Mesh> surface{};  // filled by the loader; unscaled, closed, outward
+  std::string mesh{};                             // file
+  std::string mesh_hash{};                        // of its content, 16 hex digits; empty: not known
+  double scale = 1.0;                             // of the file's metres
+  Vec3 rotation{0, 0, 0};                         // of O in W, about the fixed x, then y, then z axis, rad
+  std::shared_ptr<const Mesh> surface{};          // filled by the loader; unscaled, closed, outward
+  std::optional<SurfaceMaterial> own_material{};  // likewise: of the mesh's file
 };
 
 }  // namespace enc

@@ -359,6 +359,7 @@ CheckedMesh load_solid(const std::string& path) {
   FileMesh file = load_faces(path);
   CheckedMesh checked = check_mesh(std::move(file.mesh), path, file.lines);
   checked.notes.insert(checked.notes.begin(), file.notes.begin(), file.notes.end());
+  checked.material = file.material;
   return checked;
 }
 

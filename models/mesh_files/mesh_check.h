@@ -2,16 +2,19 @@
 // safe. A signed distance, and so a haptic surface, exists only for a closed, outward, simple surface.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/mesh/mesh.h"
+#include "core/world/surface_material.h"
 
 namespace enc::models {
 
 struct CheckedMesh {
-  Mesh mesh;                       // closed, manifold, outward, without faces of zero area
-  std::vector<std::string> notes;  // what was repaired or not checked, one line each
+  Mesh mesh;                                  // closed, manifold, outward, without faces of zero area
+  std::vector<std::string> notes;             // what was repaired or not checked, one line each
+  std::optional<SurfaceMaterial> material{};  // as the file says
 };
 
 // Above this many triangles self-intersection is not looked for, and a note says so: it would take seconds.

@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/mesh/mesh.h"
+#include "core/world/surface_material.h"
 
 namespace enc::models {
 
@@ -17,8 +19,9 @@ inline constexpr std::size_t kMostTriangles = 20'000'000;
 
 struct FileMesh {
   Mesh mesh;
-  std::vector<std::int32_t> lines{};  // of an OBJ: where the face of each triangle stands, from 1
-  std::vector<std::string> notes{};   // what was passed over or assumed, one line each
+  std::vector<std::int32_t> lines{};          // of an OBJ: where the face of each triangle stands, from 1
+  std::vector<std::string> notes{};           // what was passed over or assumed, one line each
+  std::optional<SurfaceMaterial> material{};  // of glTF: that of most triangles
 };
 
 // The triangles of a file, in its order and its axes, m; vertices at the same place are one. Nothing else is

@@ -1,79 +1,23 @@
 // glTF 2.0 (.gltf, .glb): tinygltf reads JSON and buffers, everything after that is checked here. Positions
-// go through the node tree; looks, animations and images are passed over.
+// go through the node tree; animations and images are passed over, and of looks one material is taken.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include "models/mesh_files/gltf_folder.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/schema/wording.h"
 
 namespace enc::models {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::uintmax_t kMostBuffers = (std::uintmax_t{1} << 31) - 1;  // of all buffer files
-
-// What tinygltf may read: regular files in the mesh's own folder. Images are never read.
-struct Folder {
-  fs::path root;            // canonical
-  std::string refused;      // the first file that was asked for outside
-  std::uintmax_t read = 0;  // bytes; one file may be named any number of times
-
-  static bool is_image(const fs::path& path) {
-    static const std::vector<std::string> kEndings{".png", ".jpg",  ".jpeg", ".webp",
-                                                   ".ktx", ".ktx2", ".dds",  ".basis"};
-    return std::find(kEndings.begin(), kEndings.end(), path.extension().string()) != kEndings.end();
-  }
-  bool may_read(const std::string& asked) {
-    if (asked.starts_with("./")) return false;  // tinygltf then looks in the working directory, too
-    std::error_code failed;
-    const fs::path path = fs::weakly_canonical(asked, failed);
-    const fs::path inside = failed ? fs::path("..") : path.lexically_relative(root);
-    const bool absolute = asked.starts_with(root.string() + "//");
-    if (absolute || inside.empty() || *inside.begin() == "..") {
-      if (refused.empty()) refused = asked;
-      return false;
-    }
-    return !is_image(path) && fs::is_regular_file(path, failed);
-  }
-  bool too_much() const { return read > kMostBuffers; }
-  bool may_read_whole(const std::string& asked) {
-    std::error_code failed;
-    if (too_much() || !may_read(asked)) return false;
-    const std::uintmax_t size = fs::file_size(asked, failed);
-    read += failed ? 0 : size;
-    return !failed && !too_much();
-  }
-};
-
-tinygltf::FsCallbacks callbacks(Folder& folder) {
-  tinygltf::FsCallbacks calls{};
-  calls.ExpandFilePath = [](const std::string& path, void*) { return path; };  // no ~, no $VARIABLE
-  calls.FileExists = [](const std::string& path, void* user) {
-    return static_cast<Folder*>(user)->may_read(path);
-  };
-  calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path,
-                           void* user) {
-    return static_cast<Folder*>(user)->may_read_whole(path) &&
-           tinygltf::ReadWholeFile(out, error, path, nullptr);
-  };
-  calls.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-  };
-  calls.user_data = &folder;
-  return calls;
-}
-
-bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-  return true;
-}
 
 // tinygltf's own words on one line, with the place where they tell one.
 [[noreturn]] void fail_parse(const MeshBytes& file, std::string_view json, bool binary, std::string words) {
@@ -103,7 +47,7 @@ class GltfReader {
   FileMesh read() {
     parse();
     walk();
-    return {std::move(mesh_), {}, std::move(notes_)};
+    return {std::move(mesh_), {}, std::move(notes_), material()};
   }
 
  private:
@@ -131,8 +75,8 @@ class GltfReader {
     if (const std::size_t rest = file_.bytes.size() - glb.length; rest > 0)
       notes_.push_back(rest_note(file_, rest, "the length in the header"));
     std::error_code none;
-    const fs::path parent = fs::path(file_.path).parent_path();
-    Folder folder{fs::canonical(parent.empty() ? "." : parent, none), {}};
+    const std::filesystem::path parent = std::filesystem::path(file_.path).parent_path();
+    GltfFolder folder{std::filesystem::canonical(parent.empty() ? "." : parent, none), {}};
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks(callbacks(folder));
     loader.SetImageLoader(no_image, nullptr);
@@ -292,8 +236,10 @@ class GltfReader {
       } else {
         for (std::size_t i = 0; i < count; ++i) corners.push_back(static_cast<std::int32_t>(i));
       }
+      const std::size_t before = mesh_.triangles.size();
       add_triangles(p.mode, corners, static_cast<std::int32_t>(first),
                     placed.topLeftCorner<3, 3>().determinant() < 0.0, index);
+      covered_[p.material] += mesh_.triangles.size() - before;
     }
   }
 
@@ -364,10 +310,33 @@ class GltfReader {
     }
   }
 
+  // The material of most triangles. A picture is no reason to refuse a mesh: what is none is passed over.
+  [[nodiscard]] std::optional<SurfaceMaterial> material() const {
+    const auto most = std::max_element(covered_.begin(), covered_.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most == covered_.end() || most->first < 0) return {};
+    if (static_cast<std::size_t>(most->first) >= model_.materials.size()) return {};
+    const tinygltf::PbrMetallicRoughness& pbr =
+        model_.materials[static_cast<std::size_t>(most->first)].pbrMetallicRoughness;
+    const std::vector<double>& colour = pbr.baseColorFactor;
+    if (colour.size() != 4) return {};
+    const auto share = [](double value) {  // NaN gives 0
+      return static_cast<float>(value > 0.0 ? std::min(value, 1.0) : 0.0);
+    };
+    SurfaceMaterial material;
+    for (std::size_t i = 0; i < 3; ++i)  // the file's are linear in light
+      material.colour[i] = std::pow(share(colour[i]), 1.0F / 2.2F);
+    material.opacity = share(colour[3]);
+    material.metallic = share(pbr.metallicFactor);
+    material.roughness = share(pbr.roughnessFactor);
+    return material;
+  }
+
   const MeshBytes& file_;
   bool binary_;
   tinygltf::Model model_;
-  std::size_t primitives_ = 0;  // of all nodes
+  std::map<int, std::size_t> covered_;  // triangles of each material; -1: none
+  std::size_t primitives_ = 0;          // of all nodes
   Mesh mesh_;
   std::vector<std::string> notes_;
 };

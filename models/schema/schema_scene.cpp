@@ -55,6 +55,10 @@ void describe(Visitor& v, ObjectSpec& o) {
   v.value({"limits_mm", "instead: of the first, second, ... contact; the last stays; unset: all alike",
            "[VHMR 4.3]", chosen, kPositive, optional},
           &o.limits);
+  choice(v,
+         {"material", "what pictures show; unnamed: as the mesh's file says, else by shape", "[VHMR 3.5]",
+          chosen},
+         o.material);
 }
 
 void describe(Visitor& v, ToolSpec& t) {

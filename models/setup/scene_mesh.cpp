@@ -77,6 +77,24 @@ std::string packed(const Mesh& mesh) {
   return bytes;
 }
 
+// All its numbers, as they are in memory.
+using PackedMaterial = std::array<float, 6>;
+std::string packed(const SurfaceMaterial& m) {
+  const PackedMaterial all{m.colour[0], m.colour[1], m.colour[2], m.metallic, m.roughness, m.opacity};
+  std::string bytes(sizeof(all), '\0');
+  std::memcpy(bytes.data(), all.data(), sizeof(all));
+  return bytes;
+}
+SurfaceMaterial material_of(const std::string& bytes, const std::string& name) {
+  PackedMaterial all{};
+  const auto damaged = [&] { throw Error(name + ": its material is damaged; record the run again"); };
+  if (bytes.size() != sizeof(all)) damaged();
+  std::memcpy(all.data(), bytes.data(), sizeof(all));
+  for (const float share : all)
+    if (!(share >= 0.0F && share <= 1.0F)) damaged();
+  return {{all[0], all[1], all[2]}, all[3], all[4], all[5]};
+}
+
 Mesh unpacked(const std::string& bytes, const std::string& name) {
   std::array<std::uint64_t, 2> counts{};
   const auto damaged = [&] { throw Error(name + ": this mesh is damaged; record the run again"); };
@@ -104,17 +122,22 @@ Mesh unpacked(const std::string& bytes, const std::string& name) {
 }  // namespace
 
 void fill_meshes(Setup& setup, const std::string& models_dir) {
-  std::map<std::string, std::shared_ptr<const Mesh>> loaded;  // each once, however many objects name it
+  struct Loaded {
+    std::shared_ptr<const Mesh> mesh;
+    std::optional<SurfaceMaterial> material;
+  };
+  std::map<std::string, Loaded> loaded;  // each once, however many objects name it
   for (ObjectSpec& object : setup.scene.objects) {
     if (object.shape != ShapeKind::mesh) continue;
     const std::string path = find_mesh(setup, object, fs::path(models_dir) / "meshes").string();
-    std::shared_ptr<const Mesh>& mesh = loaded[path];
-    if (!mesh) {
+    Loaded& file = loaded[path];
+    if (!file.mesh) {
       CheckedMesh checked = load_solid(path);
       setup.notes.insert(setup.notes.end(), checked.notes.begin(), checked.notes.end());
-      mesh = std::make_shared<const Mesh>(std::move(checked.mesh));
+      file = {std::make_shared<const Mesh>(std::move(checked.mesh)), checked.material};
     }
-    object.surface = mesh;
+    object.surface = file.mesh;
+    object.own_material = file.material;
     compare_hash(setup, object, path);
   }
 }
@@ -122,7 +145,10 @@ void fill_meshes(Setup& setup, const std::string& models_dir) {
 RecordTexts record_texts(const Setup& setup) {
   RecordTexts texts{{"resolved", resolved(setup)}};
   for (const ObjectSpec& object : setup.scene.objects)
-    if (object.surface) texts["mesh:" + object.mesh] = packed(*object.surface);
+    if (object.surface) {
+      texts["mesh:" + object.mesh] = packed(*object.surface);
+      if (object.own_material) texts["material:" + object.mesh] = packed(*object.own_material);
+    }
   return texts;
 }
 
@@ -140,6 +166,8 @@ Setup setup_of(const RecordTexts& texts, const std::string& record_path) {
     std::shared_ptr<const Mesh>& surface = loaded[object.mesh];
     if (!surface) surface = std::make_shared<const Mesh>(unpacked(mesh->second, name));
     object.surface = surface;
+    if (const auto material = texts.find("material:" + object.mesh); material != texts.end())
+      object.own_material = material_of(material->second, name);
     compare_hash(setup, object, name);
   }
   return setup;

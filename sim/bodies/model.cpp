@@ -226,6 +226,7 @@ void add_pictures(mjSpec* spec, const ModelParts& parts) {
     set4(geom->quat, Quat(X_WO.q()));  // `fromto`, where it is set, comes before it
     const bool real = parts.prepared.probe() && parts.prepared.probe()->object == static_cast<int>(i);
     if (real) geom->rgba[3] = 1.0F;
+    set_material(spec, geom, i, parts.scene.objects[i], real);
   }
   // A picture shows a belt on its rollers in place of the box that is touched (app/view/depict.cpp).
   if (parts.scene.prop && parts.scene.prop->kind == PropKind::drum)

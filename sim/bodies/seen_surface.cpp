@@ -1,7 +1,9 @@
 #include "sim/bodies/seen_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "core/dent/dent.h"
@@ -59,6 +61,30 @@ mjsGeom* add_seen(mjSpec* spec, std::size_t object, const std::vector<float>& ve
   return geom;
 }
 
+constexpr float kVirtual = 0.60F;  // opacity, most
+
+std::optional<SurfaceMaterial> material_of(const ObjectSpec& object) {
+  switch (object.material) {
+    case MaterialName::unnamed:
+      return object.own_material;
+    case MaterialName::felt:
+      return SurfaceMaterial{{0.78F, 0.90F, 0.20F}, 0.0F, 1.0F, 1.0F};
+    case MaterialName::rubber:
+      return SurfaceMaterial{{0.16F, 0.17F, 0.19F}, 0.0F, 0.75F, 1.0F};
+    case MaterialName::plastic:
+      return SurfaceMaterial{{0.80F, 0.14F, 0.12F}, 0.0F, 0.25F, 1.0F};
+    case MaterialName::wood:
+      return SurfaceMaterial{{0.62F, 0.42F, 0.24F}, 0.0F, 0.65F, 1.0F};
+    case MaterialName::steel:
+      return SurfaceMaterial{{0.66F, 0.68F, 0.71F}, 1.0F, 0.20F, 1.0F};
+    case MaterialName::brass:
+      return SurfaceMaterial{{0.80F, 0.63F, 0.26F}, 1.0F, 0.25F, 1.0F};
+    case MaterialName::glass:
+      return SurfaceMaterial{{0.70F, 0.86F, 0.88F}, 0.0F, 0.02F, 0.30F};
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string seen_name(std::size_t object) { return "seen_" + std::to_string(object); }
@@ -74,6 +100,22 @@ mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, doubl
   std::vector<int> triangles;
   for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
   return add_seen(spec, object, vertices, triangles);
+}
+
+void set_material(mjSpec* spec, mjsGeom* geom, std::size_t object, const ObjectSpec& is, bool real) {
+  const std::optional<SurfaceMaterial> of = material_of(is);
+  if (!of) return;
+  mjsMaterial* material = mjs_addMaterial(spec, nullptr);
+  const std::string name = seen_name(object);
+  if (mjs_setName(material->element, name.c_str()) != 0)
+    throw Error("two materials of the simulated world are called '" + name + "'");
+  const float gloss = 1.0F - of->roughness;
+  material->shininess = gloss;
+  material->specular = std::max(0.9F * gloss, 0.4F * of->metallic);
+  std::copy(of->colour.begin(), of->colour.end(), geom->rgba);
+  geom->rgba[3] = real ? of->opacity : std::min(of->opacity, kVirtual);
+  std::copy_n(geom->rgba, 4, material->rgba);
+  mjs_setString(geom->material, name.c_str());
 }
 
 void shift_seen(const mjModel* model, mjData* data, std::size_t object, const Vec<'W'>& shift) {

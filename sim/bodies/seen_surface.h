@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/world/object_spec.h"
 #include "core/world/scene.h"
 #include "sim/bodies/mujoco.h"
 
@@ -13,6 +14,9 @@ namespace enc::sim {
 mjsGeom* add_seen_ball(mjSpec* spec, std::size_t object, double radius);
 mjsGeom* add_seen_mesh(mjSpec* spec, std::size_t object, const Mesh& mesh, double scale);
 [[nodiscard]] std::string seen_name(std::size_t object);
+// Gives the object's geom, named already, the material that the object names or its mesh's file has. Without
+// one it keeps its colour. A virtual object stays translucent, so that the machine inside of it is seen.
+void set_material(mjSpec* spec, mjsGeom* geom, std::size_t object, const ObjectSpec& is, bool real);
 
 // In the picture alone, until the physics steps again.
 void shift_seen(const mjModel* model, mjData* data, std::size_t object, const Vec<'W'>& shift);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "core/error.h"
@@ -80,6 +81,11 @@ void add_extras(mjvScene& scene, const ViewRequest& request) {
     geom->size[2] *= 2.0F;  // an arrow is drawn half as long as mjv_connector makes it
     geom->emission = 0.4F;  // readable on its dark side too
     geom->castshadow = 0;
+  }
+  for (const ViewLabel& sign : request.signs) {
+    mjvGeom* geom = new_geom(scene, mjGEOM_LABEL, {0, 0, 0, 1});
+    for (int i = 0; i < 3; ++i) geom->pos[i] = static_cast<float>(sign.at.xyz[static_cast<std::size_t>(i)]);
+    std::strncpy(geom->label, sign.text.c_str(), sizeof(geom->label) - 1);
   }
   if (!request.floor.finite()) return;
   mjvGeom* table = new_geom(scene, mjGEOM_CYLINDER, {0.66F, 0.68F, 0.71F, 1});

@@ -17,7 +17,7 @@ inline constexpr double kBackdrop = 4.0;
 void aim(mjvScene& scene, const mjModel* model, const ViewRequest& request, bool shadows);
 // Adds a wall that fills the background.
 void add_backdrop(mjvScene& scene);
-// Adds rods, boxes, arrows and the floor.
+// Adds rods, boxes, arrows, signs and the floor.
 void add_extras(mjvScene& scene, const ViewRequest& request);
 
 }  // namespace enc::sim

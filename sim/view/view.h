@@ -69,6 +69,7 @@ struct ViewRequest {
   std::vector<ViewBox> boxes;
   std::vector<ViewArrow> arrows;
   std::vector<ViewLabel> labels;
+  std::vector<ViewLabel> signs;  // written at their places themselves
   std::string title;  // top left, one or more lines; may be empty
   // Dents a mesh of the picture's own copy of the model; gives its index, -1: none is dented.
   std::function<int(mjModel_*)> dent;

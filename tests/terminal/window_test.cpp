@@ -81,7 +81,7 @@ TEST_F(Window, TheMousePressesTheBallAndTheRecordReplays) {
 TEST_F(Window, PressesDragsChangesTheToolAndPressesAgain) {
   const std::string scene = tests::source_dir() + "/models/scenes/session.toml";
   const std::string press =
-      "xdotool key o; sleep 2; for i in $(seq 12); do xdotool key Down; sleep 0.1; done\n";
+      "xdotool key o; sleep 3; for i in $(seq 12); do xdotool key Down; sleep 0.15; done\n";
   const tests::Result r =
       on_screen("\"" + scene + "\" --record s.encrec",
                 press +

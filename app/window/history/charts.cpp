@@ -56,7 +56,10 @@ std::vector<sim::ViewChart> Charts::until(double end_time, std::optional<double>
   const auto each = static_cast<std::ptrdiff_t>(count / kPoints + 1);
   const auto read = std::min(from(samples_, end + static_cast<float>(cursor.value_or(0.0))), last - 1);
   const auto line = [&](const char* name, float ChartSample::*what, int decimals) {
-    sim::ViewLine drawn{fmt::format("{} {:.{}f}", name, (*read).*what, decimals), {}};
+    const float value = (*read).*what;
+    sim::ViewLine drawn{
+        std::isfinite(value) ? fmt::format("{} {:.{}f}", name, value, decimals) : fmt::format("{} -", name),
+        {}};
     for (auto i = first; last - i > 0; i += std::min(each, last - i)) {
       if (!std::isfinite((*i).*what)) continue;
       drawn.xy.push_back(i->t - end);

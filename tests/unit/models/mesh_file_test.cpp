@@ -228,6 +228,32 @@ TEST_F(MeshFiles, GltfTransformsGoThroughTheTree) {
   EXPECT_DOUBLE_EQ(volume(mirrored), 8.0 / 6.0);
 }
 
+TEST_F(MeshFiles, TheMaterialOfAGltfIsThatOfMostTriangles) {
+  const std::string data = gltf_bytes(1);
+  file("data.bin", data);
+  const auto with = [&](const std::string& materials, int index) {
+    std::string json = gltf_json(data.size(), 5121, true, "[{\"mesh\":0}]", "data.bin");
+    const std::string primitive = "\"indices\":";
+    json.replace(json.find(primitive), 0, "\"material\":" + std::to_string(index) + ",");
+    json.insert(json.rfind('}'), ",\"materials\":" + materials);
+    return load_faces(file("a.gltf", json)).material;
+  };
+  const std::string both =
+      "[{},{\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,0,0.25],\"metallicFactor\":0.5,"
+      "\"roughnessFactor\":0.75}}]";
+  const std::optional<SurfaceMaterial> second = with(both, 1);
+  ASSERT_TRUE(second);
+  EXPECT_FLOAT_EQ(second->colour[0], 1.0F);
+  EXPECT_NEAR(second->colour[1], 0.7297F, 1e-3F);  // the file's is linear in light
+  EXPECT_FLOAT_EQ(second->colour[2], 0.0F);
+  EXPECT_FLOAT_EQ(second->metallic, 0.5F);
+  EXPECT_FLOAT_EQ(second->roughness, 0.75F);
+  EXPECT_FLOAT_EQ(second->opacity, 0.25F);
+  EXPECT_FALSE(with(both, 7)) << "a picture is no reason to refuse a mesh";
+  EXPECT_FALSE(load_faces(file("b.gltf", gltf_json(data.size(), 5121, true, "[{\"mesh\":0}]", "data.bin")))
+                   .material);
+}
+
 TEST(MeshCheck, RepairsWithAWordWhatIsSafe) {
   Mesh inverted = tetrahedron();
   for (auto& t : inverted.triangles) std::swap(t[1], t[2]);
