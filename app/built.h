@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"
 #include "trial/assemble.h"
 

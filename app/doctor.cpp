@@ -10,8 +10,8 @@
 
 #include "app/modules/modules.h"
 #include "app/options.h"
+#include "core/base/error.h"
 #include "core/devices/roles.h"
-#include "core/error.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"

@@ -13,7 +13,7 @@
 #include "app/lack.h"
 #include "app/options.h"
 #include "app/process.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 #include "trial/assemble.h"

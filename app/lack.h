@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/counted.h"
 #include "core/record/record.h"
-#include "core/text/counted.h"
 
 namespace enc::app {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/schema/wording.h"
 #include "models/shapes/hare.h"

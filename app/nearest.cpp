@@ -7,8 +7,8 @@
 
 #include "app/built.h"
 #include "app/options.h"
-#include "core/error.h"
-#include "core/mesh/mesh_tree.h"
+#include "core/base/error.h"
+#include "core/shape/surface/mesh_tree.h"
 #include "models/csv_reader.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_places.h"

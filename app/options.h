@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/fit_options.h"
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "trial/bench_module.h"
 
 namespace enc::app {

@@ -7,8 +7,8 @@
 
 #include "app/options.h"
 #include "app/seen_again.h"
-#include "core/error.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
+#include "core/base/error.h"
 #include "trial/prepare.h"
 
 namespace enc::app {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"

@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::models {
 namespace {

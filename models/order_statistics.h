@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 

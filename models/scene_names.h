@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scene_spec.h"
+#include "core/spec/scene_spec.h"
 
 namespace enc::models {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/machine/arm_rig.h"
-#include "core/text/words.h"
+#include "core/base/words.h"
+#include "core/spec/arm_rig.h"
 
 namespace enc::sim {
 

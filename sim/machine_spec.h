@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/words.h"
 #include "core/machine/hexapod.h"
-#include "core/text/words.h"
 
 namespace enc::sim {
 

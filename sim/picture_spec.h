@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/text/words.h"
+#include "core/base/words.h"
 
 namespace enc::sim {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::sim {
 

@@ -2,7 +2,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/world.h"
 
 namespace enc::sim {

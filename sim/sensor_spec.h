@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/frames.h"
-#include "core/text/words.h"
+#include "core/base/frames.h"
+#include "core/base/words.h"
 #include "sim/picture_spec.h"
 
 namespace enc::sim {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "core/frames.h"
-#include "core/text/words.h"
+#include "core/base/frames.h"
+#include "core/base/words.h"
 
 namespace enc::sim {
 

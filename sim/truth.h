@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
+#include "core/base/time.h"
 #include "core/machine/arm.h"
-#include "core/time.h"
 
 namespace enc::sim {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/world/rig_spec.h"
+#include "core/spec/rig_spec.h"
 #include "sim/arm_spec.h"
 #include "sim/machine_spec.h"
 #include "sim/sensor_spec.h"

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/rotation.h"
-#include "core/track/markers.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/control/track/markers.h"
 #include "sim/bodies/model.h"
 
 namespace enc::sim {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rig.h"
+#include "core/devices/rig.h"
 #include "sim/bodies/arm_model.h"
 #include "sim/bodies/ball_contact.h"
 #include "sim/bodies/held_tool.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "sim/twin_spec.h"
 
 namespace enc::sim {

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/task/meet/arm_loop.h"
+#include "core/control/task/meet/arm_loop.h"
 #include "trial/certificates.h"
 #include "trial/limits.h"
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/devices/roles.h"
-#include "core/error.h"
-#include "core/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
 #include "trial/camera/vision.h"

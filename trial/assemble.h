@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/module.h"
-#include "core/rig.h"
+#include "core/devices/module.h"
+#include "core/devices/rig.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
 #include "trial/prepare.h"

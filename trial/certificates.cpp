@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/machine/steadiness.h"
+#include "core/control/scene/steadiness.h"
 #include "trial/assemble.h"
 
 namespace enc::trial {

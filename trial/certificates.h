@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/safety/certificate/certificate.h"
-#include "core/world/scene.h"
+#include "core/control/safety/certificate/certificate.h"
+#include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::trial {

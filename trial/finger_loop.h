@@ -1,8 +1,8 @@
 // The core alone under a finger that goes where it is told: no physics, no noise, an arm that stays at home.
 #pragma once
 
-#include "core/step.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
+#include "core/control/step.h"
 
 namespace enc::trial {
 

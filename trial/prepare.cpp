@@ -1,6 +1,6 @@
 #include "trial/prepare.h"
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/sizes/scene_sizes.h"
 
 namespace enc::trial {

@@ -1,7 +1,7 @@
 // What step() needs of a set-up: all that a command asks for that moves nothing.
 #pragma once
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::trial {

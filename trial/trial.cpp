@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/task/carry/travel.h"
-#include "core/task/measure/probe.h"
+#include "core/base/error.h"
+#include "core/control/task/carry/travel.h"
+#include "core/control/task/measure/probe.h"
 #include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "sim/clock.h"

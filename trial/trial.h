@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "core/devices/rig.h"
 #include "core/devices/stereo_camera.h"
 #include "core/record/record.h"
-#include "core/rig.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
 #include "trial/assemble.h"

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "core/control/step.h"
+#include "core/devices/rig.h"
 #include "core/devices/stereo_camera.h"
-#include "core/rig.h"
-#include "core/step.h"
 #include "sim/truth.h"
 #include "trial/assemble.h"
 #include "trial/gate.h"

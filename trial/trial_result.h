@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/devices/clock.h"
-#include "core/mode.h"
+#include "core/devices/mode.h"
 #include "trial/assemble.h"
 #include "trial/gate.h"
 #include "trial/trackers/frame_times.h"

@@ -1,6 +1,6 @@
 // `encounter calibrate IMAGES`: a stereo head out of a folder of pairs of a chessboard, or the colour of skin
 // out of hands. What the program finds in encounter_calibration.so.
-#include "core/module.h"
+#include "core/devices/module.h"
 
 #include <algorithm>
 #include <cctype>
@@ -16,7 +16,7 @@
 #include "app/calibration/calibration_module.h"
 #include "app/calibration/pair_study.h"
 #include "app/calibration/skin_study.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 #include "models/setup/stereo_file.h"

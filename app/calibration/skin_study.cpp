@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/modules/axes.h"
-#include "core/error.h"
-#include "core/text/counted.h"
-#include "core/units.h"
+#include "core/base/counted.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/vision/segmentation/kernels/arc.h"
 #include "hw_drivers/images/files/pair_list.h"
 #include "models/files.h"

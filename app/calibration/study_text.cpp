@@ -8,8 +8,8 @@
 
 #include "app/calibration/pair_study.h"
 #include "app/modules/axes.h"
-#include "core/rotation.h"
-#include "core/units.h"
+#include "core/base/rotation.h"
+#include "core/base/units.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {

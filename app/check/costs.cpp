@@ -10,7 +10,7 @@
 
 #include "app/modules/modules.h"
 #include "app/process.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
 #include "trial/trial.h"
 
 namespace enc::app {

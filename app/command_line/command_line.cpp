@@ -14,7 +14,7 @@
 #include "app/laboratory/laboratory.h"
 #include "app/options.h"
 #include "app/process.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "trial/provenance/provenance.h"
 

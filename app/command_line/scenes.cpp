@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/scene_names.h"
 #include "models/schema/printable.h"
 #include "models/setup/scene_file.h"

@@ -9,8 +9,8 @@
 
 #include "app/fit/commands.h"
 #include "app/modules/axes.h"
-#include "core/error.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
 #include "models/csv_reader.h"
 #include "models/fit/latency_fit.h"
 #include "models/fit/pivot/pivot_log.h"

@@ -9,8 +9,8 @@
 
 #include "app/fit/commands.h"
 #include "app/modules/axes.h"
-#include "core/error.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
 #include "models/fit/pivot/pivot_doubts.h"
 #include "models/fit/pivot/pivot_log.h"
 #include "models/schema/wording.h"

@@ -10,9 +10,9 @@
 
 #include "app/fit/commands.h"
 #include "app/modules/axes.h"
-#include "core/error.h"
-#include "core/rotation.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/base/units.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "trial/fit/point_study.h"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "app/fit/commands.h"
-#include "core/error.h"
-#include "core/world/scene.h"
+#include "core/base/error.h"
+#include "core/control/scene/scene.h"
 #include "models/csv_reader.h"
 #include "models/files.h"
 #include "models/fit/loop_fit.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/fit/commands.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/csv_reader.h"
 #include "models/fit/loop_csv.h"
 #include "models/order_statistics.h"

@@ -1,5 +1,5 @@
 // What the program finds in encounter_fit.so.
-#include "core/module.h"
+#include "core/devices/module.h"
 
 #include "app/fit/commands.h"
 #include "app/fit/fit_module.h"

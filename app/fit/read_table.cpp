@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "app/fit/commands.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/record/record.h"
 #include "models/csv_reader.h"
 #include "trial/measure/record_table.h"

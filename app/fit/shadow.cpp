@@ -11,7 +11,7 @@
 
 #include "app/fit/commands.h"
 #include "app/lack.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {

@@ -7,7 +7,7 @@
 #include "app/laboratory/laboratory.h"
 #include "app/laboratory/probe.h"
 #include "app/modules/modules.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "trial/operator/signals.h"

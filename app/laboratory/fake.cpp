@@ -12,7 +12,7 @@
 #include "app/laboratory/laboratory.h"
 #include "app/modules/modules.h"
 #include "app/process.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "trial/operator/signals.h"
 

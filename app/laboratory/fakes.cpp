@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "encounter_version.h"
 #include "models/schema/wording.h"
 #include "models/setup/driver_table.h"

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/sample.h"
+#include "core/base/error.h"
+#include "core/base/sample.h"
 
 namespace enc::app {
 namespace {

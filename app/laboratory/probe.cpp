@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/devices/roles.h"
-#include "core/error.h"
-#include "core/units.h"
 #include "trial/devices/device_log.h"
 
 namespace enc::app {

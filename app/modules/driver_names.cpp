@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/modules/modules.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "trial/assemble.h"
 

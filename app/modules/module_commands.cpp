@@ -9,7 +9,7 @@
 #include "app/fit/fit_module.h"
 #include "app/modules/modules.h"
 #include "app/options.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
 #include "trial/bench_module.h"

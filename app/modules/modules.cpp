@@ -11,7 +11,7 @@
 
 #include "app/modules/driver_names.h"
 #include "app/modules/module_file.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "encounter_version.h"
 #include "trial/assemble.h"
 
@@ -131,7 +131,8 @@ const ModuleInfo& load_module(const std::string& name) {
            fmt::format("has module interface {}, this program expects {}", info->interface, kModuleInterface),
            kRebuild);
   if (info->border != ENCOUNTER_BORDER)
-    refuse(file, "was built from other declarations than this program (core/module.h and what it includes)",
+    refuse(file,
+           "was built from other declarations than this program (core/devices/module.h and what it includes)",
            kRebuild);
   if (std::string_view(info->version) != ENCOUNTER_VERSION)
     refuse(file, fmt::format("is of version {}, this program is {}", info->version, ENCOUNTER_VERSION),

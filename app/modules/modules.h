@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/options.h"
-#include "core/module.h"
+#include "core/devices/module.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::app {

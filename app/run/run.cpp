@@ -19,7 +19,7 @@
 #include "app/run/run_window.h"
 #include "app/run/verdict.h"
 #include "app/stability_text.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "trial/operator/consent.h"
 #include "trial/operator/operator.h"

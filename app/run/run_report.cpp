@@ -11,7 +11,7 @@
 #include "app/run/percentiles.h"
 #include "app/run/press_text.h"
 #include "app/stability_text.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/text/counted.h"
+#include "core/base/counted.h"
 
 namespace enc::app {
 namespace {

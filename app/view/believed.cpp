@@ -1,6 +1,6 @@
 #include "app/view/believed.h"
 
-#include "core/task/push/moving.h"
+#include "core/control/world/moving.h"
 
 namespace enc::app {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
-#include "core/task/push/moving.h"
-#include "core/world/arm_shape.h"
+#include "core/control/world/moving.h"
+#include "core/machine/arm_shape.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/seen_surface.h"
 

@@ -6,7 +6,7 @@
 
 #include <sys/types.h>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 
 namespace enc::app {
 

@@ -14,7 +14,7 @@
 #include "app/view/film_file.h"
 #include "app/view/recorded/source.h"
 #include "app/view/view.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "sim/view/view.h"

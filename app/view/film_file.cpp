@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "app/view/encoder.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "models/files.h"
 
 namespace enc::app {

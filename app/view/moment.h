@@ -2,8 +2,8 @@
 // to tick refers to copies.
 #pragma once
 
+#include "core/control/step.h"
 #include "core/machine/hexapod.h"
-#include "core/step.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/truth.h"

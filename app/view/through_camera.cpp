@@ -12,7 +12,7 @@
 #include "app/modules/modules.h"
 #include "app/view/believed.h"
 #include "app/view/view.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/vision/vision_module.h"
 #include "models/files.h"
 #include "sim/view/view.h"

@@ -10,7 +10,7 @@
 #include "app/view/film.h"
 #include "app/view/film_file.h"
 #include "app/view/moment.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/scene_names.h"
 #include "models/schema/printable.h"

@@ -12,7 +12,7 @@
 #include "app/view/film.h"
 #include "app/view/recorded/source.h"
 #include "app/window/window.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "app/window/controls.h"
-#include "core/latest.h"
+#include "core/base/latest.h"
 #include "trial/trial_options.h"
 
 namespace enc::app {

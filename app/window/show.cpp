@@ -10,7 +10,7 @@
 
 #include "app/run/percentiles.h"
 #include "app/view/depict.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "trial/steered/faults.h"
 
 namespace enc::app {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/view/depict.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/scene_names.h"
 

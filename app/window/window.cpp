@@ -19,7 +19,7 @@
 #include "app/window/run_thread.h"
 #include "app/window/show.h"
 #include "app/window/start_page.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/scene_names.h"
 #include "sim/window/window.h"
 #include "trial/assemble.h"

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "benchmarks/kit/load_scene.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::bench::ablation {
 namespace {

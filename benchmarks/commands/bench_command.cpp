@@ -18,7 +18,7 @@
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/report/choice.h"
 #include "benchmarks/report/report.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
 #include "trial/operator/consent.h"

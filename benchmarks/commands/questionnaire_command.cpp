@@ -17,7 +17,7 @@
 #include "benchmarks/questionnaire/opinion.h"
 #include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/plot.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/csv_reader.h"
 #include "models/files.h"
 #include "models/schema/wording.h"

@@ -10,8 +10,8 @@
 
 #include "benchmarks/deformation/deformation_full.h"
 #include "benchmarks/kit/kit.h"
-#include "core/units.h"
-#include "core/world/scene.h"
+#include "core/base/units.h"
+#include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::bench::deformation {

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/parallel.h"
-#include "core/dent/dent.h"
-#include "core/error.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/shape/deformation/dent.h"
 
 namespace enc::bench::deformation {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "benchmarks/deformation/fig11_contour.h"
 #include "benchmarks/kit/bench.h"
-#include "core/world/surface.h"
+#include "core/shape/surface/surface.h"
 
 namespace enc::bench::deformation {
 

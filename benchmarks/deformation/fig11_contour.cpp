@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/report/reference.h"
-#include "core/error.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
 
 namespace enc::bench::deformation {
 namespace {

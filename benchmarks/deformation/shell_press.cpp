@@ -6,7 +6,7 @@
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::bench::deformation {
 namespace {

@@ -1,6 +1,6 @@
 // What the eye sees, measured: where the vertex under the tool goes, how much volume the dent takes, and how
 // long a mesh of 10,242 vertices takes, against a straight double loop with face-accumulated normals.
-#include "core/dent/dent.h"
+#include "core/shape/deformation/dent.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/kit.h"
-#include "core/units.h"
-#include "core/world/scene.h"
+#include "core/base/units.h"
+#include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"
 #include "models/shapes/shapes.h"
 

@@ -6,7 +6,7 @@
 
 #include "benchmarks/kit/force_precision.h"
 #include "benchmarks/kit/kit.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::encounter {

@@ -10,7 +10,7 @@
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/kit/statistics.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::bench::extremes {
 namespace {

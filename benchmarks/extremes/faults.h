@@ -9,9 +9,9 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/control/step.h"
+#include "core/devices/rig.h"
 #include "core/record/fields.h"
-#include "core/rig.h"
-#include "core/step.h"
 
 namespace enc::bench::extremes {
 

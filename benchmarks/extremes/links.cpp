@@ -8,7 +8,7 @@
 
 #include "benchmarks/extremes/case.h"
 #include "benchmarks/extremes/faults.h"
-#include "core/units.h"
+#include "core/base/units.h"
 
 namespace enc::bench::extremes {
 namespace {

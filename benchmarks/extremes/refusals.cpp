@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/extremes/case.h"
-#include "core/error.h"
-#include "core/mesh/mesh_tree.h"
+#include "core/base/error.h"
+#include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_file.h"
 

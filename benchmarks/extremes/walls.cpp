@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/extremes/case.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "trial/certificates.h"
 
 namespace enc::bench::extremes {

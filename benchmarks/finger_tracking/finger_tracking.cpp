@@ -9,8 +9,8 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/peers/peers.h"
 #include "benchmarks/staged/staged.h"
-#include "core/units.h"
-#include "core/vision/finger/finger_tracker.h"
+#include "core/base/units.h"
+#include "core/vision/finger_tracker.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::finger_tracking {

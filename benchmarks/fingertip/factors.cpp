@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/vision/finger/hand_scene.h"
+#include "core/vision/hand/hand_scene.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::fingertip::factors {

@@ -10,8 +10,8 @@
 #include "benchmarks/fingertip/outline.h"
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/staged/staged.h"
-#include "core/units.h"
-#include "core/vision/finger/finger_tracker.h"
+#include "core/base/units.h"
+#include "core/vision/finger_tracker.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::fingertip {

@@ -9,7 +9,7 @@
 
 #include "benchmarks/kit/child.h"
 #include "benchmarks/kit/kit.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::bench::footprint {
 namespace {

@@ -9,7 +9,7 @@
 #include "benchmarks/gravity/gravity.h"
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/peers/peers.h"
-#include "core/module.h"
+#include "core/devices/module.h"
 
 namespace enc::bench::gravity {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "benchmarks/kit/statistics.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/hand/user.h"
 #include "trial/prepare.h"
 #include "trial/trial.h"

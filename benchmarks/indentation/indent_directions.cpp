@@ -8,7 +8,7 @@
 
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/kit/parallel.h"
-#include "core/task/measure/probe.h"
+#include "core/control/task/measure/probe.h"
 #include "models/fit/loop_csv.h"
 #include "models/setup/directions.h"
 #include "sim/bodies/ball_plant.h"

@@ -8,7 +8,7 @@
 
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/kit/parallel.h"
-#include "core/track/minimum_jerk.h"
+#include "core/control/track/minimum_jerk.h"
 
 namespace enc::bench::indentation {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/parallel.h"
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
 #include "sim/random.h"
 #include "trial/measure/press_measure.h"
 

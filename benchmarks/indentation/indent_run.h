@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/response/response.h"
+#include "core/shape/response/response.h"
 #include "models/setup/scene_file.h"
 #include "trial/trial.h"
 

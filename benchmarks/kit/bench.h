@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/plot_data.h"
-#include "core/frames.h"
-#include "core/module.h"
+#include "core/base/frames.h"
+#include "core/devices/module.h"
 
 namespace enc::bench {
 

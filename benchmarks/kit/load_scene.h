@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmarks/kit/bench.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/setup/scene_file.h"
 #include "trial/assemble.h"
 

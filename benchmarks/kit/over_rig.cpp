@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "benchmarks/kit/load_scene.h"
-#include "core/error.h"
-#include "core/mode.h"
+#include "core/base/error.h"
+#include "core/devices/mode.h"
 #include "trial/operator/consent.h"
 
 namespace enc::bench {

@@ -12,7 +12,7 @@
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/kit/yardstick.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "trial/trial.h"
 
 namespace enc::bench {

@@ -10,7 +10,7 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/yardstick.h"
 #include "benchmarks/recording/scratch_file.h"
-#include "core/mesh/mesh_tree.h"
+#include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/shapes/shapes.h"

@@ -12,9 +12,9 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/yardstick.h"
 #include "benchmarks/peers/peers.h"
-#include "core/mesh/mesh_tree.h"
-#include "core/module.h"
-#include "core/units.h"
+#include "core/base/units.h"
+#include "core/devices/module.h"
+#include "core/shape/surface/mesh_tree.h"
 #include "models/shapes/shapes.h"
 
 namespace enc::bench::nearest {

@@ -8,7 +8,7 @@
 #include <embree3/rtcore.h>
 
 #include "benchmarks/peers/peers.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::bench {
 namespace {

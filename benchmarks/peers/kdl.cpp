@@ -5,7 +5,7 @@
 #include <kdl/chainjnttojacsolver.hpp>
 
 #include "benchmarks/peers/peers.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::bench {
 namespace {

@@ -1,5 +1,5 @@
 // The module's entry. Which peers it has was decided where it was built (CMakeLists.txt).
-#include "core/module.h"
+#include "core/devices/module.h"
 
 #include "benchmarks/peers/peers.h"
 

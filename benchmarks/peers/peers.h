@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/image.h"
 #include "core/machine/arm.h"
-#include "core/mesh/mesh.h"
-#include "core/vision/image.h"
+#include "core/shape/surface/mesh.h"
 
 namespace enc::bench {
 

@@ -10,7 +10,7 @@
 #include "benchmarks/kit/load_scene.h"
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/plane_button/plane_button.h"
-#include "core/task/meet/arm_scene.h"
+#include "core/control/scene/arm_scene.h"
 
 namespace enc::bench::plane_button {
 namespace {

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "benchmarks/questionnaire/answers.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/questionnaire/answers.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/wording.h"
 
 namespace enc::bench::questionnaire {

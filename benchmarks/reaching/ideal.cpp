@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/safety/braking.h"
-#include "core/track/minimum_jerk.h"
+#include "core/control/safety/braking.h"
+#include "core/control/track/minimum_jerk.h"
 
 namespace enc::bench::reaching {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "sim/twin_spec.h"
 
 namespace enc::bench::reaching {

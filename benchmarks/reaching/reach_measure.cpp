@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rotation.h"
-#include "core/task/walk.h"
+#include "core/base/rotation.h"
+#include "core/control/stages/walk.h"
 
 namespace enc::bench::reaching {
 namespace {

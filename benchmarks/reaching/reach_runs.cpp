@@ -7,7 +7,7 @@
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/reaching/reaching.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::bench::reaching {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "benchmarks/kit/parallel.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/random.h"
 
 namespace enc::bench::registration {

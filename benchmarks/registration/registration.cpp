@@ -9,7 +9,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/report/reference.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "trial/guided/driven_arm.h"
 
 namespace enc::bench::registration {

@@ -5,8 +5,8 @@
 
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/registration/registration.h"
-#include "core/text/counted.h"
-#include "core/units.h"
+#include "core/base/counted.h"
+#include "core/base/units.h"
 
 namespace enc::bench::registration {
 namespace {

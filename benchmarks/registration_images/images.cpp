@@ -4,7 +4,7 @@
 
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/staged/staged.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "trial/camera/vision.h"
 
 namespace enc::bench::registration_images {

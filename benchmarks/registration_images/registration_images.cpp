@@ -8,7 +8,7 @@
 #include "benchmarks/registration_images/images.h"
 #include "benchmarks/report/reference.h"
 #include "benchmarks/staged/staged.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "trial/guided/driven_arm.h"
 #include "trial/guided/registration_rig.h"
 

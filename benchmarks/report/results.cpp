@@ -9,7 +9,7 @@
 
 #include "benchmarks/report/plot.h"
 #include "benchmarks/report/report.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "sim/bodies/mujoco.h"
 #include "trial/provenance/provenance.h"

@@ -1,7 +1,7 @@
 // How well a response says what a ball does where the direction changes: both models, fitted to one full loop
 // alone, against the plant on minor loops; and what an admittance needs of them: no jump, no free energy,
 // little force for a tremor. Nothing here runs in a world: it is the model alone.
-#include "core/response/response.h"
+#include "core/shape/response/response.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "models/fit/loop_fit.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/ball_plant.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::segmentation {

@@ -7,7 +7,7 @@
 #include "benchmarks/segmentation/score.h"
 #include "benchmarks/segmentation/speed.h"
 #include "benchmarks/segmentation/thresholds.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "sim/camera/skin_tones.h"
 
 namespace enc::bench::segmentation {

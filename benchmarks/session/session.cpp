@@ -9,8 +9,8 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
-#include "core/mode.h"
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
+#include "core/devices/mode.h"
 
 namespace enc::bench::session {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/session/session.h"
-#include "core/units.h"
+#include "core/base/units.h"
 
 namespace enc::bench::session {
 namespace {

@@ -1,5 +1,5 @@
 // A device along one way in MuJoCo, with a computed wall of its own loop and delay line: the other side of
-// the certificate, assembled apart from it. Knows nothing of core/safety/certificate.
+// the certificate, assembled apart from it. Knows nothing of core/control/safety/certificate.
 #pragma once
 
 #include <cstdint>

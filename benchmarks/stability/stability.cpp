@@ -10,7 +10,7 @@
 
 #include "benchmarks/kit/yardstick.h"
 #include "benchmarks/stability/maps.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::bench::stability {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/stability/slide.h"
-#include "core/safety/certificate/certificate.h"
+#include "core/control/safety/certificate/certificate.h"
 
 namespace enc::bench::stability {
 

@@ -1,5 +1,5 @@
 // A machine that measures force: the stiffness of what it renders over dead time, period and grip. Foretold
-// by the large-signal loop of core/machine/steadiness.h, spot checks by the twin.
+// by the large-signal loop of core/control/scene/steadiness.h, spot checks by the twin.
 #include <algorithm>
 #include <cmath>
 
@@ -7,8 +7,8 @@
 
 #include "benchmarks/stability/maps.h"
 #include "benchmarks/stiffness/push_study.h"
-#include "core/machine/steadiness.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
+#include "core/control/scene/steadiness.h"
 
 namespace enc::bench::stability {
 namespace {

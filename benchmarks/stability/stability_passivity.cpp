@@ -9,7 +9,7 @@
 
 #include "benchmarks/kit/yardstick.h"
 #include "benchmarks/stability/stability.h"
-#include "core/safety/passivity/passivity.h"
+#include "core/control/safety/passivity/passivity.h"
 
 namespace enc::bench::stability {
 namespace {

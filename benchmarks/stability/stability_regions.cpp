@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/stability/stability.h"
-#include "core/units.h"
+#include "core/base/units.h"
 
 namespace enc::bench::stability {
 namespace {

@@ -10,7 +10,7 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/stability/stability.h"
 #include "benchmarks/stiffness/push_study.h"
-#include "core/task/render/render.h"
+#include "core/control/task/render/render.h"
 #include "trial/measure/passivity_measure.h"
 #include "trial/measure/press_measure.h"
 #include "trial/trial.h"

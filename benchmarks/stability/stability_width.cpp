@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/stability/maps.h"
-#include "core/machine/steadiness.h"
-#include "core/units.h"
+#include "core/base/units.h"
+#include "core/control/scene/steadiness.h"
 #include "models/setup/scene_file.h"
 #include "trial/certificates.h"
 #include "trial/prepare.h"
@@ -55,7 +55,7 @@ std::vector<Width> width_of_hexapod(const Bench& bench) {
            stiffest / kNewtonPerMillimetre, "row admittance", "with a hand"},
           {device, "with all limits, pushed in 2 s", "hexapod",
            loop.softest(15e-3, 30.0, Steadiness::kSlow) / kNewtonPerMillimetre,
-           stiffest / kNewtonPerMillimetre, "core/machine/steadiness.h", "with a hand, all limits"}};
+           stiffest / kNewtonPerMillimetre, "core/control/scene/steadiness.h", "with a hand, all limits"}};
 }
 
 std::vector<Width> published() {

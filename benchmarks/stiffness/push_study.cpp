@@ -8,7 +8,7 @@
 
 #include "benchmarks/kit/over_rig.h"
 #include "benchmarks/kit/parallel.h"
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
 
 namespace enc::bench::stiffness {
 namespace {

@@ -12,7 +12,7 @@
 #include "benchmarks/kit/work_precision.h"
 #include "benchmarks/report/reference.h"
 #include "benchmarks/stiffness/stiffness_beyond.h"
-#include "core/units.h"
+#include "core/base/units.h"
 
 namespace enc::bench::stiffness {
 namespace {

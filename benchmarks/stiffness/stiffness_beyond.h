@@ -1,5 +1,5 @@
-// Beyond the paper: how soft a wall the machine renders with the damper of core/machine/damping.h, and what
-// it costs.
+// Beyond the paper: how soft a wall the machine renders with the damper of
+// core/control/task/render/damping.h, and what it costs.
 #pragma once
 
 #include "benchmarks/kit/bench.h"

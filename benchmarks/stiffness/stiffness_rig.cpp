@@ -17,7 +17,7 @@
 #include "benchmarks/kit/over_rig.h"
 #include "benchmarks/report/reference.h"
 #include "benchmarks/stiffness/stiffness.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "trial/certificates.h"
 #include "trial/prepare.h"
 

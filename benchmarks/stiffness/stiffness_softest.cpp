@@ -1,4 +1,4 @@
-// How soft an object this machine holds still: what `check` says beforehand (core/machine/steadiness.h)
+// How soft an object this machine holds still: what `check` says beforehand (core/control/scene/steadiness.h)
 // against the twin, over hands, filters and machines.
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/stiffness/stiffness.h"
-#include "core/machine/steadiness.h"
+#include "core/control/scene/steadiness.h"
 
 namespace enc::bench::stiffness {
 namespace {

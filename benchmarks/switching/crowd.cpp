@@ -6,8 +6,8 @@
 #include <memory>
 #include <random>
 
-#include "core/mesh/mesh_tree.h"
-#include "core/rotation.h"
+#include "core/base/rotation.h"
+#include "core/shape/surface/mesh_tree.h"
 #include "models/shapes/shapes.h"
 
 namespace enc::bench::switching {

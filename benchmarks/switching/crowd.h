@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 
 namespace enc::bench::switching {
 

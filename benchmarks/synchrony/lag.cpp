@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::bench::synchrony {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "benchmarks/synchrony/lag.h"
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
 #include "trial/trial.h"
 
 namespace enc::bench::synchrony {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/synchrony/synchrony.h"
-#include "core/units.h"
+#include "core/base/units.h"
 
 namespace enc::bench::synchrony {
 namespace {

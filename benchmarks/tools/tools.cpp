@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
-#include "core/track/markers.h"
+#include "core/control/track/markers.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::bench::tools {

@@ -9,7 +9,7 @@
 #include "benchmarks/kit/parallel.h"
 #include "benchmarks/tracking/motion.h"
 #include "benchmarks/tracking/tracking_fit.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "models/setup/scene_file.h"
 #include "sim/plants/tracker_plant.h"
 #include "sim/random.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/track/minimum_jerk.h"
+#include "core/control/track/minimum_jerk.h"
 #include "sim/random.h"
 
 namespace enc::bench::tracking {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
 #include "sim/plants/tracker_plant.h"
 
 namespace enc::bench::tracking {

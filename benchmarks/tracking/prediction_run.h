@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmarks/tracking/motion.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::bench::tracking {

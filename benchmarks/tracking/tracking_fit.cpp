@@ -6,7 +6,7 @@
 #include <string>
 
 #include "benchmarks/kit/parallel.h"
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "sim/random.h"
 
 namespace enc::bench::tracking {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/frames.h"
-#include "core/units.h"
+#include "core/base/frames.h"
+#include "core/base/units.h"
 
 namespace enc::bench::tracking {
 namespace {

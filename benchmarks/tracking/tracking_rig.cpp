@@ -12,7 +12,7 @@
 #include "benchmarks/kit/over_rig.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_trial.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "trial/prepare.h"
 
 namespace enc::bench::tracking {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rotation.h"
-#include "core/world/arm_shape.h"
+#include "core/base/rotation.h"
+#include "core/machine/arm_shape.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/world.h"
 #include "trial/camera/arm_things.h"

@@ -13,7 +13,7 @@
 #include "benchmarks/tracking/tracking_trial.h"
 #include "benchmarks/wires/parts.h"
 #include "benchmarks/wires/wired_trial.h"
-#include "core/units.h"
+#include "core/base/units.h"
 #include "hw_drivers/wires/tight_times.h"
 
 namespace enc::bench::wires {

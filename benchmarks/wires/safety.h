@@ -8,7 +8,7 @@
 #include <string>
 
 #include "benchmarks/wires/wired_trial.h"
-#include "core/mode.h"
+#include "core/devices/mode.h"
 
 namespace enc::bench::wires {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "benchmarks/kit/parallel.h"
-#include "core/rotation.h"
+#include "core/base/rotation.h"
 
 namespace enc::bench::workspace {
 namespace {

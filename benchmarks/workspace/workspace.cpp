@@ -9,8 +9,8 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/workspace/reach_volume.h"
-#include "core/units.h"
-#include "core/world/press_check.h"
+#include "core/base/units.h"
+#include "core/control/scene/press_check.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::bench::workspace {

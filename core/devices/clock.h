@@ -2,7 +2,7 @@
 // cycle.
 #pragma once
 
-#include "core/time.h"
+#include "core/base/time.h"
 
 namespace enc {
 

@@ -2,9 +2,9 @@
 // [VHMR 3.5].
 #pragma once
 
+#include "core/base/sample.h"
 #include "core/devices/device.h"
-#include "core/sample.h"
-#include "core/view.h"
+#include "core/devices/view.h"
 
 namespace enc {
 

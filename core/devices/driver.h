@@ -11,9 +11,9 @@
 #include "core/devices/haptic_arm.h"
 #include "core/devices/manipulator.h"
 #include "core/devices/pose_tracker.h"
-#include "core/devices/settings.h"
 #include "core/devices/stereo_camera.h"
-#include "core/world/rig_spec.h"
+#include "core/spec/rig_spec.h"
+#include "core/spec/settings.h"
 
 namespace enc {
 

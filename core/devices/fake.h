@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/devices/driver.h"
-#include "core/rig.h"
+#include "core/devices/rig.h"
 
 namespace enc {
 

@@ -1,8 +1,8 @@
 // A six-axis force/torque sensor between the machine and its haptic-tip [VHMR 2].
 #pragma once
 
+#include "core/base/sample.h"
 #include "core/devices/device.h"
-#include "core/sample.h"
 
 namespace enc {
 

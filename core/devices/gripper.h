@@ -1,8 +1,8 @@
 // A gripper between force sensor and tip that clamps a tool [VHMR 4.1].
 #pragma once
 
+#include "core/base/sample.h"
 #include "core/devices/device.h"
-#include "core/sample.h"
 
 namespace enc {
 

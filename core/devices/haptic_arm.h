@@ -1,9 +1,9 @@
 // A force-controlled arm that carries a prop to where a finger will touch: the PHANToM [VisHap 2.3].
 #pragma once
 
+#include "core/base/sample.h"
 #include "core/devices/device.h"
-#include "core/machine/arm_rig.h"
-#include "core/sample.h"
+#include "core/spec/arm_rig.h"
 
 namespace enc {
 

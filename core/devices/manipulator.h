@@ -1,9 +1,9 @@
 // A position-controlled machine that carries the haptic-tip: the hexapod [VHMR 2].
 #pragma once
 
+#include "core/base/sample.h"
 #include "core/devices/device.h"
 #include "core/machine/reach.h"
-#include "core/sample.h"
 
 namespace enc {
 

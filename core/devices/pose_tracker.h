@@ -1,8 +1,8 @@
 // Any source of tool or fingertip poses: optical tracker, stereo vision, a script, a recording [VHMR 3.3].
 #pragma once
 
+#include "core/base/sample.h"
 #include "core/devices/device.h"
-#include "core/sample.h"
 
 namespace enc {
 

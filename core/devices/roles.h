@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/devices/driver.h"
-#include "core/rig.h"
-#include "core/world/scene_spec.h"
+#include "core/devices/rig.h"
+#include "core/spec/scene_spec.h"
 
 namespace enc {
 

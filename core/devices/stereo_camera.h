@@ -2,9 +2,9 @@
 // polls it: it belongs to the tracker that looks through it.
 #pragma once
 
+#include "core/base/image.h"
+#include "core/base/sample.h"
 #include "core/devices/device.h"
-#include "core/sample.h"
-#include "core/vision/image.h"
 
 namespace enc {
 

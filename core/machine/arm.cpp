@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/machine/chain.h"
 #include "core/machine/phantom.h"
 

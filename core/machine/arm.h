@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/text/words.h"
+#include "core/base/frames.h"
+#include "core/base/words.h"
 
 namespace enc {
 

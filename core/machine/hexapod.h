@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc {
 

@@ -2,7 +2,7 @@
 // law folds back smoothly as a winding warms up; so the force keeps its direction.
 #pragma once
 
-#include "core/machine/arm_rig.h"
+#include "core/spec/arm_rig.h"
 
 namespace enc {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc {
 

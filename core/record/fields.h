@@ -5,8 +5,8 @@
 
 #include <string_view>
 
-#include "core/fields.h"
-#include "core/step.h"
+#include "core/base/fields.h"
+#include "core/control/step.h"
 
 namespace enc {
 

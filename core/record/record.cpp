@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/record/frame.h"
 #include "core/record/ranges.h"
 

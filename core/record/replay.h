@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/control/scene/scene.h"
 #include "core/record/record.h"
-#include "core/world/scene.h"
 
 namespace enc {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 
 namespace enc {
 

@@ -7,10 +7,10 @@
 
 #include "core/devices/pose_tracker.h"
 #include "core/devices/stereo_camera.h"
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
+#include "core/spec/vision/vision_rig.h"
 #include "core/vision/augment/augmented_view.h"
 #include "core/vision/ball/ball_finder.h"
-#include "core/vision/rig/vision_rig.h"
 #include "core/vision/seen_painter.h"
 
 namespace enc {

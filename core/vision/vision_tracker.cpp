@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.h"
-#include "core/vision/rig/vision_check.h"
+#include "core/base/error.h"
+#include "core/spec/vision/vision_check.h"
 
 namespace enc {
 namespace {

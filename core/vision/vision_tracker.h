@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/devices/pose_tracker.h"
-#include "core/vision/finger/finger_tracker.h"
+#include "core/vision/finger_tracker.h"
 #include "core/vision/vision_module.h"
 
 namespace enc {

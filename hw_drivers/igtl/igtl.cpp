@@ -1,5 +1,5 @@
 // Tool data over OpenIGTLink (docs/guide/laboratory.md).
-#include "core/module.h"
+#include "core/devices/module.h"
 #include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/igtl/fake/tool_server.h"
 

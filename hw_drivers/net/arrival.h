@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/time.h"
+#include "core/base/time.h"
 
 namespace enc::net {
 

@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/frames.h"
-#include "core/time.h"
+#include "core/base/frames.h"
+#include "core/base/time.h"
 
 namespace enc::net {
 

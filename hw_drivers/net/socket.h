@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "core/time.h"
+#include "core/base/time.h"
 
 namespace enc::net {
 

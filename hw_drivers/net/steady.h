@@ -2,7 +2,7 @@
 // experiment time, which each read() and poll() is told.
 #pragma once
 
-#include "core/time.h"
+#include "core/base/time.h"
 
 namespace enc::net {
 

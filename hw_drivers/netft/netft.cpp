@@ -1,5 +1,5 @@
 // A force/torque sensor on an ATI Net Box, over UDP and HTTP (docs/guide/laboratory.md).
-#include "core/module.h"
+#include "core/devices/module.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/netft/fake/server.h"
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/error.h"  // for what a constructor throws
-#include "core/module.h"
+#include "core/base/error.h"  // for what a constructor throws
+#include "core/devices/module.h"
 
 namespace enc::sample {
 namespace {

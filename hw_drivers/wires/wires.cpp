@@ -5,7 +5,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "hw_drivers/igtl/drive/igtl_tracker.h"
 #include "hw_drivers/netft/drive/netft_sensor.h"
 #include "hw_drivers/wires/string_link.h"

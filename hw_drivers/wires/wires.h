@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "core/devices/settings.h"
-#include "core/rig.h"
-#include "core/world/rig_spec.h"
+#include "core/devices/rig.h"
+#include "core/spec/rig_spec.h"
+#include "core/spec/settings.h"
 #include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "hw_drivers/igtl/fake/tool_server.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 

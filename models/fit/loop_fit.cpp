@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/fit/block_error.h"
 #include "models/fit/loop/curve_errors.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "models/fit/loop_csv.h"
 
 namespace enc::models {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::models {
 namespace {

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/units.h"
 
 namespace enc::models {

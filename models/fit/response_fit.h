@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/machine/loop_model.h"
-#include "core/response/response.h"
+#include "core/shape/response/response.h"
 #include "models/least_squares.h"
 
 namespace enc::models {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/frames.h"
-#include "core/mesh/mesh_tree.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
+#include "core/base/error.h"
+#include "core/base/frames.h"
+#include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_edges.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/mesh_files/mesh_parts.h"

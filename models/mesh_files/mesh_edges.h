@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/mesh/mesh.h"
+#include "core/base/frames.h"
+#include "core/shape/surface/mesh.h"
 
 namespace enc::models {
 

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 

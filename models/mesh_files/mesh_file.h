@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/mesh/mesh.h"
-#include "core/world/surface_material.h"
+#include "core/shape/surface/mesh.h"
+#include "core/spec/surface_material.h"
 
 namespace enc::models {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 namespace {

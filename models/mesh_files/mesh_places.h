@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 

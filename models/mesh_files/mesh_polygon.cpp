@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "models/mesh_files/mesh_file.h"
 
 namespace enc::models {

@@ -3,8 +3,8 @@
 #include <array>
 #include <limits>
 
-#include "core/frames.h"
-#include "core/mesh/triangle.h"
+#include "core/base/frames.h"
+#include "core/shape/surface/triangle.h"
 #include "models/mesh_files/mesh_check.h"
 
 namespace enc::models {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/mesh/mesh.h"
+#include "core/shape/surface/mesh.h"
 #include "models/files.h"
 
 namespace enc::models {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/toml_writer.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"

@@ -12,9 +12,9 @@
 #include <variant>
 #include <vector>
 
-#include "core/text/words.h"
-#include "core/world/rig_spec.h"
-#include "core/world/scene_spec.h"
+#include "core/base/words.h"
+#include "core/spec/rig_spec.h"
+#include "core/spec/scene_spec.h"
 #include "models/setup/response_file.h"
 #include "sim/twin_spec.h"
 
@@ -47,7 +47,7 @@ struct Key {
   bool fixed = false;  // not for --set: names, formats and what is computed
 };
 
-// A word out of the list of an enum (core/text/words.h), as its index.
+// A word out of the list of an enum (core/base/words.h), as its index.
 struct Choice {
   Words words;
   std::uint8_t* index;

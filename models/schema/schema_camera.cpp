@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/rotation.h"
+#include "core/base/rotation.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/units.h"
 

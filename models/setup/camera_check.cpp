@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/vision/rig/vision_check.h"
+#include "core/base/error.h"
+#include "core/spec/vision/vision_check.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_check.h"
 #include "models/setup/stereo_file.h"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/error.h"
-#include "core/world/scene.h"
+#include "core/base/error.h"
+#include "core/control/scene/scene.h"
 #include "models/files.h"
 #include "models/least_squares.h"
 #include "models/schema/schema.h"

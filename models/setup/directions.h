@@ -3,8 +3,8 @@
 //
 // A push is two angles: where its normal is (location) and how it goes against that (slant). A response is
 // mixed of the measured ones with weights >= 0 whose sum is 1: those that come nearest to the two angles, and
-// of them the most even ones. Both laws of core/response/response.h are linear in their coefficients; no
-// slope of a mixture is below the least of its parts, press stays above release, no weight of a stop is
+// of them the most even ones. Both laws of core/shape/response/response.h are linear in their coefficients;
+// no slope of a mixture is below the least of its parts, press stays above release, no weight of a stop is
 // negative. So what is mixed of responses that are monotone and passive is that, too. Outside of what was
 // measured the nearest edge counts: nothing is extrapolated.
 #pragma once
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scene_spec.h"
+#include "core/spec/scene_spec.h"
 
 namespace enc::models {
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/devices/roles.h"
-#include "core/error.h"
 #include "models/schema/toml_writer.h"
 #include "models/schema/wording.h"
 

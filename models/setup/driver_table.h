@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/devices/settings.h"
+#include "core/spec/settings.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::models {

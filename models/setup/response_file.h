@@ -8,7 +8,7 @@
 //   N/mm^4 release_N_per_mm_k = [0.3, 0.2, 0.1, 0.01]
 //
 //   [stops]                                       # optional: reversal = "prandtl_ishlinskii"
-//   (core/response/response.h) curve_N = [1.2, 3.4, 0.5]                     # sum of c_k (d / limit)^k
+//   (core/shape/response/response.h) curve_N = [1.2, 3.4, 0.5]                     # sum of c_k (d / limit)^k
 //   radii_mm = [0.2, 0.5, 1] weights_N_per_mm = [1, 0.5, 0.2]              # at the limit; in proportion to
 //   the deflection before it
 #pragma once
@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/response/response.h"
+#include "core/shape/response/response.h"
 
 namespace enc::models {
 

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
+#include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/toml_reader.h"

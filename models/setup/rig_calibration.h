@@ -26,7 +26,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/world/rig_spec.h"
+#include "core/spec/rig_spec.h"
 
 namespace enc::models {
 

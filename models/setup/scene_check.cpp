@@ -10,12 +10,12 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/control/task/measure/probe.h"
+#include "core/control/track/markers.h"
+#include "core/control/world/contact_limits.h"
+#include "core/control/world/object.h"
 #include "core/devices/roles.h"
-#include "core/error.h"
-#include "core/task/measure/probe.h"
-#include "core/track/markers.h"
-#include "core/world/contact_limits.h"
-#include "core/world/object.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"

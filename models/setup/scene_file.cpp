@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/devices/roles.h"
-#include "core/error.h"
 #include "models/files.h"
 #include "models/scene_names.h"
 #include "models/schema/schema_walk.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/record/record.h"
-#include "core/world/rig_spec.h"
-#include "core/world/scene_spec.h"
+#include "core/spec/rig_spec.h"
+#include "core/spec/scene_spec.h"
 #include "models/schema/toml_reader.h"
 #include "models/setup/response_file.h"
 #include "sim/twin_spec.h"

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/rotation.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
+#include "core/base/rotation.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_check.h"
 

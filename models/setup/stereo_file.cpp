@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/rotation.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
 #include "models/files.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/toml_reader.h"

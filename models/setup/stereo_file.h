@@ -20,7 +20,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
 
 namespace enc::models {
 

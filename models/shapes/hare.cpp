@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 namespace {

@@ -2,7 +2,7 @@
 // use.
 #pragma once
 
-#include "core/mesh/mesh.h"
+#include "core/shape/surface/mesh.h"
 
 namespace enc::models {
 

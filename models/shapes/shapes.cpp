@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "core/frames.h"
-#include "core/mesh/mesh.h"
+#include "core/base/frames.h"
+#include "core/shape/surface/mesh.h"
 
 namespace enc::models {
 

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/track/markers.h"
-#include "core/world/object.h"
+#include "core/control/track/markers.h"
+#include "core/control/world/object.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_check.h"
 #include "models/sizes/mesh_size.h"

@@ -1,13 +1,13 @@
 // An arm and its prop as bodies of MuJoCo: exact lengths, masses and inertias, rotors as armature, friction
 // and limits. A PHANToM is a turret with two hinges: what its parallelogram carries is counted to those
-// (docs/reference/phantom_twin.md). How links and base look, core/world/arm_shape.h says.
+// (docs/reference/phantom_twin.md). How links and base look, core/machine/arm_shape.h says.
 #pragma once
 
 #include <array>
 #include <optional>
 
 #include "core/machine/arm.h"
-#include "core/world/scene_spec.h"
+#include "core/spec/scene_spec.h"
 #include "sim/arm_spec.h"
 #include "sim/bodies/mujoco.h"
 

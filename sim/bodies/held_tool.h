@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::sim {
 

@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/bodies/arm_model.h"
 #include "sim/bodies/legs.h"
 #include "sim/bodies/seen_surface.h"

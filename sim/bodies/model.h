@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/twin_spec.h"
 

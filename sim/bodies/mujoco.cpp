@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::sim {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::sim {
 

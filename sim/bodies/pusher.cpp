@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/track/minimum_jerk.h"
+#include "core/control/track/minimum_jerk.h"
 
 namespace enc::sim {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "sim/random.h"
 #include "sim/truth.h"
 #include "sim/twin_spec.h"

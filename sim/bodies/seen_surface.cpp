@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/dent/dent.h"
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/shape/deformation/dent.h"
 
 namespace enc::sim {
 namespace {

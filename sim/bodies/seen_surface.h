@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/world/object_spec.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
+#include "core/spec/object_spec.h"
 #include "sim/bodies/mujoco.h"
 
 namespace enc::sim {

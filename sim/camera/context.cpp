@@ -5,7 +5,7 @@
 
 #include <dlfcn.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/view/egl.h"
 
 namespace enc::sim {

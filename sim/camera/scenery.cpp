@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/camera/hand.h"
 #include "sim/camera/texture.h"
 

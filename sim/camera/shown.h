@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::sim {
 

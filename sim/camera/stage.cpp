@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/camera/context.h"
 #include "sim/camera/hand.h"
 #include "sim/camera/scenery.h"

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/frames.h"
+#include "core/base/image.h"
+#include "core/base/time.h"
 #include "core/devices/stereo_camera.h"
-#include "core/devices/stereo_rig.h"
-#include "core/frames.h"
-#include "core/time.h"
-#include "core/vision/image.h"
+#include "core/spec/vision/stereo_rig.h"
 #include "sim/camera/shown.h"
 #include "sim/picture_spec.h"
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/devices/stereo_rig.h"
-#include "core/frames.h"
-#include "core/vision/image.h"
+#include "core/base/frames.h"
+#include "core/base/image.h"
+#include "core/spec/vision/stereo_rig.h"
 
 namespace enc::sim {
 

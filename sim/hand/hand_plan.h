@@ -2,8 +2,8 @@
 // add up [Flash and Henis 1991; Milner 1992].
 #pragma once
 
-#include "core/frames.h"
-#include "core/track/minimum_jerk.h"
+#include "core/base/frames.h"
+#include "core/control/track/minimum_jerk.h"
 
 namespace enc::sim {
 

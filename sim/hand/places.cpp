@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/error.h"
-#include "core/world/press_check.h"
+#include "core/base/error.h"
+#include "core/control/scene/press_check.h"
 
 namespace enc::sim {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "sim/random.h"
 
 namespace enc::sim {

@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "sim/hand/hand_plan.h"
 #include "sim/hand/places.h"
 #include "sim/random.h"

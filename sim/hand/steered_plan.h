@@ -3,7 +3,7 @@
 // sideways.
 #pragma once
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "sim/hand/hand_plan.h"
 
 namespace enc::sim {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::sim {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "core/error.h"
-#include "core/rotation.h"
-#include "core/track/minimum_jerk.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/control/track/minimum_jerk.h"
 
 namespace enc::sim {
 namespace {

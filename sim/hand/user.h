@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "sim/hand/hand_plan.h"
 #include "sim/hand/session_plan.h"
 #include "sim/hand/steered_plan.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 
 namespace enc::sim {
 

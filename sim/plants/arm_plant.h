@@ -6,9 +6,9 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/sample.h"
 #include "core/devices/haptic_arm.h"
 #include "core/machine/motors.h"
-#include "core/sample.h"
 #include "sim/arm_spec.h"
 
 namespace enc::sim {

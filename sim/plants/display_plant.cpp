@@ -1,7 +1,7 @@
 #include "sim/plants/display_plant.h"
 
-#include "core/dent/dent.h"
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/shape/deformation/dent.h"
 
 namespace enc::sim {
 

@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "core/sample.h"
-#include "core/view.h"
-#include "core/world/scene.h"
+#include "core/base/sample.h"
+#include "core/control/scene/scene.h"
+#include "core/devices/view.h"
 #include "sim/random.h"
 #include "sim/twin_spec.h"
 

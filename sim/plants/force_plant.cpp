@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/rotation.h"
+#include "core/base/rotation.h"
 
 namespace enc::sim {
 namespace {

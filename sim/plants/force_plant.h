@@ -2,7 +2,7 @@
 // not show, zero error and drift, noise, steps and range. [VHMR 2, sources/force_sensor 1]
 #pragma once
 
-#include "core/sample.h"
+#include "core/base/sample.h"
 #include "sim/random.h"
 #include "sim/twin_spec.h"
 

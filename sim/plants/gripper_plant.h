@@ -3,7 +3,7 @@
 // body from the start: until the jaws are closed, somebody holds it there.
 #pragma once
 
-#include "core/sample.h"
+#include "core/base/sample.h"
 #include "sim/random.h"
 #include "sim/twin_spec.h"
 

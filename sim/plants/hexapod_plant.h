@@ -6,9 +6,9 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/sample.h"
 #include "core/machine/reach.h"
 #include "core/machine/servo.h"
-#include "core/sample.h"
 #include "sim/random.h"
 #include "sim/twin_spec.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "sim/random.h"
 #include "sim/sensor_spec.h"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
-#include "core/error.h"
-#include "core/rotation.h"
-#include "core/track/markers.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/control/track/markers.h"
 
 namespace enc::sim {
 namespace {

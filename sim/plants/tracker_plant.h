@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/sample.h"
-#include "core/time.h"
+#include "core/base/sample.h"
+#include "core/base/time.h"
 #include "sim/random.h"
 #include "sim/twin_spec.h"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::sim {
 namespace {

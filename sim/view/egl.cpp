@@ -9,7 +9,7 @@
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::sim {
 namespace {

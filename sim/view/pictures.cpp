@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "core/error.h"
-#include "core/module.h"
+#include "core/base/error.h"
+#include "core/devices/module.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/picture/picture.h"
 #include "sim/view/drawing.h"

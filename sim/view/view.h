@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/vision/image.h"
+#include "core/base/frames.h"
+#include "core/base/image.h"
 #include "sim/view/chart.h"
 
 struct mjModel_;

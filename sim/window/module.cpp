@@ -1,5 +1,5 @@
 // A GLFW window, drawn by MuJoCo's classic renderer without shadows.
-#include "core/module.h"
+#include "core/devices/module.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <X11/Xlib.h>
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/bodies/mujoco.h"
 #include "sim/picture/picture.h"
 #include "sim/view/painter.h"

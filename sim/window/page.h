@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 
 namespace enc::sim {
 

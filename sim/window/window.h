@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "sim/view/view.h"
 #include "sim/window/page.h"
 

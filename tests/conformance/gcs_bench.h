@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "core/latest.h"
+#include "core/base/latest.h"
 #include "hw_drivers/gcs/drive/gcs_manipulator.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "hw_drivers/net/steady.h"

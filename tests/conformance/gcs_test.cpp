@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/gcs/drive/net_link.h"
 #include "sim/plants/hexapod_plant.h"
 #include "tests/conformance/gcs_bench.h"

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/response/response.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
+#include "core/shape/response/response.h"
 #include "models/fit/loop_fit.h"
 #include "models/setup/response_file.h"
 #include "models/setup/scene_file.h"

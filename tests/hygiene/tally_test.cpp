@@ -11,7 +11,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/bodies/mujoco.h"
 #include "tests/hygiene/tick_run.h"
 

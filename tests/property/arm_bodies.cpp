@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/world/scene_spec.h"
+#include "core/spec/scene_spec.h"
 
 namespace enc::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/step.h"
+#include "core/control/step.h"
 #include "tests/property/pushed_machine.h"
 
 namespace enc {

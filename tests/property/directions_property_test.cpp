@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/response/response.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
+#include "core/shape/response/response.h"
 #include "models/fit/response_fit.h"
 #include "models/setup/directions.h"
 #include "models/setup/scene_file.h"

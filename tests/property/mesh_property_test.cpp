@@ -15,8 +15,8 @@
 #include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/mesh/mesh_tree.h"
+#include "core/base/error.h"
+#include "core/shape/surface/mesh_tree.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/shapes/shapes.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/track/predict.h"
+#include "core/control/track/predict.h"
 
 namespace enc {
 namespace {

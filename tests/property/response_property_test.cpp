@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/machine/loop_model.h"
-#include "core/response/response.h"
+#include "core/shape/response/response.h"
 #include "models/fit/loop_fit.h"
 #include "tests/support/plant_loop.h"
 
@@ -104,8 +104,8 @@ TEST_P(ResponseProperty, NoClosedPathYieldsEnergy) {
   RecordProperty("least_absorbed_nJ", std::to_string(least * 1e9));
 }
 
-// Storage as core/response/response.h states it, J. Its integrals of polynomials are done by Simpson's rule,
-// fine enough.
+// Storage as core/shape/response/response.h states it, J. Its integrals of polynomials are done by Simpson's
+// rule, fine enough.
 template <class F>
 double integral(const F& f, double from, double to, int steps = 40) {
   double sum = f(from) + f(to);

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/step.h"
+#include "core/control/step.h"
 #include "tests/property/pushed_machine.h"
 
 namespace enc {

@@ -10,8 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/dent/dent.h"
-#include "core/step.h"
+#include "core/control/step.h"
+#include "core/shape/deformation/dent.h"
 #include "tests/support/scenes.h"
 #include "tests/support/spoil.h"
 

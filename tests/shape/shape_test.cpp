@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "tests/support/built.h"
 
 namespace enc {
@@ -24,7 +24,7 @@ const fs::path kTop = tests::source_dir();
 const std::vector<std::string> kFolders{"core", "sim", "models", "trial", "hw_drivers", "benchmarks", "app"};
 
 struct Source {
-  std::string name;    // from the root, "core/step.cpp"
+  std::string name;    // from the root, "core/control/step.cpp"
   std::string folder;  // the first part of it
   std::vector<std::string> lines;
   std::vector<std::string> code;  // the same without comments and without what stands in quotes
@@ -131,14 +131,14 @@ TEST(Shape, TheTickAsksForNoTask) {
   static const std::regex kWords(
       R"(\b(Render|Meet|Push|Probe|Travel|render|impedance|probe|travel|has_\w+)\b)");
   for (const Source& source : sources())
-    if (source.name == "core/step.cpp") expect_no_word(source, kWords, "the tick knows no task by name");
+    if (source.name == "core/control/step.cpp") expect_no_word(source, kWords, "the tick knows no task");
 }
 
 // A task is a folder: it knows no other, but that a push is a meeting, too.
 TEST(Shape, TasksKnowNoOtherTask) {
   const auto task_of = [](const std::string& name) -> std::string {
-    if (!starts(name, "core/task/")) return "";
-    const std::string rest = name.substr(10);
+    if (!starts(name, "core/control/task/")) return "";
+    const std::string rest = name.substr(18);
     return rest.find('/') == std::string::npos ? "" : first_part(rest);
   };
   for (const Source& source : sources())
@@ -216,7 +216,8 @@ TEST(Shape, UnitFactorsStandInOneHeader) {
   static const std::regex kDefined(
       R"(\bk(Mm|Um|Ms|Us|Deg|Degs|Degrees?|Milli\w*|Micro\w*|Kilo\w*|Mega\w*|\w*Per(M|S|Rad|Mm|Ms|Milli\w*)) *= *(1e-?[36]|1000|1'000'000|180\.0 */|M_PI */|std::numbers::pi */))");
   for (const Source& source : sources_and_tests())
-    if (source.name != "core/units.h") expect_no_word(source, kDefined, "unit factors are in core/units.h");
+    if (source.name != "core/base/units.h")
+      expect_no_word(source, kDefined, "unit factors are in core/base/units.h");
 }
 
 TEST(Shape, WallTimeIsInItsPlaces) {
@@ -284,7 +285,7 @@ TEST(Shape, TheWordsOfAnEnumStandOnce) {
   for (const Source& source : sources()) {
     const std::string text = packed(source);
     for (std::sregex_iterator match(text.begin(), text.end(), kTable), end; match != end; ++match)
-      if (source.name != "core/text/words.h") {  // which has an example
+      if (source.name != "core/base/words.h") {  // which has an example
         EXPECT_TRUE(tables.emplace((*match)[1], source.name).second) << source.name << ": " << (*match)[1];
         EXPECT_TRUE(source.name.ends_with(".h")) << source.name << ": words stand beside their enum";
       }

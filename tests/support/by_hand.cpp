@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dent/dent.h"
+#include "core/shape/deformation/dent.h"
 
 namespace enc::test {
 

@@ -1,7 +1,7 @@
 // step() driven by hand: ways into each mode on a ball, and what holds on every tick.
 #pragma once
 
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
 #include "tests/support/scenes.h"
 
 namespace enc::test {

@@ -4,11 +4,11 @@
 
 #include <functional>
 
+#include "core/control/scene/scene.h"
+#include "core/control/step.h"
 #include "core/record/state_hash.h"
-#include "core/step.h"
-#include "core/world/rig_spec.h"
-#include "core/world/scene.h"
-#include "core/world/scene_spec.h"
+#include "core/spec/rig_spec.h"
+#include "core/spec/scene_spec.h"
 
 namespace enc::test {
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/frames.h"
-#include "core/sample.h"
-#include "core/time.h"
+#include "core/base/frames.h"
+#include "core/base/sample.h"
+#include "core/base/time.h"
 
 namespace enc::test {
 

@@ -19,7 +19,7 @@
 #include <pty.h>
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/record/record.h"
 #include "tests/conformance/laboratory.h"
 #include "tests/support/temporary_folder.h"

@@ -1,5 +1,5 @@
 // One thread writes and one reads, as fast as they can.
-#include "core/latest.h"
+#include "core/base/latest.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // An arm's parts as the twin's camera is shown them: grey and blue metal, nothing of the hue of skin.
 #pragma once
 
-#include "core/world/arm_shape.h"
+#include "core/machine/arm_shape.h"
 #include "sim/camera/shown.h"
 
 namespace enc::trial {

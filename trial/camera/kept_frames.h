@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/time.h"
 #include "core/devices/stereo_camera.h"
-#include "core/time.h"
 #include "core/vision/frame_files.h"
 #include "models/files.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/vision/vision_module.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/camera/stage.h"

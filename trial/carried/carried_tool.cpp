@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/control/carry.h"
+#include "core/control/track/minimum_jerk.h"
+#include "core/devices/mode.h"
 #include "core/machine/arm.h"
-#include "core/mode.h"
-#include "core/task/carry/carry.h"
-#include "core/track/minimum_jerk.h"
 
 namespace enc::trial {
 namespace {

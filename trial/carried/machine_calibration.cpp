@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/rotation.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/base/units.h"
 
 namespace enc::trial {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/devices/driver.h"
-#include "core/error.h"
 #include "models/setup/driver_table.h"
 #include "trial/assemble.h"
 #include "trial/prepare.h"

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/units.h"
+#include "core/base/units.h"
 
 namespace enc::trial {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/order_statistics.h"
 #include "sim/random.h"
 

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/mode.h"
-#include "core/task/meet/guide.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/control/guide.h"
+#include "core/devices/mode.h"
 
 namespace enc::trial {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::trial {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/control/scene/scene.h"
 #include "core/vision/vision_module.h"
-#include "core/world/scene.h"
 #include "sim/camera/stage.h"
 #include "trial/camera/vision.h"
 

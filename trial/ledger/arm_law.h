@@ -13,7 +13,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/state.h"
+#include "core/control/task/state.h"
 #include "trial/trial.h"
 
 namespace enc::trial {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/task/meet/arm_loop.h"
+#include "core/control/task/meet/arm_loop.h"
 #include "sim/arm_spec.h"
 
 namespace enc::trial {
@@ -102,7 +102,7 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
   const Aim& aim = recall<Meeting>(*glance.state).aim;
   Vec3 change = (aim.velocity.e() - aim_.velocity.e()) / glance.scene.dt;
   // A target that has leapt is on its way from this tick on; one that hastens in a contact goes along
-  // sideways alone (core/task/meet/aim.cpp).
+  // sideways alone (core/control/task/meet/aim.cpp).
   const bool on_its_way = !(aim_.caught_up && aim.caught_up);
   now.law.on_its_way = on_its_way;
   if (!on_its_way && glance.out.mode == Mode::contact) change -= now.law.normal * now.law.normal.dot(change);

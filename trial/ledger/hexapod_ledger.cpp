@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/state.h"
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
+#include "core/control/task/state.h"
 
 namespace enc::trial {
 namespace {

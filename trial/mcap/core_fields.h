@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 #include "trial/mcap/record_fields.h"
 
 namespace enc::trial {

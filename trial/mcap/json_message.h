@@ -1,6 +1,6 @@
 // The fields of a message, named once: one visitor writes them as JSON, another (json_schema.h) the JSON
-// Schema of them, as core/fields.h does it for a record. A number that is not known is left out. It is not
-// null, because a schema could allow that only with a list of types, and viewers such as Foxglove refuse
+// Schema of them, as core/base/fields.h does it for a record. A number that is not known is left out. It is
+// not null, because a schema could allow that only with a list of types, and viewers such as Foxglove refuse
 // those.
 #pragma once
 

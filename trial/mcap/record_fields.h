@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/words.h"
 #include "core/record/record.h"
-#include "core/text/words.h"
 
 namespace enc::trial {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
 
 namespace enc::trial {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/step.h"
+#include "core/control/step.h"
 
 namespace enc::trial {
 

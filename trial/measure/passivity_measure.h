@@ -1,4 +1,4 @@
-// What the passivity controller saw and did, of each contact (core/safety/passivity).
+// What the passivity controller saw and did, of each contact (core/control/safety/passivity).
 #pragma once
 
 #include <algorithm>

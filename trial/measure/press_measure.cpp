@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/task/walk.h"
-#include "core/world/user_spec.h"
+#include "core/control/stages/walk.h"
+#include "core/spec/user_spec.h"
 #include "sim/plants/tracker_plant.h"
 
 namespace enc::trial {

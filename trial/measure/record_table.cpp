@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
+#include "core/base/units.h"
 #include "trial/trial.h"
 
 namespace enc::trial {

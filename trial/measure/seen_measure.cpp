@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/task/walk.h"
+#include "core/control/stages/walk.h"
 
 namespace enc::trial {
 namespace {

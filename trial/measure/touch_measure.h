@@ -3,12 +3,12 @@
 //
 // Whether machine and hand swing against each other while they touch: a limit cycle of the loop, not what the
 // hand does. Where the tip moves by itself force and depth change in opposite ways; where it gives in to a
-// push they change alike (core/machine/damping.h).
+// push they change alike (core/control/task/render/damping.h).
 #pragma once
 
 #include <vector>
 
-#include "core/machine/steadiness.h"
+#include "core/control/scene/steadiness.h"
 #include "trial/lists/room.h"
 #include "trial/measure/plan_measure.h"
 #include "trial/trial.h"

@@ -10,7 +10,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::trial {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/latest.h"
+#include "core/base/latest.h"
 #include "trial/operator/queue.h"
 #include "trial/trial_options.h"
 

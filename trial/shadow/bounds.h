@@ -3,7 +3,7 @@
 // What a certain record leaves is its interval; a bound that is smaller than that is no verdict.
 #pragma once
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::trial::bounds {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "trial/assemble.h"
 #include "trial/shadow/channels.h"
 

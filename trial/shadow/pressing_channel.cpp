@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/text/counted.h"
+#include "core/base/counted.h"
 #include "sim/world_spec.h"
 #include "trial/shadow/block_fit.h"
 #include "trial/shadow/bounds.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/text/counted.h"
+#include "core/base/counted.h"
 #include "trial/shadow/block_fit.h"
 #include "trial/shadow/bounds.h"
 #include "trial/shadow/channels.h"

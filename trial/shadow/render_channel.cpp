@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/step.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
+#include "core/control/step.h"
 #include "trial/shadow/block_fit.h"
 #include "trial/shadow/bounds.h"
 #include "trial/shadow/channels.h"

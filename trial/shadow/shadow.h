@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/words.h"
 #include "core/record/record.h"
-#include "core/text/words.h"
 #include "models/fit/block_error.h"
 #include "models/setup/scene_file.h"
 

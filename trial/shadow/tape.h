@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "core/control/scene/scene.h"
 #include "core/record/record.h"
-#include "core/world/scene.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::trial {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/text/counted.h"
+#include "core/base/counted.h"
 #include "models/fit/latency_fit.h"
 #include "models/order_statistics.h"
 #include "trial/shadow/block_fit.h"

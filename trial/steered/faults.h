@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/signals.h"
+#include "core/devices/signals.h"
 
 namespace enc::trial {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::trial {
 

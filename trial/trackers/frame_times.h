@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/sample.h"
+#include "core/base/sample.h"
 #include "trial/lists/room.h"
 
 namespace enc::trial {

@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/latest.h"
 #include "core/devices/pose_tracker.h"
-#include "core/latest.h"
 
 namespace enc::trial {
 

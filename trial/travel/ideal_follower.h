@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/safety/braking.h"
+#include "core/base/frames.h"
+#include "core/control/safety/braking.h"
 
 namespace enc::trial {
 

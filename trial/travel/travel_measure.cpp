@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/state.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
+#include "core/control/task/state.h"
 
 namespace enc::trial {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/step.h"
+#include "core/base/error.h"
+#include "core/control/step.h"
 #include "trial/assemble.h"
 
 namespace enc::app {

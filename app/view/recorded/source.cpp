@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/files.h"
 
 namespace enc::app {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <vector>
 
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/machine/arm_shape.h"
 #include "core/vision/augment/clean_background.h"
 #include "core/vision/augment/facets.h"
 #include "core/vision/augment/part_mask.h"
 #include "core/vision/segmentation/segmenter.h"
 #include "core/vision/stereo/rectify.h"
-#include "core/world/arm_shape.h"
 
 namespace enc {
 namespace {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <span>
 
-#include "core/devices/stereo_rig.h"
+#include "core/base/image.h"
+#include "core/control/world/object.h"
 #include "core/machine/arm.h"
-#include "core/vision/image.h"
-#include "core/vision/segmentation/segmentation_spec.h"
-#include "core/world/object.h"
+#include "core/spec/vision/segmentation_spec.h"
+#include "core/spec/vision/stereo_rig.h"
 
 namespace enc {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 
 namespace enc::augment {
 

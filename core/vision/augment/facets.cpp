@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/mesh/mesh_tree.h"
+#include "core/shape/surface/mesh_tree.h"
 #include "core/vision/stereo/triangulate.h"
 
 namespace enc::augment {

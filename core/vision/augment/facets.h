@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
+#include "core/shape/surface/surface.h"
 #include "core/vision/stereo/rectify.h"
-#include "core/world/surface.h"
 
 namespace enc::augment {
 

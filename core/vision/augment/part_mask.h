@@ -1,9 +1,9 @@
 // Where a part of the arm is in the rectified left image, as it is believed to stand.
 #pragma once
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
+#include "core/machine/arm_shape.h"
 #include "core/vision/stereo/rectify.h"
-#include "core/world/arm_shape.h"
 
 namespace enc::augment {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/words.h"
 #include "core/devices/stereo_camera.h"
-#include "core/text/words.h"
 #include "core/vision/ball/blob.h"
 #include "core/vision/ball/outline.h"
 #include "core/vision/stereo/triangulate.h"

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/vision/ball/ball_spec.h"
-#include "core/vision/image.h"
+#include "core/base/frames.h"
+#include "core/base/image.h"
+#include "core/spec/vision/ball_spec.h"
 
 namespace enc {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/vision/image.h"
+#include "core/base/frames.h"
+#include "core/base/image.h"
 
 namespace enc {
 

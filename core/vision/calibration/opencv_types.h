@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
 #include "core/vision/calibration/corners.h"
 
 namespace enc::calibration {

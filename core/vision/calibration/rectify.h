@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
 #include "core/vision/calibration/corners.h"
 
 namespace enc {

@@ -5,8 +5,8 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "core/error.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/vision/calibration/lens_solver.h"
 #include "core/vision/calibration/opencv_types.h"
 #include "core/vision/calibration/rectify.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
 #include "core/vision/calibration/corners.h"
 
 namespace enc {

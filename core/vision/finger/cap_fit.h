@@ -2,7 +2,7 @@
 // mask. The steps before find many candidates of equal score, most of them behind the cap.
 #pragma once
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "core/vision/stereo/grey.h"
 #include "core/vision/stereo/rectify.h"
 

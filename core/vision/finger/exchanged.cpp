@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/vision/rig/vision_check.h"
+#include "core/spec/vision/vision_check.h"
 
 namespace enc {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "core/frames.h"
-#include "core/time.h"
+#include "core/base/frames.h"
+#include "core/base/time.h"
 
 namespace enc {
 

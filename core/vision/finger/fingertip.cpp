@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/spec/vision/vision_check.h"
 #include "core/vision/finger/cap_fit.h"
-#include "core/vision/rig/vision_check.h"
 
 namespace enc {
 namespace {

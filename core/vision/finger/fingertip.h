@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/text/words.h"
-#include "core/vision/finger/finger_spec.h"
-#include "core/vision/image.h"
+#include "core/base/image.h"
+#include "core/base/words.h"
+#include "core/spec/vision/finger_spec.h"
 #include "core/vision/stereo/disparity_map.h"
 #include "core/vision/stereo/triangulate.h"
 

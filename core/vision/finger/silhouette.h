@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <span>
 
+#include "core/base/image.h"
 #include "core/vision/finger/fingertip.h"
-#include "core/vision/image.h"
 
 namespace enc {
 

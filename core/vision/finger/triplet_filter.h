@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "core/time.h"
-#include "core/vision/finger/finger_spec.h"
+#include "core/base/time.h"
+#include "core/spec/vision/finger_spec.h"
 #include "core/vision/stereo/triangulate.h"
 
 namespace enc {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "core/frames.h"
-#include "core/text/words.h"
+#include "core/base/frames.h"
+#include "core/base/words.h"
 #include "core/vision/hand/finger_form.h"
 
 namespace enc {

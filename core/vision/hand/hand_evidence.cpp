@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/vision/finger/hand_scene.h"
+#include "core/vision/hand/hand_scene.h"
 #include "core/vision/hand/median.h"
 
 namespace enc {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "core/vision/stereo/lens.h"
 
 namespace enc {

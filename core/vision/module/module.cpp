@@ -1,5 +1,5 @@
 // What the program finds in encounter_vision.so.
-#include "core/module.h"
+#include "core/devices/module.h"
 
 #include "core/vision/rectified_painter.h"
 #include "core/vision/vision_module.h"

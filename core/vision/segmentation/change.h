@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "core/vision/segmentation/grid.h"
 #include "core/vision/segmentation/hueless.h"
 #include "core/vision/segmentation/kernels/arc.h"

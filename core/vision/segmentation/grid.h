@@ -1,7 +1,7 @@
 // The one grid of tiles of an image, from its upper left; the last column and row may be narrower.
 #pragma once
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 
 namespace enc::segmentation {
 

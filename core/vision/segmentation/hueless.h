@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "core/vision/segmentation/kernels/kernels.h"
 
 namespace enc::segmentation {

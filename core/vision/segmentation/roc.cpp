@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc {
 

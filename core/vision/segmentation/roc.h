@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "core/vision/segmentation/segmenter.h"
 
 namespace enc {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "core/error.h"
-#include "core/vision/rig/vision_check.h"
+#include "core/base/error.h"
+#include "core/spec/vision/vision_check.h"
 #include "core/vision/segmentation/background.h"
 #include "core/vision/segmentation/change.h"
 #include "core/vision/segmentation/grid.h"

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "core/vision/image.h"
-#include "core/vision/segmentation/segmentation_spec.h"
+#include "core/base/image.h"
+#include "core/spec/vision/segmentation_spec.h"
 
 namespace enc {
 

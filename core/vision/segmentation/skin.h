@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
+#include "core/spec/vision/segmentation_spec.h"
 #include "core/vision/segmentation/kernels/hue.h"
-#include "core/vision/segmentation/segmentation_spec.h"
 
 namespace enc {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "core/vision/segmentation/grid.h"
 #include "core/vision/segmentation/kernels/kernels.h"
 

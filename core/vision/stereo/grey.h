@@ -1,7 +1,7 @@
 // Grey images for matching.
 #pragma once
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 
 namespace enc {
 

@@ -2,7 +2,7 @@
 // [calib3d, "Detailed Description"].
 #pragma once
 
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
 
 namespace enc {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/vision/rig/vision_check.h"
+#include "core/spec/vision/vision_check.h"
 
 namespace enc {
 namespace {

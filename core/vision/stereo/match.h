@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 
+#include "core/spec/vision/match_spec.h"
 #include "core/vision/stereo/grey.h"
 #include "core/vision/stereo/match_kernel.h"
-#include "core/vision/stereo/match_spec.h"
 #include "core/vision/stereo/rectify.h"
 
 namespace enc {

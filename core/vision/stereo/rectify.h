@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "core/vision/stereo/lens.h"
 
 namespace enc {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string_view>
 
-#include "core/sample.h"
+#include "core/base/sample.h"
 #include "hw_drivers/gcs/drive/settings.h"
 #include "hw_drivers/gcs/wire/answer.h"
 #include "hw_drivers/gcs/wire/coordinates.h"

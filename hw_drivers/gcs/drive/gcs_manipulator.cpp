@@ -9,7 +9,7 @@
 #include <pthread.h>
 #include <sched.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/error_text.h"
 

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/latest.h"
+#include "core/base/latest.h"
 #include "hw_drivers/gcs/drive/controlled.h"
 #include "hw_drivers/gcs/drive/conversation.h"
 #include "hw_drivers/gcs/wire/error_text.h"

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/devices/fake.h"
-#include "core/error.h"
 #include "hw_drivers/gcs/wire/answer.h"
 #include "hw_drivers/gcs/wire/command.h"
 #include "hw_drivers/gcs/wire/error_text.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/time.h"
+#include "core/base/time.h"
 
 namespace enc::gcs {
 

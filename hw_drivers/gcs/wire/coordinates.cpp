@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/units.h"
+#include "core/base/units.h"
 
 namespace enc::gcs {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::gcs {
 

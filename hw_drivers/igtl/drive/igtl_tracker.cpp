@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/devices/fake.h"
-#include "core/error.h"
 #include "hw_drivers/net/steady.h"
 
 namespace enc::igtl {

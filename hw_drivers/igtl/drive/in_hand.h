@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/time.h"
+#include "core/base/frames.h"
+#include "core/base/time.h"
 
 namespace enc::igtl {
 

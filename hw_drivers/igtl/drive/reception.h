@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/sample.h"
+#include "core/base/sample.h"
 #include "hw_drivers/igtl/drive/in_hand.h"
 #include "hw_drivers/igtl/drive/settings.h"
 #include "hw_drivers/igtl/wire/content.h"

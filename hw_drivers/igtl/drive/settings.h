@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/devices/settings.h"
+#include "core/spec/settings.h"
 
 namespace enc::igtl {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/igtl/drive/settings.h"
 #include "hw_drivers/net/big_endian.h"
 

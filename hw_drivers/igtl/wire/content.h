@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "hw_drivers/igtl/wire/message.h"
 
 namespace enc::igtl {

@@ -12,7 +12,7 @@
 #include <png.h>
 #include <turbojpeg.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace enc::images {
 namespace {

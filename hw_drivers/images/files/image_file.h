@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 
 namespace enc::images {
 

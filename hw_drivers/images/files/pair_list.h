@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/text/words.h"
+#include "core/base/words.h"
 #include "hw_drivers/images/files/image_file.h"
 #include "hw_drivers/images/files/pair_search.h"
 

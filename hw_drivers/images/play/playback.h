@@ -14,7 +14,7 @@
 #include <memory>
 #include <thread>
 
-#include "core/time.h"
+#include "core/base/time.h"
 #include "hw_drivers/images/play/frame_source.h"
 
 namespace enc::images {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/images/play/child.h"
 #include "hw_drivers/images/play/frame_source.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/frames.h"
-#include "core/time.h"
+#include "core/base/frames.h"
+#include "core/base/time.h"
 
 namespace enc::netft {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/time.h"
+#include "core/base/time.h"
 #include "hw_drivers/netft/drive/settings.h"
 #include "hw_drivers/netft/wire/configuration.h"
 

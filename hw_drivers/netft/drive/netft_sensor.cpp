@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/net/steady.h"
 #include "hw_drivers/netft/drive/inspect.h"
 

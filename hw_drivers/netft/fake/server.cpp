@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/netft/drive/settings.h"
 #include "hw_drivers/netft/wire/command.h"
 #include "hw_drivers/netft/wire/http.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "core/sample.h"
+#include "core/base/sample.h"
 
 namespace enc::netft {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/response/response.h"
+#include "core/shape/response/response.h"
 #include "models/fit/loop_csv.h"
 
 namespace enc::models {

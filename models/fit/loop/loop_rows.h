@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "models/fit/response_fit.h"
 
 namespace enc::models {

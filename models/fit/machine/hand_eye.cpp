@@ -8,7 +8,7 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/fit/machine/turn.h"
 
 namespace enc::models {

@@ -9,7 +9,7 @@
 
 #include <span>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "models/fit/machine/uncertain.h"
 
 namespace enc::models {

@@ -3,7 +3,7 @@
 
 #include <Eigen/SVD>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 
 namespace enc::models {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "models/fit/block_error.h"
 
 namespace enc::models {

@@ -11,7 +11,7 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/machine/arm.h"
 #include "models/fit/machine/turn.h"
 

@@ -10,8 +10,8 @@
 
 #include <span>
 
-#include "core/frames.h"
-#include "core/sample.h"
+#include "core/base/frames.h"
+#include "core/base/sample.h"
 #include "models/fit/machine/uncertain.h"
 
 namespace enc::models {

@@ -10,8 +10,8 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/text/counted.h"
+#include "core/base/counted.h"
+#include "core/base/error.h"
 #include "models/order_statistics.h"
 
 namespace enc::models {

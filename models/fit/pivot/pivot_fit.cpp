@@ -12,8 +12,8 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
 #include "models/fit/pivot/pivot_doubts.h"
 #include "models/order_statistics.h"
 

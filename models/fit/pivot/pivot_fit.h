@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/frames.h"
+#include "core/base/frames.h"
 #include "models/fit/block_error.h"
 
 namespace enc::models {

@@ -1,5 +1,5 @@
 // The module encounter_camera: the twin's stereo head. OpenGL is mapped by it alone.
-#include "core/module.h"
+#include "core/devices/module.h"
 
 #include "sim/camera/context.h"
 #include "sim/camera/stage.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/report/plot.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 

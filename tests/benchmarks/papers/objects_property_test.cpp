@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/switching/crowd.h"
-#include "core/world/object.h"
+#include "core/control/world/object.h"
 #include "tests/support/scenes.h"
 
 namespace enc {

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/registration/accuracy.h"
-#include "core/error.h"
-#include "core/rotation.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
 
 namespace enc::bench {
 namespace {

@@ -1,5 +1,5 @@
 // What of the machine is in the way of a tool, worked by hand; and where the tip gets.
-#include "core/world/press_check.h"
+#include "core/control/scene/press_check.h"
 
 #include <cmath>
 #include <string>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/workspace/reach_volume.h"
-#include "core/error.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
 #include "tests/support/scenes.h"
 
 namespace enc {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/synchrony/lag.h"
-#include "core/track/fuse.h"
-#include "core/units.h"
-#include "core/world/contact_limits.h"
+#include "core/base/units.h"
+#include "core/control/stages/fuse.h"
+#include "core/control/world/contact_limits.h"
 #include "sim/plants/display_plant.h"
 #include "tests/support/scenes.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/questionnaire/opinion.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/temporary_folder.h"

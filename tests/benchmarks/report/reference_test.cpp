@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/tracking/tracking_fit.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 
 namespace enc::bench {

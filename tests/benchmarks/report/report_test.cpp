@@ -12,7 +12,7 @@
 
 #include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/plot.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/temporary_folder.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/report.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 
 namespace enc::bench {

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/stiffness/push_study.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/net/socket.h"
 #include "hw_drivers/wires/free_ports.h"
 #include "hw_drivers/wires/tight_times.h"

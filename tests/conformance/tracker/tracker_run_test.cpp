@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/mode.h"
+#include "core/devices/mode.h"
 #include "tests/conformance/laboratory.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/gcs/drive/net_link.h"
 #include "hw_drivers/gcs/fake/server.h"
 #include "hw_drivers/igtl/drive/igtl_tracker.h"

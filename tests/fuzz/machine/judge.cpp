@@ -14,7 +14,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "tests/fuzz/machine/memory.h"
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/record/record.h"
 #include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"

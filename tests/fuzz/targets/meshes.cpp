@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.h"
-#include "core/mesh/mesh_tree.h"
-#include "core/mesh/triangle.h"
+#include "core/base/error.h"
+#include "core/shape/surface/mesh_tree.h"
+#include "core/shape/surface/triangle.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/mesh_files/mesh_write.h"

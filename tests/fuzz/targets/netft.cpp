@@ -1,6 +1,6 @@
 // The two ends of a Net F/T: what the driver takes from a box, and what the fake takes from anybody.
+#include "core/base/error.h"
 #include "core/devices/force_sensor.h"
-#include "core/error.h"
 #include "hw_drivers/netft/drive/inspect.h"
 #include "hw_drivers/netft/drive/session.h"
 #include "hw_drivers/netft/fake/box.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/setup/directions.h"
 #include "models/setup/driver_table.h"
 #include "models/setup/scene_file.h"

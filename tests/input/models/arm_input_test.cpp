@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/conformance/bench_world.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"

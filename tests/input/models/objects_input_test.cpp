@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/variable.h"

@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
 #include "tests/support/replaced.h"

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/setup/scene_file.h"
 #include "models/shapes/shapes.h"

@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/base/units.h"
 #include "core/machine/arm.h"
-#include "core/rotation.h"
-#include "core/units.h"
 #include "models/fit/machine/hand_eye.h"
 #include "models/fit/machine/turn.h"
 #include "models/fit/machine/weight_fit.h"

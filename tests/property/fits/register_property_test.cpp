@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rotation.h"
+#include "core/base/rotation.h"
 #include "models/fit/register.h"
 #include "sim/random.h"
 

@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
 
 namespace enc::test {
 

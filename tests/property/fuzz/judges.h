@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "core/step.h"
-#include "core/world/scene.h"
+#include "core/control/scene/scene.h"
+#include "core/control/step.h"
 
 namespace enc::test {
 

@@ -1,8 +1,8 @@
 // What a driver is offered where there is no rig file: every key of its table keeps its default.
 #pragma once
 
+#include "core/control/scene/scene.h"
 #include "core/devices/driver.h"
-#include "core/world/scene.h"
 
 namespace enc::test {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/rotation.h"
+#include "core/base/rotation.h"
 
 namespace enc::test {
 namespace {

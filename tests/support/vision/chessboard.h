@@ -2,7 +2,7 @@
 // looks.
 #pragma once
 
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
 #include "core/vision/calibration/corners.h"
 
 namespace enc::test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/devices/stereo_camera.h"
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
 #include "tests/support/vision/painted_hand.h"
 
 namespace enc::painted {

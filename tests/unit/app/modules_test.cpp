@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "app/modules/module_file.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "encounter_version.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
@@ -163,14 +163,14 @@ TEST_F(ModulesTest, TheBorderIsAHashOfTheDeclarationsThatCross) {
   }
   const std::string before = hash();
   EXPECT_THAT(before, HasSubstr("#define ENCOUNTER_BORDER 0x"));
-  edit("core/sample.h", "// N, N m.", "// newton");
+  edit("core/base/sample.h", "// N, N m.", "// newton");
   EXPECT_EQ(hash(), before);
-  edit("core/sample.h", "Vec<'F'> force;",
+  edit("core/base/sample.h", "Vec<'F'> force;",
        "Vec<'F'> pull;");  // far inside: module.h, rig.h, devices, sample.h
   const std::string other = hash();
   EXPECT_NE(other, before);
   const std::vector<std::array<const char*, 3>> contract{
-      {"core/devices/settings.h", "bool needed", "int needed"},
+      {"core/spec/settings.h", "bool needed", "int needed"},
       {"core/devices/driver.h", "Duration period;", "double period;"},
       {"core/devices/fake.h", "std::uint64_t seed", "std::int64_t seed"},
       {"core/devices/device.h", "bool linked()", "int linked()"},

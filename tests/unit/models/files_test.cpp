@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/temporary_folder.h"
 

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "core/error.h"
-#include "core/frames.h"
+#include "core/base/error.h"
+#include "core/base/frames.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_write.h"
 #include "tests/support/temporary_folder.h"

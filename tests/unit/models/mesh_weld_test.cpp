@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/frames.h"
+#include "core/base/error.h"
+#include "core/base/frames.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_file.h"
 #include "models/mesh_files/mesh_write.h"

@@ -10,9 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/rotation.h"
-#include "core/units.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/base/units.h"
 #include "models/fit/pivot/pivot_doubts.h"
 #include "models/fit/pivot/pivot_log.h"
 

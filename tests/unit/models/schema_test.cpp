@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/rotation.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
 #include "tests/support/replaced.h"
 #include "tests/support/temporary_folder.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/hand/session_plan.h"
 #include "tests/conformance/bench_world.h"
 #include "trial/trial.h"

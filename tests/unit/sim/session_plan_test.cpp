@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/world/press_check.h"
+#include "core/control/scene/press_check.h"
 #include "sim/hand/user.h"
 #include "tests/conformance/bench_world.h"
 #include "trial/trial.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/record/state_hash.h"
 #include "tests/conformance/bench_world.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "app/modules/modules.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 #include "trial/trial.h"
 

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/devices/roles.h"
-#include "core/error.h"
 #include "models/setup/driver_table.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/rotation.h"
+#include "core/base/rotation.h"
 #include "tests/input/app/calibrate/calibrate_files.h"
 #include "tests/support/replaced.h"
 

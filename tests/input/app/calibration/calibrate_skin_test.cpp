@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/vision/image.h"
+#include "core/base/image.h"
 #include "hw_drivers/images/files/image_file.h"
 #include "sim/picture/picture.h"
 #include "tests/support/built.h"

@@ -6,7 +6,7 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
-#include "core/units.h"
+#include "core/base/units.h"
 
 namespace enc {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/task/meet/impedance.h"
+#include "core/control/task/meet/impedance.h"
 #include "sim/plants/arm_plant.h"
 
 namespace enc {

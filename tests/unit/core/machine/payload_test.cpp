@@ -1,9 +1,9 @@
 // What the machine cannot carry is not rendered, and a hand that pushes harder finds it standing still.
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/mode.h"
-#include "core/world/scene.h"
+#include "core/base/error.h"
+#include "core/control/scene/scene.h"
+#include "core/devices/mode.h"
 #include "tests/support/scenes.h"
 
 namespace enc {

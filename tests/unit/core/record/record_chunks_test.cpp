@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/record/record.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/temporary_folder.h"

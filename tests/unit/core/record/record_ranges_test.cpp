@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/record/ranges.h"
 #include "core/record/record.h"
 #include "tests/support/temporary_folder.h"

@@ -11,7 +11,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/record/replay.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/scenes.h"

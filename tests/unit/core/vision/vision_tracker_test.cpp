@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/unit/core/vision/finger/drawn_hand.h"
 
 namespace enc {

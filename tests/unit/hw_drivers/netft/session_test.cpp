@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/netft/drive/inspect.h"
 #include "hw_drivers/netft/fake/box.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/rotation.h"
+#include "core/base/rotation.h"
 #include "core/vision/augment/part_mask.h"
 #include "sim/camera/stage.h"
 #include "trial/camera/arm_things.h"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/frames.h"
+#include "core/base/error.h"
+#include "core/base/frames.h"
 
 namespace enc::sim {
 namespace {

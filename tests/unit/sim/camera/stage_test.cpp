@@ -17,8 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/error.h"
-#include "core/vision/finger/finger_tracker.h"
+#include "core/base/error.h"
+#include "core/vision/finger_tracker.h"
 #include "core/vision/segmentation/skin.h"
 #include "sim/camera/context.h"
 #include "sim/camera/skin_tones.h"

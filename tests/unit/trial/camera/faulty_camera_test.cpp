@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/module.h"
+#include "core/devices/module.h"
 #include "core/vision/vision_module.h"
 #include "core/vision/vision_tracker.h"
 #include "sim/camera/twin_camera.h"

@@ -12,8 +12,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/rotation.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
 #include "models/fit/machine/turn.h"
 #include "tests/support/built.h"
 #include "trial/carried/machine_calibration.h"

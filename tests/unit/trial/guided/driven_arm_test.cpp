@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/task/meet/guide.h"
+#include "core/base/error.h"
+#include "core/control/guide.h"
 #include "tests/support/built.h"
 #include "trial/guided/registration_rig.h"
 #include "trial/trial.h"

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/task/meet/arm_scene.h"
+#include "core/base/error.h"
+#include "core/control/scene/arm_scene.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
 #include "tests/unit/trial/measure/controlled_replay.h"

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
 #include "tests/unit/trial/measure/controlled_replay.h"

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "app/check/advise.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
 #include "trial/trial.h"

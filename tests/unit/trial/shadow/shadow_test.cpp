@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/replaced.h"

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
+#include "core/machine/arm_shape.h"
 #include "core/vision/augment/part_mask.h"
 #include "core/vision/stereo/triangulate.h"
-#include "core/world/arm_shape.h"
 
 namespace enc {
 namespace {

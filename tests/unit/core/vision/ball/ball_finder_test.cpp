@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/vision/rig/vision_check.h"
+#include "core/base/error.h"
+#include "core/spec/vision/vision_check.h"
 #include "sim/camera/sensor.h"
 #include "sim/random.h"
 

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/rotation.h"
+#include "core/base/error.h"
+#include "core/base/rotation.h"
 #include "core/vision/calibration/rectify.h"
 #include "tests/support/vision/chessboard.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/devices/stereo_camera.h"
-#include "core/devices/stereo_rig.h"
+#include "core/spec/vision/stereo_rig.h"
 #include "core/vision/segmentation/segmenter.h"
 #include "core/vision/stereo/rectify.h"
 

@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "core/vision/segmentation/roc.h"
 
 namespace enc {

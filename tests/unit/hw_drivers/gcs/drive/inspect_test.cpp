@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/gcs/fake/controller.h"
 #include "tests/support/devices/following_machine.h"
 

@@ -9,7 +9,7 @@
 #include <png.h>
 #include <turbojpeg.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/picture/picture.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/picture/picture.h"
 #include "tests/support/temporary_folder.h"
 

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "sim/picture/picture.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "hw_drivers/images/play/frame_source.h"
 #include "tests/support/temporary_folder.h"
 

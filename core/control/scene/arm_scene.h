@@ -1,0 +1,15 @@
+// A scene with an arm made ready: the part of prepare() for machines that take a force and give a position.
+#pragma once
+
+#include "core/control/scene/scene.h"
+
+namespace enc {
+
+// Throws Error as prepare() does: an object out of reach or near a singular pose, gains that are negative or
+// under-damped, a role that is missing.
+[[nodiscard]] Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig);
+
+// Damping ratio of a tip of `mass` (kg) under f = K_p e + K_v de/dt.
+[[nodiscard]] double damping_ratio(const ArmRig& rig, double mass);
+
+}  // namespace enc

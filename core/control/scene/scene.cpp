@@ -1,0 +1,343 @@
+#include "core/control/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/base/error.h"
+#include "core/control/scene/arm_scene.h"
+#include "core/control/scene/press_check.h"
+#include "core/control/scene/room.h"
+#include "core/control/stages/walk.h"
+#include "core/machine/arm.h"
+
+namespace enc {
+namespace {
+
+Response response_of(const BehaviourSpec& behaviour, const ObjectSpec& object, double lowest_slope) {
+  try {
+    return {behaviour.curves, lowest_slope, behaviour.reversal};
+  } catch (const Error& e) {
+    throw Error("behaviour '" + behaviour.name + "' of object '" + object.name + "': " + e.what(),
+                "behaviour." + behaviour.name + (e.key() == "reversal" ? "." : ".curves.") + e.key());
+  }
+}
+
+double limit_of(const BehaviourSpec& behaviour, const ObjectSpec& object) {
+  const double curve = behaviour.curves.limit;
+  const double own = std::isnan(behaviour.limit) ? curve : behaviour.limit;
+  const double asked =
+      object.limits.empty() ? object.limit : *std::max_element(object.limits.begin(), object.limits.end());
+  const double limit = std::isnan(asked) ? own : asked;
+  if (check_limits(object, curve).fault != LimitFault::none || !(limit > 0.0) ||
+      limit > curve * (1.0 + 1e-12))
+    throw Error("the deflection limit lies between 0 and that of the response, for at most 16 contacts",
+                "object." + object.name + (object.limits.empty() ? ".limit" : ".limits"));
+  return std::min(limit, curve);
+}
+
+// The deflection, at most `wanted`, up to which the object pushes back with no more than `strength`: the
+// machine is not asked to hold more than it can.
+double carried(const Response& response, double wanted, double strength) {
+  if (response.press(wanted) <= strength) return wanted;
+  ResponseState state;
+  return response.deflection(state, strength, wanted);
+}
+
+Object make_object(const SceneSpec& scene, const ObjectSpec& spec, double lowest_slope, double strength) {
+  if (spec.behaviour.empty() && scene.probe && &spec == &probed_object(scene))
+    return {surface_of(spec), place_of(spec), {}, kUnset, kUnset, Tangential::stick, kUnset};
+  const BehaviourSpec& behaviour = behaviour_of(scene.behaviours, spec);
+  if (behaviour.tangential == Tangential::spring && !(behaviour.tangential_stiffness > 0.0))
+    throw Error("behaviour '" + behaviour.name + "': tangential = \"spring\" needs a tangential stiffness",
+                "object." + spec.name + ".behaviour");
+  if (behaviour.tangential == Tangential::spring && behaviour.tangential_stiffness < lowest_slope)
+    throw Error("behaviour '" + behaviour.name + "' gives sideways more than the loop renders stably",
+                "object." + spec.name + ".behaviour");
+  const auto too_shallow = [&](double limit) { return limit < scene.follow.inset; };
+  if (too_shallow(limit_of(behaviour, spec)) ||
+      std::any_of(spec.limits.begin(), spec.limits.end(), too_shallow))
+    throw Error("the tip waits deeper than the deflection limit of object '" + spec.name +
+                    "'; make the inset smaller",
+                "follow.inset");
+  const Response response = response_of(behaviour, spec, lowest_slope);
+  const double wanted = limit_of(behaviour, spec);
+  const double limit = carried(response, wanted, strength);
+  if (limit < scene.follow.inset)
+    throw Error("object '" + spec.name + "' is too hard: the machine could not carry the force at its inset",
+                "object." + spec.name + ".behaviour");
+  std::vector<double> limits = spec.limits;
+  for (double& one : limits) one = std::min(one, limit);
+  Object object{surface_of(spec),
+                place_of(spec),
+                response,
+                limit,
+                wanted,
+                behaviour.tangential,
+                behaviour.tangential_stiffness};
+  object.limits = ContactLimits(limits);
+  return object;
+}
+
+Tip<'T'> tip_of(const ToolSpec& tool) {
+  const double size = tool.tip_axis.norm();
+  if (tool.tip_shape != TipShape::sphere && !(std::abs(size - 1.0) <= 1e-3))
+    throw Error("the axis of a tip is a unit vector", "tool." + tool.name + ".tip_axis");
+  Tip<'T'> tip{Point<'T'>(tool.tip), tool.tip_radius, tool.tip_shape};
+  if (tool.tip_shape == TipShape::sphere) return tip;
+  tip.axis = Vec<'T'>(tool.tip_axis / size);
+  if (tool.tip_shape == TipShape::cone) tip.half_angle = tool.tip_half_angle;
+  if (tool.tip_shape == TipShape::edge) tip.length = tool.tip_edge;
+  return tip;
+}
+
+double length_of(const ToolSpec& tool) {
+  Vec3 middle = tool.markers.empty() ? tool.tip : Vec3::Zero();
+  for (const Vec3& marker : tool.markers) middle += marker / static_cast<double>(tool.markers.size());
+  return (middle - tool.tip).norm();
+}
+
+}  // namespace
+
+Tool made_tool(const ToolSpec& spec) { return {tip_of(spec), length_of(spec)}; }
+
+PushedPoint pushed_point(const SceneSpec& spec, const Scene& scene) {
+  const PusherSpec& pusher = *spec.pusher;
+  const std::size_t index = pressed_object(spec.objects, pusher.object, "pusher");
+  const Object& object = scene.objects[index];
+  if (pusher.depth > object.wanted * (1.0 + 1e-9))
+    throw Error("the push is deeper than the deflection limit of object '" + spec.objects[index].name +
+                    "'; lower it, or raise that limit",
+                "pusher.depth");
+  const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0));
+  ResponseState rest;
+  const double depth = object.response.deflection(rest, pusher.force, std::min(pusher.depth, object.limit));
+  return {{object.X_WO * near.point, object.X_WO * near.normal}, depth, object.response.press(depth)};
+}
+
+namespace {
+
+// What the user holds; null where there is nothing to hold.
+const Tool* used_tool(const SceneSpec& spec, const Scene& scene) {
+  if (scene.tools.empty()) return nullptr;
+  const auto named = std::find_if(spec.tools.begin(), spec.tools.end(),
+                                  [&](const ToolSpec& t) { return t.name == spec.user->tool; });
+  return &scene.tools[named == spec.tools.end() ? 0 : static_cast<std::size_t>(named - spec.tools.begin())];
+}
+
+// A user's press must be possible from the first touch to the limit; an object nobody is told to press must
+// be touchable somewhere.
+void check_reach(const SceneSpec& spec, const Scene& scene) {
+  const std::string advice =
+      "; the tip reaches +-50, +-50 and +-25 (x, y, z of W, in millimetres) around the origin, straight axes";
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.probe() != nullptr && scene.probe()->object == static_cast<std::int32_t>(i))
+      continue;  // it was looked at
+    const Object& object = scene.objects[i];
+    const Nearest near = object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.0));
+    const Point<'O'> top_O =
+        near.distance < 0 ? near.point : object.surface.nearest(object.X_OW * Point<'W'>(0, 0, 0.1)).point;
+    const Nearest top = object.surface.nearest(top_O);
+    if (!carried_to(scene, {object.X_WO * near.point, object.X_WO * near.normal}, 0.0) &&
+        !carried_to(scene, {object.X_WO * top.point, object.X_WO * top.normal}, 0.0))
+      throw Error("object '" + spec.objects[i].name + "' is outside the machine's reach" + advice,
+                  "object." + spec.objects[i].name + ".position");
+  }
+  if (spec.pusher) {
+    const PushedPoint pushed = pushed_point(spec, scene);
+    if (!carried_to(scene, pushed.at, 0.0) || !carried_to(scene, pushed.at, pushed.depth))
+      throw Error("the push ends where the machine does not reach" + advice, "pusher.depth");
+  }
+  if (!spec.user) return;
+  const PressPoint press = press_point(spec, *spec.user);
+  const double depth = scene.objects[pressed_object(spec.objects, spec.user->object, "user")].limit;
+  if (!carried_to(scene, press, 0.0) || !carried_to(scene, press, depth))
+    throw Error("the user presses where the machine does not reach" + advice, "user.polar");
+  const Tool* tool = used_tool(spec, scene);
+  if (tool == nullptr) return;
+  if (const Obstacle way = in_the_way(scene, press.normal, *tool); way != Obstacle::none)
+    throw Error("the user presses from where the machine carries its tip: its " +
+                    std::string(obstacle_name(way)) + " is in the tool's way; press at most " +
+                    std::to_string(std::lround(std::floor(steepest_press(scene, *tool) * 180.0 / M_PI))) +
+                    " degrees off straight down",
+                "user.polar");
+}
+
+}  // namespace
+
+Reach reach_of(const RigSpec& rig) {
+  const ManipulatorRig& m = rig.manipulator;
+  return {
+      m.speed,
+      m.acceleration,
+      Hexapod(m.geometry),
+      {m.stem_radius, m.stem_length, m.gripper_radius, m.geometry.tip_height, m.geometry.platform_radius}};
+}
+
+const ToolSpec* clamped_tool(const SceneSpec& spec) {
+  if (!spec.gripper) return nullptr;
+  if (spec.tools.empty()) throw Error("a gripper needs a tool to clamp", "gripper.tool");
+  if (spec.gripper->tool.empty()) return &spec.tools.front();
+  const auto named = std::find_if(spec.tools.begin(), spec.tools.end(),
+                                  [&](const ToolSpec& t) { return t.name == spec.gripper->tool; });
+  if (named == spec.tools.end())
+    throw Error("no tool '" + spec.gripper->tool + "' in the scene", "gripper.tool");
+  return &*named;
+}
+
+LoopModel loop_of(const RigSpec& rig) {
+  LoopModel loop;
+  loop.hand_stiffness = rig.contact.hand_stiffness;
+  loop.hand_damping = rig.contact.hand_damping;
+  loop.filter_hz = rig.force.filter;
+  loop.servo_hz = rig.manipulator.servo;
+  loop.servo_damping = rig.manipulator.servo_damping;
+  loop.delay = rig.manipulator.delay + 1.0 / rig.loop.rate;
+  return loop;
+}
+
+namespace {
+
+// How far along a ray a triangle is met; infinite if it is not [Moeller and Trumbore 1997]. A ray through an
+// edge must not slip through between two triangles, so they reach a little beyond it.
+double way_to(const Vec3& from, const Vec3& along, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  constexpr double kBeyond = 1e-9;
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 p = along.cross(ac);
+  const double size = ab.dot(p);
+  if (size == 0.0) return kNever;
+  const double u = (from - a).dot(p) / size;
+  const Vec3 q = (from - a).cross(ab);
+  const double v = along.dot(q) / size;
+  const double way = ac.dot(q) / size;
+  return u >= -kBeyond && v >= -kBeyond && u + v <= 1.0 + kBeyond && way >= 0.0 ? way : kNever;
+}
+
+// Where a line that comes from outside along -axis and passes through `through` first meets the mesh, in O;
+// and the normal of the face there.
+std::pair<Point<'O'>, Vec<'O'>> first_met(const Mesh& mesh, const Vec3& through, const Vec3& axis) {
+  const auto corner = [&](std::int32_t i) { return Vec3(mesh.vertices[static_cast<std::size_t>(i)].data()); };
+  double far = 0.0;
+  for (const auto& vertex : mesh.vertices) far = std::max(far, (Vec3(vertex.data()) - through).norm());
+  const Vec3 from = through + 1.1 * far * axis;
+  double nearest = std::numeric_limits<double>::infinity();
+  Vec3 normal = axis;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
+    const double way = way_to(from, -axis, a, b, c);
+    if (way >= nearest) continue;
+    nearest = way;
+    normal = (b - a).cross(c - a).normalized();
+  }
+  if (!std::isfinite(nearest))
+    throw Error("the line along which the user presses passes the mesh by; change polar, azimuth or offset",
+                "user.polar");
+  return {Point<'O'>(Vec3(from - nearest * axis)), Vec<'O'>(normal)};
+}
+
+}  // namespace
+
+PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
+  const ObjectSpec& object = spec.objects[pressed_object(spec.objects, user.object, "user")];
+  const Vec3 axis(std::sin(user.polar) * std::cos(user.azimuth),
+                  std::sin(user.polar) * std::sin(user.azimuth), std::cos(user.polar));
+  const Vec3 side = axis.unitOrthogonal();
+  const Pose<'W', 'O'> X_WO = place_of(object);
+  const Point<'W'> through(Vec3(object.position + user.offset * side));
+  if (object.shape == ShapeKind::mesh) {
+    const auto [point, normal] =
+        first_met(scaled_mesh(object), (X_WO.inverse() * through).e(), (X_WO.inverse() * Vec<'W'>(axis)).e());
+    return {X_WO * point, X_WO * normal};
+  }
+  const double out = object.shape == ShapeKind::sphere ? object.radius : 0.0;
+  const Nearest at = surface_of(object).nearest(X_WO.inverse() * (through + Vec<'W'>(Vec3(out * axis))));
+  return {X_WO * at.point, X_WO * at.normal};
+}
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+namespace {
+
+// The task that the scene file asks for; where it asks for none, something is rendered.
+template <class... Task>
+void choose(std::variant<Task...>& task, const SceneSpec& spec, const Scene& scene) {
+  const auto ask = [&]<class One>(std::type_identity<One>) {
+    if constexpr (requires { One::asked(spec, scene); })
+      if (auto made = One::asked(spec, scene)) task = std::move(*made);
+  };
+  (ask(std::type_identity<Task>{}), ...);
+}
+
+void check_passivity(const RigSpec& rig, const Scene& scene) {
+  const char* why = scene.render() == nullptr ? "the scene renders nothing"
+                    : scene.objects.empty()   ? "the scene has no object"
+                    : !scene.has_force        ? "the scene has no [force]"
+                                              : nullptr;
+  if (rig.admittance.passivity != PassivityForm::none && why != nullptr)
+    refuse_passivity(why, "rig.admittance.passivity");
+}
+
+}  // namespace
+
+Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
+  if (spec.arm) return prepare_arm(spec, rig);
+  Scene scene;
+  scene.reach = reach_of(rig);
+  scene.X_WR = Pose<'W', 'H'>::identity() * scene.reach.machine.zero().inverse();
+  scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
+  scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);
+  scene.X_GL = pose_of<'G', 'L'>(rig.frames.G_L);
+  scene.X_HF = pose_of<'H', 'F'>(rig.frames.H_F);
+  scene.follow = spec.follow;
+  scene.force = rig.force;
+  scene.tracker = rig.tracker;
+  scene.display = rig.display;
+  scene.contact = rig.contact;
+  scene.loop = rig.loop;
+  scene.tip_radius = spec.probe ? spec.probe->radius : rig.manipulator.tip_radius;
+  scene.dt = 1.0 / rig.loop.rate;
+  scene.servo = {2.0 * std::numbers::pi * rig.manipulator.servo, rig.manipulator.servo_damping,
+                 rig.manipulator.delay, scene.dt};
+  scene.filter_gain = 1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter * scene.dt);
+  if (rig.admittance.damping == Damping::observed)
+    std::get<Render>(scene.task)
+        .damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
+                         stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
+  std::get<Render>(scene.task).passivity = rig.admittance.passivity;
+  std::get<Render>(scene.task).hand_stiffness = rig.contact.hand_stiffness;
+  scene.has_manipulator = spec.manipulator.has_value();
+  scene.has_force = spec.force.has_value();
+  scene.has_tracker = spec.tracker.has_value();
+  scene.has_display = spec.display.has_value();
+  if (const ToolSpec* tool = clamped_tool(spec)) {
+    scene.clamped_tool = static_cast<std::int32_t>(tool - spec.tools.data());
+    scene.grip_force = rig.gripper.force;
+    scene.force.mass += tool->mass;  // it is behind the sensor, too
+  }
+  if (!scene.has_manipulator)
+    throw Error("a scene needs [manipulator]: something has to carry the surface", "manipulator");
+  scene.lowest_slope =
+      std::isnan(rig.contact.softest) ? lowest_stable_stiffness(loop_of(rig)) : rig.contact.softest;
+  scene.strength = rig.manipulator.payload - scene.force.mass * kStandardGravity;
+  if (!(scene.strength > 0.0))
+    throw Error("the machine does not even carry what is mounted on it (force.mass)",
+                "rig.manipulator.payload");
+  for (const ObjectSpec& object : spec.objects)
+    scene.objects.push_back(make_object(spec, object, scene.lowest_slope, scene.strength));
+  for (const ToolSpec& tool : spec.tools) scene.tools.push_back(made_tool(tool));
+  choose(scene.task, spec, scene);
+  check_passivity(rig, scene);
+  check_room(spec, scene);
+  check_reach(spec, scene);
+  return scene;
+}
+
+}  // namespace enc

@@ -1,0 +1,186 @@
+#include "core/control/stages/guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/control/safety/inside.h"
+
+namespace enc::stages {
+namespace {
+
+// The part of the way to the target that the machine can reach.
+Point<'R'> reachable(Walk& walk, const Point<'R'>& from, const Point<'R'>& to) {
+  const Quat q = walk.scene.X_WR.q().conjugate();
+  const auto ok = [&](const Point<'R'>& p) { return walk.scene.reach.contains(Pose<'R', 'H'>(q, p)); };
+  if (ok(to) || !ok(from)) return to;
+  walk.why |= kUnreachable;
+  double lo = 0.0;
+  double hi = 1.0;
+  for (int i = 0; i < 20; ++i) {
+    const double mid = 0.5 * (lo + hi);
+    (ok(from + mid * (to - from)) ? lo : hi) = mid;
+  }
+  return from + lo * (to - from);
+}
+
+// Speed and acceleration stay within the machine's limits. The way along the normal comes first and is
+// one-dimensional, so that the command can never overshoot the surface or the deflection limit, whatever the
+// target does; the sideways way gets the rest.
+Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& before) {
+  const double dt = walk.scene.dt;
+  const Reach& reach = walk.scene.reach;
+  const double most = reach.acceleration * dt;
+  const auto toward = [&](double distance) {
+    return std::min(
+        {approach_speed(distance, walls.share * reach.acceleration, dt), reach.speed, walls.speed});
+  };
+  const double along = walls.normal.dot(way);
+  const double v0 = walls.normal.dot(before);
+  const Vec3 side_before = before - v0 * walls.normal;
+  double wanted = std::copysign(toward(std::abs(along)), along);
+  // Beyond the surface the way leads back in.
+  const double outward = walls.out >= 0.0 ? toward(walls.out) : -toward(-walls.out);
+  wanted = std::clamp(wanted, std::min(outward, -toward(std::max(0.0, walls.in))), outward);
+  // Not faster than what the sideways way can make room for in this tick.
+  const double side_least = std::max(0.0, side_before.norm() - kSideShare * most);
+  const double room = std::sqrt(std::max(0.0, reach.speed * reach.speed - side_least * side_least));
+  const double v =
+      std::clamp(v0 + std::clamp(wanted - v0, -walls.share * most, walls.share * most), -room, room);
+
+  const Vec3 aside = way - along * walls.normal;
+  const double distance = aside.norm();
+  const double fastest = std::sqrt(std::max(0.0, reach.speed * reach.speed - v * v));
+  const double side_speed = std::min(approach_speed(distance, kSideShare * reach.acceleration, dt), fastest);
+  const Vec3 side_wanted = distance > 0.0 ? Vec3(aside * (side_speed / distance)) : Vec3(Vec3::Zero());
+  const double rest = std::sqrt(std::max(0.0, most * most - (v - v0) * (v - v0)));
+  Vec3 change = side_wanted - side_before;
+  if (change.norm() > rest * (1.0 + 1e-9) || std::abs(wanted - v) > 1e-9) walk.why |= kLimited;
+  if (change.norm() > rest) change *= rest / change.norm();
+  Vec3 side = side_before + change;
+  if (side.norm() > fastest) {
+    const Vec3 kept = side * (fastest / side.norm());
+    side = (kept - side_before).norm() <= rest * (1.0 + 1e-9) ? kept : slowed(side_before, rest);
+  }
+  return side + v * walls.normal;
+}
+
+// The walls know the side that is nearest; beside an edge there are others.
+Vec3 kept_inside(Walk& walk, State& state, const Commanded& now, const Walls& walls, const Vec3& wanted) {
+  if (std::isnan(walls.depth)) return wanted;
+  // Mostly there is room for the whole way that it takes to stop.
+  const double speed = wanted.norm();
+  const double way = speed * (walk.scene.dt + speed / (2.0 * walk.scene.reach.acceleration));
+  if (walls.depth - way >= least_depth(walk)) return wanted;
+  Inside inside(walk.scene, state.object, least_depth(walk), Vec<'W'>::zero(), state.hints.command);
+  const Vec3 kept = inside.velocity(brake_of(walk, now), walls.depth, wanted);
+  if (kept != wanted) walk.why |= kLimited;
+  return kept;
+}
+
+// Velocity of the next set-point, in W.
+Vec3 commanded(Walk& walk, State& state, const Commanded& now, const Walls& walls, const Vec3& before) {
+  const double dt = walk.scene.dt;
+  const double acceleration = walk.scene.reach.acceleration;
+  const Vec3 straight = slowed(before, acceleration * dt);
+  if ((walk.why & kNotFollowing) != 0 && walk.X_WH.valid())
+    // Back to where the machine is, or it would leap to the command as soon as it can.
+    return kept_inside(
+        walk, state, now, walls,
+        next_velocity(walk, walls, walk.X_WH.p() - (walk.scene.X_WR * now.command).e(), before));
+  if (holding(walk)) {
+    // Straight to a standstill, unless that would carry the tip out of the object; a tip that is outside is
+    // brought back in.
+    const bool safe = walls.out >= 0.0 &&
+                      walls.normal.dot(straight) <= approach_speed(walls.out, kAlongShare * acceleration, dt);
+    return safe ? straight
+                : kept_inside(walk, state, now, walls, next_velocity(walk, walls, Vec3::Zero(), before));
+  }
+  Point<'R'> target = walk.scene.X_WR.inverse() * walk.target;
+  if (!target.finite()) {
+    walk.why |= kNotFinite;
+    return straight;
+  }
+  target = reachable(walk, now.command, target);
+  return kept_inside(walk, state, now, walls,
+                     next_velocity(walk, walls, walk.scene.X_WR.q() * (target - now.command).e(), before));
+}
+
+// From base to platform, in R.
+Vec3 strut_of(const Hexapod& machine, const Point<'R'>& at, const Mat3& R, int leg) {
+  return at.e() + R * machine.platform_joint(leg) - machine.base_joint(leg);
+}
+
+// Legs have a shortest length, so the reach is not convex: a way of 3 mm between two points within it can
+// leave it by 8 um. Each leg is shortest where the way is at right angles to it.
+bool legs_reach_along(const Hexapod& machine, const Pose<'R', 'H'>& from, const Vec3& way) {
+  const double shortest = machine.zero_length() - machine.geometry().stroke;
+  const Mat3 R = from.q().toRotationMatrix();
+  for (int leg = 0; leg < 6; ++leg) {
+    const Vec3 strut = strut_of(machine, from.origin(), R, leg);
+    const double share = -strut.dot(way) / way.squaredNorm();
+    if (share > 0.0 && share < 1.0 && (strut + share * way).norm() < shortest) return false;
+  }
+  return true;
+}
+
+// Along the edge of the reach: without what shortens a leg that is shortest or lengthens one that is longest.
+// The way to a place within it may begin with one that leads out of it, as the reach is not convex and the
+// way along a normal comes first; who stops there stays there.
+Vec3 along_edge(const Hexapod& machine, const Pose<'R', 'H'>& at, Vec3 velocity, double braking_time) {
+  constexpr double kNear = 0.1e-3;  // m: more than a tick's way at the edge, where it is slow
+  const Mat3 R = at.q().toRotationMatrix();
+  const double stroke = machine.geometry().stroke;
+  for (int again = 0; again < 3; ++again) {  // what helps one leg may not help the one beside it
+    for (int leg = 0; leg < 6; ++leg) {
+      const Vec3 strut = strut_of(machine, at.origin(), R, leg);
+      const double out = strut.norm() - machine.zero_length(), along = strut.dot(velocity);
+      // Straight on at right angles to it a leg gets longer: by v^2 t / 2 of the way in the time t.
+      const double longer = velocity.squaredNorm() * braking_time;
+      if (out < kNear - stroke && along < 0.0) velocity -= strut * (along / strut.squaredNorm());
+      if (out > stroke - kNear && along > -longer)
+        velocity -= strut * ((along + longer) / strut.squaredNorm());
+    }
+  }
+  return velocity;
+}
+
+}  // namespace
+
+Brake brake_of(const Walk& walk, const Commanded& now) {
+  const Pose<'W', 'R'>& X_WR = walk.scene.X_WR;
+  const Reach& reach = walk.scene.reach;
+  return {X_WR * now.command, X_WR.q() * now.command_velocity.e(), reach.acceleration, reach.speed,
+          walk.scene.dt};
+}
+
+void limit_command(Walk& walk, State& state, Commanded& now, const Walls& walls) noexcept {
+  const double dt = walk.scene.dt;
+  const double acceleration = walk.scene.reach.acceleration;
+  const Quat q_WR = walk.scene.X_WR.q();
+  const Quat q_RH = q_WR.conjugate();
+  const Vec3 before = now.command_velocity.e();
+  Vec3 after = q_RH * commanded(walk, state, now, walls, q_WR * before);
+  // Where the machine would come to rest if it braked from the next tick on: that must be within reach, and
+  // the way there, too.
+  const Reach& reach = walk.scene.reach;
+  const Pose<'R', 'H'> from(q_RH, now.command);
+  const auto safe = [&](const Vec3& velocity) {
+    const Vec3 way = braking_way(velocity, acceleration, dt);
+    return reach.contains(Pose<'R', 'H'>(q_RH, now.command + Vec<'R'>(way))) &&
+           legs_reach_along(reach.machine, from, way);
+  };
+  if (!safe(after) && reach.contains(from)) {
+    walk.why |= kUnreachable;
+    // It does not go along the edge where it shall stand. Inside of an object it stays inside on that way.
+    const bool goes = !holding(walk);
+    const double braking_time = dt + after.norm() / (2.0 * acceleration);
+    Vec3 aside = goes ? along_edge(reach.machine, from, after, braking_time) : before;
+    if (goes) aside = q_RH * kept_inside(walk, state, now, walls, q_WR * aside);
+    const bool can = goes && (aside - before).norm() <= acceleration * dt * (1.0 + 1e-9) && safe(aside);
+    after = can ? aside : slowed(before, acceleration * dt);
+  }
+  now.command_velocity = Vec<'R'>(after);
+  now.command = Point<'R'>(Vec3(now.command.e() + dt * after));
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,178 @@
+// The surface point nearest to the tool, its outward normal (the N frame) and the gap [VHMR 3.3].
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "core/control/stages/walk.h"
+
+namespace enc::stages {
+
+NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept {
+  const Nearest found = object.surface.nearest(object.X_OW * p);
+  return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
+}
+
+NearestInWorld nearest(const Scene& scene, std::int32_t index, const Point<'W'>& p,
+                       ObjectHint& hint) noexcept {
+  const Object& object = scene.objects[static_cast<std::size_t>(index)];
+  const Nearest found = object.surface.nearest(object.X_OW * p, hint.object == index ? hint.feature : -1);
+  hint = {index, found.feature};
+  return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
+}
+
+namespace {
+
+// What is asked of the objects in this tick: of the finger or the tool, or of the tip.
+struct Query {
+  const Scene& scene;
+  std::span<const Moved> moved;
+  Point<'W'> p;
+  double radius = 0.0;         // of what asks, m
+  bool touched_first = false;  // what is touched comes before all that is not
+};
+
+// The surface where it stands now.
+NearestInWorld nearest(const Query& query, std::int32_t index, ObjectHint& hint) noexcept {
+  const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
+  if (object.moving < 0) return stages::nearest(query.scene, index, query.p, hint);
+  const Vec<'W'> shift = shift_of(object, query.moved);
+  NearestInWorld found = stages::nearest(query.scene, index, query.p - shift, hint);
+  found.point = found.point + shift;
+  return found;
+}
+
+double least_distance(const Query& query, const Object& object) {
+  return object.least_distance(object.moving < 0 ? query.p : query.p - shift_of(object, query.moved));
+}
+
+struct Candidate {
+  NearestInWorld at;
+  double score = std::numeric_limits<double>::infinity();
+  ObjectHint hint;
+};
+
+bool is_button(const Query& query, std::int32_t index) {
+  const Surface& surface = query.scene.objects[static_cast<std::size_t>(index)].surface;
+  return std::holds_alternative<Button>(surface.shape());
+}
+// A button is touched on its face alone: beside it the gap is the way to its edge.
+bool beside(const Query& query, const ObjectHint& at) {
+  return at.feature == kButtonSide && is_button(query, at.object);
+}
+
+// The less, the sooner an object is taken. Another one must be nearer than that of last time by
+// follow.hysteresis, so that a tool between two does not flicker. But an arm renders what is touched: there
+// any object that is touched comes before all that are not.
+constexpr double kTouched = 10.0;  // m
+double score_of(const Query& query, const Candidate& found, double favour) {
+  const bool first = query.touched_first && found.at.distance <= query.radius && !beside(query, found.hint);
+  return found.at.distance - favour - (first ? kTouched : 0.0);
+}
+double least_score(const Query& query, const Object& object) {
+  const double least = least_distance(query, object);
+  return query.touched_first && least <= query.radius ? least - kTouched : least;
+}
+
+// The nearest object. Objects whose ball is farther than the best so far are not asked; the one of last time
+// is asked first, so that these are many.
+Candidate nearest_object(const Query& query, std::int32_t last, Hints& hints) {
+  const std::vector<Object>& objects = query.scene.objects;
+  Candidate best;
+  Candidate second;
+  const auto ask = [&](std::int32_t index) {
+    constexpr double kRounding = 1e-12;  // m
+    if (least_score(query, objects[static_cast<std::size_t>(index)]) - kRounding > best.score) return;
+    Candidate found;
+    for (const ObjectHint& hint : hints.tool)
+      if (hint.object == index) found.hint = hint;
+    found.at = nearest(query, index, found.hint);
+    found.score = score_of(query, found, index == last ? query.scene.follow.hysteresis : 0.0);
+    const bool tie = found.score == best.score;
+    if (tie ? index < best.hint.object : !(found.score >= best.score)) std::swap(found, best);
+    if (found.hint.object >= 0 && (found.score < second.score || second.hint.object < 0)) second = found;
+  };
+  if (last >= 0) ask(last);
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (static_cast<std::int32_t>(i) != last) ask(static_cast<std::int32_t>(i));
+  if (second.hint.object < 0) second.hint = hints.tool[hints.tool[0].object == best.hint.object ? 1 : 0];
+  hints.tool = {best.hint, second.hint};
+  return best;
+}
+
+// Where the finger or the tool will be, but not beyond the first surface on its way: a machine needs time to
+// go from one object to the next, and a hand that comes obliquely changes its nearest object at the last.
+Query foreseen(const Query& query, const Vec<'W'>& velocity, double clear) {
+  Query later = query;
+  const double way = query.scene.follow.ahead * velocity.norm();
+  if (way > 0.0)
+    later.p = query.p + (query.scene.follow.ahead * std::min(1.0, std::max(0.0, clear) / way)) * velocity;
+  return later;
+}
+
+// The nearest object; if the scene looks ahead that of the time ahead, or of the place where it will touch.
+Candidate chosen_object(const Query& query, const State& state, const Point<'W'>& comes_to, Hints& hints) {
+  const Candidate here = nearest_object(query, state.object, hints);
+  const Vec<'W'>& velocity = state.tip_motion.velocity;
+  const double clear = here.at.distance - query.radius;
+  if (query.scene.follow.ahead == 0.0 || !velocity.finite()) return here;
+  Query later = foreseen(query, velocity, clear);
+  if (comes_to.finite() && clear > 0.0) later.p = comes_to;
+  Candidate there = nearest_object(later, state.object, hints);
+  there.at = nearest(query, there.hint.object, there.hint);
+  return there;
+}
+
+// Of the object in contact. A finger at the rim of a button presses it until it is clearly beside it.
+NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHint& hint) {
+  const Object& object = query.scene.objects[static_cast<std::size_t>(index)];
+  Query over = query;
+  if (is_button(query, index)) {
+    const Vec<'W'> shift = shift_of(object, query.moved);
+    const Point<'O'> p = object.X_OW * (query.p - shift);
+    over.p = object.X_WO * object.surface.over_face(p, query.scene.contact.leave_gap) + shift;
+  }
+  return nearest(over, index, hint);
+}
+
+// The point under the tool moves no faster than the tool where the object bulges, and hardly faster where it
+// does not; by more only where another part has become the nearest.
+void report_jump(Walk& walk, State& state, const Point<'W'>& before, const Point<'W'>& query) {
+  constexpr double kJump = 1e-3;  // m, beyond the way of the tool
+  // Before the first tick with a tool, `before` is unset, and that is no jump.
+  const double moved = (query - before).norm();
+  if ((walk.surface_point - state.last_point).norm() > moved + kJump) walk.why |= kSurfaceJump;
+  state.last_query = query;
+  state.last_point = walk.surface_point;
+}
+
+}  // namespace
+
+void nearest_surface(Walk& walk, State& state, const Asked& asked) noexcept {
+  // Without a tracker the tip itself asks: it then waits at its own nearest surface point, and force alone
+  // makes a contact.
+  const bool by_tool = walk.scene.has_tracker;
+  const Point<'W'> last_query = std::exchange(state.last_query, Point<'W'>());
+  if (by_tool && !walk.tool_known) return;
+  const Query query{walk.scene, walk.moved, by_tool ? walk.tool_tip : walk.X_WH.origin(), walk.tool_radius,
+                    asked.touched_first};
+  if (!query.p.finite()) return;
+  Candidate best;
+  if (asked.engaged != nullptr) {
+    best.hint = state.hints.tool[0];
+    best.at = pressed_surface(query, asked.engaged->object, best.hint);
+    state.hints.tool[0] = best.hint;
+  } else if (!walk.scene.objects.empty()) {
+    best = chosen_object(query, state, asked.comes_to, state.hints);
+  }
+  if (best.hint.object != state.object) state.entered = false;
+  state.object = best.hint.object;
+  walk.surface_point = best.at.point;
+  walk.normal = best.at.normal;
+  if (!by_tool) return;
+  walk.gap = best.hint.object >= 0 && beside(query, best.hint) ? best.at.distance
+                                                               : best.at.distance - walk.tool_radius;
+  report_jump(walk, state, last_query, query.p);
+}
+
+}  // namespace enc::stages

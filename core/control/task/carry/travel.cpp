@@ -1,0 +1,170 @@
+// The machine carries a clamped tool: it waits until the jaws hold it, then goes from stop to stop.
+#include "core/control/task/carry/travel.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/rotation.h"
+#include "core/control/scene/scene.h"
+#include "core/control/stages/guard.h"
+#include "core/control/stages/report.h"
+
+namespace enc {
+namespace {
+
+constexpr std::string_view kAxes = "xyz";
+
+void check_parts(const SceneSpec& spec) {
+  if (spec.user || spec.probe)
+    throw Error("[travel] carries a tool and nobody presses; remove [user], [probe] or [travel]", "travel");
+  if (!spec.gripper)
+    throw Error("[travel] carries a clamped tool, but the scene has no [gripper]; add it", "travel");
+  if (spec.display) throw Error("[travel] renders nothing; remove [display]", "display");
+}
+
+void check_numbers(const TravelSpec& spec, const Scene& scene) {
+  if (spec.axes.empty() || spec.axes.find_first_not_of(kAxes) != std::string::npos)
+    throw Error("expected axes out of x, y and z, such as \"xyz\"", "travel.axes");
+  if (spec.stops.size() < 2) throw Error("expected at least two stops, such as [0, 40]", "travel.stops");
+  constexpr double kLeast = 10e-6;  // m: the machine's step is 3 um
+  for (std::size_t i = 1; i < spec.stops.size(); ++i)
+    if (!(spec.stops[i] - spec.stops[i - 1] >= kLeast))
+      throw Error("stops must grow, by at least 0.01 mm each", "travel.stops");
+  if (!(spec.speed > 0.0) || spec.speed > scene.reach.speed)
+    throw Error("the machine cannot travel that fast; lower speed_mm_s", "travel.speed");
+}
+
+void check_way(const Point<'W'>& from, const Point<'W'>& to, const Scene& scene) {
+  constexpr int kSteps = 100;
+  for (int i = 0; i <= kSteps; ++i) {
+    const Point<'W'> p = from + (static_cast<double>(i) / kSteps) * (to - from);
+    if (!scene.reach.contains(Pose<'R', 'H'>(scene.X_WR.q().conjugate(), scene.X_WR.inverse() * p)))
+      throw Error(
+          "the travel leads out of the machine's reach: +-50, +-50 and +-25 (x, y, z of W, in millimetres) "
+          "around the origin, straight axes; lower stops_mm or move start_mm",
+          "travel.stops");
+  }
+}
+
+}  // namespace
+
+std::optional<Travel> Travel::asked(const SceneSpec& spec, const Scene& scene) {
+  if (!spec.travel) return {};
+  const TravelSpec& from = *spec.travel;
+  check_parts(spec);
+  check_numbers(from, scene);
+  Travel travel;
+  travel.acceleration = scene.reach.acceleration;
+  travel.tool_held = scene.clamped_tool >= 0;
+  Point<'W'> at(0, 0, 0);
+  const auto go = [&](const Point<'W'>& to, double speed, std::int32_t axis) {
+    check_way(at, to, scene);
+    const Vec3 way = (to - at).e();
+    TravelLeg leg{to, Vec<'W'>(1, 0, 0), way.norm(), speed, from.dwell, axis, 0};
+    if (leg.length > 0.0) leg.along = Vec<'W'>(Vec3(way / leg.length));
+    if (axis >= 0) leg.way = way[axis] > 0.0 ? 1 : -1;
+    travel.legs.push_back(leg);
+    at = to;
+  };
+  for (std::int64_t repeat = 0; repeat < from.repeats; ++repeat)
+    for (const char letter : from.axes) {
+      const auto axis = static_cast<std::int32_t>(kAxes.find(letter));
+      const auto stop = [&](double way) {
+        return Point<'W'>(Vec3((from.start[axis] + way) * Vec3::Unit(axis)));
+      };
+      go(stop(from.stops.front()), scene.reach.speed, -1);
+      for (std::size_t i = 1; i < from.stops.size(); ++i) go(stop(from.stops[i]), from.speed, axis);
+      if (from.ways == TravelWays::one_way) continue;
+      for (std::size_t i = from.stops.size() - 1; i > 0; --i) go(stop(from.stops[i - 1]), from.speed, axis);
+    }
+  return travel;
+}
+
+double Travel::duration() const {
+  constexpr double kClosing = 1.0;    // s: the jaws
+  constexpr double kArriving = 0.05;  // s: the last micrometres of a leg
+  double total = kClosing;
+  for (const TravelLeg& leg : legs)
+    total += leg.length / leg.speed + leg.speed / acceleration + kArriving + leg.dwell;
+  return total;
+}
+
+namespace stages {
+
+namespace {
+
+void go_on(Walk& walk, const Travel& travel, State& state, Travelling& now) {
+  constexpr double kThere = 1e-6;  // m
+  state.mode = Mode::travel;
+  now.elapsed += walk.scene.dt;
+  const auto begin = [&](TravelPhase phase) {
+    now.phase = phase;
+    now.elapsed = 0.0;
+  };
+  const auto leg = [&]() -> const TravelLeg& { return travel.legs[static_cast<std::size_t>(now.leg)]; };
+  const Point<'W'> command = walk.scene.X_WR * now.command;
+  if (now.phase == TravelPhase::wait && (!travel.tool_held || walk.in.grip.value.holding)) {
+    begin(TravelPhase::move);
+  } else if (now.phase == TravelPhase::move && (command - leg().to).norm() <= kThere) {
+    begin(TravelPhase::dwell);
+  } else if (now.phase == TravelPhase::dwell && now.elapsed >= leg().dwell) {
+    const bool more = travel.on_leg(now.leg + 1);
+    if (more) ++now.leg;
+    begin(more ? TravelPhase::move : TravelPhase::done);
+  }
+  const bool going = now.phase == TravelPhase::move || now.phase == TravelPhase::dwell;
+  walk.target = going ? leg().to : command;
+}
+
+// Where a procedure sends it. The phase is that of what moves, so that no zero is learnt on the way.
+void go_where_sent(Walk& walk, const Travel& travel, State& state, Travelling& now) {
+  state.mode = Mode::travel;
+  const bool may = walk.carried->valid() && (!travel.tool_held || walk.in.grip.value.holding);
+  now.phase = may ? TravelPhase::move : TravelPhase::wait;
+  walk.target = may ? walk.carried->origin() : walk.scene.X_WR * now.command;
+}
+
+// Nothing is sideways of a straight leg: so each is a trapezoid of the leg's speed and the machine's whole
+// acceleration.
+Walls walls_around(const Travel& travel, const Travelling& now) {
+  if (!travel.on_leg(now.leg)) return {};
+  const TravelLeg& leg = travel.legs[static_cast<std::size_t>(now.leg)];
+  Walls walls{leg.along.e()};
+  walls.speed = leg.speed;
+  walls.share = 1.0;
+  return walls;
+}
+
+}  // namespace
+
+void touch(Walk&, const Travel&, State&, Travelling&) noexcept {}  // nothing is touched
+
+void act(Walk& walk, const Travel& travel, State& state, Travelling& now) noexcept {
+  grip(walk);
+  sense(walk, state, now, now.phase != TravelPhase::move);
+  hold_lost(walk, state, now);
+  if (holding(walk)) return;
+  walk.carried != nullptr ? go_where_sent(walk, travel, state, now) : go_on(walk, travel, state, now);
+}
+
+void guard(Walk& walk, const Travel& travel, State& state, Travelling& now) noexcept {
+  if (state.started)
+    limit_command(walk, state, now, walk.carried != nullptr ? Walls{} : walls_around(travel, now));
+}
+
+void report(const Walk& walk, const Travel&, State& state, const Travelling& now, Outputs& out) noexcept {
+  const Pose<'R', 'H'> sent = out.tip;
+  report_common(walk, state, rotation_z_to(walk.normal.e()), nullptr, out);
+  report_displaced(walk, now, out);
+  if (walk.carried == nullptr) return;
+  // It turns where it may go, and stays as it is turned where it may not.
+  const bool goes = now.phase == TravelPhase::move && !holding(walk) && walk.carried->valid();
+  if (goes)
+    out.tip = Pose<'R', 'H'>(walk.scene.X_WR.q().conjugate() * walk.carried->q(), now.command);
+  else if (sent.valid() && out.tip.valid())
+    out.tip = Pose<'R', 'H'>(Quat(sent.q()), now.command);
+}
+
+}  // namespace stages
+}  // namespace enc

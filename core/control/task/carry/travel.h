@@ -1,0 +1,71 @@
+// The travel of [VHMR 4.1, Fig 6], made ready: straight legs from stop to stop, along one axis of W after
+// another. Each is a trapezoid: the leg's speed, the machine's acceleration.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/frames.h"
+#include "core/control/stages/displacing.h"
+#include "core/spec/travel_spec.h"
+
+namespace enc {
+
+struct Outputs;
+struct Scene;
+struct SceneSpec;
+
+struct TravelLeg {
+  Point<'W'> to;
+  Vec<'W'> along{1, 0, 0};  // unit
+  double length = 0.0;      // m
+  double speed = kUnset;    // m/s
+  double dwell = kUnset;    // s, at its end
+  std::int32_t axis = -1;   // 0 to 2; -1: on the way to a start
+  std::int32_t way = 0;     // 1 towards + of the axis, -1 towards -
+};
+
+// Where the machine is in its travel. Time stands still in a hold, here too.
+enum class TravelPhase : std::uint8_t { wait, move, dwell, done };
+struct Travelling : Commanded {
+  TravelPhase phase = TravelPhase::wait;
+  double elapsed = 0.0;  // s of this phase
+  std::int32_t leg = 0;  // of the programme
+};
+
+struct Travel : Displacing {
+  using Part = TravelPart;
+  using Memory = Travelling;
+  // Of a scene that asks for it, which has everything else by now. Throws Error where this machine cannot do
+  // the travel.
+  [[nodiscard]] static std::optional<Travel> asked(const SceneSpec& spec, const Scene& scene);
+
+  std::vector<TravelLeg> legs;
+  double acceleration = kUnset;  // m/s^2
+  bool tool_held = false;        // the tool must be clamped before anything moves
+
+  [[nodiscard]] bool on_leg(std::int32_t leg) const {
+    return leg >= 0 && static_cast<std::size_t>(leg) < legs.size();
+  }
+  // s, from the start to the end of the last dwell; a little more than it takes.
+  [[nodiscard]] double duration() const;
+};
+
+template <class F>
+void fields(F& f, Travelling& t) {
+  fields(f, static_cast<Commanded&>(t));
+  f("travel_phase", t.phase);
+  f("travel_elapsed", t.elapsed);
+  f("travel_leg", t.leg);
+}
+
+namespace stages {
+void touch(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
+void act(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
+void guard(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
+void report(const Walk& walk, const Travel& task, State& state, const Travelling& now, Outputs& out) noexcept;
+}  // namespace stages
+
+}  // namespace enc

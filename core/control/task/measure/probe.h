@@ -1,0 +1,69 @@
+// The test rig of [VHMR 4.2, Fig 7], made ready: where the machine pushes its probe into a real object, and
+// how often. Force against deflection is what it is for; the reference curves of an object are fitted to
+// that.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/base/frames.h"
+#include "core/control/stages/displacing.h"
+#include "core/spec/probe_spec.h"
+
+namespace enc {
+
+struct ObjectSpec;
+struct Outputs;
+struct Scene;
+struct SceneSpec;
+
+// Where the machine is in its programme of pushes. Time stands still in a hold, and the programme with it.
+enum class ProbePhase : std::uint8_t { wait, approach, rest, push, dwell, back, done };
+struct Probing : Commanded {
+  ProbePhase phase = ProbePhase::wait;
+  double elapsed = 0.0;     // s of this phase
+  double deflection = 0.0;  // wanted, m; negative: above the surface
+};
+
+struct Probe : Displacing {
+  using Part = ProbePart;
+  using Memory = Probing;
+  // Of a scene that asks for it, which has everything else by now. Throws Error where this machine cannot do
+  // the programme: out of reach, something in its way, no force sensor, too deep.
+  [[nodiscard]] static std::optional<Probe> asked(const SceneSpec& spec, const Scene& scene);
+
+  std::int32_t object = 0;  // index in the scene
+  // Origin: the probe's centre where it first touches the undeformed object. z: out of the object, against
+  // the push. x: where an offset goes.
+  Pose<'W', 'N'> X_WN;
+  double depth = kUnset, clear = kUnset;  // m, below and above the first touch
+  double speed = kUnset;                  // m/s
+  double dwell = kUnset, rest = kUnset;   // s
+  std::int32_t repeats = 0;
+
+  // Of a probe whose centre is at `p`: how far it is along the push, m; negative before the first touch.
+  [[nodiscard]] double deflection(const Point<'W'>& p) const { return -(X_WN.inverse() * p).xyz[2]; }
+  [[nodiscard]] Point<'W'> at(double deflection) const { return X_WN * Point<'N'>(0, 0, -deflection); }
+};
+
+// The object that [probe] names, or the first. Throws Error where there is none.
+[[nodiscard]] const ObjectSpec& probed_object(const SceneSpec& spec);
+// s, from the start to the rest after the last push; a little more than it takes.
+[[nodiscard]] double programme_time(const Scene& scene);
+
+template <class F>
+void fields(F& f, Probing& p) {
+  fields(f, static_cast<Commanded&>(p));
+  f("probe_phase", p.phase);
+  f("probe_elapsed", p.elapsed);
+  f("probe_deflection", p.deflection);
+}
+
+namespace stages {
+void touch(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
+void act(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
+void guard(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
+void report(const Walk& walk, const Probe& task, State& state, const Probing& now, Outputs& out) noexcept;
+}  // namespace stages
+
+}  // namespace enc

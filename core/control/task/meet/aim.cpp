@@ -1,0 +1,303 @@
+// Where the prop of an arm shall be [VisHap 2.2, 2.3].
+#include <algorithm>
+#include <cmath>
+
+#include "core/control/safety/braking.h"
+#include "core/control/safety/inside.h"
+#include "core/control/task/meet/finger.h"
+
+namespace enc::stages {
+namespace {
+
+// Whether the prop stands for the surface itself, as deep as it is pressed.
+bool tells_depth(const Object& object) {
+  const Interaction kind = object.interaction.kind;
+  return kind == Interaction::slide || kind == Interaction::click || kind == Interaction::spin;
+}
+
+// Whether the prop that waits there is pushed back: that is felt in the tick in which it begins, and seen a
+// picture and more later.
+bool felt_first(const Walk& walk, const State& state, const Meeting& now, const Object& object) {
+  const bool behind = dot(walk.X_WH.origin() - walk.surface_point, walk.normal) < 0.0;
+  return now.aim.caught_up && tells_depth(object) && walk.tool_fresh && behind && !walk.in.withheld &&
+         pushed_back(state, walk.normal) && walk.gap < walk.scene.contact.leave_gap;
+}
+
+// A finger that presses lies on the prop for as long as it is seen within leave_gap of it: each tick the arm
+// knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. The prop says how
+// deep a finger is, the camera whether it is there. Nor is it ever behind the prop: there a prediction went
+// on that knew nothing of the touch.
+void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
+  const Object* object = nearest_object(walk, state);
+  if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
+  // The prop is on its way to another place, unless a picture leaps to the side while it is pressed.
+  const bool pressed = presses(state, now.contact) && !walk.in.withheld;
+  if (!tells_depth(*object) || !(now.aim.caught_up || pressed)) return;
+  const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
+  const double near = walk.scene.contact.leave_gap;
+  // A finger that is stopped seems to spring back for a picture or two: while the prop is pushed, it has not.
+  constexpr double kPushed = 3.0;
+  const double slack = pressed ? kPushed * near : near;
+  const double beyond = walk.gap - prop;
+  // A prop that is lifted off the surface from beside is none that a finger behind it lies on.
+  walk.gap = beyond < -near ? std::min(prop, 0.0) : prop + std::max(0.0, beyond - slack);
+  // What it feels says how the finger goes on, long before a picture shows that it was stopped. Where the
+  // picture itself is behind the prop, the finger is beside it, or vision is wrong.
+  const double shown = dot(walk.tip_newest - walk.X_WH.origin(), walk.normal) - walk.tool_radius;
+  if (pressed && beyond < slack && shown > -near)
+    correct_now(walk.scene.tracker, walk.tick.t, -beyond * walk.normal, state.tip_motion);
+}
+
+// The gap says what is touched, or the prop that is pushed back: an arm measures no force. "Prepare" is the
+// way from away to follow.
+void choose_mode(const Walk& walk, State& state, Meeting& now) {
+  const FollowSpec& follow = walk.scene.follow;
+  const Object* object = nearest_object(walk, state);
+  if (object == nullptr || !walk.tool_known) {
+    state.mode = Mode::away;
+    return;
+  }
+  if (state.mode == Mode::away && walk.gap < follow.resume) state.mode = Mode::follow;
+  if (object->interaction.kind ==
+      Interaction::hit) {  // when it is touched, and when no longer, says the prop
+    if (state.mode == Mode::contact && !now.contact.anchored) state.mode = Mode::follow;
+    if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
+    return;
+  }
+  if (state.mode == Mode::contact && walk.gap > walk.scene.contact.leave_gap) state.mode = Mode::follow;
+  if (state.mode == Mode::follow && walk.gap > follow.pause) state.mode = Mode::away;
+  if (state.mode == Mode::follow && (walk.gap <= 0.0 || felt_first(walk, state, now, *object))) {
+    state.mode = Mode::contact;
+    ++state.contacts;
+    now.contact = Contact{};
+    now.contact.object = state.object;
+    now.contact.tool = state.tool.value.tool;
+  }
+  if (state.mode == Mode::contact)
+    now.contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.surface_point);
+}
+
+// A ball that flies is no longer touched: its prop gets out of the finger's way, to where the ball will wait.
+Vec<'W'> rest_of_flight(const Walk& walk, const Object& object) {
+  if (object.interaction.kind != Interaction::hit) return Vec<'W'>::zero();
+  const Moved& ball = walk.moved[static_cast<std::size_t>(object.moving)];
+  const double flown = ball.shift.norm();
+  if (!(flown > 0.0)) return Vec<'W'>::zero();
+  return (walk.movers[static_cast<std::size_t>(object.moving)].travel / flown - 1.0) * ball.shift;
+}
+
+bool touches_belt(const State& state, const Object* object) {
+  return state.mode == Mode::contact && object != nullptr && object->interaction.kind == Interaction::spin;
+}
+
+// The finger's projection on the surface, which goes along with it and with what moves. How fast, the surface
+// says: on a small ball the projection is slower than the finger, beyond the edge of a button it stands.
+Goal goal_of(const Walk& walk, const State& state, Meeting& memory, const Object& object) {
+  const Goal touch = foreseen_touch(walk, state, memory);
+  if (object.met_in_its_middle()) return {object.X_WO.origin(), Vec<'W'>::zero(), touch.foreseen};
+  if (touch.point.finite()) return touch;
+  const Vec<'W'> none = Vec<'W'>::zero();
+  if (const Vec<'W'> rest = rest_of_flight(walk, object); !rest.e().isZero())
+    return {walk.surface_point + rest};
+  const bool predicted = walk.scene.tracker.prediction != Prediction::hold;
+  const bool known = predicted && walk.tool_fresh && state.tip_motion.velocity.finite();
+  const Vec<'W'> finger = known ? state.tip_motion.velocity : none;
+  // A belt is slower than pictures leap: a prop that runs goes along without haste, and is wide enough.
+  if (touches_belt(state, &object)) return {walk.surface_point};
+  const bool shifts = object.moving >= 0 && object.interaction.kind != Interaction::spin;
+  const Vec<'W'> face = shifts ? walk.moved[static_cast<std::size_t>(object.moving)].velocity : none;
+  const Vec<'W'> shift = shifts ? shift_of(object, walk.moved) : none;
+  const double dt = walk.scene.dt;
+  ObjectHint hint = state.hints.tool[0];
+  const Point<'W'> now = walk.tool_tip - shift;
+  const Point<'W'> at = nearest(walk.scene, state.object, now, hint).point;
+  const Point<'W'> then = nearest(walk.scene, state.object, now + dt * (finger - face), hint).point;
+  return {walk.surface_point, face + (1.0 / dt) * (then - at)};
+}
+
+// How the target may go: in haste where a reach may touch.
+struct Haste {
+  double acceleration, settle;
+  Haste(const ArmRig& rig, bool hurries)
+      : acceleration(hurries ? rig.reach_acceleration : rig.acceleration),
+        settle(hurries ? rig.reach_settle : rig.settle) {}
+};
+
+// Where the nearest point leaps to another part of the object, the straight way may leave a hollow one, and
+// there the finger is: then the target waits at the last point of its way that is inside, or goes along the
+// surface as long as that is nearer.
+Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, State& state, const Aim& now,
+                          const Object& object, const Vec3& wanted) {
+  constexpr double kOutside = 0.5e-3;  // m: a target on a curved surface is a little outside of it
+  Inside inside(walk.scene, state.object, -kOutside, shift_of(object, walk.moved), state.hints.command);
+  const Brake brake{now.target, now.velocity.e(), acceleration, speed, walk.scene.dt};
+  const double here = inside.depth(brake.at);
+  state.entered = state.entered || here >= -kOutside;
+  return state.entered ? inside.velocity(brake, here, wanted) : wanted;
+}
+
+// The target keeps within speed and acceleration, always. On its way it goes straight; once there it goes
+// with the goal, whose leaps (each new picture of the finger is one) it takes out within `settle`.
+void move_target(Walk& walk, const ArmRig& rig, State& state, Aim& now, const Goal& goal,
+                 const Object* object) {
+  constexpr double kThere = 0.2e-3;  // m
+  constexpr double kLeap = 10e-3;    // m: another object, or another part of it
+  constexpr double kBelt = 0.060;    // s: of a prop whose surface runs
+  const double dt = walk.scene.dt;
+  const Vec3 way = (goal.point - now.target).e();
+  const double far = way.norm();
+  const bool runs = touches_belt(state, object);
+  if (far > kLeap && !runs) now.caught_up = false;
+  // What haste has set in motion is braked in haste.
+  now.hurried =
+      goal.foreseen || (now.hurried && now.velocity.norm() > braking_speed(far, rig.acceleration, dt));
+  const Haste haste(rig, now.hurried);
+  // The share leaves room for a goal that moves.
+  const double stops = std::min(0.9 * braking_speed(far, haste.acceleration, dt), far / dt);
+  const double settle = runs ? kBelt : haste.settle;
+  const double speed = now.caught_up ? std::min(far / settle, stops) : std::min(rig.speed, stops);
+  Vec3 velocity = goal.velocity.e();
+  if (far > 0.0) velocity += way * (speed / far);
+  if (velocity.norm() > rig.speed) velocity *= rig.speed / velocity.norm();
+  const double most = haste.acceleration * dt;
+  const Vec3 change = velocity - now.velocity.e();
+  if (change.norm() > most) velocity = now.velocity.e() + change * (most / change.norm());
+  const bool on_its_way = !now.caught_up;
+  if (on_its_way) {
+    if (object != nullptr)
+      velocity = not_through_a_hollow(walk, haste.acceleration, rig.speed, state, now, *object, velocity);
+    now.caught_up = far < kThere && change.norm() <= 2.0 * most;
+  }
+  walk.target_change = (velocity - now.velocity.e()) / dt;
+  if (on_its_way || now.hurried) walk.target_acceleration = walk.target_change;
+  // Under a finger that touches haste goes sideways alone: along the normal it would be felt.
+  if (!on_its_way && state.mode == Mode::contact && walk.normal.finite())
+    walk.target_acceleration -= walk.normal.e() * walk.normal.e().dot(walk.target_acceleration);
+  now.velocity = Vec<'W'>(velocity);
+  now.target = now.target + dt * now.velocity;
+}
+
+// While a ball is pressed the ball alone pushes its prop (impede), and along the normal the target is where
+// the finger has pushed it: so nothing leaps when they part. Its speed is that of the prop, smoothed, and no
+// more than the way that it has come allows: one reading that is wrong sets nothing in motion. Sideways it
+// comes to rest.
+void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, Aim& now) {
+  constexpr double kTicks = 8.0;
+  const double dt = walk.scene.dt;
+  const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
+  const double ticks = 1.0 + std::round(age(walk.tick.t, contact.began) / dt);
+  const double way = normal.dot((walk.X_WH.origin() - contact.X_WN.origin()).e());
+  const double most = std::min(rig.speed, 2.0 * std::abs(way) / (ticks * dt));
+  const double before = ticks > 1.0 ? normal.dot(now.velocity.e()) : 0.0;
+  const double speed = before + (normal.dot(walk.tip_velocity.e()) - before) / std::min(ticks, kTicks);
+  Vec3 across = now.velocity.e() - normal * normal.dot(now.velocity.e());
+  across *= std::max(0.0, 1.0 - rig.acceleration * dt / std::max(across.norm(), 1e-9));
+  now.velocity = Vec<'W'>(Vec3(across + std::clamp(speed, -most, most) * normal));
+  now.target =
+      now.target + Vec<'W'>(Vec3(across * dt + normal * normal.dot((walk.X_WH.origin() - now.target).e())));
+}
+
+// Whether the arm does what it is told. A finger may push the tip away from its target, so only where none is
+// near does the distance tell. Believed: an even motion lags by K_v / K_p.
+void check_following(Walk& walk, const Impedance& law, Aim& now) {
+  constexpr double kFriction = 5e-3;  // m: what friction and a wrong weight may hold it off
+  constexpr double kSlowest = 0.2;    // s: no belief makes the arm slower than this
+  constexpr double kBeside = 0.030;   // m: from the finger to the prop's middle
+  constexpr double kPatience = 0.25;  // s
+  if (walk.in.withheld) {
+    now.straying = Straying{};
+    return;
+  }
+  const ArmRig& rig = law.rig;
+  const double lag = std::min(rig.damping / rig.stiffness, kSlowest);
+  const double dt = walk.scene.dt;
+  double near = kFriction + now.straying.excused(now.velocity.norm(), lag, dt);
+  if (rig.gravity == GravityForm::none) {
+    const PerJoint weight = law.arm.gravity(walk.in.arm.value.joints, law.prop_mass, Payload::exact);
+    near += law.arm.force(walk.jacobian, weight).norm() / rig.stiffness;  // it hangs from its target
+  }
+  const bool free = !walk.tool_known || (walk.tool_tip - walk.X_WH.origin()).norm() > kBeside;
+  const bool off = free && (now.target - walk.X_WH.origin()).norm() > near;
+  if (!now.straying.too_long(off, kPatience, dt)) return;
+  now.stuck = true;
+  walk.why |= kNotFollowing;
+}
+
+// The hold of an arm that is stuck lasts until the finger has gone: to try again is to push with all it has.
+void hold_stuck(Walk& walk, Aim& now) {
+  if (!now.stuck) return;
+  const bool gone = !walk.tool_known || walk.gap > walk.scene.follow.pause;
+  if (gone)
+    now.stuck = false;
+  else
+    walk.why |= kNotFollowing;
+}
+
+// Nothing leaps: what is felt goes over into the next within `gradual_time`.
+void change_gain(const Walk& walk, double free, const State& state, const Object* object, Aim& now) {
+  Felt felt{free, 0.0};
+  if (object == nullptr) {
+    now.gain = 1.0;
+    now.sunk = 0.0;
+    return;
+  }
+  const InteractionSpec& does = object->interaction;
+  if (state.mode == Mode::contact && object->stiffness > 0.0)
+    felt = felt_at(does, object->stiffness, free, std::max(0.0, -walk.gap));
+  if (object->moving >= 0 && state.mode == Mode::contact)
+    felt.stiffness *= walk.moved[static_cast<std::size_t>(object->moving)].firmness;
+  const double whole = std::max({free, object->stiffness, std::isnan(does.floor) ? 0.0 : does.floor}) / free;
+  const double share = does.gradual_time > 0.0 ? walk.scene.dt / does.gradual_time : 1e9;
+  const auto towards = [](double from, double to, double most) {
+    return from + std::clamp(to - from, -most, most);
+  };
+  now.gain = towards(now.gain, felt.stiffness / free, whole * share);
+  now.sunk = towards(now.sunk, felt.sunk, does.bottom * share);
+  now.triggered = does.kind == Interaction::click && state.mode == Mode::contact && -walk.gap >= does.trigger;
+}
+
+}  // namespace
+
+void aim(Walk& walk, const Impedance& task, State& state, Meeting& memory) noexcept {
+  Aim& now = memory.aim;
+  if (!walk.X_WH.valid()) {  // one reading that is missed changes nothing; later it may be anywhere
+    now.blind += walk.scene.dt;
+    if (now.blind > task.rig.stale) now = Aim{};
+    return;
+  }
+  now.blind = 0.0;
+  if (!holding(walk) && now.target.finite()) check_following(walk, task, now);
+  hold_stuck(walk, now);
+  if (holding(walk) || !now.target.finite()) {  // nothing is wanted, and nothing leaps afterwards
+    const bool stuck = now.stuck;
+    now = Aim{};
+    now.target = walk.X_WH.origin();
+    now.stuck = stuck;
+    if (holding(walk)) return;
+  }
+  lie_on_prop(walk, state, memory);
+  choose_mode(walk, state, memory);
+  const Object* object = nearest_object(walk, state);
+  if (hit_now(walk, state) != nullptr) {
+    go_with_prop(walk, task.rig, memory.contact, now);
+  } else if (state.mode == Mode::away || object == nullptr) {
+    move_target(walk, task.rig, state, now, {walk.sent.finite() ? walk.sent : now.target}, nullptr);
+  } else {
+    Goal goal = goal_of(walk, state, memory, *object);
+    const Arm& arm = task.arm;
+    PerJoint q = walk.in.arm.value.joints;
+    if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, task.rig.least_dexterity, q)) {
+      // A machine with fewer joints than ways goes to where it is nearest.
+      if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
+      move_target(walk, task.rig, state, now, goal, object);
+    } else {
+      walk.why |= kUnreachable;
+      now.caught_up = false;
+      move_target(walk, task.rig, state, now, {now.target}, nullptr);  // it stops
+      now.caught_up = false;
+    }
+  }
+  change_gain(walk, task.rig.stiffness, state, object, now);
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,83 @@
+#include "core/control/task/meet/meet.h"
+
+#include <cmath>
+
+#include "core/base/rotation.h"
+#include "core/control/stages/report.h"
+#include "core/control/task/meet/finger.h"
+
+namespace enc::stages {
+namespace {
+
+// An arm's tip turns with its joints; what is felt is its place alone, so H keeps the axes of R.
+void track_arm(Walk& walk, const Impedance& task, State& state) {
+  const Stamped<ArmSample>& sample = walk.in.arm;
+  if (sample.health == Health::absent || age(walk.tick.t, sample.t) > task.rig.stale) {
+    walk.why |= kTipLost;
+    return;
+  }
+  constexpr double kFastest = 20.0;  // m/s
+  const ArmSample& arm = sample.value;
+  bool usable = sample.health == Health::ok && arm.tip.finite() && arm.tip.e().norm() < 10.0 &&
+                arm.velocity.finite() && arm.velocity.norm() < kFastest &&
+                sample.t <= walk.tick.t + walk.tick.dt;
+  for (const double q : arm.joints) usable = usable && std::abs(q) < 100.0;  // false for NaN
+  if (!usable) {
+    walk.why |= kTipInvalid;
+    return;
+  }
+  walk.X_WH = walk.scene.X_WR * Pose<'R', 'H'>(Quat::Identity(), arm.tip);
+  walk.tip_velocity = walk.scene.X_WR * arm.velocity;
+  walk.jacobian = task.arm.jacobian(arm.joints);
+  state.started = true;
+}
+
+// Of a belt against its prop: a running surface goes on at its own speed while the prop that stands for it
+// moves along with the finger. On its way there it need not. Other props cannot run.
+double driven(const Object& object, const Impedance& law, const Aim& now, const Vec3& change) {
+  if (object.interaction.kind != Interaction::spin || law.prop != PropKind::drum) return 0.0;
+  const Vec<'W'> way = object.X_WO * Vec<'O'>(object.interaction.way);
+  const Vec3 along = now.velocity.e() + law.rig.prop_lag * change;  // its motor is late
+  return object.prop_speed() - (now.caught_up ? way.e().dot(along) : 0.0);
+}
+
+}  // namespace
+
+void track(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {
+  track_arm(walk, task, state);
+  track_tool(walk, state, presses(state, now.contact));
+}
+
+// An arm renders what is touched: there any object that is touched comes before all that are not.
+void touch(Walk& walk, const Impedance&, State& state, Meeting& now) noexcept {
+  const bool touched = state.mode == Mode::contact, ahead = !touched && walk.scene.follow.ahead > 0.0;
+  nearest_surface(walk, state,
+                  {touched ? &now.contact : nullptr, true, ahead ? comes_to(walk, now) : Point<'W'>()});
+}
+
+void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {
+  aim(walk, task, state, now);
+  impede(walk, task, state, now);
+}
+
+// No force is measured: what the finger feels is what the arm is told beyond gravity.
+void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now,
+            Outputs& out) noexcept {
+  const bool touched = state.mode == Mode::contact;
+  report_common(walk, state, touched ? Quat(now.contact.X_WN.q()) : rotation_z_to(walk.normal.e()),
+                &now.contact, out);
+  out.tip = Pose<'R', 'H'>();
+  out.arm_force = walk.arm_force;
+  out.wanted = now.aim.target;
+  out.gain = now.aim.gain;
+  const Object* object = nearest_object(walk, state);
+  const bool near = !holding(walk) && object != nullptr && (state.mode == Mode::follow || touched);
+  out.prop_speed = near ? driven(*object, task, now.aim, touched ? walk.target_change : Vec3::Zero()) : 0.0;
+  const Vec<'W'> facing = touched ? now.contact.X_WN * Vec<'N'>(0, 0, 1) : walk.normal;
+  out.prop_facing = near && facing.finite() ? walk.scene.X_WR.inverse() * facing : Vec<'R'>();
+  out.deflection = touched && walk.gap < 0.0 ? -walk.gap : 0.0;
+  out.first_touch =
+      touched ? now.contact.X_WN * Point<'N'>(0, 0, -walk.scene.tip_radius - kSkin) : Point<'W'>();
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,102 @@
+#include "core/control/task/push/push.h"
+
+#include "core/base/rotation.h"
+#include "core/control/stages/walk.h"
+
+namespace enc::stages {
+namespace {
+
+// Whether the prop, which stands at the surface, is struck: pushed in faster and farther than noise is, and
+// than an arm lags that has just been sent somewhere. Vision says no more than that a finger may be there.
+// What the arm does on its way home is no strike.
+bool struck(const Walk& walk, const State& state, Meeting& now) {
+  constexpr double kNear = 0.030;       // m: a finger that is seen late is somewhere in here
+  constexpr double kSpeed = 0.025;      // m/s: two counts of an encoder in 2 ms are 0.014
+  constexpr double kMoved = 0.06e-3;    // m: two counts
+  constexpr double kFriction = 0.6e-3;  // m: what friction may hold the prop off the surface, at most
+  constexpr double kSettled = 0.100;    // s, after it has come
+  constexpr double kLate = 0.004;       // s: an arm that moves is behind its target by some of this
+  constexpr double kUneven = 0.12;      // of the target's speed
+  const double behind = dot(now.aim.target - walk.X_WH.origin(), walk.normal);
+  const double speed = dot(now.aim.velocity - walk.tip_velocity, walk.normal);
+  const bool there = state.mode == Mode::follow && now.aim.caught_up && walk.tool_known;
+  const double fastest = now.aim.straying.fastest;  // of late
+  const bool pushed =
+      behind > kFriction + kLate * fastest || (behind > kMoved && speed > kSpeed + kUneven * fastest);
+  if (!there) now.contact.left = walk.tick.t;
+  return there && age(walk.tick.t, now.contact.left) > kSettled && pushed && walk.gap < kNear;
+}
+
+// How a ball is hit says the prop that stands for it, each tick to 0.03 mm; a picture of the finger is 50 ms
+// old, and the hit is over by then. So the depth is that of the prop behind where it was struck, until they
+// part, or nothing has been felt for a while, or the ball is where it waits. A ball that has been hit is not
+// hit again before it is back.
+double hit_depth(Walk& walk, State& state, Meeting& memory, const Mover& mover, const Moved& now) {
+  constexpr double kFelt = 0.05;   // N: less is lost in the arm's friction
+  constexpr double kEmpty = 0.10;  // s
+  Contact& contact = memory.contact;
+  const bool pressed = state.mode == Mode::contact && contact.anchored && contact.object == state.object;
+  if (!pressed) {
+    const bool home = now.shift.e().isZero() && now.velocity.e().isZero();
+    if (!home || !struck(walk, state, memory)) return kUnset;
+    contact = Contact{};
+    contact.object = state.object;
+    contact.tool = state.tool.value.tool;
+    contact.anchored = true;
+    contact.began = walk.tick.t;
+    contact.X_WN = Pose<'W', 'N'>(rotation_z_to(walk.normal.e()), walk.X_WH.origin());
+    state.mode = Mode::contact;
+    ++state.contacts;
+  }
+  walk.normal = contact.X_WN * Vec<'N'>(0, 0, 1);
+  const double depth = dot(contact.X_WN.origin() + now.shift - walk.X_WH.origin(), walk.normal);
+  constexpr double kBack = 0.1e-3;  // m: it was no finger
+  const bool felt = mover.stiffness * now.firmness * depth > kFelt;
+  contact.clear = felt ? 0.0 : contact.clear + walk.scene.dt;
+  const bool gone = now.shift.norm() >= mover.travel * (1.0 - 1e-9);
+  const bool apart = depth < -kBack || (!(depth > 0.0) && now.deepest > 0.0);
+  if (apart || gone || contact.clear > kEmpty) {
+    contact.anchored = false;
+    contact.left = walk.tick.t;
+  }
+  walk.gap = -depth;
+  return contact.anchored ? depth : kUnset;
+}
+
+// Time stands still in a hold, here too.
+void push(Walk& walk, State& state, Pushing& now) {
+  if (holding(walk)) {
+    now.contact.anchored = false;
+    return;
+  }
+  double depth = -walk.gap, sinks = 0.0;
+  if (state.object >= 0) {
+    const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
+    if (object.interaction.kind == Interaction::hit)
+      depth = hit_depth(walk, state, now, walk.movers[static_cast<std::size_t>(object.moving)],
+                        walk.moved[static_cast<std::size_t>(object.moving)]);
+    if (object.interaction.kind == Interaction::shift && state.mode == Mode::contact)
+      sinks =
+          dot(walk.moved[static_cast<std::size_t>(object.moving)].velocity - walk.tip_velocity, walk.normal);
+  }
+  const double speed = -dot(now.aim.velocity, walk.normal);  // a prop that is struck: go_with
+  const bool late = age(walk.tick.t, now.contact.left) < walk.scene.tracker.usual_age;
+  const FingerPress press{state.object,     depth, walk.normal, walk.tool_tip,
+                          walk.tool_radius, speed, sinks,       late};
+  move(walk.movers, press, walk.scene.dt, walk.moved);
+}
+
+}  // namespace
+
+void track(Walk& walk, const Push& task, State& state, Pushing& now) noexcept {
+  walk.moved = now.moved;
+  walk.movers = task.movers;
+  track(walk, static_cast<const Impedance&>(task), state, now);
+}
+
+void act(Walk& walk, const Push& task, State& state, Pushing& now) noexcept {
+  push(walk, state, now);
+  act(walk, static_cast<const Impedance&>(task), state, now);
+}
+
+}  // namespace enc::stages

@@ -1,0 +1,347 @@
+#include "core/control/track/reach.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/control/track/minimum_jerk.h"
+
+namespace enc {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+constexpr double kCrosses = 0.7;  // share of a correction's time at which it crosses the surface
+constexpr MinimumJerk kAtCrossing(kCrosses);
+constexpr double kOverlap =
+    0.8;  // a correction begins when at least so much of the first movement's time is over
+constexpr double kLongest = 3.0;  // longest correction over the shortest
+constexpr double kLeastShare =
+    0.6;                       // of its way a first movement has made, at least, where it crosses the surface
+constexpr double kWide = 1.0;  // m, m/s: where a hand is and goes, as long as nothing is known of it
+constexpr double kVague = 1.0 / (kWide * kWide);  // 1/m^2, 1/(m/s)^2: the weight of that
+constexpr double kExact = 1e8;                    // 1/m^2: the weight of what is so to 0.1 mm
+// Share of the hands that come with an even speed, or pass by. Chosen: these are told best with a large one,
+// and to reaches, which the pictures tell apart by themselves, it makes no difference from 0.2 to 0.99.
+constexpr double kEven = 0.95;
+constexpr double kLength = 0.17;    // m, of a first movement, to begin with
+constexpr double kShortest = 0.02;  // m, of one that is found
+constexpr double kOldest = 1.0;     // s, of a picture
+
+struct Tries {
+  int times, corrections, begins;  // of the first movement; of the second, or of how far the first has got
+};
+constexpr Tries kFew{12, 3, 2}, kAll{12, 5, 3};
+
+// Three unknowns a, b and c, each value seen as a + u b + v c: the left sides of the normal equations, which
+// axes share, and the right ones of an axis. Weights are 1 / variance.
+struct Left {
+  double a = 0.0, ab = 0.0, b = 0.0, ac = 0.0, bc = 0.0, c = 0.0;
+  void see(double u, double v, double weight) {
+    a += weight;
+    ab += weight * u;
+    b += weight * u * u;
+    ac += weight * v;
+    bc += weight * u * v;
+    c += weight * v * v;
+  }
+};
+struct Right {
+  double a = 0.0, b = 0.0, c = 0.0;
+  void see(double u, double v, double weighted) {
+    a += weighted;
+    b += weighted * u;
+    c += weighted * v;
+  }
+};
+// Of Gauss: a and b are taken out, what is left speaks of c alone.
+struct Pivots {
+  double a, ab, b, ac, bc, c;
+  explicit Pivots(const Left& m)
+      : a(m.a),
+        ab(m.ab / m.a),
+        b(m.b - ab * m.ab),
+        ac(m.ac / m.a),
+        bc((m.bc - ac * m.ab) / b),
+        c(m.c - ac * m.ac - bc * bc * b) {}
+};
+struct Known {
+  double a, b, c;  // of the right side
+  double agrees;   // twice the logarithm of how probable all is, as far as a and b go
+  Known(const Pivots& p, const Right& r)
+      : a(r.a), b(r.b - p.ab * a), c(r.c - p.ac * a - p.bc * b), agrees(a * a / p.a + b * b / p.b) {}
+  // The unknowns, c being known.
+  [[nodiscard]] Vec3 solved(const Pivots& p, double last) const {
+    const double middle = b / p.b - p.bc * last;
+    return {a / p.a - p.ab * middle - p.ac * last, middle, last};
+  }
+};
+
+// The pictures, turned about the normal so that the hand's way has no y; and what the belief makes of that
+// way.
+struct Seen {
+  std::array<Sighting, kSightings> turned;
+  std::size_t count = 0;
+  double weight = kUnset;                     // of what one of them says, 1 / m^2
+  Vec2 x = Vec2::UnitX(), y = Vec2::UnitY();  // turned, in the axes that were given
+  double length = kLength;                    // m, of the first movement
+  Eigen::Matrix2d left_xz;  // one over the covariance of what is left when the first movement is over, 1/m^2
+  double left_y = kUnset;   // one over its variance, 1/m^2
+  double certain = kUnset;  // logarithm of how narrow both are
+
+  Seen(const ReachBelief& hand, std::span<const Sighting> pictures, double noise_of, const Vec3& first)
+      : count(std::min(pictures.size(), kSightings)),
+        weight(1.0 / (noise_of * noise_of)),
+        length(first.norm()) {
+    const double aside = first.head<2>().norm();
+    if (aside > 1e-9) x = first.head<2>() / aside;
+    y = Vec2(-x.y(), x.x());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3& p = pictures[i].at;
+      turned[i] = {{x.dot(p.head<2>()), y.dot(p.head<2>()), p.z()}, pictures[i].age};
+    }
+    const double far = hand.scatter / (hand.share * hand.share) * length;
+    const double beside = hand.aside / (hand.share * hand.share) * length;
+    const Vec2 along = Vec2(aside, first.z()) / length;
+    left_y = 1.0 / (beside * beside);
+    left_xz = left_y * Eigen::Matrix2d::Identity() + (1.0 / (far * far) - left_y) * along * along.transpose();
+    certain = -std::log(beside * beside * far);
+  }
+  [[nodiscard]] std::span<const Sighting> pictures() const { return {turned.data(), count}; }
+  [[nodiscard]] Vec2 given(const Vec2& place) const { return place.x() * x + place.y() * y; }
+};
+
+// When the movements of a reach that touches now begin, s from now, and how long they take.
+struct Timing {
+  double begins = kUnset, first = kUnset, corrects = kUnset, second = kUnset;
+  bool falls_short = true;  // the first movement; else it crosses the surface by itself, and
+  double crossed = 1.0;     // so much of its way is made by then
+};
+
+struct Fit {
+  double evidence = -std::numeric_limits<double>::infinity();  // logarithm
+  Vec2 place = Vec2::Zero();                                   // turned axes
+  Vec3 first{kUnset, kUnset, kUnset};                          // the first movement, likewise
+};
+
+// Probability that a hand whose second movement has this way down, m, takes this time for it. Each corrects
+// so that it crosses the surface with the speed that it wants; the shortest time stands for all faster ones.
+double takes(const ReachBelief& hand, double down, double second, double width) {
+  const double speed = down * kAtCrossing.v / second;
+  const double range = hand.touch_fastest - hand.touch_slowest;
+  if (down <= 0.0) return 0.0;
+  if (second <= hand.shortest)
+    return std::clamp((hand.touch_fastest - std::max(hand.touch_slowest, speed)) / range, 0.0, 1.0);
+  return speed >= hand.touch_slowest && speed <= hand.touch_fastest ? speed / second * width / range : 0.0;
+}
+
+// What the pictures say of the unknowns along each axis.
+struct Axes {
+  Left xy, z;
+  Right of_x, of_y, of_z;
+  // In a picture the first movement has made this share of its way, and the second of its own.
+  void see(const Vec3& at, double weight, double first, double second, double rest, double beyond) {
+    const double u = first + rest * second;
+    xy.see(u, second, weight);
+    of_x.see(u, second, weight * at.x());
+    of_y.see(u, second, weight * at.y());
+    const double uz = first + rest * beyond * second, vz = beyond * second;
+    z.see(uz, vz, weight);
+    of_z.see(uz, vz, weight * at.z());
+  }
+};
+
+// The unknowns along an axis: where the hand began, the first movement, and what of the rest of the way the
+// belief does not foresee. The second movement makes the rest of the way; across the surface it aims beyond
+// it. How much the pictures differ from nothing at all is left out of the evidence: it is the same for all.
+Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width) {
+  const double rest = 1.0 / hand.share - 1.0;  // of the first movement
+  const double beyond = t.falls_short ? 1.0 / kAtCrossing.x : 0.0;
+  Axes axes;
+  for (const auto& [at, age] : seen.pictures())
+    axes.see(at, seen.weight, MinimumJerk((-age - t.begins) / t.first).x,
+             MinimumJerk((-age - t.corrects) / t.second).x, rest, beyond);
+  axes.xy.a += kVague;
+  axes.xy.b += kVague;
+  axes.z.b += kVague;
+  axes.z.see(1.0 + rest, 1.0, kExact);  // the whole way leads to the surface
+  if (!t.falls_short) axes.z.see(t.crossed, 0.0, kExact);
+  const Pivots xy(axes.xy), z(axes.z);
+  const Known of_x(xy, axes.of_x), of_y(xy, axes.of_y), of_z(z, axes.of_z);
+  // What is left of the way along x and z goes together.
+  const double y_weight = xy.c + seen.left_y;
+  const double x_weight = xy.c + seen.left_xz(0, 0), z_weight = z.c + seen.left_xz(1, 1);
+  const double both = seen.left_xz(0, 1), area = x_weight * z_weight - both * both;
+  const double x_left = (z_weight * of_x.c - both * of_z.c) / area;
+  const double z_left = (x_weight * of_z.c - both * of_x.c) / area;
+  const Vec3 along = of_x.solved(xy, x_left), across = of_y.solved(xy, of_y.c / y_weight),
+             down = of_z.solved(z, z_left);
+  // How far down the second movement goes says how long it takes: three points for a normal distribution.
+  const double middle = -(rest * down[1] + down[2]) / kAtCrossing.x;
+  const double by_left = 1.0 - rest * z.bc,
+               variance = rest * rest / z.b + by_left * by_left * x_weight / area;
+  const double spread = std::sqrt(3.0 * variance) / kAtCrossing.x;
+  double share = 0.0;
+  for (const auto& [at, weight] : {std::pair{-1.0, 1.0 / 6.0}, {0.0, 2.0 / 3.0}, {1.0, 1.0 / 6.0}}) {
+    const double d = middle + at * spread;
+    share += weight * (t.falls_short ? takes(hand, d, t.second, width) : d <= 0.0 ? 1.0 : 0.0);
+  }
+  Fit fit;
+  fit.first = {along[1], across[1], down[1]};
+  const double p = MinimumJerk(-t.begins / t.first).x, s = MinimumJerk(-t.corrects / t.second).x;
+  const Vec3 touching(1.0, p + rest * s, s);
+  fit.place = {touching.dot(along), touching.dot(across)};
+  const double agrees = of_x.agrees + of_y.agrees + of_z.agrees + of_y.c * of_y.c / y_weight +
+                        of_x.c * x_left + of_z.c * z_left;
+  const double pivots = xy.a * xy.b;
+  double certain = pivots * pivots * y_weight * area * (z.a * z.b);
+  // That it crosses just now, where nothing else says so: the density of its height, times its speed.
+  if (!t.falls_short) {
+    const double speed = MinimumJerk(-t.begins / t.first).v * std::abs(down[1]) * width;
+    share *= std::max(speed, 1e-12);
+    certain *= 2.0 * M_PI / kExact;
+  }
+  fit.evidence = 0.5 * (agrees - std::log(certain)) + seen.certain + std::log(std::max(share, 1e-24));
+  return fit;
+}
+
+// A hand that goes on with an even speed: a is where it is now, b its velocity.
+Axes even(std::span<const Sighting> pictures, double weight) {
+  Axes axes;
+  for (const auto& [at, age] : pictures) axes.see(at, weight, -age, 0.0, 0.0, 0.0);
+  for (Left* one : {&axes.xy, &axes.z}) {
+    one->a += kVague;
+    one->b += kVague;
+  }
+  return axes;
+}
+
+// One that touches now.
+Fit fit_even(const Seen& seen) {
+  Axes axes = even(seen.pictures(), seen.weight);
+  axes.z.a += kExact;
+  const Pivots aside(axes.xy), z(axes.z);
+  const Known x(aside, axes.of_x), y(aside, axes.of_y), down(z, axes.of_z);
+  Fit fit;
+  fit.place = {x.solved(aside, 0.0)[0], y.solved(aside, 0.0)[0]};
+  const double speed = std::abs(down.solved(z, 0.0)[1]), pivots = aside.a * aside.b;
+  fit.evidence =
+      0.5 * (x.agrees + y.agrees + down.agrees - std::log(pivots * pivots * (z.a * z.b) * (2.0 * M_PI))) +
+      std::log(std::max(speed, 1e-6));
+  return fit;
+}
+
+// The place that all together say, weighted by how probable each is. Nothing is kept of each.
+class Mean {
+ public:
+  void add(const Fit& fit) {
+    if (!(fit.evidence > -1e30) || !fit.place.allFinite()) return;
+    if (fit.evidence > most_) {
+      const double less = std::exp(most_ - fit.evidence);
+      place_ *= less;
+      first_ *= less;
+      weight_ *= less;
+      most_ = fit.evidence;
+    }
+    const double w = std::exp(fit.evidence - most_);
+    place_ += w * fit.place;
+    first_ += w * fit.first;
+    weight_ += w;
+  }
+  [[nodiscard]] double evidence() const { return most_ + std::log(weight_); }  // logarithm
+  [[nodiscard]] Vec2 place() const { return place_ / weight_; }
+  [[nodiscard]] Vec3 first() const { return first_ / weight_; }  // movement
+
+ private:
+  double most_ = -std::numeric_limits<double>::infinity(), weight_ = 0.0;
+  Vec2 place_ = Vec2::Zero();
+  Vec3 first_ = Vec3::Zero();
+};
+
+void try_reaches(const ReachBelief& hand, const Seen& seen, const Tries& tries, Mean& mean) {
+  const double share = std::log((1.0 - kEven) / (tries.times * tries.begins));
+  for (int i = 0; i < tries.times; ++i)
+    for (int j = 0; j < tries.begins; ++j)
+      for (int k = 0; k < tries.corrections; ++k)
+        for (const bool falls_short : {true, false}) {
+          Timing t;
+          // Even over the peak speed, and over when the correction begins.
+          const double peak = hand.slowest + (hand.fastest - hand.slowest) * (i + 0.5) / tries.times;
+          t.first = 1.875 * seen.length / peak;
+          const double begins = (kOverlap + (1.0 - kOverlap) * (j + 0.5) / tries.begins) * t.first;
+          t.falls_short = falls_short;
+          double width = (1.0 - kLeastShare) / tries.corrections;
+          if (falls_short) {
+            const double each = std::log(kLongest) / std::max(1, tries.corrections - 1);
+            t.second = hand.shortest * (k == 0 ? 1.0 : std::exp((k - 0.5) * each));
+            width = t.second * each;
+            t.corrects = -kCrosses * t.second;
+            t.begins = t.corrects - begins;
+          } else {
+            t.begins = -(kLeastShare + (k + 0.5) * width) * t.first;
+            t.second = hand.shortest;
+            t.corrects = t.begins + begins;
+            t.crossed = MinimumJerk(-t.begins / t.first).x;
+          }
+          Fit one = fit(hand, seen, t, width);
+          one.evidence += share;
+          mean.add(one);
+        }
+}
+
+// As many pictures as are of use, where all of them are sound; else none.
+std::span<const Sighting> usable(std::span<const Sighting> newest_first, double noise) {
+  const auto some = newest_first.first(std::min(newest_first.size(), kSightings));
+  const bool sound = std::all_of(some.begin(), some.end(), [](const Sighting& one) {
+    return one.at.allFinite() && std::isfinite(one.age) && one.age < kOldest;
+  });
+  return sound && some.size() >= 3 && noise > 0.0 ? some : std::span<const Sighting>();
+}
+
+}  // namespace
+
+double passes_by(std::span<const Sighting> newest_first, double noise, double until) noexcept {
+  constexpr double kLogistic = 1.702;  // with it a logistic curve is a normal distribution's to 0.01
+  const auto pictures = usable(newest_first, noise);
+  if (pictures.empty()) return -std::numeric_limits<double>::infinity();
+  const Axes axes = even(pictures, 1.0 / (noise * noise));
+  const Pivots pivots(axes.xy);
+  const Known x(pivots, axes.of_x), y(pivots, axes.of_y), z(pivots, axes.of_z);
+  const Vec3 down = z.solved(pivots, 0.0);
+  const double later = until - pivots.ab, height = down[0] + until * down[1];
+  const double spread = std::sqrt(1.0 / pivots.a + later * later / pivots.b);
+  const double share = 1.0 / (1.0 + std::exp(-kLogistic * height / spread));
+  // kExact: how narrow it is known that a finger is at the surface when it touches, which touch_then() leaves
+  // out.
+  const double evidence =
+      0.5 * (x.agrees + y.agrees + z.agrees - 3.0 * std::log(pivots.a * pivots.b) - std::log(kExact)) +
+      std::log(kEven * std::max(share, 1e-300));
+  return std::isfinite(evidence) ? evidence : -std::numeric_limits<double>::infinity();
+}
+
+Touch touch_then(const ReachBelief& hand, std::span<const Sighting> newest_first, double noise,
+                 const Vec2& carried) noexcept {
+  const Touch unknown;
+  const auto pictures = usable(newest_first, noise);
+  if (pictures.empty()) return unknown;
+  const Vec3 way = pictures.front().at - pictures.back().at;
+  if (!(way.z() < 0.0)) return unknown;
+  const Seen coarse(hand, pictures, noise, kLength * way.normalized());
+  Mean few;
+  try_reaches(hand, coarse, kFew, few);
+  const Vec3 turned = few.first();
+  Vec3 first;
+  first << coarse.given(turned.head<2>()), turned.z();
+  if (!(first.norm() > kShortest && first.norm() < kWide)) first = kLength * way.normalized();
+  const Seen seen(hand, pictures, noise, first);
+  Mean mean;
+  Fit steady = fit_even(seen);
+  steady.evidence += std::log(kEven);
+  if (carried.allFinite()) steady.place = {seen.x.dot(carried), seen.y.dot(carried)};
+  mean.add(steady);
+  try_reaches(hand, seen, kAll, mean);
+  return {seen.given(mean.place()), mean.evidence()};
+}
+
+}  // namespace enc

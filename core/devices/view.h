@@ -1,0 +1,21 @@
+// What the eye needs from a tick: which tool is where, and what the hand is doing.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/frames.h"
+#include "core/base/time.h"
+#include "core/devices/mode.h"
+
+namespace enc {
+
+struct View {
+  Time t{};
+  std::int32_t tool = -1;    // index in the scene, -1: none seen
+  std::int32_t object = -1;  // nearest, -1: none
+  Pose<'W', 'T'> X_WT;       // the tool's markers, as tracked
+  Point<'W'> tip;            // centre of the tool's tip
+  Mode mode = Mode::away;
+};
+
+}  // namespace enc

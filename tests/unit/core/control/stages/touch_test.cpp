@@ -1,0 +1,143 @@
+// Which surface point is under the tool: several objects, meshes, where the search begins, and jumps.
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "core/devices/mode.h"
+#include "models/shapes/shapes.h"
+#include "tests/support/scenes.h"
+
+namespace enc {
+namespace {
+
+using test::Loop;
+
+ObjectSpec mesh_object(const std::string& name, Mesh mesh, const Vec3& position) {
+  ObjectSpec object;
+  object.name = name;
+  object.shape = ShapeKind::mesh;
+  object.surface = std::make_shared<const Mesh>(std::move(mesh));
+  object.position = position;
+  object.behaviour = test::spring().name;
+  return object;
+}
+
+// A row of small balls of triangles, their tops 7 mm above W's origin.
+SceneSpec balls(int count) {
+  SceneSpec spec = test::ball_scene();
+  spec.objects.clear();
+  for (int i = 0; i < count; ++i)
+    spec.objects.push_back(mesh_object("ball_" + std::to_string(i), models::geodesic_ball(8, 0.012),
+                                       {-0.04 + 0.025 * i, 0, -0.005}));
+  return spec;
+}
+
+Loop loop_over(const SceneSpec& spec) { return Loop(prepare(spec, RigSpec{})); }
+
+// A path over all objects, with presses between.
+Point<'W'> along(int k) {
+  const double t = 1e-3 * k;
+  return {0.1 * std::sin(0.9 * t), 0.02 * std::sin(2.3 * t), 0.020 + 0.015 * std::cos(3.1 * t)};
+}
+
+TEST(Touch, WhereTheSearchBeginsChangesNothing) {
+  Loop warm = loop_over(balls(3));
+  Loop cold = loop_over(balls(3));
+  for (int k = 0; k < 4000; ++k) {
+    warm.tool_tip = cold.tool_tip = along(k);
+    cold.state.hints = Hints{};
+    if (k % 3 == 0) cold.state.hints.tool[0] = {2, 100 + k % 500};  // or begins somewhere else
+    warm.tick();
+    cold.tick();
+    ASSERT_EQ(warm.out.gap, cold.out.gap) << k;
+    ASSERT_EQ(warm.out.object, cold.out.object) << k;
+    ASSERT_EQ(warm.out.tip.xyz, cold.out.tip.xyz) << k;
+  }
+  EXPECT_GE(warm.state.hints.tool[0].feature, 0);
+}
+
+// All objects are asked, and the nearest is taken: the same as asking each by hand.
+TEST(Touch, ObjectsThatAreNotAskedCouldNotBeNearest) {
+  Loop loop = loop_over(balls(5));
+  for (int k = 0; k < 3000; ++k) {
+    loop.tool_tip = along(k);
+    const std::int32_t before = loop.state.object;
+    const bool free = loop.state.mode == Mode::away || loop.state.mode == Mode::follow;
+    loop.tick();
+    if (!free) continue;
+    std::int32_t nearest = -1;
+    double least = INFINITY;
+    for (std::size_t i = 0; i < loop.scene.objects.size(); ++i) {
+      const Object& object = loop.scene.objects[i];
+      const auto index = static_cast<std::int32_t>(i);
+      const double d = object.surface.nearest(object.X_WO.inverse() * loop.tool_tip).distance -
+                       (index == before ? 1e-3 : 0.0);  // the one of before is favoured by 1 mm
+      if (d < least) nearest = index;
+      least = std::min(least, d);
+    }
+    ASSERT_EQ(loop.out.object, nearest) << k;
+  }
+}
+
+// Inside of a cube of 50 mm the middle plane is as near to the left face as to the right one.
+TEST(Touch, AJumpOfTheNearestPointIsTold) {
+  SceneSpec spec = test::ball_scene();
+  const double top = 0.008;
+  spec.objects = {mesh_object("cube", models::cube(4, 0.05), {0, 0, top - 0.025})};
+  Loop loop = loop_over(spec);
+  loop.tool_tip = {-0.0005, 0, top - 0.025};
+  loop.tick(2);
+  EXPECT_EQ(loop.out.why & kSurfaceJump, 0U);
+  loop.tool_tip = {-0.0004, 0, top - 0.025};
+  loop.tick();
+  EXPECT_EQ(loop.out.why & kSurfaceJump, 0U);
+  loop.tool_tip = {0.0004, 0, top - 0.025};  // now the other side is nearer, 50 mm away
+  loop.tick();
+  EXPECT_NE(loop.out.why & kSurfaceJump, 0U);
+  loop.tick();
+  EXPECT_EQ(loop.out.why & kSurfaceJump, 0U) << "once";
+}
+
+// A tool that goes along the row at an even 0.1 m/s: where the next ball takes over from the first.
+double takes_over_at(double ahead, double height) {
+  SceneSpec spec = balls(2);
+  spec.follow.ahead = ahead;
+  Loop loop = loop_over(spec);
+  for (int k = 0; k < 600; ++k) {
+    loop.tool_tip = {-0.05 + 1e-4 * k, 0, height};
+    loop.tick();
+    const Object& object = loop.scene.objects[static_cast<std::size_t>(loop.out.object)];
+    // Whichever it is, the gap is the one of now.
+    const double gap = object.surface.nearest(object.X_WO.inverse() * loop.tool_tip).distance -
+                       loop.scene.tools[0].tip.radius;
+    EXPECT_NEAR(loop.out.gap, gap, 1e-4) << k;
+    if (loop.out.object == 1) return loop.tool_tip.xyz[0];
+  }
+  return kUnset;
+}
+
+TEST(Touch, LooksAheadByAsMuchAsTheToolWillGo) {
+  const double now = takes_over_at(0.0, 0.040), ahead = takes_over_at(0.060, 0.040);
+  EXPECT_NEAR(now - ahead, 0.1 * 0.060, 1e-3);
+}
+
+// Half a second ahead it would be 50 mm farther, behind both balls; but not beyond the gap that it has now.
+TEST(Touch, DoesNotLookThroughASurface) {
+  const double now = takes_over_at(0.0, 0.0105), ahead = takes_over_at(0.5, 0.0105);
+  EXPECT_GT(now - ahead, 0.002);
+  EXPECT_LT(now - ahead, 0.006);  // the gap half way between the balls
+}
+
+// Over a smooth ball nothing jumps, however the tool goes.
+TEST(Touch, OnABallNothingJumps) {
+  Loop loop = loop_over(balls(1));
+  for (int k = 0; k < 3000; ++k) {
+    loop.tool_tip = along(k);
+    loop.tick();
+    ASSERT_EQ(loop.out.why & kSurfaceJump, 0U) << k;
+  }
+}
+
+}  // namespace
+}  // namespace enc

@@ -1,0 +1,195 @@
+#include "core/shape/response/response.h"
+
+#include <array>
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+
+namespace enc {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr double kFloor = 119.0;  // N/m
+
+// Coefficients of d^1..d^4 in N/mm^k to SI.
+std::array<double, 4> per_mm(std::array<double, 4> a) {
+  double scale = 1.0;
+  for (double& c : a) c *= (scale *= 1e3);
+  return a;
+}
+
+// Straight lines: 2 N/mm pressing, 1 N/mm releasing, to 6 mm. gap(d) = 1000 d, largest 6 N; Y(d) = 500 d^2;
+// L = 6 N * 1.5 mm = 9e-3 N m.
+Response lines() {
+  return {{.press = {2000.0, 0, 0, 0}, .release = {1000.0, 0, 0, 0}, .limit = 6e-3}, kFloor};
+}
+
+std::string refusal(const ResponseSpec& spec, double floor = kFloor) {
+  try {
+    const Response response(spec, floor);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Response, FirstPressIsThePressCurve) {
+  const Response r = lines();
+  ResponseState s;
+  EXPECT_NEAR(r.largest_gap(), 6.0, 1e-12);
+  EXPECT_EQ(r.limit(), 6e-3);
+  EXPECT_NEAR(r.force(s, 3e-3), 6.0, 1e-12);
+  EXPECT_NEAR(r.force(s, 6e-3), 12.0, 1e-12);
+  EXPECT_EQ(s.alpha, 1.0);
+}
+
+// From 6 to 5.9 mm: alpha = 1 - 500 (36 - 34.81) e-6 / 9e-3 = 0.9338889, F = 5.9 (1 + 0.9338889) N. To 5 mm:
+// alpha = 1 - 500 * 11e-6 / 9e-3 = 0.3888889, F = 6.9444444 N. To 4 mm: 500 * 20e-6 > L, so alpha = 0 and F =
+// 4 N.
+TEST(Response, TurnsFromPressToReleaseAsByHand) {
+  const Response r = lines();
+  ResponseState s;
+  r.force(s, 6e-3);
+  EXPECT_NEAR(r.force(s, 5.9e-3), 11.4099444, 1e-7);
+  EXPECT_NEAR(s.alpha, 0.9338889, 1e-7);
+  EXPECT_NEAR(r.force(s, 5e-3), 6.9444444, 1e-7);
+  EXPECT_NEAR(r.force(s, 4e-3), 4.0, 1e-12);
+  EXPECT_EQ(s.alpha, 0.0);
+}
+
+// Released to 0.5 mm, pressed again to 1 mm: alpha = 500 (1 - 0.25) e-6 / 9e-3 = 0.0416667.
+TEST(Response, TurnsFromReleaseToPressAsByHand) {
+  const Response r = lines();
+  ResponseState s;
+  for (const double d : {6e-3, 0.5e-3}) r.force(s, d);
+  EXPECT_NEAR(r.force(s, 1e-3), 1.0416667, 1e-7);
+}
+
+TEST(Response, RecoversAtZero) {
+  const Response r = lines();
+  ResponseState s;
+  for (const double d : {6e-3, 1e-3}) r.force(s, d);
+  EXPECT_EQ(s.alpha, 0.0);
+  EXPECT_EQ(r.force(s, 0.0), 0.0);
+  EXPECT_EQ(s.alpha, 1.0);
+  EXPECT_NEAR(r.force(s, 1e-3), 2.0, 1e-12);
+}
+
+TEST(Response, StaysWithinItsLimits) {
+  const Response r = lines();
+  ResponseState s;
+  EXPECT_NEAR(r.force(s, 7e-3), 12.0, 1e-12);
+  EXPECT_EQ(s.deflection, 6e-3);
+  EXPECT_EQ(r.deflection(s, 13.0), 6e-3);
+  EXPECT_EQ(r.deflection(s, -1.0), 0.0);
+  EXPECT_EQ(r.force(s, -1e-3), 0.0);
+}
+
+// F = 2 N/mm d at first, so 5 N is 2.5 mm; on the way back, once alpha is 0, F = 1 N/mm d, so 1 N is 1 mm.
+TEST(Response, InverseAsByHand) {
+  const Response r = lines();
+  ResponseState s;
+  EXPECT_NEAR(r.deflection(s, 5.0), 2.5e-3, 1e-12);
+  r.deflection(s, 12.0);
+  EXPECT_NEAR(r.deflection(s, 1.0), 1e-3, 1e-12);
+}
+
+TEST(Response, InverseUndoesForceAlongALoop) {
+  const Response r({.press = per_mm({0.25, 1.14, -0.24, 0.0164}),
+                    .release = per_mm({0.125, 0.89, -0.196, 0.0163}),
+                    .limit = 6e-3},
+                   kFloor);
+  ResponseState there;
+  ResponseState back;
+  for (const double mm : {0.2, 3.0, 5.9, 5.85, 5.0, 2.0, 2.1, 4.0, 6.0, 0.4, 0.0, 1.0}) {
+    const double force = r.force(there, mm * 1e-3);
+    EXPECT_NEAR(r.deflection(back, force), mm * 1e-3, 1e-12) << mm << " mm";
+    EXPECT_NEAR(back.alpha, there.alpha, 1e-8) << mm << " mm";
+  }
+}
+
+// Slope 0.1 (d - 1)(d - 2) N/mm, d in mm: negative between 1 and 2 mm. The check looks every 3 um.
+TEST(Response, RefusesAFallingCurveAndNamesTheInterval) {
+  const ResponseSpec spec{
+      .press = per_mm({3.0, 0, 0, 0}), .release = per_mm({0.2, -0.15, 0.1 / 3.0, 0}), .limit = 6e-3};
+  EXPECT_THAT(refusal(spec), AllOf(HasSubstr("release curve falls"), HasSubstr("from 1.002 to 1.998")));
+}
+
+// The unconstrained polynomials printed in sources/ball 5 (their constants left out): the release slope
+// -0.6128 + 3.0338 d - 1.0848 d^2 + 0.1204 d^3 is 0 at 0.2187 mm (sources/ball 5).
+TEST(Response, RefusesThePolynomialsPrintedForTheBall) {
+  const ResponseSpec spec{.press = per_mm({0.3767, 1.0669, -0.2232, 0.0152}),
+                          .release = per_mm({-0.6128, 1.5169, -0.3616, 0.0301}),
+                          .limit = 6e-3};
+  EXPECT_THAT(refusal(spec), AllOf(HasSubstr("release curve falls"), HasSubstr("from 0.000 to 0.216")));
+}
+
+TEST(Response, RefusesACurveSofterThanTheFloor) {
+  const ResponseSpec spec{.press = {1000.0, 0, 0, 0}, .release = {100.0, 0, 0, 0}, .limit = 6e-3};
+  EXPECT_THAT(refusal(spec), AllOf(HasSubstr("release curve is softer"), HasSubstr("0.119 N per millimetre"),
+                                   HasSubstr("from 0.000 to 6.000")));
+  EXPECT_EQ(refusal(spec, 100.0), "accepted");
+  // Press slope 0.1 + 0.2 d N/mm: below 0.119 up to 0.095 mm, seen at 0.093.
+  const ResponseSpec begins{
+      .press = per_mm({0.1, 0.1, 0, 0}), .release = per_mm({0.1, 0, 0, 0}), .limit = 6e-3};
+  EXPECT_THAT(refusal(begins), AllOf(HasSubstr("press curve is softer"), HasSubstr("from 0.000 to 0.093")));
+}
+
+// press - release = 0.01 d (d - 2)(d - 4) N, d in mm: negative between 2 and 4 mm; both curves rise.
+TEST(Response, RefusesReleaseAbovePress) {
+  const ResponseSpec spec{
+      .press = per_mm({2.0, 0, 0, 0}), .release = per_mm({1.92, 0.06, -0.01, 0}), .limit = 6e-3};
+  EXPECT_THAT(refusal(spec),
+              AllOf(HasSubstr("release curve is above the press curve"), HasSubstr("from 2.001 to 3.999")));
+}
+
+// A typo in the limit: 9e18 mm. More than a number of thousandths can be.
+TEST(Response, RefusesALimitThatNobodyMeansInWords) {
+  const ResponseSpec spec{
+      .press = per_mm({0.8, 4.0, 0, 0.05}), .release = per_mm({0.1, 3.4, 0, 0.06}), .limit = 9.2e15};
+  EXPECT_THAT(refusal(spec, 10.0), AllOf(HasSubstr("release curve is above the press curve"),
+                                         HasSubstr(" to 9.2e+18 (deflection in millimetres)")));
+}
+
+TEST(Response, RefusesWhatIsNotFinite) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  const ResponseSpec good{.press = {2000.0, 0, 0, 0}, .release = {1000.0, 0, 0, 0}, .limit = 6e-3};
+  EXPECT_EQ(refusal(good), "accepted");
+  for (const double bad : {kNan, kInf, -kInf}) {
+    ResponseSpec spec = good;
+    spec.press[2] = bad;
+    EXPECT_THAT(refusal(spec), HasSubstr("finite"));
+    spec = good;
+    spec.release[0] = bad;
+    EXPECT_THAT(refusal(spec), HasSubstr("finite"));
+    spec = good;
+    spec.limit = bad;
+    EXPECT_THAT(refusal(spec), HasSubstr("limit"));
+  }
+  for (const double bad : {0.0, -6e-3}) {
+    ResponseSpec spec = good;
+    spec.limit = bad;
+    EXPECT_THAT(refusal(spec), HasSubstr("limit"));
+  }
+}
+
+// One curve for both: no gap, no loop, no storage to divide by.
+TEST(Response, AnElasticObjectHasNoLoop) {
+  const Response r({.press = {1000.0, 0, 0, 0}, .release = {1000.0, 0, 0, 0}, .limit = 6e-3}, kFloor);
+  ResponseState s;
+  EXPECT_EQ(r.largest_gap(), 0.0);
+  for (const double d : {1e-3, 4e-3, 2e-3, 6e-3, 1e-3}) {
+    EXPECT_NEAR(r.force(s, d), 1000.0 * d, 1e-12);
+    EXPECT_NEAR(r.deflection(s, 500.0 * d), 0.5 * d, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace enc
