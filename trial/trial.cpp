@@ -31,7 +31,7 @@ std::uint32_t nanoseconds(WallClock::duration d) {
 // s of what the machine does by itself; 10 where it only waits for a person. With a twin it is the twin's to
 // say.
 double programme_of(const Scene& scene) {
-  if (scene.probe() != nullptr) return programme_time(scene);
+  if (const Probe* probe = scene.probe()) return programme_time(scene, *probe);
   return scene.travel() != nullptr ? scene.travel()->duration() : 10.0;
 }
 

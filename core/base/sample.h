@@ -5,10 +5,10 @@
 #include <cstdint>
 
 #include "core/base/frames.h"
+#include "core/base/joints.h"
 #include "core/base/time.h"
 #include "core/base/tip.h"
 #include "core/base/words.h"
-#include "core/machine/arm.h"
 
 namespace enc {
 

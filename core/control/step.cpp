@@ -27,29 +27,29 @@ void walk_through(stages::Walk& walk, const Task& task, State& state, Outputs& o
   state.held = stages::holding(walk);
 }
 
-void walk_through(stages::Walk& walk, State& state, Outputs& out) noexcept {
-  std::visit([&](const auto& task) { walk_through(walk, task, state, out); }, walk.scene.task);
+void walk_through(stages::Walk& walk, const Scene& scene, State& state, Outputs& out) noexcept {
+  std::visit([&](const auto& task) { walk_through(walk, task, state, out); }, scene.task);
 }
 
 }  // namespace
 
 void step(const Scene& scene, const Tick& tick, const Inputs& in, State& state, Outputs& out) noexcept {
   stages::Walk walk(scene, tick, in);
-  walk_through(walk, state, out);
+  walk_through(walk, scene, state, out);
 }
 
 void guide(const Scene& scene, const Tick& tick, const Inputs& in, const Point<'W'>& to, State& state,
            Outputs& out) noexcept {
   stages::Walk walk(scene, tick, in);
   walk.sent = to;
-  walk_through(walk, state, out);
+  walk_through(walk, scene, state, out);
 }
 
 void carry(const Scene& scene, const Tick& tick, const Inputs& in, const Pose<'W', 'H'>& to, State& state,
            Outputs& out) noexcept {
   stages::Walk walk(scene, tick, in);
   walk.carried = &to;
-  walk_through(walk, state, out);
+  walk_through(walk, scene, state, out);
 }
 
 }  // namespace enc

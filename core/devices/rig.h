@@ -4,7 +4,6 @@
 
 #include <memory>
 
-#include "core/control/step.h"
 #include "core/devices/clock.h"
 #include "core/devices/display.h"
 #include "core/devices/force_sensor.h"
@@ -12,6 +11,7 @@
 #include "core/devices/haptic_arm.h"
 #include "core/devices/manipulator.h"
 #include "core/devices/pose_tracker.h"
+#include "core/devices/signals.h"
 
 namespace enc {
 

@@ -8,14 +8,12 @@
 #include <vector>
 
 #include "core/base/frames.h"
+#include "core/base/joints.h"
 #include "core/base/words.h"
 
 namespace enc {
 
-inline constexpr std::size_t kMostJoints = 3;
 inline constexpr double kStandardGravity = 9.80665;  // m/s^2, along -z of R and W
-// A number for each joint: rad or m, N m or N. Joints that a machine does not have are 0.
-using PerJoint = std::array<double, kMostJoints>;
 
 enum class ArmKind : std::uint8_t { phantom, chain };
 constexpr auto words(ArmKind) { return enum_words("phantom", "chain"); }

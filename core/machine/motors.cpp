@@ -54,12 +54,12 @@ double bears_for(const Thermal& thermal, double load, double warm) {
   return high;
 }
 
-Motors::Motors(const Arm& arm, const ArmRig& rig, double dt)
-    : joints_(arm.joints()), tip_(rig.peak), thermal_(rig.thermal), warming_(rig.thermal, dt) {
+Motors::Motors(const Arm& arm, const MotorRatings& ratings, double dt)
+    : joints_(arm.joints()), tip_(ratings.tip), thermal_(ratings.thermal), warming_(ratings.thermal, dt) {
   for (std::size_t i = 0; i < joints_; ++i) {
-    const double ratio = rig.machine.drives[i].ratio;
-    peak_[i] = rig.peak_torque[i] * ratio;
-    continuous_[i] = rig.continuous_torque[i] * ratio;
+    const double ratio = arm.machine().drives[i].ratio;
+    peak_[i] = ratings.peak[i] * ratio;
+    continuous_[i] = ratings.continuous[i] * ratio;
   }
 }
 

@@ -2,9 +2,24 @@
 // law folds back smoothly as a winding warms up; so the force keeps its direction.
 #pragma once
 
-#include "core/spec/arm_rig.h"
+#include "core/machine/arm.h"
 
 namespace enc {
+
+// How a motor gets warm.
+struct Thermal {
+  double winding_time = 12.0;   // s, of a winding against its housing (sources/arm 3, published)
+  double housing_time = 612.0;  // s, and of the housing against the room (published)
+  double winding_share =
+      3.1 / (3.1 + 14.0);  // of the rise over the room that is over the housing (published)
+};
+
+// What the motors of an arm may give, as a rig file says it.
+struct MotorRatings {
+  double tip = 0.0;               // N: the tip nowhere pushes with more
+  PerJoint peak{}, continuous{};  // of each motor, N m: for a moment, and for ever
+  Thermal thermal{};
+};
 
 // Rise of each winding over its housing, and of that over the room, as shares of what a winding may have over
 // the room for ever.
@@ -40,7 +55,7 @@ enum class MotorLimit : std::uint8_t { none, peak, heat };
 class Motors {
  public:
   Motors() = default;  // none: nothing is given
-  Motors(const Arm& arm, const ArmRig& rig, double dt);
+  Motors(const Arm& arm, const MotorRatings& ratings, double dt);
 
   // Largest share, 0 to 1, of joint torques `wanted` that there is beside `held`, which goes on.
   [[nodiscard]] double share(const Heat& heat, const PerJoint& held, const PerJoint& wanted,

@@ -17,6 +17,20 @@ struct ServoLaw {
   double acceleration = 0.41;  // m/s^2
 };
 
+// What a position-controlled machine answers with, as the rig believes.
+struct ServoModel {
+  double frequency = kUnset;  // natural, rad/s
+  double damping = kUnset;    // ratio
+  double delay = 0.0;         // s
+  double dt = kUnset;         // s, of the loop
+  // s, of an even motion; no belief makes a machine slower than 0.1 s.
+  double lag = std::min(0.1, 2.0 * damping / frequency + delay);
+  // Of a tick, implicit in the speed, so that no frequency and no dt make it diverge.
+  double turn = frequency * dt;                                    // rad
+  double pull = frequency * turn;                                  // 1/s, to the command
+  double left = 1.0 / (1.0 + 2.0 * damping * turn + turn * turn);  // of the speed
+};
+
 // Of one point, in the axes of whoever moves it: m, m/s, m/s^2.
 struct ServoMotion {
   Vec3 p{0, 0, 0}, velocity{0, 0, 0}, acceleration{0, 0, 0};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/machine/arm.h"
+#include "core/machine/motors.h"
 #include "core/spec/passivity_form.h"
 
 namespace enc {
@@ -18,14 +19,6 @@ enum class GravityForm : std::uint8_t {
   exact       // and the prop where it is, at the tip
 };
 constexpr auto words(GravityForm) { return enum_words("none", "published", "exact"); }
-
-// How a motor gets warm.
-struct Thermal {
-  double winding_time = 12.0;   // s, of a winding against its housing (sources/arm 3, published)
-  double housing_time = 612.0;  // s, and of the housing against the room (published)
-  double winding_share =
-      3.1 / (3.1 + 14.0);  // of the rise over the room that is over the housing (published)
-};
 
 // What decides how stiff a wall may be, as it is believed (docs/reference/stability.md): of each joint as in
 // [truth.arm].
@@ -63,6 +56,10 @@ struct ArmRig {
   PassivityForm passivity = PassivityForm::none;
   std::optional<ArmLoop> loop{};  // unset: whether it is stable is not known, and no real one is armed
 };
+
+[[nodiscard]] inline MotorRatings motor_ratings(const ArmRig& rig) {
+  return {rig.peak, rig.peak_torque, rig.continuous_torque, rig.thermal};
+}
 
 // What an arm says that it is and can do.
 struct ArmAbility {

@@ -1,7 +1,7 @@
 // A rig, as the core sees it: which driver fills each role, where the devices stand (the calibration that is
 // *believed*), and the numbers the haptic loop works with. These structs are the file format
-// (models/rigs/*.toml). The simulator's truth is apart (sim/twin_spec.h), so that a wrong calibration can be
-// injected and measured.
+// (models/rigs/*.toml). The simulator's truth is apart (sim/spec/twin_spec.h), so that a wrong calibration
+// can be injected and measured.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 #include "core/base/frames.h"
 #include "core/base/words.h"
-#include "core/control/task/render/damping.h"
 #include "core/machine/hexapod.h"
+#include "core/spec/admittance_rig.h"
 #include "core/spec/arm_rig.h"
 #include "core/spec/display_rig.h"
 #include "core/spec/settings.h"

@@ -1,6 +1,6 @@
 // A scene: what the experiment is. These structs are the file format (models/scenes/*.toml), with its
 // defaults; SI here, units in the file's keys. What a scene does not name is not built, not ticked and not
-// given a thread. What only one task needs stands in its folder (task/tasks.h).
+// given a thread. What only one task needs is a part of its own (probe_spec.h, travel_spec.h).
 #pragma once
 
 #include <array>
@@ -12,8 +12,9 @@
 #include "core/base/frames.h"
 #include "core/base/tip.h"
 #include "core/base/words.h"
-#include "core/control/task/tasks.h"
 #include "core/spec/object_spec.h"
+#include "core/spec/probe_spec.h"
+#include "core/spec/travel_spec.h"
 #include "core/spec/user_spec.h"
 
 namespace enc {
@@ -64,7 +65,7 @@ struct QuestionnaireSpec {
   std::string form;  // file in models/questionnaires without ".toml"
 };
 
-struct SceneSpec : Tasks::Parts {
+struct SceneSpec : ProbePart, TravelPart {
   std::int64_t format = 1;
   std::string title;
   std::string rig;  // in models/rigs, that it is made for; empty: "sim"

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/control/safety/braking.h"
-#include "core/control/scene/scene.h"
 
 namespace enc::stages {
 namespace {
@@ -86,7 +85,7 @@ bool project(const std::array<Wall, kWalls>& walls, std::size_t count, const Vec
 
 }  // namespace
 
-Inside::Inside(const Scene& scene, std::int32_t object, double margin, const Vec<'W'>& shift,
+Inside::Inside(const CommonScene& scene, std::int32_t object, double margin, const Vec<'W'>& shift,
                ObjectHint& hint)
     : Inside(scene.objects[static_cast<std::size_t>(object)], margin, shift, hint) {
   if (hint_.object != object) hint_ = {object, -1};

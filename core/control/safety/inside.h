@@ -3,7 +3,7 @@
 // changes with the way. Internal to the core.
 #pragma once
 
-#include "core/control/step.h"
+#include "core/control/world/common_scene.h"
 #include "core/control/world/object.h"
 
 namespace enc::stages {
@@ -19,7 +19,8 @@ struct Brake {
 class Inside {
  public:
   // `shift`: of an object that has moved. `hint` as in surface.h; it is kept up to date.
-  Inside(const Scene& scene, std::int32_t object, double margin, const Vec<'W'>& shift, ObjectHint& hint);
+  Inside(const CommonScene& scene, std::int32_t object, double margin, const Vec<'W'>& shift,
+         ObjectHint& hint);
   Inside(const Object& object, double margin, const Vec<'W'>& shift, ObjectHint& hint);
 
   // m; negative: p is outside.

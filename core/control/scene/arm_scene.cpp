@@ -199,7 +199,7 @@ Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
   const PerJoint home = law.arm.zero();
   law.home_mass = law.arm.felt_mass(law.arm.jacobian(home), law.arm.mass(home, law.prop_mass));
   check_damping(law);
-  law.motors = Motors(law.arm, rig.arm, scene.dt);
+  law.motors = Motors(law.arm, motor_ratings(rig.arm), scene.dt);
   if (rig.arm.passivity == PassivityForm::controlled) {
     if (!rig.arm.loop)
       throw Error(

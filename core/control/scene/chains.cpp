@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/control/scene/scene.h"
 #include "core/control/stages/walk.h"
+#include "core/control/task/state.h"
 #include "core/machine/arm.h"
 
 namespace enc {

@@ -8,9 +8,8 @@
 
 #include "core/base/frames.h"
 #include "core/base/rotation.h"
-#include "core/base/tip.h"
 #include "core/control/task/tasks.h"
-#include "core/control/world/object.h"
+#include "core/control/world/common_scene.h"
 #include "core/machine/loop_model.h"
 #include "core/machine/reach.h"
 #include "core/spec/rig_spec.h"
@@ -18,12 +17,7 @@
 
 namespace enc {
 
-struct Tool {
-  Tip<'T'> tip;
-  double length = 0.0;  // of its shaft: from the tip's centre to the middle of the markers, m
-};
-
-struct Scene {
+struct Scene : CommonScene {
   // Made, copied and destroyed in scene.cpp: inline, every other file would compile that anew.
   Scene();
   ~Scene();
@@ -32,33 +26,7 @@ struct Scene {
   Scene& operator=(const Scene&);
   Scene& operator=(Scene&&) noexcept;
 
-  std::vector<Object> objects;
-  std::vector<Tool> tools;
   Tasks::Any task;  // what is done
-  bool has_manipulator = false, has_force = false, has_tracker = false, has_display = false;
-
-  std::int32_t clamped_tool = -1;  // held by the gripper; -1: there is none
-  double grip_force = kUnset;      // N
-
-  Pose<'W', 'R'> X_WR;  // from "H is W at the machine's zero" [VHMR 2]
-  Pose<'W', 'C'> X_WC;
-  Pose<'W', 'S'> X_WS;
-  Pose<'G', 'L'> X_GL;
-  Pose<'H', 'F'> X_HF;
-  Reach reach;
-  ServoModel servo;  // of the machine, as it is believed
-
-  FollowSpec follow;
-  ForceRig force;
-  TrackerRig tracker;
-  DisplayRig display;
-  ContactRig contact;
-  LoopRig loop;
-  double tip_radius = kUnset;    // of the haptic-tip or the probe, m
-  double dt = kUnset;            // s, one tick
-  double filter_gain = kUnset;   // of the force low-pass, per tick
-  double lowest_slope = kUnset;  // N/m: softest object that is accepted (loop_model.h)
-  double strength = kUnset;      // N: pressing force that the machine carries beside its own load
 
   // The task, where it is this one; else null. An arm's law is that of Meet and of Push.
   [[nodiscard]] const Render* render() const { return std::get_if<Render>(&task); }

@@ -8,7 +8,7 @@ namespace enc::stages {
 namespace {
 
 // Nothing is said to the machine before it has said where it is, and nothing goes on where it was.
-void begin_anew(State& state, Commanded& now) {
+void begin_anew(CommonState& state, Commanded& now) {
   state.started = false;
   state.entered = false;
   state.mode = Mode::away;
@@ -17,7 +17,7 @@ void begin_anew(State& state, Commanded& now) {
   now.following = Following{};
 }
 
-void track_tip(Walk& walk, State& state, Commanded& now) {
+void track_tip(Walk& walk, CommonState& state, Commanded& now) {
   const auto& sample = walk.in.tip;
   if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {
     walk.why |= kTipLost;
@@ -52,7 +52,7 @@ void track_tip(Walk& walk, State& state, Commanded& now) {
 
 }  // namespace
 
-void track(Walk& walk, const Displacing&, State& state, Commanded& now) noexcept {
+void track(Walk& walk, const Displacing&, CommonState& state, Commanded& now) noexcept {
   walk.stops_tool = true;
   if (walk.in.resumed) begin_anew(state, now);
   if (walk.scene.has_manipulator) track_tip(walk, state, now);
@@ -73,7 +73,7 @@ void grip(Walk& walk) noexcept {
 
 // A machine that did not follow may go on at any time: the hold lasts until the tool has gone and the command
 // is back where the machine is; where nobody sees a tool, to the end.
-void hold_lost(Walk& walk, State& state, Commanded& now) noexcept {
+void hold_lost(Walk& walk, CommonState& state, Commanded& now) noexcept {
   if (!now.following.lost) return;
   constexpr double kBack = 1e-3;                                                          // m
   const bool back = (walk.X_WH.origin() - walk.scene.X_WR * now.command).norm() < kBack;  // false for NaN

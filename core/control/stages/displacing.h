@@ -7,7 +7,7 @@
 
 namespace enc {
 
-struct State;
+struct CommonState;
 
 // Such a task: it has the stages of this file, where it has none of its own.
 struct Displacing {};
@@ -42,13 +42,13 @@ void fields(F& f, Commanded& d) {
 namespace stages {
 struct Walk;
 // Where tip and tool are.
-void track(Walk& walk, const Displacing& task, State& state, Commanded& now) noexcept;
+void track(Walk& walk, const Displacing& task, CommonState& state, Commanded& now) noexcept;
 // Whether the gripper holds its tool, where it should hold one.
 void grip(Walk& walk) noexcept;
 // What force is on the tip. `clear`: nothing can be on it, so that what the sensor says is its zero.
-void sense(Walk& walk, State& state, Commanded& now, bool clear) noexcept;
+void sense(Walk& walk, CommonState& state, Commanded& now, bool clear) noexcept;
 // A machine that did not follow is held.
-void hold_lost(Walk& walk, State& state, Commanded& now) noexcept;
+void hold_lost(Walk& walk, CommonState& state, Commanded& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

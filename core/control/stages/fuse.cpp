@@ -8,7 +8,7 @@ namespace {
 
 // Where the haptic-tip will be when this view is seen, in the middle: carried on by its own velocity. No
 // deeper than the object's limit, where the machine stops it.
-Point<'W'> haptic_tip_ahead(const stages::Walk& walk, const State& state, const Contact& contact) {
+Point<'W'> haptic_tip_ahead(const stages::Walk& walk, const CommonState& state, const Contact& contact) {
   const TipSample& sample = walk.in.tip.value;
   const double ahead = walk.scene.display.lead + age(walk.tick.t, walk.in.tip.t);
   const Point<'W'> tip = walk.X_WH.origin() + ahead * (walk.scene.X_WR * sample.velocity);
@@ -20,7 +20,7 @@ Point<'W'> haptic_tip_ahead(const stages::Walk& walk, const State& state, const 
 }
 
 // The same of a tool that does not press, by the tracker's prediction; where it holds, nothing is ahead.
-Point<'W'> free_tip_ahead(const stages::Walk& walk, const State& state) {
+Point<'W'> free_tip_ahead(const stages::Walk& walk, const CommonState& state) {
   const TrackerRig& rig = walk.scene.tracker;
   if (rig.prediction == Prediction::hold) return walk.tool_tip;
   const Time then = walk.tick.t + from_seconds(walk.scene.display.lead);
@@ -39,7 +39,7 @@ double pressing_share(double pressing_force, double contact_force) {
   return std::clamp(pressing_force / contact_force, 0.0, 1.0);
 }
 
-SeenTool seen_tool(const stages::Walk& walk, const State& state, const Contact* contact) noexcept {
+SeenTool seen_tool(const stages::Walk& walk, const CommonState& state, const Contact* contact) noexcept {
   const DisplayRig& rig = walk.scene.display;
   if (rig.tip == SeenTip::tracked) return {walk.X_WT_newest, walk.tip_newest};
   if (rig.tip == SeenTip::predicted || !walk.tool_known) return {walk.X_WT, walk.tool_tip};

@@ -19,7 +19,7 @@ struct SeenTool {
   Pose<'W', 'T'> X_WT;
   Point<'W'> tip;  // centre of its tip
 };
-[[nodiscard]] SeenTool seen_tool(const stages::Walk& walk, const State& state,
+[[nodiscard]] SeenTool seen_tool(const stages::Walk& walk, const CommonState& state,
                                  const Contact* contact) noexcept;
 
 }  // namespace enc

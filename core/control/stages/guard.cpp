@@ -65,7 +65,8 @@ Vec3 next_velocity(Walk& walk, const Walls& walls, const Vec3& way, const Vec3& 
 }
 
 // The walls know the side that is nearest; beside an edge there are others.
-Vec3 kept_inside(Walk& walk, State& state, const Commanded& now, const Walls& walls, const Vec3& wanted) {
+Vec3 kept_inside(Walk& walk, CommonState& state, const Commanded& now, const Walls& walls,
+                 const Vec3& wanted) {
   if (std::isnan(walls.depth)) return wanted;
   // Mostly there is room for the whole way that it takes to stop.
   const double speed = wanted.norm();
@@ -78,7 +79,7 @@ Vec3 kept_inside(Walk& walk, State& state, const Commanded& now, const Walls& wa
 }
 
 // Velocity of the next set-point, in W.
-Vec3 commanded(Walk& walk, State& state, const Commanded& now, const Walls& walls, const Vec3& before) {
+Vec3 commanded(Walk& walk, CommonState& state, const Commanded& now, const Walls& walls, const Vec3& before) {
   const double dt = walk.scene.dt;
   const double acceleration = walk.scene.reach.acceleration;
   const Vec3 straight = slowed(before, acceleration * dt);
@@ -153,7 +154,7 @@ Brake brake_of(const Walk& walk, const Commanded& now) {
           walk.scene.dt};
 }
 
-void limit_command(Walk& walk, State& state, Commanded& now, const Walls& walls) noexcept {
+void limit_command(Walk& walk, CommonState& state, Commanded& now, const Walls& walls) noexcept {
   const double dt = walk.scene.dt;
   const double acceleration = walk.scene.reach.acceleration;
   const Quat q_WR = walk.scene.X_WR.q();

@@ -5,6 +5,7 @@
 
 #include "core/control/safety/braking.h"
 #include "core/control/safety/inside.h"
+#include "core/control/stages/displacing.h"
 #include "core/control/stages/walk.h"
 
 namespace enc::stages {
@@ -20,7 +21,7 @@ struct Walls {
 
 // Finite, reachable, slow enough, within the walls: writes the set-point into now.command. To be called once
 // the machine has said where it is.
-void limit_command(Walk& walk, State& state, Commanded& now, const Walls& walls) noexcept;
+void limit_command(Walk& walk, CommonState& state, Commanded& now, const Walls& walls) noexcept;
 
 // Where all of the tip is inside, of its centre, m.
 [[nodiscard]] inline double least_depth(const Walk& walk) { return walk.scene.tip_radius + kSkin; }

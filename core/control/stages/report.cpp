@@ -4,7 +4,7 @@
 
 namespace enc::stages {
 
-void report_common(const Walk& walk, const State& state, const Quat& q_WN, const Contact* contact,
+void report_common(const Walk& walk, const CommonState& state, const Quat& q_WN, const Contact* contact,
                    Outputs& out) noexcept {
   out.mode = holding(walk) ? Mode::hold : state.mode;
   out.why = walk.why;

@@ -2,6 +2,7 @@
 // low-passed. [VHMR 3.4]
 #include <algorithm>
 
+#include "core/control/stages/displacing.h"
 #include "core/control/stages/walk.h"
 #include "core/machine/arm.h"
 
@@ -41,7 +42,7 @@ void tare(const Walk& walk, const Vec<'F'>& unloaded, bool clear, Commanded& now
 }  // namespace
 
 // A tool that is not seen may be anywhere, and in a hold nothing is as it should be: then nothing is learnt.
-void sense(Walk& walk, State& state, Commanded& now, bool clear) noexcept {
+void sense(Walk& walk, CommonState& state, Commanded& now, bool clear) noexcept {
   if (!walk.scene.has_force) return;
   const auto& sample = walk.in.wrench;
   if (sample.health == Health::absent || age(walk.tick.t, sample.t) > walk.scene.force.stale) {

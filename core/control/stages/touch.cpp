@@ -13,7 +13,7 @@ NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept {
   return {object.X_WO * found.point, object.X_WO * found.normal, found.distance};
 }
 
-NearestInWorld nearest(const Scene& scene, std::int32_t index, const Point<'W'>& p,
+NearestInWorld nearest(const CommonScene& scene, std::int32_t index, const Point<'W'>& p,
                        ObjectHint& hint) noexcept {
   const Object& object = scene.objects[static_cast<std::size_t>(index)];
   const Nearest found = object.surface.nearest(object.X_OW * p, hint.object == index ? hint.feature : -1);
@@ -25,7 +25,7 @@ namespace {
 
 // What is asked of the objects in this tick: of the finger or the tool, or of the tip.
 struct Query {
-  const Scene& scene;
+  const CommonScene& scene;
   std::span<const Moved> moved;
   Point<'W'> p;
   double radius = 0.0;         // of what asks, m
@@ -111,7 +111,8 @@ Query foreseen(const Query& query, const Vec<'W'>& velocity, double clear) {
 }
 
 // The nearest object; if the scene looks ahead that of the time ahead, or of the place where it will touch.
-Candidate chosen_object(const Query& query, const State& state, const Point<'W'>& comes_to, Hints& hints) {
+Candidate chosen_object(const Query& query, const CommonState& state, const Point<'W'>& comes_to,
+                        Hints& hints) {
   const Candidate here = nearest_object(query, state.object, hints);
   const Vec<'W'>& velocity = state.tip_motion.velocity;
   const double clear = here.at.distance - query.radius;
@@ -137,7 +138,7 @@ NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHin
 
 // The point under the tool moves no faster than the tool where the object bulges, and hardly faster where it
 // does not; by more only where another part has become the nearest.
-void report_jump(Walk& walk, State& state, const Point<'W'>& before, const Point<'W'>& query) {
+void report_jump(Walk& walk, CommonState& state, const Point<'W'>& before, const Point<'W'>& query) {
   constexpr double kJump = 1e-3;  // m, beyond the way of the tool
   // Before the first tick with a tool, `before` is unset, and that is no jump.
   const double moved = (query - before).norm();
@@ -148,7 +149,7 @@ void report_jump(Walk& walk, State& state, const Point<'W'>& before, const Point
 
 }  // namespace
 
-void nearest_surface(Walk& walk, State& state, const Asked& asked) noexcept {
+void nearest_surface(Walk& walk, CommonState& state, const Asked& asked) noexcept {
   // Without a tracker the tip itself asks: it then waits at its own nearest surface point, and force alone
   // makes a contact.
   const bool by_tool = walk.scene.has_tracker;

@@ -20,7 +20,7 @@ bool plausible(const Walk& walk, const Stamped<TrackedTool>& sample) {
          tool.tool < static_cast<int>(walk.scene.tools.size()) && sample.t <= walk.tick.t + walk.tick.dt;
 }
 
-void judge_age(Walk& walk, const State& state) {
+void judge_age(Walk& walk, const CommonState& state) {
   const double old = age(walk.tick.t, exposed(walk.scene.tracker, state.tool.t));
   walk.tool_fresh = old <= walk.scene.tracker.usual_age;
   if (walk.tool_fresh) return;
@@ -34,7 +34,7 @@ void judge_age(Walk& walk, const State& state) {
   }
 }
 
-void take_in(const Walk& walk, State& state, bool pressing) {
+void take_in(const Walk& walk, CommonState& state, bool pressing) {
   const TrackerRig& rig = walk.scene.tracker;
   if (rig.prediction == Prediction::hold) return;
   const TrackedTool& pose = state.tool.value;
@@ -63,7 +63,7 @@ Point<'W'> stopped_by_tip(const Walk& walk, double tool_radius, const Point<'W'>
 
 // The tip goes on from the newest pose; the tool moves with it and keeps that pose's rotation: nothing is
 // felt of it, and where it turns the tip, that is in the tip's own motion.
-void carry_on(Walk& walk, const State& state) {
+void carry_on(Walk& walk, const CommonState& state) {
   const TipMotion& motion = state.tip_motion;
   const double radius = walk.scene.tools[static_cast<std::size_t>(motion.tool)].tip.radius;
   const Point<'W'> ahead = predict(walk.scene.tracker, motion, walk.tick.t);
@@ -74,7 +74,7 @@ void carry_on(Walk& walk, const State& state) {
 
 }  // namespace
 
-void track_tool(Walk& walk, State& state, bool pressing) noexcept {
+void track_tool(Walk& walk, CommonState& state, bool pressing) noexcept {
   if (!walk.scene.has_tracker) return;
   const auto& sample = walk.in.tool;
   if (sample.health == Health::fault) walk.why |= kTrackerFault;

@@ -4,14 +4,18 @@
 
 #include <span>
 
-#include "core/control/step.h"
+#include "core/control/stages/common_state.h"
+#include "core/control/stages/contact.h"
+#include "core/control/world/common_scene.h"
+#include "core/control/world/moving.h"
+#include "core/devices/signals.h"
 
 namespace enc::stages {
 
 // What a tick knows so far. Each stage reads what the ones before it wrote.
 struct Walk {
-  Walk(const Scene& s, const Tick& k, const Inputs& i) : scene(s), tick(k), in(i) {}
-  const Scene& scene;
+  Walk(const CommonScene& s, const Tick& k, const Inputs& i) : scene(s), tick(k), in(i) {}
+  const CommonScene& scene;
   const Tick& tick;
   const Inputs& in;
   std::uint32_t why = 0;
@@ -52,9 +56,9 @@ struct Asked {
   bool touched_first = false;        // whatever is touched comes before what is not
   Point<'W'> comes_to{};  // where the tool will touch; unset: it goes on for follow.ahead as it goes now
 };
-void nearest_surface(Walk& walk, State& state, const Asked& asked) noexcept;
+void nearest_surface(Walk& walk, CommonState& state, const Asked& asked) noexcept;
 // The tool as the tracker sees it, at this tick. `pressing`: a finger that rests on a prop moves slowly.
-void track_tool(Walk& walk, State& state, bool pressing) noexcept;
+void track_tool(Walk& walk, CommonState& state, bool pressing) noexcept;
 
 // Outward normal and distance of a W point to an object.
 struct NearestInWorld {
@@ -64,7 +68,7 @@ struct NearestInWorld {
 };
 [[nodiscard]] NearestInWorld nearest(const Object& object, const Point<'W'>& p) noexcept;
 // The same of the scene's object `index`, from where the last such query ended.
-[[nodiscard]] NearestInWorld nearest(const Scene& scene, std::int32_t index, const Point<'W'>& p,
+[[nodiscard]] NearestInWorld nearest(const CommonScene& scene, std::int32_t index, const Point<'W'>& p,
                                      ObjectHint& hint) noexcept;
 
 // Of the machine's acceleration, the way along the normal has 0.8 and the sideways way 0.6 for sure (together

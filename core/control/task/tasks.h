@@ -1,5 +1,6 @@
-// All tasks. A task is a folder beside this file and a line of the list. The folder has its part of a scene
-// file (Part), what it is made of, what it remembers (Memory), and its stages from track to report.
+// All tasks. A task is a folder beside this file and a line of the list. The folder has what the task is made
+// of, what it remembers (Memory), and its stages from track to report. Its part of a scene file stands in
+// core/spec.
 #pragma once
 
 #include <type_traits>
@@ -12,16 +13,8 @@
 
 namespace enc {
 
-// What a scene file says of a task, where it says something.
-template <class Task>
-struct PartOf {};
-template <class Task>
-requires requires { typename Task::Part; }
-struct PartOf<Task> : Task::Part {};
-
 template <class... Task>
 struct TaskList {
-  struct Parts : PartOf<Task>... {};
   using Any = std::variant<Task...>;
   // Nothing is remembered before the first tick.
   using Memory = std::variant<std::monostate, typename Task::Memory...>;

@@ -29,7 +29,7 @@ struct Object {
   ContactLimits limits{};                             // of contacts that have their own
   InteractionSpec interaction{};
   double stiffness = kUnset;  // of the interaction, N/m
-  std::int32_t moving = -1;   // place in State::moved; -1: it stands
+  std::int32_t moving = -1;   // place in Pushing::moved; -1: it stands
 
   [[nodiscard]] double limit_at(std::int32_t contact) const { return limits.at(contact, limit); }  // m
 
@@ -49,6 +49,10 @@ struct Object {
   [[nodiscard]] double least_distance(const Point<'W'>& p) const { return (p - centre).norm() - radius; }
 };
 
+// Which part of which object was nearest: makes the next search faster, and changes no result (surface.h).
+struct ObjectHint {
+  std::int32_t object = -1, feature = -1;
+};
 // What is wrong with the deflection limits that an object asks for. The one rule: files are checked by it
 // where they are read, with the place and in their units, and scenes made in code where they are prepared.
 enum class LimitFault : std::uint8_t {

@@ -4,9 +4,16 @@
 #include <cstdint>
 
 #include "core/base/words.h"
-#include "core/vision/segmentation/kernels/hue.h"
 
 namespace enc {
+
+namespace segmentation {
+// Where a pixel has a hue (hue.h).
+struct HueRule {
+  std::uint8_t least_chroma = 12;  // of 255: with 1.5 of noise the hue is then good to 0.15 rad
+  std::uint8_t least_value = 16;   // of 255: of the brightest channel; below, black itself has a colour
+};
+}  // namespace segmentation
 
 // One Gaussian of hue [VisHap 2.1.1].
 struct SkinModel {

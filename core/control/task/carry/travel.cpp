@@ -6,7 +6,6 @@
 
 #include "core/base/error.h"
 #include "core/base/rotation.h"
-#include "core/control/scene/scene.h"
 #include "core/control/stages/guard.h"
 #include "core/control/stages/report.h"
 
@@ -23,7 +22,7 @@ void check_parts(const SceneSpec& spec) {
   if (spec.display) throw Error("[travel] renders nothing; remove [display]", "display");
 }
 
-void check_numbers(const TravelSpec& spec, const Scene& scene) {
+void check_numbers(const TravelSpec& spec, const CommonScene& scene) {
   if (spec.axes.empty() || spec.axes.find_first_not_of(kAxes) != std::string::npos)
     throw Error("expected axes out of x, y and z, such as \"xyz\"", "travel.axes");
   if (spec.stops.size() < 2) throw Error("expected at least two stops, such as [0, 40]", "travel.stops");
@@ -35,7 +34,7 @@ void check_numbers(const TravelSpec& spec, const Scene& scene) {
     throw Error("the machine cannot travel that fast; lower speed_mm_s", "travel.speed");
 }
 
-void check_way(const Point<'W'>& from, const Point<'W'>& to, const Scene& scene) {
+void check_way(const Point<'W'>& from, const Point<'W'>& to, const CommonScene& scene) {
   constexpr int kSteps = 100;
   for (int i = 0; i <= kSteps; ++i) {
     const Point<'W'> p = from + (static_cast<double>(i) / kSteps) * (to - from);
@@ -49,7 +48,7 @@ void check_way(const Point<'W'>& from, const Point<'W'>& to, const Scene& scene)
 
 }  // namespace
 
-std::optional<Travel> Travel::asked(const SceneSpec& spec, const Scene& scene) {
+std::optional<Travel> Travel::asked(const SceneSpec& spec, const CommonScene& scene) {
   if (!spec.travel) return {};
   const TravelSpec& from = *spec.travel;
   check_parts(spec);
@@ -94,7 +93,7 @@ namespace stages {
 
 namespace {
 
-void go_on(Walk& walk, const Travel& travel, State& state, Travelling& now) {
+void go_on(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) {
   constexpr double kThere = 1e-6;  // m
   state.mode = Mode::travel;
   now.elapsed += walk.scene.dt;
@@ -118,7 +117,7 @@ void go_on(Walk& walk, const Travel& travel, State& state, Travelling& now) {
 }
 
 // Where a procedure sends it. The phase is that of what moves, so that no zero is learnt on the way.
-void go_where_sent(Walk& walk, const Travel& travel, State& state, Travelling& now) {
+void go_where_sent(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) {
   state.mode = Mode::travel;
   const bool may = walk.carried->valid() && (!travel.tool_held || walk.in.grip.value.holding);
   now.phase = may ? TravelPhase::move : TravelPhase::wait;
@@ -138,9 +137,9 @@ Walls walls_around(const Travel& travel, const Travelling& now) {
 
 }  // namespace
 
-void touch(Walk&, const Travel&, State&, Travelling&) noexcept {}  // nothing is touched
+void touch(Walk&, const Travel&, CommonState&, Travelling&) noexcept {}  // nothing is touched
 
-void act(Walk& walk, const Travel& travel, State& state, Travelling& now) noexcept {
+void act(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) noexcept {
   grip(walk);
   sense(walk, state, now, now.phase != TravelPhase::move);
   hold_lost(walk, state, now);
@@ -148,12 +147,13 @@ void act(Walk& walk, const Travel& travel, State& state, Travelling& now) noexce
   walk.carried != nullptr ? go_where_sent(walk, travel, state, now) : go_on(walk, travel, state, now);
 }
 
-void guard(Walk& walk, const Travel& travel, State& state, Travelling& now) noexcept {
+void guard(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) noexcept {
   if (state.started)
     limit_command(walk, state, now, walk.carried != nullptr ? Walls{} : walls_around(travel, now));
 }
 
-void report(const Walk& walk, const Travel&, State& state, const Travelling& now, Outputs& out) noexcept {
+void report(const Walk& walk, const Travel&, CommonState& state, const Travelling& now,
+            Outputs& out) noexcept {
   const Pose<'R', 'H'> sent = out.tip;
   report_common(walk, state, rotation_z_to(walk.normal.e()), nullptr, out);
   report_displaced(walk, now, out);

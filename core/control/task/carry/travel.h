@@ -14,7 +14,7 @@
 namespace enc {
 
 struct Outputs;
-struct Scene;
+struct CommonScene;
 struct SceneSpec;
 
 struct TravelLeg {
@@ -36,11 +36,10 @@ struct Travelling : Commanded {
 };
 
 struct Travel : Displacing {
-  using Part = TravelPart;
   using Memory = Travelling;
   // Of a scene that asks for it, which has everything else by now. Throws Error where this machine cannot do
   // the travel.
-  [[nodiscard]] static std::optional<Travel> asked(const SceneSpec& spec, const Scene& scene);
+  [[nodiscard]] static std::optional<Travel> asked(const SceneSpec& spec, const CommonScene& scene);
 
   std::vector<TravelLeg> legs;
   double acceleration = kUnset;  // m/s^2
@@ -62,10 +61,11 @@ void fields(F& f, Travelling& t) {
 }
 
 namespace stages {
-void touch(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
-void act(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
-void guard(Walk& walk, const Travel& task, State& state, Travelling& now) noexcept;
-void report(const Walk& walk, const Travel& task, State& state, const Travelling& now, Outputs& out) noexcept;
+void touch(Walk& walk, const Travel& task, CommonState& state, Travelling& now) noexcept;
+void act(Walk& walk, const Travel& task, CommonState& state, Travelling& now) noexcept;
+void guard(Walk& walk, const Travel& task, CommonState& state, Travelling& now) noexcept;
+void report(const Walk& walk, const Travel& task, CommonState& state, const Travelling& now,
+            Outputs& out) noexcept;
 }  // namespace stages
 
 }  // namespace enc

@@ -17,7 +17,7 @@ bool arrived(const Walk& walk, const Probing& now, const Point<'W'>& wanted) {
 }
 
 // The phase that follows once this one is over.
-ProbePhase next_phase(const Walk& walk, const Probe& probe, const State& state, const Probing& now) {
+ProbePhase next_phase(const Walk& walk, const Probe& probe, const CommonState& state, const Probing& now) {
   const bool there = arrived(walk, now, probe.at(now.deflection));
   switch (now.phase) {
     case ProbePhase::wait:
@@ -43,7 +43,7 @@ bool at_rest(const Probing& now) {
   return now.phase == ProbePhase::wait || now.phase == ProbePhase::rest || now.phase == ProbePhase::done;
 }
 
-void go_on(Walk& walk, const Probe& probe, State& state, Probing& now) {
+void go_on(Walk& walk, const Probe& probe, CommonState& state, Probing& now) {
   if (state.mode != Mode::probe) now.deflection = -probe.clear;  // the first tick
   state.mode = Mode::probe;
   now.elapsed += walk.scene.dt;
@@ -61,7 +61,7 @@ void go_on(Walk& walk, const Probe& probe, State& state, Probing& now) {
 }  // namespace
 
 // The machine's own probe takes the place of the tool.
-void touch(Walk& walk, const Probe& probe, State& state, Probing&) noexcept {
+void touch(Walk& walk, const Probe& probe, CommonState& state, Probing&) noexcept {
   state.object = probe.object;
   if (!walk.X_WH.valid()) return;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
@@ -71,7 +71,7 @@ void touch(Walk& walk, const Probe& probe, State& state, Probing&) noexcept {
   walk.gap = found.distance - walk.scene.tip_radius;
 }
 
-void act(Walk& walk, const Probe& probe, State& state, Probing& now) noexcept {
+void act(Walk& walk, const Probe& probe, CommonState& state, Probing& now) noexcept {
   grip(walk);
   sense(walk, state, now, at_rest(now) && walk.gap > walk.scene.force.tare_clearance);
   hold_lost(walk, state, now);
@@ -79,14 +79,15 @@ void act(Walk& walk, const Probe& probe, State& state, Probing& now) noexcept {
 }
 
 // Nothing but the end of the push stands in the way: the object is real.
-void guard(Walk& walk, const Probe& probe, State& state, Probing& now) noexcept {
+void guard(Walk& walk, const Probe& probe, CommonState& state, Probing& now) noexcept {
   if (!state.started) return;
   Walls walls{probe.X_WN.q() * Vec3::UnitZ()};
   walls.in = probe.depth - probe.deflection(walk.scene.X_WR * now.command);
   limit_command(walk, state, now, walls);
 }
 
-void report(const Walk& walk, const Probe& probe, State& state, const Probing& now, Outputs& out) noexcept {
+void report(const Walk& walk, const Probe& probe, CommonState& state, const Probing& now,
+            Outputs& out) noexcept {
   report_common(walk, state, probe.X_WN.q(), nullptr, out);
   report_displaced(walk, now, out);
   out.deflection = probe.deflection(walk.X_WH.origin());

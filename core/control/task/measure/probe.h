@@ -14,7 +14,7 @@ namespace enc {
 
 struct ObjectSpec;
 struct Outputs;
-struct Scene;
+struct CommonScene;
 struct SceneSpec;
 
 // Where the machine is in its programme of pushes. Time stands still in a hold, and the programme with it.
@@ -26,11 +26,10 @@ struct Probing : Commanded {
 };
 
 struct Probe : Displacing {
-  using Part = ProbePart;
   using Memory = Probing;
   // Of a scene that asks for it, which has everything else by now. Throws Error where this machine cannot do
   // the programme: out of reach, something in its way, no force sensor, too deep.
-  [[nodiscard]] static std::optional<Probe> asked(const SceneSpec& spec, const Scene& scene);
+  [[nodiscard]] static std::optional<Probe> asked(const SceneSpec& spec, const CommonScene& scene);
 
   std::int32_t object = 0;  // index in the scene
   // Origin: the probe's centre where it first touches the undeformed object. z: out of the object, against
@@ -49,7 +48,7 @@ struct Probe : Displacing {
 // The object that [probe] names, or the first. Throws Error where there is none.
 [[nodiscard]] const ObjectSpec& probed_object(const SceneSpec& spec);
 // s, from the start to the rest after the last push; a little more than it takes.
-[[nodiscard]] double programme_time(const Scene& scene);
+[[nodiscard]] double programme_time(const CommonScene& scene, const Probe& probe);
 
 template <class F>
 void fields(F& f, Probing& p) {
@@ -60,10 +59,11 @@ void fields(F& f, Probing& p) {
 }
 
 namespace stages {
-void touch(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
-void act(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
-void guard(Walk& walk, const Probe& task, State& state, Probing& now) noexcept;
-void report(const Walk& walk, const Probe& task, State& state, const Probing& now, Outputs& out) noexcept;
+void touch(Walk& walk, const Probe& task, CommonState& state, Probing& now) noexcept;
+void act(Walk& walk, const Probe& task, CommonState& state, Probing& now) noexcept;
+void guard(Walk& walk, const Probe& task, CommonState& state, Probing& now) noexcept;
+void report(const Walk& walk, const Probe& task, CommonState& state, const Probing& now,
+            Outputs& out) noexcept;
 }  // namespace stages
 
 }  // namespace enc

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/control/scene/scene.h"
 #include "core/control/stages/walk.h"
+#include "core/control/task/measure/probe.h"
 
 namespace enc {
 namespace {
@@ -48,7 +48,7 @@ void check_parts(const SceneSpec& spec) {
     throw Error("[probe] presses a real object, so there is nothing to show; remove [display]", "display");
 }
 
-void check_sizes(const ProbeSpec& spec, const Scene& scene) {
+void check_sizes(const ProbeSpec& spec, const CommonScene& scene) {
   if (!(spec.radius > 0.0)) throw Error("the probe needs a radius", "probe.radius");
   if (!(spec.depth > 0.0) || spec.depth > spec.radius)
     throw Error("a push goes no deeper than the radius of the probe, or its stem would touch; lower depth_mm",
@@ -62,7 +62,7 @@ void check_sizes(const ProbeSpec& spec, const Scene& scene) {
 }
 
 // The machine's zero, then straight to above the object, then straight in.
-void check_way(const Probe& probe, const Scene& scene) {
+void check_way(const Probe& probe, const CommonScene& scene) {
   const Object& object = scene.objects[static_cast<std::size_t>(probe.object)];
   const auto gap = [&](const Point<'W'>& p) {
     return stages::nearest(object, p).distance - scene.tip_radius;
@@ -105,7 +105,7 @@ const ObjectSpec& probed_object(const SceneSpec& spec) {
   return *named;
 }
 
-std::optional<Probe> Probe::asked(const SceneSpec& spec, const Scene& scene) {
+std::optional<Probe> Probe::asked(const SceneSpec& spec, const CommonScene& scene) {
   if (!spec.probe) return {};
   const ProbeSpec& from = *spec.probe;
   check_parts(spec);
@@ -128,8 +128,7 @@ std::optional<Probe> Probe::asked(const SceneSpec& spec, const Scene& scene) {
   return probe;
 }
 
-double programme_time(const Scene& scene) {
-  const Probe& probe = *scene.probe();
+double programme_time(const CommonScene& scene, const Probe& probe) {
   constexpr double kSettling = 0.1;  // s: speeding up and slowing down, for each way
   const Reach& reach = scene.reach;
   const double approach =

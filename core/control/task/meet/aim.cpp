@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rotation.h"
 #include "core/control/safety/braking.h"
 #include "core/control/safety/inside.h"
 #include "core/control/task/meet/finger.h"
@@ -17,7 +18,7 @@ bool tells_depth(const Object& object) {
 
 // Whether the prop that waits there is pushed back: that is felt in the tick in which it begins, and seen a
 // picture and more later.
-bool felt_first(const Walk& walk, const State& state, const Meeting& now, const Object& object) {
+bool felt_first(const Walk& walk, const CommonState& state, const Meeting& now, const Object& object) {
   const bool behind = dot(walk.X_WH.origin() - walk.surface_point, walk.normal) < 0.0;
   return now.aim.caught_up && tells_depth(object) && walk.tool_fresh && behind && !walk.in.withheld &&
          pushed_back(state, walk.normal) && walk.gap < walk.scene.contact.leave_gap;
@@ -27,7 +28,7 @@ bool felt_first(const Walk& walk, const State& state, const Meeting& now, const 
 // knows its prop to 0.03 mm, while a camera knows the finger to 0.5 mm, late and seldom. The prop says how
 // deep a finger is, the camera whether it is there. Nor is it ever behind the prop: there a prediction went
 // on that knew nothing of the touch.
-void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
+void lie_on_prop(Walk& walk, CommonState& state, const Meeting& now) {
   const Object* object = nearest_object(walk, state);
   if (state.mode != Mode::contact || object == nullptr || !walk.tool_known) return;
   // The prop is on its way to another place, unless a picture leaps to the side while it is pressed.
@@ -50,7 +51,7 @@ void lie_on_prop(Walk& walk, State& state, const Meeting& now) {
 
 // The gap says what is touched, or the prop that is pushed back: an arm measures no force. "Prepare" is the
 // way from away to follow.
-void choose_mode(const Walk& walk, State& state, Meeting& now) {
+void choose_mode(const Walk& walk, CommonState& state, Meeting& now) {
   const FollowSpec& follow = walk.scene.follow;
   const Object* object = nearest_object(walk, state);
   if (object == nullptr || !walk.tool_known) {
@@ -86,13 +87,13 @@ Vec<'W'> rest_of_flight(const Walk& walk, const Object& object) {
   return (walk.movers[static_cast<std::size_t>(object.moving)].travel / flown - 1.0) * ball.shift;
 }
 
-bool touches_belt(const State& state, const Object* object) {
+bool touches_belt(const CommonState& state, const Object* object) {
   return state.mode == Mode::contact && object != nullptr && object->interaction.kind == Interaction::spin;
 }
 
 // The finger's projection on the surface, which goes along with it and with what moves. How fast, the surface
 // says: on a small ball the projection is slower than the finger, beyond the edge of a button it stands.
-Goal goal_of(const Walk& walk, const State& state, Meeting& memory, const Object& object) {
+Goal goal_of(const Walk& walk, const CommonState& state, Meeting& memory, const Object& object) {
   const Goal touch = foreseen_touch(walk, state, memory);
   if (object.met_in_its_middle()) return {object.X_WO.origin(), Vec<'W'>::zero(), touch.foreseen};
   if (touch.point.finite()) return touch;
@@ -126,8 +127,8 @@ struct Haste {
 // Where the nearest point leaps to another part of the object, the straight way may leave a hollow one, and
 // there the finger is: then the target waits at the last point of its way that is inside, or goes along the
 // surface as long as that is nearer.
-Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, State& state, const Aim& now,
-                          const Object& object, const Vec3& wanted) {
+Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, CommonState& state,
+                          const Aim& now, const Object& object, const Vec3& wanted) {
   constexpr double kOutside = 0.5e-3;  // m: a target on a curved surface is a little outside of it
   Inside inside(walk.scene, state.object, -kOutside, shift_of(object, walk.moved), state.hints.command);
   const Brake brake{now.target, now.velocity.e(), acceleration, speed, walk.scene.dt};
@@ -138,7 +139,7 @@ Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, S
 
 // The target keeps within speed and acceleration, always. On its way it goes straight; once there it goes
 // with the goal, whose leaps (each new picture of the finger is one) it takes out within `settle`.
-void move_target(Walk& walk, const ArmRig& rig, State& state, Aim& now, const Goal& goal,
+void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, const Goal& goal,
                  const Object* object) {
   constexpr double kThere = 0.2e-3;  // m
   constexpr double kLeap = 10e-3;    // m: another object, or another part of it
@@ -234,7 +235,7 @@ void hold_stuck(Walk& walk, Aim& now) {
 }
 
 // Nothing leaps: what is felt goes over into the next within `gradual_time`.
-void change_gain(const Walk& walk, double free, const State& state, const Object* object, Aim& now) {
+void change_gain(const Walk& walk, double free, const CommonState& state, const Object* object, Aim& now) {
   Felt felt{free, 0.0};
   if (object == nullptr) {
     now.gain = 1.0;
@@ -258,7 +259,7 @@ void change_gain(const Walk& walk, double free, const State& state, const Object
 
 }  // namespace
 
-void aim(Walk& walk, const Impedance& task, State& state, Meeting& memory) noexcept {
+void aim(Walk& walk, const Impedance& task, CommonState& state, Meeting& memory) noexcept {
   Aim& now = memory.aim;
   if (!walk.X_WH.valid()) {  // one reading that is missed changes nothing; later it may be anywhere
     now.blind += walk.scene.dt;

@@ -25,7 +25,7 @@ constexpr double kFarthest = 0.05;       // m: a place of touch farther from the
 
 // What came before a picture is of use as long as none was missed for long. Of a finger that is seen more
 // often than its way needs, those in between are passed over.
-bool take_picture(const Walk& walk, const State& state, Coming& now) {
+bool take_picture(const Walk& walk, const CommonState& state, Coming& now) {
   const Time exposed_at = exposed(walk.scene.tracker, state.tool.t);
   const double gap = now.count > 0 ? age(exposed_at, now.exposed[0]) : kOften;
   const bool another = state.tool.value.tool != now.tool;
@@ -45,12 +45,12 @@ bool take_picture(const Walk& walk, const State& state, Coming& now) {
   return true;
 }
 
-double noise_of_newest(const Walk& walk, const State& state) {  // m rms, of each axis
+double noise_of_newest(const Walk& walk, const CommonState& state) {  // m rms, of each axis
   return std::sqrt(noise_of(walk.scene.tracker, state.tool.value, walk.scene.X_WC).mean_square());
 }
 
 // Where pictures are about as vague as may be, it is not asked now and then.
-bool clear(const Walk& walk, const State& state, const Coming& now) {
+bool clear(const Walk& walk, const CommonState& state, const Coming& now) {
   constexpr double kStays = 1.1;
   const double vaguest = walk.scene.tracker.reach.vaguest;
   return noise_of_newest(walk, state) <= (now.clear ? kStays * vaguest : vaguest);
@@ -66,7 +66,7 @@ bool reaches(const Walk& walk, const Coming& now) {
 }
 
 // In axes of the surface that is under it.
-void ask(const Walk& walk, const State& state, Coming& now) {
+void ask(const Walk& walk, const CommonState& state, Coming& now) {
   now.object = state.object;
   now.told = walk.tick.t;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
@@ -132,7 +132,7 @@ Vec2 expected(const Coming& now, double passed) {
   return sum.head<2>() / sum[2];
 }
 
-Point<'W'> on_surface(const Walk& walk, const State& state, const Coming& now, double passed) {
+Point<'W'> on_surface(const Walk& walk, const CommonState& state, const Coming& now, double passed) {
   const Vec2 at = expected(now, passed);
   if (!at.allFinite()) return {};
   ObjectHint hint = state.hints.tool[0];
@@ -141,7 +141,7 @@ Point<'W'> on_surface(const Walk& walk, const State& state, const Coming& now, d
 
 }  // namespace
 
-Goal foreseen_touch(const Walk& walk, const State& state, Meeting& memory) noexcept {
+Goal foreseen_touch(const Walk& walk, const CommonState& state, Meeting& memory) noexcept {
   Coming& now = memory.coming;
   const Object* object = nearest_object(walk, state);
   const TrackerRig& rig = walk.scene.tracker;

@@ -13,7 +13,7 @@ namespace {
 // count of an encoder is 0.03 mm and 14 mm/s: at the edge between two counts the law alone would keep
 // the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
 // only turns round, friction would not hold what then pushes it.
-bool resting(const State& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
+bool resting(const CommonState& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
   // m: 0.01 N m of friction at each motor hold up to 4.5 mm at the tip, and twice as much 9.
   constexpr double kNear = 10e-3;
   constexpr double kCounts = 40e-3;  // m/s: one count of two joints where the arm is stretched
@@ -24,7 +24,7 @@ bool resting(const State& state, const Aim& now, const Vec3& error, const Vec3& 
 
 // It rests, and stays where it came to rest. Where it does not although nothing moves its target, the law
 // goes on until it stands again with all of its push: a count that changes then is no reason to go on.
-bool stays(const State& state, const Point<'W'>& tip, bool rests, const Vec3& error, Aim& now) {
+bool stays(const CommonState& state, const Point<'W'>& tip, bool rests, const Vec3& error, Aim& now) {
   constexpr double kSlips = 0.15e-3;    // m: five counts
   constexpr double kArrived = 0.03e-3;  // m: a count
   if (state.mode != Mode::away) now.slipped = false;
@@ -59,7 +59,7 @@ Vec3 going_along(const Walk& walk, const Arm& arm, const Mat3& mass) {
 
 }  // namespace
 
-void impede(Walk& walk, const Impedance& law, State& state, Meeting& memory) noexcept {
+void impede(Walk& walk, const Impedance& law, CommonState& state, Meeting& memory) noexcept {
   if (!walk.X_WH.valid() || holding(walk)) return;
   Aim& now = memory.aim;
   const Vec3 normal = walk.normal.finite() ? Vec3(walk.normal.e()) : Vec3(Vec3::UnitZ());
@@ -124,7 +124,7 @@ Vec3 guarded(Walk& walk, const Impedance& law, const Heat& heat, const Vec3& for
 
 }  // namespace
 
-void guard(Walk& walk, const Impedance& law, State& state, Meeting& memory) noexcept {
+void guard(Walk& walk, const Impedance& law, CommonState& state, Meeting& memory) noexcept {
   // Where nothing is known of the machine nothing is said to it; what is withheld warms nothing, either.
   PerJoint torque{};
   if (walk.X_WH.valid()) {

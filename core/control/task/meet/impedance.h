@@ -8,6 +8,7 @@
 #pragma once
 
 #include "core/machine/motors.h"
+#include "core/spec/arm_rig.h"
 #include "core/spec/interaction.h"
 
 namespace enc {

@@ -10,7 +10,7 @@ namespace enc::stages {
 namespace {
 
 // An arm's tip turns with its joints; what is felt is its place alone, so H keeps the axes of R.
-void track_arm(Walk& walk, const Impedance& task, State& state) {
+void track_arm(Walk& walk, const Impedance& task, CommonState& state) {
   const Stamped<ArmSample>& sample = walk.in.arm;
   if (sample.health == Health::absent || age(walk.tick.t, sample.t) > task.rig.stale) {
     walk.why |= kTipLost;
@@ -43,25 +43,25 @@ double driven(const Object& object, const Impedance& law, const Aim& now, const 
 
 }  // namespace
 
-void track(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {
+void track(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept {
   track_arm(walk, task, state);
   track_tool(walk, state, presses(state, now.contact));
 }
 
 // An arm renders what is touched: there any object that is touched comes before all that are not.
-void touch(Walk& walk, const Impedance&, State& state, Meeting& now) noexcept {
+void touch(Walk& walk, const Impedance&, CommonState& state, Meeting& now) noexcept {
   const bool touched = state.mode == Mode::contact, ahead = !touched && walk.scene.follow.ahead > 0.0;
   nearest_surface(walk, state,
                   {touched ? &now.contact : nullptr, true, ahead ? comes_to(walk, now) : Point<'W'>()});
 }
 
-void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept {
+void act(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept {
   aim(walk, task, state, now);
   impede(walk, task, state, now);
 }
 
 // No force is measured: what the finger feels is what the arm is told beyond gravity.
-void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now,
+void report(const Walk& walk, const Impedance& task, CommonState& state, const Meeting& now,
             Outputs& out) noexcept {
   const bool touched = state.mode == Mode::contact;
   report_common(walk, state, touched ? Quat(now.contact.X_WN.q()) : rotation_z_to(walk.normal.e()),

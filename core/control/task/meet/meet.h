@@ -15,7 +15,7 @@
 namespace enc {
 
 struct Outputs;
-struct State;
+struct CommonState;
 
 // What the control law remembers (impedance.h).
 struct Aim {
@@ -105,15 +105,16 @@ void fields(F& f, Meeting& m) {
 
 namespace stages {
 struct Walk;
-void track(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
-void touch(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
-void act(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
-void guard(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
-void report(const Walk& walk, const Impedance& task, State& state, const Meeting& now, Outputs& out) noexcept;
+void track(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
+void touch(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
+void act(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
+void guard(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
+void report(const Walk& walk, const Impedance& task, CommonState& state, const Meeting& now,
+            Outputs& out) noexcept;
 
 // The stages that act() is made of: where the prop should be; depth in, force out.
-void aim(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
-void impede(Walk& walk, const Impedance& task, State& state, Meeting& now) noexcept;
+void aim(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
+void impede(Walk& walk, const Impedance& task, CommonState& state, Meeting& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

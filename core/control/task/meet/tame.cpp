@@ -15,7 +15,7 @@ constexpr double kPressed = 2e-3;
 struct Spring {
   double depth, push;
 };
-Spring spring_of(const Walk& walk, const Impedance& law, const State& state, const Meeting& now,
+Spring spring_of(const Walk& walk, const Impedance& law, const CommonState& state, const Meeting& now,
                  const Object& object) {
   if (const Moved* ball = hit_now(walk, state)) {
     const double depth = std::isnan(ball->depth) ? 0.0 : std::max(0.0, ball->depth);
@@ -27,7 +27,7 @@ Spring spring_of(const Walk& walk, const Impedance& law, const State& state, con
 
 // m: how far the tip has gone outwards, against its target; that of a ball goes with the tip, so against the
 // ball.
-double moved(const Walk& walk, const State& state, const Meeting& memory) {
+double moved(const Walk& walk, const CommonState& state, const Meeting& memory) {
   const Tamed& now = memory.tamed;
   const double dt = walk.scene.dt;
   const bool on = now.energy.on;
@@ -52,7 +52,7 @@ void lose(const Walk& walk, const Meeting& memory, Tamed& now) {
 
 // What the law does not send it does not give out, either. Nor is anything rendered by a prop that is still
 // on its way to where it is met; one that leaps under the finger that presses it has been.
-const Object* tamed_object(const Walk& walk, const State& state, const Meeting& memory) {
+const Object* tamed_object(const Walk& walk, const CommonState& state, const Meeting& memory) {
   if (state.mode != Mode::contact || walk.in.withheld || holding(walk)) return nullptr;
   const bool met = memory.tamed.pressed && memory.tamed.object == state.object;
   if (!memory.aim.caught_up && !met) return nullptr;
@@ -64,7 +64,7 @@ const Object* tamed_object(const Walk& walk, const State& state, const Meeting& 
 
 }  // namespace
 
-Tame::Tame(Walk& walk, const Impedance& law, const State& state, Meeting& memory) noexcept
+Tame::Tame(Walk& walk, const Impedance& law, const CommonState& state, Meeting& memory) noexcept
     : wanted(walk.wanted_force.e()) {
   if (law.rig.passivity == PassivityForm::none) return;
   Tamed& now = memory.tamed;

@@ -7,12 +7,13 @@
 #pragma once
 
 #include "core/control/stages/walk.h"
+#include "core/control/task/meet/meet.h"
 
 namespace enc::stages {
 
 struct Tame {
   // What the law asks for, and what of that is given.
-  Tame(Walk& walk, const Impedance& law, const State& state, Meeting& memory) noexcept;
+  Tame(Walk& walk, const Impedance& law, const CommonState& state, Meeting& memory) noexcept;
   // What was really pushed with, after all limits.
   void held(const Walk& walk, Meeting& memory, const Vec3& pushed) const noexcept;
   Vec3 wanted;

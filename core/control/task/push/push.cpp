@@ -9,7 +9,7 @@ namespace {
 // Whether the prop, which stands at the surface, is struck: pushed in faster and farther than noise is, and
 // than an arm lags that has just been sent somewhere. Vision says no more than that a finger may be there.
 // What the arm does on its way home is no strike.
-bool struck(const Walk& walk, const State& state, Meeting& now) {
+bool struck(const Walk& walk, const CommonState& state, Meeting& now) {
   constexpr double kNear = 0.030;       // m: a finger that is seen late is somewhere in here
   constexpr double kSpeed = 0.025;      // m/s: two counts of an encoder in 2 ms are 0.014
   constexpr double kMoved = 0.06e-3;    // m: two counts
@@ -31,7 +31,7 @@ bool struck(const Walk& walk, const State& state, Meeting& now) {
 // old, and the hit is over by then. So the depth is that of the prop behind where it was struck, until they
 // part, or nothing has been felt for a while, or the ball is where it waits. A ball that has been hit is not
 // hit again before it is back.
-double hit_depth(Walk& walk, State& state, Meeting& memory, const Mover& mover, const Moved& now) {
+double hit_depth(Walk& walk, CommonState& state, Meeting& memory, const Mover& mover, const Moved& now) {
   constexpr double kFelt = 0.05;   // N: less is lost in the arm's friction
   constexpr double kEmpty = 0.10;  // s
   Contact& contact = memory.contact;
@@ -64,7 +64,7 @@ double hit_depth(Walk& walk, State& state, Meeting& memory, const Mover& mover, 
 }
 
 // Time stands still in a hold, here too.
-void push(Walk& walk, State& state, Pushing& now) {
+void push(Walk& walk, CommonState& state, Pushing& now) {
   if (holding(walk)) {
     now.contact.anchored = false;
     return;
@@ -88,13 +88,13 @@ void push(Walk& walk, State& state, Pushing& now) {
 
 }  // namespace
 
-void track(Walk& walk, const Push& task, State& state, Pushing& now) noexcept {
+void track(Walk& walk, const Push& task, CommonState& state, Pushing& now) noexcept {
   walk.moved = now.moved;
   walk.movers = task.movers;
   track(walk, static_cast<const Impedance&>(task), state, now);
 }
 
-void act(Walk& walk, const Push& task, State& state, Pushing& now) noexcept {
+void act(Walk& walk, const Push& task, CommonState& state, Pushing& now) noexcept {
   push(walk, state, now);
   act(walk, static_cast<const Impedance&>(task), state, now);
 }

@@ -34,8 +34,8 @@ void fields(F& f, Pushing& p) {
 }
 
 namespace stages {
-void track(Walk& walk, const Push& task, State& state, Pushing& now) noexcept;
-void act(Walk& walk, const Push& task, State& state, Pushing& now) noexcept;
+void track(Walk& walk, const Push& task, CommonState& state, Pushing& now) noexcept;
+void act(Walk& walk, const Push& task, CommonState& state, Pushing& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

@@ -4,6 +4,7 @@
 
 #include "core/control/safety/inside.h"
 #include "core/control/stages/walk.h"
+#include "core/control/task/render/render.h"
 
 namespace enc::stages {
 namespace {
@@ -37,14 +38,14 @@ double carried(const Walk& walk, const Render& task, const Object& object, Rende
 }
 
 // Beside an edge the tip cannot be right under the tool: it waits as near as the whole of it is inside.
-Point<'W'> inside(const Walk& walk, State& state, std::int32_t object, double margin,
+Point<'W'> inside(const Walk& walk, CommonState& state, std::int32_t object, double margin,
                   const Point<'W'>& wanted) {
   return Inside(walk.scene, object, margin, Vec<'W'>::zero(), state.hints.command).nearest_to(wanted);
 }
 
 // Straight under the surface point: of what is round or flat that is inside, of a mesh it may be another
 // side.
-Point<'W'> under_surface(const Walk& walk, State& state, double margin) {
+Point<'W'> under_surface(const Walk& walk, CommonState& state, double margin) {
   const Point<'W'> under = walk.surface_point - margin * walk.normal;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
   const bool mesh = std::holds_alternative<MeshSurface>(object.surface.shape());
@@ -53,7 +54,7 @@ Point<'W'> under_surface(const Walk& walk, State& state, double margin) {
 
 }  // namespace
 
-void model(Walk& walk, const Render& task, State& state, Rendering& now) noexcept {
+void model(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept {
   const Contact& contact = now.contact;
   if (state.mode != Mode::contact || now.contact.below) {
     rest(now);
@@ -73,7 +74,7 @@ void model(Walk& walk, const Render& task, State& state, Rendering& now) noexcep
   now.displacement = Vec<'N'>(sideways.x(), sideways.y(), -deflection);
 }
 
-void target(Walk& walk, State& state, const Rendering& now) noexcept {
+void target(Walk& walk, CommonState& state, const Rendering& now) noexcept {
   const double radius = walk.scene.tip_radius;
   switch (state.mode) {
     case Mode::follow:

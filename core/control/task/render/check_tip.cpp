@@ -5,12 +5,13 @@
 
 #include "core/control/safety/inside.h"
 #include "core/control/stages/guard.h"
+#include "core/control/task/render/render.h"
 #include "core/shape/deformation/dent.h"
 
 namespace enc::stages {
 namespace {
 
-bool command_stays(const Walk& walk, State& state, const Commanded& now) {
+bool command_stays(const Walk& walk, CommonState& state, const Commanded& now) {
   Inside inside(walk.scene, state.object, least_depth(walk), Vec<'W'>::zero(), state.hints.command);
   const Brake brake = brake_of(walk, now);
   const double here = inside.depth(brake.at);
@@ -18,7 +19,7 @@ bool command_stays(const Walk& walk, State& state, const Commanded& now) {
 }
 
 // `distance`: of the tip's outermost point to the undeformed surface, m.
-void check_undeformed(Walk& walk, double distance, State& state, const Commanded& now) {
+void check_undeformed(Walk& walk, double distance, CommonState& state, const Commanded& now) {
   constexpr double kTolerance =
       50e-6;  // m: what play and overshoot of a machine may take before it is a fault
   // On the way in the tip is rightly outside, and so is what it is told.
@@ -41,8 +42,8 @@ bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
 }
 
 // The seen surface is late: the tip may be outside it by what tool and tip can have moved since [VHMR 3.5].
-void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, double distance, State& state,
-                Rendering& now) {
+void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, double distance,
+                CommonState& state, Rendering& now) {
   if (walk.in.dent.health == Health::fault ||
       (walk.in.dent.health == Health::ok && !possible(walk, walk.in.dent))) {
     walk.why |= kDentWrong;
@@ -75,7 +76,7 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
 
 }  // namespace
 
-void check_tip(Walk& walk, State& state, Rendering& now) noexcept {
+void check_tip(Walk& walk, CommonState& state, Rendering& now) noexcept {
   if (!walk.X_WH.valid() || state.object < 0) return;
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
   const Point<'O'> centre = object.X_OW * walk.X_WH.origin();

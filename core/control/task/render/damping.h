@@ -8,34 +8,13 @@
 // has the whole law.
 #pragma once
 
-#include <cstdint>
-
 #include "core/base/frames.h"
-#include "core/base/words.h"
 #include "core/shape/response/response.h"
-#include "core/spec/passivity_form.h"
+#include "core/spec/admittance_rig.h"
 
 namespace enc {
 
 struct LoopModel;
-
-enum class Damping : std::uint8_t {
-  none,     // the object alone, as on the paper's rig
-  observed  // and a damper, as strong as the energy that is seen to swing asks for
-};
-constexpr auto words(Damping) { return enum_words("none", "observed"); }
-
-// In a rig file.
-struct AdmittanceRig {
-  Damping damping = Damping::none;
-  PassivityForm passivity = PassivityForm::none;
-  double margin = 2.0;          // of the damping over what suffices
-  double calm_time = 1.0;       // s, in which damping falls to 1/e when nothing swings
-  double slowest = 1.0;         // Hz: slower changes are the user's own
-  double average_time = 0.2;    // s, over which energies are averaged
-  double least_swing = 20e-6;   // m rms: smaller ones do not count as a swing
-  double most_damping = 500.0;  // N s/m
-};
 
 // What is remembered of a contact.
 struct Swing {

@@ -4,6 +4,7 @@
 
 #include "core/base/rotation.h"
 #include "core/control/stages/walk.h"
+#include "core/control/task/render/render.h"
 
 namespace enc::stages {
 namespace {
@@ -23,7 +24,7 @@ bool too_far(const Walk& walk) { return walk.tool_known && walk.gap > kFar; }
 
 // A hand that presses cannot change its tool: another one in view did not make this contact, and where it is
 // says nothing of it. Then force alone holds the contact and ends it.
-bool changed_tool(const Walk& walk, const State& state, const Rendering& now) {
+bool changed_tool(const Walk& walk, const CommonState& state, const Rendering& now) {
   return walk.tool_known && state.tool.value.tool != now.contact.tool;
 }
 
@@ -56,7 +57,7 @@ bool at_rest(const Walk& walk, const Rendering& now) {
 }
 
 // The surface point under the tool; without a tracker, over the tip.
-Pose<'W', 'N'> frame_under_tool(const Walk& walk, const State& state) {
+Pose<'W', 'N'> frame_under_tool(const Walk& walk, const CommonState& state) {
   if (walk.tool_known) return {rotation_z_to(walk.normal.e()), walk.surface_point};
   const Pose<'W', 'O'>& X_WO = walk.scene.objects[static_cast<std::size_t>(state.object)].X_WO;
   return {rotation_z_to((X_WO * walk.at_tip.normal).e()), X_WO * walk.at_tip.point};
@@ -68,7 +69,7 @@ double beside_tool(const Walk& walk, const Rendering& now) {
 }
 constexpr double kUnder = 0.5e-3;  // m: nearer, it is under its tool
 
-void begin_contact(Walk& walk, State& state, Rendering& now, bool by_force) {
+void begin_contact(Walk& walk, CommonState& state, Rendering& now, bool by_force) {
   state.mode = Mode::contact;
   ++state.contacts;
   if (now.contact.object != state.object) now.spent = Spent{};  // one of another object begins anew
@@ -88,7 +89,7 @@ void begin_contact(Walk& walk, State& state, Rendering& now, bool by_force) {
 
 // Until force is felt with the tip under the tool, the anchor goes where the tool goes: a fast or slanted
 // touch meets the tip beside its middle, and a tip that stayed there would be pushed out from under the tool.
-void anchor(Walk& walk, const State& state, Rendering& now) {
+void anchor(Walk& walk, const CommonState& state, Rendering& now) {
   now.contact.X_WN = frame_under_tool(walk, state);
   const double force = pressing_force(walk, now.contact.X_WN * Vec<'N'>(0, 0, 1));
   const bool under = beside_tool(walk, now) <= kUnder, felt = force >= walk.scene.force.contact;
@@ -96,7 +97,7 @@ void anchor(Walk& walk, const State& state, Rendering& now) {
   now.contact.below = now.contact.below && walk.tool_known && !felt && !under;
 }
 
-void in_contact(Walk& walk, const Render& task, State& state, Rendering& now) {
+void in_contact(Walk& walk, const Render& task, CommonState& state, Rendering& now) {
   const bool changed = changed_tool(walk, state, now);
   if (!now.contact.anchored && !changed) anchor(walk, state, now);
   const double force = pressing_force(walk, now.contact.X_WN * Vec<'N'>(0, 0, 1));
@@ -124,7 +125,7 @@ void in_contact(Walk& walk, const Render& task, State& state, Rendering& now) {
   now.contact.left = walk.tick.t;
 }
 
-void in_free_space(Walk& walk, State& state, Rendering& now) {
+void in_free_space(Walk& walk, CommonState& state, Rendering& now) {
   const FollowSpec& follow = walk.scene.follow;
   if (nothing_seen(walk)) {
     state.mode = Mode::away;
@@ -144,7 +145,7 @@ void in_free_space(Walk& walk, State& state, Rendering& now) {
 
 }  // namespace
 
-void mode(Walk& walk, const Render& task, State& state, Rendering& now) noexcept {
+void mode(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept {
   if (state.object < 0) {
     state.mode = Mode::away;
   } else if (state.mode == Mode::contact) {

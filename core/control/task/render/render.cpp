@@ -9,11 +9,11 @@
 namespace enc::stages {
 namespace {
 
-bool engaged(const State& state) { return state.mode == Mode::contact || state.mode == Mode::restore; }
+bool engaged(const CommonState& state) { return state.mode == Mode::contact || state.mode == Mode::restore; }
 
 // Whether nothing can be on the tip. A tool that was out of view as its contact ended may still press until
 // that tool is seen clear.
-bool clear_of_object(const Walk& walk, const State& state, Contact& contact) {
+bool clear_of_object(const Walk& walk, const CommonState& state, Contact& contact) {
   if (state.mode != Mode::away && state.mode != Mode::follow) return false;
   if (!walk.scene.has_tracker) return true;
   const bool clear = walk.tool_known && walk.tool_fresh && walk.gap > walk.scene.force.tare_clearance;
@@ -21,7 +21,7 @@ bool clear_of_object(const Walk& walk, const State& state, Contact& contact) {
   return clear && !contact.unseen;
 }
 
-Walls walls_around(const Walk& walk, State& state, const Rendering& now) {
+Walls walls_around(const Walk& walk, CommonState& state, const Rendering& now) {
   if (state.object < 0 || !state.entered) return {};
   const Object& object = walk.scene.objects[static_cast<std::size_t>(state.object)];
   const NearestInWorld at =
@@ -42,11 +42,11 @@ void rest(Rendering& now) noexcept {
   now.displacement = Vec<'N'>::zero();
 }
 
-void touch(Walk& walk, const Render&, State& state, Rendering& now) noexcept {
+void touch(Walk& walk, const Render&, CommonState& state, Rendering& now) noexcept {
   nearest_surface(walk, state, {engaged(state) ? &now.contact : nullptr});
 }
 
-void act(Walk& walk, const Render& task, State& state, Rendering& now) noexcept {
+void act(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept {
   grip(walk);
   sense(walk, state, now, clear_of_object(walk, state, now.contact));  // what force is on the tip
   weigh(walk, task, state, now);
@@ -59,11 +59,12 @@ void act(Walk& walk, const Render& task, State& state, Rendering& now) noexcept 
   spare(walk, task, state, now);
 }
 
-void guard(Walk& walk, const Render&, State& state, Rendering& now) noexcept {
+void guard(Walk& walk, const Render&, CommonState& state, Rendering& now) noexcept {
   if (state.started) limit_command(walk, state, now, walls_around(walk, state, now));
 }
 
-void report(const Walk& walk, const Render&, State& state, const Rendering& now, Outputs& out) noexcept {
+void report(const Walk& walk, const Render&, CommonState& state, const Rendering& now,
+            Outputs& out) noexcept {
   report_common(walk, state, engaged(state) ? Quat(now.contact.X_WN.q()) : rotation_z_to(walk.normal.e()),
                 &now.contact, out);
   report_displaced(walk, now, out);

@@ -72,24 +72,25 @@ void fields(F& f, Rendering& r) {
 }
 
 namespace stages {
-void touch(Walk& walk, const Render& task, State& state, Rendering& now) noexcept;
-void act(Walk& walk, const Render& task, State& state, Rendering& now) noexcept;
-void guard(Walk& walk, const Render& task, State& state, Rendering& now) noexcept;
-void report(const Walk& walk, const Render& task, State& state, const Rendering& now, Outputs& out) noexcept;
+void touch(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept;
+void act(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept;
+void guard(Walk& walk, const Render& task, CommonState& state, Rendering& now) noexcept;
+void report(const Walk& walk, const Render& task, CommonState& state, const Rendering& now,
+            Outputs& out) noexcept;
 
 void rest(Rendering& now) noexcept;  // the object as it is when nothing presses it
 
 // The stages that act() is made of.
-void check_tip(Walk& walk, State& state,
+void check_tip(Walk& walk, CommonState& state,
                Rendering& now) noexcept;  // is it inside the object and the seen surface?
-void mode(Walk& walk, const Render& task, State& state,
+void mode(Walk& walk, const Render& task, CommonState& state,
           Rendering& now) noexcept;  // away, follow, contact, restore
-void model(Walk& walk, const Render& task, State& state,
-           Rendering& now) noexcept;                                   // force in, displacement out
-void target(Walk& walk, State& state, const Rendering& now) noexcept;  // where the tip should be
+void model(Walk& walk, const Render& task, CommonState& state,
+           Rendering& now) noexcept;                                         // force in, displacement out
+void target(Walk& walk, CommonState& state, const Rendering& now) noexcept;  // where the tip should be
 // Of a controller of energy: what it has given out by now, and no farther out than what is left carries it.
-void weigh(const Walk& walk, const Render& task, const State& state, Rendering& now) noexcept;
-void spare(Walk& walk, const Render& task, const State& state, Rendering& now) noexcept;
+void weigh(const Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept;
+void spare(Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept;
 }  // namespace stages
 
 }  // namespace enc

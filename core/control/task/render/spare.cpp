@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "core/control/stages/walk.h"
+#include "core/control/task/render/render.h"
 
 namespace enc::stages {
 namespace {
@@ -47,7 +48,7 @@ double pressed(const Walk& walk, const Rendering& now, double depth) {
 }
 
 // A contact, and the way back from it, until the tip is where it waits.
-bool engaged(const Walk& walk, const State& state, const Rendering& now) {
+bool engaged(const Walk& walk, const CommonState& state, const Rendering& now) {
   if (state.mode == Mode::contact || state.mode == Mode::restore) return true;
   return now.spent.energy.on && state.mode == Mode::follow &&
          now.spent.energy.depth > walk.scene.follow.inset;
@@ -55,7 +56,7 @@ bool engaged(const Walk& walk, const State& state, const Rendering& now) {
 
 }  // namespace
 
-void weigh(const Walk& walk, const Render&, const State& state, Rendering& now) noexcept {
+void weigh(const Walk& walk, const Render&, const CommonState& state, Rendering& now) noexcept {
   Spent& spent = now.spent;
   if (!spent.energy.on) return;
   if (!engaged(walk, state, now)) {
@@ -81,7 +82,7 @@ void weigh(const Walk& walk, const Render&, const State& state, Rendering& now) 
   spent.tip = walk.X_WH.origin();
 }
 
-void spare(Walk& walk, const Render& task, const State& state, Rendering& now) noexcept {
+void spare(Walk& walk, const Render& task, const CommonState& state, Rendering& now) noexcept {
   if (task.passivity == PassivityForm::none || !engaged(walk, state, now) || !walk.X_WH.valid()) return;
   Spent& spent = now.spent;
   if (!spent.energy.on) {

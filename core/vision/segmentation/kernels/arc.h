@@ -1,9 +1,9 @@
 // What of the circle of hue is skin.
 #pragma once
 
+#include "core/spec/vision/segmentation_spec.h"
 #include "core/vision/segmentation/kernels/hue.h"
 #include "core/vision/segmentation/kernels/kernels.h"
-#include "core/vision/segmentation/skin.h"
 
 namespace enc::segmentation {
 

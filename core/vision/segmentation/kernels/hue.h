@@ -11,15 +11,12 @@
 #include <cstdint>
 #include <numbers>
 
+#include "core/spec/vision/segmentation_spec.h"
+
 namespace enc::segmentation {
 
 inline constexpr int kHues = 1536, kSextant = 256;
 inline constexpr int kNoHue = -1;
-
-struct HueRule {
-  std::uint8_t least_chroma = 12;  // of 255: with 1.5 of noise the hue is then good to 0.15 rad
-  std::uint8_t least_value = 16;   // of 255: of the brightest channel; below, black itself has a colour
-};
 
 namespace detail {
 

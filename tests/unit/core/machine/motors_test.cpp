@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/control/task/meet/impedance.h"
+#include "core/spec/arm_rig.h"
 #include "sim/plants/arm_plant.h"
 
 namespace enc {
@@ -64,7 +65,7 @@ double strongest(const Arm& arm, const Pose3& pose, double tick, int ticks) {
 TEST(Motors, TheNamedForceIsTheSimulatedOneOverFiftyPoses) {
   const ArmRig rig;
   const Arm arm(rig.machine);
-  const Motors motors(arm, rig, kTick);
+  const Motors motors(arm, motor_ratings(rig), kTick);
   std::mt19937_64 random(1);
   for (int i = 0; i < 50; ++i) {
     const Pose3 pose = drawn(random, arm);
@@ -94,7 +95,7 @@ TEST(Motors, AColdMotorBearsALoadAsLongAsItSays) {
 TEST(Motors, PressesWithTooLittleRestGiveWayInALaterOne) {
   const ArmRig rig;
   const Arm arm(rig.machine);
-  const Motors motors(arm, rig, kTick);
+  const Motors motors(arm, motor_ratings(rig), kTick);
   const Vec<'R'> up(0, 0, 1);
   const PerJoint q = arm.zero();
   const double force = 0.9 * motors.strength(arm, q, {}, up).peak;
@@ -111,7 +112,7 @@ TEST(Motors, PressesWithTooLittleRestGiveWayInALaterOne) {
 TEST(Motors, TheShareKeepsEachMotorWithinWhatItHas) {
   const ArmRig rig;
   const Arm arm(rig.machine);
-  const Motors motors(arm, rig, kTick);
+  const Motors motors(arm, motor_ratings(rig), kTick);
   Heat heat;
   MotorLimit limit = MotorLimit::none;
   EXPECT_EQ(motors.share(heat, {}, {0.1, 0.1, 0.1}, limit), 1.0);

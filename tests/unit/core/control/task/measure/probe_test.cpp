@@ -85,7 +85,7 @@ TEST(Probe, MakesItsRepeatsInItsTimeAndNeverGoesDeeper) {
   spec.probe->rest = 0.5;
   spec.probe->dwell = 0.2;
   Loop loop(made(spec));
-  const double longest = programme_time(loop.scene);
+  const double longest = programme_time(loop.scene, *loop.scene.probe());
   double deepest = -1.0;
   int ticks = 0;
   for (; recall<Probing>(loop.state).phase != ProbePhase::done && ticks < 60'000; ++ticks) {

@@ -1,0 +1,13 @@
+// A number for each joint of an arm.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace enc {
+
+inline constexpr std::size_t kMostJoints = 3;
+// rad or m, N m or N. Joints that a machine does not have are 0.
+using PerJoint = std::array<double, kMostJoints>;
+
+}  // namespace enc
