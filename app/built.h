@@ -6,7 +6,7 @@
 
 #include "core/control/scene/scene.h"
 #include "models/setup/scene_file.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 

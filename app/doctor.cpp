@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/common/options.h"
 #include "app/modules/modules.h"
-#include "app/options.h"
 #include "core/base/error.h"
 #include "core/devices/roles.h"
 #include "models/schema/wording.h"

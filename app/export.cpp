@@ -10,17 +10,17 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
-#include "app/lack.h"
-#include "app/options.h"
+#include "app/common/lack.h"
+#include "app/common/options.h"
 #include "app/process.h"
 #include "core/base/error.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
+#include "trial/assemble/prepare.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"
 #include "trial/operator/signals.h"
-#include "trial/prepare.h"
 #include "trial/provenance/provenance.h"
 
 namespace enc::app {

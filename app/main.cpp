@@ -1,5 +1,5 @@
 // Everything but this is a library, so that tests can link it.
-#include "app/options.h"
+#include "app/common/options.h"
 #include "app/process.h"
 
 int main(int argc, char** argv) {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/options.h"
+#include "app/common/options.h"
 #include "core/base/error.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/schema/wording.h"

@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include "app/built.h"
-#include "app/options.h"
+#include "app/common/options.h"
 #include "core/base/error.h"
 #include "core/shape/surface/mesh_tree.h"
-#include "models/csv_reader.h"
 #include "models/mesh_files/mesh_check.h"
 #include "models/mesh_files/mesh_places.h"
 #include "models/schema/wording.h"
-#include "trial/prepare.h"
+#include "models/tables/csv_reader.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::app {
 namespace {

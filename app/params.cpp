@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/common/options.h"
 #include "app/modules/modules.h"
-#include "app/options.h"
 #include "models/setup/scene_file.h"
 
 namespace enc::app {

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "app/options.h"
+#include "app/common/options.h"
 #include "app/seen_again.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::app {
 

@@ -8,8 +8,8 @@
 #include "app/modules/modules.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
+#include "trial/assemble/vision.h"
 #include "trial/camera/kept_frames.h"
-#include "trial/camera/vision.h"
 #include "trial/devices/device_log.h"
 
 namespace enc::app {

@@ -22,7 +22,7 @@
 #include "sim/plants/gripper_plant.h"
 #include "sim/plants/hexapod_plant.h"
 #include "sim/plants/tracker_plant.h"
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 #include "sim/world_spec.h"
 
 namespace enc::sim {

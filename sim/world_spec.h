@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/control/scene/scene.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::sim {
 

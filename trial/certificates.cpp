@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/control/scene/steadiness.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::trial {
 namespace {

@@ -13,11 +13,11 @@
 #include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "sim/clock.h"
-#include "trial/camera/vision.h"
+#include "trial/assemble/prepare.h"
+#include "trial/assemble/vision.h"
 #include "trial/certificates.h"
 #include "trial/limits.h"
 #include "trial/lists/room.h"
-#include "trial/prepare.h"
 
 namespace enc::trial {
 namespace {

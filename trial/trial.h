@@ -16,7 +16,7 @@
 #include "core/record/record.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 #include "trial/certificates.h"
 #include "trial/devices/device_log.h"
 #include "trial/gate.h"

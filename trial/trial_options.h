@@ -9,8 +9,8 @@
 #include "core/control/step.h"
 #include "core/devices/rig.h"
 #include "core/devices/stereo_camera.h"
-#include "sim/truth.h"
-#include "trial/assemble.h"
+#include "sim/truth/truth.h"
+#include "trial/assemble/assemble.h"
 #include "trial/gate.h"
 #include "trial/steered/hand_word.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/devices/clock.h"
 #include "core/devices/mode.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 #include "trial/gate.h"
 #include "trial/trackers/frame_times.h"
 

@@ -2,7 +2,7 @@
 // `calibrate` is given a folder.
 #pragma once
 
-#include "app/options.h"
+#include "app/common/options.h"
 
 namespace enc::app {
 

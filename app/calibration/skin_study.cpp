@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/modules/axes.h"
+#include "app/common/axes.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/calibration/pair_study.h"
-#include "app/modules/axes.h"
+#include "app/common/axes.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
 #include "models/schema/wording.h"

@@ -11,8 +11,8 @@
 #include "app/built.h"
 #include "app/check/advise.h"
 #include "app/check/costs.h"
+#include "app/common/options.h"
 #include "app/modules/modules.h"
-#include "app/options.h"
 #include "app/process.h"
 #include "app/said.h"
 #include "app/stability_text.h"
@@ -21,9 +21,9 @@
 #include "core/control/scene/room.h"
 #include "core/control/scene/steadiness.h"
 #include "models/schema/wording.h"
-#include "models/sizes/scene_sizes.h"
+#include "models/setup/scene_sizes.h"
+#include "trial/assemble/prepare.h"
 #include "trial/limits.h"
-#include "trial/prepare.h"
 
 namespace enc::app {
 namespace {

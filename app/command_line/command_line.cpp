@@ -10,9 +10,9 @@
 #include <CLI/CLI.hpp>
 
 #include "app/command_line/parts.h"
+#include "app/common/options.h"
 #include "app/laboratory/fault_text.h"
 #include "app/laboratory/laboratory.h"
-#include "app/options.h"
 #include "app/process.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"

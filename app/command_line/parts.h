@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/options.h"
+#include "app/common/options.h"
 
 namespace enc::app {
 

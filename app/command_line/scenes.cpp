@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "app/options.h"
+#include "app/common/options.h"
 #include "core/base/error.h"
-#include "models/scene_names.h"
 #include "models/schema/printable.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/scene_names.h"
 
 namespace enc::app {
 

@@ -7,15 +7,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/common/axes.h"
 #include "app/fit/commands.h"
-#include "app/modules/axes.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "models/csv_reader.h"
 #include "models/fit/latency_fit.h"
 #include "models/fit/pivot/pivot_log.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
+#include "models/tables/csv_reader.h"
 #include "trial/fit/point_set.h"
 
 namespace enc::app {

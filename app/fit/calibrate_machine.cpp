@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "app/common/axes.h"
 #include "app/fit/commands.h"
-#include "app/modules/axes.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/time.h"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/common/axes.h"
 #include "app/fit/commands.h"
-#include "app/modules/axes.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "models/fit/pivot/pivot_doubts.h"

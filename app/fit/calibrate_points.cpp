@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/common/axes.h"
 #include "app/fit/commands.h"
-#include "app/modules/axes.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"

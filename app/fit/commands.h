@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "app/options.h"
-#include "trial/assemble.h"
+#include "app/common/options.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 

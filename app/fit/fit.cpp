@@ -8,12 +8,12 @@
 #include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/control/scene/scene.h"
-#include "models/csv_reader.h"
 #include "models/files.h"
-#include "models/fit/loop_fit.h"
+#include "models/fit/loop/loop_fit.h"
+#include "models/response_file.h"
 #include "models/schema/printable.h"
-#include "models/setup/response_file.h"
 #include "models/setup/scene_file.h"
+#include "models/tables/csv_reader.h"
 
 namespace enc::app {
 namespace {

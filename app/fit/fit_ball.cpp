@@ -9,10 +9,10 @@
 
 #include "app/fit/commands.h"
 #include "core/base/error.h"
-#include "models/csv_reader.h"
-#include "models/fit/loop_csv.h"
+#include "models/fit/loop/loop_csv.h"
 #include "models/order_statistics.h"
 #include "models/schema/wording.h"
+#include "models/tables/csv_reader.h"
 #include "trial/fit/ball_fit.h"
 
 namespace enc::app {

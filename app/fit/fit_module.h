@@ -2,8 +2,8 @@
 // is called.
 #pragma once
 
-#include "app/options.h"
-#include "trial/assemble.h"
+#include "app/common/options.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 

@@ -5,9 +5,9 @@
 #include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/record/record.h"
-#include "models/csv_reader.h"
+#include "models/tables/csv_reader.h"
+#include "trial/assemble/prepare.h"
 #include "trial/measure/record_table.h"
-#include "trial/prepare.h"
 
 namespace enc::app {
 namespace {

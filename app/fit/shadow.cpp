@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/common/lack.h"
 #include "app/fit/commands.h"
-#include "app/lack.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
 

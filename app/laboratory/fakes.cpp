@@ -13,7 +13,7 @@
 #include "encounter_version.h"
 #include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::app {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/devices/fake.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 #include "trial/devices/device_log.h"
 
 namespace enc::app {

@@ -1,7 +1,7 @@
 // The devices of a rig: in place of those that are not there, or asked whether they are.
 #pragma once
 
-#include "app/options.h"
+#include "app/common/options.h"
 
 namespace enc::app {
 

@@ -8,7 +8,7 @@
 
 #include "app/run/percentiles.h"
 #include "models/setup/scene_file.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 

@@ -9,7 +9,7 @@
 #include "app/modules/modules.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "app/calibration/calibration_module.h"
+#include "app/common/options.h"
 #include "app/fit/fit_module.h"
 #include "app/modules/modules.h"
-#include "app/options.h"
 #include "core/base/error.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"

@@ -13,7 +13,7 @@
 #include "app/modules/module_file.h"
 #include "core/base/error.h"
 #include "encounter_version.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 namespace {

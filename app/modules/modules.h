@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options.h"
+#include "app/common/options.h"
 #include "core/devices/module.h"
 #include "models/setup/scene_file.h"
 

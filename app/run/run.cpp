@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "app/built.h"
+#include "app/common/options.h"
 #include "app/modules/modules.h"
-#include "app/options.h"
 #include "app/process.h"
 #include "app/run/console.h"
 #include "app/run/run_report.h"
@@ -24,7 +24,7 @@
 #include "trial/operator/consent.h"
 #include "trial/operator/operator.h"
 #include "trial/provenance/provenance.h"
-#include "trial/run_measures.h"
+#include "trial/run/run_measures.h"
 #include "trial/steered/steering_log.h"
 #include "trial/time/record_thread.h"
 #include "trial/trial.h"

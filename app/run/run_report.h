@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "app/options.h"
+#include "app/common/options.h"
 #include "trial/certificates.h"
 #include "trial/limits.h"
 #include "trial/provenance/provenance.h"
-#include "trial/run_measures.h"
+#include "trial/run/run_measures.h"
 #include "trial/trial.h"
 
 namespace enc::app {

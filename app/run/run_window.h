@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "app/options.h"
+#include "app/common/options.h"
 #include "trial/trial.h"
 
 namespace enc::app {

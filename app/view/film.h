@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "app/options.h"
+#include "app/common/options.h"
 
 namespace enc::app {
 

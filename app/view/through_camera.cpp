@@ -10,7 +10,7 @@
 
 #include "app/built.h"
 #include "app/modules/modules.h"
-#include "app/view/believed.h"
+#include "app/view/moment/believed.h"
 #include "app/view/view.h"
 #include "core/base/error.h"
 #include "core/vision/vision_module.h"

@@ -5,16 +5,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "app/options.h"
+#include "app/common/options.h"
 #include "app/process.h"
 #include "app/view/film.h"
 #include "app/view/film_file.h"
-#include "app/view/moment.h"
+#include "app/view/moment/moment.h"
 #include "core/base/error.h"
 #include "models/files.h"
-#include "models/scene_names.h"
 #include "models/schema/printable.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/scene_names.h"
 #include "trial/trial.h"
 
 namespace enc::app {

@@ -8,8 +8,8 @@
 
 #include "app/built.h"
 #include "app/modules/modules.h"
-#include "app/view/depict.h"
 #include "app/view/film.h"
+#include "app/view/moment/depict.h"
 #include "app/view/recorded/source.h"
 #include "app/window/window.h"
 #include "core/base/error.h"

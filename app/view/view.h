@@ -1,7 +1,7 @@
 // encounter view: a picture of the simulated world at a moment.
 #pragma once
 
-#include "app/options.h"
+#include "app/common/options.h"
 
 namespace enc::app {
 

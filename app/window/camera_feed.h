@@ -7,7 +7,7 @@
 #include <mutex>
 #include <optional>
 
-#include "app/view/believed.h"
+#include "app/view/moment/believed.h"
 #include "core/vision/vision_module.h"
 
 namespace enc::app {

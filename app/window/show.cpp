@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/run/percentiles.h"
-#include "app/view/depict.h"
+#include "app/view/moment/depict.h"
 #include "core/base/error.h"
 #include "trial/steered/faults.h"
 

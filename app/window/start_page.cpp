@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "app/view/depict.h"
+#include "app/view/moment/depict.h"
 #include "core/base/error.h"
 #include "models/files.h"
-#include "models/scene_names.h"
+#include "models/setup/scene_names.h"
 
 namespace enc::app {
 namespace {

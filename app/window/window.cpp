@@ -20,11 +20,11 @@
 #include "app/window/show.h"
 #include "app/window/start_page.h"
 #include "core/base/error.h"
-#include "models/scene_names.h"
+#include "models/setup/scene_names.h"
 #include "sim/window/window.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
+#include "trial/assemble/prepare.h"
 #include "trial/operator/consent.h"
-#include "trial/prepare.h"
 
 namespace enc::app {
 namespace {

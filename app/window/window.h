@@ -1,7 +1,7 @@
 // encounter view without --shot: a run in a window, in which the mouse is the hand.
 #pragma once
 
-#include "app/options.h"
+#include "app/common/options.h"
 
 namespace enc::app {
 

@@ -9,9 +9,9 @@
 #include "benchmarks/kit/bench.h"
 #include "core/record/record.h"
 #include "core/record/state_hash.h"
-#include "trial/camera/vision.h"
+#include "trial/assemble/vision.h"
 #include "trial/devices/device_log.h"
-#include "trial/run_measures.h"
+#include "trial/run/run_measures.h"
 #include "trial/trial.h"
 
 namespace enc::bench::ablation {

@@ -9,13 +9,13 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/report/reference.h"
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_trial.h"
+#include "benchmarks/verdict/reference.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
 #include "models/fit/machine/turn.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 #include "trial/carried/machine_calibration.h"
 
 namespace enc::bench::calibration {

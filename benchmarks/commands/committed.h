@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "benchmarks/kit/bench.h"
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 
 namespace enc::bench {
 

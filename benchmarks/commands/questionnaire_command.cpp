@@ -15,13 +15,13 @@
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/questionnaire/opinion.h"
-#include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/plot.h"
+#include "benchmarks/verdict/contradictions.h"
 #include "core/base/error.h"
-#include "models/csv_reader.h"
 #include "models/files.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
+#include "models/tables/csv_reader.h"
 
 namespace enc::bench {
 namespace {

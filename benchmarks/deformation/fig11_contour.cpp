@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 

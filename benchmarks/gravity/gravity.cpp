@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "benchmarks/kit/kit.h"
-#include "sim/arm_spec.h"
+#include "sim/spec/arm_spec.h"
 
 namespace enc::bench::gravity {
 

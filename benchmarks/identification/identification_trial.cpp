@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "sim/bodies/ball_contact.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 #include "trial/trial.h"
 
 namespace enc::bench::identification {

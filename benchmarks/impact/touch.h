@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "models/setup/scene_file.h"
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 
 namespace enc::bench::impact {
 

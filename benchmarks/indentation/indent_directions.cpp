@@ -9,8 +9,8 @@
 #include "benchmarks/indentation/indentation.h"
 #include "benchmarks/kit/parallel.h"
 #include "core/control/task/measure/probe.h"
-#include "models/fit/loop_csv.h"
-#include "models/setup/directions.h"
+#include "models/directions/directions.h"
+#include "models/fit/loop/loop_csv.h"
 #include "sim/bodies/ball_plant.h"
 #include "trial/measure/record_table.h"
 

@@ -8,7 +8,7 @@
 
 #include "benchmarks/kit/parallel.h"
 #include "core/control/stages/walk.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 #include "trial/measure/press_measure.h"
 
 namespace enc::bench::indentation {

@@ -12,7 +12,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 
 namespace enc::bench::indentation {
 namespace {

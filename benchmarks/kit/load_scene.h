@@ -7,7 +7,7 @@
 #include "benchmarks/kit/bench.h"
 #include "core/base/error.h"
 #include "models/setup/scene_file.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::bench {
 

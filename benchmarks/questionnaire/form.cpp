@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "models/csv_reader.h"
 #include "models/schema/toml_reader.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
+#include "models/tables/csv_reader.h"
 
 namespace enc::bench::questionnaire {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 
 namespace enc::bench::questionnaire {
 

@@ -7,7 +7,7 @@
 
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/questionnaire/form.h"
-#include "benchmarks/report/verdict.h"
+#include "benchmarks/verdict/verdict.h"
 
 namespace enc::bench::questionnaire {
 

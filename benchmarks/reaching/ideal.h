@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/frames.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::bench::reaching {
 

@@ -14,7 +14,7 @@
 #include "benchmarks/recording/scratch_file.h"
 #include "core/record/record.h"
 #include "models/order_statistics.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 #include "trial/time/record_thread.h"
 
 namespace enc::bench::recording {

@@ -6,7 +6,7 @@
 
 #include "benchmarks/kit/parallel.h"
 #include "core/base/error.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::bench::registration {
 namespace {

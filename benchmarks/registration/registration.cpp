@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/kit/kit.h"
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
 #include "trial/guided/driven_arm.h"
 

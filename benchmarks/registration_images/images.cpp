@@ -5,7 +5,7 @@
 #include "benchmarks/kit/cost.h"
 #include "benchmarks/staged/staged.h"
 #include "core/control/scene/scene.h"
-#include "trial/camera/vision.h"
+#include "trial/assemble/vision.h"
 
 namespace enc::bench::registration_images {
 namespace {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "benchmarks/registration_images/images.h"
-#include "benchmarks/report/reference.h"
 #include "benchmarks/staged/staged.h"
+#include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
 #include "trial/guided/driven_arm.h"
 #include "trial/guided/registration_rig.h"

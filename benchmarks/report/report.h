@@ -9,8 +9,8 @@
 
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/questionnaire/proxies.h"
-#include "benchmarks/report/contradictions.h"
-#include "benchmarks/report/verdict.h"
+#include "benchmarks/verdict/contradictions.h"
+#include "benchmarks/verdict/verdict.h"
 #include "trial/provenance/provenance.h"
 
 namespace enc::bench {

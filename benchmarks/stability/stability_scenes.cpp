@@ -7,8 +7,8 @@
 #include "benchmarks/kit/statistics.h"
 #include "benchmarks/stability/stability.h"
 #include "models/setup/scene_file.h"
+#include "trial/assemble/prepare.h"
 #include "trial/certificates.h"
-#include "trial/prepare.h"
 
 namespace enc::bench::stability {
 namespace {

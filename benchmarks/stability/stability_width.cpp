@@ -10,8 +10,8 @@
 #include "core/base/units.h"
 #include "core/control/scene/steadiness.h"
 #include "models/setup/scene_file.h"
+#include "trial/assemble/prepare.h"
 #include "trial/certificates.h"
-#include "trial/prepare.h"
 
 namespace enc::bench::stability {
 namespace {

@@ -10,7 +10,7 @@
 #include "benchmarks/kit/kit.h"
 #include "core/vision/segmentation/skin.h"
 #include "sim/camera/stage.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::bench::staged {
 

@@ -10,8 +10,8 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/work_precision.h"
-#include "benchmarks/report/reference.h"
 #include "benchmarks/stiffness/stiffness_beyond.h"
+#include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
 
 namespace enc::bench::stiffness {

@@ -15,11 +15,11 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/kit/over_rig.h"
-#include "benchmarks/report/reference.h"
 #include "benchmarks/stiffness/stiffness.h"
+#include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
+#include "trial/assemble/prepare.h"
 #include "trial/certificates.h"
-#include "trial/prepare.h"
 
 namespace enc::bench::stiffness {
 namespace {

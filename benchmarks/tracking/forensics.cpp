@@ -12,7 +12,7 @@
 #include "core/base/units.h"
 #include "models/setup/scene_file.h"
 #include "sim/plants/tracker_plant.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::bench::tracking {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "benchmarks/kit/bench.h"
 #include "models/fit/latency_fit.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::bench::tracking {
 

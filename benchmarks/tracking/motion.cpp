@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/control/track/minimum_jerk.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::bench::tracking {
 namespace {

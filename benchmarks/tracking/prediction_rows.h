@@ -12,7 +12,7 @@
 #include "benchmarks/kit/bench.h"
 #include "benchmarks/tracking/motion.h"
 #include "benchmarks/tracking/tracking_fit.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::bench::tracking {
 

@@ -7,7 +7,7 @@
 
 #include "benchmarks/kit/parallel.h"
 #include "core/base/frames.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::bench::tracking {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "benchmarks/report/reference.h"
 #include "benchmarks/tracking/tracking_theory.h"
+#include "benchmarks/verdict/reference.h"
 
 namespace enc::bench::tracking {
 

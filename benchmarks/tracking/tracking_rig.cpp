@@ -13,7 +13,7 @@
 #include "benchmarks/tracking/tracking_fit.h"
 #include "benchmarks/tracking/tracking_trial.h"
 #include "core/base/units.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::bench::tracking {
 namespace {

@@ -7,10 +7,10 @@
 #include "core/machine/arm_shape.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/world.h"
+#include "trial/assemble/prepare.h"
+#include "trial/assemble/vision.h"
 #include "trial/camera/arm_things.h"
-#include "trial/camera/vision.h"
 #include "trial/measure/finger_measure.h"
-#include "trial/prepare.h"
 
 namespace enc::bench::vishap {
 namespace {

@@ -12,8 +12,8 @@
 #include "core/vision/augment/facets.h"
 #include "core/vision/finger_tracker.h"
 #include "core/vision/stereo/triangulate.h"
-#include "trial/camera/vision.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
+#include "trial/assemble/vision.h"
 
 namespace enc::bench::vishap {
 namespace {

@@ -14,9 +14,9 @@
 #include "benchmarks/vishap/vishap.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "trial/assemble/prepare.h"
 #include "trial/measure/finger_measure.h"
 #include "trial/measure/frame_force.h"
-#include "trial/prepare.h"
 
 namespace enc::bench::vishap {
 namespace {

@@ -10,7 +10,7 @@
 #include "hw_drivers/igtl/drive/settings.h"
 #include "hw_drivers/netft/drive/settings.h"
 #include "models/setup/driver_table.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::bench::wires {
 

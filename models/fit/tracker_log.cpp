@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "models/csv_reader.h"
+#include "models/tables/csv_reader.h"
 
 namespace enc::models {
 namespace {

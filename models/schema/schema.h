@@ -15,8 +15,8 @@
 #include "core/base/words.h"
 #include "core/spec/rig_spec.h"
 #include "core/spec/scene_spec.h"
-#include "models/setup/response_file.h"
-#include "sim/twin_spec.h"
+#include "models/response_file.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::models {
 

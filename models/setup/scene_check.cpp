@@ -20,7 +20,7 @@
 #include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
-#include "models/sizes/scene_sizes.h"
+#include "models/setup/scene_sizes.h"
 
 namespace enc::models {
 namespace {

@@ -12,15 +12,15 @@
 
 #include "core/base/error.h"
 #include "core/devices/roles.h"
+#include "models/directions/directions.h"
 #include "models/files.h"
-#include "models/scene_names.h"
 #include "models/schema/schema_walk.h"
 #include "models/schema/units.h"
 #include "models/schema/wording.h"
-#include "models/setup/directions.h"
 #include "models/setup/driver_table.h"
 #include "models/setup/scene_check.h"
-#include "models/sizes/scene_sizes.h"
+#include "models/setup/scene_names.h"
+#include "models/setup/scene_sizes.h"
 
 namespace enc::models {
 

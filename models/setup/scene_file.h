@@ -10,9 +10,9 @@
 #include "core/record/record.h"
 #include "core/spec/rig_spec.h"
 #include "core/spec/scene_spec.h"
+#include "models/response_file.h"
 #include "models/schema/toml_reader.h"
-#include "models/setup/response_file.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::models {
 

@@ -8,8 +8,8 @@
 
 #include "core/machine/arm.h"
 #include "core/spec/scene_spec.h"
-#include "sim/arm_spec.h"
 #include "sim/bodies/mujoco.h"
+#include "sim/spec/arm_spec.h"
 
 namespace enc::sim {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/bodies/ball_plant.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::sim {
 

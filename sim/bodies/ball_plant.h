@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::sim {
 

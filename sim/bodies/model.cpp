@@ -228,7 +228,7 @@ void add_pictures(mjSpec* spec, const ModelParts& parts) {
     if (real) geom->rgba[3] = 1.0F;
     set_material(spec, geom, i, parts.scene.objects[i], real);
   }
-  // A picture shows a belt on its rollers in place of the box that is touched (app/view/depict.cpp).
+  // A picture shows a belt on its rollers in place of the box that is touched (app/view/moment/depict.cpp).
   if (parts.scene.prop && parts.scene.prop->kind == PropKind::drum)
     mjs_asGeom(mjs_findElement(spec, mjOBJ_GEOM, "prop_front"))->rgba[3] = 0.0F;
   for (const double side : {-1.0, 1.0}) {

@@ -5,7 +5,7 @@
 
 #include "core/control/scene/scene.h"
 #include "sim/bodies/mujoco.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
 
 namespace enc::sim {
 

@@ -9,9 +9,9 @@
 #include <cstdint>
 
 #include "core/control/scene/scene.h"
-#include "sim/random.h"
-#include "sim/truth.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
+#include "sim/truth/random.h"
+#include "sim/truth/truth.h"
 
 namespace enc::sim {
 

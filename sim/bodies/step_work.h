@@ -14,10 +14,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "sim/arm_spec.h"
 #include "sim/bodies/arm_model.h"
 #include "sim/bodies/mujoco.h"
-#include "sim/truth.h"
+#include "sim/spec/arm_spec.h"
+#include "sim/truth/truth.h"
 
 namespace enc::sim {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::sim {
 namespace {

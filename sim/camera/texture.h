@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/camera/stage.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::sim {
 

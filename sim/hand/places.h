@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/control/scene/scene.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::sim {
 

@@ -15,9 +15,9 @@
 #include "core/control/scene/scene.h"
 #include "sim/hand/hand_plan.h"
 #include "sim/hand/places.h"
-#include "sim/random.h"
-#include "sim/truth.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
+#include "sim/truth/random.h"
+#include "sim/truth/truth.h"
 
 namespace enc::sim {
 

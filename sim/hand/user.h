@@ -14,9 +14,9 @@
 #include "sim/hand/session_plan.h"
 #include "sim/hand/steered_plan.h"
 #include "sim/hand/tool_change.h"
-#include "sim/random.h"
-#include "sim/truth.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
+#include "sim/truth/random.h"
+#include "sim/truth/truth.h"
 
 namespace enc::sim {
 

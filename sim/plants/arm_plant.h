@@ -9,7 +9,7 @@
 #include "core/base/sample.h"
 #include "core/devices/haptic_arm.h"
 #include "core/machine/motors.h"
-#include "sim/arm_spec.h"
+#include "sim/spec/arm_spec.h"
 
 namespace enc::sim {
 

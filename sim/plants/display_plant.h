@@ -7,8 +7,8 @@
 #include "core/base/sample.h"
 #include "core/control/scene/scene.h"
 #include "core/devices/view.h"
-#include "sim/random.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
+#include "sim/truth/random.h"
 
 namespace enc::sim {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/base/sample.h"
-#include "sim/random.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
+#include "sim/truth/random.h"
 
 namespace enc::sim {
 

@@ -9,8 +9,8 @@
 #include "core/base/sample.h"
 #include "core/machine/reach.h"
 #include "core/machine/servo.h"
-#include "sim/random.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
+#include "sim/truth/random.h"
 
 namespace enc::sim {
 

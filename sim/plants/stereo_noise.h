@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "core/base/frames.h"
-#include "sim/random.h"
-#include "sim/sensor_spec.h"
+#include "sim/spec/sensor_spec.h"
+#include "sim/truth/random.h"
 
 namespace enc::sim {
 

@@ -8,8 +8,8 @@
 
 #include "core/base/sample.h"
 #include "core/base/time.h"
-#include "sim/random.h"
-#include "sim/twin_spec.h"
+#include "sim/spec/twin_spec.h"
+#include "sim/truth/random.h"
 
 namespace enc::sim {
 

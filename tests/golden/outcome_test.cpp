@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "models/setup/scene_file.h"
-#include "sim/truth_fields.h"
+#include "sim/truth/truth_fields.h"
 #include "tests/support/built.h"
 #include "trial/trial.h"
 

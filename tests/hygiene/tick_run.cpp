@@ -8,7 +8,7 @@
 
 #include "core/record/record.h"
 #include "tests/support/built.h"
-#include "trial/run_measures.h"
+#include "trial/run/run_measures.h"
 
 namespace enc::test {
 namespace {

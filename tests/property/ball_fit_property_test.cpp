@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/random.h"
+#include "sim/truth/random.h"
 #include "tests/support/ball_pushes.h"
 #include "trial/fit/ball_fit.h"
 

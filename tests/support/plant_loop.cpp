@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::test {
 

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "models/csv_reader.h"
 #include "models/schema/wording.h"
+#include "models/tables/csv_reader.h"
 
 namespace enc::trial {
 namespace {

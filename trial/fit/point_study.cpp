@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "models/order_statistics.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::trial {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/machine/arm.h"
-#include "sim/arm_spec.h"
 #include "sim/plants/stereo_noise.h"
+#include "sim/spec/arm_spec.h"
 #include "trial/fit/point_set.h"
 
 namespace enc::trial {

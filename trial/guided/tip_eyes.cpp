@@ -6,7 +6,7 @@
 #include "core/control/scene/scene.h"
 #include "core/vision/vision_module.h"
 #include "sim/camera/stage.h"
-#include "trial/camera/vision.h"
+#include "trial/assemble/vision.h"
 
 namespace enc::trial {
 

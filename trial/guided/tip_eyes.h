@@ -12,7 +12,7 @@
 #include "core/vision/ball/ball_finder.h"
 #include "models/setup/scene_file.h"
 #include "sim/camera/shown.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 #include "trial/guided/guided.h"
 
 namespace enc::trial {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/control/task/meet/arm_loop.h"
-#include "sim/arm_spec.h"
+#include "sim/spec/arm_spec.h"
 
 namespace enc::trial {
 namespace {

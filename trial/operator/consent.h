@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::trial {
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 #include "trial/shadow/channels.h"
 
 namespace enc::trial {

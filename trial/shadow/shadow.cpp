@@ -7,7 +7,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/error.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 #include "trial/shadow/bounds.h"
 #include "trial/shadow/channels.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/record/record.h"
-#include "models/csv_reader.h"
+#include "models/tables/csv_reader.h"
 
 namespace enc::trial {
 

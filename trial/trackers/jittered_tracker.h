@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/devices/pose_tracker.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::trial {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/control/step.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::app {
 namespace {

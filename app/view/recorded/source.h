@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/options.h"
+#include "app/common/options.h"
 #include "app/view/recorded/playback.h"
 
 namespace enc::app {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/view/depict.h"
+#include "app/view/moment/depict.h"
 
 namespace enc::app {
 namespace {

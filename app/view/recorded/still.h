@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "app/view/moment.h"
+#include "app/view/moment/moment.h"
 
 namespace enc::app {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/shape/response/response.h"
-#include "models/fit/loop_csv.h"
+#include "models/fit/loop/loop_csv.h"
 
 namespace enc::models {
 

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "models/csv_reader.h"
 #include "models/schema/wording.h"
+#include "models/tables/csv_reader.h"
 
 namespace enc::models {
 namespace {

@@ -6,7 +6,7 @@
 #include "benchmarks/synchrony/lag.h"
 #include "benchmarks/synchrony/sync_trial.h"
 #include "core/control/track/minimum_jerk.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 #include "tests/conformance/bench_world.h"
 #include "trial/trial.h"
 

@@ -1,5 +1,5 @@
 // Values printed in the papers.
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

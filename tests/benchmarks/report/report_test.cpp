@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report/contradictions.h"
 #include "benchmarks/report/plot.h"
+#include "benchmarks/verdict/contradictions.h"
 #include "core/base/error.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"

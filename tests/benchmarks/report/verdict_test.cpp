@@ -1,5 +1,5 @@
 // Felt or not: thresholds and what is said of an error, worked by hand.
-#include "benchmarks/report/verdict.h"
+#include "benchmarks/verdict/verdict.h"
 
 #include <cmath>
 

@@ -12,7 +12,7 @@
 #include "tests/fuzz/targets/seeds.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/scenes.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::fuzz {
 namespace {

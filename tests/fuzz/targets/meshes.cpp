@@ -17,7 +17,7 @@
 #include "tests/fuzz/machine/target.h"
 #include "tests/fuzz/targets/seeds.h"
 #include "tests/support/scenes.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::fuzz {
 namespace {

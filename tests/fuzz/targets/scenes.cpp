@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "models/setup/directions.h"
+#include "models/directions/directions.h"
 #include "models/setup/driver_table.h"
 #include "models/setup/scene_file.h"
 #include "tests/fuzz/machine/target.h"
 #include "tests/fuzz/targets/seeds.h"
 #include "tests/support/variable.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::fuzz {
 namespace {

@@ -11,9 +11,9 @@
 #include "tests/fuzz/machine/target.h"
 #include "tests/support/built.h"
 #include "tests/support/bytes_of.h"
+#include "trial/assemble/prepare.h"
 #include "trial/mcap/record_mcap.h"
 #include "trial/measure/record_table.h"
-#include "trial/prepare.h"
 
 namespace enc::fuzz {
 namespace {

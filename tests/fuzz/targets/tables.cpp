@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "models/fit/loop_csv.h"
+#include "models/fit/loop/loop_csv.h"
 #include "models/fit/pivot/pivot_log.h"
 #include "models/fit/tracker_log.h"
 #include "models/mesh_files/mesh_places.h"

@@ -12,12 +12,12 @@
 #include "core/base/error.h"
 #include "models/mesh_files/mesh_write.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/scene_sizes.h"
 #include "models/shapes/shapes.h"
-#include "models/sizes/scene_sizes.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::test {
 namespace {

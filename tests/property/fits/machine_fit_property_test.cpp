@@ -14,7 +14,7 @@
 #include "models/fit/machine/hand_eye.h"
 #include "models/fit/machine/turn.h"
 #include "models/fit/machine/weight_fit.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::tests {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "models/fit/pivot/pivot_fit.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/base/rotation.h"
 #include "models/fit/register.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc {
 namespace {

@@ -6,7 +6,7 @@
 #include "models/shapes/hare.h"
 #include "tests/support/built.h"
 #include "tests/support/scenes.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::test {
 namespace {

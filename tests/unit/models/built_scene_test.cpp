@@ -14,7 +14,7 @@
 #include "models/schema/schema.h"
 #include "models/schema/toml_writer.h"
 #include "models/setup/scene_file.h"
-#include "sim/truth_fields.h"
+#include "sim/truth/truth_fields.h"
 #include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
 #include "trial/trial.h"

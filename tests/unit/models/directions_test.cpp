@@ -1,5 +1,5 @@
 // What a ball measured in three directions answers in others: worked by hand; and every mistake in one line.
-#include "models/setup/directions.h"
+#include "models/directions/directions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "models/fit/loop_csv.h"
+#include "models/fit/loop/loop_csv.h"
 
 namespace enc::models {
 namespace {

@@ -1,5 +1,5 @@
 // From a loop to a response with stops: least squares by hand, exact data, the file as text.
-#include "models/fit/loop_fit.h"
+#include "models/fit/loop/loop_fit.h"
 
 #include <cmath>
 #include <string>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "models/setup/response_file.h"
+#include "models/response_file.h"
 #include "tests/support/plant_loop.h"
 
 namespace enc::models {

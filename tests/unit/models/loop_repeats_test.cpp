@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "models/fit/loop_fit.h"
+#include "models/fit/loop/loop_fit.h"
 
 namespace enc::models {
 namespace {

@@ -11,8 +11,8 @@
 #include "sim/bodies/mujoco.h"
 #include "sim/world.h"
 #include "tests/support/built.h"
-#include "trial/assemble.h"
-#include "trial/prepare.h"
+#include "trial/assemble/assemble.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc {
 namespace {

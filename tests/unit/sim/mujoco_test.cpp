@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::test {
 namespace {

@@ -1,6 +1,6 @@
 // Which devices a trial is made of: the twin where a slot is simulated, drivers where the rig names them, and
 // no simulated world where nothing asks for one.
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 #include <cstdlib>
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 #include "tests/support/ball_pushes.h"
 
 namespace enc::bench {

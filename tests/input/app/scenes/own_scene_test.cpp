@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "models/scene_names.h"
 #include "models/setup/scene_file.h"
+#include "models/setup/scene_names.h"
 #include "tests/input/app/program.h"
 #include "tests/support/built.h"
 

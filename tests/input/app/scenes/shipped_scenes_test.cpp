@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/scene_names.h"
+#include "models/setup/scene_names.h"
 #include "tests/support/built.h"
 #include "tests/support/run_program.h"
 

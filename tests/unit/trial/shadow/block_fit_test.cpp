@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc::trial {
 namespace {

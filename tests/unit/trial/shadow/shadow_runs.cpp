@@ -2,7 +2,7 @@
 
 #include "tests/support/built.h"
 #include "tests/support/temporary_folder.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 #include "trial/trial.h"
 
 namespace enc::test {

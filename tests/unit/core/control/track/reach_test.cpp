@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/control/track/minimum_jerk.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/spec/vision/vision_check.h"
 #include "sim/camera/sensor.h"
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/random.h"
+#include "sim/truth/random.h"
 
 namespace enc {
 namespace {

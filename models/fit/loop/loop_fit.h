@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/frames.h"
-#include "models/fit/loop_csv.h"
+#include "models/fit/loop/loop_csv.h"
 
 namespace enc::models {
 

@@ -1,4 +1,4 @@
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 
 #include <algorithm>
 #include <charconv>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/fit_options.h"
+#include "app/common/fit_options.h"
 #include "core/base/frames.h"
 #include "trial/bench_module.h"
 

@@ -1,4 +1,4 @@
-#include "app/view/believed.h"
+#include "app/view/moment/believed.h"
 
 #include "core/control/world/moving.h"
 

@@ -1,7 +1,7 @@
 // Turns a moment of a run into a picture: machine, tool, force, normal, names.
 #pragma once
 
-#include "app/view/moment.h"
+#include "app/view/moment/moment.h"
 #include "sim/view/view.h"
 
 namespace enc::app {

@@ -1,4 +1,4 @@
-#include "models/fit/loop_fit.h"
+#include "models/fit/loop/loop_fit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "benchmarks/report/verdict.h"
+#include "benchmarks/verdict/verdict.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 #include "core/base/error.h"
 
 namespace enc::bench {

@@ -1,4 +1,4 @@
-#include "app/view/depict.h"
+#include "app/view/moment/depict.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "models/scene_names.h"
+#include "models/setup/scene_names.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -11,7 +11,7 @@
 #include "models/setup/scene_file.h"
 #include "sim/camera/stage.h"
 #include "sim/world.h"
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 namespace enc::trial {
 

@@ -1,11 +1,11 @@
-#include "benchmarks/report/contradictions.h"
+#include "benchmarks/verdict/contradictions.h"
 
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "benchmarks/report/reference.h"
+#include "benchmarks/verdict/reference.h"
 
 namespace enc::bench {
 namespace {

@@ -10,8 +10,8 @@
 #include "core/base/error.h"
 #include "core/devices/driver.h"
 #include "models/setup/driver_table.h"
-#include "trial/assemble.h"
-#include "trial/prepare.h"
+#include "trial/assemble/assemble.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::trial {
 

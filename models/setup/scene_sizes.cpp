@@ -1,4 +1,4 @@
-#include "models/sizes/scene_sizes.h"
+#include "models/setup/scene_sizes.h"
 
 #include <algorithm>
 #include <array>

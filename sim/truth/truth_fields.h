@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/record/state_hash.h"
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 
 namespace enc::sim {
 

@@ -1,4 +1,4 @@
-#include "models/csv_reader.h"
+#include "models/tables/csv_reader.h"
 
 #include <algorithm>
 #include <charconv>

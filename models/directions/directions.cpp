@@ -1,4 +1,4 @@
-#include "models/setup/directions.h"
+#include "models/directions/directions.h"
 
 #include <algorithm>
 #include <cmath>

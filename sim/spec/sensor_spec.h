@@ -7,7 +7,7 @@
 
 #include "core/base/frames.h"
 #include "core/base/words.h"
-#include "sim/picture_spec.h"
+#include "sim/spec/picture_spec.h"
 
 namespace enc::sim {
 

@@ -1,7 +1,7 @@
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 #include "core/base/error.h"
-#include "models/sizes/scene_sizes.h"
+#include "models/setup/scene_sizes.h"
 
 namespace enc::trial {
 

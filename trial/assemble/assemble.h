@@ -12,7 +12,7 @@
 #include "core/devices/rig.h"
 #include "models/setup/scene_file.h"
 #include "sim/world.h"
-#include "trial/prepare.h"
+#include "trial/assemble/prepare.h"
 
 namespace enc::trial {
 

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "core/spec/rig_spec.h"
-#include "sim/arm_spec.h"
-#include "sim/machine_spec.h"
-#include "sim/sensor_spec.h"
-#include "sim/solver_spec.h"
+#include "sim/spec/arm_spec.h"
+#include "sim/spec/machine_spec.h"
+#include "sim/spec/sensor_spec.h"
+#include "sim/spec/solver_spec.h"
 
 namespace enc::sim {
 

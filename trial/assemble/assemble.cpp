@@ -1,4 +1,4 @@
-#include "trial/assemble.h"
+#include "trial/assemble/assemble.h"
 
 #include <cmath>
 #include <set>
@@ -12,8 +12,8 @@
 #include "core/devices/roles.h"
 #include "models/schema/wording.h"
 #include "models/setup/driver_table.h"
-#include "trial/camera/vision.h"
-#include "trial/devices/driver_device.h"
+#include "trial/assemble/driver_device.h"
+#include "trial/assemble/vision.h"
 
 namespace enc::trial {
 namespace {

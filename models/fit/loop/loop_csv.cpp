@@ -1,4 +1,4 @@
-#include "models/fit/loop_csv.h"
+#include "models/fit/loop/loop_csv.h"
 
 #include <algorithm>
 #include <array>
@@ -10,11 +10,11 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "models/csv_reader.h"
 #include "models/fit/loop/branches.h"
 #include "models/fit/loop/contact.h"
 #include "models/fit/loop/plateau.h"
 #include "models/schema/wording.h"
+#include "models/tables/csv_reader.h"
 
 namespace enc::models {
 namespace {

@@ -1,4 +1,4 @@
-#include "trial/camera/vision.h"
+#include "trial/assemble/vision.h"
 
 #include <algorithm>
 
@@ -6,9 +6,9 @@
 #include "core/vision/vision_module.h"
 #include "sim/camera/skin_tones.h"
 #include "sim/camera/stage.h"
+#include "trial/assemble/driver_device.h"
 #include "trial/camera/arm_things.h"
 #include "trial/camera/kept_frames.h"
-#include "trial/devices/driver_device.h"
 #include "trial/trackers/threaded_tracker.h"
 
 namespace enc::trial {

@@ -6,7 +6,7 @@
 #include "core/machine/hexapod.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/mujoco.h"
-#include "sim/truth.h"
+#include "sim/truth/truth.h"
 #include "trial/trial.h"
 
 namespace enc::app {
