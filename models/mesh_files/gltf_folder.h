@@ -2,11 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include <tiny_gltf.h>
 
 namespace enc::models {
 
@@ -44,28 +43,5 @@ struct GltfFolder {
     return !failed && !too_much();
   }
 };
-
-inline tinygltf::FsCallbacks callbacks(GltfFolder& folder) {
-  tinygltf::FsCallbacks calls{};
-  calls.ExpandFilePath = [](const std::string& path, void*) { return path; };  // no ~, no $VARIABLE
-  calls.FileExists = [](const std::string& path, void* user) {
-    return static_cast<GltfFolder*>(user)->may_read(path);
-  };
-  calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path,
-                           void* user) {
-    return static_cast<GltfFolder*>(user)->may_read_whole(path) &&
-           tinygltf::ReadWholeFile(out, error, path, nullptr);
-  };
-  calls.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-  };
-  calls.user_data = &folder;
-  return calls;
-}
-
-inline bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
-                     void*) {
-  return true;
-}
 
 }  // namespace enc::models

@@ -19,6 +19,28 @@
 namespace enc::models {
 namespace {
 
+tinygltf::FsCallbacks callbacks(GltfFolder& folder) {
+  tinygltf::FsCallbacks calls{};
+  calls.ExpandFilePath = [](const std::string& path, void*) { return path; };  // no ~, no $VARIABLE
+  calls.FileExists = [](const std::string& path, void* user) {
+    return static_cast<GltfFolder*>(user)->may_read(path);
+  };
+  calls.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error, const std::string& path,
+                           void* user) {
+    return static_cast<GltfFolder*>(user)->may_read_whole(path) &&
+           tinygltf::ReadWholeFile(out, error, path, nullptr);
+  };
+  calls.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  calls.user_data = &folder;
+  return calls;
+}
+
+bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+  return true;
+}
+
 // tinygltf's own words on one line, with the place where they tell one.
 [[noreturn]] void fail_parse(const MeshBytes& file, std::string_view json, bool binary, std::string words) {
   while (!words.empty() && (words.back() == '\n' || words.back() == ' ')) words.pop_back();

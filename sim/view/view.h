@@ -70,7 +70,7 @@ struct ViewRequest {
   std::vector<ViewArrow> arrows;
   std::vector<ViewLabel> labels;
   std::vector<ViewLabel> signs;  // written at their places themselves
-  std::string title;  // top left, one or more lines; may be empty
+  std::string title;             // top left, one or more lines; may be empty
   // Dents a mesh of the picture's own copy of the model; gives its index, -1: none is dented.
   std::function<int(mjModel_*)> dent;
   // In a window alone: names and what they are, a line each; the same of a help page, else empty; charts.

@@ -250,8 +250,8 @@ TEST_F(MeshFiles, TheMaterialOfAGltfIsThatOfMostTriangles) {
   EXPECT_FLOAT_EQ(second->roughness, 0.75F);
   EXPECT_FLOAT_EQ(second->opacity, 0.25F);
   EXPECT_FALSE(with(both, 7)) << "a picture is no reason to refuse a mesh";
-  EXPECT_FALSE(load_faces(file("b.gltf", gltf_json(data.size(), 5121, true, "[{\"mesh\":0}]", "data.bin")))
-                   .material);
+  EXPECT_FALSE(
+      load_faces(file("b.gltf", gltf_json(data.size(), 5121, true, "[{\"mesh\":0}]", "data.bin"))).material);
 }
 
 TEST(MeshCheck, RepairsWithAWordWhatIsSafe) {
