@@ -17,8 +17,14 @@
 
 namespace enc {
 
-enum class ShapeKind : std::uint8_t { plane, sphere, mesh, button };
-constexpr auto words(ShapeKind) { return enum_words("plane", "sphere", "mesh", "button"); }
+enum class ShapeKind : std::uint8_t { plane, sphere, mesh, button, box };
+constexpr auto words(ShapeKind) { return enum_words("plane", "sphere", "mesh", "button", "box"); }
+// The key that says how large it is, as messages name it; of a plane none does.
+constexpr const char* size_key(ShapeKind shape) {
+  return shape == ShapeKind::mesh ? ".mesh" : shape == ShapeKind::box ? ".size" : ".radius";
+}
+// Whether its surface is triangles, ObjectSpec::surface.
+constexpr bool has_triangles(ShapeKind shape) { return shape == ShapeKind::mesh || shape == ShapeKind::box; }
 
 enum class Tangential : std::uint8_t {
   stick,  // the tip stays over its contact point, whatever the sideways force (default)
@@ -53,7 +59,9 @@ struct ObjectSpec {
   std::vector<double> limits{};
   MaterialName material = MaterialName::unnamed;
 
-  // mesh
+  Vec3 size{kUnset, kUnset, kUnset};  // box: its edges along x, y and z of O, which is in its middle, m
+
+  // mesh; rotation and surface of a box, too
   std::string mesh{};                             // file
   std::string mesh_hash{};                        // of its content, 16 hex digits; empty: not known
   double scale = 1.0;                             // of the file's metres

@@ -12,6 +12,7 @@
 #include "models/mesh_files/mesh_file.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
+#include "models/shapes/shapes.h"
 
 namespace enc::models {
 namespace {
@@ -128,6 +129,7 @@ void fill_meshes(Setup& setup, const std::string& models_dir) {
   };
   std::map<std::string, Loaded> loaded;  // each once, however many objects name it
   for (ObjectSpec& object : setup.scene.objects) {
+    if (object.shape == ShapeKind::box) object.surface = box_surface(object.size);
     if (object.shape != ShapeKind::mesh) continue;
     const std::string path = find_mesh(setup, object, fs::path(models_dir) / "meshes").string();
     Loaded& file = loaded[path];
@@ -145,7 +147,7 @@ void fill_meshes(Setup& setup, const std::string& models_dir) {
 RecordTexts record_texts(const Setup& setup) {
   RecordTexts texts{{"resolved", resolved(setup)}};
   for (const ObjectSpec& object : setup.scene.objects)
-    if (object.surface) {
+    if (object.shape == ShapeKind::mesh && object.surface) {
       texts["mesh:" + object.mesh] = packed(*object.surface);
       if (object.own_material) texts["material:" + object.mesh] = packed(*object.own_material);
     }
@@ -159,6 +161,7 @@ Setup setup_of(const RecordTexts& texts, const std::string& record_path) {
   Setup setup = parse_resolved(text->second, record_path + " (scene)");
   std::map<std::string, std::shared_ptr<const Mesh>> loaded;
   for (ObjectSpec& object : setup.scene.objects) {
+    if (object.shape == ShapeKind::box) object.surface = box_surface(object.size);
     if (object.shape != ShapeKind::mesh) continue;
     const auto mesh = texts.find("mesh:" + object.mesh);
     const std::string name = fmt::format("{} ({})", record_path, object.mesh);

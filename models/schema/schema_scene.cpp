@@ -23,8 +23,6 @@ void describe_mesh(Visitor& v, ObjectSpec& o) {
            true},
           &o.mesh_hash);
   v.value({"scale", "of the mesh", kAuthor, chosen, kPositive}, &o.scale);
-  v.value({"rotation_deg", "of the mesh about the fixed x, then y, then z axis of W", kAuthor, chosen},
-          &o.rotation);
 }
 
 void describe(Visitor& v, ObjectSpec& o) {
@@ -35,6 +33,10 @@ void describe(Visitor& v, ObjectSpec& o) {
             &o.radius);
   }
   if (o.shape == ShapeKind::mesh) describe_mesh(v, o);
+  if (o.shape == ShapeKind::box)
+    v.value({"size_mm", "its edges along x, y and z of O", kAuthor, chosen, kPositive, needed}, &o.size);
+  if (has_triangles(o.shape))
+    v.value({"rotation_deg", "about the fixed x, then y, then z axis of W", kAuthor, chosen}, &o.rotation);
   v.value({"position_mm", "where its origin O is in W", kAuthor, chosen, kAny, needed}, &o.position);
   if (o.shape == ShapeKind::plane || o.shape == ShapeKind::button)
     v.value({"normal", "outward, of length 1, in W", kAuthor, chosen}, &o.normal);

@@ -183,6 +183,18 @@ void note_place(Setup& setup, const ObjectSpec& object) {
                        : "correct 'position_mm'"));
 }
 
+void note_box(Setup& setup, const ObjectSpec& object) {
+  if (kObject.has(object.size.maxCoeff())) return;
+  warn(setup, "object." + object.name + ".size",
+       fmt::format("box {} is {}; expected a longest side of {} to {}; {}", quoted(object.name),
+                   extent_text(object.size), length_text(kObject.least), length_text(kObject.most),
+                   unit_advice(
+                       "size_mm", [&](double factor) { return kUsual.has(factor * object.size.maxCoeff()); },
+                       [&](double factor) {
+                         return fmt::format("write size_mm = {}", millimetres(factor * object.size));
+                       })));
+}
+
 void note_mesh(Setup& setup, const ObjectSpec& object) {
   const Vec3 extent = MeshBox(in_world(object)).extent();
   if (kObject.has(extent.maxCoeff())) return;
@@ -199,6 +211,7 @@ void note_sizes(Setup& setup) {
   for (const ToolSpec& tool : setup.scene.tools) note_tool(setup, tool);
   for (const ObjectSpec& object : setup.scene.objects) {
     if (object.shape == ShapeKind::mesh) note_mesh(setup, object);
+    if (object.shape == ShapeKind::box) note_box(setup, object);
     if (object.shape == ShapeKind::sphere) note_ball(setup, object);
     if (object.shape == ShapeKind::button) note_button(setup, object);
     if (object.shape != ShapeKind::mesh) note_place(setup, object);

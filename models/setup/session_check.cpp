@@ -33,8 +33,8 @@ void check_ranges(const Setup& setup, const std::string& table, const ReachRange
     check_pair(setup, table, key, *pair);
 }
 
-// Signed distance of a point to an object's surface, m; of a mesh to its nearest vertex, of a button to the
-// ball around it.
+// Signed distance of a point to an object's surface, m; of triangles to the nearest vertex, of a button to
+// the ball around it.
 double distance_to(const ObjectSpec& object, const Vec3& point) {
   const Vec3 from = point - object.position;
   switch (object.shape) {
@@ -45,6 +45,7 @@ double distance_to(const ObjectSpec& object, const Vec3& point) {
     case ShapeKind::button:
       return from.norm() - Vec3(object.width, object.height, object.thickness).norm();
     case ShapeKind::mesh:
+    case ShapeKind::box:
       break;
   }
   double nearest = std::numeric_limits<double>::infinity();  // of a mesh that is not read yet
@@ -94,11 +95,11 @@ void check_reaches(const Setup& setup) {
   if (!has_table(setup, UserKind::reaches, user.reaches.has_value())) return;
   check_ranges(setup, "user.reaches", *user.reaches);
   for (const ObjectSpec& object : setup.scene.objects)
-    if (object.shape == ShapeKind::mesh)
+    if (has_triangles(object.shape))
       fail(setup, fmt::format("object.{}.shape", object.name),
-           fmt::format("a user of kind \"reaches\" reaches for every object and {} is a mesh; expected "
+           fmt::format("a user of kind \"reaches\" reaches for every object and {} is a {}; expected "
                        "planes, buttons and spheres; write 'kind = \"press_release\"' for one object",
-                       quoted(object.name)));
+                       quoted(object.name), word_of(object.shape)));
   const double farthest = user.reaches->reach[1];
   if (!(farthest > setup.scene.follow.pause))
     fail(setup, "user.reaches.reach_mm",

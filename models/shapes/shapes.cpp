@@ -1,5 +1,6 @@
 #include "models/shapes/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -97,21 +98,24 @@ Mesh geodesic_ball(int n, double radius) {
   return mesh;
 }
 
-Mesh cube(int n, double side) {
+Mesh box(const std::array<int, 3>& squares, const Vec3& size) {
   Mesh mesh;
   Lattice lattice(mesh);
-  for (int axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis)
     for (const int top : {0, 1}) {
+      const std::size_t along = (axis + 1) % 3, across = (axis + 2) % 3;
       const auto at = [&](int i, int j) {
         std::array<std::int64_t, 3> key{};
-        key[static_cast<std::size_t>(axis)] = top * n;
-        key[static_cast<std::size_t>((axis + 1) % 3)] = i;
-        key[static_cast<std::size_t>((axis + 2) % 3)] = j;
-        const auto x = [&](std::size_t k) { return side * (static_cast<double>(key[k]) / n - 0.5); };
+        key[axis] = top * squares[axis];
+        key[along] = i;
+        key[across] = j;
+        const auto x = [&](std::size_t k) {
+          return size[static_cast<Eigen::Index>(k)] * (static_cast<double>(key[k]) / squares[k] - 0.5);
+        };
         return lattice.at(key, Vec3(x(0), x(1), x(2)));
       };
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < squares[along]; ++i)
+        for (int j = 0; j < squares[across]; ++j) {
           std::array<std::int32_t, 4> q{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
           if (top == 0) std::swap(q[1], q[3]);
           mesh.triangles.push_back({q[0], q[1], q[2]});
@@ -120,6 +124,17 @@ Mesh cube(int n, double side) {
     }
   return mesh;
 }
+
+std::shared_ptr<const Mesh> box_surface(const Vec3& size) {
+  constexpr double kFine = 0.0025, kMost = 40.0;  // m of a square; squares along an edge
+  std::array<int, 3> squares{};
+  for (std::size_t i = 0; i < 3; ++i)
+    squares[i] =
+        static_cast<int>(std::clamp(std::ceil(size[static_cast<Eigen::Index>(i)] / kFine), 1.0, kMost));
+  return std::make_shared<const Mesh>(box(squares, size));
+}
+
+Mesh cube(int n, double side) { return box({n, n, n}, {side, side, side}); }
 
 Mesh turned_part(int sides) {
   struct Ring {

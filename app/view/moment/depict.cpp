@@ -165,7 +165,7 @@ Point<'W'> flank(const Moment& m, std::size_t object) {
   const ObjectSpec& spec = m.setup.scene.objects[object];
   const Pose<'W', 'O'>& X_WO = m.scene.objects[object].X_WO;
   const Vec<'W'> shift = shift_of(m.scene.objects[object], moved_in(m.state));
-  if (spec.shape == ShapeKind::mesh) {
+  if (has_triangles(spec.shape)) {
     const Ball around = m.scene.objects[object].surface.bound();
     const Point<'O'> aside = around.centre + Vec<'O'>(Vec3(0.4 * around.radius * Vec3(0.75, -0.6, 0.1)));
     return X_WO * m.scene.objects[object].surface.nearest(aside).point + shift;

@@ -71,7 +71,7 @@ void check_button(const ObjectSpec& object, const BehaviourSpec& behaviour) {
     throw Error("the bottom of a button is " + number(1e3 * button.bottom) + " mm deep; expected more than " +
                     number(1e3 * over) + ", where its trigger is over; raise it, or lower trigger_mm",
                 key + "bottom");
-  if (object.shape == ShapeKind::mesh || object.shape == ShapeKind::sphere)
+  if (has_triangles(object.shape) || object.shape == ShapeKind::sphere)
     throw Error("object '" + object.name +
                     "' cannot click; expected a button or a plane; change its shape or its behaviour",
                 "object." + object.name + ".behaviour");

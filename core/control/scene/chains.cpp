@@ -143,7 +143,7 @@ class Chains {
   // What is nearest to a place, asked in O and asked in W. A normal says nothing of the turn about itself.
   void object(const ObjectSpec& spec, const Object& object) {
     Mat4 W_O = matrix({spec.position, spec.rotation});
-    if (spec.shape != ShapeKind::mesh) {
+    if (!has_triangles(spec.shape)) {
       W_O = matrix(object.X_WO.q().toRotationMatrix(), spec.position);
       if (spec.shape != ShapeKind::sphere) compare(turn_of(W_O).col(2), spec.normal.normalized());
     }

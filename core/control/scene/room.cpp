@@ -127,13 +127,13 @@ void check_room(const SceneSpec& spec, const Scene& scene) {
       return (tenths < 0 ? "-" : "") + std::to_string(std::abs(tenths) / 10) + "." +
              std::to_string(std::abs(tenths) % 10);
     };
-    throw Error(
-        "object '" + spec.objects[i].name + "' is thinner than the haptic-tip: where it is thickest, at (" +
-            mm(at.xyz[0]) + ", " + mm(at.xyz[1]) + ", " + mm(at.xyz[2]) + ") mm, it is " +
-            mm(2.0 * room.deepest) + " mm; expected at least " + mm(2.0 * margin) +
-            " mm, the tip and its inset; make the object larger, or rig.manipulator.tip_radius_mm or "
-            "follow.inset_mm smaller",
-        "object." + spec.objects[i].name + (spec.objects[i].shape == ShapeKind::mesh ? ".mesh" : ".radius"));
+    throw Error("object '" + spec.objects[i].name +
+                    "' is thinner than the haptic-tip: where it is thickest, at (" + mm(at.xyz[0]) + ", " +
+                    mm(at.xyz[1]) + ", " + mm(at.xyz[2]) + ") mm, it is " + mm(2.0 * room.deepest) +
+                    " mm; expected at least " + mm(2.0 * margin) +
+                    " mm, the tip and its inset; make the object larger, or rig.manipulator.tip_radius_mm or "
+                    "follow.inset_mm smaller",
+                "object." + spec.objects[i].name + size_key(spec.objects[i].shape));
   }
   if (!spec.user || spec.user->kind != UserKind::press_release) return;
   const PressPoint pressed = press_point(spec, *spec.user);

@@ -247,7 +247,7 @@ PressPoint press_point(const SceneSpec& spec, const UserSpec& user) {
   const Vec3 side = axis.unitOrthogonal();
   const Pose<'W', 'O'> X_WO = place_of(object);
   const Point<'W'> through(Vec3(object.position + user.offset * side));
-  if (object.shape == ShapeKind::mesh) {
+  if (has_triangles(object.shape)) {
     const auto [point, normal] =
         first_met(scaled_mesh(object), (X_WO.inverse() * through).e(), (X_WO.inverse() * Vec<'W'>(axis)).e());
     return {X_WO * point, X_WO * normal};

@@ -39,7 +39,7 @@ Mesh scaled_mesh(const ObjectSpec& spec) {
 
 Surface surface_of(const ObjectSpec& spec) {
   if (spec.shape == ShapeKind::plane) return Surface(Plane{});
-  if (spec.shape == ShapeKind::mesh)
+  if (has_triangles(spec.shape))
     return Surface(MeshSurface{std::make_shared<const MeshTree>(scaled_mesh(spec))});
   if (spec.shape == ShapeKind::button) {
     if (!(spec.width > 0.0) || !(spec.height > 0.0) || !(spec.thickness > 0.0))
@@ -54,7 +54,7 @@ Surface surface_of(const ObjectSpec& spec) {
 
 Pose<'W', 'O'> place_of(const ObjectSpec& spec) {
   if (spec.shape == ShapeKind::sphere) return {Quat::Identity(), spec.position};
-  if (spec.shape == ShapeKind::mesh) return {rotation_xyz(spec.rotation), spec.position};
+  if (has_triangles(spec.shape)) return {rotation_xyz(spec.rotation), spec.position};
   const double size = spec.normal.norm();
   if (!(std::abs(size - 1.0) <= 1e-3))
     throw Error("the normal of a plane or a button is a unit vector", "object." + spec.name + ".normal");
