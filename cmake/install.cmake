@@ -1,5 +1,5 @@
 # `cmake --install build/release --prefix DIR` gives a folder that runs anywhere on a machine with the same packages:
-#   bin/encounter  bin/modules/  lib/ (MuJoCo)  models/  benchmarks/reference/
+#   bin/encounter  bin/modules/  lib/ (MuJoCo)  models/  benchmarks/reference/; and the core for others (package.cmake)
 # What was not built (a view without ./encounter view) is not missed.
 install(TARGETS encounter RUNTIME DESTINATION bin)
 get_property(modules GLOBAL PROPERTY enc_modules)
@@ -18,6 +18,6 @@ install(FILES ${mujoco_library} DESTINATION lib)
 file(GLOB licences ${mujoco_folder}/../LICENSE*)
 install(FILES ${licences} DESTINATION lib)
 install(DIRECTORY models/ DESTINATION models FILES_MATCHING PATTERN "*.toml" PATTERN "*.xml" PATTERN "*.glb" PATTERN "*.obj"
-        PATTERN "*.stl" PATTERN "*.csv" REGEX "/models/(fit|mesh_files|schema|setup|shapes|sizes|tables)$" EXCLUDE) # code
+        PATTERN "*.stl" PATTERN "*.csv" REGEX "/models/(directions|fit|identify|mesh_files|schema|setup|shapes|sizes|tables)$" EXCLUDE) # code
 install(DIRECTORY benchmarks/reference/ DESTINATION benchmarks/reference)
 install(FILES LICENSE DESTINATION .)

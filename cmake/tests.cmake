@@ -117,6 +117,9 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
   elseif(NOT kind STREQUAL "threads") # which starts no program and loads no module
     add_dependencies(test_${kind} program fit view vision calibration)
   endif()
+  if(kind STREQUAL "hygiene")
+    add_dependencies(test_${kind} examples encounter_core)
+  endif()
   set(labels ${kind})
   foreach(group sanitized optimised)
     if(kind IN_LIST ${group})

@@ -21,9 +21,9 @@ namespace enc {
 
 struct ToolSpec {
   std::string name;
-  std::vector<Vec3> markers;  // in T
-  Vec3 tip{0, 0, 0};          // centre of the tip's sphere in T
-  double tip_radius = 0.002;  // 0: a point
+  std::vector<Vec3> markers{};  // in T
+  Vec3 tip{0, 0, 0};            // centre of the tip's sphere in T
+  double tip_radius = 0.002;    // 0: a point
   TipShape tip_shape = TipShape::sphere;
   Vec3 tip_axis{kUnset, kUnset, kUnset};  // in T, unit; cone: from the apex into the tool, edge: along it
   double tip_half_angle = kUnset;         // cone, rad

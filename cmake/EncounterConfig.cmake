@@ -1,0 +1,13 @@
+# find_package(Encounter): the haptic core, and modules for an installed program.
+#   Encounter::core                        a library with its headers: #include "core/control/step.h"
+#   encounter_driver(name sources...)      encounter_name.so, a driver that `driver = "name"` in a rig file loads.
+#                                          The program looks for it in bin/modules/, or where ENCOUNTER_MODULES says.
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 3.4 NO_MODULE)
+include(${CMAKE_CURRENT_LIST_DIR}/EncounterTargets.cmake)
+
+function(encounter_driver name)
+  add_library(encounter_${name} MODULE ${ARGN})
+  target_link_libraries(encounter_${name} PRIVATE Encounter::core)
+  set_target_properties(encounter_${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()

@@ -1,0 +1,39 @@
+// A driver of your own: a force sensor that feels nothing. In a rig file: [force] driver = "steady".
+// hw_drivers/sample shows a device with two roles, hw_drivers/netft one on a real wire.
+#include <cstdint>
+#include <string>
+
+#include "core/devices/module.h"
+
+namespace {
+
+using namespace enc;
+
+// [driver.steady] in the rig file.
+struct Keys {
+  std::string address = "192.168.1.1";
+  void declare(Settings& table) { table.value({.name = "address", .meaning = "of the sensor"}, address); }
+};
+
+class Steady final : public ForceSensor {
+ public:
+  explicit Steady(const Offer& offer) {
+    keys_.declare(offer.table);
+  }  // connect; throw Error if nobody answers
+  std::string describe() const override { return "steady at " + keys_.address; }
+  // The newest sample; a driver never waits here.
+  Stamped<Wrench> read(Time now) noexcept override {
+    return {{Vec<'F'>::zero(), Vec<'F'>::zero()}, now, Health::ok};
+  }
+
+ private:
+  Keys keys_;
+};
+
+constexpr DriverModule kDriver{.settings = [](Settings& table) { Keys{}.declare(table); },
+                               .force = make<ForceSensor, Steady>};
+constexpr ModuleInfo kInfo{.name = "steady", .driver = &kDriver};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const enc::ModuleInfo* encounter_module() { return &kInfo; }

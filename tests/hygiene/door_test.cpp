@@ -1,0 +1,78 @@
+// The door for other people's code: examples/, built by somebody else over an installed core, and in the tree
+// over the twin.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/built.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace enc::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+std::string build_dir() { return fs::path(program_file()).parent_path().string(); }
+
+// The elementary functions of core/math come with the core, so a step has the same bits outside.
+TEST(Door, ExamplesBuildOverAnInstalledCoreAndTheProgramLoadsTheirDriver) {
+  const TemporaryFolder folder;
+  const std::string prefix = folder.file("prefix"), made = folder.file("made");
+  const Result installed =
+      run({"cmake", "--install", build_dir(), "--prefix", prefix, "--component", "core"}, {}, 120.0);
+  ASSERT_EQ(installed.code, 0) << installed.err;
+  EXPECT_FALSE(fs::exists(prefix + "/bin")) << "the core alone";
+  // Moved: nothing in it knows where it was made.
+  const std::string moved = folder.file("moved");
+  fs::rename(prefix, moved);
+  const Result configured =
+      run({"cmake", "-S", source_dir() + "/examples", "-B", made, "-DCMAKE_BUILD_TYPE=Release",
+           "-DCMAKE_PREFIX_PATH=" + moved, "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror"},
+          {}, 120.0);
+  ASSERT_EQ(configured.code, 0) << configured.err;
+  const Result compiled = run({"cmake", "--build", made}, {}, 300.0);
+  ASSERT_EQ(compiled.code, 0) << compiled.out << compiled.err;
+
+  const Result stepped = run({made + "/step"});
+  EXPECT_EQ(stepped.code, 0);
+  EXPECT_THAT(stepped.out, HasSubstr("2500 ms  follow"));
+  // 700 N/m of hand and 2000 N/m of wall in series, 8 mm: 4.15 N, and 2.07 mm.
+  EXPECT_THAT(stepped.out, ContainsRegex("4500 ms  contact .*deflection 2\\.0[0-9] mm  force 4\\.1[0-9] N"));
+  const Result checked =
+      run_program({"check", shipped_scene("tennis_ball"), "--set", "rig.force.driver=steady"},
+                  {{"ENCOUNTER_MODULES", made}});
+  EXPECT_THAT(checked.out, HasSubstr("steady at 192.168.1.1")) << checked.err;
+}
+
+TEST(Door, TheCoreConfiguresWithEigenAlone) {
+  const TemporaryFolder folder;
+  std::vector<std::string> command{
+      "cmake", "-S", source_dir(), "-B", folder.file("core"), "-DENCOUNTER_CORE_ONLY=ON"};
+  for (const char* other : {"fmt", "tomlplusplus", "CLI11", "nlohmann_json", "pugixml", "TinyGLTF", "MuJoCo",
+                            "PNG", "glfw3", "GTest", "OpenCVParts"})
+    command.push_back(std::string("-DCMAKE_DISABLE_FIND_PACKAGE_") + other + "=ON");
+  const Result configured = run(command, {}, 120.0);
+  EXPECT_EQ(configured.code, 0) << configured.err;
+}
+
+TEST(Door, TwinAndReplayRunInTheTree) {
+  const TemporaryFolder folder;
+  const Result pressed = run({build_dir() + "/example_twin", shipped_scene("tennis_ball")}, kShipped);
+  EXPECT_EQ(pressed.code, 0) << pressed.err;
+  EXPECT_THAT(pressed.out, ContainsRegex("\n[0-9.]+,5\\.[0-9]+,1[01]\\.[0-9]+\n"))
+      << "11 N before the limit of 6 mm";
+  const std::string record = folder.file("r.encrec");
+  const Result ran = run_program({"run", shipped_scene("plane"), "--for-s", "3", "--record", record});
+  ASSERT_NE(ran.out.find("state hash  "), std::string::npos) << ran.err;
+  const Result replayed = run({build_dir() + "/example_replay", record}, kShipped);
+  EXPECT_EQ(replayed.code, 0) << replayed.out;
+  EXPECT_THAT(replayed.out, HasSubstr("state hash " + ran.out.substr(ran.out.find("state hash  ") + 12, 16)));
+}
+
+}  // namespace
+}  // namespace enc::tests
