@@ -40,7 +40,7 @@ Quat tool_orientation(const ToolSpec& tool, const Vec3& normal) { return pointed
 // The hand's grip holds a tool by a force that stays for a step: on a lighter one it diverges at once,
 // whatever the integrator. A first-order step is at its limit where 4 m = 2 b h + k h^2.
 void check_weight(const WorldSpec& spec, const ToolSpec& tool) {
-  const double h = spec.twin.stepping(spec.scene.arm.has_value()).timestep;
+  const double h = spec.twin.stepping(spec.scene).timestep;
   const double least = h * (2.0 * spec.twin.hand.grip_damping + h * spec.twin.hand.grip_stiffness) / 4.0;
   if (tool.mass > least) return;
   throw Error(
@@ -77,7 +77,7 @@ SpecPtr model_of(const WorldSpec& spec, const ToolSpec* tool, const std::optiona
 }
 
 int whole_steps(const WorldSpec& spec) {
-  const Stepping stepping = spec.twin.stepping(spec.scene.arm.has_value());
+  const Stepping stepping = spec.twin.stepping(spec.scene);
   const int steps = stepping.steps_per_tick(spec.rig.loop.rate);
   if (steps == 0)
     throw Error("the physics time step does not divide the haptic period; expected a whole share of it",

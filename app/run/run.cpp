@@ -97,7 +97,7 @@ std::vector<std::string> beyond(const models::Setup& setup,
 
 int diverged(const trial::TrialResult& result, const models::Setup& setup) {
   fmt::print(stderr, "encounter: the physics diverged at tick {}: {}; try a smaller {}.timestep_us\n",
-             result.diverged_at, result.divergence, setup.twin.stepping(setup.scene.arm.has_value()).table);
+             result.diverged_at, result.divergence, setup.twin.stepping(setup.scene).table);
   return 4;
 }
 

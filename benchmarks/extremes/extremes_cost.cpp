@@ -163,7 +163,7 @@ struct Tried {
 
 bool is_default(const Tried& point, const BenchContext& context) {
   const models::Setup setup = load_scene(context, point.study->scene);
-  const sim::Stepping shipped = setup.twin.stepping(setup.scene.arm.has_value());
+  const sim::Stepping shipped = setup.twin.stepping(setup.scene);
   return shipped.integrator == point.at.integrator && std::abs(shipped.timestep - point.at.step) < 1e-9;
 }
 

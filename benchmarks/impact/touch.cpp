@@ -106,7 +106,7 @@ void judge_steps(const models::Setup& setup, Watched& watched, double step) {
 
 Watched watch_touch(const models::Setup& setup, std::uint64_t seed) {
   Watched watched;
-  const double h = setup.twin.stepping(setup.scene.arm.has_value()).timestep;
+  const double h = setup.twin.stepping(setup.scene).timestep;
   try {
     Listener listener;
     trial::TrialOptions options;
@@ -186,7 +186,7 @@ FirstTouch refer(const models::Setup& setup, std::uint64_t seed, const Watched& 
   const Scene prepared = trial::prepare_setup(setup);
   sim::User user(setup.scene, prepared, setup.twin.hand, seed);
   const ToolSpec& tool = setup.scene.tools[static_cast<std::size_t>(user.tool())];
-  const double coarse = setup.twin.stepping(false).timestep, fine_from = measured.steps.at(1).t;
+  const double coarse = setup.twin.stepping(setup.scene).timestep, fine_from = measured.steps.at(1).t;
   Way way(measured.steps);
   Contact contact{law, tool.tip_radius + setup.twin.hexapod.tip_radius};
   Point<'W'> at = user.start();

@@ -41,7 +41,7 @@ MovesSpec moves_of(const models::Setup& setup) {
           machine.servo,
           machine.damping,
           machine.speed,
-          setup.twin.stepping(setup.scene.arm.has_value()).timestep};
+          setup.twin.stepping(setup.scene).timestep};
 }
 
 }  // namespace enc::bench::tracking

@@ -172,7 +172,7 @@ void note_stops(Setup& setup) {
   const sim::TwinSpec& twin = setup.twin;
   const bool has_arm = scene.arm.has_value();
   if (has_arm ? rig.arm.driver != "sim" : rig.manipulator.driver != "sim") return;
-  const double least = 2.0 * twin.stepping(has_arm).timestep;
+  const double least = 2.0 * twin.stepping(scene).timestep;
   const auto note = [&](bool there, const char* key, double time) {
     if (!there || time >= least * (1.0 - 1e-9)) return;
     const std::string name = std::string(key).substr(std::string(key).rfind('.') + 1);
@@ -180,7 +180,7 @@ void note_stops(Setup& setup) {
         fmt::format("{}: warning: '{}' is {:g} and MuJoCo takes nothing shorter than two time steps, {:g} "
                     "ms; raise it, or "
                     "shorten '{}.timestep_us'",
-                    place_of(setup, key), name, time * 1e3, least * 1e3, twin.stepping(has_arm).table));
+                    place_of(setup, key), name, time * 1e3, least * 1e3, twin.stepping(scene).table));
   };
   const bool drum = scene.prop && scene.prop->kind == PropKind::drum;
   note(!has_arm && scene.user.has_value(), "truth.world.contact_time_ms", twin.world.contact_time);

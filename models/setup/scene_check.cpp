@@ -310,7 +310,7 @@ void check_rig(const Setup& setup) {
 // The physics steps a whole number of times in a haptic period, and not so often that a run never ends.
 void check_stepping(const Setup& setup) {
   constexpr double kMost = 1000.0;
-  const sim::Stepping stepping = setup.twin.stepping(setup.scene.arm.has_value());
+  const sim::Stepping stepping = setup.twin.stepping(setup.scene);
   const double rate = setup.rig.loop.rate, period = 1e6 / rate;  // us
   if (stepping.timestep * rate * kMost < 1.0 - 1e-6)
     fail(

@@ -270,7 +270,7 @@ void set_solver(const ModelParts& parts, mjOption& option) {
 SpecPtr build_model(const ModelParts& parts) {
   install_mujoco_handlers();  // attaching warns on standard output otherwise
   SpecPtr spec(mj_makeSpec());
-  const Stepping stepping = parts.twin.stepping(parts.scene.arm.has_value());
+  const Stepping stepping = parts.twin.stepping(parts.scene);
   spec->option.timestep = stepping.timestep;
   set3(spec->option.gravity, {0, 0, -9.80665});
   spec->option.integrator = integrator_of(stepping);

@@ -1,6 +1,5 @@
 // The simulator's truth: what the devices, the room and the person really are, in [truth.*] of
-// models/rigs/sim.toml. The core never sees it. Defaults are the one device set of all scenes and benchmarks;
-// sources stand beside each name in models/schema/schema_twin.cpp.
+// models/rigs/sim.toml. The core never sees it. Sources: models/schema/schema_twin.cpp.
 #pragma once
 
 #include <array>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "core/spec/rig_spec.h"
+#include "core/spec/scene_spec.h"
 #include "sim/spec/arm_spec.h"
 #include "sim/spec/machine_spec.h"
 #include "sim/spec/sensor_spec.h"
@@ -110,8 +110,8 @@ struct TwinSpec {
 
   [[nodiscard]] bool structural() const { return hexapod.form == HexapodForm::structural; }
   // How the physics steps: an arm, a structural hexapod and all other worlds have keys of their own.
-  [[nodiscard]] Stepping stepping(bool has_arm) const {
-    if (has_arm) return {arm.timestep, arm.integrator, "truth.arm"};
+  [[nodiscard]] Stepping stepping(const SceneSpec& scene) const {
+    if (scene.arm) return {arm.timestep, arm.integrator, "truth.arm"};
     if (structural()) return {structure.timestep, structure.integrator, "truth.structure"};
     return {world.timestep, world.integrator, "truth.world"};
   }

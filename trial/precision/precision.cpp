@@ -151,7 +151,7 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
         "there is no error of a force: no hand touches anything in this scene; expected one with "
         "[user], [pusher] or [probe]",
         "user");
-  const sim::Stepping shipped = own.twin.stepping(own.scene.arm.has_value());
+  const sim::Stepping shipped = own.twin.stepping(own.scene);
   const double period = 1.0 / own.rig.loop.rate;
   Precision all;
   all.table = shipped.table;

@@ -21,7 +21,7 @@ std::vector<std::vector<Vec3>> markers_in(const models::Setup& twin) {
 
 ToldMachine::ToldMachine(const Tape& tape)
     : plant_(tape.twin.twin.hexapod, twin_seed(0)),
-      steps_(std::max(1, tape.twin.twin.stepping(false).steps_per_tick(tape.twin.rig.loop.rate))),
+      steps_(std::max(1, tape.twin.twin.stepping(tape.twin.scene).steps_per_tick(tape.twin.rig.loop.rate))),
       timestep_(tape.scene.dt / steps_) {}
 
 void ToldMachine::begin(const TipSample& at) {
