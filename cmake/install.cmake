@@ -18,6 +18,6 @@ install(FILES ${mujoco_library} DESTINATION lib)
 file(GLOB licences ${mujoco_folder}/../LICENSE*)
 install(FILES ${licences} DESTINATION lib)
 install(DIRECTORY models/ DESTINATION models FILES_MATCHING PATTERN "*.toml" PATTERN "*.xml" PATTERN "*.glb" PATTERN "*.obj"
-        PATTERN "*.stl" PATTERN "*.csv" REGEX "/models/(directions|fit|identify|mesh_files|schema|setup|shapes|sizes|tables)$" EXCLUDE) # code
+        PATTERN "*.stl" PATTERN "*.csv" REGEX "/models/(directions|identify|mesh_files|schema|setup|shapes|sizes|tables)$" EXCLUDE) # code
 install(DIRECTORY benchmarks/reference/ DESTINATION benchmarks/reference)
 install(FILES LICENSE DESTINATION .)

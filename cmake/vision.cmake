@@ -39,7 +39,7 @@ endif()
 find_package(OpenCVParts)
 if(OpenCVParts_FOUND AND TARGET enc_images)
   # Private: what links it compiles as without OpenCV, so that `lean` takes its objects from ccache.
-  enc_library(enc_calibration "core/vision/calibration" enc_vision)
+  enc_library(enc_calibration "models/identify/stereo" enc_vision)
   target_link_libraries(enc_calibration PRIVATE opencv::parts)
   file(GLOB sources CONFIGURE_DEPENDS app/calibration/*.cpp)
   if(sources)

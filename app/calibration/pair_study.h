@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/vision/calibration/rectify.h"
-#include "core/vision/calibration/stereo_calibration.h"
 #include "hw_drivers/images/files/pair_list.h"
+#include "models/identify/stereo/rectify.h"
+#include "models/identify/stereo/stereo_calibration.h"
 
 namespace enc::app {
 

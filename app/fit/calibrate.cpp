@@ -11,12 +11,12 @@
 #include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "models/fit/latency_fit.h"
-#include "models/fit/pivot/pivot_log.h"
+#include "models/identify/camera/point_set.h"
+#include "models/identify/tip/pivot_log.h"
+#include "models/identify/tracker/latency_fit.h"
 #include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
 #include "models/tables/csv_reader.h"
-#include "trial/fit/point_set.h"
 
 namespace enc::app {
 namespace {
@@ -266,7 +266,7 @@ int calibrate_command(const CalibrateOptions& options, const trial::DriverSource
   const std::string csv =
       read_table(options.log, "log",
                  "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes");
-  if (trial::is_point_set(csv)) {
+  if (models::is_point_set(csv)) {
     refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
     refuse(options.pivot, "--pivot", "a log", options);
     return calibrate_points(csv, options);

@@ -20,11 +20,11 @@
 #include "core/base/time.h"
 #include "core/base/units.h"
 #include "models/files.h"
-#include "models/fit/machine/turn.h"
+#include "models/identify/rig/turn.h"
 #include "models/schema/wording.h"
 #include "models/setup/rig_calibration.h"
 #include "models/setup/scene_file.h"
-#include "trial/carried/machine_calibration.h"
+#include "trial/identify/rig/machine_calibration.h"
 #include "trial/operator/consent.h"
 #include "trial/operator/standard_error.h"
 

@@ -11,8 +11,8 @@
 #include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "models/fit/pivot/pivot_doubts.h"
-#include "models/fit/pivot/pivot_log.h"
+#include "models/identify/tip/pivot_doubts.h"
+#include "models/identify/tip/pivot_log.h"
 #include "models/schema/wording.h"
 
 namespace enc::app {

@@ -15,16 +15,16 @@
 #include "core/base/units.h"
 #include "models/files.h"
 #include "models/setup/scene_file.h"
-#include "trial/fit/point_study.h"
-#include "trial/guided/driven_arm.h"
-#include "trial/guided/registration_rig.h"
-#include "trial/guided/tip_eyes.h"
+#include "trial/identify/camera/driven_arm.h"
+#include "trial/identify/camera/point_study.h"
+#include "trial/identify/camera/registration_rig.h"
+#include "trial/identify/camera/tip_eyes.h"
 
 namespace enc::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using trial::PointSet;
+using models::PointSet;
 using trial::PointStudy;
 
 std::string number(double x, double unit, int digits) {
@@ -161,7 +161,7 @@ std::string study_text(const PointSet& places, const PointStudy& s) {
 constexpr double kFound = 0.5;
 
 // rms of a frame about the place's mean, along the axes of C, m.
-Vec3 scatter_of(const trial::SeenPlace& place) {
+Vec3 scatter_of(const models::SeenPlace& place) {
   const Vec3 mean = place.average().camera.e();
   Vec3 squares = Vec3::Zero();
   for (const models::PointPair& frame : place.frames) squares += (frame.camera.e() - mean).cwiseAbs2();
@@ -170,7 +170,7 @@ Vec3 scatter_of(const trial::SeenPlace& place) {
 
 std::string places_text(const trial::GuidedRun& run, std::size_t frames) {
   std::string out;
-  for (const trial::SeenPlace& place : run.points) {
+  for (const models::SeenPlace& place : run.points) {
     const Vec3 rms = scatter_of(place) * kMmPerM;
     out += fmt::format(
         "place {:<6}{} of {} frames found the ball; a frame scatters by {:.3f} {:.3f} {:.3f} mm along C\n",
@@ -180,7 +180,7 @@ std::string places_text(const trial::GuidedRun& run, std::size_t frames) {
 }
 Json places_json(const trial::GuidedRun& run, std::size_t frames) {
   Json list = Json::array();
-  for (const trial::SeenPlace& place : run.points)
+  for (const models::SeenPlace& place : run.points)
     list.push_back({{"found", place.frames.size()},
                     {"frames", frames},
                     {"scatter_mm", json_of(scatter_of(place), kMmPerM)}});
@@ -212,7 +212,7 @@ Vec3 mean_error(const PointStudy& study, const Pose<'W', 'C'>& X_WC, const std::
 }  // namespace
 
 int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
-  const PointSet places = trial::parse_points(csv, options.log);
+  const PointSet places = models::parse_points(csv, options.log);
   const PointStudy study = trial::study_points(places, options.seed.value_or(1));
   fmt::print("{}\n", options.json ? study_json(places, study).dump(2) : study_text(places, study));
   return 0;
@@ -235,7 +235,7 @@ int calibrate_arm(const CalibrateOptions& options, const trial::DriverSource& mo
       eyes ? trial::see_visits(visits, *eyes, kFound) : trial::see_visits(visits, rig.X_WC, rig.camera, seed);
   if (run.points.size() < pairs) refuse_few(setup, run, pairs, eyes ? &*eyes : nullptr);
   if (file) {
-    file->write(trial::points_text(run.points));
+    file->write(models::points_text(run.points));
     file->keep();
   }
   const PointStudy study = trial::study_points(run.points, seed);

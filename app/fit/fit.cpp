@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/control/scene/scene.h"
 #include "models/files.h"
-#include "models/fit/loop/loop_fit.h"
+#include "models/identify/response/loop_fit.h"
 #include "models/response_file.h"
 #include "models/schema/printable.h"
 #include "models/setup/scene_file.h"

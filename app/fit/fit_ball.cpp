@@ -9,11 +9,11 @@
 
 #include "app/fit/commands.h"
 #include "core/base/error.h"
-#include "models/fit/loop/loop_csv.h"
+#include "models/identify/response/loop_csv.h"
 #include "models/order_statistics.h"
 #include "models/schema/wording.h"
 #include "models/tables/csv_reader.h"
-#include "trial/fit/ball_fit.h"
+#include "trial/identify/ball/ball_fit.h"
 
 namespace enc::app {
 namespace {

@@ -1,6 +1,6 @@
 // `encounter shadow RECORD`: a record of the laboratory beside its twin, channel by channel, and in words
 // what is off.
-#include "trial/shadow/shadow.h"
+#include "trial/identify/shadow/shadow.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,9 +14,9 @@
 #include "benchmarks/verdict/reference.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
-#include "models/fit/machine/turn.h"
+#include "models/identify/rig/turn.h"
 #include "sim/truth/random.h"
-#include "trial/carried/machine_calibration.h"
+#include "trial/identify/rig/machine_calibration.h"
 
 namespace enc::bench::calibration {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "benchmarks/kit/bench.h"
 #include "models/setup/scene_file.h"
-#include "trial/fit/ball_fit.h"
+#include "trial/identify/ball/ball_fit.h"
 
 namespace enc::bench::identification {
 

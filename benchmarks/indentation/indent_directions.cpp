@@ -10,7 +10,7 @@
 #include "benchmarks/kit/parallel.h"
 #include "core/control/task/measure/probe.h"
 #include "models/directions/directions.h"
-#include "models/fit/loop/loop_csv.h"
+#include "models/identify/response/loop_csv.h"
 #include "sim/bodies/ball_plant.h"
 #include "trial/measure/record_table.h"
 

@@ -25,8 +25,9 @@ OneSeed run_seed(const trial::RegistrationRig& rig, const std::vector<trial::Tip
   OneSeed one;
   for (const std::size_t pairs : study.pairs)
     for (const std::size_t frames : study.frames) {
-      const trial::PointSet used(run.points.begin(), run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
-      one.found.push_back(models::register_points(trial::averages(used, frames)));
+      const models::PointSet used(run.points.begin(),
+                                  run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
+      one.found.push_back(models::register_points(models::averages(used, frames)));
       const auto spared = static_cast<double>((pairs - 1) * most_frames);
       one.seconds.push_back(run.seconds[pairs - 1] +
                             (static_cast<double>(pairs * frames) - spared) / rig.camera.rate);

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "trial/guided/registration_rig.h"
+#include "trial/identify/camera/registration_rig.h"
 
 namespace enc::bench::registration {
 

@@ -10,7 +10,7 @@
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
-#include "trial/guided/driven_arm.h"
+#include "trial/identify/camera/driven_arm.h"
 
 namespace enc::bench::registration {
 namespace {
@@ -129,11 +129,12 @@ std::vector<RegistrationCost> costs_of(const trial::RegistrationRig& rig,
   std::vector<RegistrationCost> costs;
   for (const std::size_t pairs : kPairCounts)
     for (const std::size_t frames : kFrameCounts) {
-      const trial::PointSet used(run.points.begin(), run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
+      const models::PointSet used(run.points.begin(),
+                                  run.points.begin() + static_cast<std::ptrdiff_t>(pairs));
       RegistrationCost cost{pairs, frames};
       for (int i = 0; i < (quick ? 10 : 100); ++i) {
         const double start = thread_seconds();
-        const models::Registration found = models::register_points(trial::averages(used, frames));
+        const models::Registration found = models::register_points(models::averages(used, frames));
         const double took = thread_seconds() - start;
         if (found.rms >= 0.0 && !(took >= cost.cpu)) cost.cpu = took;
       }

@@ -110,7 +110,7 @@ Seen registered(const Asked& asked) {
   eyes.finish();
   Seen seen = std::move(eyes.seen);
   if (run.points.size() < models::kFewestPairs) return seen;
-  const models::Registration found = models::register_points(trial::averages(run.points));
+  const models::Registration found = models::register_points(models::averages(run.points));
   seen.left_over = found.mean_error;
   seen.elsewhere = Vec3::Zero();
   for (const Point<'W'>& place : *asked.targets)

@@ -7,7 +7,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "sim/camera/stage.h"
-#include "trial/guided/tip_eyes.h"
+#include "trial/identify/camera/tip_eyes.h"
 
 namespace enc::bench::registration_images {
 

@@ -9,8 +9,8 @@
 #include "benchmarks/staged/staged.h"
 #include "benchmarks/verdict/reference.h"
 #include "core/base/units.h"
-#include "trial/guided/driven_arm.h"
-#include "trial/guided/registration_rig.h"
+#include "trial/identify/camera/driven_arm.h"
+#include "trial/identify/camera/registration_rig.h"
 
 namespace enc::bench::registration_images {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "core/control/scene/scene.h"
-#include "models/fit/loop/loop_fit.h"
+#include "models/identify/response/loop_fit.h"
 #include "models/setup/scene_file.h"
 #include "sim/bodies/ball_plant.h"
 #include "trial/measure/record_table.h"

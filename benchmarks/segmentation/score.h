@@ -7,7 +7,7 @@
 
 #include "benchmarks/kit/kit.h"
 #include "benchmarks/segmentation/pairs.h"
-#include "models/fit/block_error.h"
+#include "models/identify/block_error.h"
 
 namespace enc::bench::segmentation {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "benchmarks/kit/bench.h"
-#include "models/fit/latency_fit.h"
+#include "models/identify/tracker/latency_fit.h"
 #include "sim/spec/twin_spec.h"
 
 namespace enc::bench::tracking {

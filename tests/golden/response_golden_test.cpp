@@ -8,7 +8,7 @@
 
 #include "core/control/scene/scene.h"
 #include "core/shape/response/response.h"
-#include "models/fit/loop/loop_fit.h"
+#include "models/identify/response/loop_fit.h"
 #include "models/response_file.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"

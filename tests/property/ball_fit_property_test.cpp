@@ -5,7 +5,7 @@
 
 #include "sim/truth/random.h"
 #include "tests/support/ball_pushes.h"
-#include "trial/fit/ball_fit.h"
+#include "trial/identify/ball/ball_fit.h"
 
 namespace enc::bench {
 namespace {

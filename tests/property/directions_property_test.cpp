@@ -10,7 +10,7 @@
 #include "core/control/scene/scene.h"
 #include "core/shape/response/response.h"
 #include "models/directions/directions.h"
-#include "models/fit/response_fit.h"
+#include "models/identify/response/response_fit.h"
 #include "models/setup/scene_file.h"
 #include "tests/support/built.h"
 

@@ -10,7 +10,7 @@
 
 #include "core/machine/loop_model.h"
 #include "core/shape/response/response.h"
-#include "models/fit/loop/loop_fit.h"
+#include "models/identify/response/loop_fit.h"
 #include "tests/support/plant_loop.h"
 
 namespace enc {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "sim/bodies/ball_plant.h"
-#include "trial/fit/ball_loops.h"
+#include "trial/identify/ball/ball_loops.h"
 
 namespace enc::test {
 

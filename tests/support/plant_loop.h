@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "models/fit/response_fit.h"
+#include "models/identify/response/response_fit.h"
 #include "sim/bodies/ball_plant.h"
 
 namespace enc::test {

@@ -1,6 +1,6 @@
 // Sets of points as files and what they tell of themselves: averages, intervals, noise that stays, the pair
 // that is wrong; and the guided procedure's places.
-#include "trial/fit/point_study.h"
+#include "trial/identify/camera/point_study.h"
 
 #include <cmath>
 #include <string>
@@ -34,7 +34,7 @@ trial::GuidedRun guided(const trial::RegistrationRig& r, std::size_t pairs, std:
 }
 std::string refused_point(const std::string& text) {
   try {
-    (void)trial::parse_points(text, "p.csv");
+    (void)models::parse_points(text, "p.csv");
   } catch (const Error& error) {
     return error.what();
   }
@@ -42,11 +42,11 @@ std::string refused_point(const std::string& text) {
 }
 
 TEST(PointSet, AveragesTheFramesOfAPair) {
-  const trial::PointSet places =
-      trial::parse_points(kHeader +
-                              "0,0,1,0,0,0,7\n1,0,1,1,0,0,2\n0,0,3,0,0,0,7\n0,1,1,0,1,0,3\n"
-                              "0,0,2,0,0,1,4\n",
-                          "p.csv");
+  const models::PointSet places =
+      models::parse_points(kHeader +
+                               "0,0,1,0,0,0,7\n1,0,1,1,0,0,2\n0,0,3,0,0,0,7\n0,1,1,0,1,0,3\n"
+                               "0,0,2,0,0,1,4\n",
+                           "p.csv");
   ASSERT_EQ(places.size(), 4U);
   EXPECT_EQ(places[0].number, 7);
   EXPECT_EQ(places[0].frames.size(), 2U);
@@ -56,7 +56,7 @@ TEST(PointSet, AveragesTheFramesOfAPair) {
 
 TEST(PointSet, ThereAndBackAsText) {
   const trial::GuidedRun run = guided(rig(), 5, 3, 1);
-  const trial::PointSet read = trial::parse_points(trial::points_text(run.points), "p.csv");
+  const models::PointSet read = models::parse_points(models::points_text(run.points), "p.csv");
   ASSERT_EQ(read.size(), 5U);
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t f = 0; f < 3; ++f)
@@ -64,9 +64,9 @@ TEST(PointSet, ThereAndBackAsText) {
 }
 
 TEST(PointSet, IsToldFromATrackersLog) {
-  EXPECT_TRUE(trial::is_point_set("# points\n\n" + kHeader));
-  EXPECT_FALSE(trial::is_point_set("time_s,tip_x_mm,tip_y_mm\n"));
-  EXPECT_FALSE(trial::is_point_set(""));
+  EXPECT_TRUE(models::is_point_set("# points\n\n" + kHeader));
+  EXPECT_FALSE(models::is_point_set("time_s,tip_x_mm,tip_y_mm\n"));
+  EXPECT_FALSE(models::is_point_set(""));
 }
 
 TEST(PointSet, RefusesWithThePlace) {
@@ -168,10 +168,10 @@ TEST(Guided, PlacesAreSeenReachedAndWellSpread) {
 TEST(Guided, WithoutNoiseOnlyEncodersAreLeft) {
   trial::RegistrationRig r = rig();
   r.camera.matching = r.camera.pointing = r.camera.standing = r.camera.disparity_step = 0.0;
-  const models::Registration coarse = models::register_points(trial::averages(guided(r, 8, 1, 1).points));
+  const models::Registration coarse = models::register_points(models::averages(guided(r, 8, 1, 1).points));
   EXPECT_LT(coarse.rms, 0.03e-3);  // the arm's resolution
   r.arm.counts = {1e9, 1e9, 1e9};
-  EXPECT_LT(models::register_points(trial::averages(guided(r, 8, 1, 1).points)).rms, 1e-9);
+  EXPECT_LT(models::register_points(models::averages(guided(r, 8, 1, 1).points)).rms, 1e-9);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Latency, bias and noise out of logs that were made by hand: exact where the log is exact, and silent where
 // it cannot tell.
-#include "models/fit/latency_fit.h"
+#include "models/identify/tracker/latency_fit.h"
 
 #include <cmath>
 #include <functional>

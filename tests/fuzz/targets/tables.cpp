@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "models/fit/loop/loop_csv.h"
-#include "models/fit/pivot/pivot_log.h"
-#include "models/fit/tracker_log.h"
+#include "models/identify/camera/point_set.h"
+#include "models/identify/response/loop_csv.h"
+#include "models/identify/tip/pivot_log.h"
+#include "models/identify/tracker/tracker_log.h"
 #include "models/mesh_files/mesh_places.h"
 #include "tests/fuzz/machine/target.h"
-#include "trial/fit/point_set.h"
 
 namespace enc::fuzz {
 namespace {
@@ -61,16 +61,16 @@ Target points() {
   target.seeds = {one, frames};
   target.tokens = csv_tokens();
   target.run = [](const std::string& input) {
-    static_cast<void>(trial::is_point_set(input));
-    const trial::PointSet places = trial::parse_points(input, "fuzz.csv");
-    for (const trial::SeenPlace& place : places)
+    static_cast<void>(models::is_point_set(input));
+    const models::PointSet places = models::parse_points(input, "fuzz.csv");
+    for (const models::SeenPlace& place : places)
       for (const models::PointPair& frame : place.frames) {
         expect_finite(frame.camera.e(), "a place");
         expect_finite(frame.device.e(), "a place");
       }
-    const models::Registration found = models::register_points(trial::averages(places));
+    const models::Registration found = models::register_points(models::averages(places));
     expect_finite(found.X_WC.p(), "the camera's pose");
-    const trial::PointSet again = trial::parse_points(trial::points_text(places), "again.csv");
+    const models::PointSet again = models::parse_points(models::points_text(places), "again.csv");
     expect(again.size() == places.size(), "what is written of it has another number of places");
     return true;
   };

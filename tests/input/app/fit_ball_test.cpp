@@ -10,7 +10,7 @@
 #include "tests/support/ball_pushes.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
-#include "trial/fit/ball_loops.h"
+#include "trial/identify/ball/ball_loops.h"
 
 namespace enc::tests {
 namespace {

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/fit/loop/loop_fit.h"
+#include "models/identify/response/loop_fit.h"
 #include "tests/support/built.h"
 #include "tests/support/plant_loop.h"
 

@@ -11,9 +11,9 @@
 #include "core/base/rotation.h"
 #include "core/base/units.h"
 #include "core/machine/arm.h"
-#include "models/fit/machine/hand_eye.h"
-#include "models/fit/machine/turn.h"
-#include "models/fit/machine/weight_fit.h"
+#include "models/identify/rig/hand_eye.h"
+#include "models/identify/rig/turn.h"
+#include "models/identify/rig/weight_fit.h"
 #include "sim/truth/random.h"
 
 namespace enc::tests {

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "models/fit/pivot/pivot_fit.h"
+#include "models/identify/tip/pivot_fit.h"
 #include "sim/truth/random.h"
 
 namespace enc {

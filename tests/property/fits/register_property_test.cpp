@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/rotation.h"
-#include "models/fit/register.h"
+#include "models/identify/camera/register.h"
 #include "sim/truth/random.h"
 
 namespace enc {

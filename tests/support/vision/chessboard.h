@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/spec/vision/stereo_rig.h"
-#include "core/vision/calibration/corners.h"
+#include "models/identify/stereo/corners.h"
 
 namespace enc::test {
 

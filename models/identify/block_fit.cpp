@@ -1,0 +1,109 @@
+#include "models/identify/block_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Cholesky>
+
+namespace enc::models {
+namespace {
+
+// Of a column's square, what the columns before it leave of it: less is the same thing twice.
+constexpr double kApart = 1e-8;
+
+// Degrees of freedom: of fewer blocks nobody knows how much they scatter.
+constexpr double kFewestFree = 2.0;
+
+// Columns that can be told apart, in order, and their scales.
+struct Columns {
+  std::vector<Eigen::Index> kept;
+  Eigen::VectorXd scale;
+};
+
+Columns told_apart(const Eigen::MatrixXd& gram) {
+  Columns out;
+  out.scale = gram.diagonal().cwiseSqrt();
+  const auto n = static_cast<Eigen::Index>(gram.rows());
+  for (Eigen::Index c = 0; c < n; ++c) {
+    if (!(out.scale(c) > 0.0)) continue;
+    std::vector<Eigen::Index> with = out.kept;
+    with.push_back(c);
+    const auto m = static_cast<Eigen::Index>(with.size());
+    Eigen::MatrixXd part(m, m);
+    for (Eigen::Index i = 0; i < m; ++i)
+      for (Eigen::Index j = 0; j < m; ++j) {
+        const Eigen::Index a = with[static_cast<std::size_t>(i)], b = with[static_cast<std::size_t>(j)];
+        part(i, j) = gram(a, b) / (out.scale(a) * out.scale(b));
+      }
+    const Eigen::LLT<Eigen::MatrixXd> factor(part);
+    const double left = factor.matrixL()(m - 1, m - 1);
+    if (factor.info() == Eigen::Success && left * left > kApart) out.kept = with;
+  }
+  return out;
+}
+
+}  // namespace
+
+void BlockFit::add(double t, const Eigen::VectorXd& row, double y) {
+  t_.push_back(t);
+  y_.push_back(y);
+  x_.insert(x_.end(), row.data(), row.data() + row.size());
+}
+
+void BlockFit::add(double t, const Eigen::VectorXd& row, double y, std::ptrdiff_t group) {
+  if (group != group_) groups_.push_back(y_.size());
+  group_ = group;
+  add(t, row, y);
+}
+
+BlockFit::Result BlockFit::solve() const {
+  Result result{std::vector<Interval>(columns_), kUnset};
+  if (y_.empty()) return result;
+  const auto n = static_cast<Eigen::Index>(columns_), rows = static_cast<Eigen::Index>(y_.size());
+  Eigen::MatrixXd x = Eigen::Map<const Eigen::MatrixXd>(x_.data(), n, rows);
+  Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(y_.data(), rows);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const auto from = static_cast<Eigen::Index>(groups_[g]);
+    const Eigen::Index to = g + 1 < groups_.size() ? static_cast<Eigen::Index>(groups_[g + 1]) : rows;
+    const Eigen::VectorXd mean = x.middleCols(from, to - from).rowwise().mean();
+    x.middleCols(from, to - from).colwise() -= mean;
+    y.segment(from, to - from).array() -= y.segment(from, to - from).mean();
+  }
+  const Columns columns = told_apart(x * x.transpose());
+  const auto m = static_cast<Eigen::Index>(columns.kept.size());
+  if (m == 0 || rows <= m) return result;
+  Eigen::MatrixXd z(m, rows);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Eigen::Index c = columns.kept[static_cast<std::size_t>(i)];
+    z.row(i) = x.row(c) / columns.scale(c);
+  }
+  const Eigen::MatrixXd covariance = (z * z.transpose()).inverse();
+  const Eigen::VectorXd found = covariance * (z * y);
+  const Eigen::VectorXd left = y - z.transpose() * found;
+  result.rms = std::sqrt(left.squaredNorm() / static_cast<double>(rows));
+  std::map<std::int64_t, std::size_t> number;  // of a block that has rows
+  for (const double t : t_)
+    number.try_emplace(static_cast<std::int64_t>(std::floor(t / block_)), number.size());
+  const Blocks none{std::vector<double>(number.size(), 0.0), std::vector<double>(number.size(), 0.0)};
+  std::vector<Blocks> blocks(static_cast<std::size_t>(m), none);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const Eigen::VectorXd lever = covariance * z.col(r);
+    const std::size_t b =
+        number.at(static_cast<std::int64_t>(std::floor(t_[static_cast<std::size_t>(r)] / block_)));
+    for (Eigen::Index i = 0; i < m; ++i) {
+      blocks[static_cast<std::size_t>(i)].influence[b] += lever(i) * left(r);
+      blocks[static_cast<std::size_t>(i)].weight[b] += lever(i) * lever(i);
+    }
+  }
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const auto c = static_cast<std::size_t>(columns.kept[static_cast<std::size_t>(i)]);
+    const double scale = columns.scale(static_cast<Eigen::Index>(c));
+    const Blocks& of = blocks[static_cast<std::size_t>(i)];
+    const Interval value = of.around(found(i));
+    result.values[c] = {value.value / scale, of.freedom() < kFewestFree - 1e-9 ? kUnset : value.half / scale};
+  }
+  return result;
+}
+
+}  // namespace enc::models

@@ -1,0 +1,33 @@
+// A measured loop as a file: comma-separated columns time_s, deflection_mm, force_N, repeat, found by name;
+// others are ignored (sources/choices 9). A real rig's readings and the simulated rig's are read alike.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/identify/response/response_fit.h"
+
+namespace enc::models {
+
+struct LoopData {
+  // One entry for each repeat: its readings with deflection > 0, in the order of time.
+  std::vector<std::vector<LoopPoint>> presses;
+  // Of these the readings of either branch: neither at standstill nor so near to the deepest that both mix.
+  std::vector<std::vector<LoopPoint>> moving;
+  // Who measured what: the text of the column `source` in a press, else of the comment lines (#) before the
+  // header; empty where the file does not say.
+  std::string remark;
+  // What was put right before all else, and how well that is known (one standard deviation): a force that is
+  // not 0 before contact, and contact that does not begin at 0.
+  std::vector<std::string> notes;
+  // One of the notes says why the curves are not to be believed.
+  bool doubted = false;
+  double zero_error = 0.0;   // N
+  double begin_error = 0.0;  // m
+};
+
+// Rows without a repeat, or with repeat 0, or from before contact, belong to no press; they give the zero of
+// the force and the begin of contact. name: of the file, for messages "name:line:column: ...". Throws Error.
+[[nodiscard]] LoopData parse_loop(const std::string& text, const std::string& name, double limit);
+
+}  // namespace enc::models

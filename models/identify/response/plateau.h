@@ -1,0 +1,20 @@
+// A force that stays where it is while the deflection grows: a sensor at its limit, or an object that yields.
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "core/base/frames.h"
+#include "models/identify/response/response_fit.h"
+
+namespace enc::models {
+
+// The force stops to rise at this deflection, m, and time, s; unset: it rises to the deepest reading.
+struct Plateau {
+  double from = kUnset, time = kUnset;
+};
+
+// Takes the readings of one press, of either branch in the order of time.
+[[nodiscard]] Plateau plateau_of(std::span<const LoopPoint> moving);
+
+}  // namespace enc::models

@@ -1,0 +1,132 @@
+#include "models/identify/stereo/lens_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <opencv2/calib3d.hpp>
+
+#include "core/vision/stereo/lens.h"
+#include "models/identify/stereo/opencv_types.h"
+
+namespace enc::calibration {
+namespace {
+
+// Whether a pixel in each corner of the image has a ray.
+bool spreads(const Camera& camera, const cv::Size& size) {
+  const Lens lens = lens_of(camera.matrix, camera.distortion);
+  const double right = size.width - 1, low = size.height - 1;
+  const std::array<Pixel, 4> corners{{{0, 0}, {right, 0}, {0, low}, {right, low}}};
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](const Pixel& corner) { return std::isfinite(ray_of(lens, corner).x); });
+}
+
+// What all views of a camera tell of its lens.
+class LensSolver {
+ public:
+  LensSolver(const Views& views, const Board& board, const cv::Size& size)
+      : views_(views), boards_(views.size(), board_points(board)), size_(size) {}
+
+  // From what `camera` is.
+  void solve(Camera& camera, int model) {
+    cv::Mat deviation, none, errors;
+    camera.fit.rms = cv::calibrateCamera(boards_, views_, size_, camera.matrix, camera.distortion, turns_,
+                                         places_, deviation, none, errors, model, until(kMostSteps));
+    camera.focal_deviation = std::max(deviation.at<double>(0) / camera.matrix.at<double>(0, 0),
+                                      deviation.at<double>(1) / camera.matrix.at<double>(1, 1));
+    const double k3 = deviation.at<double>(8);
+    camera.k3_in_deviations = k3 > 0.0 ? std::abs(camera.distortion.at<double>(4)) / k3 : 0.0;
+  }
+
+  // Of the last solution.
+  void judge(Camera& camera) const {
+    constexpr std::size_t kRings = 8;
+    const cv::Point2d axis(camera.matrix.at<double>(0, 2), camera.matrix.at<double>(1, 2));
+    const double farthest = cv::norm(cv::Point2d(std::max(axis.x, size_.width - 1.0 - axis.x),
+                                                 std::max(axis.y, size_.height - 1.0 - axis.y)));
+    std::vector<std::pair<double, double>> corners = off_axis(camera, axis);
+    std::sort(corners.begin(), corners.end());
+    camera.fit.reach = corners.back().first / farthest;
+    camera.fit.outwards = 0.0;
+    for (std::size_t ring = 0; ring < kRings; ++ring) {
+      const std::size_t begin = ring * corners.size() / kRings, end = (ring + 1) * corners.size() / kRings;
+      double sum = 0.0, squares = 0.0;
+      for (std::size_t i = begin; i < end; ++i)
+        sum += corners[i].second, squares += corners[i].second * corners[i].second;
+      const auto count = static_cast<double>(end - begin);
+      const double mean = sum / count;
+      if (ring > 0 && std::abs(mean) <= std::abs(camera.fit.outwards)) continue;
+      camera.fit.outwards = mean;
+      camera.fit.outwards_deviation = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
+      camera.fit.ring = corners[(begin + end) / 2].first / farthest;
+    }
+  }
+
+ private:
+  // Of each corner: px from the axis, and how much farther it lies than the lens has it.
+  [[nodiscard]] std::vector<std::pair<double, double>> off_axis(const Camera& camera,
+                                                                const cv::Point2d& axis) const {
+    std::vector<std::pair<double, double>> out;
+    std::vector<cv::Point2f> points;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      cv::projectPoints(boards_[i], turns_[i], places_[i], camera.matrix, camera.distortion, points);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const cv::Point2d from(cv::Point2d(points[k]) - axis), off(views_[i][k] - points[k]);
+        const double distance = cv::norm(from);
+        if (distance > 1.0) out.emplace_back(distance, off.dot(from) / distance);
+      }
+    }
+    return out;
+  }
+
+  const Views& views_;
+  std::vector<std::vector<cv::Point3f>> boards_;
+  cv::Size size_;
+  std::vector<cv::Mat> turns_, places_;
+};
+
+}  // namespace
+
+Camera Camera::copy() const {
+  Camera copy = *this;
+  copy.matrix = matrix.clone();
+  copy.distortion = distortion.clone();
+  return copy;
+}
+
+int Cameras::model() const { return k3 == K3::fitted ? 0 : cv::CALIB_FIX_K3; }
+
+std::vector<cv::Point3f> board_points(const Board& board) {
+  std::vector<cv::Point3f> points;
+  const auto side = static_cast<float>(board.square);
+  for (int r = 0; r < board.rows; ++r)
+    for (int c = 0; c < board.columns; ++c)
+      points.emplace_back(static_cast<float>(c) * side, static_cast<float>(r) * side, 0.0F);
+  return points;
+}
+
+// By steps, each from where the last one ended: all at once, the search may end where nothing fits.
+Cameras each_camera(const Views& left, const Views& right, const Board& board, const cv::Size& size) {
+  constexpr double kTold = 3.0;
+  constexpr int kPinhole =
+      cv::CALIB_FIX_K1 | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST;
+  constexpr int kGuess = cv::CALIB_USE_INTRINSIC_GUESS;
+  LensSolver of_left(left, board, size), of_right(right, board, size);
+  Cameras usual;
+  for (const auto& [solver, camera] : {std::pair{&of_left, &usual.left}, {&of_right, &usual.right}}) {
+    solver->solve(*camera, kPinhole);
+    solver->solve(*camera, usual.model() | kGuess);
+    solver->judge(*camera);
+  }
+  Cameras bent{usual.left.copy(), usual.right.copy(), K3::fitted};
+  for (const auto& [solver, camera] : {std::pair{&of_left, &bent.left}, {&of_right, &bent.right}}) {
+    solver->solve(*camera, bent.model() | kGuess);
+    solver->judge(*camera);
+  }
+  if (std::max(bent.left.k3_in_deviations, bent.right.k3_in_deviations) <= kTold) return usual;
+  if (spreads(bent.left, size) && spreads(bent.right, size)) return bent;
+  usual.k3 = K3::folds;
+  return usual;
+}
+
+}  // namespace enc::calibration

@@ -1,0 +1,209 @@
+#include "models/identify/response/response_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "tests/support/plant_loop.h"
+
+namespace enc::models {
+namespace {
+
+constexpr double kDeepest = 6e-3;  // m
+constexpr int kReadings = 600;
+
+using Curve = double (*)(double d_mm);  // N
+
+std::vector<LoopPoint> loop_of(Curve press, Curve release) {
+  std::vector<LoopPoint> loop;
+  for (const bool pressing : {true, false})
+    for (int i = 1; i <= kReadings; ++i) {
+      const double d = kDeepest * i / kReadings;
+      loop.push_back({d, (pressing ? press : release)(d * 1e3), pressing});
+    }
+  return loop;
+}
+
+// Root mean square of i / n, i = 1..n: sqrt((n + 1)(2 n + 1) / (6 n^2)).
+double rms_of_ramp() { return std::sqrt((kReadings + 1.0) * (2.0 * kReadings + 1.0) / 6.0) / kReadings; }
+
+double value(const std::array<double, 4>& a, double d) {
+  return d * (a[0] + d * (a[1] + d * (a[2] + d * a[3])));
+}
+double slope(const std::array<double, 4>& a, double d) {
+  return a[0] + d * (2 * a[1] + d * (3 * a[2] + d * 4 * a[3]));
+}
+
+double squares(const std::vector<LoopPoint>& loop, const ResponseSpec& spec) {
+  double sum = 0.0;
+  for (const LoopPoint& p : loop)
+    sum += std::pow(value(p.pressing ? spec.press : spec.release, p.deflection) - p.force, 2);
+  return sum;
+}
+
+// Least slope of both curves, and least gap, at 20,000 deflections between the fit's own.
+struct Least {
+  double slope, gap;
+};
+Least least(const ResponseSpec& spec) {
+  Least l{1e9, 1e9};
+  for (int i = 0; i <= 20000; ++i) {
+    const double d = spec.limit * i / 20000;
+    l.slope = std::min({l.slope, slope(spec.press, d), slope(spec.release, d)});
+    l.gap = std::min(l.gap, value(spec.press, d) - value(spec.release, d));
+  }
+  return l;
+}
+
+std::string refused_fit(const std::vector<LoopPoint>& loop, double limit = kDeepest, double floor = 100.0) {
+  try {
+    static_cast<void>(fit_response(loop, limit, floor));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ResponseFit, FindsCurvesThatNeedNoConstraint) {
+  const auto press = [](double d) { return d * (1.0 + d * (0.2 + d * (-0.02 + d * 0.002))); };
+  const auto release = [](double d) { return d * (0.5 + d * 0.1); };
+  const ResponseFit fit = fit_response(loop_of(press, release), kDeepest, 119.0);
+  EXPECT_NEAR(fit.spec.press[0], 1e3, 1e-6);
+  EXPECT_NEAR(fit.spec.press[3], 0.002e12, 1e-3 * 0.002e12);
+  EXPECT_NEAR(fit.spec.release[1], 0.1e6, 1e-6 * 0.1e6);
+  EXPECT_LT(std::max({fit.rmse_press, fit.rmse_release, fit.rmse_press_free, fit.rmse_release_free}), 1e-9);
+  EXPECT_EQ(fit.spec.limit, kDeepest);
+}
+
+// A release without force: no curve of slope >= s from zero lies below s d, so the best is s d itself; RMSE =
+// s 6 mm rms(i / n).
+TEST(ResponseFit, FloorAsByHand) {
+  const auto loop = loop_of([](double d) { return 2.0 * d; }, [](double) { return 0.0; });
+  const ResponseFit fit = fit_response(loop, kDeepest, 150.0);
+  EXPECT_NEAR(fit.spec.release[0], 150.0, 0.05);
+  EXPECT_NEAR(value(fit.spec.release, kDeepest), 0.9, 1e-3);
+  EXPECT_NEAR(fit.rmse_release, 0.9 * rms_of_ramp(), 1e-3);
+  EXPECT_NEAR(fit.rmse_release_free, 0.0, 1e-9);
+  EXPECT_NEAR(fit.rmse_press, 0.0, 1e-9);
+}
+
+// Release measured above press, 2 and 1 N/mm: with p >= r the least (p - 1)^2 + (r - 2)^2 is p = r = 1.5
+// N/mm; RMSE of each 0.5 N/mm 6 mm rms(i / n).
+TEST(ResponseFit, OrderOfTheCurvesAsByHand) {
+  const auto loop = loop_of([](double d) { return d; }, [](double d) { return 2.0 * d; });
+  const ResponseFit fit = fit_response(loop, kDeepest, 119.0);
+  EXPECT_NEAR(value(fit.spec.press, kDeepest), 9.0, 1e-3);
+  EXPECT_NEAR(value(fit.spec.release, kDeepest), 9.0, 1e-3);
+  EXPECT_NEAR(fit.rmse_press, 3.0 * rms_of_ramp(), 1e-3);
+  EXPECT_NEAR(fit.rmse_release, 3.0 * rms_of_ramp(), 1e-3);
+}
+
+// The ball's loop. What the constraints cost: the release curve cannot be flat below 0.5 mm, where the plant
+// has lifted off.
+TEST(ResponseFit, BallKeepsEveryConstraintAndSaysWhatItCosts) {
+  const auto loop = test::plant_loop({}, 4e-3, kDeepest);
+  for (const double floor : {0.0, 119.0, 124.95, 300.0}) {
+    const ResponseFit fit = fit_response(loop, kDeepest, floor);
+    const Least l = least(fit.spec);
+    EXPECT_GE(l.slope, floor) << floor;
+    EXPECT_GE(l.gap, 0.0) << floor;
+    EXPECT_EQ(Response(fit.spec, floor).limit(), kDeepest) << floor;
+    EXPECT_NEAR(fit.rmse_press_free, 0.022, 0.001);
+    EXPECT_NEAR(fit.rmse_release_free, 0.031, 0.001);
+    EXPECT_GE(fit.rmse_release, fit.rmse_release_free);
+    EXPECT_NEAR(std::sqrt(squares(loop, fit.spec) / static_cast<double>(loop.size())),
+                std::sqrt(0.5 * (std::pow(fit.rmse_press, 2) + std::pow(fit.rmse_release, 2))), 1e-9);
+  }
+}
+
+// The problem is convex: if no feasible neighbour is better, near or far, the minimum is found. Neighbours
+// are drawn at random and pulled towards a curve well inside the constraints until they are feasible.
+TEST(ResponseFit, NoFeasibleNeighbourIsBetter) {
+  constexpr double kLowest = 124.95;
+  const auto loop = test::plant_loop({}, 4e-3, kDeepest);
+  const ResponseFit fit = fit_response(loop, kDeepest, kLowest);
+  const double best = squares(loop, fit.spec);
+  std::mt19937_64 random(20);
+  std::normal_distribution<double> normal;
+  int better = 0;
+  int tried = 0;
+  for (int n = 0; n < 2000; ++n) {
+    ResponseSpec y = fit.spec;
+    const double size = std::pow(10.0, -1.0 - 3.0 * n / 2000.0);  // N
+    double power = 1.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      power *= kDeepest;
+      const double inside_press = k == 0 ? 1500.0 : 0.0;  // N/m, straight lines
+      const double inside_release = k == 0 ? 1000.0 : 0.0;
+      y.press[k] += size * (normal(random) / power + 0.05 * (inside_press - y.press[k]));
+      y.release[k] += size * (normal(random) / power + 0.05 * (inside_release - y.release[k]));
+    }
+    const Least l = least(y);
+    if (l.slope < kLowest || l.gap < 0.0) continue;
+    ++tried;
+    // The fit keeps 1.2e-4 N away from its constraints, which costs 6e-5 of the sum of squares.
+    if (squares(loop, y) < best * (1.0 - 1e-4)) ++better;
+  }
+  EXPECT_GT(tried, 50);
+  EXPECT_EQ(better, 0);
+}
+
+TEST(ResponseFit, RandomLoopsAreAlwaysRenderable) {
+  std::mt19937_64 random(21);
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 200; ++n) {
+    std::vector<LoopPoint> loop;
+    const std::array<double, 6> a{normal(random), normal(random), normal(random),
+                                  normal(random), normal(random), normal(random)};
+    for (const bool pressing : {true, false})
+      for (int i = 0; i <= 60; ++i) {
+        const double u = i / 60.0;
+        const std::size_t at = pressing ? 0 : 3;
+        const double force = 5.0 * (a[at] + u * (a[at + 1] + u * a[at + 2])) + 0.5 * normal(random);
+        loop.push_back({u * kDeepest, force, pressing});
+      }
+    const ResponseFit fit = fit_response(loop, kDeepest, 119.0);  // throws where Response would refuse
+    const Least l = least(fit.spec);
+    ASSERT_GE(l.slope, 119.0) << "loop " << n;
+    ASSERT_GE(l.gap, 0.0) << "loop " << n;
+  }
+}
+
+TEST(ResponseFit, RefusesLoopsThatSayTooLittle) {
+  auto loop = loop_of([](double d) { return 2.0 * d; }, [](double d) { return d; });
+  EXPECT_EQ(refused_fit(loop), "accepted");
+  const std::vector<LoopPoint> press_only(loop.begin(), loop.begin() + kReadings);
+  EXPECT_THAT(refused_fit(press_only), testing::HasSubstr("while releasing"));
+  std::vector<LoopPoint> three;
+  for (const bool pressing : {true, false})
+    for (int i = 0; i < 30; ++i) three.push_back({2e-3 * (1 + i % 3), 1.0, pressing});
+  EXPECT_THAT(refused_fit(three), testing::HasSubstr("four deflections"));
+  EXPECT_THAT(refused_fit({}), testing::HasSubstr("four deflections"));
+  loop[7].force = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refused_fit(loop), testing::HasSubstr("finite"));
+  EXPECT_THAT(refused_fit(three, 0.0), testing::HasSubstr("limit"));
+  EXPECT_THAT(refused_fit(three, kDeepest, -1.0), testing::HasSubstr("lowest slope"));
+}
+
+// Readings beyond the limit belong to another response: they change nothing.
+TEST(ResponseFit, LeavesOutWhatLiesBeyondTheLimit) {
+  auto loop = loop_of([](double d) { return 2.0 * d; }, [](double d) { return d; });
+  const ResponseFit before = fit_response(loop, kDeepest, 119.0);
+  loop.push_back({7e-3, 3.0, true});
+  loop.push_back({-1e-3, 3.0, false});
+  const ResponseFit after = fit_response(loop, kDeepest, 119.0);
+  EXPECT_EQ(before.spec.press, after.spec.press);
+  EXPECT_EQ(before.rmse_release, after.rmse_release);
+}
+
+}  // namespace
+}  // namespace enc::models

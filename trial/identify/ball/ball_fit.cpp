@@ -1,0 +1,226 @@
+#include "trial/identify/ball/ball_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "core/base/error.h"
+
+namespace enc::trial {
+namespace {
+
+const BallNumber& number_at(std::size_t i) { return ball_numbers()[i]; }
+
+Eigen::VectorXd force_of(const BallLoops& loops, const StandingBall& ball) {
+  return loops.predicted(sim::BallPlant(ball.law), ball.nearer);
+}
+
+// A point of the search: the ball, what is left of the readings, and both whitened beside the Jacobian.
+class Search {
+ public:
+  Search(const BallLoops& loops, const BallFitOptions& options) : loops_(loops), ball_(options.start) {
+    for (std::size_t i = 0; i < kBallNumbers; ++i) (options.free[i] ? free_ : held_).push_back(i);
+    // A mean does not move what is not pressed: each push costs its own zero.
+    if (loops.means().size() < 2 * loops.pushes() + free_.size() + 10)
+      throw Error("there are too few readings for so many numbers", "loop");
+    left_ = loops_.measured() - force_of(loops_, ball_);
+    slopes_ = ball_jacobian(loops_, ball_, free_);
+  }
+
+  // Levenberg and Marquardt, with the noise as it is thought to be; until a step is nothing beside the
+  // errors.
+  void settle() {
+    double damping = 1e-4;
+    for (whiten_all(); steps_ < kMostSteps; ++steps_) {
+      const Eigen::MatrixXd gram = jacobian_.transpose() * jacobian_;
+      const Eigen::VectorXd slope = jacobian_.transpose() * residual_;
+      if (damping <= 1e-3 && small(gram, slope)) return;
+      Eigen::MatrixXd damped = gram;
+      damped.diagonal() *= 1.0 + damping;
+      const StandingBall next = moved(damped.ldlt().solve(slope));
+      const Eigen::VectorXd left = loops_.measured() - force_of(loops_, next);
+      const double cost = whitened(left).squaredNorm();
+      if (!(cost <= residual_.squaredNorm())) {
+        if ((damping *= 10.0) > 1e9) return;  // no better ball is near: rounding
+        continue;
+      }
+      ball_ = next;
+      left_ = left;
+      damping = std::max(1e-9, 0.1 * damping);
+      slopes_ = ball_jacobian(loops_, ball_, free_);
+      whiten_all();
+    }
+    throw Error("the fit of the ball does not settle; hold a number that is known", "loop");
+  }
+
+  // What the residuals say about the noise; false where nothing new.
+  bool learn_noise() {
+    const models::DriftingNoise found = drifting_noise(loops_.means(), left_, slopes_);
+    const bool news = std::abs(std::log(found.walk / noise_.walk)) > 0.1;
+    noise_ = found;
+    return news;
+  }
+
+  [[nodiscard]] BallFit result() {
+    whiten_all();
+    BallFit fit;
+    fit.ball = ball_;
+    fit.steps = steps_;
+    const double freedom =
+        static_cast<double>(left_.size()) - static_cast<double>(loops_.pushes() + free_.size());
+    fit.noise = residual_.norm() / std::sqrt(freedom);
+    fit.walk = fit.noise * std::sqrt(noise_.walk);
+    fit.rms = left_.norm() / std::sqrt(static_cast<double>(left_.size()));
+    estimate(fit, freedom);
+    hold(fit);
+    return fit;
+  }
+
+ private:
+  static constexpr int kMostSteps = 200;
+
+  [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& columns) const {
+    Eigen::MatrixXd white = columns;
+    whiten(loops_.means(), noise_, white);
+    return white;
+  }
+  void whiten_all() {
+    residual_ = whitened(left_);
+    jacobian_ = whitened(slopes_);
+  }
+  // A thousandth of the standard errors, or of nothing.
+  [[nodiscard]] bool small(const Eigen::MatrixXd& gram, const Eigen::VectorXd& slope) const {
+    const double gain = slope.dot(gram.ldlt().solve(slope));
+    return gain <= std::max(1e-6 * residual_.squaredNorm() / static_cast<double>(residual_.size()), 1e-24);
+  }
+  [[nodiscard]] StandingBall moved(const Eigen::VectorXd& by) const {
+    StandingBall ball = ball_;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const BallNumber& n = number_at(free_[k]);
+      double& x = n.of(ball);
+      const double to = x + n.scale * by[static_cast<Eigen::Index>(k)];
+      x = n.positive ? std::clamp(to, 0.3 * x, 3.0 * x) : to;
+    }
+    return ball;
+  }
+
+  // The inverse of the information; a direction that the readings do not tell is infinitely uncertain.
+  void estimate(BallFit& fit, double freedom) const {
+    const Eigen::VectorXd doubt = doubts();
+    const Eigen::MatrixXd gram = jacobian_.transpose() * jacobian_;
+    const Eigen::VectorXd length = gram.diagonal().cwiseSqrt().cwiseMax(1e-300);
+    const Eigen::MatrixXd scaled =
+        length.cwiseInverse().asDiagonal() * gram * length.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+    const Eigen::VectorXd known = eigen.eigenvalues().cwiseMax(0.0);
+    fit.condition = known[known.size() - 1] / known[0];
+    const Eigen::VectorXd floored = known.cwiseMax(1e-14);
+    const Eigen::MatrixXd covariance =
+        eigen.eigenvectors() * floored.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      const BallNumber& n = number_at(free_[k]);
+      const double t = models::student(1.0 / (1.0 / freedom + doubt[i]));
+      BallEstimate e{free_[k], {value_of(n, ball_), kUnset}, t * fit.noise * n.scale / length[i]};
+      const bool lost = covariance(i, i) > 1e12;
+      e.interval.half =
+          lost ? std::numeric_limits<double>::infinity() : e.alone * std::sqrt(covariance(i, i));
+      for (std::size_t m = 0; m < free_.size(); ++m) {
+        const auto j = static_cast<Eigen::Index>(m);
+        const double together = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+        if (m == k || std::abs(together) <= std::abs(e.correlation)) continue;
+        e.tied = free_[m];
+        e.correlation = together;
+      }
+      fit.estimates.push_back(e);
+    }
+  }
+
+  // Logarithms of the estimates' variances if the walk were exp(by) times what it is.
+  [[nodiscard]] Eigen::VectorXd log_variances(double by) const {
+    Eigen::MatrixXd columns(left_.size(), slopes_.cols() + 1);
+    columns << left_, slopes_;
+    whiten(loops_.means(), {noise_.walk * std::exp(by)}, columns);
+    const auto design = columns.rightCols(slopes_.cols());
+    const Eigen::MatrixXd gram = design.transpose() * design;
+    const Eigen::MatrixXd inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(gram.rows(), gram.cols()));
+    return (columns.col(0).squaredNorm() * inverse.diagonal()).array().abs().log();
+  }
+  // Satterthwaite: an interval knows no more than the size of the noise that it depends on. 1 / degrees of
+  // freedom.
+  [[nodiscard]] Eigen::VectorXd doubts() const {
+    constexpr double kStep = 0.25;
+    const Eigen::VectorXd slope = (log_variances(kStep) - log_variances(-kStep)) / (2.0 * kStep);
+    return slope.cwiseAbs2() / std::max(noise_.sureness, 1e-3);
+  }
+
+  // To first order: how the estimates give way when a held number is another.
+  void hold(BallFit& fit) const {
+    const Eigen::MatrixXd columns = whitened(ball_jacobian(loops_, ball_, held_));
+    const Eigen::MatrixXd moves =
+        -(jacobian_.transpose() * jacobian_).ldlt().solve(jacobian_.transpose() * columns);
+    for (std::size_t h = 0; h < held_.size(); ++h) {
+      const BallNumber& n = number_at(held_[h]);
+      HeldNumber held{held_[h], value_of(n, ball_), {}};
+      for (std::size_t k = 0; k < free_.size(); ++k) {
+        const BallNumber& found = number_at(free_[k]);
+        held.moves.push_back(moves(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(h)) * found.scale /
+                             value_of(found, ball_) * held.value / n.scale);
+      }
+      fit.held.push_back(held);
+    }
+  }
+
+  const BallLoops& loops_;
+  StandingBall ball_;
+  std::vector<std::size_t> free_, held_;
+  models::DriftingNoise noise_{0.02};  // 1/s: the rig's own, to begin with
+  Eigen::VectorXd left_;               // N, measured less predicted
+  Eigen::MatrixXd slopes_;             // of the prediction, N per scale
+  Eigen::VectorXd residual_;           // the same, whitened
+  Eigen::MatrixXd jacobian_;           // whitened, a column for each free number
+  int steps_ = 0;
+};
+
+}  // namespace
+
+double BallEstimate::width() const {
+  // Where the ball stands has no size of its own.
+  const double size = number == kNearer ? ball_numbers()[kNearer].scale : std::abs(interval.value);
+  return 2.0 * interval.half / size;
+}
+
+Known BallEstimate::known() const {
+  const double w = width();
+  return w <= 0.2 ? Known::well : w <= 1.0 ? Known::poorly : Known::not_at_all;
+}
+
+Eigen::MatrixXd ball_jacobian(const BallLoops& loops, const StandingBall& ball,
+                              std::span<const std::size_t> numbers, double step) {
+  const sim::BallPlant plant(ball.law);
+  const Eigen::VectorXd here = loops.predicted(plant, ball.nearer);
+  Eigen::MatrixXd columns(here.size(), static_cast<Eigen::Index>(numbers.size()));
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const BallNumber& n = number_at(numbers[k]);
+    StandingBall other = ball;
+    n.of(other) += step * n.scale;
+    const sim::BallPlant changed = n.elastic ? sim::BallPlant(other.law) : plant.with_loss(other.law);
+    columns.col(static_cast<Eigen::Index>(k)) = (loops.predicted(changed, other.nearer) - here) / step;
+  }
+  return columns;
+}
+
+BallFit fit_ball(const BallLoops& loops, const BallFitOptions& options) {
+  constexpr int kRounds = 5;
+  Search search(loops, options);
+  for (int round = 0; round < kRounds; ++round) {
+    search.settle();
+    if (!search.learn_noise()) break;
+  }
+  return search.result();
+}
+
+}  // namespace enc::trial

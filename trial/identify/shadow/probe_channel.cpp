@@ -1,0 +1,283 @@
+// A real object that the machine presses with its probe: where the probe was says what the twin's object
+// would have pushed back with.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/base/counted.h"
+#include "models/identify/block_fit.h"
+#include "trial/identify/shadow/bounds.h"
+#include "trial/identify/shadow/channels.h"
+
+namespace enc::trial {
+namespace {
+
+constexpr double kForceBlock = 0.25;  // s
+constexpr double kBefore = 1e-3;      // m before the touch, from where on a push is looked at
+constexpr double kStep = 20e-6;       // m, of the difference that stands for a slope
+constexpr double kSlopeTime = 4e-3;   // s, likewise
+constexpr double kSame = 1e-4;        // N: of the softest object kStep is more
+constexpr double kFelt = 1.0;         // N: more than weight, inertia and drift are in a block of time
+constexpr int kMostRounds = 10;
+constexpr double kBend = 0.5e-3;    // m
+constexpr double kSettled = 2e-6;   // m
+constexpr double kFarthest = 3e-3;  // m: what is farther away is another place
+constexpr Eigen::Index kAlike = 0, kNearer = 1, kLate = 2, kPushed = 3;
+
+using Forces = std::vector<double>;  // N, along the push, tick by tick
+
+// What the sensor said, with its own stamp.
+struct Reading {
+  double at;     // ticks after the first
+  double force;  // N, along the push
+};
+
+// What is compared: the ticks of all pushes, and how each is numbered.
+struct Rows {
+  std::vector<std::ptrdiff_t> push;  // of each tick; -1: none
+  std::ptrdiff_t pushes = 0;
+  double begin = 0.0, dt = kUnset;
+};
+
+// A sensor without any error, in its true axes: errors are put on it again, of each seed.
+models::Setup faultless(models::Setup twin) {
+  sim::ForceTruth& force = twin.twin.force;
+  force.quantum = force.torque_quantum = force.noise = force.torque_noise = 0.0;
+  force.zero = force.drift = force.push_drift = 0.0;
+  force.turned = Vec3::Zero();
+  return twin;
+}
+
+// The twin's sensor at each tick, in its true axes, its probe `nearer` further along the push.
+std::vector<Wrench> felt_by_twin(const Tape& tape, const models::Setup& twin, double nearer) {
+  const Vec3 along = -(tape.scene.probe()->X_WN * Vec<'N'>(0, 0, 1)).e();
+  const Vec3 shift = nearer * (tape.scene.X_WR.q().conjugate() * along);
+  std::vector<Wrench> felt;
+  felt.reserve(static_cast<std::size_t>(tape.last - tape.first + 1));
+  lead_world(tape, twin, shift, [&](Time, const sim::World& world, const TipSample&) {
+    felt.push_back(world.force->sample().value);
+  });
+  return felt;
+}
+
+// Against the push, as the rig believes that the sensor stands.
+class Along {
+ public:
+  explicit Along(const Tape& tape) : tape_(tape) {}
+  double operator()(std::size_t i, const Vec<'F'>& force) const {
+    const Time t =
+        tape_.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape_.scene.dt).count());
+    const Pose<'W', 'F'> X_WF = tape_.scene.X_WR * tape_.tip.at(t).X_RH * tape_.scene.X_HF;
+    return dot(X_WF * force, tape_.scene.probe()->X_WN * Vec<'N'>(0, 0, 1));
+  }
+
+ private:
+  const Tape& tape_;
+};
+
+Forces along_push(const Along& along, const std::vector<Wrench>& felt) {
+  Forces out;
+  out.reserve(felt.size());
+  for (std::size_t i = 0; i < felt.size(); ++i) out.push_back(along(i, felt[i].force));
+  return out;
+}
+
+// Force at a time between ticks.
+double force_at(const Forces& forces, double i) {
+  const double last = static_cast<double>(forces.size() - 1);
+  const double at = std::clamp(i, 0.0, last);
+  const auto low = static_cast<std::size_t>(at), high = std::min(low + 1, forces.size() - 1);
+  return forces[low] + (at - static_cast<double>(low)) * (forces[high] - forces[low]);
+}
+
+Rows rows_of(const Tape& tape) {
+  const Probe& probe = *tape.scene.probe();
+  const auto ticks = static_cast<std::size_t>(tape.last - tape.first + 1);
+  Rows rows{std::vector<std::ptrdiff_t>(ticks, -1), 0, in_seconds(tape.begin), tape.scene.dt};
+  const double from = -std::min(kBefore, 0.5 * probe.clear);
+  bool in = false;
+  for (std::size_t i = 0; i < ticks; ++i) {
+    const Time t = tape.begin + Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count());
+    const bool now =
+        tape.tip.knows(t) && probe.deflection(tape.scene.X_WR * tape.tip.at(t).X_RH.origin()) > from;
+    if (now && !in) ++rows.pushes;
+    if (now) rows.push[i] = rows.pushes - 1;
+    in = now;
+  }
+  return rows;
+}
+
+struct Compared {
+  models::Interval alike, nearer, late;
+  double rms = kUnset;
+};
+
+// measured(t) = alike * twin(t - late), its object nearer: all of them at once, and each push's own zero.
+Compared compare(const Rows& rows, const std::vector<Reading>& measured, const Forces& twin,
+                 const Forces& stepped, double late) {
+  models::BlockFit fit(static_cast<std::size_t>(kPushed), kForceBlock);
+  const double reach = kSlopeTime / rows.dt;
+  for (const Reading& one : measured) {
+    const auto tick = static_cast<std::size_t>(std::max(0.0, std::round(one.at)));
+    if (tick >= rows.push.size() || rows.push[tick] < 0) continue;
+    const double at = one.at - late / rows.dt;
+    const double force = force_at(twin, at);
+    Eigen::VectorXd row(kPushed);
+    row(kAlike) = force;
+    row(kNearer) = (force_at(stepped, at) - force) / kStep;
+    row(kLate) = -(force_at(twin, at + reach) - force_at(twin, at - reach)) / (2.0 * kSlopeTime);
+    fit.add(rows.begin + one.at * rows.dt, row, one.force, rows.push[tick]);
+  }
+  const models::BlockFit::Result found = fit.solve();
+  const double size = found.values[kAlike].value;
+  const auto scaled = [&](Eigen::Index c) {
+    const models::Interval& one = found.values[static_cast<std::size_t>(c)];
+    return models::Interval{one.value / size, one.half / std::abs(size)};
+  };
+  return {found.values[kAlike], scaled(kNearer), scaled(kLate), found.rms};
+}
+
+// What the record's sensor said; what is said twice, or not to be believed, is no reading.
+std::vector<Reading> recorded_forces(const Tape& tape, const Along& along) {
+  std::vector<Reading> out;
+  Time newest = Time::min();
+  tape.play([&](const RecordedTick& frame) {
+    const Stamped<Wrench>& said = frame.in.wrench;
+    if (said.health != Health::ok || !said.value.force.finite() || said.t <= newest) return;
+    newest = said.t;
+    const auto tick = static_cast<std::size_t>(frame.tick.index - tape.first);
+    out.push_back({age(said.t, tape.begin) / tape.scene.dt, along(tick, said.value.force)});
+  });
+  return out;
+}
+
+// N, between the blocks of time in which it felt least and most: whatever the probe was thought to press.
+double felt_at_most(const std::vector<Reading>& readings, double dt) {
+  std::map<std::int64_t, std::pair<double, double>> blocks;  // sum and number
+  for (const Reading& one : readings) {
+    auto& [sum, number] = blocks[static_cast<std::int64_t>(std::floor(one.at * dt / kForceBlock))];
+    sum += one.force;
+    ++number;
+  }
+  double least = INFINITY, most = -INFINITY;
+  for (const auto& [block, of] : blocks) {
+    least = std::min(least, of.first / of.second);
+    most = std::max(most, of.first / of.second);
+  }
+  return std::max(0.0, most - least);
+}
+
+// And what the twin's would have said with this seed.
+std::vector<Reading> twin_forces(const Tape& tape, const Along& along, const std::vector<Wrench>& felt,
+                                 std::uint64_t seed) {
+  std::vector<Reading> out;
+  out.reserve(felt.size());
+  sim::ForcePlant sensor(tape.twin.twin.force, seed);
+  for (std::size_t i = 0; i < felt.size(); ++i) {
+    const Time t(Duration(static_cast<std::int64_t>(i) * from_seconds(tape.scene.dt).count()));
+    sensor.measure(t, tape.scene.dt, felt[i], Vec<'F'>::zero());
+    out.push_back({static_cast<double>(i), along(i, sensor.sample().value.force)});
+  }
+  return out;
+}
+
+std::vector<Reading> tick_by_tick(const Forces& forces) {
+  std::vector<Reading> out;
+  out.reserve(forces.size());
+  for (const double force : forces) out.push_back({static_cast<double>(out.size()), force});
+  return out;
+}
+
+// A probe that goes nearer and feels nothing more touches nothing: weight and inertia are the same.
+bool alike_all(const Forces& twin, const Forces& stepped) {
+  return std::equal(twin.begin(), twin.end(), stepped.begin(), stepped.end(),
+                    [](double a, double b) { return std::abs(a - b) < kSame; });
+}
+
+// The twin's probe presses nothing. felt: by the record's; thought: by the twin's, where its object is
+// thought to be.
+void nothing_there(double felt, double thought, Shadow& shadow) {
+  if (felt > kFelt)
+    return diverges_grossly(
+        shadow, Channel::force,
+        fmt::format("the probe felt {:.1f} N where the twin has nothing that it presses", felt));
+  if (thought > kFelt)
+    return diverges_grossly(
+        shadow, Channel::force,
+        fmt::format("the probe felt nothing where the twin's presses with {:.1f} N", thought));
+  cannot_judge(shadow, Channel::force, "the probe pressed nothing that the twin has there");
+}
+
+}  // namespace
+
+void see_probed(const Tape& tape, Shadow& shadow) {
+  if (tape.scene.probe() == nullptr || !tape.scene.has_force) return;
+  const Along along(tape);
+  const std::vector<Reading> recorded = recorded_forces(tape, along);
+  const double pressed = felt_at_most(recorded, tape.scene.dt);
+  const Rows rows = rows_of(tape);
+  const models::Setup quiet = faultless(tape.twin);
+  double nearer = 0.0, late = 0.0, thought = 0.0;
+  std::vector<Wrench> felt;
+  Forces twin, stepped;
+  Compared found;
+  bool settled = false;
+  for (int round = 0; round < kMostRounds; ++round) {
+    felt = felt_by_twin(tape, quiet, nearer);
+    twin = along_push(along, felt);
+    stepped = along_push(along, felt_by_twin(tape, quiet, nearer + kStep));
+    const auto [least, most] = std::minmax_element(twin.begin(), twin.end());
+    if (round == 0) thought = felt_at_most(tick_by_tick(twin), tape.scene.dt);
+    if (rows.pushes == 0 || alike_all(twin, stepped)) return nothing_there(pressed, thought, shadow);
+    found = compare(rows, recorded, twin, stepped, late);
+    if (!std::isfinite(found.nearer.value) || !std::isfinite(found.alike.value)) break;
+    settled = std::abs(found.nearer.value) < kSettled;
+    if (settled || round + 1 == kMostRounds) break;
+    // The twin presses as far as it must to feel what was felt; no farther at once than its law bends. Where
+    // what was felt is not alike at all, only more or less of it tells which way that is.
+    const double towards = pressed > *most - *least ? kBend : -kBend;
+    nearer += found.alike.value > 0.0 ? std::clamp(found.nearer.value, -kBend, kBend) : towards;
+    if (std::isfinite(found.late.value)) late = std::clamp(late + found.late.value, -0.02, 0.02);
+  }
+  if (!settled && std::abs(nearer) > kFarthest)
+    return diverges_grossly(
+        shadow, Channel::force,
+        fmt::format(
+            "the object, or the machine, stands elsewhere: more than {:.0f} mm {} each other than the "
+            "twin's",
+            1e3 * kFarthest, nearer > 0.0 ? "nearer to" : "farther from"));
+  if (!found.alike.known())
+    return cannot_judge(shadow, Channel::force, "the probe pressed for too short a time");
+  if (!settled && !(found.alike.value > 0.0))
+    return diverges_grossly(
+        shadow, Channel::force,
+        "what the probe felt is not what the twin's object pushes back with, wherever it stands");
+  std::vector<double> alike, place, time, rest;
+  for (std::vector<double>* one : {&alike, &place, &time, &rest}) one->reserve(kTwins);
+  for (std::size_t k = 0; k < kTwins; ++k) {
+    const Compared one = compare(rows, twin_forces(tape, along, felt, twin_seed(k)), twin, stepped, 0.0);
+    alike.push_back(one.alike.value);
+    place.push_back(one.nearer.value);
+    time.push_back(one.late.value);
+    rest.push_back(one.rms);
+  }
+  models::Interval stiffer = beside_twins(found.alike, alike);
+  add(shadow, Channel::force, Quantity::stiffness, stiffer, bounds::kStiffness);
+  models::Interval off = beside_twins(found.nearer, place);
+  off.value += nearer;
+  add(shadow, Channel::force, Quantity::object_place, off, bounds::kObjectPlace);
+  models::Interval delay = beside_twins(found.late, time);
+  delay.value += late;
+  add(shadow, Channel::force, Quantity::force_time, delay, bounds::kForceTime);
+  // Legs that bend shake what hangs on them, and those of the twin are not moved here.
+  if (!tape.twin.twin.structural())
+    add(shadow, Channel::force, Quantity::force_rest, beside_twins({found.rms, 0.0}, rest),
+        bounds::kForceRest);
+  shadow.facts.push_back(
+      {Channel::force, fmt::format("{}; what is left of the force is {:.3f} N rms, of the twin's {:.3f} N",
+                                   counted(rows.pushes, "push"), found.rms, of_twins(rest).value)});
+}
+
+}  // namespace enc::trial
