@@ -111,7 +111,8 @@ void say_module(Doctor& doctor, const std::string& name, const std::string& what
 
 void say_vision(Doctor& doctor) {
   say_module(doctor, "vision", "vision, for scenes with a camera", "./encounter run with such a scene");
-  say_module(doctor, "calibration", "OpenCV, for calibrations out of images", "./encounter calibrate FOLDER");
+  say_module(doctor, "calibration", "OpenCV, for calibrations out of images",
+             "./encounter calibrate stereo FOLDER");
   doctor.say(program_there("ffmpeg"), Need::may, "ffmpeg, for videos as a stereo camera",
              "apt-get install ffmpeg; folders of images do without");
 }

@@ -16,7 +16,7 @@ find_package_handle_standard_args(
   OpenCVParts
   REQUIRED_VARS OpenCVParts_INCLUDE_DIR OpenCVParts_CALIB3D_DIR OpenCVParts_core_LIBRARY OpenCVParts_imgproc_LIBRARY
                 OpenCVParts_calib3d_LIBRARY
-  REASON_FAILURE_MESSAGE "./encounter calibrate FOLDER installs what is missing.")
+  REASON_FAILURE_MESSAGE "./encounter calibrate stereo FOLDER installs what is missing.")
 
 if(OpenCVParts_FOUND AND NOT TARGET opencv::parts)
   add_library(opencv::parts INTERFACE IMPORTED)

@@ -47,13 +47,13 @@ set(draws
     unit/app/view/ unit/core/shape/deformation/ unit/core/vision/augment/ unit/core/vision/ball/ unit/models/identify/stereo/
     unit/core/vision/finger/ unit/core/vision/segmentation/[a-z_]*_test unit/core/vision/stereo/match
     unit/core/vision/finger_tracker unit/core/vision/hand/ unit/core/vision/vision_tracker unit/sim/camera/ unit/trial/camera/faulty unit/trial/identify/camera/
-    input/app/calibration/ input/app/camera/ input/app/camera_test)
+    input/app/calibrate/images/ input/app/camera/ input/app/camera_test)
 set(runs_scenes
     unit/core/machine/motors unit/core/control/stages/edge unit/core/control/stages/guard unit/models/built_scene unit/sim/arm_world unit/sim/export unit/sim/legs
     unit/sim/rig_test unit/sim/session_world unit/trial/identify/ball/ unit/trial/identify/rig/ unit/trial/jitter unit/trial/ledger/
     unit/trial/measure/ unit/trial/precision/ unit/trial/seen_measure unit/trial/identify/shadow/ unit/trial/shipped unit/trial/touch_measure
-    unit/trial/trial_dent unit/trial/trial_fault unit/trial/trial_press input/app/calibrate/calibrate_machine
-    input/app/calibrate/calibrate_test input/app/check_test input/app/limits_input input/app/rig_test input/app/scenes/ input/app/shadow_input
+    unit/trial/trial_dent unit/trial/trial_fault unit/trial/trial_press input/app/calibrate/calibrate_rig
+    input/app/calibrate/calibrate_tracker input/app/calibrate/calibrate_camera input/app/check_test input/app/limits_input input/app/rig_test input/app/scenes/ input/app/shadow_input
     input/app/stop_test input/app/verdict_input)
 set(long_loops unit/core/control/safety/certificate/)
 set(slow ${draws} ${runs_scenes} ${long_loops})
@@ -87,7 +87,7 @@ function(enc_test kind shards) # enc_test(folder shards libraries...); heavy: of
     list(FILTER sources EXCLUDE REGEX "/tests/.*/picture/")
   endif()
   if(NOT TARGET enc_calibration)
-    list(FILTER sources EXCLUDE REGEX "/tests/.*/(calibration|identify/stereo)/")
+    list(FILTER sources EXCLUDE REGEX "/tests/.*/(calibrate/images|identify/stereo)/")
   endif()
   if(NOT TARGET enc_camera)
     list(FILTER sources EXCLUDE REGEX "/tests/.*(/(app|sim|trial)/camera/|faulty_camera_test)")

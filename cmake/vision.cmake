@@ -1,7 +1,7 @@
 # Vision and the cameras that it looks through: modules that nothing but a scene with a camera, or a command, loads. The
 # kernels need nothing but the core; OpenCV is behind the module that calibrates.
 add_custom_target(vision) # what a scene with a camera needs more
-add_custom_target(calibration) # what `./encounter calibrate FOLDER` needs more
+add_custom_target(calibration) # what `./encounter calibrate stereo` and `skin` need more
 if(NOT ENCOUNTER_VISION)
   return()
 endif()
@@ -41,9 +41,9 @@ if(OpenCVParts_FOUND AND TARGET enc_images)
   # Private: what links it compiles as without OpenCV, so that `lean` takes its objects from ccache.
   enc_library(enc_calibration "models/identify/stereo" enc_vision)
   target_link_libraries(enc_calibration PRIVATE opencv::parts)
-  file(GLOB sources CONFIGURE_DEPENDS app/calibration/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS app/calibrate/images/*.cpp)
   if(sources)
     enc_module(calibration calibration "${sources}" enc_calibration enc_vision enc_images enc_picture enc_models nlohmann_json::nlohmann_json)
-    enc_batches(encounter_calibration app/calibration)
+    enc_batches(encounter_calibration app/calibrate/images)
   endif()
 endif()

@@ -6,10 +6,15 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "app/calibrate/calibrate.h"
 #include "app/command_line/parts.h"
+#include "app/common/command_options.h"
 #include "app/common/options.h"
 #include "app/laboratory/fault_text.h"
 #include "app/laboratory/laboratory.h"
@@ -202,8 +207,8 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   force_option(fit_command, fit_options.force);
   fit_command->callback([&] { code = fit(fit_options); });
 
-  CalibrateOptions calibrate_options;
-  add_calibrate(app, calibrate_options)->callback([&] { code = calibrate(calibrate_options); });
+  CalibrateWords calibrate_words;
+  add_calibrate(app, calibrate_words, code);
 
   ShadowOptions shadow_options;
   add_shadow(app, shadow_options)->callback([&] { code = shadow(shadow_options); });
@@ -268,6 +273,7 @@ int dispatch(CLI::App& app, int argc, char** argv) {
   if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
     throw enc::Error("unknown subcommand '" + std::string(argv[1]) + "'; " +
                      enc::models::advice(argv[1], names));
+  if (argc > 1 && std::string_view(argv[1]) == "calibrate") check_subject({argv + 2, argv + argc});
   app.parse(argc, argv);
   return code;
 }

@@ -93,7 +93,6 @@ int bench(const BenchOptions& options);
 int view(const ViewOptions& options);
 int tour(const TourOptions& options);
 int fit(const FitOptions& options);
-int calibrate(const CalibrateOptions& options);
 int shadow(const ShadowOptions& options);
 int nearest(const NearestOptions& options);
 int mesh(const MeshOptions& options);

@@ -14,6 +14,7 @@
 #include "models/schema/printable.h"
 #include "models/setup/scene_file.h"
 #include "models/tables/csv_reader.h"
+#include "trial/identify/read_table.h"
 
 namespace enc::app {
 namespace {
@@ -151,8 +152,8 @@ int fit_loop(const FitOptions& options) {
                       how.floor * 1e-3));
   }
   const models::LoopData loop = models::parse_loop(
-      read_table(file_name, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"), file_name,
-      how.limit);
+      trial::read_table(file_name, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"),
+      file_name, how.limit);
   std::optional<models::OutFile> file;  // refused before the work, not after it
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
   LoopFit fit;

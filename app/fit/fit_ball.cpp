@@ -14,6 +14,7 @@
 #include "models/schema/wording.h"
 #include "models/tables/csv_reader.h"
 #include "trial/identify/ball/ball_fit.h"
+#include "trial/identify/read_table.h"
 
 namespace enc::app {
 namespace {
@@ -75,7 +76,7 @@ trial::Pushes read(const std::string& file, double limit, std::vector<std::strin
   constexpr double kDeepest = 8e-3;  // m, of the law's table
   constexpr double kSlowest = 0.5;   // s: the ball's relaxation is over between two readings
   models::LoopData loop = models::parse_loop(
-      read_table(file, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"), file, limit);
+      trial::read_table(file, "loop", "a CSV file with time_s, deflection_mm, force_N, repeat"), file, limit);
   for (const std::string& note : loop.notes) notes.push_back(fmt::format("{}: {}", file, note));
   doubted = doubted || loop.doubted;
   trial::Pushes pushes = std::move(loop.presses);

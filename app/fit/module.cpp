@@ -1,6 +1,7 @@
 // What the program finds in encounter_fit.so.
 #include "core/devices/module.h"
 
+#include "app/calibrate/fits/fits.h"
 #include "app/fit/commands.h"
 #include "app/fit/fit_module.h"
 
@@ -9,7 +10,12 @@ namespace {
 
 int fit_command(const FitOptions& options) { return options.ball ? fit_ball(options) : fit_loop(options); }
 
-constexpr FitModule kFit{fit_command, calibrate_command, shadow_command};
+constexpr FitModule kFit{.fit = fit_command,
+                         .shadow = shadow_command,
+                         .tracker = calibrate_tracker,
+                         .tip = calibrate_tip,
+                         .camera = calibrate_camera,
+                         .rig = calibrate_rig};
 
 }  // namespace
 }  // namespace enc::app

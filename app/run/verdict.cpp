@@ -174,7 +174,7 @@ void add_moved(const RunReport& r, Lines& lines) {
       found.ways < 3 ? fmt::format("; {}", kUnknown.at(static_cast<std::size_t>(found.ways - 1))) : "";
   lines.push_back(fmt::format(
       "the {} is not where it was registered: {} from {:.2f} s on {} that it has moved by [{:.1f}, {:.1f}, "
-      "{:.1f}] mm in W, +- {:.1f} mm{}; register it again by encounter calibrate",
+      "{:.1f}] mm in W, +- {:.1f} mm{}; register it again by encounter calibrate camera",
       r.setup.scene.camera ? "camera" : "tracker", counted(found.presses, "press"), found.since,
       found.presses == 1 ? "says" : "say", rounded(mm.x()), rounded(mm.y()), rounded(mm.z()), 1e3 * known,
       unknown));

@@ -1,6 +1,7 @@
-// Is a rig that `encounter calibrate RIG` has measured right? Twins whose tracker, force sensor and weight
-// are not where and what the rig believes are calibrated, seed by seed; each number is looked for in the
-// interval that the calibration tells. Then the tool travels as in [VHMR 4.1] with what was found: Table 1.
+// Is a rig that `encounter calibrate rig RIG` has measured right? Twins whose tracker, force sensor and
+// weight are not where and what the rig believes are calibrated, seed by seed; each number is looked for in
+// the interval that the calibration tells. Then the tool travels as in [VHMR 4.1] with what was found:
+// Table 1.
 #include <array>
 #include <cmath>
 #include <string>

@@ -1,5 +1,5 @@
-// Does `encounter calibrate` find what was put in? Logs of the simulated tracker with known latency and bias,
-// and the method on the paper's own Table 1 [VHMR 4.1].
+// Does `encounter calibrate tracker` find what was put in? Logs of the simulated tracker with known latency
+// and bias, and the method on the paper's own Table 1 [VHMR 4.1].
 #pragma once
 
 #include "benchmarks/kit/bench.h"

@@ -88,9 +88,13 @@ void describe(Visitor& v, SegmentationSpec& s) {
   whole(v,
         {"median_px", "side of the median filter; odd", "docs/notes/segmentation.md", assumed, {1.0, 15.0}},
         s.median);
-  v.value({"skin_hue_deg", "mean hue of skin", "encounter calibrate", derived, {-360.0, 360.0}},
+  v.value({"skin_hue_deg", "mean hue of skin", "encounter calibrate skin", derived, {-360.0, 360.0}},
           &s.model.hue);
-  v.value({"skin_spread_deg", "standard deviation of it", "encounter calibrate", derived, {0.0, 180.0, true}},
+  v.value({"skin_spread_deg",
+           "standard deviation of it",
+           "encounter calibrate skin",
+           derived,
+           {0.0, 180.0, true}},
           &s.model.spread);
 }
 
@@ -224,8 +228,8 @@ void describe_lenses(Visitor& v, StereoRig& c, const HeadKeys& k) {
 void describe(Visitor& v, StereoRig& c) {
   v.value({"driver", "sim, or a folder of hw_drivers that has a stereo camera", "rig", chosen, kAny, needed},
           &c.driver);
-  v.value({"calibration", "file of `encounter calibrate`, beside the rig's; else the numbers below", "rig",
-           chosen},
+  v.value({"calibration", "file of `encounter calibrate stereo`, beside the rig's; else the numbers below",
+           "rig", chosen},
           &c.calibration);
   describe_size(v, c, {kHead});
   v.value({"rate_hz",

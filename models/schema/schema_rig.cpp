@@ -266,12 +266,12 @@ void describe(Visitor& v, RigSpec& r) {
             &r.loop.late_cycles);
   });
   table(v, "calibration", [&] {
-    v.value(
-        {"file",
-         "of `encounter calibrate RIG`, beside the rig's: its date, frames.W_C, rotation of frames.H_F and "
-         "force.mass_kg take the place of those here",
-         "the lab's calibration", chosen},
-        &r.calibration.file);
+    v.value({"file",
+             "of `encounter calibrate rig RIG`, beside the rig's: its date, frames.W_C, rotation of "
+             "frames.H_F and "
+             "force.mass_kg take the place of those here",
+             "the lab's calibration", chosen},
+            &r.calibration.file);
     v.value({"date",
              "day on which frames, geometry and force sensor were measured; a real machine is not armed "
              "without it",

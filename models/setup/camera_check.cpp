@@ -42,7 +42,7 @@ void check_views(const Setup& setup) {
   if (objects.empty() || std::any_of(objects.begin(), objects.end(), seen)) return;
   fail(setup, "rig.frames.W_C",
        fmt::format("a camera that stands there would have object {} {}{}; expected the registration of this "
-                   "rig; make it by `encounter calibrate`",
+                   "rig; make it by `encounter calibrate camera`",
                    quoted(objects.front().name), unseen(setup.rig, objects.front()),
                    objects.size() > 1 ? ", and none of the others in view" : ""));
 }

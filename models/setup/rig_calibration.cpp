@@ -22,7 +22,7 @@
 namespace enc::models {
 namespace {
 
-constexpr std::string_view kMadeBy = "encounter calibrate";
+constexpr std::string_view kMadeBy = "encounter calibrate rig";
 constexpr auto kSaid = Confidence::chosen;
 constexpr auto kMust = Presence::needed;
 constexpr Range kTurns{-360.0, 360.0};
@@ -136,7 +136,8 @@ std::string doubt_of(const CalibrationRig& calibration, std::chrono::sys_days to
   const auto day = day_of(calibration.date);
   if (!day)
     return "this rig has no day of calibration; expected a [calibration] with date = \"YYYY-MM-DD\", the day "
-           "on which it was measured, or the file of `encounter calibrate RIG` (docs/guide/laboratory.md)";
+           "on which it was measured, or the file of `encounter calibrate rig RIG` "
+           "(docs/guide/laboratory.md)";
   const std::int64_t age = (today - *day).count();
   if (age < -1)
     return fmt::format(
@@ -194,7 +195,7 @@ void fill_measured(Setup& setup) {
   const std::string text = read_file(path, kLongest, why);
   if (!why.empty())
     throw Error(fmt::format(
-        "{}: cannot read the calibration {}: {}; expected a file as `encounter calibrate RIG --out "
+        "{}: cannot read the calibration {}: {}; expected a file as `encounter calibrate rig RIG --out "
         "FILE` writes, beside the rig's; see to its name",
         named, models::quoted(path), why));
   const RigCalibration file = parse_rig_calibration(text, path);

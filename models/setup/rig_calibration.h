@@ -1,4 +1,4 @@
-// What `encounter calibrate RIG --out FILE` writes and a rig's [calibration] reads.
+// What `encounter calibrate rig RIG --out FILE` writes and a rig's [calibration] reads.
 //
 //   format = 1
 //   title = "Fakes of the laboratory"          # of the rig

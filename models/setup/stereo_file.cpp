@@ -22,7 +22,7 @@ namespace {
 
 constexpr auto kKnown = Confidence::chosen;
 constexpr auto kNeeded = Presence::needed;
-constexpr std::string_view kSource = "encounter calibrate";
+constexpr std::string_view kSource = "encounter calibrate stereo";
 constexpr HeadKeys kKeys{kSource, kNeeded};
 
 void describe_file(Visitor& v, StereoFile& file) {
@@ -169,7 +169,7 @@ StereoRig load_stereo(const std::string& path) {
   if (!why.empty())
     throw Error(
         fmt::format("{}:1:1: cannot read this calibration: {}; expected a TOML file as `encounter calibrate "
-                    "IMAGES --out FILE` writes; see to its name",
+                    "stereo FOLDER --out FILE` writes; see to its name",
                     path, why));
   return parse_stereo(text, path).rig;
 }

@@ -1,4 +1,4 @@
-// A stereo head as `encounter calibrate IMAGES --out FILE` writes it and as a rig's camera reads it.
+// A stereo head as `encounter calibrate stereo FOLDER --out FILE` writes it and as a rig's camera reads it.
 //
 //   format = 1
 //   title = "13 pairs of 640 x 480 px, board 9 x 6, squares of 25 mm"

@@ -1,4 +1,4 @@
-// `encounter calibrate RIG` over the wires of the laboratory: the machine that is sent from pose to pose is
+// `encounter calibrate rig` over the wires of the laboratory: the machine that is sent from pose to pose is
 // behind its own, and so are force sensor and tracker.
 #include <csignal>
 #include <filesystem>
@@ -27,7 +27,7 @@ const std::vector<std::string> kWrong{
     "truth.force.turned_deg=[1, 1, -1.4]", "truth.hexapod.mass_kg=1.11", "truth.tracker.bias_mm=[0, 0, 0]"};
 
 std::vector<std::string> calibrating(const Laboratory& there, const std::vector<std::string>& more) {
-  std::vector<std::string> all{"calibrate", "fakes", "--armed", "--lockstep"};
+  std::vector<std::string> all{"calibrate", "rig", "fakes", "--armed", "--lockstep"};
   for (const std::string& set : there.ports) all.insert(all.end(), {"--set", set});
   all.insert(all.end(), more.begin(), more.end());
   return all;

@@ -22,7 +22,7 @@ TEST(LeftOut, WithoutVisionTheProgramRunsWhatNeedsNoneAndRefusesTheRestInALine) 
   EXPECT_THAT(seen.err,
               HasSubstr("--set rig.tracker.driver=vision: there is no driver 'vision'; expected one of"));
   EXPECT_THAT(seen.err, HasSubstr("build it"));
-  const Result images = run_program({"calibrate", "vishap", "--through-images"}, kShipped);
+  const Result images = run_program({"calibrate", "camera", "vishap", "--through-images"}, kShipped);
   EXPECT_EQ(images.code, 2);
   EXPECT_THAT(images.err, HasSubstr("there is no module 'vision'; build it"));
 }

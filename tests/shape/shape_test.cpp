@@ -152,8 +152,8 @@ TEST(Shape, TasksKnowNoOtherTask) {
 // Fits are modules, too, and the stereo calibration alone maps OpenCV: the program must not draw them in.
 TEST(Shape, OnlyTheModulesOfFitsIncludeThem) {
   static const std::regex kFits("(models|trial)/identify/.*"),
-      kModules("(app/fit|app/calibration|benchmarks)/.*");
-  static const std::regex kStereo("models/identify/stereo/.*"), kImages("app/calibration/.*");
+      kModules("(app/fit|app/calibrate/fits|app/calibrate/images|benchmarks)/.*");
+  static const std::regex kStereo("models/identify/stereo/.*"), kImages("app/calibrate/images/.*");
   const auto is = [](const std::string& name, const std::regex& of) { return std::regex_match(name, of); };
   for (const Source& source : sources())
     for (const Include& include : includes(source)) {

@@ -1,4 +1,5 @@
-// What the core believes of a stereo head: rig table [camera], or a file that `encounter calibrate` wrote.
+// What the core believes of a stereo head: rig table [camera], or a file that `encounter calibrate stereo`
+// wrote.
 #pragma once
 
 #include <array>

@@ -40,9 +40,10 @@ void check(const SegmentationSpec& spec) {
   within("vision.skin_sigmas", spec.skin, 0.0, 1e3);
   const SkinModel& skin = spec.model;
   if (!(skin.spread > 0.0) || !std::isfinite(skin.spread) || !std::isfinite(skin.hue))
-    refuse("vision.skin_spread_deg",
-           "the model of skin has no spread; expected more than 0; learn it by `encounter calibrate IMAGES "
-           "--skin MASKS`");
+    refuse(
+        "vision.skin_spread_deg",
+        "the model of skin has no spread; expected more than 0; learn it by `encounter calibrate skin FOLDER "
+        "--masks MASKS`");
 }
 
 void check(const FingertipSpec& spec, double per_disparity, double r_most) {

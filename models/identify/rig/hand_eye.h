@@ -1,5 +1,5 @@
 // Where a tracker stands to a machine, and how the machine holds the tool that the tracker sees, out of poses
-// that both have told at the same time: `encounter calibrate RIG`.
+// that both have told at the same time: `encounter calibrate rig RIG`.
 //
 //   X_WC X_CT(i) = X_WH(i) X_HT,   X_WC and X_HT unknown
 //

@@ -1,5 +1,5 @@
 // Zero error of a force sensor, what it carries and how it is mounted, out of a machine that stands in many
-// poses with nothing but weight on the sensor: `encounter calibrate RIG`.
+// poses with nothing but weight on the sensor: `encounter calibrate rig RIG`.
 //
 //   force(i) = X_HF^-1 X_WH(i)^-1 (0, 0, -m g) + zero(i),   zero: a random walk
 //

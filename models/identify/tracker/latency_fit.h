@@ -1,4 +1,5 @@
-// Bias, noise and latency of a tracker out of a log, each with its 95 % interval: `encounter calibrate`.
+// Bias, noise and latency of a tracker out of a log, each with its 95 % interval: `encounter calibrate
+// tracker`.
 //
 // A packet that comes at t shows where the tip was at t - age: tool(t) = tip(t - age) + bias + noise. Ages
 // scatter; their mean is the latency. Weighted least squares per axis: moving packets know the latency, those

@@ -1,4 +1,4 @@
-// `encounter calibrate` on 100 seeded logs: what was put in comes out, and the intervals hold it.
+// `encounter calibrate tracker` on 100 seeded logs: what was put in comes out, and the intervals hold it.
 #include <algorithm>
 
 #include <gtest/gtest.h>

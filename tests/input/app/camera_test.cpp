@@ -91,7 +91,8 @@ TEST_F(Camera, ARegistrationOfAnotherRigIsRefused) {
   const auto line = [&](const std::string& scene, const std::string& set) {
     return refused({"check", scene, "--set", "rig.frames.W_C." + set});
   };
-  const std::string expected = "expected the registration of this rig; make it by `encounter calibrate`";
+  const std::string expected =
+      "expected the registration of this rig; make it by `encounter calibrate camera`";
   EXPECT_THAT(line(kScene, "position_mm=[236, -426, 757]"),
               AllOf(HasSubstr("would have object 'wall' outside of the left image"), HasSubstr(expected)));
   EXPECT_THAT(line(kScene, "rotation_deg=[-35, 0, 30]"), HasSubstr("object 'wall' behind it"));
@@ -136,7 +137,7 @@ TEST_F(Camera, ACameraThatHasMovedIsSaid) {
   EXPECT_EQ(moved.code, 1);
   EXPECT_THAT(moved.out, AllOf(HasSubstr("LIMIT       the camera is not where it was registered: 2 presses"),
                                HasSubstr("across their normal the presses do not tell"),
-                               HasSubstr("encounter calibrate")));
+                               HasSubstr("encounter calibrate camera")));
 }
 
 // What was recorded replays to the same bits with its images, in both ways.

@@ -56,8 +56,9 @@ TEST_F(Program, SeedThatIsNoWholeNumber) {
 // Of every command that has one.
 TEST_F(Program, SeedThatIsNegativeOrTooLarge) {
   for (const char* seed : {"-1", "99999999999999999999999"})
-    for (const Words& words : {Words{"run", ball(), "--for-s=0.1"}, Words{"fake", "fakes"}, Words{"bench"},
-                               Words{"calibrate", "vishap"}, Words{"view", ball()}}) {
+    for (const Words& words :
+         {Words{"run", ball(), "--for-s=0.1"}, Words{"fake", "fakes"}, Words{"bench"},
+          Words{"calibrate", "camera", "vishap"}, Words{"calibrate", "rig", "sim"}, Words{"view", ball()}}) {
       Words all = words;
       all.push_back(std::string("--seed=") + seed);
       EXPECT_EQ(refused(all),

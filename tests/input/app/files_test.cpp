@@ -89,7 +89,7 @@ TEST_F(ProgramFiles, WhatIsThereStaysWithoutForce) {
                                {"export", record, "--csv"},
                                {"fit", csv, "--out"},
                                {"mesh", "cube", "--out"},
-                               {"calibrate", "vishap", "--pairs", "4", "--frames", "1", "--out"}};
+                               {"calibrate", "camera", "vishap", "--pairs", "4", "--frames", "1", "--out"}};
   for (Words args : all) {
     const std::string file = write("kept.stl", "mine");
     args.push_back(file);
@@ -127,7 +127,7 @@ TEST_F(ProgramFiles, AFullStandardOutputIsSaid) {
                                {"export", record},
                                {"nearest", mesh, points},
                                {"fit", csv},
-                               {"calibrate", "vishap", "--pairs", "4", "--frames", "1"},
+                               {"calibrate", "camera", "vishap", "--pairs", "4", "--frames", "1"},
                                {"doctor"},
                                {"--help"},
                                {"--version"}};
@@ -295,7 +295,7 @@ TEST_F(ProgramFiles, WhatNeverEndsIsRefused) {
            {"run", path("zero.toml")},
            {"run", shipped_scene("plane"), "--rig", path("zero.toml")},
            {"fit", "/dev/zero"},
-           {"calibrate", "/dev/zero"},
+           {"calibrate", "tracker", "/dev/zero"},
            {"nearest", tests::source_dir() + "/models/meshes/hare.glb", "/dev/zero"}})
     EXPECT_THAT(line(args, 2, 30.0), AllOf(HasSubstr("expected "), testing::Not(HasSubstr("bad_alloc"))));
 }

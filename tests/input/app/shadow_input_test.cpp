@@ -108,11 +108,14 @@ TEST_F(ShadowInput, SaysWhatOfARecordIsMissing) {
 TEST_F(ShadowInput, CalibrateAndFitSayHowACutRecordIsRead) {
   const std::string bytes = test::bytes_of(run_of("plane", {"--for-s", "0.5"}));
   write("cut.encrec", bytes.substr(0, bytes.size() / 2));
-  for (const char* command : {"calibrate", "fit"})
-    EXPECT_THAT(
-        one_line(run_program({command, path("cut.encrec")})),
-        AllOf(HasSubstr("cut.encrec: byte "), HasSubstr("encounter export RECORD --partial --csv FILE"),
-              Not(HasSubstr("give --partial"))));
+  using Words = std::vector<std::string>;
+  for (Words words : {Words{"calibrate", "tracker"}, Words{"calibrate", "tip"}, Words{"calibrate", "camera"},
+                      Words{"fit"}}) {
+    words.push_back(path("cut.encrec"));
+    EXPECT_THAT(one_line(run_program(words)), AllOf(HasSubstr("cut.encrec: byte "),
+                                                    HasSubstr("encounter export RECORD --partial --csv FILE"),
+                                                    Not(HasSubstr("give --partial"))));
+  }
 }
 
 TEST_F(ShadowInput, RefusesInOneLine) {
@@ -143,8 +146,8 @@ TEST_F(ShadowInput, RefusesInOneLine) {
 TEST_F(ShadowInput, CalibrateAndFitReadARecordAsItsTable) {
   const std::string carried = run_of("tracking", kQuickTravel);
   ASSERT_EQ(run_program({"export", carried, "--csv", path("l.csv")}).code, 0);
-  const Result table = run_program({"calibrate", path("l.csv")});
-  const Result direct = run_program({"calibrate", carried});
+  const Result table = run_program({"calibrate", "tracker", path("l.csv")});
+  const Result direct = run_program({"calibrate", "tracker", carried});
   ASSERT_EQ(direct.code, 0) << direct.err;
   EXPECT_EQ(direct.out, table.out);
   const std::string pushed = run_of("rig_identify", kQuickProbe);

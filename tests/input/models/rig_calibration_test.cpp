@@ -1,5 +1,5 @@
-// The file of `encounter calibrate RIG`: a rig reads it, its numbers take the place of the rig file's, and
-// one that is of another rig, or wrong, is refused in a line.
+// The file of `encounter calibrate rig RIG`: a rig reads it, its numbers take the place of the rig file's,
+// and one that is of another rig, or wrong, is refused in a line.
 #include "models/setup/rig_calibration.h"
 
 #include <algorithm>

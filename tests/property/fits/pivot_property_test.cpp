@@ -162,7 +162,7 @@ TEST(PivotProperty, ShortLogsHaveWiderIntervals) {
     }
 }
 
-// What `intervals` of `encounter calibrate` promises.
+// What `intervals` of `encounter calibrate tip` promises.
 TEST(PivotProperty, ErrorsMayLastForAThirdOfASecond) {
   for (const double lasts : {8.0, 20.0})
     for (const bool one_after_the_other : {false, true}) {

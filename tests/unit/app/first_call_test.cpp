@@ -58,20 +58,20 @@ TEST_F(FirstCall, VersionAndHelpAnswerWithoutABuild) {
   EXPECT_FALSE(fs::exists(at() / "build"));
 }
 
-// The script prints a file. The program prints the same.
-// The clone has a folder sim/, and `sim` is a rig: `calibrate sim` needs no OpenCV.
-TEST_F(FirstCall, ARigOfTheNameOfAFolderIsNoFolderOfImages) {
-  fs::create_directories(at() / "sim");
-  fs::create_directories(at() / "models/rigs");
-  std::ofstream(at() / "models/rigs/sim.toml") << "format = 1\n";
+// Only a subject that reads images of a calibration needs OpenCV, and only pictures of a camera need vision.
+TEST_F(FirstCall, EachSubjectOfCalibrateInstallsWhatItNeeds) {
   std::ofstream(at() / "cmake/setup.sh") << "setup_begin() { echo \"${packages[*]}\"; exit 0; }\n";
   const auto packages = [&](const std::string& words) {
     return run({"bash", "-c", "cd '" + at().string() + "' && ./encounter calibrate " + words}).out;
   };
-  EXPECT_EQ(packages("sim"), "\n");
-  EXPECT_EQ(packages("app"), "opencv\n");
+  for (const char* words : {"tracker l.csv", "tip l.csv", "camera vishap", "rig sim", "sim", "app", ""})
+    EXPECT_EQ(packages(words), "\n") << words;
+  for (const char* words : {"stereo app", "skin app --masks app"})
+    EXPECT_EQ(packages(words), "opencv\n") << words;
+  EXPECT_EQ(packages("camera vishap --through-images"), "vision\n");
 }
 
+// The script prints a file. The program prints the same.
 TEST_F(FirstCall, TheHelpOfTheScriptIsThatOfTheProgram) {
   EXPECT_EQ(run_program({"--help"}).out, call("--help").out)
       << "build/release/encounter --help >app/command_line/help.txt makes it anew";

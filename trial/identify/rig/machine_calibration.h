@@ -1,4 +1,4 @@
-// `encounter calibrate RIG`: the machine carries a clamped tool through poses that tilt and turn to all
+// `encounter calibrate rig RIG`: the machine carries a clamped tool through poses that tilt and turn to all
 // sides; out of what force sensor and tracker say there come the numbers that a rig believes.
 #pragma once
 

@@ -32,7 +32,7 @@ double median_pause(const std::vector<SeenPacket>& packets) {
   return models::median(pauses);
 }
 
-// The log that `encounter calibrate` reads, of the same ticks for the record and its twins.
+// The log that `encounter calibrate tracker` reads, of the same ticks for the record and its twins.
 models::TrackerLog with_packets(models::TrackerLog rows, const Scene& scene,
                                 const std::vector<SeenPacket>& packets) {
   rows.packets.reserve(packets.size());

@@ -1,4 +1,4 @@
-// `encounter calibrate RIG --through-images` as a person uses it, and what it refuses.
+// `encounter calibrate camera RIG --through-images` as a person uses it, and what it refuses.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -20,7 +20,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::vector<std::string> words(const std::vector<std::string>& more) {
-  std::vector<std::string> all{"calibrate", "vishap", "--through-images"};
+  std::vector<std::string> all{"calibrate", "camera", "vishap", "--through-images"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -66,7 +66,8 @@ TEST(CalibrateThroughImages, RefusesWhatItCannotLookThrough) {
   test::TemporaryFolder temporary;
   const std::string log = (temporary.path() / "log.csv").string();
   std::ofstream(log) << "time_s,tip_x_mm\n0,0\n";
-  EXPECT_THAT(line({"calibrate", log, "--through-images"}), HasSubstr("--through-images is of a rig"));
+  EXPECT_THAT(line({"calibrate", "camera", log, "--through-images"}),
+              HasSubstr("--through-images is of a rig"));
 }
 
 // The program looks for its own modules beside itself: here it has only that of fits.
@@ -83,7 +84,7 @@ TEST(CalibrateThroughImages, AModuleThatWasNotBuiltIsNamed) {
   EXPECT_EQ(r.code, 2) << r.out;
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
   EXPECT_THAT(r.err, AllOf(HasSubstr("encounter_vision.so"),
-                           HasSubstr("'./encounter calibrate RIG --through-images' builds it")));
+                           HasSubstr("'./encounter calibrate camera RIG --through-images' builds it")));
 }
 
 }  // namespace

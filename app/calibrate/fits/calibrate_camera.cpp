@@ -1,6 +1,6 @@
-// `encounter calibrate POINTS.csv`: the camera's pose out of places of the device's tip, how sure it is and
-// what is worth averaging. `encounter calibrate RIG`: the same on the twin, whose arm is driven to the
-// places.
+// `encounter calibrate camera POINTS.csv`: the camera's pose out of places of the device's tip, how sure it
+// is and what is worth averaging. `encounter calibrate camera RIG`: the same on the twin, whose arm is driven
+// to the places.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,17 +8,20 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/calibrate/fits/fits.h"
 #include "app/common/axes.h"
-#include "app/fit/commands.h"
+#include "app/common/shell_word.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"
 #include "models/files.h"
+#include "models/schema/wording.h"
 #include "models/setup/scene_file.h"
 #include "trial/identify/camera/driven_arm.h"
 #include "trial/identify/camera/point_study.h"
 #include "trial/identify/camera/registration_rig.h"
 #include "trial/identify/camera/tip_eyes.h"
+#include "trial/identify/read_table.h"
 
 namespace enc::app {
 namespace {
@@ -209,19 +212,38 @@ Vec3 mean_error(const PointStudy& study, const Pose<'W', 'C'>& X_WC, const std::
   return mean;
 }
 
-}  // namespace
+// What pairs of points have no use for is not passed over in silence.
+void refuse(bool given, const std::string& option, const CameraOptions& options) {
+  if (given)
+    throw Error(fmt::format("{} is of a rig; {} is none; expected the command without it; remove it", option,
+                            models::quoted(options.what)));
+}
 
-int calibrate_points(const std::string& csv, const CalibrateOptions& options) {
-  const PointSet places = models::parse_points(csv, options.log);
+int calibrate_points(const CameraOptions& options) {
+  refuse(!options.out.empty(), "--out", options);
+  refuse(options.force, "--force", options);
+  refuse(!options.set.empty(), "--set", options);
+  refuse(options.pairs.has_value(), "--pairs", options);
+  refuse(options.frames.has_value(), "--frames", options);
+  refuse(options.through_images, "--through-images", options);
+  const std::string csv =
+      trial::read_table(options.what, "table", "a CSV file with camera_x_m, ..., device_x_m, ..., pair");
+  refuse_poses(csv, options.what, "pairs of points");
+  const PointSet places = models::parse_points(csv, options.what);
   const PointStudy study = trial::study_points(places, options.seed.value_or(1));
   fmt::print("{}\n", options.json ? study_json(places, study).dump(2) : study_text(places, study));
   return 0;
 }
 
-int calibrate_arm(const CalibrateOptions& options, const trial::DriverSource& modules) {
+int calibrate_arm(const CameraOptions& options, const trial::DriverSource& modules) {
+  if (models::load_rig(options.what).arm.driver == "none")
+    throw Error(
+        fmt::format("{}: has no arm; expected a rig whose arm is driven through the camera's view; run: "
+                    "encounter calibrate rig {}",
+                    options.what, shell_word(options.what)));
   const std::size_t pairs = options.pairs.value_or(8), frames = options.frames.value_or(20);
   const std::uint64_t seed = options.seed.value_or(1);
-  const models::Setup setup = models::load_rig_setup(options.log, options.set);
+  const models::Setup setup = models::load_rig_setup(options.what, options.set);
   const trial::RegistrationRig rig = trial::registration_rig(setup);
   std::optional<models::OutFile> file;  // refused before the arm moves
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
@@ -261,6 +283,12 @@ int calibrate_arm(const CalibrateOptions& options, const trial::DriverSource& mo
       "procedure   {:.1f} s of experiment: the arm was driven to each place and rested there\n",
       eyes ? places_text(run, frames) : "", study_text(run.points, study), axes(error), axes(apart), time);
   return 0;
+}
+
+}  // namespace
+
+int calibrate_camera(const CameraOptions& options, const trial::DriverSource& modules) {
+  return is_rig(options.what) ? calibrate_arm(options, modules) : calibrate_points(options);
 }
 
 }  // namespace enc::app

@@ -1,4 +1,4 @@
-// `encounter calibrate POSES.csv`: where the tip of a tool is in its markers, out of a tool that is swung
+// `encounter calibrate tip POSES.csv`: where the tip of a tool is in its markers, out of a tool that is swung
 // about its tip.
 #include <array>
 #include <string>
@@ -7,13 +7,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/calibrate/fits/fits.h"
 #include "app/common/axes.h"
-#include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "models/identify/tip/pivot_doubts.h"
 #include "models/identify/tip/pivot_log.h"
 #include "models/schema/wording.h"
+#include "trial/identify/read_table.h"
 
 namespace enc::app {
 namespace {
@@ -116,7 +117,12 @@ PivotFit fit_of(const PivotLog& log, const std::string& name) {
 
 }  // namespace
 
-int calibrate_pivot(const std::string& csv, const CalibrateOptions& options) {
+int calibrate_tip(const TipOptions& options) {
+  const std::string csv = trial::read_table(
+      options.log, "log",
+      "a CSV file with time_s, tool_x_mm, ..., tool_qx, ..., or with markers_x_mm, ... as `encounter export` "
+      "writes");
+  refuse_pairs(csv, options.log, "poses of a tool that is swung about its tip");
   const PivotLog log = models::parse_pivot_log(csv, options.log);
   const PivotFit fit = fit_of(log, options.log);
   // In ASCII: a name may hold what a terminal obeys.

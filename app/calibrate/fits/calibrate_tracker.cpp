@@ -1,22 +1,17 @@
-// `encounter calibrate LOG.csv`: how far off, how noisy and how late a tracker is, out of any log of a tool
-// that the machine carries past it. Points and arms go to calibrate_points.cpp, machines that carry a tool to
-// calibrate_machine.cpp, poses of a swung tool to calibrate_pivot.cpp.
+// `encounter calibrate tracker LOG.csv`: how far off, how noisy and how late a tracker is, from any log of a
+// tool that the machine carries past it.
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/calibrate/fits/fits.h"
 #include "app/common/axes.h"
-#include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "models/identify/camera/point_set.h"
-#include "models/identify/tip/pivot_log.h"
 #include "models/identify/tracker/latency_fit.h"
-#include "models/schema/wording.h"
-#include "models/setup/scene_file.h"
-#include "models/tables/csv_reader.h"
+#include "trial/identify/read_table.h"
 
 namespace enc::app {
 namespace {
@@ -209,73 +204,16 @@ void check_carried(const LatencyFit& fit, const std::string& name) {
                   fit.in_range ? "" : ", with an age outside of -100 to 600 ms"));
 }
 
-// What an input has no use for is not passed over in silence.
-void refuse(bool given, const std::string& option, const std::string& of, const CalibrateOptions& options) {
-  if (given)
-    throw Error(fmt::format("{} is of {}; {} is none; expected the command without it; remove it", option, of,
-                            models::quoted(options.log)));
-}
-// Of an arm that is guided, and of a machine that carries a tool.
-void refuse_guided(const CalibrateOptions& o, const std::string& of) {
-  refuse(o.pairs.has_value(), "--pairs", of, o);
-  refuse(o.frames.has_value(), "--frames", of, o);
-  refuse(o.through_images, "--through-images", of, o);
-}
-void refuse_carried(const CalibrateOptions& o, const std::string& of) {
-  refuse(!o.scene.empty(), "--scene", of, o);
-  refuse(o.poses.has_value(), "--poses", of, o);
-  refuse(o.armed, "--armed", of, o);
-  refuse(o.lockstep, "--lockstep", of, o);
-  refuse(o.yes, "--yes", of, o);
-  refuse(o.not_real_time, "--not-real-time", of, o);
-}
-void refuse_rig_options(const CalibrateOptions& o) {
-  refuse(!o.out.empty(), "--out", "a rig", o);
-  refuse(o.force, "--force", "a rig", o);
-  refuse(!o.set.empty(), "--set", "a rig", o);
-  refuse_guided(o, "a rig");
-  refuse_carried(o, "a rig");
-}
-
-int calibrate_rig(const CalibrateOptions& o, const trial::DriverSource& modules) {
-  if (models::load_rig(o.log).arm.driver != "none") {
-    refuse_carried(o, "a rig with a hexapod");
-    return calibrate_arm(o, modules);
-  }
-  refuse_guided(o, "a rig with an arm");
-  return calibrate_machine(o, modules);
-}
-
 }  // namespace
 
-int calibrate_command(const CalibrateOptions& options, const trial::DriverSource& modules) {
-  for (const auto& [given, option] : {std::pair{options.square_mm.has_value(), "--square-mm"},
-                                      {options.corners.has_value(), "--corners"},
-                                      {!options.picture.empty(), "--picture"},
-                                      {!options.skin.empty(), "--skin"}})
-    refuse(given, option, "a folder of images", options);
+int calibrate_tracker(const TrackerOptions& options) {
   if (options.rate && !(*options.rate > 0.0))
     throw Error("--rate-Hz: expected a positive number of rows a second");
-  // Names of rigs have neither dot nor slash, and their files are TOML; all else is a table.
-  if (options.log.find_first_of("./") == std::string::npos || options.log.ends_with(".toml")) {
-    refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
-    refuse(options.pivot, "--pivot", "a log", options);
-    return calibrate_rig(options, modules);
-  }
-  refuse_rig_options(options);
-  const std::string csv =
-      read_table(options.log, "log",
-                 "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes");
-  if (models::is_point_set(csv)) {
-    refuse(options.rate.has_value(), "--rate-Hz", "a log", options);
-    refuse(options.pivot, "--pivot", "a log", options);
-    return calibrate_points(csv, options);
-  }
-  refuse(options.seed.has_value(), "--seed", "a rig or of points", options);
-  if (options.pivot || models::is_pivot_log(csv)) {
-    refuse(options.rate.has_value(), "--rate-Hz", "a log with a tip", options);
-    return calibrate_pivot(csv, options);
-  }
+  const std::string wanted =
+      "a CSV file with time_s, tip_x_mm, ..., tool_x_mm, ... as `encounter export` writes";
+  const std::string csv = trial::read_table(options.log, "log", wanted);
+  refuse_pairs(csv, options.log, "a tracker's log");
+  refuse_poses(csv, options.log, "a tracker's log, which has the machine's tip");
   const TrackerLog log = models::parse_tracker_log(csv, options.log, options.rate.value_or(kUnset));
   const LatencyFit fit = models::fit_latency(log);
   check_carried(fit, options.log);

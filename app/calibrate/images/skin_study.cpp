@@ -1,4 +1,4 @@
-#include "app/calibration/skin_study.h"
+#include "app/calibrate/images/skin_study.h"
 
 #include <algorithm>
 #include <cmath>

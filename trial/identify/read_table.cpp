@@ -1,15 +1,15 @@
-// What `fit` and `calibrate` read: a table, or a record, which is made one as `encounter export` makes it.
+#include "trial/identify/read_table.h"
+
 #include <filesystem>
 #include <string_view>
 
-#include "app/fit/commands.h"
 #include "core/base/error.h"
 #include "core/record/record.h"
 #include "models/tables/csv_reader.h"
 #include "trial/assemble/prepare.h"
 #include "trial/measure/record_table.h"
 
-namespace enc::app {
+namespace enc::trial {
 namespace {
 
 // Half of a log is another log: what is cut off is read by export, which says so.
@@ -29,18 +29,18 @@ RecordReader whole_record(const std::string& path) {
 
 }  // namespace
 
-std::string read_table(const std::string& path, const std::string& what, const std::string& expected) {
+std::string read_table(const std::string& path, const std::string& kind, const std::string& expected) {
   std::error_code none;  // a pipe is a table: what is read of it to see what it is would be gone
   if (!std::filesystem::is_regular_file(path, none) || !is_record(path))
-    return models::csv_text(path, what, expected);
+    return models::csv_text(path, kind, expected);
   RecordReader record = whole_record(path);
   const models::Setup setup = models::setup_of(record.texts(), path);
-  const Scene scene = trial::prepare_setup(setup);
-  trial::RecordTable table(setup, scene);
-  std::string text(trial::RecordTable::header());
+  const Scene scene = prepare_setup(setup);
+  RecordTable table(setup, scene);
+  std::string text(RecordTable::header());
   RecordedTick frame;
   while (record.next(frame)) text += table.row(frame.tick, frame.in, frame.out);
   return text;
 }
 
-}  // namespace enc::app
+}  // namespace enc::trial

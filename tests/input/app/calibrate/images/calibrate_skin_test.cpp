@@ -1,4 +1,4 @@
-// `encounter calibrate IMAGES --skin MASKS` as a person uses it: skin drawn with a known hue and spread in,
+// `encounter calibrate skin` as a person uses it: skin drawn with a known hue and spread in,
 // the lines of a rig out; and one line for every folder that is none.
 #include <algorithm>
 #include <cmath>
@@ -79,7 +79,7 @@ class CalibrateSkin : public testing::Test {
     }
   }
   [[nodiscard]] Result calibrate(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words{"calibrate", images_, "--skin", masks_};
+    std::vector<std::string> words{"calibrate", "skin", images_, "--masks", masks_};
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words, {});
   }
@@ -127,9 +127,9 @@ TEST_F(CalibrateSkin, WritesWhatARigReads) {
                            HasSubstr("set         rig.vision.skin_hue_deg = "), HasSubstr("default")));
   EXPECT_THAT(line({"--out", out}), HasSubstr("is there already"));
   EXPECT_EQ(calibrate({"--out", out, "--force"}).code, 0);
-  EXPECT_THAT(test::bytes_of(out), testing::ContainsRegex("^# Encounter [0-9.]+: ./encounter calibrate " +
-                                                          images_ + " --skin " + masks_ + "\n"));
-  EXPECT_THAT(line({"--out", "-"}), HasSubstr("--out: '-' is no name of a file"));
+  EXPECT_THAT(test::bytes_of(out),
+              testing::ContainsRegex("^# Encounter [0-9.]+: ./encounter calibrate skin " + images_ +
+                                     " --masks " + masks_ + "\n"));
   // In the place of the rig's own table.
   const std::string models = tests::source_dir() + "/models", table = test::bytes_of(out);
   std::string rig = test::bytes_of(models + "/rigs/vishap.toml");
@@ -222,14 +222,14 @@ TEST_F(CalibrateSkin, GreyDarkAndPaintedImagesAreRefused) {
   EXPECT_THAT(line(), HasSubstr("without any spread"));
 }
 
-TEST_F(CalibrateSkin, WhatIsOfAnotherInputIsRefused) {
+TEST_F(CalibrateSkin, OptionsAndInputsOfAnotherSubjectAreRefused) {
   put_all();
-  EXPECT_THAT(line({"--square-mm", "25"}), HasSubstr("--square-mm is of a chessboard"));
-  EXPECT_THAT(line({"--picture", "a.png"}), HasSubstr("--picture is of a chessboard"));
-  EXPECT_THAT(line({"--frames", "3"}), HasSubstr("--frames is of a rig"));
-  const Result rig = run_program({"calibrate", "vishap", "--skin", masks_}, {});
-  EXPECT_EQ(rig.code, 2);
-  EXPECT_THAT(rig.err, HasSubstr("--skin is of a folder of images"));
+  for (const char* option : {"--square-mm=25", "--corners=9x6", "--picture=a.png", "--frames=3"})
+    EXPECT_THAT(line({option}), HasSubstr("not expected: " + std::string(option)));
+  EXPECT_THAT(line({"--out", "-"}), HasSubstr("--out: '-' is no name of a file"));
+  EXPECT_THAT(one_line(run_program({"calibrate", "skin", images_}, {})), HasSubstr("--masks is required"));
+  EXPECT_THAT(one_line(run_program({"calibrate", "skin", image("0.png"), "--masks", masks_}, {})),
+              HasSubstr("0.png: is a single image"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// `encounter calibrate RIG` of a rig with a hexapod: where its tracker and its force sensor are and what that
+// `encounter calibrate rig RIG`: where a hexapod rig's tracker and its force sensor are and what that
 // carries, out of a tool that the machine carries from pose to pose, in the twin or over real devices.
 #include <algorithm>
 #include <chrono>
@@ -13,8 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "app/calibrate/fits/fits.h"
 #include "app/common/axes.h"
-#include "app/fit/commands.h"
+#include "app/common/shell_word.h"
 #include "core/base/error.h"
 #include "core/base/rotation.h"
 #include "core/base/time.h"
@@ -178,7 +179,7 @@ Json found_json(const Found& found) {
 }
 
 // Who is in the way of a machine is noticed by its force sensor alone.
-void refuse_unwatched(const models::Setup& setup, const CalibrateOptions& options) {
+void refuse_unwatched(const models::Setup& setup, const RigOptions& options) {
   const std::string &force = setup.rig.force.driver, &tracker = setup.rig.tracker.driver;
   if (force == "none" && tracker == "none")
     throw Error(
@@ -193,17 +194,17 @@ void refuse_unwatched(const models::Setup& setup, const CalibrateOptions& option
 }
 
 // In lockstep there are only fakes.
-bool asks(const models::Setup& setup, const CalibrateOptions& options) {
+bool asks(const models::Setup& setup, const RigOptions& options) {
   return options.armed && !options.lockstep && trial::moves_device(setup);
 }
 
-models::Setup setup_for(const CalibrateOptions& options) {
+models::Setup setup_for(const RigOptions& options) {
   const std::string scene =
       options.scene.empty() ? models::models_dir() + "/scenes/clamped_tool.toml" : options.scene;
   // What an earlier calibration says is not asked: it may be what is wrong.
   std::vector<std::string> set = options.set;
   set.emplace_back("rig.calibration.file=\"\"");
-  models::Setup setup = models::load(scene, options.log, set);
+  models::Setup setup = models::load(scene, options.rig, set);
   if (trial::slots_of(setup).machine && !options.armed)
     throw Error(
         fmt::format("{}: a machine that is not armed does not move, and only a machine that moves can be "
@@ -214,7 +215,7 @@ models::Setup setup_for(const CalibrateOptions& options) {
   return setup;
 }
 
-trial::TrialOptions trial_options(const CalibrateOptions& options, const trial::DriverSource& modules) {
+trial::TrialOptions trial_options(const RigOptions& options, const trial::DriverSource& modules) {
   trial::TrialOptions how;
   how.seed = options.seed.value_or(1);
   how.drivers = modules;
@@ -242,12 +243,12 @@ void end(std::optional<trial::CarriedTool>& tool) {
 struct NotBegun {};
 
 // What is asked before the first motion; empty: nothing that could hurt anybody moves.
-std::string question_for(const trial::Trial& trial, const CalibrateOptions& options) {
+std::string question_for(const trial::Trial& trial, const RigOptions& options) {
   if (!asks(trial.setup(), options)) return {};
   return trial::motion_question(trial.setup(), trial.scene(), trial.result().devices);
 }
 
-MachineCalibration made_with(const models::Setup& setup, const CalibrateOptions& options,
+MachineCalibration made_with(const models::Setup& setup, const RigOptions& options,
                              const trial::DriverSource& modules) {
   const trial::StandardError error;  // a machine that moves waits for no terminal
   const auto progress = [&error](double share) {
@@ -269,7 +270,15 @@ MachineCalibration made_with(const models::Setup& setup, const CalibrateOptions&
 
 }  // namespace
 
-int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource& modules) {
+int calibrate_rig(const RigOptions& options, const trial::DriverSource& modules) {
+  if (!is_rig(options.rig))
+    throw Error(fmt::format("{}: is no rig; expected a name in models/rigs or a TOML file; see to its name",
+                            options.rig));
+  if (models::load_rig(options.rig).arm.driver != "none")
+    throw Error(
+        fmt::format("{}: has an arm; expected a rig with a hexapod that carries a tool; run: encounter "
+                    "calibrate camera {}",
+                    options.rig, shell_word(options.rig)));
   const models::Setup setup = setup_for(options);
   std::optional<models::OutFile> file;  // refused before anything moves
   if (!options.out.empty()) file.emplace(options.out, models::existing(options.force));
@@ -297,8 +306,8 @@ int calibrate_machine(const CalibrateOptions& options, const trial::DriverSource
   }
   if (file) {
     std::string remarks =
-        fmt::format("# Encounter {}: encounter calibrate {}{}{} --scene {} --seed {}", ENCOUNTER_VERSION,
-                    options.log, options.armed ? " --armed" : "", options.lockstep ? " --lockstep" : "",
+        fmt::format("# Encounter {}: encounter calibrate rig {}{}{} --scene {} --seed {}", ENCOUNTER_VERSION,
+                    options.rig, options.armed ? " --armed" : "", options.lockstep ? " --lockstep" : "",
                     setup.scene_path, options.seed.value_or(1));
     for (const std::string& set : options.set) remarks += " --set " + set;
     remarks = models::printable(remarks) + "\n";

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/calibration/pair_study.h"
+#include "app/calibrate/images/pair_study.h"
 #include "app/common/axes.h"
 #include "core/base/rotation.h"
 #include "core/base/units.h"

@@ -1,4 +1,4 @@
-#include "app/calibration/pair_study.h"
+#include "app/calibrate/images/pair_study.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-// `encounter calibrate RIG` of a rig with a hexapod as a person uses it: what it says, the file that it
+// `encounter calibrate rig` as a person uses it: what it says, the file that it
 // writes and that the rig reads; and mistakes, one line each.
 #include <fstream>
 #include <iterator>
@@ -19,7 +19,7 @@ using test::replaced;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class CalibrateMachine : public CalibrateFiles {
+class CalibrateRig : public CalibrateFiles {
  protected:
   static std::string text_of(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -27,9 +27,9 @@ class CalibrateMachine : public CalibrateFiles {
   }
 };
 
-TEST_F(CalibrateMachine, WritesWhatTheRigReads) {
+TEST_F(CalibrateRig, WritesWhatTheRigReads) {
   const std::string out = path("measured.toml");
-  const Result r = run_program({"calibrate", "sim", "--poses", "12", "--out", out, "--set",
+  const Result r = run_program({"calibrate", "rig", "sim", "--poses", "12", "--out", out, "--set",
                                 "truth.frames.W_C.position_mm=[3, -896, 600]", "--set",
                                 "truth.tracker.bias_mm=[0, 0, 0]", "--set", "truth.hexapod.mass_kg=1.11"},
                                kShipped);
@@ -42,7 +42,7 @@ TEST_F(CalibrateMachine, WritesWhatTheRigReads) {
   EXPECT_THAT(file, AllOf(HasSubstr("# 12 poses in "), HasSubstr("\n[of]\nmanipulator = \"sim\"\n"),
                           HasSubstr("[frames.W_C]"), HasSubstr("[frames.H_F]"), HasSubstr("mass_kg = 1.1")));
   // It is not written over.
-  EXPECT_THAT(line({"calibrate", "sim", "--poses", "12", "--out", out}), HasSubstr("--force"));
+  EXPECT_THAT(line({"calibrate", "rig", "sim", "--poses", "12", "--out", out}), HasSubstr("--force"));
   // The rig that names it believes it, and says so.
   write("rig.toml", replaced(text_of(tests::source_dir() + "/models/rigs/sim.toml"), "\n[loop]\n",
                              "\n[calibration]\nfile = \"measured.toml\"\n\n[loop]\n"));
@@ -52,8 +52,9 @@ TEST_F(CalibrateMachine, WritesWhatTheRigReads) {
   EXPECT_THAT(params.out, testing::ContainsRegex("rig.force.mass_kg,kg,1.1[^\n]*measured.toml"));
 }
 
-TEST_F(CalibrateMachine, TellsTheSameInJson) {
-  const Result r = run_program({"calibrate", "sim", "--poses", "12", "--json", "--seed", "3"}, kShipped);
+TEST_F(CalibrateRig, TellsTheSameInJson) {
+  const Result r =
+      run_program({"calibrate", "rig", "sim", "--poses", "12", "--json", "--seed", "3"}, kShipped);
   ASSERT_EQ(r.code, 0) << r.err;
   const auto told = nlohmann::json::parse(r.out);
   EXPECT_EQ(told["poses"], 12);
@@ -62,36 +63,38 @@ TEST_F(CalibrateMachine, TellsTheSameInJson) {
   EXPECT_NEAR(told["tracker"]["position_mm"][1].get<double>(), -900.0, 1.0);
   EXPECT_LT(told["tracker"]["origin_half_mm"][2].get<double>(), 0.05);
   EXPECT_NEAR(told["tracker"]["tip_mm"][2].get<double>(), -120.0, 0.2);
-  EXPECT_EQ(run_program({"calibrate", "sim", "--poses", "12", "--json", "--seed", "3"}, kShipped).out, r.out)
+  EXPECT_EQ(run_program({"calibrate", "rig", "sim", "--poses", "12", "--json", "--seed", "3"}, kShipped).out,
+            r.out)
       << "the same seed tells the same";
 }
 
-TEST_F(CalibrateMachine, RefusesInALineWhatCannotBe) {
-  EXPECT_THAT(line({"calibrate", "fakes"}), AllOf(HasSubstr("fakes.toml:"), HasSubstr("--armed")));
+TEST_F(CalibrateRig, RefusesInALineWhatCannotBe) {
+  EXPECT_THAT(line({"calibrate", "rig", "fakes"}), AllOf(HasSubstr("fakes.toml:"), HasSubstr("--armed")));
   // Nothing is connected to, and nothing would feel what is in the way.
-  EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--set", "rig.force.driver=sim"}),
+  EXPECT_THAT(line({"calibrate", "rig", "fakes", "--armed", "--set", "rig.force.driver=sim"}),
               AllOf(HasSubstr("--set rig.force.driver=sim: "), HasSubstr("needs a force sensor"),
                     HasSubstr("here it is 'sim'")));
   const std::string tracked = tests::source_dir() + "/models/scenes/tracking.toml";
-  EXPECT_THAT(line({"calibrate", "fakes", "--armed", "--scene", tracked, "--set", "rig.force.driver=none"}),
-              HasSubstr("here it is 'none'"));
+  EXPECT_THAT(
+      line({"calibrate", "rig", "fakes", "--armed", "--scene", tracked, "--set", "rig.force.driver=none"}),
+      HasSubstr("here it is 'none'"));
   write("bare.toml", replaced(text_of(tests::source_dir() + "/models/scenes/clamped_tool.toml"),
                               "[force]\n[tracker]\n", ""));
-  EXPECT_THAT(line({"calibrate", "sim", "--scene", path("bare.toml"), "--set", "rig.force.driver=none",
+  EXPECT_THAT(line({"calibrate", "rig", "sim", "--scene", path("bare.toml"), "--set", "rig.force.driver=none",
                     "--set", "rig.tracker.driver=none"}),
               HasSubstr("neither a force sensor nor a tracker"));
-  EXPECT_THAT(line({"calibrate", "sim", "--pairs", "8"}), HasSubstr("--pairs is of a rig with an arm"));
-  EXPECT_THAT(line({"calibrate", "sim", "--through-images"}),
-              HasSubstr("--through-images is of a rig with an arm"));
-  EXPECT_THAT(line({"calibrate", "vishap", "--poses", "12"}),
-              HasSubstr("--poses is of a rig with a hexapod"));
-  EXPECT_THAT(line({"calibrate", "vishap", "--armed"}), HasSubstr("--armed is of a rig with a hexapod"));
-  EXPECT_THAT(line({"calibrate", write("log.csv", "time_s\n"), "--scene", "x"}),
-              HasSubstr("--scene is of a rig"));
-  EXPECT_THAT(line({"calibrate", "sim", "--scene", tests::source_dir() + "/models/scenes/plane.toml"}),
+  for (const char* option :
+       {"--pairs=8", "--frames=2", "--through-images", "--rate-Hz=100", "--square-mm=25"})
+    EXPECT_THAT(line({"calibrate", "rig", "sim", option}), HasSubstr("not expected: " + std::string(option)));
+  EXPECT_THAT(line({"calibrate", "rig", "vishap"}),
+              AllOf(HasSubstr("vishap: has an arm; expected a rig with a hexapod"),
+                    HasSubstr("run: encounter calibrate camera vishap\n")));
+  EXPECT_THAT(line({"calibrate", "rig", write("log.csv", "time_s\n")}),
+              HasSubstr("log.csv: is no rig; expected a name in models/rigs or a TOML file"));
+  EXPECT_THAT(line({"calibrate", "rig", "sim", "--scene", tests::source_dir() + "/models/scenes/plane.toml"}),
               HasSubstr("no tool is clamped"));
-  EXPECT_NE(run_program({"calibrate", "sim", "--poses", "3"}, kShipped).code, 0);
-  EXPECT_THAT(line({"calibrate", "sim", "--poses", "12", "--set", "truth.tracker.loss=1"}),
+  EXPECT_NE(run_program({"calibrate", "rig", "sim", "--poses", "3"}, kShipped).code, 0);
+  EXPECT_THAT(line({"calibrate", "rig", "sim", "--poses", "12", "--set", "truth.tracker.loss=1"}),
               HasSubstr("the tool was seen in 0 stands"));
 }
 

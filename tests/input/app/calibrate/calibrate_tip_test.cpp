@@ -1,5 +1,5 @@
-// `encounter calibrate POSES.csv` as a person uses it: a tool that is swung about its tip; and mistakes in
-// its log, one line each.
+// `encounter calibrate tip POSES.csv` as a person uses it: a tool that is swung about its tip; and mistakes
+// in its log, one line each.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -24,7 +24,7 @@ using test::replaced;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class CalibratePivot : public CalibrateFiles {};
+class CalibrateTip : public CalibrateFiles {};
 
 const std::string kHead = "time_s,tool,tool_x_mm,tool_y_mm,tool_z_mm,tool_qx,tool_qy,tool_qz,tool_qw\n";
 const Vec3 kTip(3, -2, -120), kDimple(100, -900, 600);  // in T and in C, mm
@@ -45,9 +45,9 @@ std::string rows(
 }
 Vec3 about_two_axes(double t) { return {30 * std::sin(3.0 * t), 30 * std::sin(2.0 * t + 1.0), 0}; }
 
-TEST_F(CalibratePivot, TellsTheTip) {
+TEST_F(CalibrateTip, TellsTheTip) {
   const std::string log = write("p.csv", kHead + rows(about_two_axes));
-  const Result r = run_program({"calibrate", log});
+  const Result r = run_program({"calibrate", "tip", log});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out, AllOf(HasSubstr("500 poses of pen in 10.0 s\n"), HasSubstr("\nx       "),
                            testing::ContainsRegex("z +-(120.00|119.99)[0-9]+ \\+- 0.0[0-9]+\n"),
@@ -56,7 +56,7 @@ TEST_F(CalibratePivot, TellsTheTip) {
                            HasSubstr("of errors that last up to some 0.3 s"),
                            HasSubstr("; by the rotations of neighbours\n"), testing::Not(HasSubstr("rested")),
                            testing::Not(HasSubstr("metres"))));
-  const Result json = run_program({"calibrate", log, "--json"});
+  const Result json = run_program({"calibrate", "tip", log, "--json"});
   const auto told = nlohmann::json::parse(json.out);
   for (std::size_t a = 0; a < 3; ++a) {
     EXPECT_NEAR(told["tip_mm"][a].get<double>(), kTip(static_cast<Eigen::Index>(a)), 0.01);
@@ -75,16 +75,16 @@ TEST_F(CalibratePivot, TellsTheTip) {
   EXPECT_NEAR(told["residual_max_mm"].get<double>(), 0.05, 0.01);
 }
 
-TEST_F(CalibratePivot, ASlipIsLeftOutAndCounted) {
+TEST_F(CalibrateTip, ASlipIsLeftOutAndCounted) {
   const auto slip = [](double t) { return t > 4.0 && t < 4.5 ? 8.0 : 0.0; };
-  const Result r = run_program({"calibrate", write("s.csv", kHead + rows(about_two_axes, slip))});
+  const Result r = run_program({"calibrate", "tip", write("s.csv", kHead + rows(about_two_axes, slip))});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out, AllOf(HasSubstr("; 24 left out, farther than 6 standard deviations"),
                            testing::ContainsRegex("medians of 0.25 s wander by up to [78]\\.")));
 }
 
 // The second axis is turned about with the tip out of its dimple, in 17 % of the log.
-TEST_F(CalibratePivot, TheSwingOfWhatIsLeftIsChecked) {
+TEST_F(CalibrateTip, TheSwingOfWhatIsLeftIsChecked) {
   const auto out = [](double t) { return t > 8.29; };
   const std::string log = write("o.csv", kHead + rows(
                                                      [&](double t) {
@@ -93,33 +93,33 @@ TEST_F(CalibratePivot, TheSwingOfWhatIsLeftIsChecked) {
                                                      },
                                                      [&](double t) { return out(t) ? 30.0 : 0.0; }));
   EXPECT_THAT(
-      line({"calibrate", log}),
+      line({"calibrate", "tip", log}),
       AllOf(HasSubstr("o.csv:1:1: the tool turned about one axis alone, [1.00, "),
             testing::ContainsRegex("in T, without the 8[0-9] poses that lie apart and are left out: "),
             HasSubstr("by 0.0 deg rms"), HasSubstr("either side, with the tip in its dimple")));
 }
 
-TEST_F(CalibratePivot, SaysThatTheToolRested) {
+TEST_F(CalibrateTip, SaysThatTheToolRested) {
   const auto late = [](double from) {
     return [from](double t) { return about_two_axes(std::max(0.0, t - from)); };
   };
   const std::string log = write("l.csv", kHead + rows(late(5.5)));
-  const Result r = run_program({"calibrate", log});
+  const Result r = run_program({"calibrate", "tip", log});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out,
               testing::ContainsRegex(
                   "\nnote        the tool rested for 5.[56] s, most of the log: 4.[45] s tell the tip\n"));
-  const auto told = nlohmann::json::parse(run_program({"calibrate", log, "--json"}).out);
+  const auto told = nlohmann::json::parse(run_program({"calibrate", "tip", log, "--json"}).out);
   EXPECT_NEAR(told["rested_s"].get<double>(), 5.5, 0.1);
   EXPECT_EQ(told["outliers"], 0);
   EXPECT_THAT(
-      line({"calibrate", write("r.csv", kHead + rows(late(7.0)))}),
+      line({"calibrate", "tip", write("r.csv", kHead + rows(late(7.0)))}),
       testing::ContainsRegex("r.csv:1:1: the tool rested for most of the log: it turned for (3|2.9)[0-9]* s "
                              "of 9.98 s; expected at least 4 s; swing it"));
 }
 
 // What a terminal obeys is not printed, and what is no text has no name.
-TEST_F(CalibratePivot, AToolsNameIsTextAndNothingElse) {
+TEST_F(CalibrateTip, AToolsNameIsTextAndNothingElse) {
   const auto named = [&](const std::string& name) {
     std::string text = kHead + rows(about_two_axes);
     for (std::size_t at = text.find(",pen,"); at != std::string::npos; at = text.find(",pen,", at + 1))
@@ -129,20 +129,20 @@ TEST_F(CalibratePivot, AToolsNameIsTextAndNothingElse) {
   const std::string red =
       "p\x1b[31mn\xC2\x9B"
       "2J";
-  const Result r = run_program({"calibrate", named(red)});
+  const Result r = run_program({"calibrate", "tip", named(red)});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out, testing::StartsWith("500 poses of p\\x1b[31mn\\u009b2J in 10.0 s\n"));
-  const Result json = run_program({"calibrate", named(red), "--json"});
+  const Result json = run_program({"calibrate", "tip", named(red), "--json"});
   EXPECT_EQ(nlohmann::json::parse(json.out)["tool"], red);
   for (const char c : json.out) ASSERT_TRUE(c == '\n' || (c >= ' ' && c < 127)) << json.out;
   for (const std::string how : {"", "--json"}) {
-    std::vector<std::string> words{"calibrate", named("p\xFCn")};
+    std::vector<std::string> words{"calibrate", "tip", named("p\xFCn")};
     if (!how.empty()) words.push_back(how);
     EXPECT_THAT(line(words), HasSubstr("n.csv:2:6: the tool's name is not UTF-8; expected UTF-8; save"));
   }
 }
 
-TEST_F(CalibratePivot, DoubtsMetresInColumnsOfMillimetres) {
+TEST_F(CalibrateTip, DoubtsMetresInColumnsOfMillimetres) {
   std::istringstream in(rows(about_two_axes));
   std::string text = kHead;
   for (std::string row; std::getline(in, row);) {
@@ -153,12 +153,12 @@ TEST_F(CalibratePivot, DoubtsMetresInColumnsOfMillimetres) {
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   const std::string log = write("m.csv", text);
-  const Result r = run_program({"calibrate", log});
+  const Result r = run_program({"calibrate", "tip", log});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out,
               HasSubstr("\nnote        the tip is within 5 mm of the markers' origin, and all poses within "
                         "20 mm of the tracker's: if the log is in metres, multiply its places by 1000\n"));
-  const auto told = nlohmann::json::parse(run_program({"calibrate", log, "--json"}).out);
+  const auto told = nlohmann::json::parse(run_program({"calibrate", "tip", log, "--json"}).out);
   EXPECT_THAT(told["note"].get<std::string>(), HasSubstr("if the log is in metres"));
 }
 
@@ -181,41 +181,41 @@ std::string reread(const std::function<void(double& time, Vec3& place, Quat& tur
 }
 
 // Poses of the tracker in the tool leave no residual: the tip and its dimple change places.
-TEST_F(CalibratePivot, RefusesInvertedPoses) {
+TEST_F(CalibrateTip, RefusesInvertedPoses) {
   const std::string log = write("i.csv", reread([](double&, Vec3& place, Quat& turn) {
                                   turn = turn.conjugate();
                                   place = -(turn * place);
                                 }));
   EXPECT_THAT(
-      line({"calibrate", log}),
+      line({"calibrate", "tip", log}),
       testing::ContainsRegex("i.csv:1:1: the tip is 1.09 m from the markers and the dimple 0.12 m from "
                              "the tracker; are these poses inverted. then the tip is "
                              "\\[3.0, -2.0, -120.0\\] mm; expected poses of the markers"));
 }
 
 // A tip farther from the markers than the dimple from the tracker may be so: told, and not refused.
-TEST_F(CalibratePivot, DoubtsALongToolNearItsTracker) {
+TEST_F(CalibrateTip, DoubtsALongToolNearItsTracker) {
   const std::string log = write("n.csv", reread([](double&, Vec3& place, Quat& turn) {
                                   place += turn * Vec3(0, 0, 280) - kDimple + Vec3(0, 0, 150);
                                 }));
-  const Result r = run_program({"calibrate", log});
+  const Result r = run_program({"calibrate", "tip", log});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out,
               HasSubstr("\nnote        the tip is 0.40 m from the markers and the dimple 0.15 m from the "
                         "tracker; are these poses inverted?"));
-  const auto told = nlohmann::json::parse(run_program({"calibrate", log, "--json"}).out);
+  const auto told = nlohmann::json::parse(run_program({"calibrate", "tip", log, "--json"}).out);
   EXPECT_THAT(told["note"].get<std::string>(), HasSubstr("are these poses inverted?"));
 }
 
 // The tracker is moved and turned at 6 s.
-TEST_F(CalibratePivot, TellsWhenTheFrameMoved) {
+TEST_F(CalibrateTip, TellsWhenTheFrameMoved) {
   const Quat turned = rotation_xyz(M_PI / 180.0 * Vec3(0, 0, 5));
   const std::string log = write("f.csv", reread([&](double& time, Vec3& place, Quat& turn) {
                                   if (time < 5.999) return;
                                   turn = turned * turn;
                                   place = turned * place + Vec3(3, 0, 0);
                                 }));
-  EXPECT_THAT(line({"calibrate", log}),
+  EXPECT_THAT(line({"calibrate", "tip", log}),
               AllOf(HasSubstr("f.csv:1:1: the tip did not stay"),
                     testing::ContainsRegex(
                         "; from 6\\.00 s on it stays within 0\\.0[0-9]+ mm rms again, 8[0-9]\\.[0-9] mm "
@@ -223,7 +223,7 @@ TEST_F(CalibratePivot, TellsWhenTheFrameMoved) {
                         "reference was moved; keep one part")));
 }
 
-TEST_F(CalibratePivot, TellsThatPlacesAreOfOtherRows) {
+TEST_F(CalibrateTip, TellsThatPlacesAreOfOtherRows) {
   for (const int late : {2, -3}) {
     std::vector<Vec3> places;
     (void)reread([&](double&, Vec3& place, Quat&) { places.push_back(place); });
@@ -233,16 +233,17 @@ TEST_F(CalibratePivot, TellsThatPlacesAreOfOtherRows) {
                                         std::clamp(row++ - late, 0, static_cast<int>(places.size()) - 1);
                                     place = places[static_cast<std::size_t>(of)];
                                   }));
-    EXPECT_THAT(line({"calibrate", log}),
+    EXPECT_THAT(line({"calibrate", "tip", log}),
                 AllOf(HasSubstr("the tip did not stay"),
                       HasSubstr(fmt::format("; with each place taken from {} rows {} it stays within 0.0",
                                             std::abs(late), late > 0 ? "later" : "earlier"))));
   }
 }
 
-TEST_F(CalibratePivot, ATimeInAnotherUnitIsAskedFor) {
+TEST_F(CalibrateTip, ATimeInAnotherUnitIsAskedFor) {
   const auto in_unit = [&](double factor) {
-    return line({"calibrate", write("u.csv", reread([&](double& time, Vec3&, Quat&) { time *= factor; }))});
+    return line(
+        {"calibrate", "tip", write("u.csv", reread([&](double& time, Vec3&, Quat&) { time *= factor; }))});
   };
   EXPECT_THAT(in_unit(1e3), HasSubstr("u.csv:1:1: rows are 20 s apart: milliseconds?"));
   EXPECT_THAT(in_unit(1e6), HasSubstr("rows are 2e+04 s apart: microseconds?"));
@@ -251,9 +252,10 @@ TEST_F(CalibratePivot, ATimeInAnotherUnitIsAskedFor) {
 }
 
 // A quaternion that is read otherwise than it was written leaves a residual; one that fits is told.
-TEST_F(CalibratePivot, TellsWhichQuaternionWouldFit) {
+TEST_F(CalibrateTip, TellsWhichQuaternionWouldFit) {
   const auto written = [&](const std::function<Quat(const Quat&)>& as) {
-    return line({"calibrate", write("q.csv", reread([&](double&, Vec3&, Quat& turn) { turn = as(turn); }))});
+    return line(
+        {"calibrate", "tip", write("q.csv", reread([&](double&, Vec3&, Quat& turn) { turn = as(turn); }))});
   };
   EXPECT_THAT(written([](const Quat& q) { return q.conjugate(); }),
               AllOf(HasSubstr("the tip did not stay"),
@@ -263,9 +265,9 @@ TEST_F(CalibratePivot, TellsWhichQuaternionWouldFit) {
       AllOf(HasSubstr("q.csv:1:1: "), HasSubstr("; with qw first, in the column qx it stays within 0.0")));
 }
 
-TEST_F(CalibratePivot, RefusesMotionThatDoesNotTellTheTip) {
+TEST_F(CalibrateTip, RefusesMotionThatDoesNotTellTheTip) {
   const auto refused = [&](const std::string& text) {
-    return line({"calibrate", write("m.csv", kHead + text)});
+    return line({"calibrate", "tip", write("m.csv", kHead + text)});
   };
   const std::string good = rows(about_two_axes);
   EXPECT_THAT(refused(rows([](double) { return Vec3(10, 20, 30); })),
@@ -286,18 +288,19 @@ TEST_F(CalibratePivot, RefusesMotionThatDoesNotTellTheTip) {
               HasSubstr("m.csv:1:1: the poses of the tool are of 1.98 s; expected at least 4 s"));
   EXPECT_THAT(refused(good.substr(0, good.find("3.92,pen"))),
               HasSubstr("tool are of 3.9 s; expected at least 4 s"));
-  EXPECT_EQ(run_program({"calibrate", write("e.csv", kHead + good.substr(0, good.find("4.12,pen")))}).code,
-            0);
+  EXPECT_EQ(
+      run_program({"calibrate", "tip", write("e.csv", kHead + good.substr(0, good.find("4.12,pen")))}).code,
+      0);
   EXPECT_THAT(
       refused(good.substr(0, good.find("1.00,pen")) + good.substr(good.find("9.00,pen"))),
       HasSubstr("m.csv:1:1: the poses of the tool are of 1.96 s, without the gaps in them, which are 8.02 s; "
                 "expected at least 4 s of poses; record longer, with the markers in view"));
 }
 
-TEST_F(CalibratePivot, RefusesBadRowsInOneLine) {
+TEST_F(CalibrateTip, RefusesBadRowsInOneLine) {
   const std::string good = kHead + rows(about_two_axes);
   const auto refused = [&](const std::string& row) {
-    return line({"calibrate", write("r.csv", good + row)});
+    return line({"calibrate", "tip", write("r.csv", good + row)});
   };
   EXPECT_THAT(refused("10,pen,nan,0,0,0,0,0,1\n"),
               HasSubstr("r.csv:502:8: 'tool_x_mm' is 'nan'; expected a finite number"));
@@ -315,29 +318,24 @@ TEST_F(CalibratePivot, RefusesBadRowsInOneLine) {
                 "one tool in a log"));
   EXPECT_THAT(refused("10,pen,20000,0,0,0,0,0,1\n"), HasSubstr("r.csv:502:8: 20000 mm is farther than 10 m"));
   EXPECT_THAT(refused("10,pen,0,0,0,0,0,1\n"), HasSubstr("this row has 8 columns; expected 9"));
-  EXPECT_THAT(line({"calibrate", write("h.csv", replaced(good, "tool_qw", "tool_w"))}),
+  EXPECT_THAT(line({"calibrate", "tip", write("h.csv", replaced(good, "tool_qw", "tool_w"))}),
               HasSubstr("h.csv:1:1: there is no column 'tool_qw'"));
 }
 
-TEST_F(CalibratePivot, OptionsOfAnotherInputAreRefused) {
+TEST_F(CalibrateTip, OptionsAndTablesOfAnotherSubjectAreRefused) {
   const std::string log = write("p.csv", kHead + rows(about_two_axes));
+  for (const char* option : {"--out=o.csv", "--seed=1", "--rate-Hz=50", "--pairs=8", "--pivot"})
+    EXPECT_THAT(line({"calibrate", "tip", log, option}), HasSubstr("not expected: " + std::string(option)));
   const std::string points = write("c.csv", "camera_x_m,camera_y_m,camera_z_m\n0,0,0\n");
-  for (const std::vector<std::string>& args :
-       std::vector<std::vector<std::string>>{{log, "--out", path("o.csv")},
-                                             {log, "--seed", "1"},
-                                             {log, "--rate-Hz", "50"},
-                                             {log, "--pairs", "8"},
-                                             {points, "--pivot"},
-                                             {"vishap", "--pivot"}}) {
-    std::vector<std::string> words{"calibrate"};
-    words.insert(words.end(), args.begin(), args.end());
-    EXPECT_THAT(line(words), HasSubstr(args[1] + " is of a "));
-  }
-  EXPECT_THAT(run_program({"calibrate", "--help"}).out, AllOf(HasSubstr("--pivot"), HasSubstr("tool_qx")));
+  EXPECT_THAT(line({"calibrate", "tip", points}),
+              AllOf(HasSubstr("c.csv:1:1: is a table of pairs of points; expected poses of a tool"),
+                    HasSubstr("run: encounter calibrate camera " + points)));
+  EXPECT_THAT(run_program({"calibrate", "tip", "--help"}).out,
+              AllOf(HasSubstr("tool_qx"), HasSubstr("Example: encounter calibrate tip ")));
 }
 
-// A table that has a tip is a tracker's log, until it is said that its poses are meant.
-TEST_F(CalibratePivot, ATableWithTipAndMarkersIsAskedForItsPoses) {
+// A table that has the machine's tip, too, is a tracker's log to the other command.
+TEST_F(CalibrateTip, ATableWithTipAndMarkersIsAskedForItsPoses) {
   const std::string head = replaced(kHead, "tool_x_mm,tool_y_mm,tool_z_mm,tool_qx,tool_qy,tool_qz,tool_qw",
                                     "markers_x_mm,markers_y_mm,markers_z_mm,markers_qx,markers_qy,markers_qz,"
                                     "markers_qw,tip_x_mm,tip_y_mm,tip_z_mm,tool_x_mm,tool_y_mm,tool_z_mm");
@@ -345,15 +343,15 @@ TEST_F(CalibratePivot, ATableWithTipAndMarkersIsAskedForItsPoses) {
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 13))
     text.insert(at, ",1,2,3,4,5,6");
   const std::string log = write("b.csv", head + text);
-  const Result r = run_program({"calibrate", log, "--pivot"});
+  const Result r = run_program({"calibrate", "tip", log});
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("500 poses of pen"));
-  EXPECT_THAT(line({"calibrate", log}), HasSubstr("b.csv:"));
+  EXPECT_THAT(line({"calibrate", "tracker", log}), HasSubstr("b.csv:"));
 }
 
 // What a record of the laboratory holds: C is turned in W, and the tip is at [0, 0, -120] mm in T. A tool
 // that stands upright has the mean of its markers, [8.75, 2.75, 3] mm in T, above its tip.
-TEST_F(CalibratePivot, ReadsWhatExportWrites) {
+TEST_F(CalibrateTip, ReadsWhatExportWrites) {
   const Quat turn = rotation_xyz(M_PI / 180.0 * Vec3(20, -30, 50));  // of C in W, unlike its inverse
   const std::string set = "frames.W_C.rotation_deg=[20, -30, 50]";
   ASSERT_EQ(run_program(
@@ -383,7 +381,7 @@ TEST_F(CalibratePivot, ReadsWhatExportWrites) {
     ASSERT_LT((Vec3(0, -900, 600) + turn * (p + q * Vec3(0, 0, -120)) - tip_W).norm(), 1e-9) << row;
   }
   EXPECT_NEAR(seen, 500, 20);
-  EXPECT_THAT(line({"calibrate", path("r.csv"), "--pivot"}), HasSubstr("r.csv:1:1: the tool hardly turned"));
+  EXPECT_THAT(line({"calibrate", "tip", path("r.csv")}), HasSubstr("r.csv:1:1: the tool hardly turned"));
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+#include "app/common/command_options.h"
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+
+namespace enc::app {
+
+// CLI11 reads "-1" and numbers of 30 digits as some other number.
+std::string bad_seed(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (bad == std::errc() && end == text.data() + text.size()) return {};
+  return "expected a whole number from 0 to 18446744073709551615";
+}
+
+// "" is what a script gives whose variable is not set.
+std::string unnamed(const std::string& text) {
+  return text.empty() ? "expected a name, and this one is empty" : std::string();
+}
+
+void force_option(CLI::App* command, bool& force) {
+  command->add_flag("--force", force, "replace files that are there");
+}
+
+void scene_options(CLI::App* command, SceneOptions& options) {
+  command->add_option("scene", options.scene, "scene file, or the name of a shipped scene (encounter scenes)")
+      ->required();
+  command->add_option("--rig", options.rig, "rig: sim, a name in models/rigs, or a file")
+      ->capture_default_str();
+  command->add_option("--set", options.set,
+                      "override, e.g. object.ball.radius_mm=30 (names: encounter params SCENE)");
+  command->add_option("--seed", options.seed, "seed of all random streams")
+      ->capture_default_str()
+      ->check(bad_seed);
+}
+
+}  // namespace enc::app

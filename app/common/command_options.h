@@ -1,0 +1,32 @@
+// Options that several subcommands share.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "app/common/options.h"
+
+namespace enc::app {
+
+// Checks of CLI11: what is wrong, or nothing.
+std::string bad_seed(const std::string& text);
+std::string unnamed(const std::string& text);
+
+void force_option(CLI::App* command, bool& force);
+// The options of a command that may move real devices: armed, lockstep, yes, not_real_time.
+template <class Options>
+void device_options(CLI::App* command, Options& options) {
+  command->add_flag("--armed", options.armed,
+                    "send commands to real devices; without it they only go into the record");
+  command->add_flag(
+      "--lockstep", options.lockstep,
+      "run against `encounter fake --lockstep`: each set-point advances time by one period, so runs are "
+      "fast and repeatable");
+  command->add_flag("--yes", options.yes, "begin an armed run without the question before its first motion");
+  command->add_flag("--not-real-time", options.not_real_time,
+                    "move a real machine although the system refuses real-time priority to the loop");
+}
+void scene_options(CLI::App* command, SceneOptions& options);
+
+}  // namespace enc::app

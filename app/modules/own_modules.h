@@ -1,0 +1,19 @@
+// The program's own modules that its subcommands call. A module that was not built is refused with the
+// command that builds it.
+#pragma once
+
+#include <string>
+
+#include "app/calibrate/images/calibration_module.h"
+#include "app/fit/fit_module.h"
+#include "core/devices/module.h"
+
+namespace enc::app {
+
+const FitModule& fit_module();
+const CalibrationModule& calibration_module();
+// A module by its name. Vision and the twin's camera are built when pictures are asked for; all else is a
+// driver.
+const ModuleInfo& module_for_pictures(const std::string& name);
+
+}  // namespace enc::app
