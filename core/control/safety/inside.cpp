@@ -18,9 +18,14 @@ struct Wall {
 };
 
 constexpr std::size_t kWalls = 4;
-constexpr double kClose = 1e-7;     // m: of a place on several walls
-constexpr double kSlack = 15e-6;    // m: of what the centre may be less deep; the guard's own limit is 50 um
-constexpr double kCut = 10e-6;      // m: and this much less on its way
+constexpr double kClose = 1e-7;   // m: of a place on several walls
+constexpr double kSlack = 15e-6;  // m: of what the centre may be less deep; the guard's own limit is 50 um
+constexpr double kCut = 10e-6;    // m: and this much less on its way
+// Steps from wall to wall, until the deepest place so far has to do (assumed: no source).
+constexpr int kTries = 12;
+// m: a step along a braking way (derived: at a hollow edge, an arc of the tip's radius, it cuts off 9 um).
+constexpr double kLeastStep = 0.6e-3;
+constexpr int kMostSteps = 64;      // of a braking way (assumed: who needs more is too fast)
 constexpr double kParallel = 1e-6;  // of a determinant of unit vectors
 
 // Solves G y = r for the walls of a set, at most three, G being their normals' products. False: parallel.
@@ -101,7 +106,6 @@ Nearest Inside::at(const Point<'O'>& p) noexcept {
 }
 
 Point<'W'> Inside::nearest_to(const Point<'W'>& wanted) noexcept {
-  constexpr int kTries = 12;
   const Point<'O'> from = local(wanted);
   Point<'O'> p = from;
   double best = -std::numeric_limits<double>::infinity();
@@ -146,18 +150,16 @@ bool Inside::stops_inside(const Brake& brake, double depth, const Vec3& v, Neare
   // Along the way: where it is after this tick, for then it may think better of it; and on, in steps that no
   // side can come into. At a hollow edge what is deep enough ends in an arc of the tip's radius, of which a
   // step cuts off 9 um.
-  constexpr double kLeast = 0.6e-3;  // m
-  constexpr int kMost = 64;          // steps: who needs more is too fast
   const double floor = std::min(least, margin_ - kSlack - kCut);
   double gone = brake.dt * v.norm();
-  if (depth - floor > gone) gone = std::max(depth - floor, kLeast);
+  if (depth - floor > gone) gone = std::max(depth - floor, kLeastStep);
   for (int i = 0; gone < length; ++i) {
     const Nearest between = at(local(Point<'W'>(Vec3(brake.at.e() + (gone / length) * way))));
-    if (i == kMost || !(-between.distance >= floor)) {
+    if (i == kMostSteps || !(-between.distance >= floor)) {
       met = between;
       return false;
     }
-    gone += std::max(-between.distance - floor, kLeast);
+    gone += std::max(-between.distance - floor, kLeastStep);
   }
   return true;
 }

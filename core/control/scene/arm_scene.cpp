@@ -135,9 +135,11 @@ double share_along(const Mat3& jacobian, const Vec3& way) {
   return along.head(ways.rank()).norm();
 }
 
+// Share of a unit normal along which a machine with few joints must go (assumed: no source).
+constexpr double kLeastAlong = 0.1;
+
 // What is flat has one normal, and is rendered along it. A machine with few joints may not go that way.
 void check_ways(const SceneSpec& spec, const Scene& scene) {
-  constexpr double kLeast = 0.1;  // of the normal; chosen
   const Impedance& law = *scene.impedance();
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const ObjectSpec& object = spec.objects[i];
@@ -148,7 +150,7 @@ void check_ways(const SceneSpec& spec, const Scene& scene) {
     PerJoint q{};
     static_cast<void>(law.arm.inverse(scene.X_WR.inverse() * (made.X_WO * near.point), q));
     const Vec<'R'> normal = scene.X_WR.inverse() * (made.X_WO * near.normal);
-    if (share_along(law.arm.jacobian(q), normal.e()) >= kLeast) continue;
+    if (share_along(law.arm.jacobian(q), normal.e()) >= kLeastAlong) continue;
     throw Error(
         "object '" + object.name + "' faces a way that this machine of " + std::to_string(law.arm.joints()) +
             " joints does not go, so it cannot push along its normal; expected a normal that the machine "

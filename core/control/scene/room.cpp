@@ -72,10 +72,12 @@ void find_room(const Object& object, const Mesh& mesh, double margin, Room& room
   }
 }
 
+// Cosine between the normals of two sides that are opposite (assumed: no source).
+constexpr double kOpposite = -0.5;
+
 // Where the side opposite is nearer than the tip needs. Beside an edge another side is near, but not
 // opposite.
 void find_thin(const Object& object, const Mesh& mesh, double margin, Room& room) {
-  constexpr double kOpposite = -0.5;  // of the normals
   room.thinnest = std::numeric_limits<double>::infinity();
   double area = 0.0, thin = 0.0;
   std::int32_t feature = -1;
@@ -111,7 +113,7 @@ Room room_in(const Object& object, double margin, bool thin) {
 
 bool room_under(const Object& object, double margin, const Point<'W'>& on, const Vec<'W'>& normal) {
   const Nearest near = object.surface.nearest(object.X_OW * (on - margin * normal));
-  return -near.distance >= margin - 1e-6 || dot(object.X_WO * near.normal, normal) >= -0.5;
+  return -near.distance >= margin - 1e-6 || dot(object.X_WO * near.normal, normal) >= kOpposite;
 }
 
 void check_room(const SceneSpec& spec, const Scene& scene) {

@@ -124,11 +124,14 @@ bool legs_reach_along(const Hexapod& machine, const Pose<'R', 'H'>& from, const 
   return true;
 }
 
+// m: a leg this close to its end is at the edge of the reach (derived: more than a tick's way there, where
+// the machine is slow).
+constexpr double kAtEnd = 0.1e-3;
+
 // Along the edge of the reach: without what shortens a leg that is shortest or lengthens one that is longest.
 // The way to a place within it may begin with one that leads out of it, as the reach is not convex and the
 // way along a normal comes first; who stops there stays there.
 Vec3 along_edge(const Hexapod& machine, const Pose<'R', 'H'>& at, Vec3 velocity, double braking_time) {
-  constexpr double kNear = 0.1e-3;  // m: more than a tick's way at the edge, where it is slow
   const Mat3 R = at.q().toRotationMatrix();
   const double stroke = machine.geometry().stroke;
   for (int again = 0; again < 3; ++again) {  // what helps one leg may not help the one beside it
@@ -137,8 +140,8 @@ Vec3 along_edge(const Hexapod& machine, const Pose<'R', 'H'>& at, Vec3 velocity,
       const double out = strut.norm() - machine.zero_length(), along = strut.dot(velocity);
       // Straight on at right angles to it a leg gets longer: by v^2 t / 2 of the way in the time t.
       const double longer = velocity.squaredNorm() * braking_time;
-      if (out < kNear - stroke && along < 0.0) velocity -= strut * (along / strut.squaredNorm());
-      if (out > stroke - kNear && along > -longer)
+      if (out < kAtEnd - stroke && along < 0.0) velocity -= strut * (along / strut.squaredNorm());
+      if (out > stroke - kAtEnd && along > -longer)
         velocity -= strut * ((along + longer) / strut.squaredNorm());
     }
   }

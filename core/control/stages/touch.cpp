@@ -136,10 +136,13 @@ NearestInWorld pressed_surface(const Query& query, std::int32_t index, ObjectHin
   return nearest(over, index, hint);
 }
 
+// m: the surface point moves farther than the tool by so much only where another part has become the nearest
+// (assumed: no source).
+constexpr double kJump = 1e-3;
+
 // The point under the tool moves no faster than the tool where the object bulges, and hardly faster where it
 // does not; by more only where another part has become the nearest.
 void report_jump(Walk& walk, CommonState& state, const Point<'W'>& before, const Point<'W'>& query) {
-  constexpr double kJump = 1e-3;  // m, beyond the way of the tool
   // Before the first tick with a tool, `before` is unset, and that is no jump.
   const double moved = (query - before).norm();
   if ((walk.surface_point - state.last_point).norm() > moved + kJump) walk.why |= kSurfaceJump;

@@ -73,13 +73,14 @@ void propagate(const TrackerRig& rig, double h, double noise, TipMotion& m) {
   propagate(rig, h, noise, m.across);
 }
 
-// A hand keeps its speed for long and then changes it at once: a pose that is farther off than four sigma is
-// explained by as much acceleration as it takes, and not by noise [Bar-Shalom 11.2]. Of three axes together,
-// noise alone is beyond four sigma once in 900 poses, beyond three once in 34: that would be in every tenth
-// approach.
+// Times sigma (derived: of three axes together, noise alone is beyond four sigma once in 900 poses, beyond
+// three once in 34: that would be in every tenth approach).
+constexpr double kSigmas = 4.0;
+
+// A hand keeps its speed for long and then changes it at once: a pose that is farther off than kSigmas is
+// explained by as much acceleration as it takes, and not by noise [Bar-Shalom 11.2].
 double surprised(const TrackerRig& rig, double h, const Vec3& innovation, const TipNoise& noise,
                  const TipMotion& m) {
-  constexpr double kSigmas = 4.0;
   const double along = m.along.xx + square(noise.along);
   const double across = m.across.xx + square(noise.across);  // of each side
   const double deep = square(noise.view.e().dot(innovation)), all = innovation.squaredNorm();

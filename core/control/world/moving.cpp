@@ -14,10 +14,18 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+// Share of pi sqrt(m / k), half a period of the tile's bounce, over which its firmness is smoothed (assumed:
+// it gives back what it should).
+constexpr double kSmooth = 0.02;
+// Share of e that a ball parts with (assumed: short of it by what the prop's speed is known to, so that no
+// energy is gained).
+constexpr double kShort = 0.95;
+// m/s: a slower ball would be on its way for seconds, and is back at once (assumed).
+constexpr double kSlow = 0.020;
+
 // What a tile does on the way back. Smoothed: by counts the rate is known to some 15 mm/s, which is all of
 // the push at the begin of a touch. Over so little of its bounce that it gives back what it should.
 double tile_firmness(const Mover& mover, const FingerPress& press, double dt, const Moved& now) {
-  constexpr double kSmooth = 0.02;  // of pi sqrt(m / k), s
   const double time = kSmooth * std::numbers::pi * std::sqrt(mover.mass / mover.stiffness);
   const double wanted =
       press.sinks < 0.0 ? std::max(0.0, 1.0 + mover.bounce * press.sinks / now.deepest) : 1.0;
@@ -28,8 +36,6 @@ double tile_firmness(const Mover& mover, const FingerPress& press, double dt, co
 double ball_firmness(const Mover& mover, const FingerPress& press, Moved& now) {
   const double faster = -press.normal.e().dot(now.velocity.e()) - press.speed;
   if (faster <= 0.0 || press.depth >= now.deepest) return now.firmness;
-  // Short of e by what the prop's speed is known to: energy is not gained.
-  constexpr double kShort = 0.95;
   const double parting = kShort * mover.restitution * press.speed;
   const double wanted = mover.mass * (parting * parting - faster * faster);
   const double there = mover.stiffness * now.firmness * press.depth * press.depth;
@@ -60,7 +66,6 @@ double pressed(const Mover& mover, const FingerPress& press, double dt, Moved& n
 void fly(const Mover& mover, const Vec3& force, const FingerPress& press, double dt, Moved& now) {
   const Vec3 velocity = now.velocity.e() + force * (dt / mover.mass);
   const Vec3 shift = now.shift.e() + velocity * dt;
-  constexpr double kSlow = 0.020;  // m/s: it would be on its way for seconds
   const bool gone = shift.norm() >= mover.travel * (1.0 - 1e-9);
   const bool slow = velocity.norm() < kSlow;
   now.velocity = gone ? Vec<'W'>::zero() : Vec<'W'>(velocity);

@@ -35,9 +35,12 @@ void renew(Passivity& now, const Yielded& tick) noexcept {
   now.stored = std::max(0.0, 0.5 * tick.spring * tick.depth);
 }
 
+// Counts: a way back that is shorter is the encoder's (assumed: more than one count, and less than two).
+constexpr double kTurnCounts = 1.5;
+
 void observe(Passivity& now, const Yielded& tick, double count) noexcept {
   const double apart = now.slack + tick.moved;
-  const bool turns = apart * now.way <= 0.0 && std::abs(apart) < 1.5 * count;
+  const bool turns = apart * now.way <= 0.0 && std::abs(apart) < kTurnCounts * count;
   now.moved = turns ? 0.0 : apart;
   now.slack = turns ? apart : 0.0;
   if (now.moved != 0.0) now.way = now.moved > 0.0 ? 1.0 : -1.0;

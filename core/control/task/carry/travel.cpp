@@ -13,6 +13,12 @@ namespace enc {
 namespace {
 
 constexpr std::string_view kAxes = "xyz";
+// m: stops are no closer (derived: the machine's step is 3 um).
+constexpr double kLeastStop = 10e-6;
+// s: the jaws close, and the last micrometres of a leg (assumed: duration() is a little more than it takes).
+constexpr double kClosing = 1.0, kArriving = 0.05;
+// m: the command is at the end of its leg (assumed: less than the machine's step of 3 um).
+constexpr double kThere = 1e-6;
 
 void check_parts(const SceneSpec& spec) {
   if (spec.user || spec.probe)
@@ -26,9 +32,8 @@ void check_numbers(const TravelSpec& spec, const CommonScene& scene) {
   if (spec.axes.empty() || spec.axes.find_first_not_of(kAxes) != std::string::npos)
     throw Error("expected axes out of x, y and z, such as \"xyz\"", "travel.axes");
   if (spec.stops.size() < 2) throw Error("expected at least two stops, such as [0, 40]", "travel.stops");
-  constexpr double kLeast = 10e-6;  // m: the machine's step is 3 um
   for (std::size_t i = 1; i < spec.stops.size(); ++i)
-    if (!(spec.stops[i] - spec.stops[i - 1] >= kLeast))
+    if (!(spec.stops[i] - spec.stops[i - 1] >= kLeastStop))
       throw Error("stops must grow, by at least 0.01 mm each", "travel.stops");
   if (!(spec.speed > 0.0) || spec.speed > scene.reach.speed)
     throw Error("the machine cannot travel that fast; lower speed_mm_s", "travel.speed");
@@ -81,8 +86,6 @@ std::optional<Travel> Travel::asked(const SceneSpec& spec, const CommonScene& sc
 }
 
 double Travel::duration() const {
-  constexpr double kClosing = 1.0;    // s: the jaws
-  constexpr double kArriving = 0.05;  // s: the last micrometres of a leg
   double total = kClosing;
   for (const TravelLeg& leg : legs)
     total += leg.length / leg.speed + leg.speed / acceleration + kArriving + leg.dwell;
@@ -94,7 +97,6 @@ namespace stages {
 namespace {
 
 void go_on(Walk& walk, const Travel& travel, CommonState& state, Travelling& now) {
-  constexpr double kThere = 1e-6;  // m
   state.mode = Mode::travel;
   now.elapsed += walk.scene.dt;
   const auto begin = [&](TravelPhase phase) {

@@ -10,9 +10,11 @@
 namespace enc::stages {
 namespace {
 
+// m: less than the machine's step of 3 um (assumed).
+constexpr double kNear = 1e-6;
+
 // The set-point is where the programme wants it.
 bool arrived(const Walk& walk, const Probing& now, const Point<'W'>& wanted) {
-  constexpr double kNear = 1e-6;  // m
   return (walk.scene.X_WR * now.command - wanted).norm() <= kNear;
 }
 

@@ -10,6 +10,12 @@
 namespace enc {
 namespace {
 
+// m: the probe is thought to come from so far, and to pass the object after so much (assumed: objects are
+// smaller).
+constexpr double kAfar = 0.5, kFar = 1.0;
+// s: speeding up and slowing down, for each way (assumed: programme_time() is a little more than it takes).
+constexpr double kSettling = 0.1;
+
 // Polar angle and azimuth of the axis, as columns: towards growing polar, across, outward.
 Mat3 axes_of(const ProbeSpec& spec) {
   const double cp = std::cos(spec.polar), sp = std::sin(spec.polar);
@@ -24,7 +30,6 @@ Mat3 axes_of(const ProbeSpec& spec) {
 // Centre of a sphere that comes in along `inward` from afar, when it first touches the object. A step as long
 // as the gap never goes through a surface.
 Point<'W'> first_touch(const Object& object, Point<'W'> centre, const Vec<'W'>& inward, double radius) {
-  constexpr double kFar = 1.0;     // m
   constexpr int kSteps = 100'000;  // one that grazes it comes nearer and nearer, or goes on by little
   const double touching = std::max(1e-12, 1e-15 * centre.e().norm());  // m; no place is known better
   double way = 0.0;
@@ -114,7 +119,6 @@ std::optional<Probe> Probe::asked(const SceneSpec& spec, const CommonScene& scen
   probe.object = static_cast<std::int32_t>(&probed_object(spec) - spec.objects.data());
   const Object& object = scene.objects[static_cast<std::size_t>(probe.object)];
   const Mat3 axes = axes_of(from);
-  constexpr double kAfar = 0.5;  // m
   const Point<'W'> afar(Vec3(object.X_WO.p() + from.offset * axes.col(0) + kAfar * axes.col(2)));
   const Point<'W'> touch = first_touch(object, afar, Vec<'W'>(Vec3(-axes.col(2))), from.radius);
   probe.X_WN = {Quat(axes), touch};
@@ -129,7 +133,6 @@ std::optional<Probe> Probe::asked(const SceneSpec& spec, const CommonScene& scen
 }
 
 double programme_time(const CommonScene& scene, const Probe& probe) {
-  constexpr double kSettling = 0.1;  // s: speeding up and slowing down, for each way
   const Reach& reach = scene.reach;
   const double approach =
       probe.at(-probe.clear).e().norm() / reach.speed + 2.0 * reach.speed / reach.acceleration;

@@ -6,6 +6,7 @@
 #include "core/control/safety/braking.h"
 #include "core/control/safety/inside.h"
 #include "core/control/task/meet/finger.h"
+#include "core/control/task/meet/meet_spec.h"
 
 namespace enc::stages {
 namespace {
@@ -36,9 +37,7 @@ void lie_on_prop(Walk& walk, CommonState& state, const Meeting& now) {
   if (!tells_depth(*object) || !(now.aim.caught_up || pressed)) return;
   const double prop = dot(walk.X_WH.origin() - walk.surface_point, walk.normal);
   const double near = walk.scene.contact.leave_gap;
-  // A finger that is stopped seems to spring back for a picture or two: while the prop is pushed, it has not.
-  constexpr double kPushed = 3.0;
-  const double slack = pressed ? kPushed * near : near;
+  const double slack = pressed ? AimSpec::kSpringsBack * near : near;
   const double beyond = walk.gap - prop;
   // A prop that is lifted off the surface from beside is none that a finger behind it lies on.
   walk.gap = beyond < -near ? std::min(prop, 0.0) : prop + std::max(0.0, beyond - slack);
@@ -129,11 +128,11 @@ struct Haste {
 // surface as long as that is nearer.
 Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, CommonState& state,
                           const Aim& now, const Object& object, const Vec3& wanted) {
-  constexpr double kOutside = 0.5e-3;  // m: a target on a curved surface is a little outside of it
-  Inside inside(walk.scene, state.object, -kOutside, shift_of(object, walk.moved), state.hints.command);
+  Inside inside(walk.scene, state.object, -AimSpec::kOutside, shift_of(object, walk.moved),
+                state.hints.command);
   const Brake brake{now.target, now.velocity.e(), acceleration, speed, walk.scene.dt};
   const double here = inside.depth(brake.at);
-  state.entered = state.entered || here >= -kOutside;
+  state.entered = state.entered || here >= -AimSpec::kOutside;
   return state.entered ? inside.velocity(brake, here, wanted) : wanted;
 }
 
@@ -141,21 +140,18 @@ Vec3 not_through_a_hollow(const Walk& walk, double acceleration, double speed, C
 // with the goal, whose leaps (each new picture of the finger is one) it takes out within `settle`.
 void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, const Goal& goal,
                  const Object* object) {
-  constexpr double kThere = 0.2e-3;  // m
-  constexpr double kLeap = 10e-3;    // m: another object, or another part of it
-  constexpr double kBelt = 0.060;    // s: of a prop whose surface runs
   const double dt = walk.scene.dt;
   const Vec3 way = (goal.point - now.target).e();
   const double far = way.norm();
   const bool runs = touches_belt(state, object);
-  if (far > kLeap && !runs) now.caught_up = false;
+  if (far > AimSpec::kLeap && !runs) now.caught_up = false;
   // What haste has set in motion is braked in haste.
   now.hurried =
       goal.foreseen || (now.hurried && now.velocity.norm() > braking_speed(far, rig.acceleration, dt));
   const Haste haste(rig, now.hurried);
-  // The share leaves room for a goal that moves.
-  const double stops = std::min(0.9 * braking_speed(far, haste.acceleration, dt), far / dt);
-  const double settle = runs ? kBelt : haste.settle;
+  const double stops =
+      std::min(AimSpec::kBrakingShare * braking_speed(far, haste.acceleration, dt), far / dt);
+  const double settle = runs ? AimSpec::kBeltSettle : haste.settle;
   const double speed = now.caught_up ? std::min(far / settle, stops) : std::min(rig.speed, stops);
   Vec3 velocity = goal.velocity.e();
   if (far > 0.0) velocity += way * (speed / far);
@@ -167,7 +163,7 @@ void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, co
   if (on_its_way) {
     if (object != nullptr)
       velocity = not_through_a_hollow(walk, haste.acceleration, rig.speed, state, now, *object, velocity);
-    now.caught_up = far < kThere && change.norm() <= 2.0 * most;
+    now.caught_up = far < AimSpec::kThere && change.norm() <= 2.0 * most;
   }
   walk.target_change = (velocity - now.velocity.e()) / dt;
   if (on_its_way || now.hurried) walk.target_acceleration = walk.target_change;
@@ -178,19 +174,35 @@ void move_target(Walk& walk, const ArmRig& rig, CommonState& state, Aim& now, co
   now.target = now.target + dt * now.velocity;
 }
 
+// Towards a place under the finger. One out of reach stops the target.
+void go_to(Goal goal, Walk& walk, const Impedance& task, CommonState& state, Aim& now, const Object& object) {
+  const Arm& arm = task.arm;
+  PerJoint q = walk.in.arm.value.joints;
+  if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, task.rig.least_dexterity, q)) {
+    // A machine with fewer joints than ways goes to where it is nearest.
+    if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
+    move_target(walk, task.rig, state, now, goal, &object);
+    return;
+  }
+  walk.why |= kUnreachable;
+  now.caught_up = false;
+  move_target(walk, task.rig, state, now, {now.target}, nullptr);
+  now.caught_up = false;
+}
+
 // While a ball is pressed the ball alone pushes its prop (impede), and along the normal the target is where
 // the finger has pushed it: so nothing leaps when they part. Its speed is that of the prop, smoothed, and no
 // more than the way that it has come allows: one reading that is wrong sets nothing in motion. Sideways it
 // comes to rest.
 void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, Aim& now) {
-  constexpr double kTicks = 8.0;
   const double dt = walk.scene.dt;
   const Vec3 normal = contact.X_WN.q() * Vec3::UnitZ();
   const double ticks = 1.0 + std::round(age(walk.tick.t, contact.began) / dt);
   const double way = normal.dot((walk.X_WH.origin() - contact.X_WN.origin()).e());
   const double most = std::min(rig.speed, 2.0 * std::abs(way) / (ticks * dt));
   const double before = ticks > 1.0 ? normal.dot(now.velocity.e()) : 0.0;
-  const double speed = before + (normal.dot(walk.tip_velocity.e()) - before) / std::min(ticks, kTicks);
+  const double speed =
+      before + (normal.dot(walk.tip_velocity.e()) - before) / std::min(ticks, AimSpec::kPropTicks);
   Vec3 across = now.velocity.e() - normal * normal.dot(now.velocity.e());
   across *= std::max(0.0, 1.0 - rig.acceleration * dt / std::max(across.norm(), 1e-9));
   now.velocity = Vec<'W'>(Vec3(across + std::clamp(speed, -most, most) * normal));
@@ -201,25 +213,21 @@ void go_with_prop(const Walk& walk, const ArmRig& rig, const Contact& contact, A
 // Whether the arm does what it is told. A finger may push the tip away from its target, so only where none is
 // near does the distance tell. Believed: an even motion lags by K_v / K_p.
 void check_following(Walk& walk, const Impedance& law, Aim& now) {
-  constexpr double kFriction = 5e-3;  // m: what friction and a wrong weight may hold it off
-  constexpr double kSlowest = 0.2;    // s: no belief makes the arm slower than this
-  constexpr double kBeside = 0.030;   // m: from the finger to the prop's middle
-  constexpr double kPatience = 0.25;  // s
   if (walk.in.withheld) {
     now.straying = Straying{};
     return;
   }
   const ArmRig& rig = law.rig;
-  const double lag = std::min(rig.damping / rig.stiffness, kSlowest);
+  const double lag = std::min(rig.damping / rig.stiffness, AimSpec::kLongestLag);
   const double dt = walk.scene.dt;
-  double near = kFriction + now.straying.excused(now.velocity.norm(), lag, dt);
+  double near = AimSpec::kFriction + now.straying.excused(now.velocity.norm(), lag, dt);
   if (rig.gravity == GravityForm::none) {
     const PerJoint weight = law.arm.gravity(walk.in.arm.value.joints, law.prop_mass, Payload::exact);
     near += law.arm.force(walk.jacobian, weight).norm() / rig.stiffness;  // it hangs from its target
   }
-  const bool free = !walk.tool_known || (walk.tool_tip - walk.X_WH.origin()).norm() > kBeside;
+  const bool free = !walk.tool_known || (walk.tool_tip - walk.X_WH.origin()).norm() > AimSpec::kBesideProp;
   const bool off = free && (now.target - walk.X_WH.origin()).norm() > near;
-  if (!now.straying.too_long(off, kPatience, dt)) return;
+  if (!now.straying.too_long(off, AimSpec::kPatience, dt)) return;
   now.stuck = true;
   walk.why |= kNotFollowing;
 }
@@ -284,19 +292,7 @@ void aim(Walk& walk, const Impedance& task, CommonState& state, Meeting& memory)
   } else if (state.mode == Mode::away || object == nullptr) {
     move_target(walk, task.rig, state, now, {walk.sent.finite() ? walk.sent : now.target}, nullptr);
   } else {
-    Goal goal = goal_of(walk, state, memory, *object);
-    const Arm& arm = task.arm;
-    PerJoint q = walk.in.arm.value.joints;
-    if (arm.reaches(walk.scene.X_WR.inverse() * goal.point, task.rig.least_dexterity, q)) {
-      // A machine with fewer joints than ways goes to where it is nearest.
-      if (arm.joints() < kMostJoints) goal.point = walk.scene.X_WR * arm.tip(q);
-      move_target(walk, task.rig, state, now, goal, object);
-    } else {
-      walk.why |= kUnreachable;
-      now.caught_up = false;
-      move_target(walk, task.rig, state, now, {now.target}, nullptr);  // it stops
-      now.caught_up = false;
-    }
+    go_to(goal_of(walk, state, memory, *object), walk, task, state, now, *object);
   }
   change_gain(walk, task.rig.stiffness, state, object, now);
 }

@@ -6,12 +6,13 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "core/control/task/meet/meet_spec.h"
+
 namespace enc {
 namespace {
 
 // `D`: viscous damping of the joints; `inverse`: of the mass matrix.
 certificate::Directions directions_at(const Mat3& J, const Mat3& inverse, const Mat3& D, const Vec3& normal) {
-  constexpr double kLeast = 1e-6;  // 1/kg: less is a direction in which the tip does not move
   const Vec3 across = normal.unitOrthogonal();
   Mat3 axes;
   axes << normal.transpose(), across.transpose(), normal.cross(across).transpose();
@@ -19,7 +20,7 @@ certificate::Directions directions_at(const Mat3& J, const Mat3& inverse, const 
   const Eigen::SelfAdjointEigenSolver<Mat3> mobility(tip * inverse * tip.transpose());
   certificate::Directions found;
   Mat3 back = Mat3::Zero();  // tip force for eta''
-  for (int i = 2; i >= 0 && mobility.eigenvalues()(i) > kLeast; --i) {
+  for (int i = 2; i >= 0 && mobility.eigenvalues()(i) > MeetSpec::kLeastMobility; --i) {
     const double root = std::sqrt(mobility.eigenvalues()(i));
     found.moves.col(found.count) = root * mobility.eigenvectors().col(i);
     back.col(found.count++) = mobility.eigenvectors().col(i) / root;
@@ -34,7 +35,7 @@ certificate::Directions directions_at(const Mat3& J, const Mat3& inverse, const 
 }  // namespace
 
 double damping_at(const Impedance& law, double mass) {
-  return law.rig.damping * std::sqrt(std::clamp(mass / law.home_mass, 1.0, 4.0));
+  return law.rig.damping * std::sqrt(std::clamp(mass / law.home_mass, 1.0, MeetSpec::kMostMassRatio));
 }
 
 ArmLoopAt loop_at(const Impedance& law, const certificate::Hand& hand, double dt, const PerJoint& q,

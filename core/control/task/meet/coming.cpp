@@ -6,6 +6,7 @@
 
 #include "core/base/rotation.h"
 #include "core/control/task/meet/finger.h"
+#include "core/control/task/meet/meet_spec.h"
 
 namespace enc::stages {
 namespace {
@@ -51,9 +52,8 @@ double noise_of_newest(const Walk& walk, const CommonState& state) {  // m rms, 
 
 // Where pictures are about as vague as may be, it is not asked now and then.
 bool clear(const Walk& walk, const CommonState& state, const Coming& now) {
-  constexpr double kStays = 1.1;
   const double vaguest = walk.scene.tracker.reach.vaguest;
-  return noise_of_newest(walk, state) <= (now.clear ? kStays * vaguest : vaguest);
+  return noise_of_newest(walk, state) <= (now.clear ? ComingSpec::kStaysClear * vaguest : vaguest);
 }
 
 // A hand that reaches does not come slower than it wants to touch, but for a moment between its movements.
@@ -172,13 +172,12 @@ Goal foreseen_touch(const Walk& walk, const CommonState& state, Meeting& memory)
 }
 
 Point<'W'> comes_to(const Walk& walk, const Meeting& memory) noexcept {
-  constexpr double kAbove = 1e-3;  // m: nothing is touched yet
   const Coming& now = memory.coming;
   const double passed = age(walk.tick.t, now.told);
   if (now.object < 0 || passed > kAfter.back()) return {};
   const Vec2 at = expected(now, passed);
   if (!at.allFinite()) return {};
-  return now.X_WN * Point<'N'>(at.x(), at.y(), kAbove);
+  return now.X_WN * Point<'N'>(at.x(), at.y(), ComingSpec::kAbove);
 }
 
 }  // namespace enc::stages

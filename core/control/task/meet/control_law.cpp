@@ -4,6 +4,7 @@
 
 #include "core/control/task/meet/arm_loop.h"
 #include "core/control/task/meet/finger.h"
+#include "core/control/task/meet/meet_spec.h"
 #include "core/control/task/meet/tame.h"
 
 namespace enc::stages {
@@ -14,23 +15,19 @@ namespace {
 // the tip dithering. It must have stood before: the filtered rate dies out in 40 ms without a count. Where it
 // only turns round, friction would not hold what then pushes it.
 bool resting(const CommonState& state, const Aim& now, const Vec3& error, const Vec3& velocity) {
-  // m: 0.01 N m of friction at each motor hold up to 4.5 mm at the tip, and twice as much 9.
-  constexpr double kNear = 10e-3;
-  constexpr double kCounts = 40e-3;  // m/s: one count of two joints where the arm is stretched
-  constexpr double kStood = 1e-9;    // m/s
-  return state.mode == Mode::away && error.norm() < kNear && velocity.norm() < kCounts &&
-         now.velocity.norm() < 1e-3 && now.error_rate.norm() < kStood;
+  return state.mode == Mode::away && error.norm() < RestSpec::kNear && velocity.norm() < RestSpec::kCounts &&
+         now.velocity.norm() < RestSpec::kTargetStill && now.error_rate.norm() < RestSpec::kStood;
 }
 
 // It rests, and stays where it came to rest. Where it does not although nothing moves its target, the law
 // goes on until it stands again with all of its push: a count that changes then is no reason to go on.
 bool stays(const CommonState& state, const Point<'W'>& tip, bool rests, const Vec3& error, Aim& now) {
-  constexpr double kSlips = 0.15e-3;    // m: five counts
-  constexpr double kArrived = 0.03e-3;  // m: a count
   if (state.mode != Mode::away) now.slipped = false;
-  const bool left = now.stood.finite() && (!rests || (tip - now.stood).norm() > kSlips);
-  now.slipped = now.slipped || (left && state.mode == Mode::away && now.velocity.norm() < 1e-3);
-  const bool arrived = now.stood.finite() || !now.slipped || (now.error.e() - error).norm() <= kArrived;
+  const bool left = now.stood.finite() && (!rests || (tip - now.stood).norm() > RestSpec::kSlips);
+  now.slipped =
+      now.slipped || (left && state.mode == Mode::away && now.velocity.norm() < RestSpec::kTargetStill);
+  const bool arrived =
+      now.stood.finite() || !now.slipped || (now.error.e() - error).norm() <= RestSpec::kArrived;
   const bool stands = rests && !left && arrived;
   if (!stands)
     now.stood = {};
@@ -44,8 +41,7 @@ bool stays(const CommonState& state, const Point<'W'>& tip, bool rests, const Ve
 // is held beside it. Where the tip has slipped then, the weight is another one, and friction does not hold
 // the difference: then the push stays.
 double fading(const Impedance& law, const Aim& now, double dt) {
-  constexpr double kFades = 0.05;  // s, to 1/e
-  return law.rig.gravity == GravityForm::exact && !now.slipped ? 1.0 / (1.0 + dt / kFades) : 1.0;
+  return law.rig.gravity == GravityForm::exact && !now.slipped ? 1.0 / (1.0 + dt / RestSpec::kFades) : 1.0;
 }
 
 // Of the second derivative of e [eq. 2] only the target's own is known: the force that it takes to go along.

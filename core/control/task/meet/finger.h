@@ -4,6 +4,7 @@
 
 #include "core/control/stages/walk.h"
 #include "core/control/task/meet/meet.h"
+#include "core/control/task/meet/meet_spec.h"
 
 namespace enc::stages {
 
@@ -15,8 +16,7 @@ namespace enc::stages {
 // A finger that rests on a prop moves as slowly as it presses or slides. It does when the arm is pushed back;
 // that it has come to the surface is only what is foreseen, before it has slowed down.
 [[nodiscard]] inline bool pushed_back(const CommonState& state, const Vec<'W'>& normal) {
-  constexpr double kFelt = 0.2;  // N
-  return -dot(state.force, normal) > kFelt;
+  return -dot(state.force, normal) > ComingSpec::kPushedBack;
 }
 [[nodiscard]] inline bool presses(const CommonState& state, const Contact& contact) {
   return state.mode == Mode::contact && pushed_back(state, contact.X_WN * Vec<'N'>(0, 0, 1));

@@ -5,6 +5,7 @@
 #include "core/base/rotation.h"
 #include "core/control/stages/report.h"
 #include "core/control/task/meet/finger.h"
+#include "core/control/task/meet/meet_spec.h"
 
 namespace enc::stages {
 namespace {
@@ -16,12 +17,11 @@ void track_arm(Walk& walk, const Impedance& task, CommonState& state) {
     walk.why |= kTipLost;
     return;
   }
-  constexpr double kFastest = 20.0;  // m/s
   const ArmSample& arm = sample.value;
-  bool usable = sample.health == Health::ok && arm.tip.finite() && arm.tip.e().norm() < 10.0 &&
-                arm.velocity.finite() && arm.velocity.norm() < kFastest &&
+  bool usable = sample.health == Health::ok && arm.tip.finite() && arm.tip.e().norm() < MeetSpec::kFarthest &&
+                arm.velocity.finite() && arm.velocity.norm() < MeetSpec::kFastest &&
                 sample.t <= walk.tick.t + walk.tick.dt;
-  for (const double q : arm.joints) usable = usable && std::abs(q) < 100.0;  // false for NaN
+  for (const double q : arm.joints) usable = usable && std::abs(q) < MeetSpec::kMostTurned;  // false for NaN
   if (!usable) {
     walk.why |= kTipInvalid;
     return;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/control/task/meet/finger.h"
+#include "core/control/task/meet/meet_spec.h"
 
 namespace enc::stages {
 namespace {
@@ -76,12 +77,11 @@ Tame::Tame(Walk& walk, const Impedance& law, const CommonState& state, Meeting& 
   if (now.energy.on && now.object != state.object) lose(walk, memory, now);
   const Spring spring = spring_of(walk, law, state, memory, *object);
   const Yielded tick{moved(walk, state, memory), spring.depth, spring.push};
-  constexpr double kTurned = 0.9;  // cosine: it is another side of the object
   if (!now.energy.on) {
     begin(now.energy, tick, now.kept);
     now.kept = 0.0;
   } else {
-    if (dot(walk.normal, now.normal) < kTurned) renew(now.energy, tick);
+    if (dot(walk.normal, now.normal) < MeetSpec::kTurned) renew(now.energy, tick);
     observe(now.energy, tick, law.count);
   }
   now.pressed = (now.pressed && now.object == state.object) || now.energy.stored > kPressed;

@@ -2,6 +2,7 @@
 
 #include "core/base/rotation.h"
 #include "core/control/stages/walk.h"
+#include "core/control/task/push/push_spec.h"
 
 namespace enc::stages {
 namespace {
@@ -10,21 +11,15 @@ namespace {
 // than an arm lags that has just been sent somewhere. Vision says no more than that a finger may be there.
 // What the arm does on its way home is no strike.
 bool struck(const Walk& walk, const CommonState& state, Meeting& now) {
-  constexpr double kNear = 0.030;       // m: a finger that is seen late is somewhere in here
-  constexpr double kSpeed = 0.025;      // m/s: two counts of an encoder in 2 ms are 0.014
-  constexpr double kMoved = 0.06e-3;    // m: two counts
-  constexpr double kFriction = 0.6e-3;  // m: what friction may hold the prop off the surface, at most
-  constexpr double kSettled = 0.100;    // s, after it has come
-  constexpr double kLate = 0.004;       // s: an arm that moves is behind its target by some of this
-  constexpr double kUneven = 0.12;      // of the target's speed
+  using Is = StrikeSpec;
   const double behind = dot(now.aim.target - walk.X_WH.origin(), walk.normal);
   const double speed = dot(now.aim.velocity - walk.tip_velocity, walk.normal);
   const bool there = state.mode == Mode::follow && now.aim.caught_up && walk.tool_known;
   const double fastest = now.aim.straying.fastest;  // of late
-  const bool pushed =
-      behind > kFriction + kLate * fastest || (behind > kMoved && speed > kSpeed + kUneven * fastest);
+  const bool pushed = behind > Is::kFriction + Is::kLate * fastest ||
+                      (behind > Is::kMoved && speed > Is::kSpeed + Is::kUneven * fastest);
   if (!there) now.contact.left = walk.tick.t;
-  return there && age(walk.tick.t, now.contact.left) > kSettled && pushed && walk.gap < kNear;
+  return there && age(walk.tick.t, now.contact.left) > Is::kSettled && pushed && walk.gap < Is::kNear;
 }
 
 // How a ball is hit says the prop that stands for it, each tick to 0.03 mm; a picture of the finger is 50 ms
@@ -32,8 +27,6 @@ bool struck(const Walk& walk, const CommonState& state, Meeting& now) {
 // part, or nothing has been felt for a while, or the ball is where it waits. A ball that has been hit is not
 // hit again before it is back.
 double hit_depth(Walk& walk, CommonState& state, Meeting& memory, const Mover& mover, const Moved& now) {
-  constexpr double kFelt = 0.05;   // N: less is lost in the arm's friction
-  constexpr double kEmpty = 0.10;  // s
   Contact& contact = memory.contact;
   const bool pressed = state.mode == Mode::contact && contact.anchored && contact.object == state.object;
   if (!pressed) {
@@ -50,12 +43,11 @@ double hit_depth(Walk& walk, CommonState& state, Meeting& memory, const Mover& m
   }
   walk.normal = contact.X_WN * Vec<'N'>(0, 0, 1);
   const double depth = dot(contact.X_WN.origin() + now.shift - walk.X_WH.origin(), walk.normal);
-  constexpr double kBack = 0.1e-3;  // m: it was no finger
-  const bool felt = mover.stiffness * now.firmness * depth > kFelt;
+  const bool felt = mover.stiffness * now.firmness * depth > StrikeSpec::kFelt;
   contact.clear = felt ? 0.0 : contact.clear + walk.scene.dt;
   const bool gone = now.shift.norm() >= mover.travel * (1.0 - 1e-9);
-  const bool apart = depth < -kBack || (!(depth > 0.0) && now.deepest > 0.0);
-  if (apart || gone || contact.clear > kEmpty) {
+  const bool apart = depth < -StrikeSpec::kBack || (!(depth > 0.0) && now.deepest > 0.0);
+  if (apart || gone || contact.clear > StrikeSpec::kEmpty) {
     contact.anchored = false;
     contact.left = walk.tick.t;
   }

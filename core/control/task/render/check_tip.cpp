@@ -11,6 +11,16 @@
 namespace enc::stages {
 namespace {
 
+// m: play and overshoot of a machine take no more before it is a fault (assumed: no source).
+constexpr double kPlay = 50e-6;
+// m: no tip and no dent of a display is larger, and no object farther (assumed: well beyond a machine's
+// reach).
+constexpr double kWidestTip = 0.1, kLongestTip = 1.0, kDeepestDent = 0.1, kFarthestTip = 10.0;
+// The axis of a tip is a unit vector to this (assumed: no source).
+constexpr double kUnit = 1e-3;
+// Share of the margin within which what was outside the seen surface is inside again (assumed: no source).
+constexpr double kWellInside = 0.7;
+
 bool command_stays(const Walk& walk, CommonState& state, const Commanded& now) {
   Inside inside(walk.scene, state.object, least_depth(walk), Vec<'W'>::zero(), state.hints.command);
   const Brake brake = brake_of(walk, now);
@@ -20,17 +30,16 @@ bool command_stays(const Walk& walk, CommonState& state, const Commanded& now) {
 
 // `distance`: of the tip's outermost point to the undeformed surface, m.
 void check_undeformed(Walk& walk, double distance, CommonState& state, const Commanded& now) {
-  constexpr double kTolerance =
-      50e-6;  // m: what play and overshoot of a machine may take before it is a fault
   // On the way in the tip is rightly outside, and so is what it is told.
   if (!state.entered && distance <= -kSkin) state.entered = command_stays(walk, state, now);
-  if (state.entered && distance > kTolerance) walk.why |= kOutsideObject;
+  if (state.entered && distance > kPlay) walk.why |= kOutsideObject;
 }
 
 bool possible(const Tip<'O'>& tip) {
-  return tip.centre.finite() && tip.centre.e().norm() < 10.0 && tip.radius >= 0.0 && tip.radius < 0.1 &&
-         tip.shape <= TipShape::edge && std::abs(tip.axis.norm() - 1.0) < 1e-3 && tip.half_angle >= 0.0 &&
-         tip.half_angle < 0.5 * std::numbers::pi && tip.length >= 0.0 && tip.length < 1.0;
+  return tip.centre.finite() && tip.centre.e().norm() < kFarthestTip && tip.radius >= 0.0 &&
+         tip.radius < kWidestTip && tip.shape <= TipShape::edge && std::abs(tip.axis.norm() - 1.0) < kUnit &&
+         tip.half_angle >= 0.0 && tip.half_angle < 0.5 * std::numbers::pi && tip.length >= 0.0 &&
+         tip.length < kLongestTip;
 }
 
 bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
@@ -38,7 +47,7 @@ bool possible(const Walk& walk, const Stamped<DentSample>& sample) {
   if (sample.t > walk.tick.t + walk.tick.dt) return false;
   if (dent.object == -1) return true;
   return dent.object >= 0 && dent.object < static_cast<int>(walk.scene.objects.size()) &&
-         possible(dent.tip) && dent.depth >= 0.0 && dent.depth < 0.1;
+         possible(dent.tip) && dent.depth >= 0.0 && dent.depth < kDeepestDent;
 }
 
 // The seen surface is late: the tip may be outside it by what tool and tip can have moved since [VHMR 3.5].
@@ -65,7 +74,7 @@ void check_dent(Walk& walk, const Object& object, const Point<'O'>& outer, doubl
   // A fused tip is drawn ahead by the lead: tool and tip may stop or turn in that time, too.
   const double unsure = old + (rig.tip == SeenTip::fused ? rig.lead : 0.0);
   // The margin shrinks with each new frame: what was outside counts as inside again only well within it.
-  const double margin = (rig.margin + rig.margin_speed * unsure) * (now.outside_dent ? 0.7 : 1.0);
+  const double margin = (rig.margin + rig.margin_speed * unsure) * (now.outside_dent ? kWellInside : 1.0);
   // On the way in, the tip is rightly outside. A dent moves the surface by its depth at most: mostly that is
   // answer enough.
   const bool maybe = state.entered && distance + now.dent.value.depth > margin;

@@ -50,10 +50,11 @@ bool force_is_drift(const Walk& walk, bool own, double force, Contact& contact) 
   return contact.clear >= longest;
 }
 
+// m/s: machine and command stand (assumed: no source).
+constexpr double kStandstill = 1e-5;
 // As near to the buffered point as the machine gets.
 bool at_rest(const Walk& walk, const Rendering& now) {
-  constexpr double kStill = 1e-5;  // m/s
-  return now.command_velocity.norm() < kStill && walk.in.tip.value.velocity.norm() < kStill;
+  return now.command_velocity.norm() < kStandstill && walk.in.tip.value.velocity.norm() < kStandstill;
 }
 
 // The surface point under the tool; without a tracker, over the tip.
