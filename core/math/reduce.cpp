@@ -35,6 +35,14 @@ constexpr std::uint64_t kTwoByPiBits[] = {
     0x9c845f8bbdf9283b, 0x1ff897ffde05980f, 0xef2f118b5a0a6d1f, 0x6d367ecf27cb09b7, 0x4f463f669e5fea2d,
     0x7527bac7ebe5f17b, 0x3d0739f78a5292ea, 0x6bfb5fb11f8d5d08, 0x56033046fc7b6bab, 0xf0cfbc209af4361d};
 
+// 64 bits of 2/pi from bit `at` on; before the first there are zeros.
+std::uint64_t two_by_pi_from(int at) {
+  const auto get = [](int i) { return i < 0 ? 0 : kTwoByPiBits[i]; };
+  if (at < 0) return get(0) >> -at;
+  const int i = at / 64, shift = at % 64;
+  return shift == 0 ? get(i) : get(i) << shift | get(i + 1) >> (64 - shift);
+}
+
 // x = m 2^e with whole m. The bits of 2/pi above 2^(2-e) make whole turns and are left out; of the next 192,
 // which are multiplied by m modulo whole turns, 139 are right, and at most 62 of these cancel.
 Reduced reduce_large(double x) {
@@ -43,13 +51,7 @@ Reduced reduce_large(double x) {
   const int e = static_cast<int>((bits >> 52) & 0x7ff) - 1075;
   // First bit of the window: worth 2^(1-e) of 2/pi, so 2 quadrants after multiplying.
   const int first = e - 2;
-  const auto word = [&](int k) {
-    const int at = first + 64 * k;
-    const auto get = [](int i) { return i < 0 ? 0 : kTwoByPiBits[i]; };
-    if (at < 0) return get(0) >> -at;
-    const int i = at / 64, shift = at % 64;
-    return shift == 0 ? get(i) : get(i) << shift | get(i + 1) >> (64 - shift);
-  };
+  const auto word = [&](int k) { return two_by_pi_from(first + 64 * k); };
   const Wide low = Wide{m} * word(2);
   const Wide middle = Wide{m} * word(1) + static_cast<std::uint64_t>(low >> 64);
   Wide top = (Wide{m * word(0)} << 64) + middle;  // its first two bits are the quadrant

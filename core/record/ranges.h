@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "core/record/fields.h"
 
@@ -76,5 +77,24 @@ struct CheckLeaves {
     return range_of_type<T>();
   }
 };
+
+// Of frames of `each` leaves, one behind the other, the first leaf that is out of its range. `index`: of the
+// tick before them; then of the last.
+struct WrongLeaf {
+  std::size_t leaf = 0;
+  std::string why{};  // empty: there is none
+};
+template <class Frame>
+[[nodiscard]] WrongLeaf wrong_leaf_of(const std::vector<std::uint64_t>& leaves, std::size_t each,
+                                      std::int64_t& index) {
+  Frame frame;
+  for (std::size_t first = 0; first < leaves.size(); first += each) {
+    CheckLeaves check{leaves.data() + first, index};
+    all_fields(check, frame);
+    if (!check.wrong.empty()) return {first + check.leaf, check.wrong};
+    index = check.index;
+  }
+  return {};
+}
 
 }  // namespace enc

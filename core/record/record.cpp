@@ -126,6 +126,23 @@ std::string listed(const std::vector<std::uint64_t>& numbers) {
   return text;
 }
 
+constexpr const char* kCut =
+    "the record is cut off here, or the run was not ended: it has no seal; give --partial for what is whole";
+
+// What a head announces; none: nothing that may stand there.
+enum class Part { none, frames, texts, seal };
+Part part_of(std::uint64_t head, bool told_end, std::uint32_t format) {
+  const auto tag = static_cast<std::uint32_t>(head);
+  const std::size_t size = head >> 32;
+  const auto possible = [size](std::size_t most, std::size_t each) {
+    return size > 0 && size <= most && size % each == 0;
+  };
+  if (tag == kSeal && size == kWord) return Part::seal;
+  if (tag == kChunk && !told_end && possible(kChunkBytes, frame_words() * kWord)) return Part::frames;
+  if (tag == kEnd && !told_end && format > 1 && possible(kHeaderBytes, kWord)) return Part::texts;
+  return Part::none;
+}
+
 }  // namespace
 
 // ---- writing
@@ -249,9 +266,6 @@ std::string RecordWriter::error() const {
   return "cannot write the record '" + path_ + "': " + std::generic_category().message(errno_);
 }
 
-// ---- reading
-// ---------------------------------------------------------------------------------------------------------
-
 RecordReader::RecordReader(const std::string& path, Partial partial) : path_(path), partial_(partial) {
   std::error_code none;
   if (std::filesystem::is_fifo(path, none))  // it is read twice
@@ -321,19 +335,11 @@ bool RecordReader::read_chunk() {
     done_ = true;
     return false;
   };
-  static const std::string kCut =
-      "the record is cut off here, or the run was not ended: it has no seal; give --partial for what is "
-      "whole";
   std::uint64_t start = 0, checksum = 0;
   if (!get(&start, kWord)) return stop(at, kCut, true);
-  const auto tag = static_cast<std::uint32_t>(start);
+  const Part part = part_of(start, told_end_, format_);
   const std::size_t size = start >> 32;
-  const bool frames =
-      tag == kChunk && !told_end_ && size > 0 && size <= kChunkBytes && size % (frame_words() * kWord) == 0;
-  const bool end =
-      tag == kEnd && !told_end_ && format_ > 1 && size > 0 && size <= kHeaderBytes && size % kWord == 0;
-  const bool seal = tag == kSeal && size == kWord;
-  if (!frames && !end && !seal) return stop(at, "the record is damaged: neither a chunk nor the seal");
+  if (part == Part::none) return stop(at, "the record is damaged: neither a chunk nor the seal");
   if (size > size_ - byte_) return stop(at, kCut, true);
   chunk_.resize(size / kWord);
   if (!get(chunk_.data(), size) || !get(&checksum, kWord)) return stop(at, kCut, true);
@@ -341,17 +347,11 @@ bool RecordReader::read_chunk() {
   chain_.add(start);
   if (checksum != chain_.value)
     return stop(at, "checksum failure: the record is damaged between here and byte " + std::to_string(byte_));
-  if (frames) {
-    RecordedTick frame;
-    for (std::size_t first = 0; first < chunk_.size(); first += frame_words()) {
-      CheckLeaves check{chunk_.data() + first, index_};
-      all_fields(check, frame);
-      if (!check.wrong.empty()) return stop(at + kWord * (1 + first + check.leaf), check.wrong);
-      index_ = check.index;
-    }
-    return true;
+  if (part == Part::frames) {
+    const auto [leaf, why] = wrong_leaf_of<RecordedTick>(chunk_, frame_words(), index_);
+    return why.empty() || stop(at + kWord * (1 + leaf), why);
   }
-  if (end) {
+  if (part == Part::texts) {
     end_texts_.clear();
     if (!unpack(chunk_, end_texts_)) return stop(at, "the record is damaged: impossible texts at its end");
     told_end_ = true;
@@ -359,9 +359,8 @@ bool RecordReader::read_chunk() {
   }
   done_ = true;
   // After rewind() ticks_ is known and the same; a seal that says otherwise was written by something else.
-  if (static_cast<std::int64_t>(chunk_[0]) != ticks_)
-    return stop(at, "the seal is for " + std::to_string(chunk_[0]) + " ticks, but " + std::to_string(ticks_) +
-                        " are there");
+  const std::string sealed = std::to_string(chunk_[0]), there = std::to_string(ticks_);
+  if (sealed != there) return stop(at, "the seal is for " + sealed + " ticks, but " + there + " are there");
   char more = 0;
   if (get(&more, 1)) return stop(byte_ - 1, "there is something after the record's seal");
   sealed_ = true;

@@ -186,42 +186,56 @@ double damping_ratio(const ArmRig& rig, double mass) {
   return rig.damping / (2.0 * std::sqrt(rig.stiffness * mass));
 }
 
-Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
-  if (spec.manipulator)
-    throw Error("a scene has one machine: [manipulator] or [arm]; remove one", "manipulator");
-  Scene scene;
+namespace {
+
+// The law of the rig's arm with the scene's prop, in a loop of period `dt`.
+Impedance law_of(const SceneSpec& spec, const RigSpec& rig, double dt) {
   Impedance law{Arm(rig.arm.machine), rig.arm};
   if (spec.prop) {
     law.prop = spec.prop->kind;
     law.prop_mass = spec.prop->mass;
   }
-  scene.dt = 1.0 / rig.loop.rate;
-  law.filter_gain = 2.0 * std::numbers::pi * rig.arm.filter * scene.dt;
+  law.filter_gain = 2.0 * std::numbers::pi * rig.arm.filter * dt;
   check_gains(rig.arm, rig.loop.rate);
   const PerJoint home = law.arm.zero();
   law.home_mass = law.arm.felt_mass(law.arm.jacobian(home), law.arm.mass(home, law.prop_mass));
   check_damping(law);
-  law.motors = Motors(law.arm, motor_ratings(rig.arm), scene.dt);
+  law.motors = Motors(law.arm, motor_ratings(rig.arm), dt);
   if (rig.arm.passivity == PassivityForm::controlled) {
     if (!rig.arm.loop)
       throw Error(
           "the passivity controller has to know the encoders' counts; expected a table [arm.loop]; write "
           "it, as models/rigs/vishap.toml has it, or set passivity to none",
           "rig.arm.passivity");
-    law.count = count_of(law, scene.dt);
+    law.count = count_of(law, dt);
   }
-  scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
+  return law;
+}
+
+}  // namespace
+
+void keep_settings(const SceneSpec& spec, const RigSpec& rig, Scene& scene) {
   scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
   scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);
   scene.X_GL = pose_of<'G', 'L'>(rig.frames.G_L);
   scene.X_HF = pose_of<'H', 'F'>(rig.frames.H_F);
-  static_cast<Impedance&>(scene.task.emplace<Meet>()) = std::move(law);
   scene.follow = spec.follow;
   scene.tracker = rig.tracker;
+  scene.display = rig.display;
   scene.contact = rig.contact;
   scene.loop = rig.loop;
-  scene.display = rig.display;
   scene.has_tracker = spec.tracker.has_value();
+  scene.dt = 1.0 / rig.loop.rate;
+}
+
+Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig) {
+  if (spec.manipulator)
+    throw Error("a scene has one machine: [manipulator] or [arm]; remove one", "manipulator");
+  Scene scene;
+  keep_settings(spec, rig, scene);
+  Impedance law = law_of(spec, rig, scene.dt);
+  scene.X_WR = {Quat::Identity(), Vec3(-law.arm.tip(law.arm.zero()).e())};
+  static_cast<Impedance&>(scene.task.emplace<Meet>()) = std::move(law);
   scene.tip_radius = 0.0;  // a prop has a front
   if (!scene.has_tracker) throw Error("an arm needs [tracker]: it goes where the finger is", "arm");
   for (const ObjectSpec& object : spec.objects) scene.objects.push_back(arm_object(spec, object));

@@ -9,6 +9,10 @@ namespace enc {
 // under-damped, a role that is missing.
 [[nodiscard]] Scene prepare_arm(const SceneSpec& spec, const RigSpec& rig);
 
+// What of both files a scene of any machine keeps as it stands there: frames, settings and the tracker's
+// place.
+void keep_settings(const SceneSpec& spec, const RigSpec& rig, Scene& scene);
+
 // Damping ratio of a tip of `mass` (kg) under f = K_p e + K_v de/dt.
 [[nodiscard]] double damping_ratio(const ArmRig& rig, double mass);
 

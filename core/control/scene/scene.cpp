@@ -276,6 +276,16 @@ void choose(std::variant<Task...>& task, const SceneSpec& spec, const Scene& sce
   (ask(std::type_identity<Task>{}), ...);
 }
 
+// The law of what is rendered, until another task is chosen.
+void set_law(const RigSpec& rig, Scene& scene) {
+  if (rig.admittance.damping == Damping::observed)
+    std::get<Render>(scene.task)
+        .damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
+                         stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
+  std::get<Render>(scene.task).passivity = rig.admittance.passivity;
+  std::get<Render>(scene.task).hand_stiffness = rig.contact.hand_stiffness;
+}
+
 void check_passivity(const RigSpec& rig, const Scene& scene) {
   const char* why = scene.render() == nullptr ? "the scene renders nothing"
                     : scene.objects.empty()   ? "the scene has no object"
@@ -290,32 +300,17 @@ void check_passivity(const RigSpec& rig, const Scene& scene) {
 Scene prepare(const SceneSpec& spec, const RigSpec& rig) {
   if (spec.arm) return prepare_arm(spec, rig);
   Scene scene;
+  keep_settings(spec, rig, scene);
   scene.reach = reach_of(rig);
   scene.X_WR = Pose<'W', 'H'>::identity() * scene.reach.machine.zero().inverse();
-  scene.X_WC = pose_of<'W', 'C'>(rig.frames.W_C);
-  scene.X_WS = pose_of<'W', 'S'>(rig.frames.W_S);
-  scene.X_GL = pose_of<'G', 'L'>(rig.frames.G_L);
-  scene.X_HF = pose_of<'H', 'F'>(rig.frames.H_F);
-  scene.follow = spec.follow;
   scene.force = rig.force;
-  scene.tracker = rig.tracker;
-  scene.display = rig.display;
-  scene.contact = rig.contact;
-  scene.loop = rig.loop;
   scene.tip_radius = spec.probe ? spec.probe->radius : rig.manipulator.tip_radius;
-  scene.dt = 1.0 / rig.loop.rate;
   scene.servo = {2.0 * std::numbers::pi * rig.manipulator.servo, rig.manipulator.servo_damping,
                  rig.manipulator.delay, scene.dt};
   scene.filter_gain = 1.0 - std::exp(-2.0 * std::numbers::pi * rig.force.filter * scene.dt);
-  if (rig.admittance.damping == Damping::observed)
-    std::get<Render>(scene.task)
-        .damping.emplace(rig.admittance, loop_of(rig), scene.filter_gain,
-                         stages::kAlongShare * rig.manipulator.acceleration, scene.dt);
-  std::get<Render>(scene.task).passivity = rig.admittance.passivity;
-  std::get<Render>(scene.task).hand_stiffness = rig.contact.hand_stiffness;
+  set_law(rig, scene);
   scene.has_manipulator = spec.manipulator.has_value();
   scene.has_force = spec.force.has_value();
-  scene.has_tracker = spec.tracker.has_value();
   scene.has_display = spec.display.has_value();
   if (const ToolSpec* tool = clamped_tool(spec)) {
     scene.clamped_tool = static_cast<std::int32_t>(tool - spec.tools.data());

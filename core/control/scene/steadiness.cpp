@@ -59,6 +59,22 @@ struct Command {
   }
 };
 
+// N: a hand that goes along `way` within `ramp`, of which it has come so far in time (`share`), and the
+// machine gives in.
+double push_of_hand(const LoopModel& loop, double way, double share, double ramp, const Machine& machine) {
+  const MinimumJerk hand(share);
+  return loop.hand_stiffness * (way * hand.x - kWaits - machine.at) +
+         loop.hand_damping * (way * hand.v / ramp - machine.speed);
+}
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  void see(double x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+};
+
 LoopModel with_margin(LoopModel loop) {
   loop.hand_stiffness *= kMargin;
   loop.hand_damping *= kMargin;
@@ -95,13 +111,11 @@ double Steadiness::swing(const Response& object, double depth, double limit, dou
   ResponseState at;
   std::optional<Swing> seen;
   double force = 0.0, carried = 0.0;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  Range range;
   for (std::size_t i = 0; i < ticks; ++i) {
     double& due = sent[i % late];
     for (int k = 0; k < steps; ++k) machine.move(due, loop_, acceleration_, speed_, h);
-    const MinimumJerk hand(static_cast<double>(i) * dt_ / ramp);
-    const double push = loop_.hand_stiffness * (way * hand.x - kWaits - machine.at) +
-                        loop_.hand_damping * (way * hand.v / ramp - machine.speed);
+    const double push = push_of_hand(loop_, way, static_cast<double>(i) * dt_ / ramp, ramp, machine);
     force += filter_gain_ * (std::max(0.0, push) + noise() * contact_ / kOverNoise - force);
     if (!seen && force > contact_)
       seen = law_ ? law_->begin(share * object.press(1e-3 * limit) / (1e-3 * limit), force, machine.at)
@@ -117,11 +131,9 @@ double Steadiness::swing(const Response& object, double depth, double limit, dou
     }
     command.go(target, acceleration_, speed_, dt_);
     due = command.at;
-    if (i < watched) continue;
-    low = std::min(low, machine.at);
-    high = std::max(high, machine.at);
+    if (i >= watched) range.see(machine.at);
   }
-  return high - low;
+  return range.high - range.low;
 }
 
 double Steadiness::still() const { return std::max(kStill, threshold_ * kMargin / loop_.hand_stiffness); }

@@ -152,12 +152,9 @@ struct Axes {
   }
 };
 
-// The unknowns along an axis: where the hand began, the first movement, and what of the rest of the way the
-// belief does not foresee. The second movement makes the rest of the way; across the surface it aims beyond
-// it. How much the pictures differ from nothing at all is left out of the evidence: it is the same for all.
-Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width) {
-  const double rest = 1.0 / hand.share - 1.0;  // of the first movement
-  const double beyond = t.falls_short ? 1.0 / kAtCrossing.x : 0.0;
+// What pictures, belief and surface say together of a reach with these times. `rest`: of the first movement;
+// `beyond`: what the second aims at of its way.
+Axes axes_of(const Seen& seen, const Timing& t, double rest, double beyond) {
   Axes axes;
   for (const auto& [at, age] : seen.pictures())
     axes.see(at, seen.weight, MinimumJerk((-age - t.begins) / t.first).x,
@@ -167,6 +164,27 @@ Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width
   axes.z.b += kVague;
   axes.z.see(1.0 + rest, 1.0, kExact);  // the whole way leads to the surface
   if (!t.falls_short) axes.z.see(t.crossed, 0.0, kExact);
+  return axes;
+}
+
+// Probability of the second movement's time, where its way down is a normal distribution: by three points.
+double share_that_takes(const ReachBelief& hand, const Timing& t, double middle, double spread,
+                        double width) {
+  double share = 0.0;
+  for (const auto& [at, weight] : {std::pair{-1.0, 1.0 / 6.0}, {0.0, 2.0 / 3.0}, {1.0, 1.0 / 6.0}}) {
+    const double d = middle + at * spread;
+    share += weight * (t.falls_short ? takes(hand, d, t.second, width) : d <= 0.0 ? 1.0 : 0.0);
+  }
+  return share;
+}
+
+// The unknowns along an axis: where the hand began, the first movement, and what of the rest of the way the
+// belief does not foresee. The second movement makes the rest of the way; across the surface it aims beyond
+// it. How much the pictures differ from nothing at all is left out of the evidence: it is the same for all.
+Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width) {
+  const double rest = 1.0 / hand.share - 1.0;  // of the first movement
+  const double beyond = t.falls_short ? 1.0 / kAtCrossing.x : 0.0;
+  const Axes axes = axes_of(seen, t, rest, beyond);
   const Pivots xy(axes.xy), z(axes.z);
   const Known of_x(xy, axes.of_x), of_y(xy, axes.of_y), of_z(z, axes.of_z);
   // What is left of the way along x and z goes together.
@@ -177,16 +195,12 @@ Fit fit(const ReachBelief& hand, const Seen& seen, const Timing& t, double width
   const double z_left = (x_weight * of_z.c - both * of_x.c) / area;
   const Vec3 along = of_x.solved(xy, x_left), across = of_y.solved(xy, of_y.c / y_weight),
              down = of_z.solved(z, z_left);
-  // How far down the second movement goes says how long it takes: three points for a normal distribution.
+  // How far down the second movement goes says how long it takes.
   const double middle = -(rest * down[1] + down[2]) / kAtCrossing.x;
   const double by_left = 1.0 - rest * z.bc,
                variance = rest * rest / z.b + by_left * by_left * x_weight / area;
   const double spread = std::sqrt(3.0 * variance) / kAtCrossing.x;
-  double share = 0.0;
-  for (const auto& [at, weight] : {std::pair{-1.0, 1.0 / 6.0}, {0.0, 2.0 / 3.0}, {1.0, 1.0 / 6.0}}) {
-    const double d = middle + at * spread;
-    share += weight * (t.falls_short ? takes(hand, d, t.second, width) : d <= 0.0 ? 1.0 : 0.0);
-  }
+  double share = share_that_takes(hand, t, middle, spread, width);
   Fit fit;
   fit.first = {along[1], across[1], down[1]};
   const double p = MinimumJerk(-t.begins / t.first).x, s = MinimumJerk(-t.corrects / t.second).x;

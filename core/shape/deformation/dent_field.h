@@ -27,6 +27,22 @@ inline Shift<T> sinking(const DentField<T>& f, T x, T y, T z) noexcept {
   return {part * t, slope * cx, slope * cy, slope * cz};
 }
 
+// Which ball of the edge is lowest at a place w beside n: the one whose surface has the edge's own slope.
+// Along the edge, m.
+template <class T>
+inline T lowest_on_edge(const DentField<T>& f, T wx, T wy, T wz) noexcept {
+  const T r2 = f.radius * f.radius;
+  const T t = wx * f.along[0] + wy * f.along[1] + wz * f.along[2];
+  const T all = wx * wx + wy * wy + wz * wz - t * t;
+  const T side2 = all > T(0) ? all : T(0);
+  const T under = r2 > side2 ? r2 - side2 : T(0);
+  const T ahead = f.lean * std::sqrt(under);
+  const T ahead_cone = f.lean_cone * std::sqrt(side2);
+  const T wanted = t - (ahead * ahead + side2 <= f.cap2 ? ahead : ahead_cone);
+  const T above = wanted > f.from ? wanted : f.from;
+  return above < f.to ? above : f.to;
+}
+
 // No branch that a compiler could not turn into a selection: the loop over arrays is vectorised.
 template <bool kEdge, class T>
 inline Shift<T> shift(const DentField<T>& f, T x, T y, T z) noexcept {
@@ -41,16 +57,7 @@ inline Shift<T> shift(const DentField<T>& f, T x, T y, T z) noexcept {
   const T r2 = f.radius * f.radius;
   T low = T(0);
   if constexpr (kEdge) {
-    // Which ball of the edge is lowest here: the one whose surface has the edge's own slope.
-    const T t = wx * f.along[0] + wy * f.along[1] + wz * f.along[2];
-    const T all = wx * wx + wy * wy + wz * wz - t * t;
-    const T side2 = all > T(0) ? all : T(0);
-    const T under = r2 > side2 ? r2 - side2 : T(0);
-    const T ahead = f.lean * std::sqrt(under);
-    const T ahead_cone = f.lean_cone * std::sqrt(side2);
-    const T wanted = t - (ahead * ahead + side2 <= f.cap2 ? ahead : ahead_cone);
-    const T above = wanted > f.from ? wanted : f.from;
-    const T at = above < f.to ? above : f.to;
+    const T at = lowest_on_edge(f, wx, wy, wz);
     wx -= at * f.along[0];
     wy -= at * f.along[1];
     wz -= at * f.along[2];

@@ -11,6 +11,25 @@ namespace enc {
 using response::first_below_zero;
 using response::too_soft;
 
+namespace {
+
+void check_sizes(const StopsSpec& s) {
+  if (s.curve.empty() || s.curve.size() > kMaxCurve)
+    throw Error("the stops' curve has 1 to " + std::to_string(kMaxCurve) + " coefficients", "stops.curve");
+  if (s.radii.size() != s.weights.size() || s.radii.size() > kMaxStops)
+    throw Error("each stop has a radius and a weight, and there are at most " + std::to_string(kMaxStops),
+                "stops.weights");
+}
+
+void check_stop(double radius, double weight) {
+  if (!(radius > 0.0) || !std::isfinite(radius))
+    throw Error("the radius of a stop is a positive length", "stops.radii");
+  if (!(weight >= 0.0) || !std::isfinite(weight))
+    throw Error("the weight of a stop is 0 or more: a negative one would yield energy", "stops.weights");
+}
+
+}  // namespace
+
 PrandtlIshlinskii::PrandtlIshlinskii(const ResponseSpec& spec, double lowest_slope) : limit_(spec.limit) {
   if (!spec.stops)
     throw Error(
@@ -19,20 +38,13 @@ PrandtlIshlinskii::PrandtlIshlinskii(const ResponseSpec& spec, double lowest_slo
         "with `encounter fit`, or set reversal = \"energy_stop\"",
         "reversal");
   const StopsSpec& s = *spec.stops;
-  if (s.curve.empty() || s.curve.size() > kMaxCurve)
-    throw Error("the stops' curve has 1 to " + std::to_string(kMaxCurve) + " coefficients", "stops.curve");
-  if (s.radii.size() != s.weights.size() || s.radii.size() > kMaxStops)
-    throw Error("each stop has a radius and a weight, and there are at most " + std::to_string(kMaxStops),
-                "stops.weights");
+  check_sizes(s);
   for (std::size_t k = 0; k < s.curve.size(); ++k) {
     if (!std::isfinite(s.curve[k])) throw Error("coefficients must be finite", "stops.curve");
     curve_[k] = s.curve[k];
   }
   for (std::size_t i = 0; i < s.radii.size(); ++i) {
-    if (!(s.radii[i] > 0.0) || !std::isfinite(s.radii[i]))
-      throw Error("the radius of a stop is a positive length", "stops.radii");
-    if (!(s.weights[i] >= 0.0) || !std::isfinite(s.weights[i]))
-      throw Error("the weight of a stop is 0 or more: a negative one would yield energy", "stops.weights");
+    check_stop(s.radii[i], s.weights[i]);
     if (s.weights[i] == 0.0) continue;
     radius_[stops_] = s.radii[i];
     weight_[stops_++] = s.weights[i];

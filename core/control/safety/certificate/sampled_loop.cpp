@@ -196,6 +196,21 @@ bool stable(const SampledLoop& loop, double stiffness, double damper) {
   return spectral_radius(loop, stiffness, damper) < 1.0;
 }
 
+namespace {
+
+// The angle between two, up to which the imaginary part of what is `needed` keeps the sign that it has
+// `before`.
+template <class Needed>
+double last_of_sign(const Needed& needed, double before, double low, double high) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (needed(middle).imag() * before > 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
 std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dry) {
   if (!loop.known() || !std::isfinite(damper.fixed) || !std::isfinite(damper.ratio) || !at_least(dry, 0.0))
     return {};
@@ -225,14 +240,7 @@ std::vector<Edge> edges(const SampledLoop& loop, const Damper& damper, double dr
   for (const double end : grid) {
     const double to = std::min(end, pi - 1e-7);  // at pi all is real
     const double after = needed(to).imag();
-    if (before * after < 0.0) {
-      double low = from, high = to;
-      for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (needed(middle).imag() * before > 0.0 ? low : high) = middle;
-      }
-      add(low, before < 0.0 ? 2 : -2);
-    }
+    if (before * after < 0.0) add(last_of_sign(needed, before, from, to), before < 0.0 ? 2 : -2);
     from = to;
     before = after;
   }

@@ -151,6 +151,18 @@ int TipLoop::outside(double stiffness, double damper) const {
       std::count_if(found.begin(), found.end(), [](const Complex& z) { return !(std::norm(z) < 1.0); }));
 }
 
+namespace {
+
+// Of places and speeds along three directions those of the first n.
+template <class Matrix>
+Eigen::MatrixXd of_directions(const Matrix& all, Eigen::Index n) {
+  Eigen::MatrixXd found(2 * n, all.cols());
+  found << all.topRows(n), all.middleRows(3, n);
+  return found;
+}
+
+}  // namespace
+
 Eigen::MatrixXd TipLoop::step(double stiffness, double damper) const {
   const Directions& all = loop_.around;
   const Eigen::Index n = all.count, readings = 2 * n, filters = readings + n * loop_.ticks;
@@ -172,11 +184,7 @@ Eigen::MatrixXd TipLoop::step(double stiffness, double damper) const {
     law.row(i) /= 1.0 + gain;
     step.row(filter++) = law.row(i);
   }
-  const auto rows = [n](const auto& of) {
-    Eigen::MatrixXd found(2 * n, of.cols());
-    found << of.topRows(n), of.middleRows(3, n);
-    return found;
-  };
+  const auto rows = [n](const auto& of) { return of_directions(of, n); };
   Eigen::MatrixXd free(2 * n, 2 * n);
   free << free_.topLeftCorner(n, n), free_.block(0, 3, n, n), free_.block(3, 0, n, n),
       free_.block(3, 3, n, n);
