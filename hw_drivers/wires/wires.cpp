@@ -109,25 +109,39 @@ class Wires::Clock final : public enc::Clock {
 
 Wires::~Wires() = default;
 
+void Wires::put_machine(Rig& rig, const Offer& offer, Settings& table) {
+  twin_.manipulator = std::move(rig.manipulator);
+  gcs::ControllerSettings controller;
+  controller.velocity = offer.reach.speed;
+  controller_ = std::make_unique<gcs::Controller>(*twin_.manipulator, controller);
+  controller_->cycle(now_);
+  gcs::GcsSettings settings;
+  settings.declare(table);
+  auto driver = std::make_unique<gcs::GcsManipulator>(offer, settings, std::make_unique<Link>(*this),
+                                                      gcs::Turns::called);
+  driver_ = driver.get();
+  rig.manipulator = std::move(driver);
+}
+
+void Wires::serve_tools(Rig& rig, Settings& table, std::span<const std::string> tools) {
+  twin_.tracker = std::move(rig.tracker);
+  igtl::IgtlSettings settings;
+  settings.declare(table);
+  std::vector<std::string> devices;
+  for (const std::string& tool : tools) devices.push_back(tool + settings.suffix);
+  igtl::ToolServerSettings server;
+  server.transport = settings.streams() ? igtl::Transport::tcp : igtl::Transport::udp;
+  server.seed = seed_ + 1;
+  tools_ = std::make_unique<igtl::ToolServer>(*twin_.tracker, devices, server);
+}
+
 void Wires::fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::span<const std::string> tools,
                     Log& log, Which which) {
   const Reach reach = reach_of(spec);
   const auto offer = [&](Settings& table) {
     return Offer{table, spec, reach, from_seconds(1.0 / spec.loop.rate), log, true, false, tools};
   };
-  if (which.machine && rig.manipulator) {
-    twin_.manipulator = std::move(rig.manipulator);
-    gcs::ControllerSettings controller;
-    controller.velocity = reach.speed;
-    controller_ = std::make_unique<gcs::Controller>(*twin_.manipulator, controller);
-    controller_->cycle(now_);
-    gcs::GcsSettings settings;
-    settings.declare(tables.gcs);
-    auto driver = std::make_unique<gcs::GcsManipulator>(offer(tables.gcs), settings,
-                                                        std::make_unique<Link>(*this), gcs::Turns::called);
-    driver_ = driver.get();
-    rig.manipulator = std::move(driver);
-  }
+  if (which.machine && rig.manipulator) put_machine(rig, offer(tables.gcs), tables.gcs);
   if (which.force && rig.force) {
     twin_.force = std::move(rig.force);
     box_ = std::make_unique<netft::Server>(*twin_.force, netft::gamma(), "127.0.0.1", netft::Ports{}, seed_);
@@ -136,15 +150,7 @@ void Wires::fit_out(Rig& rig, const RigSpec& spec, const Tables& tables, std::sp
     rig.force = netft::streaming(offer(table));
   }
   if (which.tracker && rig.tracker) {
-    twin_.tracker = std::move(rig.tracker);
-    igtl::IgtlSettings settings;
-    settings.declare(tables.igtl);
-    std::vector<std::string> devices;
-    for (const std::string& tool : tools) devices.push_back(tool + settings.suffix);
-    igtl::ToolServerSettings server;
-    server.transport = settings.streams() ? igtl::Transport::tcp : igtl::Transport::udp;
-    server.seed = seed_ + 1;
-    tools_ = std::make_unique<igtl::ToolServer>(*twin_.tracker, devices, server);
+    serve_tools(rig, tables.igtl, tools);
     const Answering answering(*tools_);
     Ported table(tables.igtl, tools_->port());
     rig.tracker = igtl::subscribed(offer(table));

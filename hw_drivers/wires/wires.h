@@ -68,6 +68,10 @@ class Wires {
   class Link;
   class Clock;
   void pass(Time now);
+  // Puts the machine's driver into its role, and what filled that behind its wire.
+  void put_machine(Rig& rig, const Offer& offer, Settings& table);
+  // What filled the tracker's role answers on loopback, by the tools' names.
+  void serve_tools(Rig& rig, Settings& table, std::span<const std::string> tools);
 
   std::uint64_t seed_;
   Time now_{};

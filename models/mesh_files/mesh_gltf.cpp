@@ -89,6 +89,24 @@ class GltfReader {
     return list[static_cast<std::size_t>(index)];
   }
 
+  // The library's own reading, into model_.
+  bool load(GltfFolder& folder, unsigned size, std::string& error) {
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(callbacks(folder));
+    loader.SetImageLoader(no_image, nullptr);
+    std::string warning;
+    try {
+      return binary_ ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
+                                                   reinterpret_cast<const unsigned char*>(file_.bytes.data()),
+                                                   size, folder.root.string())
+                     : loader.LoadASCIIFromString(&model_, &error, &warning, file_.bytes.data(), size,
+                                                  folder.root.string());
+    } catch (const std::exception& e) {  // of its JSON, on values of another type than it looks for
+      error += e.what();
+      return false;
+    }
+  }
+
   void parse() {
     const Glb glb = binary_ ? parts_of_glb(file_) : Glb{file_.bytes.size(), file_.bytes};
     const std::string_view json = glb.json;
@@ -99,21 +117,8 @@ class GltfReader {
     std::error_code none;
     const std::filesystem::path parent = std::filesystem::path(file_.path).parent_path();
     GltfFolder folder{std::filesystem::canonical(parent.empty() ? "." : parent, none), {}};
-    tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks(callbacks(folder));
-    loader.SetImageLoader(no_image, nullptr);
-    std::string error, warning;
-    bool good = false;
-    try {
-      const auto size = static_cast<unsigned>(glb.length);
-      good = binary_ ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
-                                                   reinterpret_cast<const unsigned char*>(file_.bytes.data()),
-                                                   size, folder.root.string())
-                     : loader.LoadASCIIFromString(&model_, &error, &warning, file_.bytes.data(), size,
-                                                  folder.root.string());
-    } catch (const std::exception& e) {  // of its JSON, on values of another type than it looks for
-      error += e.what();
-    }
+    std::string error;
+    const bool good = load(folder, static_cast<unsigned>(glb.length), error);
     if (!folder.refused.empty()) {
       const std::string asked = folder.refused.substr(folder.root.string().size() + 1);
       fail(fmt::format(
@@ -131,29 +136,31 @@ class GltfReader {
                        models::quoted(model_.asset.version)));
   }
 
+  // Of the scene; without one, all nodes that are nobody's children.
+  std::vector<int> roots() const {
+    const std::size_t count = model_.nodes.size();
+    if (!model_.scenes.empty()) return part(model_.scenes, "scenes", std::max(model_.defaultScene, 0)).nodes;
+    std::vector<bool> child(count, false);
+    for (const tinygltf::Node& node : model_.nodes)
+      for (const int c : node.children)
+        if (c >= 0 && static_cast<std::size_t>(c) < count) child[static_cast<std::size_t>(c)] = true;
+    std::vector<int> found;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!child[i]) found.push_back(static_cast<int>(i));
+    if (count > 0 && found.empty())
+      fail("nodes[0] is its own descendant; expected a tree of nodes; export the file again");
+    return found;
+  }
+
   // The node tree of the scene, from the roots down, without recursion. A tree meets each node once.
   void walk() {
     const std::size_t count = model_.nodes.size();
-    std::vector<int> roots;
-    if (!model_.scenes.empty()) {
-      roots = part(model_.scenes, "scenes", std::max(model_.defaultScene, 0)).nodes;
-    } else if (count > 0) {
-      std::vector<bool> child(count, false);
-      for (const tinygltf::Node& node : model_.nodes)
-        for (const int c : node.children)
-          if (c >= 0 && static_cast<std::size_t>(c) < count) child[static_cast<std::size_t>(c)] = true;
-      for (std::size_t i = 0; i < count; ++i)
-        if (!child[i]) roots.push_back(static_cast<int>(i));
-      if (roots.empty())
-        fail("nodes[0] is its own descendant; expected a tree of nodes; export the file again");
-    }
     struct Step {
       int node;
       Eigen::Matrix4d above;
     };
     std::vector<Step> steps;
-    steps.reserve(roots.size());
-    for (const int root : roots) steps.push_back({root, Eigen::Matrix4d::Identity()});
+    for (const int root : roots()) steps.push_back({root, Eigen::Matrix4d::Identity()});
     std::vector<bool> met(count, false);
     while (!steps.empty()) {
       const Step step = steps.back();

@@ -234,28 +234,19 @@ void describe(Visitor& v, PropSpec& p) {
           &p.size);
 }
 
-// Entries of the interaction database that only an arm renders.
-void describe(Visitor& v, InteractionSpec& i) {
-  choice(v, {"kind", "what happens when a finger meets the object", "[VisHap 2.2]", chosen}, i.kind);
-  if (i.kind == Interaction::press) return;
-  auto prop = static_cast<std::uint8_t>(i.prop + 1);
-  v.value({"prop", "what the finger should meet; others are warned of", "[VisHap 2.2]", chosen},
-          Choice{kAnyOrProp, &prop});
-  i.prop = static_cast<std::int32_t>(prop) - 1;
-  v.value({"gradual_mm", "depth over which one stiffness becomes the next; 0: at once", "[VisHap 3]", assumed,
-           kNotNegative},
-          &i.gradual);
-  v.value({"gradual_ms", "and the time that takes at least; 0: none", "[VisHap 3]", assumed, kNotNegative},
-          &i.gradual_time);
-  if (i.kind == Interaction::click) {
-    v.value({"trigger_mm", "depth d1 at which it triggers", "[VisHap Fig 4]", assumed, kPositive},
-            &i.trigger);
-    v.value({"after_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kPositive, needed},
-            &i.after);
-    v.value({"bottom_mm", "depth d2 of the bottom", "[VisHap Fig 4]", assumed, kPositive}, &i.bottom);
-    v.value({"floor_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kPositive, needed},
-            &i.floor);
-  }
+namespace {
+
+void describe_click(Visitor& v, InteractionSpec& i) {
+  v.value({"trigger_mm", "depth d1 at which it triggers", "[VisHap Fig 4]", assumed, kPositive}, &i.trigger);
+  v.value({"after_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kPositive, needed},
+          &i.after);
+  v.value({"bottom_mm", "depth d2 of the bottom", "[VisHap Fig 4]", assumed, kPositive}, &i.bottom);
+  v.value({"floor_N_per_mm", "stiffness from there on", "[VisHap Fig 4]", assumed, kPositive, needed},
+          &i.floor);
+}
+
+// Of a ball, a tile or a belt.
+void describe_moving(Visitor& v, InteractionSpec& i) {
   if (i.kind == Interaction::hit || i.kind == Interaction::shift)
     v.value({"mass_kg", "of what moves", "docs/reference/objects.md", chosen, kPositive}, &i.mass);
   if (i.kind == Interaction::hit || i.kind == Interaction::shift) {
@@ -280,6 +271,25 @@ void describe(Visitor& v, InteractionSpec& i) {
     v.value({"friction_N", "that stops it", "docs/reference/objects.md", chosen, kNotNegative}, &i.friction);
   if (i.kind == Interaction::spin)
     v.value({"speed_mm_s", "of its surface", "docs/reference/objects.md", chosen}, &i.speed);
+}
+
+}  // namespace
+
+// Entries of the interaction database that only an arm renders.
+void describe(Visitor& v, InteractionSpec& i) {
+  choice(v, {"kind", "what happens when a finger meets the object", "[VisHap 2.2]", chosen}, i.kind);
+  if (i.kind == Interaction::press) return;
+  auto prop = static_cast<std::uint8_t>(i.prop + 1);
+  v.value({"prop", "what the finger should meet; others are warned of", "[VisHap 2.2]", chosen},
+          Choice{kAnyOrProp, &prop});
+  i.prop = static_cast<std::int32_t>(prop) - 1;
+  v.value({"gradual_mm", "depth over which one stiffness becomes the next; 0: at once", "[VisHap 3]", assumed,
+           kNotNegative},
+          &i.gradual);
+  v.value({"gradual_ms", "and the time that takes at least; 0: none", "[VisHap 3]", assumed, kNotNegative},
+          &i.gradual_time);
+  if (i.kind == Interaction::click) describe_click(v, i);
+  describe_moving(v, i);
 }
 
 }  // namespace enc::models

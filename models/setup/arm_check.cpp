@@ -217,16 +217,25 @@ void note_props(Setup& setup) {
   }
 }
 
+namespace {
+
+void check_armless(const Setup& setup) {
+  const SceneSpec& s = setup.scene;
+  if (s.prop) fail(setup, "prop", "nothing carries the prop; expected an [arm]; add it or remove [prop]");
+  for (const BehaviourSpec& b : s.behaviours)
+    if (b.interaction.kind != Interaction::press)
+      fail(setup, naming(setup, b),
+           fmt::format("behaviour {} is rendered by a force-controlled arm; expected one without "
+                       "[interaction]; name another, or use [arm] instead of [manipulator]",
+                       quoted(b.name)));
+}
+
+}  // namespace
+
 void check_arm(const Setup& setup) {
   const SceneSpec& s = setup.scene;
   if (!s.arm) {
-    if (s.prop) fail(setup, "prop", "nothing carries the prop; expected an [arm]; add it or remove [prop]");
-    for (const BehaviourSpec& b : s.behaviours)
-      if (b.interaction.kind != Interaction::press)
-        fail(setup, naming(setup, b),
-             fmt::format("behaviour {} is rendered by a force-controlled arm; expected one without "
-                         "[interaction]; name another, or use [arm] instead of [manipulator]",
-                         quoted(b.name)));
+    check_armless(setup);
     return;
   }
   const auto without = [&](bool there, const char* table) {

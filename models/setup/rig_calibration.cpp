@@ -183,13 +183,12 @@ bool of_rig_calibration(std::string_view name) {
   return name == kTrackerPlace || name == kTrackerTurn || name == kSensorTurn || name == kWeight;
 }
 
-void fill_measured(Setup& setup) {
-  RigSpec& rig = setup.rig;
-  if (rig.calibration.file.empty()) return;
+namespace {
+
+// The calibration at `path`, which is of this rig and says all that it has.
+RigCalibration read_measured(const Setup& setup, const std::string& path) {
+  const RigSpec& rig = setup.rig;
   const std::string named = place_of(setup, "rig.calibration.file");
-  const std::string path = (std::filesystem::path(setup.rig_path).parent_path() / rig.calibration.file)
-                               .lexically_normal()
-                               .string();
   constexpr std::size_t kLongest = 1U << 20U;
   std::string why;
   const std::string text = read_file(path, kLongest, why);
@@ -198,7 +197,7 @@ void fill_measured(Setup& setup) {
         "{}: cannot read the calibration {}: {}; expected a file as `encounter calibrate rig RIG --out "
         "FILE` writes, beside the rig's; see to its name",
         named, models::quoted(path), why));
-  const RigCalibration file = parse_rig_calibration(text, path);
+  RigCalibration file = parse_rig_calibration(text, path);
   std::string other = other_rig(file.of, identity_of(rig));
   if (other.empty() && file.title != rig.title)
     other = fmt::format("its title was {} and is {}", models::quoted(file.title), models::quoted(rig.title));
@@ -216,6 +215,18 @@ void fill_measured(Setup& setup) {
   };
   lacks(rig.tracker.driver, file.W_C.has_value(), "where the tracker is");
   lacks(rig.force.driver, file.H_F && file.mass, "how the force sensor is turned and what it carries");
+  return file;
+}
+
+}  // namespace
+
+void fill_measured(Setup& setup) {
+  RigSpec& rig = setup.rig;
+  if (rig.calibration.file.empty()) return;
+  const std::string path = (std::filesystem::path(setup.rig_path).parent_path() / rig.calibration.file)
+                               .lexically_normal()
+                               .string();
+  const RigCalibration file = read_measured(setup, path);
   if (!rig.calibration.date.empty() && rig.calibration.date != file.date)
     throw Error(
         fmt::format("{}: 'date' is {} and that of the calibration {} is {}; expected one of the two; remove "

@@ -45,17 +45,34 @@ class Lattice {
   std::map<std::array<std::int64_t, 3>, std::int32_t> known_;
 };
 
+// Its edges are 2 long.
+std::array<Vec3, 12> corners_of_icosahedron() {
+  const double g = std::numbers::phi;
+  return {Vec3(-1, g, 0),  Vec3(1, g, 0),  Vec3(-1, -g, 0), Vec3(1, -g, 0), Vec3(0, -1, g),  Vec3(0, 1, g),
+          Vec3(0, -1, -g), Vec3(0, 1, -g), Vec3(g, 0, -1),  Vec3(g, 0, 1),  Vec3(-g, 0, -1), Vec3(-g, 0, 1)};
+}
+// By their corners.
+constexpr std::array<std::array<int, 3>, 20> kFaces{
+    {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+
+// The triangles of a face that is cut n times each way; its points row by row.
+void add_face(Mesh& mesh, const std::vector<std::int32_t>& ids, int n) {
+  const auto id = [&](int i, int j) {
+    return ids[static_cast<std::size_t>(j * (n + 1) - j * (j - 1) / 2 + i)];
+  };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n - j; ++i) {
+      mesh.triangles.push_back({id(i, j), id(i + 1, j), id(i, j + 1)});
+      if (i + j < n - 1) mesh.triangles.push_back({id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
+    }
+}
+
 }  // namespace
 
 Mesh geodesic_ball(int n, double radius) {
-  const double g = std::numbers::phi;
-  const std::array<Vec3, 12> corner{Vec3(-1, g, 0), Vec3(1, g, 0), Vec3(-1, -g, 0), Vec3(1, -g, 0),
-                                    Vec3(0, -1, g), Vec3(0, 1, g), Vec3(0, -1, -g), Vec3(0, 1, -g),
-                                    Vec3(g, 0, -1), Vec3(g, 0, 1), Vec3(-g, 0, -1), Vec3(-g, 0, 1)};
-  constexpr std::array<std::array<int, 3>, 20> kFaces{
-      {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+  const std::array<Vec3, 12> corner = corners_of_icosahedron();
   Mesh mesh;
   Lattice edges(mesh);  // corners and edges only: the insides of faces are nobody else's
   std::vector<std::int32_t> ids;
@@ -86,14 +103,7 @@ Mesh geodesic_ball(int n, double radius) {
         else
           ids.push_back(add(mesh, p));
       }
-    const auto id = [&](int i, int j) {
-      return ids[static_cast<std::size_t>(j * (n + 1) - j * (j - 1) / 2 + i)];
-    };
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n - j; ++i) {
-        mesh.triangles.push_back({id(i, j), id(i + 1, j), id(i, j + 1)});
-        if (i + j < n - 1) mesh.triangles.push_back({id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
-      }
+    add_face(mesh, ids, n);
   }
   return mesh;
 }

@@ -214,14 +214,23 @@ double SessionPlan::duration(const State& begun) const {
   return state.phase_start + state.press.transit + kAfter;
 }
 
+namespace {
+
+// Straight from one place to another within `time`, which begins at `begin`.
+HandPlan on_the_way(const Point<'W'>& from, const Point<'W'>& to, double begin, double time, double since) {
+  HandPlan plan{from.e()};
+  if (time > 0.0) Submovement{begin, time, to - from}.add_to(plan, since);
+  return plan;
+}
+
+}  // namespace
+
 HandPlan SessionPlan::at(double t, const State& state) const {
   const Press& press = state.press;
   const double since = t - state.phase_start;
   const Vec3 n = press.at.normal.e();
   const auto moved = [&](const Point<'W'>& from, const Point<'W'>& to, double begin, double time) {
-    HandPlan plan{from.e()};
-    if (time > 0.0) Submovement{begin, time, to - from}.add_to(plan, since);
-    return plan;
+    return on_the_way(from, to, begin, time, since);
   };
   const auto along_normal = [&](double from, double to, double time) {
     HandPlan plan =

@@ -323,6 +323,17 @@ Vec<'W'> User::act_steered(double t, double h, const Point<'W'>& tool_tip, const
   return Vec<'W'>(gripped);
 }
 
+// Along the normal the arm is no longer a spring to a place but a force, damped.
+void User::push_along(const Vec3& n, double since, Vec3& pulled) const {
+  const double share = state_.phase == Phase::press ? MinimumJerk(since / spec_.press_time).x
+                       : state_.phase == Phase::release
+                           ? 1.0 - MinimumJerk(since / (0.5 * spec_.release_time)).x
+                           : 1.0;
+  const double free = std::min(1.0, 4.0 * share);
+  pulled -=
+      n * (free * (n.dot(pulled) + hand_.damping * n.dot(state_.hand_velocity.e())) + spec_.push * share);
+}
+
 Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,
                    bool touching) {
   if (state_.steered.on) return act_steered(t, h, tool_tip, tool_velocity, touching);
@@ -348,17 +359,7 @@ Vec<'W'> User::act(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'
 
   const Vec3 gripped = grip(tool_tip, tool_velocity);
   Vec3 pulled = arm(p, intent);
-  if (pushing) {
-    const double since = t - state_.phase_start;
-    const double share = state_.phase == Phase::press ? MinimumJerk(since / spec_.press_time).x
-                         : state_.phase == Phase::release
-                             ? 1.0 - MinimumJerk(since / (0.5 * spec_.release_time)).x
-                             : 1.0;
-    // Along the normal the arm is no longer a spring to a place but a force, damped.
-    const double free = std::min(1.0, 4.0 * share);
-    pulled -=
-        n * (free * (n.dot(pulled) + hand_.damping * n.dot(state_.hand_velocity.e())) + spec_.push * share);
-  }
+  if (pushing) push_along(n, t - state_.phase_start, pulled);
   // Who pushes with all strength does not push harder because the depth is not reached.
   const double effort = pulled.norm();
   if (effort > hand_.strength) {

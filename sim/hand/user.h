@@ -87,6 +87,7 @@ class User {
   [[nodiscard]] Vec3 drift(double t);
   Vec3 unsteadiness(double t, double h);
   [[nodiscard]] Vec3 grip(const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity) const;
+  void push_along(const Vec3& n, double since, Vec3& pulled) const;
   [[nodiscard]] Vec3 arm(const HandPlan& plan, const Vec3& intent) const;
   void move(double h, const Vec3& arm, const Vec3& grip);
   Vec<'W'> act_steered(double t, double h, const Point<'W'>& tool_tip, const Vec<'W'>& tool_velocity,

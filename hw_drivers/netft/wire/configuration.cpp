@@ -72,6 +72,15 @@ struct Page {
   }
 };
 
+// Three forces and three torques, in the units of the page.
+void read_ratings(std::string_view rest, double newtons, double newton_metres, Configuration& read) {
+  for (std::size_t i = 0; i < read.ratings.size(); ++i) {
+    const std::size_t end = std::min(rest.find(';'), rest.size());
+    read.ratings[i] = number(rest.substr(0, end)) * (i < 3 ? newtons : newton_metres);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
 }  // namespace
 
 double force_of_code(int code) noexcept {
@@ -105,14 +114,7 @@ std::string read_xml(std::string_view xml, Configuration& configuration) {
         "says torque unit '{:.40}', expected N-m, N-mm, lbf-in, lbf-ft, kgf-cm, kgf-m or kN-m", torque));
   read.per_newton = counts_force / newtons;
   read.per_newton_metre = counts_torque / newton_metres;
-  if (const auto ratings = page.text("cfgmr", false)) {
-    std::string_view rest = *ratings;
-    for (std::size_t i = 0; i < read.ratings.size(); ++i) {
-      const std::size_t end = std::min(rest.find(';'), rest.size());
-      read.ratings[i] = number(rest.substr(0, end)) * (i < 3 ? newtons : newton_metres);
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-  }
+  if (const auto ratings = page.text("cfgmr", false)) read_ratings(*ratings, newtons, newton_metres, read);
   if (const auto rate = page.text("comrdtrate", false)) read.rate = number(*rate);
   if (const auto streams = page.text("comrdte", false))
     read.streams = *streams == "Enabled" || number(*streams) == 1.0;
