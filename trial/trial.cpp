@@ -78,6 +78,21 @@ void refuse_slow(const models::Setup& setup, const std::string& machine, const R
                   models::place_of(setup, machine), real_time.words()));
 }
 
+// `within_loop`: a machine would be armed, and the camera's pictures be looked at between its set-points.
+void refuse_camera(const models::Setup& setup, const TrialOptions& options, bool within_loop) {
+  if (within_loop && setup.scene.camera)
+    throw Error(models::place_of(setup, "camera") +
+                ": vision through a camera that is simulated, or only plays, works within the haptic loop, "
+                "where a frame takes many periods; expected a real camera, for which it has a thread of its "
+                "own; a real machine is not armed for it");
+  if (setup.scene.camera && !options.drivers)
+    throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
+  if (!setup.scene.camera && !options.frames.empty())
+    throw Error(
+        "--frames: the scene has no [camera], whose frames would be kept; leave it out, or run another "
+        "scene");
+}
+
 // With frames that nobody measured, or that may have changed, its tip is not where anybody expects it.
 void refuse_uncalibrated(const models::Setup& setup, const std::string& machine) {
   const std::string doubt = models::doubt_of(
@@ -101,26 +116,10 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (armed) refuse_limits(setup_, scene_, certificates_);
   // What keeps no wall clock works within the loop, so that it is the same in every run.
   const bool threaded = setup_.scene.camera && wall && setup_.rig.camera.driver != "sim";
-  if (armed && setup_.scene.camera && !threaded)
-    throw Error(models::place_of(setup_, "camera") +
-                ": vision through a camera that is simulated, or only plays, works within the haptic loop, "
-                "where a frame takes many periods; expected a real camera, for which it has a thread of its "
-                "own; a real machine is not armed for it");
-  if (setup_.scene.camera && !options_.drivers)
-    throw Error("the scene names [camera], whose modules nobody loads here", {}, ErrorKind::device);
-  if (!setup_.scene.camera && !options_.frames.empty())
-    throw Error(
-        "--frames: the scene has no [camera], whose frames would be kept; leave it out, or run another "
-        "scene");
+  refuse_camera(setup_, options_, armed && !threaded);
   simulated_ = !slots.real;
   leads_ = slots.machine && slots.simulated && setup_.scene.manipulator.has_value();
-  if (slots.simulated || !slots.real) {
-    world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
-    if (options_.work) world_->ask_for_work();
-    rig_ = world_->rig();
-  } else {
-    rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
-  }
+  make_rig(slots.simulated || !slots.real);
   plan_length(pace);
   if (options_.begins) options_.begins();
   if (wall && options_.real_time) {  // before the devices, whose threads are as this one
@@ -134,12 +133,7 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (!machine.empty() && !options_.calibrates) refuse_uncalibrated(setup_, machine);
   if (!machine.empty() && real_time_ && armed && options_.needs_real_time)
     refuse_slow(setup_, machine, *real_time_);
-  if (setup_.scene.camera) {
-    rig_.tracker = make_vision(
-        setup_, options_.drivers,
-        {world_.get(), options_.seed, log_, pace == 0.0, threaded, options_.look, options_.frames});
-    result_.vision.threaded = threaded;
-  }
+  if (setup_.scene.camera) put_vision(pace == 0.0, threaded);
   if (slots.real) result_.devices = describe_drivers(rig_, setup_);
   in_.withheld = slots.machine && !options_.armed;
   if (options_.fit_out) options_.fit_out(rig_);
@@ -147,6 +141,25 @@ Trial::Trial(models::Setup setup, TrialOptions options)
   if (pace > 0.0)
     rig_.clock = std::make_unique<sim::Paced>(std::move(rig_.clock), pace,
                                               wall ? sim::Late::skip : sim::Late::wait, options_.stop);
+}
+
+// Of the twin, or empty but for a clock.
+void Trial::make_rig(bool simulated) {
+  if (!simulated) {
+    rig_.clock = std::make_unique<CountingClock>(setup_.rig.loop.rate);
+    return;
+  }
+  world_ = make_world(setup_, scene_, options_.seed, options_.draw_all);
+  if (options_.work) world_->ask_for_work();
+  rig_ = world_->rig();
+}
+
+// In place of a tracker.
+void Trial::put_vision(bool waits, bool threaded) {
+  rig_.tracker =
+      make_vision(setup_, options_.drivers,
+                  {world_.get(), options_.seed, log_, waits, threaded, options_.look, options_.frames});
+  result_.vision.threaded = threaded;
 }
 
 // How many ticks it takes, and room for what is kept of each.
@@ -194,24 +207,34 @@ void Trial::hear(const HandWord& word) {
   faults_.set(word.faults);
 }
 
-bool Trial::tick() {
+bool Trial::ends() {
   if ((result_.ticks > 0 && now_.index >= last_tick_) || result_.stopped || result_.diverged_at >= 0)
-    return false;
+    return true;
   if (options_.stop && options_.stop()) {
     result_.interrupted = true;
-    return false;
+    return true;
   }
   // Without its set-points the time of a fake stands, and each tick would wait for it.
   if (options_.lockstep && gate_.lost()) {
     result_.interrupted = true;
-    return false;
+    return true;
   }
+  return false;
+}
+
+// Whoever steers, the machine or the twin's hand.
+void Trial::ask_hands() {
   if (const Hand hand = options_.hand ? options_.hand() : Hand::none; hand == Hand::halt)
     gate_.halt(rig_, now_.t);
   else if (hand == Hand::resume)
     gate_.resume();
   if (options_.steer && world_)
     if (const auto word = options_.steer(result_.ticks)) hear(*word);
+}
+
+bool Trial::tick() {
+  if (ends()) return false;
+  ask_hands();
   now_ = rig_.clock->next();
   gate_.unmark(in_);
   rig_.read(now_.t, in_);

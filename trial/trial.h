@@ -60,8 +60,12 @@ class Trial {
   [[nodiscard]] const sim::Truth& truth() const { return world_ ? world_->truth() : unknown_; }
 
  private:
-  void count();
+  void make_rig(bool simulated);
+  void put_vision(bool waits, bool threaded);
   void plan_length(double pace);
+  [[nodiscard]] bool ends();
+  void ask_hands();
+  void count();
   void hear(const HandWord& word);
 
   models::Setup setup_;

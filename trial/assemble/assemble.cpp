@@ -247,6 +247,42 @@ void check_machine(const Reach& reach, const ManipulatorRig& rig) {
                "rig.manipulator.geometry.platform_half_angle_deg", kDegree);
 }
 
+void check_phantom(const Comparison& arm, const PhantomGeometry& is, const PhantomGeometry& promised) {
+  const auto length = [&](double PhantomGeometry::*side, const char* what) {
+    arm.same(is.*side, promised.*side, kLength, what, "rig.arm.machine", kMillimetre);
+  };
+  length(&PhantomGeometry::l1, "l1 in mm");
+  length(&PhantomGeometry::l2, "l2 in mm");
+  length(&PhantomGeometry::l3, "l3 in mm");
+  length(&PhantomGeometry::l5, "l5 in mm");
+  length(&PhantomGeometry::l6, "l6 in mm");
+  arm.able(-is.coupled_low, -promised.coupled_low, "way of q2 - q3 below 0 in degrees",
+           "rig.arm.machine.coupled_low_deg", -kDegree);
+  arm.able(is.coupled_high, promised.coupled_high, "way of q2 - q3 above 0 in degrees",
+           "rig.arm.machine.coupled_high_deg", kDegree);
+  for (double PhantomGeometry::*mass :
+       {&PhantomGeometry::m_a, &PhantomGeometry::m_c, &PhantomGeometry::m_be, &PhantomGeometry::m_df})
+    arm.same(is.*mass, promised.*mass, kMassShare * promised.*mass, "a mass in kg", "rig.arm.machine", 1.0);
+}
+
+void check_chain(const Comparison& arm, const ArmMachine& is, const ArmMachine& promised) {
+  arm.same((is.tip - promised.tip).norm(), 0.0, kLength, "the tip's place in mm from it",
+           "rig.arm.machine.tip_mm", kMillimetre);
+  for (std::size_t i = 0; i < promised.links.size(); ++i) {
+    const ChainLink &link = is.links[i], &of = promised.links[i];
+    if (link.kind != of.kind)
+      throw Error(fmt::format("the arm is another one than the rig file says: link {} is of another kind; "
+                              "correct rig.arm.machine",
+                              i + 1),
+                  {}, ErrorKind::device);
+    arm.same((link.origin - of.origin).norm(), 0.0, kLength, "a link's origin in mm from it",
+             "rig.arm.machine", kMillimetre);
+    arm.same((link.axis.normalized() - of.axis.normalized()).norm(), 0.0, kAngle,
+             "a link's axis in degrees from it", "rig.arm.machine", kDegree);
+    arm.same(link.mass, of.mass, kMassShare * of.mass, "a link's mass in kg", "rig.arm.machine", 1.0);
+  }
+}
+
 void check_arm(const ArmAbility& is, const ArmRig& rig) {
   const Comparison arm{"arm"};
   arm.able(is.peak, rig.peak, "peak force in N", "rig.arm.peak_N", 1.0);
@@ -255,42 +291,10 @@ void check_arm(const ArmAbility& is, const ArmRig& rig) {
   if (is.machine.kind != promised.kind || is.machine.links.size() != promised.links.size())
     throw Error("the arm is another one than the rig file says; correct rig.arm.machine", {},
                 ErrorKind::device);
-  if (is.machine.kind == ArmKind::phantom) {
-    const auto length = [&](double PhantomGeometry::*side, const char* what) {
-      arm.same(is.machine.phantom.*side, promised.phantom.*side, kLength, what, "rig.arm.machine",
-               kMillimetre);
-    };
-    length(&PhantomGeometry::l1, "l1 in mm");
-    length(&PhantomGeometry::l2, "l2 in mm");
-    length(&PhantomGeometry::l3, "l3 in mm");
-    length(&PhantomGeometry::l5, "l5 in mm");
-    length(&PhantomGeometry::l6, "l6 in mm");
-    const PhantomGeometry& g = is.machine.phantom;
-    arm.able(-g.coupled_low, -promised.phantom.coupled_low, "way of q2 - q3 below 0 in degrees",
-             "rig.arm.machine.coupled_low_deg", -kDegree);
-    arm.able(g.coupled_high, promised.phantom.coupled_high, "way of q2 - q3 above 0 in degrees",
-             "rig.arm.machine.coupled_high_deg", kDegree);
-    for (double PhantomGeometry::*mass :
-         {&PhantomGeometry::m_a, &PhantomGeometry::m_c, &PhantomGeometry::m_be, &PhantomGeometry::m_df})
-      arm.same(g.*mass, promised.phantom.*mass, kMassShare * promised.phantom.*mass, "a mass in kg",
-               "rig.arm.machine", 1.0);
-  } else {
-    arm.same((is.machine.tip - promised.tip).norm(), 0.0, kLength, "the tip's place in mm from it",
-             "rig.arm.machine.tip_mm", kMillimetre);
-    for (std::size_t i = 0; i < promised.links.size(); ++i) {
-      const ChainLink &link = is.machine.links[i], &of = promised.links[i];
-      if (link.kind != of.kind)
-        throw Error(fmt::format("the arm is another one than the rig file says: link {} is of another kind; "
-                                "correct rig.arm.machine",
-                                i + 1),
-                    {}, ErrorKind::device);
-      arm.same((link.origin - of.origin).norm(), 0.0, kLength, "a link's origin in mm from it",
-               "rig.arm.machine", kMillimetre);
-      arm.same((link.axis.normalized() - of.axis.normalized()).norm(), 0.0, kAngle,
-               "a link's axis in degrees from it", "rig.arm.machine", kDegree);
-      arm.same(link.mass, of.mass, kMassShare * of.mass, "a link's mass in kg", "rig.arm.machine", 1.0);
-    }
-  }
+  if (is.machine.kind == ArmKind::phantom)
+    check_phantom(arm, is.machine.phantom, promised.phantom);
+  else
+    check_chain(arm, is.machine, promised);
   const std::size_t joints = promised.kind == ArmKind::phantom ? kMostJoints : promised.links.size();
   for (std::size_t i = 0; i < joints; ++i) {
     arm.able(-is.machine.drives[i].low, -promised.drives[i].low, "way of a joint below 0 in rad",

@@ -117,6 +117,23 @@ void ArmLedger::tell(const Glance& glance, const Impedance& law, const std::opti
   now.jacobian = turn * at.jacobian;  // by which the motors are told
 }
 
+// The ideal law along the same way: the cubic through both ends, by Simpson's rule.
+void ArmLedger::count_ideal(const Known& was, const Known& now, const Vec3& led) {
+  const double h = dt_;
+  const Vec3 way = now.tip.at - was.tip.at;
+  const TipAt middle{0.5 * (was.tip.at + now.tip.at) + h / 8.0 * (was.tip.velocity - now.tip.velocity),
+                     1.5 * way / h - 0.25 * (was.tip.velocity + now.tip.velocity)};
+  const LawAt law = between(was.law, now.law);
+  LawAt then = now.law;
+  then.along = was.law.along;
+  const auto power = [](const LawAt& l, const TipAt& tip) { return ideal_force(l, tip).dot(tip.velocity); };
+  ideal_ += h / 6.0 * (power(was.law, was.tip) + 4.0 * power(law, middle) + power(then, now.tip));
+  led_ideal_ +=
+      led.dot(ideal_force(was.law, was.tip) + 4.0 * ideal_force(law, middle) + ideal_force(then, now.tip)) /
+      6.0;
+  sum_.law += h / 6.0 * (damped(was.law, was.tip) + 4.0 * damped(law, middle) + damped(then, now.tip));
+}
+
 void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work) {
   const Vec3 turned = vec(now.joints) - vec(was.joints);
   const Vec3 moved = was.jacobian * turned;
@@ -134,20 +151,7 @@ void ArmLedger::count(const Known& was, const Known& now, const sim::Work& work)
   led_held_ += was.held.dot(led);
   led_late_ += was.late.dot(led);
   led_counted_ += was.counted.dot(led);
-  // The ideal law along the same way: the cubic through both ends, by Simpson's rule.
-  const double h = dt_;
-  const Vec3 way = now.tip.at - was.tip.at;
-  const TipAt middle{0.5 * (was.tip.at + now.tip.at) + h / 8.0 * (was.tip.velocity - now.tip.velocity),
-                     1.5 * way / h - 0.25 * (was.tip.velocity + now.tip.velocity)};
-  const LawAt law = between(was.law, now.law);
-  LawAt then = now.law;
-  then.along = was.law.along;
-  const auto power = [](const LawAt& l, const TipAt& tip) { return ideal_force(l, tip).dot(tip.velocity); };
-  ideal_ += h / 6.0 * (power(was.law, was.tip) + 4.0 * power(law, middle) + power(then, now.tip));
-  led_ideal_ +=
-      led.dot(ideal_force(was.law, was.tip) + 4.0 * ideal_force(law, middle) + ideal_force(then, now.tip)) /
-      6.0;
-  sum_.law += h / 6.0 * (damped(was.law, was.tip) + 4.0 * damped(law, middle) + damped(then, now.tip));
+  count_ideal(was, now, led);
   const Vec3 lead = asked_force(was.law, Vec3::Zero(), Vec3::Zero(), kUnset);
   left_ -= work.motors - compensated - was.given.dot(led) - lead.dot(moved - led);
   constexpr int kEachTick = 40;

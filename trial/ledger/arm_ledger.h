@@ -43,6 +43,7 @@ class ArmLedger {
   };
   [[nodiscard]] const Posture& posture(const PerJoint& joints, const Impedance& law);
   void tell(const Glance& glance, const Impedance& law, const std::optional<Known>& was, Known& now);
+  void count_ideal(const Known& was, const Known& now, const Vec3& led);
   void filter(const Glance& glance, const Impedance& law, const std::optional<Known>& was, Known& now);
 
   Arm machine_;  // true

@@ -148,6 +148,27 @@ void McapWriter::message(std::uint16_t channel, std::uint64_t log_time, std::uin
   if (chunk_.size() >= chunk_size_) flush_chunk();
 }
 
+// Where the messages of the chunk are, channel by channel; and where each of these lists is.
+std::string McapWriter::write_message_indexes() {
+  std::string offsets;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    std::vector<Entry>& entries = channels_[i].entries;
+    if (entries.empty()) continue;
+    put_number(offsets, number_of(i));
+    put_number(offsets, at_);
+    std::string index;
+    put_number(index, number_of(i));
+    put_number(index, static_cast<std::uint32_t>(16 * entries.size()));
+    for (const Entry& entry : entries) {
+      put_number(index, entry.time);
+      put_number(index, entry.offset);
+    }
+    put(as_record(Op::message_index, index));
+    entries.clear();
+  }
+  return offsets;
+}
+
 // The chunk, where its messages are, and for the summary where both are.
 void McapWriter::flush_chunk() {
   if (chunk_.empty()) return;
@@ -165,22 +186,7 @@ void McapWriter::flush_chunk() {
   put(chunk_);
 
   const std::uint64_t ends = at_;
-  std::string offsets;
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
-    std::vector<Entry>& entries = channels_[i].entries;
-    if (entries.empty()) continue;
-    put_number(offsets, number_of(i));
-    put_number(offsets, at_);
-    std::string index;
-    put_number(index, number_of(i));
-    put_number(index, static_cast<std::uint32_t>(16 * entries.size()));
-    for (const Entry& entry : entries) {
-      put_number(index, entry.time);
-      put_number(index, entry.offset);
-    }
-    put(as_record(Op::message_index, index));
-    entries.clear();
-  }
+  const std::string offsets = write_message_indexes();
 
   std::string index;
   put_number(index, chunk_times_.first);

@@ -51,6 +51,7 @@ class McapWriter {
 
   void put(std::string_view bytes);
   void flush_chunk();
+  [[nodiscard]] std::string write_message_indexes();
   void write_summary();
   [[nodiscard]] std::string statistics() const;
 

@@ -73,6 +73,28 @@ void TouchMeasure::forget_swing() {
   away_ = kTime;
 }
 
+void TouchMeasure::filter_swing(const Glance& glance, double force) {
+  const double dt = glance.scene.dt;
+  const double depth =
+      (glance.scene.X_WR * glance.in.tip.value.X_RH.origin() - glance.out.first_touch).e().norm();
+  if (std::isnan(swing_.depth)) {
+    swing_ = Swing{};
+    swing_.depth = swing_.slow_depth = depth;
+    swing_.slow_force = force;
+    last_move_ = 0.0;
+  }
+  const SwingFilter filter{glance.scene.filter_gain, 1.0 - std::exp(-2.0 * std::numbers::pi * kSlowest * dt),
+                           1.0 - std::exp(-dt / kAverage)};
+  filter(swing_, force, depth);
+}
+
+// What dies out soon is no swing that the loop keeps up.
+void TouchMeasure::end_swing(double t) {
+  const bool told = !swings_.empty() && swings_.back().from == now_.from;
+  if (told && touching_ && t - now_.from < kLong) swings_.pop_back();
+  now_ = SwingFigures{};
+}
+
 // A wide swing leaves the contact and comes back to it.
 void TouchMeasure::see_swing(const Glance& glance) {
   const Outputs& out = glance.out;
@@ -84,24 +106,12 @@ void TouchMeasure::see_swing(const Glance& glance) {
     return;
   }
   const double force = std::max(0.0, -out.force.xyz[2]);
-  const double depth = (glance.scene.X_WR * glance.in.tip.value.X_RH.origin() - out.first_touch).e().norm();
-  if (std::isnan(swing_.depth)) {
-    swing_ = Swing{};
-    swing_.depth = swing_.slow_depth = depth;
-    swing_.slow_force = force;
-    last_move_ = 0.0;
-  }
-  const SwingFilter filter{glance.scene.filter_gain, 1.0 - std::exp(-2.0 * std::numbers::pi * kSlowest * dt),
-                           1.0 - std::exp(-dt / kAverage)};
-  filter(swing_, force, depth);
+  filter_swing(glance, force);
   const double move = swing_.move();
   const double way = 2.0 * std::sqrt(2.0 * swing_.moved);
   const double t = seconds(glance.tick.t.time_since_epoch());
   if (!(swing_.exchanged > 0.0) || way < kWay) {
-    // What dies out soon is no swing that the loop keeps up.
-    const bool told = !swings_.empty() && swings_.back().from == now_.from;
-    if (told && touching_ && t - now_.from < kLong) swings_.pop_back();
-    now_ = SwingFigures{};
+    end_swing(t);
     return;
   }
   if (std::isnan(now_.from)) {

@@ -49,6 +49,8 @@ class TouchMeasure {
   void see_contact(const Glance& glance);
   void end_contact(const Glance& glance);
   void see_swing(const Glance& glance);
+  void filter_swing(const Glance& glance, double force);
+  void end_swing(double t);
   void forget_swing();
 
   std::vector<SwingFigures> swings_ = with_room<SwingFigures>();

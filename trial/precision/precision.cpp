@@ -118,6 +118,68 @@ std::vector<PrecisionPoint> points_of(const PrecisionOptions& options, const sim
   return points;
 }
 
+// What is compared with what, before any run.
+Precision plan_of(const PrecisionOptions& options, const sim::Stepping& shipped, double period) {
+  Precision all;
+  all.table = shipped.table;
+  all.tick = period;
+  all.converged = {"rk4", period / options.converged};
+  all.second = {"implicitfast", period / (2 * options.converged)};
+  all.points = points_of(options, shipped, period);
+  return all;
+}
+
+void keep_truth(const Run& truth, Precision& all) {
+  if (!truth.failure.empty()) throw Error("the converged run failed: " + truth.failure);
+  all.seconds = truth.simulated;
+  all.touched = truth.touched();
+  all.converged.cpu = truth.cpu;
+  if (all.touched == 0)
+    throw Error("there is no error of a force: nothing touched in this scene's programme");
+}
+
+// Of a point's rounds, as Run has them.
+struct Times {
+  std::vector<double> cpu, yards;
+};
+void keep_times(const Times& of, bool by_yardstick, PrecisionPoint& point) {
+  if (of.cpu.empty()) return;
+  point.cpu = models::median(of.cpu);
+  if (!by_yardstick) return;
+  point.yards = models::median(of.yards);
+  const auto [least, most] = std::minmax_element(of.yards.begin(), of.yards.end());
+  point.spread = *most / *least;
+}
+
+struct Converged {
+  const Run &truth, &second;
+};
+
+// All points, in rounds.
+void run_points(const SetupWith& setup_with, const PrecisionOptions& options, double seconds,
+                const Converged& runs, const std::function<void(double)>& tell, Precision& all) {
+  std::vector<Times> times(all.points.size());
+  // What looks for quantities is not timed, and what is timed does not look.
+  const int first = options.quantities ? -1 : 0;
+  for (int round = first; round < options.rounds; ++round)
+    for (std::size_t i = 0; i < all.points.size(); ++i) {
+      PrecisionPoint& point = all.points[i];
+      if (!point.failure.empty()) continue;
+      const bool looks = round == first;
+      const Run run = run_once(with(setup_with, all, point), options, seconds, looks);
+      if (looks || first == 0) {
+        judge(run, runs.truth, point);
+        if (options.twice) judge_again(run, runs.second, point);
+      }
+      if (round < 0) continue;
+      times[i].cpu.push_back(run.cpu);
+      times[i].yards.push_back(run.yards);
+      tell(2.0 / static_cast<double>(all.points.size()));
+    }
+  for (std::size_t i = 0; i < all.points.size(); ++i)
+    keep_times(times[i], options.yardstick != nullptr, all.points[i]);
+}
+
 }  // namespace
 
 double apart(std::span<const double> some, std::span<const double> truth) {
@@ -153,11 +215,7 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
         "user");
   const sim::Stepping shipped = own.twin.stepping(own.scene);
   const double period = 1.0 / own.rig.loop.rate;
-  Precision all;
-  all.table = shipped.table;
-  all.tick = period;
-  all.converged = {"rk4", period / options.converged};
-  all.second = {"implicitfast", period / (2 * options.converged)};
+  Precision all = plan_of(options, shipped, period);
   double done = 0.0;
   const double whole = 8.0 + static_cast<double>(options.rounds) * 2.0;
   const auto tell = [&](double more) {
@@ -172,12 +230,7 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
     truth = converged();
   }
   tell(4.0);
-  if (!truth.failure.empty()) throw Error("the converged run failed: " + truth.failure);
-  all.seconds = truth.simulated;
-  all.touched = truth.touched();
-  all.converged.cpu = truth.cpu;
-  if (all.touched == 0)
-    throw Error("there is no error of a force: nothing touched in this scene's programme");
+  keep_truth(truth, all);
   Run second;
   if (options.twice) {
     second = run_once(with(setup_with, all, all.second), options, seconds);
@@ -186,33 +239,7 @@ Precision precision_of(const SetupWith& setup_with, const PrecisionOptions& opti
   }
   all.second.cpu = second.cpu;
   tell(4.0);
-  all.points = points_of(options, shipped, period);
-  std::vector<std::vector<double>> cpu(all.points.size()), yards(all.points.size());
-  // What looks for quantities is not timed, and what is timed does not look.
-  const int first = options.quantities ? -1 : 0;
-  for (int round = first; round < options.rounds; ++round)
-    for (std::size_t i = 0; i < all.points.size(); ++i) {
-      PrecisionPoint& point = all.points[i];
-      if (!point.failure.empty()) continue;
-      const bool looks = round == first;
-      const Run run = run_once(with(setup_with, all, point), options, seconds, looks);
-      if (looks || first == 0) {
-        judge(run, truth, point);
-        if (options.twice) judge_again(run, second, point);
-      }
-      if (round < 0) continue;
-      cpu[i].push_back(run.cpu);
-      yards[i].push_back(run.yards);
-      tell(2.0 / static_cast<double>(all.points.size()));
-    }
-  for (std::size_t i = 0; i < all.points.size(); ++i) {
-    if (cpu[i].empty()) continue;
-    all.points[i].cpu = models::median(cpu[i]);
-    if (!options.yardstick) continue;
-    all.points[i].yards = models::median(yards[i]);
-    const auto [least, most] = std::minmax_element(yards[i].begin(), yards[i].end());
-    all.points[i].spread = *most / *least;
-  }
+  run_points(setup_with, options, seconds, {truth, second}, tell, all);
   return all;
 }
 
