@@ -21,6 +21,24 @@ std::string prop_name(const PropSpec& prop) {
   return fmt::format("{}, {:g} g", word_of(prop.kind), std::round(prop.mass * 1e6) * 1e-3);
 }
 
+double millimetres(double metres) { return std::round(metres * 1e6) * 1e-3; }
+
+std::string probe_name(const ProbeSpec& probe) {
+  return fmt::format("{:g} mm radius, {} of {:g} mm", millimetres(probe.radius),
+                     counted(probe.repeats, "push"), millimetres(probe.depth));
+}
+
+std::string pusher_name(const PusherSpec& pusher, double stiffness) {
+  return fmt::format("{:g} N/mm, {} of {:g} mm or {:g} N", stiffness * 1e-3, counted(pusher.repeats, "push"),
+                     millimetres(pusher.depth), pusher.force);
+}
+
+std::string travel_name(const TravelSpec& travel) {
+  return fmt::format("{} of {:g} mm at {:g} mm/s", travel.axes,
+                     millimetres(travel.stops.empty() ? 0.0 : travel.stops.back()),
+                     millimetres(travel.speed));
+}
+
 }  // namespace
 
 std::vector<Part> parts_of(const models::Setup& setup) {
@@ -45,22 +63,10 @@ std::vector<Part> parts_of(const models::Setup& setup) {
        fmt::format("{:g} Hz, {}", setup.twin.display.rate, driver(setup.rig.display.driver)));
   part("user", scene.user.has_value(),
        trial::meets_person(setup) ? "whoever is at the real devices" : "simulated hand");
-  const auto millimetres = [](double metres) { return std::round(metres * 1e6) * 1e-3; };
-  part("probe", scene.probe.has_value(),
-       !scene.probe ? ""
-                    : fmt::format("{:g} mm radius, {} of {:g} mm", millimetres(scene.probe->radius),
-                                  counted(scene.probe->repeats, "push"), millimetres(scene.probe->depth)));
+  part("probe", scene.probe.has_value(), !scene.probe ? "" : probe_name(*scene.probe));
   part("pusher", scene.pusher.has_value(),
-       !scene.pusher ? ""
-                     : fmt::format("{:g} N/mm, {} of {:g} mm or {:g} N", setup.twin.pusher.stiffness * 1e-3,
-                                   counted(scene.pusher->repeats, "push"), millimetres(scene.pusher->depth),
-                                   scene.pusher->force));
-  part("travel", scene.travel.has_value(),
-       !scene.travel
-           ? ""
-           : fmt::format("{} of {:g} mm at {:g} mm/s", scene.travel->axes,
-                         millimetres(scene.travel->stops.empty() ? 0.0 : scene.travel->stops.back()),
-                         millimetres(scene.travel->speed)));
+       !scene.pusher ? "" : pusher_name(*scene.pusher, setup.twin.pusher.stiffness));
+  part("travel", scene.travel.has_value(), !scene.travel ? "" : travel_name(*scene.travel));
   part("arm", scene.arm.has_value(), fmt::format("{}, {}", arm_name(setup), driver(setup.rig.arm.driver)));
   part("prop", scene.prop.has_value(), !scene.prop ? "" : prop_name(*scene.prop));
   part("gripper", scene.gripper.has_value(),

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -26,253 +27,252 @@
 namespace enc::app {
 namespace {
 
-int dispatch(CLI::App& app, int argc, char** argv) {
-  int code = 0;
-  RunOptions run_options;
-  CLI::App* run_command = app.add_subcommand("run", "run a scene and say what happened");
-  scene_options(run_command, run_options);
-  run_command
-      ->add_option("--pace", run_options.pace, "free, wall, or seconds of experiment per second of wall time")
+CLI::App* add_run(CLI::App& app, RunOptions& options) {
+  CLI::App* command = app.add_subcommand("run", "run a scene and say what happened");
+  scene_options(command, options);
+  command->add_option("--pace", options.pace, "free, wall, or seconds of experiment per second of wall time")
       ->capture_default_str();
-  run_command->add_option("--for-s", run_options.seconds,
-                          "length, s of experiment; default: until the user or the probe is done");
-  run_command
-      ->add_option("--record", run_options.record, "write inputs and outputs of every tick to this file")
+  command->add_option("--for-s", options.seconds,
+                      "length, s of experiment; default: until the user or the probe is done");
+  command->add_option("--record", options.record, "write inputs and outputs of every tick to this file")
       ->check(unnamed);
-  run_command
-      ->add_option("--frames", run_options.frames,
+  command
+      ->add_option("--frames", options.frames,
                    "keep what the scene's camera sees in this new folder, as PNG images")
       ->check(unnamed);
-  run_command
-      ->add_option("--hand", run_options.hand,
+  command
+      ->add_option("--hand", options.hand,
                    "record of a view: the hand that was steered there moves, for as long as it did")
       ->check(unnamed);
-  run_command->add_flag("--json", run_options.json, "one JSON object instead of text");
-  device_options(run_command, run_options);
-  force_option(run_command, run_options.force);
-  run_command->callback([&] { code = run(run_options); });
+  command->add_flag("--json", options.json, "one JSON object instead of text");
+  device_options(command, options);
+  force_option(command, options.force);
+  return command;
+}
 
-  CheckOptions check_options;
-  CLI::App* check_command = app.add_subcommand(
+CLI::App* add_check(CLI::App& app, CheckOptions& options) {
+  CLI::App* command = app.add_subcommand(
       "check",
       "read a scene and its rig, find their mistakes, and say what will be built, what is left out and why, "
       "where each frame is, how hard and how soft an object may be, what it costs; no device moves (the twin "
       "runs for 0.25 s)");
-  scene_options(check_command, check_options);
-  CLI::Option* resolved =
-      check_command->add_flag("--resolved", check_options.resolved,
-                              "print the scene with only what it builds, as a scene file that runs");
-  CLI::Option* advise = check_command->add_flag(
-      "--advise", check_options.advise,
+  scene_options(command, options);
+  CLI::Option* resolved = command->add_flag(
+      "--resolved", options.resolved, "print the scene with only what it builds, as a scene file that runs");
+  CLI::Option* advise = command->add_flag(
+      "--advise", options.advise,
       "also run it at several time steps and integrators of its twin (about a minute) and name the "
       "cheapest that errs by no more than --error-N, --error-um");
   advise->excludes(resolved);
-  check_command
-      ->add_option("--error-N", check_options.error_N,
+  command
+      ->add_option("--error-N", options.error_N,
                    "of --advise: error of the true force, N rms while something touches")
       ->needs(advise);
-  check_command
-      ->add_option("--error-um", check_options.error_um, "of --advise: error of the tip's path, um rms")
+  command->add_option("--error-um", options.error_um, "of --advise: error of the tip's path, um rms")
       ->needs(advise);
-  check_command->callback([&] { code = check(check_options); });
+  return command;
+}
 
-  LaboratoryOptions fake_options;
-  CLI::App* fake_command = app.add_subcommand(
+CLI::App* add_fake(CLI::App& app, LaboratoryOptions& options) {
+  CLI::App* command = app.add_subcommand(
       "fake",
       "stand in for the devices of a rig: serve their wires from one simulated world, until it is told "
       "to end");
-  fake_command->add_option("rig", fake_options.rig, "a name in models/rigs, or a file")->required();
-  fake_command->add_option("--scene", fake_options.scene, "what happens there; default: the tennis ball")
+  command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
+  command->add_option("--scene", options.scene, "what happens there; default: the tennis ball")
       ->check(unnamed);
-  fake_command->add_option("--set", fake_options.set, "override, as for run");
-  fake_command->add_option("--seed", fake_options.seed, "of all noise")->check(bad_seed);
-  fake_command->add_flag("--lockstep", fake_options.lockstep,
-                         "time goes on by a period with each set-point, and not by itself (run --lockstep)");
-  fake_command->add_option(
-      "--fault", fake_options.faults,
-      "DRIVER:FAULT[=V][@TIME][+TIME], such as gcs:stall@3s+500ms: what goes wrong, when "
-      "after somebody came, and for how long; again for more. Faults: " +
-          fault_examples() + ". The same on a line of standard input: now; 'heal' ends all");
-  fake_command->callback([&] { code = fake(fake_options); });
+  command->add_option("--set", options.set, "override, as for run");
+  command->add_option("--seed", options.seed, "of all noise")->check(bad_seed);
+  command->add_flag("--lockstep", options.lockstep,
+                    "time goes on by a period with each set-point, and not by itself (run --lockstep)");
+  command->add_option("--fault", options.faults,
+                      "DRIVER:FAULT[=V][@TIME][+TIME], such as gcs:stall@3s+500ms: what goes wrong, when "
+                      "after somebody came, and for how long; again for more. Faults: " +
+                          fault_examples() + ". The same on a line of standard input: now; 'heal' ends all");
+  return command;
+}
 
-  LaboratoryOptions devices_options;
-  CLI::App* devices_command = app.add_subcommand(
+CLI::App* add_devices(CLI::App& app, LaboratoryOptions& options) {
+  CLI::App* command = app.add_subcommand(
       "devices",
       "ask the devices of a rig: what answers, how often, how regularly and how late; nothing moves");
-  devices_command->add_option("rig", devices_options.rig, "a name in models/rigs, or a file")->required();
-  devices_command->add_option("--scene", devices_options.scene, "whose devices; default: the tennis ball's")
-      ->check(unnamed);
-  devices_command->add_option("--set", devices_options.set, "override, as for run");
-  devices_command->add_option("--for-s", devices_options.seconds, "how long each is read")
-      ->capture_default_str();
-  devices_command->callback([&] { code = devices(devices_options); });
+  command->add_option("rig", options.rig, "a name in models/rigs, or a file")->required();
+  command->add_option("--scene", options.scene, "whose devices; default: the tennis ball's")->check(unnamed);
+  command->add_option("--set", options.set, "override, as for run");
+  command->add_option("--for-s", options.seconds, "how long each is read")->capture_default_str();
+  return command;
+}
 
-  ReplayOptions replay_options;
-  CLI::App* replay_command =
+CLI::App* add_replay(CLI::App& app, ReplayOptions& options) {
+  CLI::App* command =
       app.add_subcommand("replay", "run step() again over a record; exit 1 where outputs differ");
-  replay_command->add_option("record", replay_options.record, "file written by run --record")->required();
-  replay_command
-      ->add_option("--frames", replay_options.frames,
+  command->add_option("record", options.record, "file written by run --record")->required();
+  command
+      ->add_option("--frames", options.frames,
                    "folder of run --frames: vision looks at it again; exit 1 where it tells something else")
       ->check(unnamed);
-  replay_command->add_flag("--partial", replay_options.partial, "replay what a cut-off record still holds");
-  replay_command->callback([&] { code = replay(replay_options); });
+  command->add_flag("--partial", options.partial, "replay what a cut-off record still holds");
+  return command;
+}
 
-  ExportOptions export_options;
-  CLI::App* export_command = app.add_subcommand(
+CLI::App* add_export(CLI::App& app, ExportOptions& options) {
+  CLI::App* command = app.add_subcommand(
       "export",
       "a record as a table (CSV) or, with --mcap, as a file for viewers; or a scene as MuJoCo has it");
-  export_command->add_option("record", export_options.record, "file written by run --record, or a scene")
-      ->required();
-  export_command
-      ->add_option("xml", export_options.xml,
-                   "of a scene: file to write, MJCF, which MuJoCo's simulate opens")
+  command->add_option("record", options.record, "file written by run --record, or a scene")->required();
+  command->add_option("xml", options.xml, "of a scene: file to write, MJCF, which MuJoCo's simulate opens")
       ->check(unnamed);
-  export_command
-      ->add_option("--csv", export_options.csv, "of a record: file to write; default: -, standard output")
+  command->add_option("--csv", options.csv, "of a record: file to write; default: -, standard output")
       ->check(unnamed);
-  export_command->add_option("--mcap", export_options.mcap, "of a record: MCAP file to write, for Foxglove")
+  command->add_option("--mcap", options.mcap, "of a record: MCAP file to write, for Foxglove")
       ->check(unnamed);
-  export_command->add_option("--rig", export_options.rig, "of a scene: rig, as for run")->check(unnamed);
-  export_command->add_option("--set", export_options.set, "of a scene: override, as for run");
-  export_command->add_flag("--partial", export_options.partial,
-                           "of a record: export what a cut-off one still holds");
-  export_command->add_flag("--ledger", export_options.ledger,
-                           "of a record: the energy of each contact instead of its ticks");
-  force_option(export_command, export_options.force);
-  export_command->callback([&] { code = export_record(export_options); });
+  command->add_option("--rig", options.rig, "of a scene: rig, as for run")->check(unnamed);
+  command->add_option("--set", options.set, "of a scene: override, as for run");
+  command->add_flag("--partial", options.partial, "of a record: export what a cut-off one still holds");
+  command->add_flag("--ledger", options.ledger,
+                    "of a record: the energy of each contact instead of its ticks");
+  force_option(command, options.force);
+  return command;
+}
 
-  ViewOptions view_options;
-  add_view(app, view_options)->callback([&] { code = view(view_options); });
-
-  TourOptions tour_options;
-  add_tour(app, tour_options)->callback([&] { code = tour(tour_options); });
-
-  ParamsOptions params_options;
-  CLI::App* params_command =
+CLI::App* add_params(CLI::App& app, ParamsOptions& options) {
+  CLI::App* command =
       app.add_subcommand("params", "every name that --set takes: unit, value, source, confidence (CSV)");
-  scene_options(params_command, params_options);
-  params_command->add_flag("--json", params_options.json, "JSON instead of CSV");
-  params_command->callback([&] { code = params(params_options); });
+  scene_options(command, options);
+  command->add_flag("--json", options.json, "JSON instead of CSV");
+  return command;
+}
 
-  BenchOptions bench_options;
-  CLI::App* bench_command =
-      app.add_subcommand("bench", "run benchmarks; exit 1 where a figure is out of bounds");
-  bench_command->add_option("names", bench_options.names,
-                            "benchmarks, groups, or figures such as press.restore; none: all benchmarks");
-  bench_command
-      ->add_option("--out", bench_options.out,
+CLI::App* add_bench(CLI::App& app, BenchOptions& options) {
+  CLI::App* command = app.add_subcommand("bench", "run benchmarks; exit 1 where a figure is out of bounds");
+  command->add_option("names", options.names,
+                      "benchmarks, groups, or figures such as press.restore; none: all benchmarks");
+  command
+      ->add_option("--out", options.out,
                    "folder for report.html, REPORT.md, results.json, pictures and tables")
       ->check(unnamed);
-  bench_command->add_option("--seed", bench_options.seed, "first seed")
-      ->capture_default_str()
-      ->check(bad_seed);
-  bench_command->add_option("--repeats", bench_options.repeats, "seeds per row; default: the benchmark's own")
+  command->add_option("--seed", options.seed, "first seed")->capture_default_str()->check(bad_seed);
+  command->add_option("--repeats", options.repeats, "seeds per row; default: the benchmark's own")
       ->check(CLI::Range(1, 1'000'000));
-  bench_command->add_option("--set", bench_options.set, "override, as for run");
-  bench_command->add_flag("--quick", bench_options.quick, "fewer repeats; all of them in about a minute");
-  bench_command->add_flag("--full", bench_options.full,
-                          "also what takes minutes: what each part does, error against run time");
-  bench_command
-      ->add_option("--rig", bench_options.rig,
+  command->add_option("--set", options.set, "override, as for run");
+  command->add_flag("--quick", options.quick, "fewer repeats; all of them in about a minute");
+  command->add_flag("--full", options.full,
+                    "also what takes minutes: what each part does, error against run time");
+  command
+      ->add_option("--rig", options.rig,
                    "measure over the devices of this rig in place of the twin: a name in models/rigs, or a "
                    "file; tracking and stiffness can")
       ->check(unnamed);
-  device_options(bench_command, bench_options);
-  bench_command->add_flag("--fakes", bench_options.fakes,
-                          "`encounter fake` stands in for the devices of --rig; it is begun and ended here");
-  bench_command->add_flag("--list", bench_options.list, "only print the benchmarks and what they show");
-  force_option(bench_command, bench_options.force);
-  bench_command->callback([&] { code = bench(bench_options); });
+  device_options(command, options);
+  command->add_flag("--fakes", options.fakes,
+                    "`encounter fake` stands in for the devices of --rig; it is begun and ended here");
+  command->add_flag("--list", options.list, "only print the benchmarks and what they show");
+  force_option(command, options.force);
+  return command;
+}
 
-  FitOptions fit_options;
-  CLI::App* fit_command = app.add_subcommand(
+CLI::App* add_fit(CLI::App& app, FitOptions& options) {
+  CLI::App* command = app.add_subcommand(
       "fit", "turn a measured loop (CSV) into a response file, or into the ball behind it");
-  fit_command->add_option("loop", fit_options.loops, "CSV with time_s, deflection_mm, force_N, repeat")
-      ->required();
-  fit_command->add_option("--out", fit_options.out, "response file to write, models/responses/NAME.toml")
+  command->add_option("loop", options.loops, "CSV with time_s, deflection_mm, force_N, repeat")->required();
+  command->add_option("--out", options.out, "response file to write, models/responses/NAME.toml")
       ->check(unnamed);
-  fit_command->add_option("--limit-mm", fit_options.limit_mm, "deflection up to which the response holds")
+  command->add_option("--limit-mm", options.limit_mm, "deflection up to which the response holds")
       ->capture_default_str();
-  fit_command->add_option("--rig", fit_options.rig, "rig that will render it: sets how soft it may be")
+  command->add_option("--rig", options.rig, "rig that will render it: sets how soft it may be")
       ->capture_default_str();
-  fit_command->add_option(
-      "--ceiling-N-per-mm", fit_options.ceiling,
+  command->add_option(
+      "--ceiling-N-per-mm", options.ceiling,
       "stiffest that the stops may be; lower: quieter at rest, less exact where motion turns");
-  fit_command->add_flag("--ball", fit_options.ball,
-                        "the numbers of the ball that was pressed, with intervals; takes several loops");
-  fit_command->add_option("--hold", fit_options.hold, "of the ball: NAME or NAME=VALUE that is known");
-  fit_command->add_option("--free", fit_options.free, "of the ball: NAME to be found that is held otherwise");
-  fit_command->add_flag("--json", fit_options.json, "of the ball: one JSON object instead of text");
-  force_option(fit_command, fit_options.force);
-  fit_command->callback([&] { code = fit(fit_options); });
+  command->add_flag("--ball", options.ball,
+                    "the numbers of the ball that was pressed, with intervals; takes several loops");
+  command->add_option("--hold", options.hold, "of the ball: NAME or NAME=VALUE that is known");
+  command->add_option("--free", options.free, "of the ball: NAME to be found that is held otherwise");
+  command->add_flag("--json", options.json, "of the ball: one JSON object instead of text");
+  force_option(command, options.force);
+  return command;
+}
 
-  CalibrateWords calibrate_words;
-  add_calibrate(app, calibrate_words, code);
-
-  ShadowOptions shadow_options;
-  add_shadow(app, shadow_options)->callback([&] { code = shadow(shadow_options); });
-
-  NearestOptions nearest_options;
-  CLI::App* nearest_command = app.add_subcommand(
+CLI::App* add_nearest(CLI::App& app, NearestOptions& options) {
+  CLI::App* command = app.add_subcommand(
       "nearest",
       "signed distance, nearest surface point and normal for each point of a CSV file (x_m,y_m,z_m)");
-  nearest_command
-      ->add_option("surface", nearest_options.what,
-                   "mesh file, points in its axes; or SCENE#object, points in W")
+  command->add_option("surface", options.what, "mesh file, points in its axes; or SCENE#object, points in W")
       ->required();
-  nearest_command->add_option("points", nearest_options.points, "CSV file with the header x_m,y_m,z_m")
-      ->required();
-  nearest_command->callback([&] { code = nearest(nearest_options); });
+  command->add_option("points", options.points, "CSV file with the header x_m,y_m,z_m")->required();
+  return command;
+}
 
-  MeshOptions mesh_options;
-  CLI::App* mesh_command = app.add_subcommand("mesh", "write a mesh of our own (.glb, .obj or .stl)");
-  mesh_command->add_option("name", mesh_options.name, "ball, cube, hare, knot or turned_part")->required();
-  mesh_command->add_option("--out", mesh_options.out, "file")->required()->check(unnamed);
-  mesh_command->add_option("--fine", mesh_options.fine,
-                           "3 to 400: how finely it is cut; a ball has 20 n^2 triangles");
-  force_option(mesh_command, mesh_options.force);
-  mesh_command->callback([&] { code = mesh(mesh_options); });
+CLI::App* add_mesh(CLI::App& app, MeshOptions& options) {
+  CLI::App* command = app.add_subcommand("mesh", "write a mesh of our own (.glb, .obj or .stl)");
+  command->add_option("name", options.name, "ball, cube, hare, knot or turned_part")->required();
+  command->add_option("--out", options.out, "file")->required()->check(unnamed);
+  command->add_option("--fine", options.fine, "3 to 400: how finely it is cut; a ball has 20 n^2 triangles");
+  force_option(command, options.force);
+  return command;
+}
 
-  QuestionnaireOptions questionnaire_options;
-  CLI::App* questionnaire_command = app.add_subcommand(
+CLI::App* add_questionnaire(CLI::App& app, QuestionnaireOptions& options) {
+  CLI::App* command = app.add_subcommand(
       "questionnaire", "ask a person what the paper asked, keep the answers, show mean, range and counts");
-  questionnaire_command
-      ->add_option("form", questionnaire_options.form, "a name in models/questionnaires, or a file")
+  command->add_option("form", options.form, "a name in models/questionnaires, or a file")
       ->capture_default_str();
-  questionnaire_command
-      ->add_option("--store", questionnaire_options.store,
-                   "CSV file that the answers are added to; what is in it stays")
+  command->add_option("--store", options.store, "CSV file that the answers are added to; what is in it stays")
       ->check(unnamed);
-  questionnaire_command
-      ->add_option("--answers", questionnaire_options.answers,
-                   "CSV file with answers of many, in place of asking")
+  command->add_option("--answers", options.answers, "CSV file with answers of many, in place of asking")
       ->check(unnamed);
-  questionnaire_command->add_option("--participant", questionnaire_options.participant,
-                                    "number or code; default: the next number");
-  questionnaire_command->add_option("--out", questionnaire_options.out, "folder for picture and tables")
-      ->check(unnamed);
-  questionnaire_command
-      ->add_option("--results", questionnaire_options.results,
+  command->add_option("--participant", options.participant, "number or code; default: the next number");
+  command->add_option("--out", options.out, "folder for picture and tables")->check(unnamed);
+  command
+      ->add_option("--results", options.results,
                    "results.json of a bench run: shows its figures beside the items")
       ->check(unnamed);
-  questionnaire_command->add_flag("--date", questionnaire_options.date, "keep the date, too");
-  questionnaire_command->add_flag("--json", questionnaire_options.json, "one JSON object instead of text");
-  force_option(questionnaire_command, questionnaire_options.force);
-  questionnaire_command->callback([&] { code = questionnaire(questionnaire_options); });
+  command->add_flag("--date", options.date, "keep the date, too");
+  command->add_flag("--json", options.json, "one JSON object instead of text");
+  force_option(command, options.force);
+  return command;
+}
 
-  CLI::App* scenes_command = app.add_subcommand("scenes", "the shipped scenes, a line each");
-  scenes_command->callback([&] { code = scenes(); });
+// A subcommand with its options, which live as long as the command line does.
+template <class Options>
+void add(CLI::App& app, CLI::App* (*adds)(CLI::App&, Options&), int (*does)(const Options&), int& code) {
+  const auto options = std::make_shared<Options>();
+  adds(app, *options)->callback([options, does, &code] { code = does(*options); });
+}
 
-  CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
-  doctor_command->callback([&] { code = doctor(); });
-
-  // CLI11 would only say that a subcommand is missing.
+// CLI11 would only say that a subcommand is missing.
+void check_subcommand(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
     throw enc::Error("unknown subcommand '" + std::string(argv[1]) + "'; " +
                      enc::models::advice(argv[1], names));
+}
+
+int dispatch(CLI::App& app, int argc, char** argv) {
+  int code = 0;
+  add(app, add_run, run, code);
+  add(app, add_check, check, code);
+  add(app, add_fake, fake, code);
+  add(app, add_devices, devices, code);
+  add(app, add_replay, replay, code);
+  add(app, add_export, export_record, code);
+  add(app, add_view, view, code);
+  add(app, add_tour, tour, code);
+  add(app, add_params, params, code);
+  add(app, add_bench, bench, code);
+  add(app, add_fit, fit, code);
+  CalibrateWords calibrate_words;
+  add_calibrate(app, calibrate_words, code);
+  add(app, add_shadow, shadow, code);
+  add(app, add_nearest, nearest, code);
+  add(app, add_mesh, mesh, code);
+  add(app, add_questionnaire, questionnaire, code);
+  CLI::App* scenes_command = app.add_subcommand("scenes", "the shipped scenes, a line each");
+  scenes_command->callback([&] { code = scenes(); });
+  CLI::App* doctor_command = app.add_subcommand("doctor", "is this machine ready? what to do if not");
+  doctor_command->callback([&] { code = doctor(); });
+  check_subcommand(app, argc, argv);
   if (argc > 1 && std::string_view(argv[1]) == "calibrate") check_subject({argv + 2, argv + argc});
   app.parse(argc, argv);
   return code;

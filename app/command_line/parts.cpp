@@ -5,19 +5,10 @@
 #include "app/common/command_options.h"
 
 namespace enc::app {
+namespace {
 
-CLI::App* add_view(CLI::App& app, ViewOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "view",
-      "run a scene in a window, where the mouse is the hand; or draw it into a file, as a picture or a film");
-  scene_options(command, options);
-  command->get_option("scene")->required(false)->description(
-      "scene file, name of a shipped scene, or record; none: choose in the window");
-  CLI::Option* record =
-      command
-          ->add_option("--record", options.record,
-                       "of a window: write inputs and outputs of every tick, and the hand, to this file")
-          ->check(unnamed);
+// Of a view that draws into a file.
+void drawing_options(CLI::App* command, ViewOptions& options, CLI::Option* record) {
   CLI::Option* shot = command->add_option("--shot", options.shot, "PNG file to write; no window is opened")
                           ->check(unnamed)
                           ->excludes(record);
@@ -46,6 +37,23 @@ CLI::App* add_view(CLI::App& app, ViewOptions& options) {
           "without the arm; or augmented, with the virtual objects in its place")
       ->check(CLI::IsMember({"raw", "removed", "augmented"}))
       ->excludes(close_up);
+}
+
+}  // namespace
+
+CLI::App* add_view(CLI::App& app, ViewOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "view",
+      "run a scene in a window, where the mouse is the hand; or draw it into a file, as a picture or a film");
+  scene_options(command, options);
+  command->get_option("scene")->required(false)->description(
+      "scene file, name of a shipped scene, or record; none: choose in the window");
+  CLI::Option* record =
+      command
+          ->add_option("--record", options.record,
+                       "of a window: write inputs and outputs of every tick, and the hand, to this file")
+          ->check(unnamed);
+  drawing_options(command, options, record);
   device_options(command, options);
   force_option(command, options.force);
   return command;

@@ -78,6 +78,20 @@ const Named& named(Trouble::Kind kind) {
   return *std::find_if(kNames.begin(), kNames.end(), [kind](const Named& one) { return one.kind == kind; });
 }
 
+// Of a fault that has one; unset: the text is none of its kind.
+double value_of(const Named& fault, std::string_view text) {
+  switch (fault.value) {
+    case Value::share:
+      return share_of(text);
+    case Value::time:
+      return time_of(text);
+    case Value::code:
+      return code_of(text);
+    default:
+      return kUnset;
+  }
+}
+
 // Cuts what stands behind the last `mark`, if there is one.
 bool cut(std::string_view& text, char mark, std::string_view& behind) {
   const std::size_t at = text.rfind(mark);
@@ -142,19 +156,8 @@ Fault fault_of(const std::string& text, const std::string& where) {
   if (found == kNames.end()) throw refuse(fmt::format("there is no fault '{}'", kind));
   fault.trouble = {found->kind, found->usual};
   if (!valued) return fault;
-  switch (found->value) {
-    case Value::share:
-      fault.trouble.value = share_of(value);
-      break;
-    case Value::time:
-      fault.trouble.value = time_of(value);
-      break;
-    case Value::code:
-      fault.trouble.value = code_of(value);
-      break;
-    default:
-      throw refuse(fmt::format("'{}' has no value", kind));
-  }
+  if (found->value == Value::none) throw refuse(fmt::format("'{}' has no value", kind));
+  fault.trouble.value = value_of(*found, value);
   if (std::isnan(fault.trouble.value)) throw refuse(fmt::format("'{}' is no value of '{}'", value, kind));
   return fault;
 }

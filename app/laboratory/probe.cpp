@@ -85,23 +85,55 @@ std::string words_of(const Stamped<Sample>&) {
   return "";
 }
 
-}  // namespace
-
-std::vector<Probed> probe_devices(const models::Setup& setup, const trial::DriverSource& drivers,
-                                  double seconds, const std::function<bool()>& stop) {
-  std::vector<Probed> all;
-  std::array<std::size_t, kRoles> place{};  // in `all`, of each role; one beyond: none
+// In `all`, of each role; one beyond: none.
+std::array<std::size_t, kRoles> places_of(const Rig& rig, const std::vector<Probed>& all) {
+  std::array<std::size_t, kRoles> place{};
   place.fill(kRoles);
-  Rig rig;
-  trial::DeviceLog log;
-  for (const trial::DeviceWords& words : trial::put_each_driver(rig, setup, drivers, log))
-    all.push_back({words.role, words.words, words.there});
   each_role([&](const auto& role) {
     if (rig.*role.slot == nullptr) return;
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Probed& one) { return one.role == role.table; });
     place[static_cast<std::size_t>(role.id)] = static_cast<std::size_t>(found - all.begin());
   });
+  return place;
+}
+
+// What is new of each role in a reading at `now`, and what is wrong with it.
+void listen(const Rig& rig, const Inputs& before, const Inputs& in, Time now,
+            std::array<Series, kRoles>& series) {
+  each_role([&](const auto& role) {
+    const auto& said = in.*role.said;
+    Series& of = series[static_cast<std::size_t>(role.id)];
+    if (!(rig.*role.slot) || said.health == Health::absent) return;
+    of.health = said.health;
+    if (of.any && said.t <= of.last) return;
+    if (said.health == Health::fault) ++of.faults;
+    if (of.any && repeats(before.*role.said, said)) {
+      ++of.repeated, ++of.equal;
+    } else {
+      of.equal = 0, of.differed = now;
+    }
+    of.add(said.t, now);
+  });
+}
+
+void tell_times(const Series& of, double seconds, Probed& device) {
+  device.samples = static_cast<std::int64_t>(of.ages.size());
+  device.rate = static_cast<double>(device.samples) / seconds;
+  device.age = percentiles_of(of.ages);
+  device.interval = percentiles_of(of.intervals);
+}
+
+}  // namespace
+
+std::vector<Probed> probe_devices(const models::Setup& setup, const trial::DriverSource& drivers,
+                                  double seconds, const std::function<bool()>& stop) {
+  std::vector<Probed> all;
+  Rig rig;
+  trial::DeviceLog log;
+  for (const trial::DeviceWords& words : trial::put_each_driver(rig, setup, drivers, log))
+    all.push_back({words.role, words.words, words.there});
+  const std::array<std::size_t, kRoles> place = places_of(rig, all);
   std::array<Series, kRoles> series;
   Inputs in;
   Time end{};
@@ -116,20 +148,7 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
     const Inputs before = in;
     end = now;
     rig.read(now, in);
-    each_role([&](const auto& role) {
-      const auto& said = in.*role.said;
-      Series& of = series[static_cast<std::size_t>(role.id)];
-      if (!(rig.*role.slot) || said.health == Health::absent) return;
-      of.health = said.health;
-      if (of.any && said.t <= of.last) return;
-      if (said.health == Health::fault) ++of.faults;
-      if (of.any && repeats(before.*role.said, said)) {
-        ++of.repeated, ++of.equal;
-      } else {
-        of.equal = 0, of.differed = now;
-      }
-      of.add(said.t, now);
-    });
+    listen(rig, before, in, now, series);
   }
   each_role([&](const auto& role) {
     const std::size_t at = place[static_cast<std::size_t>(role.id)];
@@ -140,15 +159,8 @@ std::vector<Probed> probe_devices(const models::Setup& setup, const trial::Drive
     of.linked = (rig.*role.slot)->linked();
     all[at].unusable = unusable(of, end, (rig.*role.slot)->refused());
   });
-  for (std::size_t i = 0; i < kRoles; ++i) {
-    Series& of = series[i];
-    if (place[i] >= all.size() || !of.any) continue;
-    Probed& device = all[place[i]];
-    device.samples = static_cast<std::int64_t>(of.ages.size());
-    device.rate = static_cast<double>(device.samples) / seconds;
-    device.age = percentiles_of(of.ages);
-    device.interval = percentiles_of(of.intervals);
-  }
+  for (std::size_t i = 0; i < kRoles; ++i)
+    if (place[i] < all.size() && series[i].any) tell_times(series[i], seconds, all[place[i]]);
   return all;
 }
 

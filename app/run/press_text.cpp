@@ -64,6 +64,14 @@ std::string limit_text(const RunReport& r) {
   return text;
 }
 
+std::string outside_text(double outside) {
+  if (std::isnan(outside)) return "tip         was never inside of an object";
+  return fmt::format("tip         {} {:.1f} um",
+                     outside <= 0.0 ? "inside of the undeformed object by at least"
+                                    : "OUTSIDE of the undeformed object by up to",
+                     std::abs(outside) * 1e6);
+}
+
 // Root mean square, m, of each axis of W that was travelled: "0.107 / 0.094 / 0.083 mm, norm 0.165 mm".
 std::string axes_text(const std::array<trial::ErrorSum, 3>& sums) {
   std::string text;
@@ -120,12 +128,7 @@ std::string press_lines(const RunReport& r) {
                       each(presses, [](const auto& p) { return fmt::format("{}", p.contacts); }));
   text += fmt::format("energy      {:.2f} mJ in, {:.2f} mJ out\n", r.measured.presses.energy_in() * 1e3,
                       r.measured.presses.energy_out() * 1e3);
-  const double outside = r.measured.presses.greatest_outside();
-  text += std::isnan(outside) ? std::string("tip         was never inside of an object")
-                              : fmt::format("tip         {} {:.1f} um",
-                                            outside <= 0.0 ? "inside of the undeformed object by at least"
-                                                           : "OUTSIDE of the undeformed object by up to",
-                                            std::abs(outside) * 1e6);
+  text += outside_text(r.measured.presses.greatest_outside());
   text += fmt::format("; pull on the tool at most {:.3f} N\n", r.measured.presses.greatest_tension());
   return text;
 }

@@ -238,6 +238,15 @@ struct Watched {
   const RunWindow* window;
 };
 
+// Whoever is beside a machine that is to move. 0: it may; else the exit code.
+int asked_first(trial::Operator& person, const trial::Trial& trial) {
+  const trial::Answer answer =
+      person.confirm(trial::motion_question(trial.setup(), trial.scene(), trial.result().devices));
+  if (answer == trial::Answer::yes) return 0;
+  fmt::print(stderr, "\nencounter: not begun; nothing has moved\n");
+  return answer == trial::Answer::stopped ? 128 + person.signal() : 2;
+}
+
 RecordTexts end_texts(const std::string& ledger, const trial::SteeringLog& hand) {
   RecordTexts texts;
   if (!ledger.empty()) texts["ledger"] = ledger;
@@ -245,14 +254,73 @@ RecordTexts end_texts(const std::string& ledger, const trial::SteeringLog& hand)
   return texts;
 }
 
+// With what is known only now that the run has ended.
+void seal(Recording& record, const trial::RunMeasures& measured, const trial::SteeringLog& hand) {
+  const auto contacts = measured.ledger.contacts();
+  const RecordTexts texts = end_texts(contacts.empty() ? std::string() : trial::ledger_table(contacts), hand);
+  if (!texts.empty()) record.writer.end_with(texts);
+  record.end();
+}
+
+// Who and what is there beside the loop; null: not there.
+struct Beside {
+  trial::Operator& person;
+  const RunWindow* window;
+  Shown* shown;
+  bool terminal;
+  const trial::RunMeasures& measured;
+  const trial::SteeringLog& hand;
+};
+struct Ended {
+  double started;  // CPU s from the start of the process to the first tick
+  trial::TrialResult result;
+};
+Ended run_to_end(trial::Trial& trial, Recording* record, const Beside& beside) {
+  trial.record_to(record != nullptr ? &record->writer : nullptr);
+  beside.person.listen();
+  if (beside.shown != nullptr) beside.shown->begin(trial.setup());
+  const Watched watched(beside.window, trial);
+  const double started = cpu_seconds();
+  trial::TrialResult result = trial.run();
+  // Before anything is printed, which a terminal may keep waiting.
+  if (record != nullptr) seal(*record, beside.measured, beside.hand);
+  beside.person.end_listening();
+  if (beside.shown != nullptr) beside.shown->end();
+  if (beside.terminal && beside.shown == nullptr) clear_progress();
+  return {started, std::move(result)};
+}
+
+// What the report says of the simulated world, and of the run by its other figures.
+void complete(trial::Trial& trial, RunReport& report) {
+  if (trial.has_world()) {
+    report.steps = trial.world().physics().steps();
+    report.unsolved = trial.world().physics().unsolved();
+    report.elements = trial.world().physics().elements();
+  }
+  const trial::TrialResult& result = report.result;
+  report.whole = !report.asked.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0;
+  report.crossed = crossed(report);
+}
+
+void print(const RunReport& report) {
+  const std::string text = report.asked.json ? run_json(report) : run_text(report);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);  // while a pipe without a reader is an error only
+}
+
+int exit_code(const RunReport& report, const trial::Operator& person) {
+  if (report.result.diverged_at >= 0) return diverged(report.result, report.setup);
+  if (person.signal() != 0) return 128 + person.signal();
+  if (report.result.last_mode == Mode::hold) return 4;
+  return report.crossed.empty() ? 0 : 1;
+}
+
 }  // namespace
 
 int run(const RunOptions& options) { return run(options, nullptr); }
 
 int run(const RunOptions& options, const RunWindow* window) {
-  using trial::Answer;
-  using trial::Operator;
-  Operator person;
+  trial::Operator person;
   models::Setup setup = load_setup(options);
   if (window != nullptr && window->adapts) window->adapts(setup);
   if (options.seconds && !(*options.seconds > 0.0 && *options.seconds < 1e6))
@@ -272,58 +340,22 @@ int run(const RunOptions& options, const RunWindow* window) {
   trial::Trial trial(setup, how);  // everything that can be refused is refused here, before a record is begun
   print_notes(setup.notes);        // of a scene that is not refused
   print_notes(beyond(setup, trial.certificates()));
-  if (attended && !options.yes) {
-    const Answer answer =
-        person.confirm(trial::motion_question(setup, trial.scene(), trial.result().devices));
-    if (answer != Answer::yes) {
-      fmt::print(stderr, "\nencounter: not begun; nothing has moved\n");
-      return answer == Answer::stopped ? 128 + person.signal() : 2;
-    }
-  }
+  if (attended && !options.yes)
+    if (const int code = asked_first(person, trial); code != 0) return code;
   const trial::WallTime begun = trial::wall_time();
   const std::unique_ptr<Recording> record = record_for(options, setup, trial, begun);
-  trial.record_to(record ? &record->writer : nullptr);
-  person.listen();
-  if (shown) shown->begin(setup);
-  const Watched watched(window, trial);
-  const double started = cpu_seconds();
-  const trial::TrialResult result = trial.run();
-  if (record) {
-    const auto contacts = measured.ledger.contacts();
-    const RecordTexts texts =
-        end_texts(contacts.empty() ? std::string() : trial::ledger_table(contacts), steering.log());
-    if (!texts.empty()) record->writer.end_with(texts);
-    record->end();  // before anything is printed, which a terminal may keep waiting
-  }
-  person.end_listening();
-  if (shown) shown->end();
-  if (terminal && !shown) clear_progress();
-
+  const Beside beside{person, window, shown ? &*shown : nullptr, terminal, measured, steering.log()};
+  const auto [started, result] = run_to_end(trial, record.get(), beside);
   const std::vector<trial::ArmStrength> strengths = trial::strengths_of(setup, trial.scene());
-  RunReport report{setup,
-                   trial.scene(),
-                   result,
-                   measured,
-                   strengths,
-                   trial.certificates(),
-                   options,
-                   trial.has_world() ? trial.world().physics().steps() : 0,
-                   trial.has_world() ? trial.world().physics().unsolved() : 0,
-                   !options.seconds && !result.interrupted && !result.stopped && result.diverged_at < 0,
-                   trial.has_world() ? trial.world().physics().elements() : 0,
-                   started,
-                   begun,
-                   !steering.log().empty()};
-  report.crossed = crossed(report);
-  const std::string text = options.json ? run_json(report) : run_text(report);
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);  // while a pipe without a reader is an error only
+  RunReport report{setup, trial.scene(), result, measured, strengths, trial.certificates(), options};
+  report.started = started;
+  report.begun = begun;
+  report.steered = !steering.log().empty();
+  complete(trial, report);
+  print(report);
   if (record && record->writer.full())
     throw Error(record->writer.error() + "; replay --partial reads what was written");
-  if (result.diverged_at >= 0) return diverged(result, setup);
-  if (person.signal() != 0) return 128 + person.signal();
-  if (result.last_mode == Mode::hold) return 4;
-  return report.crossed.empty() ? 0 : 1;
+  return exit_code(report, person);
 }
 
 }  // namespace enc::app

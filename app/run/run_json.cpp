@@ -167,8 +167,10 @@ void press_figures(Json& json, const trial::PressMeasure& presses) {
 
 }  // namespace
 
-std::string run_json(const RunReport& r) {
-  Json json;
+namespace {
+
+// What ran: program, scene, rig, and what is asked of them.
+void add_origin(Json& json, const RunReport& r) {
   json["encounter"] = ENCOUNTER_VERSION;
   json["commit"] = trial::built_commit().name;
   json["commit_date"] = trial::built_commit().day;
@@ -180,6 +182,10 @@ std::string run_json(const RunReport& r) {
   json["set"] = r.asked.set;
   json["for_s"] = r.asked.seconds ? Json(*r.asked.seconds) : Json(nullptr);
   json["title"] = r.setup.scene.title;
+}
+
+// What was built, and how the run went.
+void add_course(Json& json, const RunReport& r) {
   json["built"] = Json::object();
   json["left_out"] = Json::object();
   for (const Part& part : parts_of(r.setup)) json[part.built ? "built" : "left_out"][part.name] = part.what;
@@ -195,6 +201,10 @@ std::string run_json(const RunReport& r) {
     json["lost_links"].push_back(
         {{"role", link.role}, {"time_s", seconds(link.t.time_since_epoch())}, {"by_hand", link.by_hand}});
   if (!r.result.log.empty()) json["log"] = r.result.log;
+}
+
+// What its task measured.
+void add_measures(Json& json, const RunReport& r) {
   if (r.scene.impedance()) {
     json["meetings"] = meetings_json(r.measured.fingers);
     json["seen"] = seen_json(r.measured.seen);
@@ -210,6 +220,10 @@ std::string run_json(const RunReport& r) {
   }
   if (r.scene.travel() != nullptr) json["tracking"] = travel_json(r.measured.travel.sums());
   if (!r.scene.impedance()) press_figures(json, r.measured.presses);
+}
+
+// What it cost, and what of it is to be trusted.
+void add_cost(Json& json, const RunReport& r) {
   json["step_ns"] = times_json(r.result.step_ns, 1.0);
   if (!r.result.period_ns.empty()) json["period_ns"] = times_json(r.result.period_ns, 1.0);
   if (r.result.vision.frames > 0) json["vision"] = vision_json(r.result.vision);
@@ -237,6 +251,16 @@ std::string run_json(const RunReport& r) {
   json["unsolved_steps"] = r.unsolved;
   json["libraries"] = mapped_libraries();
   json["state_hash"] = fmt::format("{:016x}", r.result.hash);
+}
+
+}  // namespace
+
+std::string run_json(const RunReport& r) {
+  Json json;
+  add_origin(json, r);
+  add_course(json, r);
+  add_measures(json, r);
+  add_cost(json, r);
   return json.dump(2) + "\n";
 }
 

@@ -241,6 +241,15 @@ std::string loop_line(const trial::TrialResult& result) {
                             text_of(percentiles_of(result.period_ns), 1e-6, 3, 3));
 }
 
+std::string late_line(const trial::TrialResult& result) {
+  if (result.missed > 0)
+    return fmt::format("late        cycles lost to the wall clock: {}; stalls: {}, the longest {:.3f} s\n",
+                       result.missed, result.lateness.times, result.lateness.longest);
+  if (result.lateness.times == 0) return "";
+  return fmt::format("late        {:.3f} s behind the wall clock; stalls: {}; nothing was lost\n",
+                     result.lateness.total, result.lateness.times);
+}
+
 // Rates and jitter of the two loops; of the haptic one by the wall clock, where it keeps that.
 std::string vision_lines(const trial::TrialResult& result) {
   const trial::FrameTimes& vision = result.vision;
@@ -272,12 +281,7 @@ std::string run_text(const RunReport& r) {
                         link.by_hand ? "stopped by hand" : "lost", seconds(link.t.time_since_epoch()));
   for (const std::string& line : r.result.log) text += "log         " + line + "\n";
   text += loop_line(r.result);
-  if (r.result.missed > 0)
-    text += fmt::format("late        cycles lost to the wall clock: {}; stalls: {}, the longest {:.3f} s\n",
-                        r.result.missed, r.result.lateness.times, r.result.lateness.longest);
-  else if (r.result.lateness.times > 0)
-    text += fmt::format("late        {:.3f} s behind the wall clock; stalls: {}; nothing was lost\n",
-                        r.result.lateness.total, r.result.lateness.times);
+  text += late_line(r.result);
   if (r.result.interrupted) text += "stopped     by a signal or by q, before its end\n";
   text += weak_text(r.setup, r.scene);
   text += stability_lines(r.certificates);

@@ -20,14 +20,28 @@
 
 namespace enc::app {
 
-int through_camera(const ViewOptions& options) {
-  check(options);
-  const models::Setup setup = load_setup(options);
+namespace {
+
+void check_camera(const models::Setup& setup) {
   if (!setup.scene.camera)
     throw Error(
         fmt::format("{}:1:1: the scene has no camera; expected [camera] beside [tracker]; leave out "
                     "--through-camera or take models/scenes/camera/wall.toml",
                     setup.scene_path));
+}
+
+// Where nothing of the background is known the arm is left in.
+void note_unknown(const std::vector<std::uint8_t>& known) {
+  if (std::all_of(known.begin(), known.end(), [](auto on) { return on == 0; }))
+    print_notes({"warning: the background is not known yet, so the arm was left in; choose a later --at-s"});
+}
+
+}  // namespace
+
+int through_camera(const ViewOptions& options) {
+  check(options);
+  const models::Setup setup = load_setup(options);
+  check_camera(setup);
   const auto& vision = *static_cast<const VisionModule*>(load_module("vision").vision);
   const auto& pictures = *static_cast<const sim::ViewModule*>(load_module("view").view);
   models::OutFile file(options.shot, models::existing(options.force));
@@ -57,9 +71,7 @@ int through_camera(const ViewOptions& options) {
   if (std::isnan(exposed))
     throw Error("the camera gave no image until then; expected a later --at-s", {}, ErrorKind::device);
   const bool removed = options.through_camera == "removed", augmented = options.through_camera == "augmented";
-  const std::vector<std::uint8_t>& known = view->known().on;
-  if ((removed || augmented) && std::all_of(known.begin(), known.end(), [](auto on) { return on == 0; }))
-    print_notes({"warning: the background is not known yet, so the arm was left in; choose a later --at-s"});
+  if (removed || augmented) note_unknown(view->known().on);
   file.write(pictures.png(removed ? view->removed() : augmented ? view->augmented() : raw));
   file.keep();
   fmt::print("{}: {} x {} pixels, the left camera's at {:.3f} s\n", options.shot, raw.width, raw.height,

@@ -98,19 +98,7 @@ class Run {
       const bool drawn = setup.scene.camera && setup.rig.camera.driver == "sim";
       if (drawn && !module_there("vision")) leave_out_vision(setup);
     };
-    hooks_.begins = [this](trial::Trial& trial) {
-      if (!trial.has_world())
-        throw Error(
-            "no device of this rig is simulated, so there is nothing to draw; expected a rig with a "
-            "simulated "
-            "device, such as the display; use encounter run");
-      real_ = trial.result().keeps_wall_time || trial::moves_device(trial.setup());
-      dt_ = trial.scene().dt;
-      trial_ = &trial;
-      feed_.emplace(trial);
-      if (trial.setup().scene.camera && trial.setup().rig.camera.driver == "sim") cameras_.emplace(trial);
-      if (!link_.begin(trial.result().keeps_wall_time)) throw NotShown{};
-    };
+    hooks_.begins = [this](trial::Trial& trial) { begin(trial); };
     hooks_.ends = [this] { link_.wait_for_close(); };
     hooks_.watch = [this](const trial::Glance& glance) {
       link_.see(glance);
@@ -162,6 +150,20 @@ class Run {
   }
 
  private:
+  void begin(trial::Trial& trial) {
+    if (!trial.has_world())
+      throw Error(
+          "no device of this rig is simulated, so there is nothing to draw; expected a rig with a "
+          "simulated "
+          "device, such as the display; use encounter run");
+    real_ = trial.result().keeps_wall_time || trial::moves_device(trial.setup());
+    dt_ = trial.scene().dt;
+    trial_ = &trial;
+    feed_.emplace(trial);
+    if (trial.setup().scene.camera && trial.setup().rig.camera.driver == "sim") cameras_.emplace(trial);
+    if (!link_.begin(trial.result().keeps_wall_time)) throw NotShown{};
+  }
+
   RunOptions options_;
   RunWindow hooks_;
   Link link_;
@@ -222,6 +224,39 @@ struct Forget {
   ~Forget() { run = nullptr; }
 };
 
+// How much of a record is read. False: the user wants no more of it.
+bool show_reading(double ticks, double all, Show& show, sim::ViewWindow& window) {
+  std::vector<sim::WindowEvent> events;
+  if (!window.poll(events)) return false;
+  const Wishes wishes = show.see(events);
+  if (wishes.ends) return false;
+  show.say(fmt::format("reading the record: {:.0f} %", 100.0 * ticks / all));
+  show.draw(wishes, nullptr);
+  return true;
+}
+
+// What was read, from its beginning and as the user wishes, until the window is closed.
+void play(Show& show, sim::ViewWindow& window) {
+  std::vector<sim::WindowEvent> events;
+  Pictures pictures;
+  show.timeline().seek(0.0);
+  Wall::time_point before = Wall::now();
+  while (window.poll(events)) {
+    Wishes wishes = show.see(events);
+    if (wishes.ends) break;
+    const Wall::time_point now = Wall::now();
+    if (wishes.to_event) {
+      show.timeline().to_change();
+      show.controls().paused_at_event();
+    } else if (!wishes.paused) {
+      show.timeline().go_on(wishes.speed * duration<double>(now - before).count());
+    }
+    before = now;
+    show.draw(wishes, nullptr);
+    pictures.wait();
+  }
+}
+
 // A record from its beginning, until the window is closed.
 int show_record(const std::string& path, const sim::WindowModule& module) {
   Playback playback(path);
@@ -248,37 +283,34 @@ int show_record(const std::string& path, const sim::WindowModule& module) {
     }
     ++ticks;
   };
-  std::vector<sim::WindowEvent> events;
-  Pictures pictures;
   Wall::time_point looked = Wall::now();
   while (playback.next(see)) {
     if (ticks % 100 != 0 || Wall::now() - looked < kLook) continue;
-    if (!window->poll(events)) return 0;
-    const Wishes wishes = show.see(events);
-    if (wishes.ends) return 0;
-    show.say(fmt::format("reading the record: {:.0f} %",
-                         100.0 * static_cast<double>(ticks) / static_cast<double>(playback.ticks())));
-    show.draw(wishes, nullptr);
+    if (!show_reading(static_cast<double>(ticks), static_cast<double>(playback.ticks()), show, *window))
+      return 0;
     looked = Wall::now();
   }
   show.say(playback.doubt());
-  show.timeline().seek(0.0);
-  Wall::time_point before = Wall::now();
-  while (window->poll(events)) {
-    Wishes wishes = show.see(events);
-    if (wishes.ends) break;
-    const Wall::time_point now = Wall::now();
-    if (wishes.to_event) {
-      show.timeline().to_change();
-      show.controls().paused_at_event();
-    } else if (!wishes.paused) {
-      show.timeline().go_on(wishes.speed * duration<double>(now - before).count());
-    }
-    before = now;
-    show.draw(wishes, nullptr);
-    pictures.wait();
-  }
+  play(show, *window);
   return 0;
+}
+
+// A run that is renewed when its scene file is saved, but for one that moves a machine or is recorded. True:
+// the user wants a restart.
+bool show_live(Run& run, sim::ViewWindow& window, bool recording, SceneFile& file) {
+  Show show(run.trial(), window,
+            {run.real() ? Controls::Of::real : Controls::Of::simulated, recording, run.cameras() != nullptr,
+             kStills, kSamples});
+  return show_run(run, show, window, run.real() || recording ? nullptr : &file);
+}
+
+// False: the user has chosen no scene.
+bool let_choose(sim::ViewWindow& window, ViewOptions& options) {
+  const auto chosen = choose_scene(window);
+  if (!chosen) return false;
+  options.scene = *chosen;
+  window.set_title("Encounter: " + options.scene);
+  return true;
 }
 
 }  // namespace
@@ -299,10 +331,7 @@ int window(const ViewOptions& asked) {
   std::unique_ptr<sim::ViewWindow> window;
   if (options.scene.empty()) {
     window = module->open("Encounter", kWidth, kHeight, lost);
-    const auto chosen = choose_scene(*window);
-    if (!chosen) return 0;
-    options.scene = *chosen;
-    window->set_title("Encounter: " + options.scene);
+    if (!let_choose(*window, options)) return 0;
   }
   SceneFile file(options);
   for (;;) {
@@ -318,13 +347,7 @@ int window(const ViewOptions& asked) {
       throw;
     }
     run.link().let_go();
-    const bool recording = !options.record.empty();
-    const bool again = [&] {
-      Show show(run.trial(), *window,
-                {run.real() ? Controls::Of::real : Controls::Of::simulated, recording,
-                 run.cameras() != nullptr, kStills, kSamples});
-      return show_run(run, show, *window, run.real() || recording ? nullptr : &file);
-    }();
+    const bool again = show_live(run, *window, !options.record.empty(), file);
     if (!again) window.reset();
     const int code = run.code();
     if (!again) return code;
