@@ -16,59 +16,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/shape/bare_code.h"
 #include "tests/support/built.h"
 
 namespace enc::helpers {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-std::string_view trim(std::string_view text) {
-  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-// The place behind the next `what` from `at` on, or the end.
-std::size_t behind(std::string_view text, std::string_view what, std::size_t at) {
-  const std::size_t found = text.find(what, std::min(at, text.size()));
-  return found == std::string_view::npos ? text.size() : found + what.size();
-}
-
-std::size_t behind_quote(std::string_view text, std::size_t at) {
-  const char mark = text[at++];
-  while (at < text.size() && text[at] != mark) at += text[at] == '\\' ? 2 : 1;
-  return std::min(at + 1, text.size());
-}
-
-// Without comments, directives, and what stands in quotes.
-std::string bare(std::string_view text) {
-  std::string code;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::string_view rest = text.substr(i);
-    const char before = i > 0 ? text[i - 1] : ' ';  // 1'000 has no quotes
-    if (rest.starts_with("//")) {
-      i = text.find('\n', i);
-    } else if (rest.starts_with("/*")) {
-      i = behind(text, "*/", i + 2);
-    } else if (rest.starts_with('#')) {
-      do i = behind(text, "\n", i);
-      while (i < text.size() && text[i - 2] == '\\');
-    } else if (rest.starts_with("R\"") && !in_word(before)) {
-      const std::string mark(rest.substr(2, rest.find('(') - 2));
-      i = behind(text, ")" + mark + "\"", i);
-    } else if (rest[0] == '"' || (rest[0] == '\'' && !in_word(before))) {
-      i = behind_quote(text, i);
-    } else {
-      code += rest[0];
-      ++i;
-    }
-  }
-  return code;
-}
+using shape::bare;
+using shape::in_word;
+using shape::trim;
 
 // "int" of "int count = 3"; of "const Setup&" all.
 std::string type_of(std::string_view parameter) {
