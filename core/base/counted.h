@@ -1,4 +1,4 @@
-// "1 contact", "2 contacts", "0 passes": a count and what is counted.
+// Text such as "1 contact", "2 contacts", "0 passes": a count and its noun.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace enc {
 
-// `one` is the word for a single one; its last word gets the ending.
+// `one` is the singular noun; its last word gets the plural ending.
 template <class Count>
 [[nodiscard]] std::string counted(Count count, std::string_view one) {
   std::string text = std::to_string(count).append(" ").append(one);

@@ -1,4 +1,5 @@
-// The one error type. Thrown before the loop starts, caught once in main; the loop has no exceptions.
+// The one error type. The program throws it before the loop starts and catches it once in main; the loop has
+// no exceptions.
 #pragma once
 
 #include <stdexcept>
@@ -9,8 +10,8 @@ namespace enc {
 
 enum class ErrorKind { input = 2, device = 3 };  // the program's exit codes
 
-// what(): what is wrong, what was expected, what to do, in one line. key: the file key it is about
-// ("object.ball.radius_mm"), if any, from which the reader of the file finds line and column.
+// Error::what() is one line that says what is wrong, what was expected and what to do. key: the file key that
+// it concerns ("object.ball.radius_mm"), if any; the reader of the file derives line and column from the key.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& what, std::string key = {}, ErrorKind kind = ErrorKind::input)

@@ -1,6 +1,5 @@
-// The fields of what is built from numbers, named once: a visitor is called with (name, leaf) for each
-// number, field by field and never over padding (sources/choices 8). What is made of these has its own beside
-// it.
+// Names every number of a struct once: a visitor is called with (name, leaf) for each number, field by field
+// and never over padding (sources/choices 8). Each composite struct has its own fields() beside it.
 #pragma once
 
 #include <array>

@@ -1,10 +1,11 @@
 // Coordinate frames as types: a chain of poses that does not fit does not compile.
 //
-// The letters are those of the papers [VHMR Fig 4]: W world, R base of the machine, S headset server, O
-// object, C tracker camera or left camera of a stereo head, D its right one (fixed); G headset, L hand
-// tracker, H haptic-tip, F force sensor, N nearest surface point, T tool markers (moving). Variables keep the
-// monogram: X_WR is the pose of R in W, p_WT a point in W, f_N a force in N. Everything is SI. What is not
-// set is NaN, never zero and never identity.
+// The letters are those of the papers [VHMR Fig 4]:
+//   fixed: W world, R base of the machine, S headset server, O object, C tracker camera or left camera of a
+//     stereo head, D right camera of a stereo head
+//   moving: G headset, L hand tracker, H haptic-tip, F force sensor, N nearest surface point, T tool markers
+// Variables keep the monogram: X_WR is the pose of R in W, p_WT a point in W, f_N a force in N.
+// Everything is SI. An unset number is NaN, never zero and never identity.
 #pragma once
 
 #include <array>
@@ -28,8 +29,8 @@ template <char A>
 concept Frame = kFrames.find(A) != std::string_view::npos;
 
 namespace detail {
-// Three numbers in a frame. Plain storage (Eigen 3.4 types are not trivially copyable); e() is the view to
-// compute with.
+// Three numbers in a frame. The storage is plain, because Eigen 3.4 types are not trivially copyable; e() is
+// the Eigen view to compute with.
 struct Triple {
   std::array<double, 3> xyz{kUnset, kUnset, kUnset};
   Triple() = default;
@@ -57,7 +58,7 @@ struct Vec : detail::Triple {
   friend double dot(const Vec& a, const Vec& b) { return a.e().dot(b.e()); }
 };
 
-// A place, in A, m.
+// A position in A, m.
 template <char A>
 requires Frame<A>
 struct Point : detail::Triple {
@@ -87,7 +88,7 @@ requires(Frame<A>&& Frame<B>) struct Pose {
     const Quat qi = q().conjugate();
     return {qi, Vec3(-(qi * p()))};
   }
-  // All finite, and a rotation: | |q| - 1 | < 1e-6.
+  // True if all numbers are finite and the quaternion is a rotation: | |q| - 1 | < 1e-6.
   [[nodiscard]] bool valid() const {
     return p().allFinite() && q().coeffs().allFinite() && std::abs(q().norm() - 1.0) < 1e-6;
   }
@@ -105,7 +106,7 @@ template <char A, char B>
 Vec<A> operator*(const Pose<A, B>& X_AB, const Vec<B>& v_B) {
   return Vec<A>(Vec3(X_AB.q() * v_B.e()));
 }
-// A chain that does not fit: X_AB * X_PQ needs B = P.
+// Refuse a chain that does not fit: X_AB * X_PQ needs B = P.
 template <char A, char B, char P, char Q>
 requires(B != P) void operator*(const Pose<A, B>&, const Pose<P, Q>&) = delete;
 

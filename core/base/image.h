@@ -1,5 +1,5 @@
-// Images of vision: colour, a mask, a part of either. Pixels are (x, y) = (column, row) from the upper left;
-// the centre of the first one is (0, 0).
+// Images of vision: colour images, masks, regions. Pixels are (x, y) = (column, row) from the upper left; the
+// centre of the first pixel is (0, 0).
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace enc {
 
-// RGB, three bytes a pixel, rows from the top, without padding. Whoever made the image keeps the bytes.
+// A view of RGB bytes: three a pixel, rows from the top, without padding. The image's owner keeps the bytes.
 struct ImageView {
   const std::uint8_t* rgb = nullptr;
   int width = 0, height = 0;
@@ -40,7 +40,7 @@ struct Image {
   }
 };
 
-// Columns x0 to x1 and rows y0 to y1, the ends not included.
+// Columns x0 to x1 and rows y0 to y1; x1 and y1 are excluded.
 struct Region {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -55,7 +55,7 @@ struct Region {
   bool operator==(const Region&) const = default;
 };
 
-// 255 where something is, else 0.
+// A mask: 255 marks a pixel as set, 0 as clear.
 struct Mask {
   int width = 0, height = 0;
   std::vector<std::uint8_t> on;

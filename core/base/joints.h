@@ -1,4 +1,4 @@
-// A number for each joint of an arm.
+// One number for each joint of an arm.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 namespace enc {
 
 inline constexpr std::size_t kMostJoints = 3;
-// rad or m, N m or N. Joints that a machine does not have are 0.
+// rad or m, N m or N. Entries beyond the machine's joints are 0.
 using PerJoint = std::array<double, kMostJoints>;
 
 }  // namespace enc

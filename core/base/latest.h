@@ -1,6 +1,6 @@
-// The newest value of one thread for one other, without a lock: nobody waits, and what came too fast to be
-// read is passed over. The two threads never have the same of three places: one is written, one is read, and
-// the third changes hands.
+// Hands the newest value from one thread to one other thread without a lock. Neither thread waits, and a
+// value that is replaced before it is read is lost. Three places: the writer holds one, the reader holds one,
+// and the third changes hands.
 #pragma once
 
 #include <array>
@@ -14,12 +14,13 @@ class Latest {
   static_assert(std::is_trivially_copyable_v<V>);
 
  public:
-  // Of the one thread that writes.
+  // Call only from the writing thread.
   void write(const V& value) noexcept {
     places_[written_] = value;
     written_ = between_.exchange(written_ | kNews, std::memory_order_acq_rel) & kPlace;
   }
-  // Of the one thread that reads: false where nothing was written since; then it leaves `newest` alone.
+  // Call only from the reading thread. Returns false and leaves `newest` alone if the writer wrote nothing
+  // since the last read.
   bool read(V& newest) noexcept {
     if ((between_.load(std::memory_order_relaxed) & kNews) == 0) return false;
     read_ = between_.exchange(read_, std::memory_order_acq_rel) & kPlace;
@@ -30,9 +31,10 @@ class Latest {
  private:
   static constexpr unsigned kNews = 4, kPlace = 3;
   std::array<V, 3> places_{};
-  unsigned written_ = 0;               // of the writer
-  std::atomic<unsigned> between_ = 1;  // the place that nobody has, with kNews until it is read
-  unsigned read_ = 2;                  // of the reader
+  unsigned written_ = 0;  // the writer's place
+  // the free place, with kNews until it is read
+  std::atomic<unsigned> between_ = 1;
+  unsigned read_ = 2;  // the reader's place
 };
 
 }  // namespace enc

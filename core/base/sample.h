@@ -1,4 +1,4 @@
-// What a device says, with when it was true and how far it can be trusted.
+// A device's sample: value, time of measurement and health.
 #pragma once
 
 #include <array>
@@ -20,36 +20,38 @@ constexpr auto words(Health) {
 template <class V>
 struct Stamped {
   V value{};
-  Time t{};  // when it was true, not when it came
+  Time t{};  // time of measurement, not of arrival
   Health health = Health::absent;
 };
 
-// Pose of a tracked tool's markers. `tool` is the index of its marker geometry in the scene, -1 where none
+// Pose of a tracked tool's markers. `tool` is the index of its marker geometry in the scene; -1: no geometry
 // was recognised.
 struct TrackedTool {
   std::int32_t tool = -1;
   Pose<'C', 'T'> X_CT;
-  // How well the place of T's origin is known, m rms: along the view from C to it, and to each side of that.
-  // Unset, both: as well as the rig believes (rig.tracker.measurement_noise_mm).
+  // Standard uncertainty of T's origin, m rms: along the view from C to it, and across that view. If both are
+  // unset, the rig's value holds (rig.tracker.measurement_noise_mm).
   double along = kUnset, across = kUnset;
 };
 
-// Force and torque on the haptic-tip side of the sensor, in and about F: what the tool does to the machine.
+// Force and torque on the haptic-tip side of the sensor, in and about F: the load of the tool on the machine.
 // N, N m.
 struct Wrench {
   Vec<'F'> force;
   Vec<'F'> torque;
 };
 
-// Where the machine's own encoders and set-point generator say that the haptic-tip is.
+// The haptic-tip as the machine measures and plans it: pose from the encoders, motion from the set-point
+// generator.
 struct TipSample {
   Pose<'R', 'H'> X_RH;
-  Vec<'R'> velocity;      // of the tip, m/s
-  Vec<'R'> acceleration;  // of the tip, m/s^2: from the servo, not differenced; used to take inertia out of
-                          // the force
+  Vec<'R'> velocity;  // tip velocity, m/s
+  // Acceleration of the tip, m/s^2. The servo reports it, it is not differenced; the core uses it to take
+  // inertia out of the force.
+  Vec<'R'> acceleration;
 };
 
-// What a gripper is told. Closed: with which force, N, on what it clamps.
+// Command to a gripper. When closed, `force` (N) is the clamping force.
 struct Grip {
   bool closed = false;
   double force = kUnset;
@@ -60,24 +62,24 @@ constexpr auto words(GripPhase) { return enum_words("open", "closing", "closed",
 struct GripSample {
   GripPhase phase = GripPhase::open;
   double opening = kUnset;  // between the jaws, m
-  double force = 0.0;       // on what is clamped, N
+  double force = 0.0;       // clamping force, N
   bool holding = false;     // closed, with something between the jaws
 };
 
-// Where an arm's encoders say that its joints are, and its tip by its own kinematics.
+// Joint positions from an arm's encoders, and the tip position from the arm's kinematics.
 struct ArmSample {
   PerJoint joints{}, joint_velocities{};  // rad or m, and per s
   Point<'R'> tip;
-  Vec<'R'> velocity;  // of the tip, m/s
+  Vec<'R'> velocity;  // tip velocity, m/s
 };
 
-// The deformed visual surface, as the renderer reports it [VHMR 3.5]: which object is dented, by what tip in
-// which pose and how deep. The core evaluates the surface itself (dent.h), so Inputs stays of one size.
+// The deformed visual surface as the renderer reports it [VHMR 3.5]: the deformed object, the pose of the tip
+// and its depth. The core evaluates the surface itself (dent.h), so that Inputs has a constant size.
 struct DentSample {
-  std::int32_t object = -1;  // index in the scene; -1: nothing is deformed
-  Tip<'O'> tip;              // of the tool, in the object's frame
-  double depth =
-      kUnset;  // of the tip's lowest point below the undeformed surface, m; 0 where it does not touch
+  std::int32_t object = -1;  // index in the scene; -1: no deformation
+  Tip<'O'> tip;              // the tool's tip in the object's frame
+  // Depth of the tip's lowest point below the undeformed surface, m; 0 without contact.
+  double depth = kUnset;
 };
 
 }  // namespace enc

@@ -7,7 +7,8 @@
 
 namespace enc {
 
-struct Epoch {  // the experiment's own clock, integer nanoseconds since its first tick
+// The experiment's own clock: integer nanoseconds since its first tick.
+struct Epoch {
   using rep = std::int64_t;
   using period = std::nano;
   using duration = std::chrono::duration<rep, period>;
@@ -17,7 +18,7 @@ struct Epoch {  // the experiment's own clock, integer nanoseconds since its fir
 using Time = Epoch::time_point;
 using Duration = Epoch::duration;
 
-// One cycle of the haptic loop: its number, the time it stands for, and its length.
+// One cycle of the haptic loop: its number, its time and its length.
 struct Tick {
   std::int64_t index = 0;
   Time t{};
@@ -25,7 +26,7 @@ struct Tick {
 };
 
 [[nodiscard]] constexpr double seconds(Duration d) { return static_cast<double>(d.count()) / 1e9; }
-// How old something stamped `then` is at `now`, s. In double, so that no stamp, however wrong, overflows.
+// Age at `now` of something stamped `then`, s. Computed in double, so that no stamp overflows, however wrong.
 [[nodiscard]] constexpr double age(Time now, Time then) {
   return (static_cast<double>(now.time_since_epoch().count()) -
           static_cast<double>(then.time_since_epoch().count())) /
@@ -35,16 +36,16 @@ struct Tick {
   return Duration(static_cast<std::int64_t>(s * 1e9 + (s < 0 ? -0.5 : 0.5)));
 }
 
-// Due times of a rate. The n-th is n * 1e9 / hz, never a running sum, so that a rate such as 120 Hz does not
-// drift.
+// Due times of a rate. Due time n is n * 1e9 / hz, never a running sum, so that a rate such as 120 Hz does
+// not drift.
 struct Every {
   double hz = 0.0;
   std::int64_t n = 0;  // number of the next due time
-  Duration phase{};    // of due time 0
+  Duration phase{};    // offset of due time 0
   [[nodiscard]] Time next() const {
     return Time(phase + Duration(static_cast<std::int64_t>(static_cast<double>(n) * 1e9 / hz + 0.5)));
   }
-  // True when a due time has come; takes it. Call it until it says false.
+  // Returns true if a due time has come, and consumes it. Call it until it returns false.
   bool due(Time t) {
     if (hz <= 0.0 || t < next()) return false;
     ++n;

@@ -1,5 +1,5 @@
-// The tip of a hand-held tool: what touches and dents. Three shapes, each a family of balls, so that what is
-// lowest is simple.
+// The tip of a hand-held tool, which touches and deforms objects. Each of the three shapes is a family of
+// balls, so that the lowest point is simple to compute.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,23 @@ namespace enc {
 
 enum class TipShape : std::uint8_t {
   sphere,  // one ball
-  cone,    // with a rounded apex, which is the ball
-  edge     // straight, rounded: the ball swept along it (a chisel, a ruler)
+  cone,    // rounded apex; the ball is the apex
+  // Straight and rounded: a ball swept along a line (a chisel, a ruler).
+  edge
 };
 constexpr auto words(TipShape) { return enum_words("sphere", "cone", "edge"); }
 
-// As seen from frame A. The tip alone: the tool above it is not part of the shape.
+// The tip in frame A, without the tool above it.
 template <char A>
 struct Tip {
-  Point<A> centre;      // of the ball; of an edge: of its middle
-  double radius = 0.0;  // of the ball, m; 0: a point
+  Point<A> centre;      // centre of the ball; edge: its middle
+  double radius = 0.0;  // radius of the ball, m; 0: a point
   TipShape shape = TipShape::sphere;
-  Vec<A> axis{0.0, 0.0, 1.0};  // unit; cone: from the apex into the tool, edge: along it
-  double half_angle = 0.0;     // cone, rad
-  double length = 0.0;         // edge, m, between the centres of its end balls
+  // Unit vector. Cone: from the apex into the tool; edge: along the edge.
+  Vec<A> axis{0.0, 0.0, 1.0};
+  double half_angle = 0.0;  // cone, rad
+  // Edge only: distance between the centres of its end balls, m.
+  double length = 0.0;
 };
 
 template <char A, char B>

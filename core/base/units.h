@@ -1,6 +1,6 @@
-// Factors between SI, which is in memory, and the units that people read and devices send: the only place
-// that defines them. A factor with the name of a unit is that unit in SI: `5.0 * kMillimetre` is 5 mm in
-// metres. One named "A per B" takes the other way: `metres * kMmPerM` is a number of millimetres.
+// Factors between SI (in memory) and the units of people and devices; they are defined only here. A factor
+// with a unit's name is that unit in SI: `5.0 * kMillimetre` is 5 mm in metres. A factor named "A per B"
+// converts from B to A: `metres * kMmPerM` is a number of millimetres.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The words that files and messages have for the values of an enum, in the order of its values. They stand
-// once, beside the enum:
+// The words of files and messages for an enum's values, in the order of the values. Define them once, beside
+// the enum:
 //
 //   enum class Side : std::uint8_t { left, right };
 //   constexpr auto words(Side) { return enum_words("left", "right"); }
@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, sizeof...(Word)> enum_words(const Word&..
   return {std::string_view(word)...};
 }
 
-// words() of the enum, kept for as long as the program runs.
+// words() of the enum, kept for the whole run of the program.
 template <class Enum>
 inline constexpr auto kWords = words(Enum{});
 
